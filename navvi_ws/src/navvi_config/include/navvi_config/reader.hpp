@@ -1,0 +1,58 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+
+namespace navvi_config {
+
+/// A sentence that names the source, the key and what is allowed.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+using Describe = std::function<void(Visitor&)>;
+
+/// Reads `path` as one YAML document of at most 1 MiB. An empty file is an empty map.
+/// \throws ConfigError if it is missing, too large, or not YAML (with the line).
+[[nodiscard]] YAML::Node load_yaml(const std::filesystem::path& path);
+
+void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source);
+
+/// Overlays `config` with the keys of `node`; keys that are absent keep their value.
+/// \param source  what error sentences call the node, such as a file's path
+/// \throws ConfigError on an unknown or repeated key, a wrong type, or a value out of range;
+/// `config` is then unchanged.
+template <typename Config>
+void read(Config& config, const YAML::Node& node, const std::string& source) {
+  Config candidate = config;
+  read_fields([&](Visitor& visit) { candidate.describe(visit); }, node, source);
+  config = std::move(candidate);
+}
+
+/// One line of the parameter table in the documentation.
+struct Row {
+  std::string key;  ///< with its groups, such as haptics/range
+  std::string default_value;
+  std::string allowed;
+  std::string unit;
+  std::string help;
+};
+
+[[nodiscard]] std::vector<Row> table_of(const Describe& describe);
+
+/// The fields of `Config` with their defaults, in order of description.
+template <typename Config>
+[[nodiscard]] std::vector<Row> table() {
+  Config config;
+  return table_of([&](Visitor& visit) { config.describe(visit); });
+}
+
+}  // namespace navvi_config

@@ -1,0 +1,250 @@
+#include "navvi_config/reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace navvi_config {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 1 << 20;  // bytes
+
+std::string to_text(double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
+
+template <typename Items>
+std::string join(const Items& items) {
+  std::ostringstream out;
+  for (const auto& item : items) out << (out.tellp() > 0 ? ", " : "") << item;
+  return out.str();
+}
+
+std::string allowed_text(const Field& field) {
+  if (const auto* range = std::get_if<Range>(&field.allowed)) {
+    const std::string unit = field.unit.empty() ? "" : " " + field.unit;
+    const Range all;
+    if (range->max == all.max && range->min == all.min) return "a finite number";
+    if (range->max == all.max) return to_text(range->min) + unit + " or more";
+    return to_text(range->min) + " to " + to_text(range->max) + unit;
+  }
+  if (const auto* one_of = std::get_if<OneOf>(&field.allowed))
+    return "one of " + join(one_of->words);
+  return "";
+}
+
+/// Takes the value of each described field from the map that stands at the present depth, and
+/// remembers which keys it asked for, so that what nobody asked for can be refused.
+class YamlReader : public Visitor {
+ public:
+  YamlReader(const YAML::Node& node, std::string source) : source_(std::move(source)) {
+    push(node, "");
+  }
+
+  void operator()(const Field& field, bool& value) override { take(field, value, "true or false"); }
+  void operator()(const Field& field, int& value) override {
+    const YAML::Node node = find(field.name);
+    if (!node) return;
+    const std::string text = scalar(field, node, "a whole number");
+    const bool octal = text.size() > 1 && text.find_first_not_of("+-0") != std::string::npos &&
+                       text[text.find_first_not_of("+-")] == '0';
+    int number = 0;
+    if (octal || !YAML::convert<int>::decode(node, number))
+      refuse(field, node, text, "a whole number");
+    check(field, node, number, text);
+    value = number;
+  }
+  void operator()(const Field& field, double& value) override {
+    if (const YAML::Node node = find(field.name)) value = number(field, node);
+  }
+  void operator()(const Field& field, std::string& value) override {
+    if (const YAML::Node node = find(field.name)) value = word(field, node);
+  }
+  void operator()(const Field& field, std::vector<double>& value) override {
+    take_list(field, value, [&](const YAML::Node& item) { return number(field, item); });
+  }
+  void operator()(const Field& field, std::vector<std::string>& value) override {
+    take_list(field, value, [&](const YAML::Node& item) { return word(field, item); });
+  }
+
+  /// Refuses what no field asked for at the present depth.
+  void finish() {
+    const Level& level = levels_.back();
+    std::set<std::string> seen;
+    for (const auto& pair : level.node) {
+      const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "(not a word)";
+      if (!level.known.count(key)) {
+        throw ConfigError(where(pair.first) + " has the unknown key \"" + level.prefix + key +
+                          "\"; known here are " + join(level.known) + ".");
+      }
+      if (!seen.insert(key).second) {
+        throw ConfigError(where(pair.first) + " has the key \"" + level.prefix + key + "\" twice.");
+      }
+    }
+  }
+
+ protected:
+  void enter(const std::string& name) override {
+    const YAML::Node node = find(name);
+    push(node ? node : YAML::Node(YAML::NodeType::Map), levels_.back().prefix + name + "/");
+  }
+  void leave() override {
+    finish();
+    levels_.pop_back();
+  }
+
+ private:
+  struct Level {
+    YAML::Node node;
+    std::string prefix;
+    std::set<std::string> known;
+  };
+
+  void push(const YAML::Node& node, const std::string& prefix) {
+    if (node.IsNull() || node.IsMap()) {
+      levels_.push_back({node.IsMap() ? node : YAML::Node(YAML::NodeType::Map), prefix, {}});
+      return;
+    }
+    throw ConfigError(where(node) + " must be a map of keys and values" +
+                      (prefix.empty() ? "." : " under \"" + prefix + "\"."));
+  }
+
+  [[nodiscard]] std::string where(const YAML::Node& node) const {
+    const YAML::Mark mark = node.Mark();
+    return mark.is_null() ? source_ : source_ + ", line " + std::to_string(mark.line + 1) + ",";
+  }
+
+  YAML::Node find(const std::string& name) {
+    Level& level = levels_.back();
+    level.known.insert(name);
+    for (const auto& pair : level.node) {  // operator[] would hide a repeated key
+      if (pair.first.IsScalar() && pair.first.Scalar() == name) return pair.second;
+    }
+    return YAML::Node(YAML::NodeType::Undefined);
+  }
+
+  [[noreturn]] void refuse(const Field& field, const YAML::Node& node, const std::string& text,
+                           const std::string& allowed) const {
+    throw ConfigError(where(node) + " gives \"" + levels_.back().prefix + field.name + "\" as " +
+                      text + "; allowed is " + allowed + ".");
+  }
+
+  std::string scalar(const Field& field, const YAML::Node& node, const std::string& allowed) const {
+    if (!node.IsScalar()) refuse(field, node, node.IsNull() ? "nothing" : "a list or map", allowed);
+    return node.Scalar();
+  }
+
+  void check(const Field& field, const YAML::Node& node, double number,
+             const std::string& text) const {
+    const auto* range = std::get_if<Range>(&field.allowed);
+    const Range limits = range ? *range : Range{};
+    if (!std::isfinite(number) || number < limits.min || number > limits.max) {
+      refuse(field, node, text, range ? allowed_text(field) : "a finite number");
+    }
+  }
+
+  double number(const Field& field, const YAML::Node& node) const {
+    const std::string text = scalar(field, node, "a number");
+    double number = 0.0;
+    if (!YAML::convert<double>::decode(node, number)) refuse(field, node, text, "a number");
+    check(field, node, number, text);
+    return number;
+  }
+
+  std::string word(const Field& field, const YAML::Node& node) const {
+    const std::string text = scalar(field, node, "a text");
+    if (const auto* one_of = std::get_if<OneOf>(&field.allowed)) {
+      const auto& words = one_of->words;
+      if (std::find(words.begin(), words.end(), text) == words.end())
+        refuse(field, node, text, allowed_text(field));
+    }
+    return text;
+  }
+
+  template <typename Value>
+  void take(const Field& field, Value& value, const std::string& allowed) {
+    const YAML::Node node = find(field.name);
+    if (!node) return;
+    const std::string text = scalar(field, node, allowed);
+    if (!YAML::convert<Value>::decode(node, value)) refuse(field, node, text, allowed);
+  }
+
+  template <typename Item, typename Take>
+  void take_list(const Field& field, std::vector<Item>& value, const Take& take_item) {
+    const YAML::Node node = find(field.name);
+    if (!node) return;
+    if (!node.IsSequence()) refuse(field, node, "no list", "a list such as [a, b]");
+    value.clear();
+    for (const auto& item : node) value.push_back(take_item(item));
+  }
+
+  std::string source_;
+  std::vector<Level> levels_;
+};
+
+class TableWriter : public Visitor {
+ public:
+  void operator()(const Field& field, bool& value) override {
+    add(field, value ? "true" : "false");
+  }
+  void operator()(const Field& field, int& value) override { add(field, std::to_string(value)); }
+  void operator()(const Field& field, double& value) override { add(field, to_text(value)); }
+  void operator()(const Field& field, std::string& value) override { add(field, value); }
+  void operator()(const Field& field, std::vector<double>& value) override {
+    add(field, "[" + join(value) + "]");
+  }
+  void operator()(const Field& field, std::vector<std::string>& value) override {
+    add(field, "[" + join(value) + "]");
+  }
+
+  std::vector<Row> rows;
+
+ protected:
+  void enter(const std::string& name) override { groups_.push_back(name + "/"); }
+  void leave() override { groups_.pop_back(); }
+
+ private:
+  void add(const Field& field, const std::string& value) {
+    std::string key;
+    for (const std::string& group : groups_) key += group;
+    rows.push_back({key + field.name, value, allowed_text(field), field.unit, field.help});
+  }
+
+  std::vector<std::string> groups_;
+};
+
+}  // namespace
+
+YAML::Node load_yaml(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error)
+    throw ConfigError("\"" + path.string() + "\" cannot be read: " + error.message() + ".");
+  if (size > kLargestFile)
+    throw ConfigError("\"" + path.string() + "\" is larger than 1 MiB, the most allowed.");
+  std::ifstream file(path);
+  try {
+    return YAML::Load(file);
+  } catch (const YAML::Exception& problem) {
+    throw ConfigError("\"" + path.string() + "\", line " + std::to_string(problem.mark.line + 1) +
+                      ", is not YAML: " + problem.msg + ".");
+  }
+}
+
+void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source) {
+  YamlReader reader(node, source);
+  describe(reader);
+  reader.finish();
+}
+
+std::vector<Row> table_of(const Describe& describe) {
+  TableWriter writer;
+  describe(writer);
+  return writer.rows;
+}
+
+}  // namespace navvi_config

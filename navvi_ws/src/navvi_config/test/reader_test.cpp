@@ -1,0 +1,97 @@
+#include "navvi_config/reader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_config {
+namespace {
+
+struct Inner {
+  std::string curve = "log";
+  std::vector<std::string> classes = {"box"};
+  void describe(Visitor& visit) {
+    visit({"curve", OneOf{{"log", "linear"}}, "", "shape"}, curve);
+    visit({"classes", OneOf{{"box", "shelf"}}, "", "what rumbles"}, classes);
+  }
+};
+
+struct Config {
+  double speed = 1.0;
+  int count = 3;
+  bool on = false;
+  Inner inner;
+  void describe(Visitor& visit) {
+    visit({"speed", Range{0.1, 3.0}, "m/s", "speed at full stick"}, speed);
+    visit({"count", Range{0, 10}, "", "how many"}, count);
+    visit({"on", Any{}, "", "whether"}, on);
+    visit.group("inner", inner);
+  }
+};
+
+std::string refusal(const std::string& yaml) {
+  Config config;
+  try {
+    read(config, YAML::Load(yaml), "test.yaml");
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(config.speed, 1.0) << "a refused document changed the config";
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Reader, an_empty_document_keeps_every_default) {
+  Config config;
+  read(config, YAML::Load(""), "test.yaml");
+  EXPECT_EQ(config.speed, 1.0);
+  EXPECT_EQ(config.inner.curve, "log");
+}
+
+TEST(Reader, keys_that_are_given_overlay_those_that_are_not) {
+  Config config;
+  read(config, YAML::Load("speed: 2\ninner: {classes: [shelf, box]}\non: true"), "test.yaml");
+  EXPECT_EQ(config.speed, 2.0);
+  EXPECT_EQ(config.count, 3);
+  EXPECT_TRUE(config.on);
+  EXPECT_EQ(config.inner.classes, (std::vector<std::string>{"shelf", "box"}));
+}
+
+TEST(Reader, a_number_out_of_range_is_refused_with_line_key_and_range) {
+  EXPECT_EQ(refusal("count: 1\nspeed: -4"),
+            "test.yaml, line 2, gives \"speed\" as -4; allowed is 0.1 to 3 m/s.");
+}
+
+TEST(Reader, every_bad_document_is_refused) {
+  for (const char* yaml :
+       {"speed: .nan", "speed: .inf", "speed: fast", "speed: [1]", "speed:", "count: 1.5",
+        "count: 010", "count: 99999999999", "on: 7", "sped: 1", "inner: 3", "inner: {curve: exp}",
+        "inner: {classes: box}", "inner: {classes: [wall]}", "inner: {x: 1}", "[1, 2]",
+        "speed: 1.5\nspeed: 2.0", "inner: {curve: log, curve: log}"}) {
+    EXPECT_NE(refusal(yaml), "") << yaml;
+  }
+}
+
+TEST(Reader, an_unknown_key_is_named_with_the_known_ones) {
+  EXPECT_EQ(
+      refusal("inner: {kurve: log}"),
+      "test.yaml, line 1, has the unknown key \"inner/kurve\"; known here are classes, curve.");
+}
+
+TEST(Reader, a_missing_file_and_a_broken_file_are_told_apart) {
+  EXPECT_THROW((void)load_yaml("/nonexistent.yaml"), ConfigError);
+}
+
+TEST(Table, lists_each_field_with_its_group_default_and_range) {
+  const std::vector<Row> rows = table<Config>();
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0].key, "speed");
+  EXPECT_EQ(rows[0].allowed, "0.1 to 3 m/s");
+  EXPECT_EQ(rows[3].key, "inner/curve");
+  EXPECT_EQ(rows[3].allowed, "one of log, linear");
+}
+
+}  // namespace
+}  // namespace navvi_config
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+
+#include "navvi_config/field.hpp"
+
+namespace navvi_safety {
+
+/// Planar velocity of base_link (REP-103).
+struct Velocity {
+  double linear = 0.0;   ///< m/s, forward
+  double angular = 0.0;  ///< rad/s, counter-clockwise
+};
+
+/// One instant on both clocks, so that neither a stopped simulation nor a changed wall clock can
+/// keep wheels turning.
+struct Instant {
+  double wall = 0.0;  ///< s, monotonic
+  double sim = 0.0;   ///< s, ROS time
+};
+
+struct CommandGateConfig {
+  double timeout = 0.25;
+  double neutral_hold = 0.30;
+  double neutral_linear = 0.02;
+  double neutral_angular = 0.02;
+  double max_linear = 1.5;
+  double max_angular = 2.5;
+  double absurd_factor = 10.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Stops the wheels when no valid command came for `timeout`, and lets them move again only after
+/// the command was neutral for `neutral_hold`. It begins stopped, so motion always starts from a
+/// neutral stick.
+class CommandGate {
+ public:
+  enum class State { waiting, running, stopped };
+  enum class Reason { none, command_lost, command_invalid };
+
+  explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
+
+  /// Takes a command as it came. \param command  nullopt for a message that was malformed. A
+  /// command that is not finite or `absurd_factor` beyond the limits is rejected whole and extends
+  /// nothing; one beyond the limits is clamped.
+  void receive(const std::optional<Velocity>& command, const Instant& now);
+
+  /// The velocity for the wheels at `now`. Call it at every control step.
+  [[nodiscard]] Velocity update(const Instant& now);
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] Reason reason() const { return reason_; }
+  [[nodiscard]] unsigned rejected() const { return rejected_; }
+  [[nodiscard]] unsigned clamped() const { return clamped_; }
+
+ private:
+  [[nodiscard]] bool fresh(const Instant& now) const;
+
+  CommandGateConfig config_;
+  Velocity command_;
+  std::optional<Instant> last_valid_;
+  std::optional<Instant> neutral_since_;
+  bool bad_since_valid_ = false;
+  State state_ = State::waiting;
+  Reason reason_ = Reason::none;
+  unsigned rejected_ = 0;
+  unsigned clamped_ = 0;
+};
+
+}  // namespace navvi_safety

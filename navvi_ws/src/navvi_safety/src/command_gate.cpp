@@ -1,0 +1,90 @@
+#include "navvi_safety/command_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_safety {
+namespace {
+
+bool within(double value, double limit) { return std::isfinite(value) && std::abs(value) <= limit; }
+
+/// True if less than `span` lies between the two on both clocks. Time that ran backwards is not
+/// fresh.
+bool younger_than(double span, const Instant& then, const Instant& now) {
+  const auto young = [span](double from, double to) { return to >= from && to - from <= span; };
+  return young(then.wall, now.wall) && young(then.sim, now.sim);
+}
+
+}  // namespace
+
+void CommandGateConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"timeout", Range{0.05, 0.25}, "s",
+         "longest age of the last valid command, by wall clock and by sim clock"},
+        timeout);
+  visit({"neutral_hold", Range{0.3, 5.0}, "s",
+         "how long the command must be neutral before the wheels move again"},
+        neutral_hold);
+  visit({"neutral_linear", Range{0.0, 0.1}, "m/s", "a slower command counts as neutral"},
+        neutral_linear);
+  visit({"neutral_angular", Range{0.0, 0.1}, "rad/s", "a slower command counts as neutral"},
+        neutral_angular);
+  visit({"max_linear", Range{0.1, 3.0}, "m/s", "commands beyond are clamped and counted"},
+        max_linear);
+  visit({"max_angular", Range{0.1, 6.0}, "rad/s", "commands beyond are clamped and counted"},
+        max_angular);
+  visit({"absurd_factor", Range{1.0, 100.0}, "",
+         "commands beyond this many times a limit are rejected"},
+        absurd_factor);
+}
+
+void CommandGate::receive(const std::optional<Velocity>& command, const Instant& now) {
+  if (!command || !within(command->linear, config_.max_linear * config_.absurd_factor) ||
+      !within(command->angular, config_.max_angular * config_.absurd_factor)) {
+    ++rejected_;
+    bad_since_valid_ = true;
+    return;
+  }
+  // Whoever went silent must show a neutral stick first, even if nobody called update() in between.
+  if (!fresh(now)) neutral_since_.reset();
+
+  command_.linear = std::clamp(command->linear, -config_.max_linear, config_.max_linear);
+  command_.angular = std::clamp(command->angular, -config_.max_angular, config_.max_angular);
+  if (command_.linear != command->linear || command_.angular != command->angular) ++clamped_;
+
+  const bool neutral = std::abs(command_.linear) <= config_.neutral_linear &&
+                       std::abs(command_.angular) <= config_.neutral_angular;
+  if (!neutral) {
+    neutral_since_.reset();
+  } else if (!neutral_since_) {
+    neutral_since_ = now;
+  }
+  last_valid_ = now;
+  bad_since_valid_ = false;
+}
+
+Velocity CommandGate::update(const Instant& now) {
+  if (!last_valid_) return {};
+  if (!fresh(now)) {
+    if (state_ == State::running) {
+      state_ = State::stopped;
+      reason_ = bad_since_valid_ ? Reason::command_invalid : Reason::command_lost;
+    }
+    neutral_since_.reset();
+    return {};
+  }
+  if (state_ != State::running) {
+    const bool held = neutral_since_ && now.wall - neutral_since_->wall >= config_.neutral_hold &&
+                      now.sim - neutral_since_->sim >= config_.neutral_hold;
+    if (!held) return {};
+    state_ = State::running;
+    reason_ = Reason::none;
+  }
+  return command_;
+}
+
+bool CommandGate::fresh(const Instant& now) const {
+  return last_valid_ && younger_than(config_.timeout, *last_valid_, now);
+}
+
+}  // namespace navvi_safety

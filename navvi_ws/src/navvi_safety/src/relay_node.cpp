@@ -1,0 +1,38 @@
+// The last stage on a real robot: /cmd_vel in, the robot's own velocity topic out, stopped when in
+// doubt.
+
+#include <ros/ros.h>
+
+#include <navvi_config/ros_parameters.hpp>
+#include <navvi_safety/msg_conversion.hpp>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "relay_node");
+  ros::NodeHandle node;
+  try {
+    navvi_safety::CommandGate gate(
+        navvi_config::load<navvi_safety::CommandGateConfig>(ros::NodeHandle("~")));
+    ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("robot/cmd_vel", 1);
+    ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
+    ros::Subscriber commands = node.subscribe<geometry_msgs::Twist>(
+        "cmd_vel", 1, [&](const geometry_msgs::Twist::ConstPtr& msg) {
+          gate.receive(navvi_safety::from_msg(*msg), navvi_safety::now());
+        });
+    state.publish(navvi_safety::state_msg(gate, ros::Time::now()));
+
+    // By wall clock, so that a stopped simulation clock cannot stop the stopping.
+    ros::WallTimer timer =
+        node.createWallTimer(ros::WallDuration(0.02), [&](const ros::WallTimerEvent&) {
+          const auto before = gate.state();
+          wheels.publish(navvi_safety::to_msg(gate.update(navvi_safety::now())));
+          if (gate.state() != before)
+            state.publish(navvi_safety::state_msg(gate, ros::Time::now()));
+        });
+    ros::spin();
+    wheels.publish(geometry_msgs::Twist());
+  } catch (const navvi_config::ConfigError& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

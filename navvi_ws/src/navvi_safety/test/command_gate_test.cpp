@@ -1,0 +1,120 @@
+#include "navvi_safety/command_gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace navvi_safety {
+namespace {
+
+constexpr double kStep = 0.02;  // s
+
+/// A gate with a stick before it, and a clock that both hands advance together.
+class Gate : public testing::Test {
+ protected:
+  void hold(double seconds, std::optional<Velocity> command) {
+    const int steps = static_cast<int>(std::lround(seconds / kStep));
+    for (int i = 0; i < steps; ++i) {
+      now_.wall += kStep;
+      now_.sim += kStep;
+      gate_.receive(command, now_);
+      wheels_ = gate_.update(now_);
+    }
+  }
+  void silence(double wall, double sim) {
+    now_.wall += wall;
+    now_.sim += sim;
+    wheels_ = gate_.update(now_);
+  }
+  void start() {
+    hold(0.4, Velocity{});
+    hold(0.1, Velocity{1.0, 0.5});
+  }
+
+  Instant now_{100.0, 5.0};
+  CommandGate gate_{CommandGateConfig{}};
+  Velocity wheels_;
+};
+
+TEST_F(Gate, does_not_move_before_any_command) {
+  silence(1.0, 1.0);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.state(), CommandGate::State::waiting);
+}
+
+TEST_F(Gate, does_not_move_for_a_stick_that_was_never_neutral) {
+  hold(2.0, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0);
+}
+
+TEST_F(Gate, moves_after_the_stick_was_neutral) {
+  start();
+  EXPECT_EQ(wheels_.linear, 1.0);
+  EXPECT_EQ(wheels_.angular, 0.5);
+  EXPECT_EQ(gate_.state(), CommandGate::State::running);
+}
+
+TEST_F(Gate, stops_when_either_clock_says_the_command_is_old) {
+  for (const auto& [wall, sim] : {std::pair{0.26, 0.0}, std::pair{0.0, 0.26}}) {
+    start();
+    ASSERT_EQ(wheels_.linear, 1.0);
+    silence(wall, sim);
+    EXPECT_EQ(wheels_.linear, 0.0);
+    EXPECT_EQ(gate_.state(), CommandGate::State::stopped);
+    EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_lost);
+  }
+}
+
+TEST_F(Gate, stops_when_time_runs_backwards) {
+  start();
+  silence(0.02, -97.0);
+  EXPECT_EQ(wheels_.linear, 0.0);
+}
+
+TEST_F(Gate, stays_stopped_until_the_stick_was_neutral_long_enough) {
+  start();
+  silence(0.3, 0.3);
+  hold(1.0, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0);
+  hold(0.2, Velocity{});
+  hold(0.1, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0) << "0.2 s of neutral stick are too few";
+  hold(0.4, Velocity{});
+  hold(0.1, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
+TEST_F(Gate, bad_commands_are_counted_and_extend_nothing) {
+  start();
+  const double inf = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, inf, -inf, 1e308}) {
+    now_.wall += kStep;
+    now_.sim += kStep;
+    gate_.receive(Velocity{bad, 0.0}, now_);
+    gate_.receive(Velocity{0.0, bad}, now_);
+  }
+  gate_.receive(std::nullopt, now_);
+  EXPECT_EQ(gate_.rejected(), 9u);
+  EXPECT_EQ(gate_.update(now_).linear, 1.0) << "the last valid command is 80 ms old";
+  hold(0.2, std::nullopt);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_invalid);
+}
+
+TEST_F(Gate, a_command_beyond_the_limits_is_clamped_and_counted) {
+  hold(0.4, Velocity{});
+  hold(kStep, Velocity{-9.0, 9.0});
+  EXPECT_EQ(wheels_.linear, -1.5);
+  EXPECT_EQ(wheels_.angular, 2.5);
+  EXPECT_EQ(gate_.clamped(), 1u);
+}
+
+}  // namespace
+}  // namespace navvi_safety
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace navvi_sim {
+
+/// What a thing is to the person who drives. `floor` is what one drives on; everything else is an
+/// obstacle.
+enum class ThingClass { floor, shelf, wall, box, pedestal, worker, forklift, pallet_robot, other };
+
+/// Lower-case name as in the messages: "shelf", "pallet_robot", ...
+[[nodiscard]] const char* to_string(ThingClass thing_class);
+/// nullopt for a word that is no class.
+[[nodiscard]] std::optional<ThingClass> thing_class_from(const std::string& word);
+
+struct Box {
+  Eigen::Vector3d size;  ///< m, full extents, > 0
+};
+struct Cylinder {
+  double radius;  ///< m, > 0
+  double length;  ///< m, > 0, along z, centred
+};
+struct Sphere {
+  double radius;  ///< m, > 0
+};
+struct Mesh {
+  std::vector<Eigen::Vector3f> vertices;                ///< m, scaled
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
+};
+using Geometry = std::variant<Box, Cylinder, Sphere, std::shared_ptr<const Mesh>>;
+
+struct Shape {
+  Geometry geometry;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the thing's frame
+};
+
+/// Way-points that a moving thing follows for ever, in order, back to the first after the last.
+struct Route {
+  std::vector<Eigen::Vector2d> waypoints;  ///< m, in map; two or more
+  double speed = 1.0;                      ///< m/s, > 0
+  double pause = 0.0;                      ///< s, stop at each way-point, >= 0
+};
+
+/// Anything with a body and a class. It stands still unless it has a route.
+struct Thing {
+  std::string name;  ///< unique in the world
+  ThingClass thing_class = ThingClass::other;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in map, at time zero
+  std::vector<Shape> shapes;                               ///< one or more
+  std::optional<Route> route;
+};
+
+/// Everything there is to know of a world before it lives. Frame: map, z up.
+struct WorldDescription {
+  std::string name;
+  double floor_height = 0.0;  ///< m, z of the surface the robot drives on
+  std::vector<Thing> things;  ///< a thing's id in the messages is its index here
+};
+
+}  // namespace navvi_sim
