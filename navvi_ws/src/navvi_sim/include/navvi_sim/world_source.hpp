@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "navvi_sim/warehouse.hpp"
+#include "navvi_sim/world_description.hpp"
+#include "navvi_sim/world_error.hpp"
+
+namespace navvi_sim {
+
+/// A world, and what its source holds that could not be taken over (one sentence each).
+struct LoadedWorld {
+  WorldDescription world;
+  std::vector<std::string> notes;
+};
+
+/// Loads and validates the world that `spec` names: the built-in "warehouse", or a file by its
+/// ending, .yaml / .yml (yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is
+/// taken from the working directory.
+/// \param models  folders for model://, separated by colons; may be empty. The world's folder and
+///                its `models` subfolder are always tried, after these.
+/// \param seed    of the built-in warehouse; files do not depend on it
+/// \throws WorldError naming the file or thing, what is wrong and what is allowed
+[[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
+                                     std::uint64_t seed, const WarehouseConfig& warehouse);
+
+/// The folders of a colon separated list; empty items are left out.
+[[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& colon_separated);
+
+}  // namespace navvi_sim
