@@ -1,0 +1,72 @@
+"""The entry script, the launch files, the views and the parameter files, as they ship."""
+import pathlib
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def navvi(*words, **environment):
+    import os
+    env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    env.update(environment)
+    return subprocess.run([str(ROOT / "navvi"), *words], capture_output=True, text=True, env=env, timeout=60)
+
+
+def test_shell_scripts_are_clean():
+    subprocess.run(["shellcheck", ROOT / "navvi", ROOT / ".ci" / "run"], check=True)
+
+
+@pytest.mark.parametrize("words, sentence", [
+    (["fly"], "no sub-command"),
+    (["run", "fast"], "arguments look like name:=value"),
+    (["run", "spede:=2"], "\"spede\" is unknown; known are:"),
+    (["run", "operator:=robot"], "allowed are: auto pad keyboard simulated"),
+    (["run", "profile:=mine"], "allowed are: default paper"),
+    (["run", "operator:=simulated", "rviz:=true"], "needs a display"),
+    (["run", "operator:=keyboard"], "needs a display"),
+    (["replay"], "which trial?"),
+    (["replay", "/nonexistent"], "holds no trial.bag"),
+])
+def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
+    result = navvi(*words)
+    assert result.returncode == 2
+    assert sentence in result.stderr
+
+
+def test_help_names_each_sub_command():
+    assert all(word in navvi("help").stdout for word in ("setup", "build", "run", "replay", "test", "bench"))
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "launch").glob("*.launch")), ids=lambda path: path.name)
+def test_each_launch_file_resolves_to_nodes_that_exist(path):
+    needed = [f"{arg.get('name')}:=/nonexistent" for arg in ElementTree.parse(path).getroot().iter("arg")
+              if arg.get("default") is None and arg.get("value") is None]
+    nodes = subprocess.run(["roslaunch", "--nodes", str(path), *needed], capture_output=True, text=True, timeout=60)
+    assert nodes.returncode == 0, nodes.stderr
+    for node in ElementTree.parse(path).getroot().iter("node"):
+        found = subprocess.run(["catkin_find", "--libexec", node.get("pkg"), node.get("type")],
+                               capture_output=True, text=True, timeout=60)
+        installed = pathlib.Path(f"/usr/lib/{node.get('pkg')}/{node.get('type')}")
+        assert found.stdout.strip() or installed.exists() or node.get("pkg") == "rviz", node.get("type")
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "rviz").glob("*.rviz")), ids=lambda path: path.name)
+def test_each_view_file_offers_chase_top_and_forward(path):
+    views = yaml.safe_load(path.read_text())["Visualization Manager"]["Views"]["Saved"]
+    assert {view["Name"] for view in views} >= {"Chase", "Top", "Forward"}
+
+
+NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback", "feedback_node"),
+         ("navvi_safety", "relay_node"), ("navvi_study", "trial_node"), ("navvi_study", "operator_node")]
+
+
+@pytest.mark.parametrize("package, node", NODES, ids=lambda word: word)
+def test_a_node_refuses_an_unknown_parameter_and_starts_nothing(package, node, master):
+    result = subprocess.run(["rosrun", package, node, "_no_such_key:=1"], capture_output=True, text=True, timeout=30,
+                            env=master)
+    assert result.returncode == 2
+    assert "unknown key \"no_such_key\"" in result.stdout + result.stderr

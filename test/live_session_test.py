@@ -1,0 +1,226 @@
+"""One whole session as a person starts it, watched from outside, and what it leaves behind."""
+import csv
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import threading
+import time
+
+import pytest
+import rosgraph
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from navvi_msgs.msg import Cue, DriveState
+from octomap_msgs.msg import Octomap
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+
+TOPICS = {
+    "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
+    "/navvi/obstacles", "/navvi/proximity", "/navvi/contacts", "/move_base_simple/goal", "/navvi/path",
+    "/navvi/guidance", "/navvi/navmesh", "/joy", "/joy/set_feedback", "/cmd_vel", "/navvi/cues", "/navvi/markers",
+    "/navvi/events", "/diagnostics",
+}
+BAGGED = TOPICS - {"/clock", "/occupied_cells_vis_array"}
+FULL_STICK = 0.8  # m/s
+
+
+class Display:
+    """A virtual screen, so that the picture can be looked at."""
+
+    def __init__(self):
+        read, write = os.pipe()
+        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x900x24", "+extension", "GLX"],
+                                        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.name = ":" + pipe.readline().strip()
+
+    def shot(self, path):
+        subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30,
+                       env=dict(os.environ, DISPLAY=self.name))
+
+    def close(self):
+        self.process.terminate()
+        self.process.wait()
+
+
+class Session:
+    """`./navvi run` and everything that was seen while it ran."""
+
+    def __init__(self, folder, *words):
+        self.display = Display()
+        self.folder = folder
+        self.heard, self.drive_states, self.speed, self.command = [], [], 0.0, 0.0
+        self.octomap = None
+        sound = folder / "sound.wav"
+        (folder / "alsoft.conf").write_text(f"[general]\ndrivers=wave\n[wave]\nfile={sound}\n")
+        self.sound = sound
+        env = dict(os.environ, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1",
+                   ALSOFT_CONF=str(folder / "alsoft.conf"))
+        self.process = subprocess.Popen([str(ROOT / "navvi"), "run", f"out:={folder}", *words], env=env, text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        self.output, self.uri = [], None
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+        self.wait_for(lambda: self.uri, 60, "the session names its master")
+        self.wait_for(lambda: rosgraph.is_master_online(self.uri), 30, "the master answers")
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.output.append(line)
+            found = re.search(r"ROS_MASTER_URI=(\S+)", line)
+            if found:
+                self.uri = found.group(1)
+
+    def text(self):
+        return "".join(self.output)
+
+    def wait_for(self, condition, seconds, what):
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            if condition():
+                return
+            time.sleep(0.02)
+        pytest.fail(f"in {seconds} s it did not come true that {what}:\n{self.text()[-4000:]}")
+
+    def watch(self):
+        os.environ["ROS_MASTER_URI"], os.environ["ROS_IP"] = self.uri, "127.0.0.1"
+        rospy.init_node("outside_observer", anonymous=True, disable_signals=True, disable_rostime=True)
+        rospy.Subscriber("/navvi/cues", Cue, self.heard.append)
+        rospy.Subscriber("/navvi/drive_state", DriveState,
+                         lambda msg: self.drive_states.append((time.monotonic(), msg)), tcp_nodelay=True)
+        rospy.Subscriber("/odom", Odometry, lambda msg: setattr(self, "speed", msg.twist.twist.linear.x))
+        rospy.Subscriber("/cmd_vel", Twist, lambda msg: setattr(self, "command", msg.linear.x))
+        rospy.Subscriber("/octomap_binary", Octomap, lambda msg: setattr(self, "octomap", msg))
+
+    def kill_feedback(self):
+        """Kills feedback_node while the stick is full forward. Returns the s until the wheels were held at zero."""
+        self.wait_for(lambda: self.command > FULL_STICK and self.speed > 0.5 * FULL_STICK, 90, "the stick is full forward")
+        pid = int(subprocess.check_output(["pgrep", "-n", "-f", "lib/navvi_feedback/feedback_node"], text=True))
+        before = len(self.drive_states)
+        killed = time.monotonic()
+        os.kill(pid, signal.SIGKILL)
+        stopped = lambda: [at for at, msg in self.drive_states[before:] if msg.state == DriveState.STOPPED]
+        self.wait_for(stopped, 5, "the wheels are held at zero")
+        return stopped()[0] - killed
+
+    def nodes(self):
+        master = rosgraph.Master("/observer", self.uri)
+        publishers, subscribers, _ = master.getSystemState()
+        return {name for _, names in publishers + subscribers for name in names}
+
+    def topics(self):
+        return {name for name, _ in rosgraph.Master("/observer", self.uri).getTopicTypes()}
+
+    def close(self):
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGINT)
+            try:
+                self.process.wait(20)
+            except subprocess.TimeoutExpired:
+                os.killpg(self.process.pid, signal.SIGKILL)
+        self.display.close()
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    session = Session(tmp_path_factory.mktemp("session"), "operator:=simulated", f"world:={WORLD}", "seed:=3",
+                      "rviz:=true", "speech:=true", "limit:=240")
+    try:
+        session.watch()
+        session.wait_for(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
+        session.seen_topics, session.seen_nodes = session.topics(), session.nodes()
+        session.sockets = subprocess.check_output(["ss", "-ltnpH"], text=True)
+        time.sleep(2)
+        session.picture = session.folder / "picture.png"
+        session.display.shot(session.picture)
+        session.stop_time = session.kill_feedback()
+        print(f"wheels held {1000 * session.stop_time:.0f} ms after feedback_node was killed")
+        session.wait_for(lambda: session.process.poll() is not None, 300, "the session ends by itself")
+        yield session
+    finally:
+        session.close()
+
+
+@pytest.fixture(scope="module")
+def trial(session):
+    folders = [path.parent for path in session.folder.rglob("summary.csv")]
+    assert len(folders) == 1
+    return folders[0]
+
+
+def summary(trial):
+    with open(trial / "summary.csv", newline="") as file:
+        return next(csv.DictReader(file))
+
+
+def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
+    assert session.process.returncode == 0, session.text()[-3000:]
+    assert summary(trial)["result"] == "reached"
+
+
+def test_topics_and_nodes_have_the_names_of_the_picture(session):
+    assert TOPICS <= session.seen_topics
+    assert {"/sim_node", "/nav_node", "/feedback_node", "/trial_node", "/operator_node"} <= session.seen_nodes
+
+
+def test_nothing_listens_beyond_the_loopback_interface(session):
+    ours = [line for line in session.sockets.splitlines() if re.search(r'"(sim_node|nav_node|feedback_node|trial_node|rviz)"', line)]
+    assert ours
+    for line in ours:
+        assert line.split()[3].startswith(("127.0.0.1:", "[::1]:")), line
+
+
+def test_an_outsider_reads_the_octomap_by_its_public_md5(session):
+    assert session.octomap._md5sum == "9a45536b45c5e409cd49f04bb2d9999f"
+    assert session.octomap.binary and session.octomap.id == "OcTree" and len(session.octomap.data) > 100
+
+
+def test_killing_feedback_at_full_stick_stops_the_wheels(session):
+    # The bound is 250 ms on an idle machine, and twice that on a loaded one.
+    assert session.stop_time < 0.5
+
+
+def test_the_bag_holds_the_topics_and_agrees_with_the_summary(trial):
+    info = subprocess.check_output(["rosbag", "info", "-y", "-k", "topics", str(trial / "trial.bag")], text=True)
+    assert BAGGED - {"/navvi/contacts"} <= set(re.findall(r"topic: (\S+)", info))
+    subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(trial)], check=True, timeout=120)
+
+
+def test_the_robot_did_not_go_through_anything(trial):
+    with open(trial / "events.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert rows and list(rows[0])[:2] == ["onset", "duration"]
+
+
+def test_no_spoken_cue_was_cut_by_a_lesser_one(session):
+    speech = [cue for cue in session.heard if cue.modality == Cue.SPEECH]
+    assert any("destination" in cue.text for cue in speech if cue.stage == Cue.ENDED)
+    for index, cue in enumerate(speech):
+        if cue.stage == Cue.CUT:
+            started = [other for other in speech[index - 3:index + 4] if other.stage in (Cue.STARTED, Cue.QUEUED) and other.id != cue.id]
+            assert any(other.priority > cue.priority for other in started), cue.text
+
+
+def test_the_picture_shows_path_goal_boxes_and_robot(session):
+    """Each colour that carries a meaning covers a fair share of the screen."""
+    pixels = subprocess.check_output(["convert", str(session.picture), "-depth", "8", "rgb:-"])
+    count = {"path": 0, "boxes": 0}
+    for at in range(0, len(pixels), 3 * 7):
+        red, green, blue = pixels[at:at + 3]
+        count["path"] += red > 140 and blue > 180 and green < 0.65 * red
+        count["boxes"] += red > 90 and green > 0.75 * red and blue < 0.35 * red
+    assert count["path"] > 100 and count["boxes"] > 100, count
+
+
+def test_a_recorded_trial_plays_again(session, trial):
+    env = dict(os.environ, ALSOFT_CONF=str(session.folder / "alsoft.conf"))
+    env.pop("DISPLAY", None)
+    result = subprocess.run([str(ROOT / "navvi"), "replay", str(trial), "rate:=4", "rviz:=false"], env=env, text=True,
+                            capture_output=True, timeout=180)
+    assert result.returncode == 0, result.stdout[-2000:] + result.stderr[-2000:]
