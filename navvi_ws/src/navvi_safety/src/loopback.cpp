@@ -1,5 +1,6 @@
-// Preloaded into every process of a session that must not be reached from outside: a socket that would listen on all
-// interfaces listens on the loopback interface alone. roscpp offers no setting for its XML-RPC port.
+// Preloaded into every process of a session that must not be reached from outside: a socket that
+// would listen on all interfaces listens on the loopback interface alone. roscpp offers no setting
+// for its XML-RPC port.
 
 #include <dlfcn.h>
 #include <netinet/in.h>
@@ -19,7 +20,8 @@ extern "C" int bind(int socket, const sockaddr* address, socklen_t length) noexc
   if (address != nullptr && address->sa_family == AF_INET6 && length >= sizeof(sockaddr_in6)) {
     sockaddr_in6 local;
     std::memcpy(&local, address, sizeof(local));
-    if (std::memcmp(&local.sin6_addr, &in6addr_any, sizeof(in6_addr)) == 0) local.sin6_addr = in6addr_loopback;
+    if (std::memcmp(&local.sin6_addr, &in6addr_any, sizeof(in6_addr)) == 0)
+      local.sin6_addr = in6addr_loopback;
     return next(socket, reinterpret_cast<const sockaddr*>(&local), sizeof(local));
   }
   return next(socket, address, length);

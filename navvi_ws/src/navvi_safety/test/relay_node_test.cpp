@@ -1,0 +1,85 @@
+// The relay before a real robot's wheels, seen from outside.
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <navvi_safety/msg_conversion.hpp>
+
+namespace {
+
+class Relay : public testing::Test {
+ protected:
+  Relay() {
+    commands_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    wheels_ = node_.subscribe<geometry_msgs::Twist>(
+        "robot/cmd_vel", 1,
+        [this](const geometry_msgs::Twist::ConstPtr& msg) { speed_ = msg->linear.x; });
+    state_ = node_.subscribe<navvi_msgs::DriveState>(
+        "navvi/drive_state", 10,
+        [this](const navvi_msgs::DriveState::ConstPtr& msg) { drive_ = *msg; });
+  }
+
+  /// Sends `speed` at 50 Hz until `done`, for at most 10 s. A speed that is not finite goes out as
+  /// it is.
+  bool drive_until(double speed, const std::function<bool()>& done) {
+    geometry_msgs::Twist twist;
+    twist.linear.x = speed;
+    return spin_until([&] { commands_.publish(twist); }, done);
+  }
+  bool wait_until(const std::function<bool()>& done) {
+    return spin_until([] {}, done);
+  }
+  void start() {
+    const ros::WallTime begin = ros::WallTime::now();
+    ASSERT_TRUE(drive_until(0.0, [&] { return (ros::WallTime::now() - begin).toSec() > 0.6; }));
+    ASSERT_TRUE(drive_until(0.7, [&] { return speed_ == 0.7; }));
+  }
+
+  double speed_ = std::numeric_limits<double>::quiet_NaN();
+  navvi_msgs::DriveState drive_;
+
+ private:
+  bool spin_until(const std::function<void()>& send, const std::function<bool()>& done) {
+    ros::WallRate rate(50);
+    for (int i = 0; i < 500 && ros::ok(); ++i) {
+      send();
+      ros::spinOnce();
+      if (done()) return true;
+      rate.sleep();
+    }
+    return false;
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher commands_;
+  ros::Subscriber wheels_, state_;
+};
+
+TEST_F(Relay, passes_a_command_on_after_a_neutral_stick) { start(); }
+
+TEST_F(Relay, stops_the_wheels_when_commands_cease) {
+  start();
+  EXPECT_TRUE(wait_until([&] { return speed_ == 0.0; }));
+  EXPECT_TRUE(wait_until([&] { return drive_.state == navvi_msgs::DriveState::STOPPED; }));
+  EXPECT_EQ(drive_.reason, navvi_msgs::DriveState::COMMAND_LOST);
+}
+
+TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
+  start();
+  EXPECT_TRUE(drive_until(std::numeric_limits<double>::quiet_NaN(), [&] {
+    return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::COMMAND_INVALID;
+  }));
+  EXPECT_GT(drive_.rejected, 0u);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "relay_node_test");
+  ros::NodeHandle keep_alive;
+  return RUN_ALL_TESTS();
+}
