@@ -1,0 +1,91 @@
+#include "navvi_sim/world_hash.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+
+namespace navvi_sim {
+namespace {
+
+class Fnv1a {
+ public:
+  void bytes(const void* data, std::size_t size) {
+    const auto* byte = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) {
+      state_ ^= byte[i];
+      state_ *= 0x100000001b3ULL;
+    }
+  }
+  void add(std::uint64_t value) { bytes(&value, sizeof value); }
+  void add(double value) {
+    const double canonical = value == 0.0 ? 0.0 : value;  // -0 is 0
+    bytes(&canonical, sizeof canonical);
+  }
+  void add(const std::string& text) {
+    add(static_cast<std::uint64_t>(text.size()));
+    bytes(text.data(), text.size());
+  }
+  void add(const Eigen::Isometry3d& pose) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) add(pose.matrix()(row, column));
+  }
+
+  void operator()(const Box& box) {
+    for (int axis = 0; axis < 3; ++axis) add(box.size[axis]);
+  }
+  void operator()(const Cylinder& cylinder) {
+    add(cylinder.radius);
+    add(cylinder.length);
+  }
+  void operator()(const Sphere& sphere) { add(sphere.radius); }
+  void operator()(const std::shared_ptr<const Mesh>& mesh) {
+    add(static_cast<std::uint64_t>(mesh->vertices.size()));
+    for (const Eigen::Vector3f& vertex : mesh->vertices)
+      for (int axis = 0; axis < 3; ++axis) add(static_cast<double>(vertex[axis]));
+    add(static_cast<std::uint64_t>(mesh->triangles.size()));
+    for (const auto& triangle : mesh->triangles)
+      for (const std::uint32_t index : triangle) add(static_cast<std::uint64_t>(index));
+  }
+
+  [[nodiscard]] std::uint64_t state() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+void add(Fnv1a& hash, const Route& route) {
+  hash.add(static_cast<std::uint64_t>(route.waypoints.size()));
+  for (const Eigen::Vector2d& waypoint : route.waypoints) {
+    hash.add(waypoint.x());
+    hash.add(waypoint.y());
+  }
+  hash.add(route.speed);
+  hash.add(route.pause);
+}
+
+}  // namespace
+
+std::string world_hash(const WorldDescription& world) {
+  Fnv1a hash;
+  hash.add(world.name);
+  hash.add(world.floor_height);
+  hash.add(static_cast<std::uint64_t>(world.things.size()));
+  for (const Thing& thing : world.things) {
+    hash.add(thing.name);
+    hash.add(std::string(to_string(thing.thing_class)));
+    hash.add(thing.pose);
+    hash.add(static_cast<std::uint64_t>(thing.shapes.size()));
+    for (const Shape& shape : thing.shapes) {
+      hash.add(static_cast<std::uint64_t>(shape.geometry.index()));
+      std::visit([&hash](const auto& geometry) { hash(geometry); }, shape.geometry);
+      hash.add(shape.pose);
+    }
+    hash.add(static_cast<std::uint64_t>(thing.route.has_value()));
+    if (thing.route) add(hash, *thing.route);
+  }
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.state()));
+  return text;
+}
+
+}  // namespace navvi_sim
