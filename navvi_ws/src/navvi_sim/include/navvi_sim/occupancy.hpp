@@ -17,10 +17,13 @@ struct OccupancyConfig {
 
 /// The map of everything that stands still (things with a route are left out), pruned, in the
 /// frame map. Occupied: every voxel that a shape reaches into by more than 5 % of the voxel's edge
-/// along each axis, so that a floor whose top lies on a voxel border does not occupy the voxel
-/// above it. Boxes, cylinders and spheres are filled, meshes are surfaces. Free space is not
-/// marked. With the built-in worlds the floor's top is z = 0, a border of voxels.
-/// \throws WorldError if the world needs more than 60 million voxels at this resolution
+/// along each axis, so that a top that lies on a border of voxels does not occupy the voxel above
+/// it. Boxes, cylinders and spheres are filled, meshes are surfaces. Free space is not marked.
+///
+/// Things of class floor are moved along z, by half a voxel at most, so that `floor_height` falls
+/// on a border of voxels: a thing that stands on the floor then always shows above it.
+/// \throws WorldError if a shape reaches further than the tree does (32 768 voxels to each side),
+/// or the tree comes to more than 20 million nodes
 [[nodiscard]] octomap::OcTree occupancy_of(const WorldDescription& world,
                                            const OccupancyConfig& config);
 

@@ -1,0 +1,237 @@
+#include "navvi_sim/msg_conversion.hpp"
+
+#include <array>
+#include <map>
+#include <sstream>
+
+namespace navvi_sim {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+constexpr const char* kFrame = "map";
+
+struct Color {
+  float r, g, b;
+};
+
+/// High contrast on a dark background. RViz lights shapes, so these come out darker than written.
+/// Purple and red are left to the path and the goal.
+Color color_of(ThingClass thing_class) {
+  switch (thing_class) {
+    case ThingClass::floor:
+      return {0.07F, 0.08F, 0.09F};
+    case ThingClass::shelf:
+      return {0.33F, 0.45F, 0.58F};
+    case ThingClass::wall:
+      return {0.78F, 0.78F, 0.78F};
+    case ThingClass::box:
+      return {1.00F, 0.90F, 0.00F};
+    case ThingClass::pedestal:
+      return {0.72F, 0.42F, 0.16F};
+    case ThingClass::worker:
+      return {0.20F, 1.00F, 0.35F};
+    case ThingClass::forklift:
+      return {1.00F, 0.50F, 0.00F};
+    case ThingClass::pallet_robot:
+      return {0.00F, 0.80F, 0.80F};
+    case ThingClass::other:
+      return {0.55F, 0.55F, 0.50F};
+  }
+  return {0.55F, 0.55F, 0.50F};
+}
+
+constexpr Color kRobot{0.95F, 1.00F, 0.95F};
+constexpr Color kNose{0.00F, 1.00F, 0.20F};
+
+geometry_msgs::Point point(const Eigen::Vector3d& p) {
+  geometry_msgs::Point msg;
+  msg.x = p.x();
+  msg.y = p.y();
+  msg.z = p.z();
+  return msg;
+}
+
+geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(pose.linear()).normalized();
+  geometry_msgs::Pose msg;
+  msg.position = point(pose.translation());
+  msg.orientation.x = rotation.x();
+  msg.orientation.y = rotation.y();
+  msg.orientation.z = rotation.z();
+  msg.orientation.w = rotation.w();
+  return msg;
+}
+
+Marker marker(const std::string& ns, int id, int type, const Color& color, const ros::Time& stamp) {
+  Marker msg;
+  msg.header.frame_id = kFrame;
+  msg.header.stamp = stamp;
+  msg.ns = ns;
+  msg.id = id;
+  msg.type = type;
+  msg.action = Marker::ADD;
+  msg.pose.orientation.w = 1.0;
+  msg.scale.x = msg.scale.y = msg.scale.z = 1.0;
+  msg.color.r = color.r;
+  msg.color.g = color.g;
+  msg.color.b = color.b;
+  msg.color.a = 1.0F;
+  return msg;
+}
+
+/// Makes of one shape one marker.
+class ShapeMarker {
+ public:
+  explicit ShapeMarker(Marker& msg) : msg_(msg) {}
+
+  void operator()(const Box& box) const { set(Marker::CUBE, box.size); }
+  void operator()(const Cylinder& cylinder) const {
+    set(Marker::CYLINDER, {2.0 * cylinder.radius, 2.0 * cylinder.radius, cylinder.length});
+  }
+  void operator()(const Sphere& sphere) const {
+    set(Marker::SPHERE, Eigen::Vector3d::Constant(2.0 * sphere.radius));
+  }
+  void operator()(const std::shared_ptr<const Mesh>& mesh) const {
+    set(Marker::TRIANGLE_LIST, Eigen::Vector3d::Ones());
+    msg_.points.reserve(3 * mesh->triangles.size());
+    for (const auto& triangle : mesh->triangles)
+      for (const std::uint32_t index : triangle)
+        msg_.points.push_back(point(mesh->vertices[index].cast<double>()));
+  }
+
+ private:
+  void set(int type, const Eigen::Vector3d& scale) const {
+    msg_.type = type;
+    msg_.scale.x = scale.x();
+    msg_.scale.y = scale.y();
+    msg_.scale.z = scale.z();
+  }
+
+  Marker& msg_;
+};
+
+/// The twelve triangles of a box, counter-clockwise seen from outside.
+void append_box(std::vector<geometry_msgs::Point>& points, const Box& box,
+                const Eigen::Isometry3d& pose) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-0.5, 0.5}) {
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      std::array<geometry_msgs::Point, 4> corners;
+      constexpr std::array<std::array<double, 2>, 4> kRound{
+          {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+      for (std::size_t i = 0; i < 4; ++i) {
+        Eigen::Vector3d corner;
+        corner[axis] = side * box.size[axis];
+        corner[u] = kRound[i][side > 0.0 ? 0 : 1] * box.size[u];
+        corner[v] = kRound[i][side > 0.0 ? 1 : 0] * box.size[v];
+        corners[i] = point(pose * corner);
+      }
+      for (const std::size_t i : {0U, 1U, 2U, 0U, 2U, 3U}) points.push_back(corners[i]);
+    }
+  }
+}
+
+void append_shapes(MarkerArray& array, std::map<std::string, int>& next_id, const Thing& thing,
+                   const Eigen::Isometry3d& pose, const ros::Time& stamp) {
+  const std::string ns = to_string(thing.thing_class);
+  for (const Shape& shape : thing.shapes) {
+    Marker msg = marker(ns, next_id[ns]++, Marker::CUBE, color_of(thing.thing_class), stamp);
+    std::visit(ShapeMarker(msg), shape.geometry);
+    msg.pose = pose_msg(pose * shape.pose);
+    array.markers.push_back(std::move(msg));
+  }
+}
+
+void append_robot(MarkerArray& array, const RobotBody& robot, const ros::Time& stamp) {
+  const auto above = [&](double z) { return pose_msg(robot.pose * Eigen::Translation3d(0, 0, z)); };
+  Marker body = marker("robot", 0, Marker::CYLINDER, kRobot, stamp);
+  body.pose = above(robot.height / 2.0);
+  body.scale.x = body.scale.y = 2.0 * robot.radius;
+  body.scale.z = robot.height;
+  array.markers.push_back(body);
+
+  // An arrow on the lid, its tip over the rim, says where ahead is.
+  Marker nose = marker("robot", 1, Marker::ARROW, kNose, stamp);
+  nose.pose = pose_msg(robot.pose);
+  nose.points = {point({-0.7 * robot.radius, 0.0, robot.height + 0.06}),
+                 point({1.5 * robot.radius, 0.0, robot.height + 0.06})};
+  nose.scale.x = 0.12;  // shaft
+  nose.scale.y = 0.36;  // head
+  nose.scale.z = 0.30;  // head's length
+  array.markers.push_back(nose);
+}
+
+}  // namespace
+
+octomap_msgs::Octomap to_msg(const octomap::OcTree& map, const ros::Time& stamp) {
+  octomap_msgs::Octomap msg;
+  msg.header.frame_id = kFrame;
+  msg.header.stamp = stamp;
+  msg.binary = true;
+  msg.id = map.getTreeType();
+  msg.resolution = map.getResolution();
+  std::ostringstream stream;
+  map.writeBinaryData(stream);
+  const std::string data = stream.str();
+  msg.data.assign(data.begin(), data.end());
+  return msg;
+}
+
+MarkerArray occupied_cells_msg(const octomap::OcTree& map, const ros::Time& stamp) {
+  constexpr Color kVoxel{0.35F, 0.38F, 0.42F};
+  MarkerArray array;
+  for (unsigned depth = 0; depth <= map.getTreeDepth(); ++depth) {
+    Marker msg = marker("map", static_cast<int>(depth), Marker::CUBE_LIST, kVoxel, stamp);
+    msg.scale.x = msg.scale.y = msg.scale.z = map.getNodeSize(depth);
+    msg.action = Marker::DELETE;
+    array.markers.push_back(std::move(msg));
+  }
+  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
+    if (!map.isNodeOccupied(*leaf)) continue;
+    Marker& msg = array.markers[leaf.getDepth()];
+    msg.action = Marker::ADD;
+    msg.points.push_back(point({leaf.getX(), leaf.getY(), leaf.getZ()}));
+  }
+  return array;
+}
+
+MarkerArray scene_msg(const WorldDescription& world, const ros::Time& stamp) {
+  MarkerArray array;
+  std::map<std::string, int> next_id;
+  std::map<ThingClass, Marker> boxes;  // all boxes of a class at once: one thing to draw
+  for (const Thing& thing : world.things) {
+    if (thing.route) continue;
+    Thing others = thing;
+    others.shapes.clear();
+    for (const Shape& shape : thing.shapes) {
+      const Box* box = std::get_if<Box>(&shape.geometry);
+      if (!box) {
+        others.shapes.push_back(shape);
+        continue;
+      }
+      const std::string ns = to_string(thing.thing_class);
+      if (boxes.count(thing.thing_class) == 0)
+        boxes[thing.thing_class] =
+            marker(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color_of(thing.thing_class), stamp);
+      append_box(boxes[thing.thing_class].points, *box, thing.pose * shape.pose);
+    }
+    append_shapes(array, next_id, others, thing.pose, stamp);
+  }
+  for (auto& [thing_class, msg] : boxes) array.markers.push_back(std::move(msg));
+  return array;
+}
+
+MarkerArray moving_scene_msg(const WorldDescription& world, const std::vector<MovingPose>& movers,
+                             const RobotBody& robot, const ros::Time& stamp) {
+  MarkerArray array;
+  std::map<std::string, int> next_id;
+  for (const MovingPose& mover : movers)
+    append_shapes(array, next_id, world.things.at(mover.thing), mover.pose, stamp);
+  append_robot(array, robot, stamp);
+  return array;
+}
+
+}  // namespace navvi_sim
