@@ -1,0 +1,69 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/near_cues.hpp"
+#include "navvi_feedback/phrases.hpp"
+#include "navvi_feedback/route_cues.hpp"
+#include "navvi_feedback/situation.hpp"
+
+namespace navvi_feedback {
+
+struct CuePolicyConfig {
+  double stuck_time = 1.5;       ///< s
+  double stuck_linear = 0.05;    ///< m/s
+  double stuck_angular = 0.1;    ///< rad/s
+  double stuck_repeat = 5.0;     ///< s
+  double blocker_gap = 0.5;      ///< m
+  double state_hold = 0.5;       ///< s
+  double problem_repeat = 15.0;  ///< s
+  double patience = 10.0;        ///< s
+  std::string direction_words = "clock";
+  RouteConfig route;
+  NearConfig near;
+
+  void describe(navvi_config::Visitor& visit);
+  /// direction_words as Phrases takes it.
+  [[nodiscard]] DirectionWords words() const;
+};
+
+/// Decides what is said, and when. Pure: the same situations at the same times give the same cues.
+class CuePolicy {
+ public:
+  CuePolicy(const CuePolicyConfig& config, Phrases phrases);
+
+  /// \param time  s, of a monotonic wall clock, so that a paused simulation is noticed
+  /// \return the cues decided now, most urgent first
+  [[nodiscard]] std::vector<Cue> update(const Situation& now, double time);
+
+ private:
+  using Utterances = std::vector<Utterance>;
+
+  [[nodiscard]] Utterances lost_and_found(const Situation& now, double time);
+  [[nodiscard]] Utterances collisions(const Situation& now);
+  [[nodiscard]] Utterances stuck(const Situation& now, double time);
+  [[nodiscard]] Utterances guidance_state(const Situation& now, double time);
+  [[nodiscard]] Utterances answers(const Situation& now) const;
+  [[nodiscard]] bool follows(const Situation& now) const;
+  [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, double time);
+
+  CuePolicyConfig config_;
+  Phrases phrases_;
+  RouteCues route_;
+  NearCues near_;
+
+  std::optional<double> first_update_;  ///< s
+  std::optional<Situation> last_;
+  std::optional<double> blocked_since_;  ///< s, commanded without moving
+  std::optional<double> stuck_said_;     ///< s
+  std::string problem_;                  ///< what keeps the guidance from leading, as a cue kind
+  double problem_since_ = 0.0;           ///< s
+  std::optional<double> problem_said_;   ///< s
+  std::map<std::string, double> last_said_;
+  std::set<std::string> noticed_;
+};
+
+}  // namespace navvi_feedback
