@@ -1,0 +1,175 @@
+#include "floor_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "navvi_sim/world_error.hpp"
+
+namespace navvi_sim {
+namespace {
+
+constexpr std::size_t kMaxCells = 25'000'000;
+constexpr double kFar = 1e12;  // cells squared
+
+/// Squared distance transform of a row of samples (Felzenszwalb and Huttenlocher, 2012).
+void transform(std::vector<double>& f, std::vector<double>& out, std::vector<std::size_t>& sites,
+               std::vector<double>& borders) {
+  const std::size_t n = f.size();
+  const auto at = [](std::size_t i) { return static_cast<double>(i); };
+  std::size_t k = 0;
+  sites[0] = 0;
+  borders[0] = -kFar;
+  borders[1] = kFar;
+  for (std::size_t q = 1; q < n; ++q) {
+    const auto border = [&] {
+      const std::size_t p = sites[k];
+      return ((f[q] + at(q) * at(q)) - (f[p] + at(p) * at(p))) / (2.0 * (at(q) - at(p)));
+    };
+    double s = border();
+    while (k > 0 && s <= borders[k]) {
+      --k;
+      s = border();
+    }
+    if (s <= borders[k]) s = borders[k];
+    ++k;
+    sites[k] = q;
+    borders[k] = s;
+    borders[k + 1] = kFar;
+  }
+  k = 0;
+  for (std::size_t q = 0; q < n; ++q) {
+    while (borders[k + 1] < at(q)) ++k;
+    const double way = at(q) - at(sites[k]);
+    out[q] = way * way + f[sites[k]];
+  }
+}
+
+}  // namespace
+
+FloorGrid::FloorGrid(const octomap::OcTree& map, double floor_height, double robot_height)
+    : cell_size_(map.getResolution()) {
+  double min_x, min_y, min_z, max_x, max_y, max_z;
+  map.getMetricMin(min_x, min_y, min_z);
+  map.getMetricMax(max_x, max_y, max_z);
+  corner_ = {std::round(min_x / cell_size_) * cell_size_,
+             std::round(min_y / cell_size_) * cell_size_};
+  const double cells_x = std::round((max_x - corner_.x()) / cell_size_);
+  const double cells_y = std::round((max_y - corner_.y()) / cell_size_);
+  if (!(cells_x >= 1.0 && cells_y >= 1.0)) return;
+  if (cells_x * cells_y > static_cast<double>(kMaxCells))
+    throw WorldError("the world covers more than " + std::to_string(kMaxCells) +
+                     " voxels of ground; allowed is a smaller world or a coarser resolution");
+  width_ = static_cast<std::size_t>(cells_x);
+  height_ = static_cast<std::size_t>(cells_y);
+  const double floor = std::round(floor_height / cell_size_) * cell_size_;
+  mark(map, floor, robot_height);
+  measure_clearance();
+}
+
+void FloorGrid::mark(const octomap::OcTree& map, double floor, double headroom) {
+  const double slack = cell_size_ / 4.0;
+  std::vector<bool> blocked(width_ * height_, false);
+  open_.assign(width_ * height_, false);
+  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
+    if (!map.isNodeOccupied(*leaf)) continue;
+    const double half = leaf.getSize() / 2.0;
+    const double top = leaf.getZ() + half;
+    const double bottom = leaf.getZ() - half;
+    const bool is_floor = std::abs(top - floor) <= cell_size_ + slack && top < floor + slack;
+    const bool blocks = top > floor + slack && bottom < floor + headroom;
+    if (!is_floor && !blocks) continue;
+    const auto first = [&](double centre, double corner) {
+      return static_cast<std::size_t>(std::lround((centre - half - corner) / cell_size_));
+    };
+    const auto count = static_cast<std::size_t>(std::lround(leaf.getSize() / cell_size_));
+    const std::size_t x0 = first(leaf.getX(), corner_.x());
+    const std::size_t y0 = first(leaf.getY(), corner_.y());
+    for (std::size_t y = y0; y < std::min(y0 + count, height_); ++y)
+      for (std::size_t x = x0; x < std::min(x0 + count, width_); ++x)
+        (blocks ? blocked : open_)[y * width_ + x] = true;
+  }
+  for (std::size_t i = 0; i < open_.size(); ++i)
+    if (blocked[i]) open_[i] = false;
+}
+
+void FloorGrid::measure_clearance() {
+  // A rim of closed cells around the grid: beyond it there is no floor.
+  const std::size_t w = width_ + 2;
+  const std::size_t h = height_ + 2;
+  std::vector<double> squared(w * h, 0.0);
+  for (std::size_t y = 0; y < height_; ++y)
+    for (std::size_t x = 0; x < width_; ++x)
+      if (open_[y * width_ + x]) squared[(y + 1) * w + x + 1] = kFar / 4.0;
+  const std::size_t longest = std::max(w, h);
+  std::vector<std::size_t> sites(longest);
+  std::vector<double> borders(longest + 1);
+  std::vector<double> line(h);
+  std::vector<double> out(h);
+  for (std::size_t x = 0; x < w; ++x) {
+    for (std::size_t y = 0; y < h; ++y) line[y] = squared[y * w + x];
+    transform(line, out, sites, borders);
+    for (std::size_t y = 0; y < h; ++y) squared[y * w + x] = out[y];
+  }
+  line.resize(w);
+  out.resize(w);
+  clearance_.assign(width_ * height_, 0.0);
+  for (std::size_t y = 1; y + 1 < h; ++y) {
+    for (std::size_t x = 0; x < w; ++x) line[x] = squared[y * w + x];
+    transform(line, out, sites, borders);
+    for (std::size_t x = 1; x + 1 < w; ++x)
+      // To the edge of the closed cell, seen from its side that is the farthest in.
+      clearance_[(y - 1) * width_ + x - 1] =
+          std::max(0.0, (std::sqrt(out[x]) - std::sqrt(0.5)) * cell_size_);
+  }
+}
+
+Eigen::Vector2d FloorGrid::centre(std::size_t cell) const {
+  return corner_ + cell_size_ * Eigen::Vector2d(static_cast<double>(cell % width_) + 0.5,
+                                                static_cast<double>(cell / width_) + 0.5);
+}
+
+std::size_t FloorGrid::cell_at(const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d index = ((point - corner_) / cell_size_).array().floor();
+  if (!(index.x() >= 0.0 && index.y() >= 0.0 && index.x() < static_cast<double>(width_) &&
+        index.y() < static_cast<double>(height_)))
+    return kNone;
+  return static_cast<std::size_t>(index.y()) * width_ + static_cast<std::size_t>(index.x());
+}
+
+FloorGrid::Ways FloorGrid::ways_from(std::size_t start, double least) const {
+  Ways ways{std::vector<float>(size(), std::numeric_limits<float>::infinity()),
+            std::vector<std::size_t>(size(), kNone)};
+  using Entry = std::pair<float, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  ways.length[start] = 0.0F;
+  open.push({0.0F, start});
+  const auto straight = static_cast<float>(cell_size_);
+  const float diagonal = straight * std::sqrt(2.0F);
+  while (!open.empty()) {
+    const auto [length, cell] = open.top();
+    open.pop();
+    if (length > ways.length[cell]) continue;
+    const auto x = static_cast<long>(cell % width_);
+    const auto y = static_cast<long>(cell / width_);
+    for (long dy = -1; dy <= 1; ++dy)
+      for (long dx = -1; dx <= 1; ++dx) {
+        const long nx = x + dx;
+        const long ny = y + dy;
+        if (nx < 0 || ny < 0 || nx >= static_cast<long>(width_) || ny >= static_cast<long>(height_))
+          continue;
+        const std::size_t next =
+            static_cast<std::size_t>(ny) * width_ + static_cast<std::size_t>(nx);
+        const float longer = length + (dx != 0 && dy != 0 ? diagonal : straight);
+        if (clearance_[next] < least || longer >= ways.length[next]) continue;
+        ways.length[next] = longer;
+        ways.before[next] = cell;
+        open.push({longer, next});
+      }
+  }
+  return ways;
+}
+
+}  // namespace navvi_sim

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <octomap/OcTree.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace navvi_sim {
+
+/// An OctoMap seen from above: where there is floor with headroom, and how far each place is from
+/// where there is none.
+class FloorGrid {
+ public:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  /// \param floor_height  m; taken to the nearest border of voxels
+  /// \param robot_height  m, headroom
+  FloorGrid(const octomap::OcTree& map, double floor_height, double robot_height);
+
+  [[nodiscard]] std::size_t size() const { return clearance_.size(); }
+  [[nodiscard]] double cell_size() const { return cell_size_; }  ///< m
+  [[nodiscard]] Eigen::Vector2d centre(std::size_t cell) const;  ///< m, in map
+  /// The cell that holds a point of map, or kNone outside of the grid.
+  [[nodiscard]] std::size_t cell_at(const Eigen::Vector2d& point) const;
+  /// m, from the cell's centre to the nearest edge of a cell that is blocked or has no floor; 0 for
+  /// such a cell.
+  [[nodiscard]] double clearance(std::size_t cell) const { return clearance_[cell]; }
+
+  /// Shortest ways over cells with a clearance of `least` or more (and `start` itself), in steps
+  /// to the 8 neighbours.
+  struct Ways {
+    std::vector<float> length;        ///< m, from the start; infinite where no way leads
+    std::vector<std::size_t> before;  ///< the cell before this one on the way, kNone for the start
+  };
+  [[nodiscard]] Ways ways_from(std::size_t start, double least) const;
+
+ private:
+  void mark(const octomap::OcTree& map, double floor, double headroom);
+  void measure_clearance();
+
+  double cell_size_;
+  Eigen::Vector2d corner_;  ///< m, lower left
+  std::size_t width_ = 0;   ///< cells along x
+  std::size_t height_ = 0;  ///< cells along y
+  std::vector<bool> open_;
+  std::vector<double> clearance_;
+};
+
+}  // namespace navvi_sim

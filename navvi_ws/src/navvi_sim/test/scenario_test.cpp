@@ -1,0 +1,130 @@
+#include "navvi_sim/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "navvi_sim/occupancy.hpp"
+
+namespace navvi_sim {
+namespace {
+
+Thing thing(const std::string& name, ThingClass thing_class, const Eigen::Vector3d& centre,
+            const Eigen::Vector3d& size) {
+  Thing result;
+  result.name = name;
+  result.thing_class = thing_class;
+  result.pose.translation() = centre;
+  result.shapes.push_back({Box{size}, Eigen::Isometry3d::Identity()});
+  return result;
+}
+
+/// 16 x 8 m of floor, cut in two by a wall at x = 0 with a door of `door` m at its southern end.
+WorldDescription two_rooms(double door) {
+  WorldDescription world;
+  world.name = "two rooms";
+  world.things.push_back(thing("ground", ThingClass::floor, {0.0, 0.0, -0.05}, {16.0, 8.0, 0.1}));
+  world.things.push_back(
+      thing("wall", ThingClass::wall, {0.0, door / 2.0, 1.0}, {0.2, 8.0 - door, 2.0}));
+  return world;
+}
+
+class ScenarioIn : public testing::Test {
+ protected:
+  void enter(WorldDescription world) {
+    world_ = std::move(world);
+    map_ = std::make_unique<octomap::OcTree>(occupancy_of(world_, OccupancyConfig{}));
+  }
+  Scenario draw(std::uint64_t seed, const std::optional<FloorPose>& start = std::nullopt,
+                const std::optional<Eigen::Vector2d>& goal = std::nullopt) {
+    return draw_scenario(world_, *map_, ScenarioConfig{}, seed, start, goal);
+  }
+  WorldDescription world_;
+  std::unique_ptr<octomap::OcTree> map_;
+};
+
+TEST_F(ScenarioIn, is_the_same_for_the_same_seed_and_another_for_another) {
+  enter(two_rooms(2.0));
+  const Scenario one = draw(7);
+  const Scenario again = draw(7);
+  const Scenario other = draw(8);
+  EXPECT_EQ(one.start.x, again.start.x);
+  EXPECT_EQ(one.start.yaw, again.start.yaw);
+  EXPECT_EQ(one.goal, again.goal);
+  EXPECT_NE(one.goal, other.goal);
+}
+
+TEST_F(ScenarioIn, keeps_clear_of_things_and_goes_far) {
+  enter(two_rooms(2.0));
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_GE(scenario.route_length, 10.0);
+    for (const Eigen::Vector2d& place :
+         {Eigen::Vector2d(scenario.start.x, scenario.start.y), scenario.goal}) {
+      EXPECT_LT(std::abs(place.x()), 8.0 - 0.5 + 0.05);
+      EXPECT_LT(std::abs(place.y()), 4.0 - 0.5 + 0.05);
+      if (place.y() > -2.0) {
+        EXPECT_GT(std::abs(place.x()), 0.1 + 0.5 - 0.05);
+      }
+    }
+  }
+}
+
+TEST_F(ScenarioIn, never_leads_through_a_wall) {
+  enter(two_rooms(0.0));
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_GT(scenario.start.x * scenario.goal.x(), 0.0) << "seed " << seed;
+  }
+}
+
+TEST_F(ScenarioIn, takes_a_given_start_and_goal_as_they_are) {
+  enter(two_rooms(2.0));
+  const Scenario scenario = draw(1, FloorPose{-5.0, 1.0, 0.5}, Eigen::Vector2d(5.0, 1.0));
+  EXPECT_EQ(scenario.start.yaw, 0.5);
+  EXPECT_EQ(scenario.goal, Eigen::Vector2d(5.0, 1.0));
+  EXPECT_GT(scenario.route_length, 10.0);
+}
+
+TEST_F(ScenarioIn, passes_on_a_goal_in_a_wall_and_refuses_a_start_there) {
+  enter(two_rooms(2.0));
+  EXPECT_EQ(draw(1, FloorPose{-5.0, 1.0, 0.0}, Eigen::Vector2d(0.0, 1.0)).route_length, 0.0);
+  EXPECT_EQ(draw(1, std::nullopt, Eigen::Vector2d(0.0, 1.0)).goal, Eigen::Vector2d(0.0, 1.0));
+  for (const FloorPose& start :
+       {FloorPose{0.0, 1.0, 0.0}, FloorPose{0.3, 1.0, 0.0}, FloorPose{50.0, 1.0, 0.0},
+        FloorPose{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0},
+        FloorPose{-5.0, 0.0, std::numeric_limits<double>::infinity()}})
+    EXPECT_THROW(static_cast<void>(draw(1, start)), WorldError) << start.x;
+}
+
+TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
+  WorldDescription world = two_rooms(2.0);
+  Thing mover = thing("mover", ThingClass::forklift, {-4.0, 0.0, 0.5}, {1.0, 1.0, 1.0});
+  mover.route = Route{{{-4.0, 0.0}, {-4.0, 2.0}}, 1.0, 0.0};
+  world.things.push_back(mover);
+  enter(world);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_GE(std::hypot(scenario.start.x + 4.0, scenario.start.y), 2.0);
+  }
+  const Scenario to_east = draw(3, std::nullopt, Eigen::Vector2d(-1.0, 2.0));
+  EXPECT_LT(std::abs(to_east.start.yaw), M_PI);
+}
+
+TEST_F(ScenarioIn, is_refused_where_nothing_is_free) {
+  WorldDescription world;
+  world.name = "full";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {2.0, 2.0, 0.1}));
+  world.things.push_back(thing("block", ThingClass::box, {0, 0, 0.5}, {1.9, 1.9, 1.0}));
+  enter(world);
+  EXPECT_THROW(static_cast<void>(draw(1)), WorldError);
+}
+
+}  // namespace
+}  // namespace navvi_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
