@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace navvi_study {
+
+/// What a listener makes of a spoken sentence.
+struct Instruction {
+  enum class Kind {
+    nothing,     ///< no word for the hands
+    turn,        ///< towards `hour`, then on
+    straight,    ///< on as one goes
+    turn_ahead,  ///< a turn comes in `distance`
+    near,        ///< something is close at `side`
+    bump,        ///< touched or stuck at `side`
+    halt,        ///< hands off
+    arrived
+  };
+  enum class Side { none, left, right, ahead, behind };
+
+  Kind kind = Kind::nothing;
+  int hour = 12;                   ///< 1 to 12
+  std::optional<double> distance;  ///< m
+  Side side = Side::none;
+};
+
+/// Understands English sentences by their words alone.
+[[nodiscard]] Instruction understand(const std::string& text);
+
+}  // namespace navvi_study

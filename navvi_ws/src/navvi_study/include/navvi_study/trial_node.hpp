@@ -1,0 +1,126 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/Cue.h>
+#include <navvi_msgs/DriveState.h>
+#include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/Proximity.h>
+#include <navvi_msgs/Scenario.h>
+#include <ros/ros.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_study/bag_recorder.hpp"
+#include "navvi_study/journal.hpp"
+#include "navvi_study/trial_monitor.hpp"
+
+namespace navvi_study {
+
+struct TrialNodeConfig {
+  std::string out = "trials";
+  double limit = 0.0;
+  std::string operator_kind = "unknown";
+  std::string profile = "default";
+  std::vector<std::string> require;
+  bool once = true;
+  bool record = true;
+  double tail = 4.0;
+  TrialMonitorConfig monitor;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Runs trials one after the other: waits until every part is there, records, sets the goal, keeps
+/// the journal, ends, and writes the results. Everything happens in the thread that spins.
+class TrialNode {
+ public:
+  /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
+  explicit TrialNode(const TrialNodeConfig& config);
+
+  /// Ends a running trial as aborted and closes everything. Takes two seconds at most.
+  void shut_down();
+  /// What the process is to return once ROS has been shut down.
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+ private:
+  enum class Phase { waiting, armed, running, draining, closing, done };
+
+  void subscribe();
+  template <typename Message>
+  void listen(const std::string& topic);
+  template <typename Report>
+  void take(const Report& report);
+  void on_odometry(const nav_msgs::Odometry::ConstPtr& msg);
+  void on_guidance(const navvi_msgs::Guidance::ConstPtr& msg);
+  void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& msg);
+  void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event);
+  void on_scenario(const navvi_msgs::Scenario::ConstPtr& msg);
+
+  void step();
+  void wait();
+  void arm();
+  void try_to_start();
+  void start(const Point2& goal);
+  void watch();
+  void ask_for_goal();
+  void end(const std::string& result, const std::string& reason, std::int64_t stamp);
+  void write_end();
+  void close();
+  void finish();
+  void watch_bag();
+  void leave(int exit_code);
+
+  /// Journals, then publishes. False when the journal is broken.
+  bool record(const Event& event);
+  void write_summary();
+  [[nodiscard]] std::vector<std::string> missing() const;
+  [[nodiscard]] bool active() const {
+    return phase_ == Phase::running || phase_ == Phase::draining;
+  }
+
+  TrialNodeConfig config_;
+  ros::NodeHandle node_;
+  ros::Publisher events_;
+  ros::Publisher goals_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
+
+  TrialMonitor monitor_;
+  Phase phase_ = Phase::waiting;
+  double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
+  double said_ = 0.0;
+  double odometry_seen_ = -1e9;
+  double guidance_seen_ = -1e9;
+  bool has_map_ = false;
+  std::map<std::string, bool> devices_;
+  std::optional<navvi_msgs::Scenario> scenario_;
+  bool scenario_played_ = false;
+
+  std::filesystem::path folder_;
+  std::unique_ptr<Journal> journal_;
+  std::unique_ptr<BagRecorder> recorder_;
+  std::string recorder_name_;
+  bool recorder_listens_ = false;
+  bool bag_bad_ = false;
+  std::uintmax_t bag_size_ = 0;
+  double bag_grew_ = 0.0;
+  Point2 goal_;
+  std::int64_t start_stamp_ = 0;
+  int goal_sent_ = 0;
+  double goal_sent_at_ = 0.0;
+  std::string result_;
+  std::string reason_;
+  std::int64_t end_stamp_ = 0;
+  bool shutting_down_ = false;
+  int exit_code_ = 0;
+};
+
+}  // namespace navvi_study

@@ -1,0 +1,218 @@
+#include "navvi_study/simulated_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_study {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kNeutralAtStart = 1.0;      // s
+constexpr double kPress = 0.15;              // s, a button is held
+constexpr double kBackOff = 0.7;             // s
+constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
+constexpr double kBlindTurn = 3.0;  // m one goes on after "turn now", which tells no distance
+
+/// rad, clockwise, to an hour on the clock face. A listener who hears 1 or 11 when it was 12 before
+/// knows that the edge has just been passed.
+double angle_of(int hour) {
+  if (hour == 1) return 0.35;
+  if (hour == 11) return -0.35;
+  const double angle = hour * kPi / 6.0;
+  return angle > kPi + 1e-9 ? angle - 2.0 * kPi : angle;
+}
+
+}  // namespace
+
+void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"min_reaction", Range{0.0, 5.0}, "s", "quickest from the end of a sentence to the hand"},
+        min_reaction);
+  visit({"max_reaction", Range{0.0, 5.0}, "s", "slowest; not below min_reaction"}, max_reaction);
+  visit({"turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick"}, turn_rate);
+  visit({"full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick"}, full_speed);
+  visit({"gain_error", Range{0.0, 0.5}, "", "standard deviation of how wrong these beliefs are"},
+        gain_error);
+  visit({"turn_error", Range{0.0, 1.0}, "rad", "standard deviation of each turn"}, turn_error);
+  visit({"cruise", Range{0.05, 1.0}, "", "stick on a straight way"}, cruise);
+  visit({"slow", Range{0.05, 1.0}, "", "stick when something is near"}, slow);
+  visit({"patience", Range{1.0, 60.0}, "s", "of silence while driving before asking"}, patience);
+  visit({"idle_patience", Range{0.5, 60.0}, "s", "of silence while waiting before asking"},
+        idle_patience);
+  visit({"strong_rumble", Range{0.0, 1.0}, "", "motors above this on both sides slow the hand"},
+        strong_rumble);
+}
+
+SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed)
+    : config_(config), random_(seed) {
+  std::normal_distribution<double> error(0.0, config_.gain_error);
+  turn_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
+  speed_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
+}
+
+void SimulatedOperator::hear(const HeardSpeech& speech, double time) {
+  if (speech.stage == HeardSpeech::Stage::begins) {
+    hearing_[speech.id] = {speech.text, heading_, odometer_, time};
+  } else if (speech.stage == HeardSpeech::Stage::breaks_off) {
+    hearing_.erase(speech.id);
+  } else {
+    understood(speech.id, time);
+  }
+}
+
+void SimulatedOperator::feel(double left, double right) {
+  left_motor_ = left;
+  right_motor_ = right;
+}
+
+void SimulatedOperator::understood(std::uint32_t id, double time) {
+  const auto found = hearing_.find(id);
+  if (found == hearing_.end()) return;
+  Sentence sentence = found->second;
+  hearing_.erase(found);
+  const double unit = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
+  sentence.time = time + config_.min_reaction +
+                  unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
+  understood_.push_back(sentence);
+  last_news_ = time;
+}
+
+void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction) {
+  const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
+  const double angle = angle_of(instruction.hour);
+  target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
+  turn_speed_ = std::abs(angle) < 0.4 && mode_ == Mode::driving ? config_.slow * 0.5 : 0.0;
+  mode_ = Mode::turning;
+  go_for(sentence, instruction);
+  speed_ = std::min(speed_, config_.slow * 1.25);
+}
+
+void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
+  const double distance = instruction.distance.value_or(kBlindTurn);
+  const double begun = mode_ == Mode::turning ? odometer_ : sentence.odometer;
+  stop_at_ = std::max(begun + distance, odometer_ + 0.6);
+  speed_ = stop_at_ - odometer_ > 3.0 ? config_.cruise : config_.slow;
+}
+
+void SimulatedOperator::veer(Instruction::Side side, double angle, double until) {
+  if (side != Instruction::Side::left && side != Instruction::Side::right) return;
+  veer_ = side == Instruction::Side::left ? -angle : angle;
+  veer_until_ = until;
+}
+
+void SimulatedOperator::follow(const Sentence& sentence, double time) {
+  const Instruction instruction = understand(sentence.text);
+  switch (instruction.kind) {
+    case Instruction::Kind::nothing:
+      break;
+    case Instruction::Kind::turn:
+      turn_to(sentence, instruction);
+      break;
+    case Instruction::Kind::straight:
+      target_ = sentence.heading;
+      turn_speed_ = 0.0;
+      mode_ = std::abs(target_ - heading_) > 0.1 ? Mode::turning : Mode::driving;
+      go_for(sentence, instruction);
+      break;
+    case Instruction::Kind::turn_ahead:
+      if (mode_ == Mode::driving) {
+        stop_at_ = sentence.odometer + instruction.distance.value_or(kBlindTurn);
+        if (stop_at_ - odometer_ < 3.0) speed_ = std::min(speed_, config_.slow);
+      }
+      break;
+    case Instruction::Kind::near:
+      speed_ = std::min(speed_, config_.slow);
+      veer(instruction.side, 0.1, time + 1.5);
+      break;
+    case Instruction::Kind::bump:
+      mode_ = instruction.side == Instruction::Side::behind ? Mode::waiting : Mode::backing;
+      back_until_ = time + kBackOff;
+      target_ = heading_;
+      veer(instruction.side, 0.25, time + 8.0);
+      break;
+    case Instruction::Kind::halt:
+      mode_ = Mode::waiting;
+      break;
+    case Instruction::Kind::arrived:
+      mode_ = Mode::arrived;
+      break;
+  }
+}
+
+StickAndButtons SimulatedOperator::drive(double time) const {
+  StickAndButtons hand;
+  double speed = speed_;
+  if (left_motor_ > config_.strong_rumble && right_motor_ > config_.strong_rumble) {
+    const double excess = (std::min(left_motor_, right_motor_) - config_.strong_rumble) /
+                          std::max(0.05, 1.0 - config_.strong_rumble);
+    speed = std::min(speed, config_.slow * (1.0 - 0.5 * excess));
+  }
+  double aim = target_ + (time < veer_until_ ? veer_ : 0.0);
+  const double lean = left_motor_ - right_motor_;
+  if (std::abs(lean) > config_.strong_rumble) aim += lean > 0.0 ? -0.1 : 0.1;
+  hand.forward = speed;
+  hand.left = std::clamp((aim - heading_) * 1.5, -0.4, 0.4);
+  if (std::abs(aim - heading_) < 0.05) hand.left = 0.0;
+  return hand;
+}
+
+StickAndButtons SimulatedOperator::act(double time, double dt) {
+  StickAndButtons hand;
+  if (mode_ == Mode::turning) {
+    const double error = target_ - heading_;
+    if (std::abs(error) < 0.02) {
+      mode_ = Mode::driving;
+    } else {
+      hand.left = std::clamp(error / (config_.turn_rate * std::max(dt, 1e-3)), -1.0, 1.0);
+      hand.forward = turn_speed_;
+    }
+  }
+  if (mode_ == Mode::driving) {
+    if (odometer_ >= stop_at_)
+      mode_ = Mode::waiting;
+    else
+      hand = drive(time);
+  }
+  if (mode_ == Mode::backing) {
+    hand.forward = -config_.slow;
+    if (time >= back_until_) {
+      mode_ = Mode::waiting;
+      last_news_ = time - config_.idle_patience;
+    }
+  }
+  return hand;
+}
+
+void SimulatedOperator::ask_when_lost(double time) {
+  if (mode_ == Mode::arrived || !hearing_.empty() || !understood_.empty()) return;
+  const double patience = mode_ == Mode::waiting ? config_.idle_patience : config_.patience;
+  if (time - last_news_ >= patience && time - asked_ >= patience + kPress) asked_ = time;
+}
+
+StickAndButtons SimulatedOperator::update(double time, double dt) {
+  if (!started_) {
+    started_ = true;
+    start_ = last_news_ = time;
+  }
+  std::vector<std::uint32_t> over;
+  for (const auto& [id, sentence] : hearing_) {
+    const double length = 1.0 + static_cast<double>(sentence.text.size()) / kCharactersPerSecond;
+    if (time - sentence.time > length) over.push_back(id);
+  }
+  for (const auto id : over) understood(id, time);
+  // What the ear took in first the hand does first, however long either took.
+  while (!understood_.empty() && understood_.front().time <= time) {
+    const Sentence sentence = understood_.front();
+    understood_.erase(understood_.begin());
+    follow(sentence, time);
+  }
+  if (time - start_ < kNeutralAtStart) return {};
+  StickAndButtons hand = act(time, dt);
+  ask_when_lost(time);
+  hand.repeat = time - asked_ < kPress;
+  heading_ += hand.left * config_.turn_rate * dt;
+  odometer_ += hand.forward * config_.full_speed * speed_gain_ * dt;
+  return hand;
+}
+
+}  // namespace navvi_study
