@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <navvi_config/field.hpp>
+#include <navvi_safety/command_gate.hpp>
+#include <vector>
+
+#include "navvi_sim/contact_counter.hpp"
+#include "navvi_sim/mover.hpp"
+#include "navvi_sim/physics.hpp"
+#include "navvi_sim/robot.hpp"
+#include "navvi_sim/scenario.hpp"
+#include "navvi_sim/world_description.hpp"
+
+namespace navvi_sim {
+
+struct WorldConfig {
+  double step = 0.01;    ///< s
+  double ceiling = 2.0;  ///< m above the floor: what begins higher is not near the robot
+  RobotConfig robot;
+  MoversConfig movers;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// A moving thing at one instant. Frame: map.
+struct MoverState {
+  std::size_t thing;         ///< index in WorldDescription::things
+  Eigen::Isometry3d pose;    ///< of the thing's origin
+  double yaw;                ///< rad, its heading
+  Eigen::Vector2d velocity;  ///< m/s
+  double turn_rate;          ///< rad/s, counter-clockwise
+  double radius;             ///< m, horizontal, about the origin, around all its shapes (R-NAV-4)
+  double height;             ///< m, its top above the floor
+};
+
+/// Everything that moves, at one instant. Frame: map.
+struct Snapshot {
+  double time = 0.0;  ///< s since the world began
+  RobotState robot;
+  std::vector<MoverState> movers;      ///< ordered by thing
+  std::vector<ContactEvent> contacts;  ///< begun in the last step
+};
+
+/// One world that lives for one trial. The same description, config, start, seed and commands give
+/// the same states, bit for bit.
+class World {
+ public:
+  enum class Status {
+    running,
+    command_refused,  ///< the command was not finite: nothing happened in this step
+    numeric_failure   ///< a state was not finite: the world has stopped for good
+  };
+
+  /// \param description  valid (validate.hpp)
+  /// \param seed         of the movers' pauses
+  World(const WorldDescription& description, const WorldConfig& config, const FloorPose& start,
+        std::uint64_t seed);
+
+  /// Advances by `config.step`.
+  /// \param command  of base_link; beyond the robot's limits it is held to them
+  [[nodiscard]] Status step(const navvi_safety::Velocity& command,
+                            Braking braking = Braking::normal);
+
+  [[nodiscard]] const Snapshot& now() const { return now_; }
+  /// Each thing but floors within `detection_radius` m of the robot's hull, nearest first, in map.
+  [[nodiscard]] std::vector<NearThing> proximity(double detection_radius) const;
+  /// 64 bits over every state. Equal for equal histories, on one build.
+  [[nodiscard]] std::uint64_t state_hash() const;
+
+ private:
+  void step_movers();
+  [[nodiscard]] bool crushes(std::size_t thing) const;
+  void drive_robot(const navvi_safety::Velocity& command, Braking braking);
+  void take_snapshot();
+  [[nodiscard]] bool finite() const;
+
+  WorldConfig config_;
+  double floor_height_;
+  std::vector<Thing> things_;
+  std::vector<Mover> movers_;
+  Physics physics_;
+  ContactCounter contacts_;
+  std::vector<Touch> touches_;
+  Snapshot now_;
+  std::uint64_t steps_ = 0;
+  double speed_before_ = 0.0;  ///< m/s, one step earlier than now_
+  bool failed_ = false;
+};
+
+}  // namespace navvi_sim
