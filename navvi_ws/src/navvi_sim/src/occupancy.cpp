@@ -18,104 +18,121 @@ constexpr unsigned kDepth = 16;  // of octomap's trees
 /// whatever its size.
 class Filler {
  public:
-  explicit Filler(octomap::OcTree& tree) : tree_(tree) {
-    // octomap makes a root only with a first voxel.
-    const octomap::OcTreeKey any(32768, 32768, 32768);
-    tree_.updateNode(any, true);
-    tree_.deleteNode(any);
-    root_ = {Eigen::Vector3d::Zero(), tree_.getNodeSize(0) / 2.0};
-  }
+  explicit Filler(octomap::OcTree& tree) : tree_(tree) {}
 
   /// \param thickness  m, the least extent of the solid
   template <typename Solid>
   void fill(const Solid& solid, double thickness) {
     const double shrink = std::min(kReach * tree_.getResolution(), thickness / 4.0);
-    fill(solid, shrink, tree_.getRoot(), root_, 0);
+    Branch root = this->root();
+    fill(solid, shrink, root, 0);
   }
 
   void fill(const std::vector<Convex>& triangles) {
     std::vector<std::size_t> all(triangles.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    fill(triangles, all, tree_.getRoot(), root_, 0);
+    Branch root = this->root();
+    fill(triangles, all, root, 0);
   }
 
  private:
-  [[nodiscard]] static Cell octant(const Cell& cell, unsigned i) {
-    const double half = cell.half / 2.0;
-    return {cell.centre + Eigen::Vector3d((i & 1U) ? half : -half, (i & 2U) ? half : -half,
-                                          (i & 4U) ? half : -half),
-            half};
+  using Node = octomap::OcTreeNode;
+
+  /// A cell of the tree, whose node may not be there yet: octomap cannot take away a node again
+  /// once it had children, so nodes grow only when something is put in.
+  struct Branch {
+    Branch* parent;
+    unsigned index;  ///< among the parent's children
+    Cell cell;
+    Node* node;
+  };
+
+  [[nodiscard]] Branch root() const {
+    return {nullptr, 0, {Eigen::Vector3d::Zero(), tree_.getNodeSize(0) / 2.0}, tree_.getRoot()};
   }
-  [[nodiscard]] bool is_full(const octomap::OcTreeNode* node) const {
-    return !tree_.nodeHasChildren(node) && tree_.isNodeOccupied(node) && node->getLogOdds() > 0.0F;
+  [[nodiscard]] Branch child(Branch& parent, unsigned i) const {
+    const double half = parent.cell.half / 2.0;
+    const Eigen::Vector3d step((i & 1U) ? half : -half, (i & 2U) ? half : -half,
+                               (i & 4U) ? half : -half);
+    const bool exists = parent.node != nullptr && tree_.nodeChildExists(parent.node, i);
+    return {&parent,
+            i,
+            {parent.cell.centre + step, half},
+            exists ? tree_.getNodeChild(parent.node, i) : nullptr};
   }
-  void set_full(octomap::OcTreeNode* node) {
-    for (unsigned i = 0; i < 8; ++i)
-      if (tree_.nodeChildExists(node, i)) clear_child(node, i);
-    node->setLogOdds(tree_.getClampingThresMaxLog());
+  [[nodiscard]] bool is_full(const Node* node) const {
+    return node != nullptr && !tree_.nodeHasChildren(node) && node->getLogOdds() > 0.0F;
   }
-  void clear_child(octomap::OcTreeNode* node, unsigned i) {
-    octomap::OcTreeNode* child = tree_.getNodeChild(node, i);
-    for (unsigned j = 0; j < 8; ++j)
-      if (tree_.nodeChildExists(child, j)) clear_child(child, j);
-    tree_.deleteNodeChild(node, i);
-  }
-  /// Calls `go` with the child node, new or not, and takes it away again if it stayed empty.
-  template <typename Go>
-  void into_child(octomap::OcTreeNode* node, unsigned i, const Go& go) {
-    const bool exists = tree_.nodeChildExists(node, i);
-    octomap::OcTreeNode* child =
-        exists ? tree_.getNodeChild(node, i) : tree_.createNodeChild(node, i);
-    if (!exists && tree_.size() > kMaxNodes)
+
+  Node* grow_child(Node* node, unsigned i) {
+    if (tree_.nodeChildExists(node, i)) return tree_.getNodeChild(node, i);
+    if (tree_.size() >= kMaxNodes)
       throw WorldError("the OctoMap of this world comes to more than " + std::to_string(kMaxNodes) +
                        " nodes; allowed is a smaller world or a coarser resolution than " +
                        std::to_string(tree_.getResolution()) + " m");
-    go(child);
-    if (!tree_.nodeHasChildren(child) && !is_full(child)) tree_.deleteNodeChild(node, i);
+    return tree_.createNodeChild(node, i);
+  }
+  Node* grow(Branch& branch) {
+    if (branch.node == nullptr) {
+      Node* parent = grow(*branch.parent);
+      branch.node = grow_child(parent, branch.index);
+    }
+    return branch.node;
+  }
+  void set_full(Node* node) {
+    if (tree_.nodeHasChildren(node)) {
+      for (unsigned i = 0; i < 8; ++i) set_full(grow_child(node, i));
+      tree_.pruneNode(node);
+    }
+    node->setLogOdds(tree_.getClampingThresMaxLog());
+  }
+  void set_full(Branch& branch) {
+    if (tree_.getRoot() == nullptr) {
+      // octomap makes a root only with a first voxel.
+      const Eigen::Vector3d& c = branch.cell.centre;
+      tree_.updateNode(c.x(), c.y(), c.z(), true);
+      for (Branch* up = &branch; up != nullptr; up = up->parent)
+        if (up->parent == nullptr) up->node = tree_.getRoot();
+    }
+    set_full(grow(branch));
   }
 
   template <typename Solid>
-  void fill(const Solid& solid, double shrink, octomap::OcTreeNode* node, const Cell& cell,
-            unsigned depth) {
-    if (is_full(node)) return;
+  void fill(const Solid& solid, double shrink, Branch& branch, unsigned depth) {
+    if (is_full(branch.node)) return;
+    const bool leaf = depth + 1 == kDepth;
     for (unsigned i = 0; i < 8; ++i) {
-      Cell child_cell = octant(cell, i);
-      const bool leaf = depth + 1 == kDepth;
-      if (leaf) child_cell.half -= shrink;
-      const Overlap overlap = solid.overlap(child_cell);
+      Branch inner = child(branch, i);
+      if (leaf) inner.cell.half -= shrink;
+      const Overlap overlap = solid.overlap(inner.cell);
       if (overlap == Overlap::none) continue;
-      into_child(node, i, [&](octomap::OcTreeNode* child) {
-        if (leaf || overlap == Overlap::full)
-          set_full(child);
-        else
-          fill(solid, shrink, child, child_cell, depth + 1);
-      });
+      if (leaf || overlap == Overlap::full)
+        set_full(inner);
+      else
+        fill(solid, shrink, inner, depth + 1);
     }
-    tree_.pruneNode(node);
+    if (branch.node != nullptr) tree_.pruneNode(branch.node);
   }
 
   void fill(const std::vector<Convex>& triangles, const std::vector<std::size_t>& candidates,
-            octomap::OcTreeNode* node, const Cell& cell, unsigned depth) {
-    if (is_full(node)) return;
+            Branch& branch, unsigned depth) {
+    if (is_full(branch.node)) return;
     std::vector<std::size_t> inside;
     for (unsigned i = 0; i < 8; ++i) {
-      const Cell child_cell = octant(cell, i);
+      Branch inner = child(branch, i);
       inside.clear();
       for (const std::size_t candidate : candidates)
-        if (triangles[candidate].overlap(child_cell) != Overlap::none) inside.push_back(candidate);
+        if (triangles[candidate].overlap(inner.cell) != Overlap::none) inside.push_back(candidate);
       if (inside.empty()) continue;
-      into_child(node, i, [&](octomap::OcTreeNode* child) {
-        if (depth + 1 == kDepth)
-          set_full(child);
-        else
-          fill(triangles, inside, child, child_cell, depth + 1);
-      });
+      if (depth + 1 == kDepth)
+        set_full(inner);
+      else
+        fill(triangles, inside, inner, depth + 1);
     }
-    tree_.pruneNode(node);
+    if (branch.node != nullptr) tree_.pruneNode(branch.node);
   }
 
   octomap::OcTree& tree_;
-  Cell root_;
 };
 
 /// Puts one shape of any kind into the tree.
