@@ -17,8 +17,8 @@ struct RobotConfig {
   double deceleration = 2.0;   ///< m/s^2
   double max_turn_rate = 1.5;  ///< rad/s
   double angular_acceleration = 4.0;  ///< rad/s^2, to faster and to slower turning
-  double brake = 20.0;                ///< m/s^2, when the last stage stops the wheels
-  double angular_brake = 40.0;        ///< rad/s^2, likewise
+  double brake = 30.0;                ///< m/s^2, when the last stage stops the wheels
+  double angular_brake = 60.0;        ///< rad/s^2, likewise
 
   void describe(navvi_config::Visitor& visit);
 };

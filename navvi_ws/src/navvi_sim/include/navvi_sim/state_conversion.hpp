@@ -1,0 +1,53 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/Obstacles.h>
+#include <navvi_msgs/Proximity.h>
+#include <navvi_msgs/Scenario.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "navvi_sim/msg_conversion.hpp"
+#include "navvi_sim/scenario.hpp"
+#include "navvi_sim/world.hpp"
+
+namespace navvi_sim {
+
+/// odom -> base_link, the pose at floor height, the twist in base_link.
+[[nodiscard]] nav_msgs::Odometry odometry_msg(const RobotState& robot, double floor_height,
+                                              const ros::Time& stamp);
+/// odom -> base_link
+[[nodiscard]] geometry_msgs::TransformStamped base_link_msg(const RobotState& robot,
+                                                            double floor_height,
+                                                            const ros::Time& stamp);
+/// map -> odom: identity, for the simulator's odometry does not drift.
+[[nodiscard]] geometry_msgs::TransformStamped odom_msg(const ros::Time& stamp);
+
+/// Every moving thing as a cylinder on the floor, in map.
+[[nodiscard]] navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world,
+                                                  const Snapshot& now, const ros::Time& stamp);
+
+/// `things` of World::proximity, taken over to base_link.
+[[nodiscard]] navvi_msgs::Proximity proximity_msg(const WorldDescription& world,
+                                                  const RobotState& robot,
+                                                  const std::vector<NearThing>& things,
+                                                  double detection_radius, const ros::Time& stamp);
+
+[[nodiscard]] navvi_msgs::Contact contact_msg(const WorldDescription& world,
+                                              const RobotState& robot, const ContactEvent& contact,
+                                              const ros::Time& stamp);
+
+[[nodiscard]] navvi_msgs::Scenario scenario_msg(const WorldDescription& world,
+                                                const std::string& world_hash, std::uint64_t seed,
+                                                const Scenario& scenario, const ros::Time& stamp);
+
+/// What moving_scene_msg draws.
+[[nodiscard]] std::vector<MovingPose> moving_poses(const Snapshot& now);
+[[nodiscard]] RobotBody robot_body(const RobotState& robot, const RobotConfig& config,
+                                   double floor_height);
+
+}  // namespace navvi_sim

@@ -1,0 +1,228 @@
+// The simulator: a world that lives in step with the wall clock, driven by cmd_vel.
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <csignal>
+#include <map>
+#include <navvi_config/ros_parameters.hpp>
+#include <navvi_safety/msg_conversion.hpp>
+
+#include "navvi_sim/pacer.hpp"
+#include "navvi_sim/sim_node_config.hpp"
+#include "navvi_sim/state_conversion.hpp"
+#include "navvi_sim/world_hash.hpp"
+#include "navvi_sim/world_source.hpp"
+
+namespace navvi_sim {
+namespace {
+
+constexpr double kTick = 0.005;          // s, wall clock; shorter than a step, for an even pace
+constexpr double kProximityRate = 50.0;  // Hz, simulated
+constexpr double kObstaclesRate = 20.0;  // Hz, simulated
+
+/// True once every 1 / `rate` s, at a fixed step.
+bool is_due(std::uint64_t steps, double step, double rate) {
+  const auto every = static_cast<std::uint64_t>(std::max(1L, std::lround(1.0 / (rate * step))));
+  return steps % every == 0;
+}
+
+class SimNode {
+ public:
+  SimNode(const SimNodeConfig& config, LoadedWorld loaded);
+
+  /// The exit code of the process.
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+ private:
+  void advertise();
+  void publish_what_stands(const octomap::OcTree& map, const Scenario& scenario);
+  void tell_what_there_is(const std::vector<std::string>& notes, const Scenario& scenario) const;
+  void receive(const geometry_msgs::Twist::ConstPtr& msg);
+  void tick(const ros::WallTimerEvent& event);
+  [[nodiscard]] bool step();
+  void publish_state();
+  void publish_drive_state();
+  [[nodiscard]] ros::Time stamp() const { return ros::Time(world_->now().time); }
+  /// The gate is told simulated time by the world itself, not by a clock that lags behind it.
+  [[nodiscard]] navvi_safety::Instant instant() const {
+    return {ros::SteadyTime::now().toSec(), world_->now().time};
+  }
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue commands_queue_;
+  SimNodeConfig config_;
+  WorldDescription description_;
+  std::optional<World> world_;
+  navvi_safety::CommandGate gate_;
+  Pacer pacer_;
+  std::uint64_t steps_ = 0;
+  int exit_code_ = 0;
+  std::optional<navvi_msgs::DriveState> drive_state_;
+
+  ros::Publisher clock_, odom_, octomap_, cells_, scene_, moving_, obstacles_, proximity_,
+      contacts_, scenario_, drive_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  ros::Subscriber commands_;
+  ros::WallTimer timer_;
+};
+
+SimNode::SimNode(const SimNodeConfig& config, LoadedWorld loaded)
+    : config_(config),
+      description_(std::move(loaded.world)),
+      gate_(config.gate),
+      pacer_(config.life.step, config.rate, config.max_catch_up) {
+  const auto seed = static_cast<std::uint64_t>(config_.seed);
+  const octomap::OcTree map = occupancy_of(description_, config_.octomap);
+  ScenarioConfig drawing;
+  drawing.robot_radius = config_.life.robot.radius;
+  const Scenario scenario =
+      draw_scenario(description_, map, drawing, seed, config_.start_pose(), config_.goal_point());
+  world_.emplace(description_, config_.life, scenario.start, seed);
+
+  advertise();
+  tell_what_there_is(loaded.notes, scenario);
+  publish_what_stands(map, scenario);
+  publish_drive_state();
+
+  ros::SubscribeOptions commands = ros::SubscribeOptions::create<geometry_msgs::Twist>(
+      "cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) { receive(msg); },
+      ros::VoidPtr(), &commands_queue_);
+  commands.transport_hints = ros::TransportHints().tcpNoDelay();
+  commands_ = node_.subscribe(commands);
+  timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
+}
+
+void SimNode::advertise() {
+  clock_ = node_.advertise<rosgraph_msgs::Clock>("clock", 10);
+  odom_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
+  octomap_ = node_.advertise<octomap_msgs::Octomap>("octomap_binary", 1, true);
+  cells_ = node_.advertise<visualization_msgs::MarkerArray>("occupied_cells_vis_array", 1, true);
+  scene_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene", 1, true);
+  moving_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene_moving", 1);
+  obstacles_ = node_.advertise<navvi_msgs::Obstacles>("navvi/obstacles", 2);
+  proximity_ = node_.advertise<navvi_msgs::Proximity>("navvi/proximity", 2);
+  contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
+  scenario_ = node_.advertise<navvi_msgs::Scenario>("navvi/scenario", 1, true);
+  drive_ = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
+}
+
+void SimNode::publish_what_stands(const octomap::OcTree& map, const Scenario& scenario) {
+  static_transforms_.sendTransform(odom_msg(stamp()));
+  octomap_.publish(to_msg(map, stamp()));
+  cells_.publish(occupied_cells_msg(map, stamp()));
+  scene_.publish(scene_msg(description_, stamp()));
+  scenario_.publish(scenario_msg(description_, world_hash(description_),
+                                 static_cast<std::uint64_t>(config_.seed), scenario, stamp()));
+}
+
+void SimNode::tell_what_there_is(const std::vector<std::string>& notes,
+                                 const Scenario& scenario) const {
+  for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
+  std::map<std::string, int> standing, moving;
+  for (const Thing& thing : description_.things)
+    ++(thing.route ? moving : standing)[to_string(thing.thing_class)];
+  ROS_INFO("world %s, floor at z = %.3f m", description_.name.c_str(), description_.floor_height);
+  for (const auto& [thing_class, count] : standing)
+    ROS_INFO("  %4d %s standing", count, thing_class.c_str());
+  for (const auto& [thing_class, count] : moving)
+    ROS_INFO("  %4d %s on routes", count, thing_class.c_str());
+  ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.x, scenario.start.y,
+           scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
+}
+
+void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
+  const unsigned before = gate_.rejected();
+  gate_.receive(navvi_safety::from_msg(*msg), instant());
+  if (gate_.rejected() != before)
+    ROS_WARN_THROTTLE(1.0, "cmd_vel: %u commands rejected, not finite or absurdly large",
+                      gate_.rejected());
+}
+
+void SimNode::tick(const ros::WallTimerEvent&) {
+  const int due = pacer_.due(ros::SteadyTime::now().toSec());
+  const long dropped = pacer_.dropped();
+  for (int i = 0; i < due; ++i) {
+    // Commands that came while this process was held up must count before their age does.
+    commands_queue_.callAvailable();
+    if (!step()) return;
+  }
+  if (due == config_.max_catch_up && dropped > 0)
+    ROS_WARN_THROTTLE(5.0, "the simulation is slower than asked for: %ld steps let go so far",
+                      dropped);
+}
+
+bool SimNode::step() {
+  const navvi_safety::Velocity wheels = gate_.update(instant());
+  const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
+  const World::Status status = world_->step(wheels, running ? Braking::normal : Braking::emergency);
+  if (status != World::Status::running) {
+    ROS_FATAL("the simulation has stopped at %.2f s: a number in it is not finite",
+              world_->now().time);
+    exit_code_ = 3;
+    timer_.stop();
+    ros::requestShutdown();
+    return false;
+  }
+  ++steps_;
+  publish_state();
+  publish_drive_state();
+  return true;
+}
+
+void SimNode::publish_state() {
+  const Snapshot& now = world_->now();
+  const double floor = description_.floor_height;
+  const double dt = config_.life.step;
+  rosgraph_msgs::Clock clock;
+  clock.clock = stamp();
+  clock_.publish(clock);
+  transforms_.sendTransform(base_link_msg(now.robot, floor, stamp()));
+  odom_.publish(odometry_msg(now.robot, floor, stamp()));
+  for (const ContactEvent& contact : now.contacts)
+    contacts_.publish(contact_msg(description_, now.robot, contact, stamp()));
+  if (is_due(steps_, dt, kProximityRate)) {
+    proximity_.publish(proximity_msg(description_, now.robot,
+                                     world_->proximity(config_.detection_radius),
+                                     config_.detection_radius, stamp()));
+  }
+  if (is_due(steps_, dt, kObstaclesRate)) {
+    obstacles_.publish(obstacles_msg(description_, now, stamp()));
+    moving_.publish(moving_scene_msg(description_, moving_poses(now),
+                                     robot_body(now.robot, config_.life.robot, floor), stamp()));
+  }
+}
+
+void SimNode::publish_drive_state() {
+  const navvi_msgs::DriveState msg = navvi_safety::state_msg(gate_, stamp());
+  if (drive_state_ && drive_state_->state == msg.state && drive_state_->reason == msg.reason &&
+      drive_state_->rejected == msg.rejected)
+    return;
+  drive_.publish(msg);
+  drive_state_ = msg;
+}
+
+}  // namespace
+}  // namespace navvi_sim
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "sim_node");
+  ros::NodeHandle node;
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  try {
+    const auto config = navvi_config::load<navvi_sim::SimNodeConfig>(ros::NodeHandle("~"));
+    navvi_sim::SimNode sim(
+        config, navvi_sim::load_world(config.world, config.models,
+                                      static_cast<std::uint64_t>(config.seed), config.warehouse));
+    ros::spin();
+    return sim.exit_code();
+  } catch (const std::exception& error) {
+    // ConfigError and WorldError: sentences for whoever chose the world and the parameters.
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+}

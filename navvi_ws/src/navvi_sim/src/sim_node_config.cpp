@@ -1,0 +1,72 @@
+#include "navvi_sim/sim_node_config.hpp"
+
+#include <cmath>
+#include <limits>
+#include <navvi_config/reader.hpp>
+#include <sstream>
+#include <vector>
+
+namespace navvi_sim {
+namespace {
+
+/// The numbers of a list such as "1,-9,1.57".
+std::vector<double> numbers(const std::string& list, std::size_t count, const std::string& key,
+                            const std::string& form) {
+  const navvi_config::ConfigError error(key + ": \"" + list + "\" is not of the form " + form +
+                                        " with finite numbers");
+  std::vector<double> values;
+  std::stringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) {
+    std::size_t used = 0;
+    try {
+      values.push_back(std::stod(item, &used));
+    } catch (const std::exception&) {
+      throw error;
+    }
+    if (item.find_first_not_of(" \t", used) != std::string::npos || !std::isfinite(values.back()))
+      throw error;
+  }
+  if (values.size() != count || list.back() == ',') throw error;
+  return values;
+}
+
+}  // namespace
+
+void SimNodeConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Any;
+  using navvi_config::Range;
+  visit({"world", Any{}, "", "warehouse, or the path of a .yaml, .sdf or .world file"}, world);
+  visit({"models", Any{}, "",
+         "folders for SDF's model://, separated by colons; those beside the world are always "
+         "searched"},
+        models);
+  visit({"seed", Range{0, std::numeric_limits<int>::max()}, "",
+         "draws the world's fill, the movers' pauses, and start and goal where not given"},
+        seed);
+  visit({"start", Any{}, "m, m, rad", "x,y,yaw of the robot; empty: drawn from the seed"}, start);
+  visit({"goal", Any{}, "m, m", "x,y of the goal; empty: drawn from the seed"}, goal);
+  visit({"rate", Range{0.05, 50.0}, "", "simulated seconds per second of wall time"}, rate);
+  visit({"max_catch_up", Range{1, 1000}, "",
+         "most steps at once after a delay; beyond it the simulation slows down"},
+        max_catch_up);
+  visit({"detection_radius", Range{0.5, 20.0}, "m", "gap up to which things are reported as near"},
+        detection_radius);
+  life.describe(visit);
+  warehouse.describe(visit);
+  visit.group("octomap", octomap);
+  visit.group("gate", gate);
+}
+
+std::optional<FloorPose> SimNodeConfig::start_pose() const {
+  if (start.empty()) return std::nullopt;
+  const auto values = numbers(start, 3, "start", "x,y,yaw");
+  return FloorPose{values[0], values[1], values[2]};
+}
+
+std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
+  if (goal.empty()) return std::nullopt;
+  const auto values = numbers(goal, 2, "goal", "x,y");
+  return Eigen::Vector2d(values[0], values[1]);
+}
+
+}  // namespace navvi_sim

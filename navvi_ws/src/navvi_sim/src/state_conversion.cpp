@@ -1,0 +1,159 @@
+#include "navvi_sim/state_conversion.hpp"
+
+#include <cmath>
+
+namespace navvi_sim {
+namespace {
+
+std_msgs::Header header(const char* frame, const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.frame_id = frame;
+  header.stamp = stamp;
+  return header;
+}
+
+geometry_msgs::Pose pose_msg(const Eigen::Vector2d& position, double z, double yaw) {
+  geometry_msgs::Pose pose;
+  pose.position.x = position.x();
+  pose.position.y = position.y();
+  pose.position.z = z;
+  pose.orientation.z = std::sin(0.5 * yaw);
+  pose.orientation.w = std::cos(0.5 * yaw);
+  return pose;
+}
+
+geometry_msgs::Point point_msg(const Eigen::Vector3d& point) {
+  geometry_msgs::Point msg;
+  msg.x = point.x();
+  msg.y = point.y();
+  msg.z = point.z();
+  return msg;
+}
+
+}  // namespace
+
+nav_msgs::Odometry odometry_msg(const RobotState& robot, double floor_height,
+                                const ros::Time& stamp) {
+  nav_msgs::Odometry msg;
+  msg.header = header("odom", stamp);
+  msg.child_frame_id = "base_link";
+  msg.pose.pose = pose_msg(robot.position, floor_height, robot.yaw);
+  msg.twist.twist.linear.x = robot.forward_speed();
+  msg.twist.twist.linear.y = robot.sideways_speed();
+  msg.twist.twist.angular.z = robot.turn_rate;
+  return msg;
+}
+
+geometry_msgs::TransformStamped base_link_msg(const RobotState& robot, double floor_height,
+                                              const ros::Time& stamp) {
+  geometry_msgs::TransformStamped msg;
+  msg.header = header("odom", stamp);
+  msg.child_frame_id = "base_link";
+  const geometry_msgs::Pose pose = pose_msg(robot.position, floor_height, robot.yaw);
+  msg.transform.translation.x = pose.position.x;
+  msg.transform.translation.y = pose.position.y;
+  msg.transform.translation.z = pose.position.z;
+  msg.transform.rotation = pose.orientation;
+  return msg;
+}
+
+geometry_msgs::TransformStamped odom_msg(const ros::Time& stamp) {
+  geometry_msgs::TransformStamped msg;
+  msg.header = header("map", stamp);
+  msg.child_frame_id = "odom";
+  msg.transform.rotation.w = 1.0;
+  return msg;
+}
+
+navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world, const Snapshot& now,
+                                    const ros::Time& stamp) {
+  navvi_msgs::Obstacles msg;
+  msg.header = header("map", stamp);
+  for (const MoverState& mover : now.movers) {
+    navvi_msgs::Obstacle obstacle;
+    obstacle.id = static_cast<std::uint32_t>(mover.thing);
+    obstacle.thing_class = to_string(world.things[mover.thing].thing_class);
+    obstacle.pose = pose_msg(mover.pose.translation().head<2>(), world.floor_height, mover.yaw);
+    obstacle.velocity.x = mover.velocity.x();
+    obstacle.velocity.y = mover.velocity.y();
+    obstacle.radius = mover.radius;
+    obstacle.height = mover.height;
+    msg.obstacles.push_back(obstacle);
+  }
+  return msg;
+}
+
+navvi_msgs::Proximity proximity_msg(const WorldDescription& world, const RobotState& robot,
+                                    const std::vector<NearThing>& things, double detection_radius,
+                                    const ros::Time& stamp) {
+  navvi_msgs::Proximity msg;
+  msg.header = header("base_link", stamp);
+  msg.detection_radius = detection_radius;
+  Eigen::Isometry3d base_link = Eigen::Isometry3d::Identity();
+  base_link.translate(Eigen::Vector3d(robot.position.x(), robot.position.y(), world.floor_height));
+  base_link.rotate(Eigen::AngleAxisd(robot.yaw, Eigen::Vector3d::UnitZ()));
+  for (const NearThing& near : things) {
+    const Thing& thing = world.things[near.thing];
+    navvi_msgs::ProximityThing entry;
+    entry.id = static_cast<std::uint32_t>(near.thing);
+    entry.name = thing.name;
+    entry.thing_class = to_string(thing.thing_class);
+    entry.moving = thing.route.has_value();
+    entry.gap = near.gap;
+    entry.nearest = point_msg(base_link.inverse() * near.nearest);
+    msg.things.push_back(entry);
+  }
+  return msg;
+}
+
+navvi_msgs::Contact contact_msg(const WorldDescription& world, const RobotState& robot,
+                                const ContactEvent& contact, const ros::Time& stamp) {
+  const Thing& thing = world.things[contact.thing];
+  navvi_msgs::Contact msg;
+  msg.header = header("map", stamp);
+  msg.seq = contact.seq;
+  msg.id = static_cast<std::uint32_t>(contact.thing);
+  msg.name = thing.name;
+  msg.thing_class = to_string(thing.thing_class);
+  msg.point = point_msg(contact.point);
+  msg.robot = pose_msg(robot.position, world.floor_height, robot.yaw);
+  msg.speed = contact.speed;
+  for (const auto& [thing_class, count] : contact.counts) {
+    navvi_msgs::ClassCount entry;
+    entry.thing_class = to_string(thing_class);
+    entry.count = count;
+    msg.counts.push_back(entry);
+  }
+  return msg;
+}
+
+navvi_msgs::Scenario scenario_msg(const WorldDescription& world, const std::string& world_hash,
+                                  std::uint64_t seed, const Scenario& scenario,
+                                  const ros::Time& stamp) {
+  navvi_msgs::Scenario msg;
+  msg.header = header("map", stamp);
+  msg.world = world.name;
+  msg.world_hash = world_hash;
+  msg.seed = seed;
+  msg.start =
+      pose_msg({scenario.start.x, scenario.start.y}, world.floor_height, scenario.start.yaw);
+  msg.goal = point_msg(Eigen::Vector3d(scenario.goal.x(), scenario.goal.y(), world.floor_height));
+  return msg;
+}
+
+std::vector<MovingPose> moving_poses(const Snapshot& now) {
+  std::vector<MovingPose> poses;
+  for (const MoverState& mover : now.movers) poses.push_back({mover.thing, mover.pose});
+  return poses;
+}
+
+RobotBody robot_body(const RobotState& robot, const RobotConfig& config, double floor_height) {
+  RobotBody body;
+  body.pose.translate(Eigen::Vector3d(robot.position.x(), robot.position.y(), floor_height));
+  body.pose.rotate(Eigen::AngleAxisd(robot.yaw, Eigen::Vector3d::UnitZ()));
+  body.radius = config.radius;
+  body.height = config.height;
+  return body;
+}
+
+}  // namespace navvi_sim
