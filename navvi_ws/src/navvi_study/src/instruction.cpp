@@ -36,12 +36,13 @@ Instruction understand(const std::string& spoken) {
   heard.side = side_in(text);
   if (says(text, "you have reached")) {
     heard.kind = Kind::arrived;
-  } else if (says(text, "\\b(hit|stuck|touching)\\b")) {
+  } else if (says(text, "\\b(hit|stuck|touching|back away)\\b")) {
     heard.kind = Kind::bump;
+  } else if (says(text,
+                  "\\b(lost|disconnected|stopped|no route|no way|no map|refused|release)\\b")) {
+    heard.kind = Kind::halt;
   } else if (says(text, "\\b(goal|destination)\\b")) {
     // As the crow flies: good to know, but no way to go.
-  } else if (says(text, "\\b(lost|disconnected|stopped|no route|no way|no map|off the)\\b")) {
-    heard.kind = Kind::halt;
   } else if (says(text,
                   "\\b(shelf|wall|box|pedestal|worker|forklift|robot|thing)\\b.*\\b(on the|"
                   "left|right|ahead|behind|front)\\b")) {

@@ -1,6 +1,7 @@
 #include "navvi_study/trial_node.hpp"
 
 #include <navvi_msgs/TrialEvent.h>
+#include <ros/callback_queue.h>
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +22,7 @@ constexpr double kRefuseAfter = 60.0;   // s, without what a trial needs
 constexpr double kFresh = 1.0;          // s, age of a message that still flows
 constexpr double kSimulatorLost = 5.0;  // s, without odometry
 constexpr double kBagStart = 6.0;       // s, for the recorder to listen
-constexpr double kBagSettle = 0.5;      // s, for its other links to come up after that
+constexpr double kSettle = 0.5;         // s, for links to come up before the first event
 constexpr double kBagStill = 3.0;       // s, without growth
 constexpr double kBagClose = 8.0;       // s, for the recorder to close the bag
 constexpr double kDrain = 0.3;          // s, for reports on their way when a trial ends
@@ -277,10 +278,11 @@ void TrialNode::try_to_start() {
     if (!recorder_->running() || (!recorder_listens_ && now - phase_since_ > kBagStart)) {
       ROS_ERROR("The bag recorder does not record. The trial goes on without a bag.");
       bag_bad_ = true;
-    } else if (!recorder_listens_ || now - phase_since_ < kBagSettle) {
+    } else if (!recorder_listens_) {
       return;
     }
   }
+  if (now - phase_since_ < kSettle) return;
   if (scenario_ && !scenario_played_) {
     const auto words = missing();
     if (words.empty()) {
@@ -475,10 +477,13 @@ void TrialNode::shut_down() {
     return leave(0);
   }
   if (phase_ == Phase::running) end("aborted", "stopped_by_signal", monitor_.latest());
-  if (phase_ == Phase::draining) write_end();
   const double begun = wall();
+  while (phase_ == Phase::draining && wall() - begun < kDrain) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  }
+  if (phase_ == Phase::draining) write_end();
   while (phase_ == Phase::closing) {
-    if (recorder_ && wall() - begun > 1.2) recorder_->kill();
+    if (recorder_ && wall() - begun > 1.5) recorder_->kill();
     close();
     ros::WallDuration(0.02).sleep();
   }

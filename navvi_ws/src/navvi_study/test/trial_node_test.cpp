@@ -193,6 +193,7 @@ class World {
 class TrialNodeProcess : public testing::Test {
  protected:
   void SetUp() override {
+    ros::param::del("/trial_node");  // what the last test's command line set
     std::string pattern = (fs::temp_directory_path() / "navvi_trial_XXXXXX").string();
     out_ = ::mkdtemp(pattern.data());
   }
