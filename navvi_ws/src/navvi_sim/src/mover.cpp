@@ -137,26 +137,23 @@ void Mover::step(const Surroundings& around, double dt) {
     pause_left_ -= dt;
     return;
   }
+  if (turning_ && std::abs(course_error()) < kSameCourse) {
+    yaw_ = wrap(yaw_ + course_error());
+    turning_ = false;
+  }
   const Blocked by = blocked(around);
+  if (turning_) {
+    if (by == Blocked::no) turn(dt);
+    return;
+  }
   waited_ = by == Blocked::by_mover && speed_ == 0.0 ? waited_ + dt : 0.0;
   if (waited_ > (around.first.empty() ? 2.0 : 1.0) * config_.patience) {
     backwards_ = !backwards_;
-    advance_target();
     waited_ = 0.0;
-  }
-
-  const Eigen::Vector2d way = route_.waypoints[target_] - position_;
-  const double distance = way.norm();
-  if (distance > 1e-9 && turning_) {
-    const double error = wrap(std::atan2(way.y(), way.x()) - yaw_);
-    if (by == Blocked::by_robot) return;
-    const double turn = std::clamp(error, -config_.turn_rate * dt, config_.turn_rate * dt);
-    yaw_ = wrap(yaw_ + turn);
-    turn_rate_ = turn / dt;
-    turning_ = std::abs(error - turn) > kSameCourse;
-    if (!turning_) yaw_ = std::atan2(way.y(), way.x());
+    advance_target();
     return;
   }
+  const double distance = (route_.waypoints[target_] - position_).norm();
   const double limit =
       by == Blocked::no ? std::min(route_.speed, std::sqrt(2.0 * config_.acceleration * distance))
                         : 0.0;
@@ -188,6 +185,18 @@ bool Mover::in_way(const Disc& disc, double reach) const {
   return std::abs(local.y()) < footprint_.side + disc.radius + kSideMargin &&
          local.x() + disc.radius > footprint_.front &&
          local.x() - disc.radius - footprint_.front < reach;
+}
+
+double Mover::course_error() const {
+  const Eigen::Vector2d way = route_.waypoints[target_] - position_;
+  return way.norm() > 1e-9 ? wrap(std::atan2(way.y(), way.x()) - yaw_) : 0.0;
+}
+
+void Mover::turn(double dt) {
+  const double limit = config_.turn_rate * dt;
+  const double turn = std::clamp(course_error(), -limit, limit);
+  yaw_ = wrap(yaw_ + turn);
+  turn_rate_ = turn / dt;
 }
 
 void Mover::drive(double distance, double dt) {

@@ -78,6 +78,9 @@ class Mover {
 
   [[nodiscard]] Blocked blocked(const Surroundings& around) const;
   [[nodiscard]] bool in_way(const Disc& disc, double reach) const;
+  /// rad, from the heading to the next way-point's direction
+  [[nodiscard]] double course_error() const;
+  void turn(double dt);
   void drive(double distance, double dt);
   void arrive();
   void advance_target();

@@ -1,0 +1,106 @@
+#include "navvi_sim/mover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace navvi_sim {
+namespace {
+
+const Disc kFar{{1000.0, 1000.0}, 0.35};
+
+Thing forklift(const Eigen::Vector2d& at, double yaw, const Route& route) {
+  Thing thing;
+  thing.name = "forklift";
+  thing.thing_class = ThingClass::forklift;
+  thing.pose.translate(Eigen::Vector3d(at.x(), at.y(), 0.0));
+  thing.pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+  thing.shapes.push_back(
+      {Box{{2.0, 1.0, 2.0}}, Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, 1.0))});
+  thing.route = route;
+  return thing;
+}
+
+Mover make(const Thing& thing, bool yield = true) {
+  MoversConfig config;
+  config.yield = yield;
+  return Mover(0, thing, config, 1);
+}
+
+void run(Mover& mover, double seconds, const Mover::Surroundings& around = {kFar, {}, {}, false}) {
+  for (int i = 0; i < static_cast<int>(seconds * 100.0 + 0.5); ++i) mover.step(around, 0.01);
+}
+
+TEST(Footprint, is_measured_about_the_origin) {
+  const Footprint print = footprint_of(forklift({3, 4}, 1.0, {{{0, 0}, {1, 0}}, 1.0, 0.0}),
+                                       Eigen::Quaterniond::Identity());
+  EXPECT_NEAR(print.front, 1.5, 1e-12);
+  EXPECT_NEAR(print.back, 0.5, 1e-12);
+  EXPECT_NEAR(print.side, 0.5, 1e-12);
+  EXPECT_NEAR(print.radius, std::hypot(1.5, 0.5), 1e-12);
+  EXPECT_NEAR(print.top, 2.0, 1e-12);
+}
+
+TEST(Mover, begins_with_the_way_point_after_the_one_it_stands_on) {
+  const Route route{{{0, 0}, {5, 0}, {5, 5}}, 1.0, 0.0};
+  EXPECT_EQ(make(forklift({5, 0}, 0, route)).target(), 2u);
+  EXPECT_EQ(make(forklift({5, 5}, 0, route)).target(), 0u);
+  EXPECT_EQ(make(forklift({2, 0}, 0, route)).target(), 1u);
+  EXPECT_EQ(make(forklift({9, 9}, 0, route)).target(), 0u);
+}
+
+TEST(Mover, turns_no_faster_and_drives_no_faster_than_it_may) {
+  Mover mover = make(forklift({0, 0}, 0, {{{0, 0}, {4, 0}, {4, 3}}, 1.2, 0.3}));
+  double yaw = mover.yaw(), speed = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    mover.step({kFar, {}, {}, false}, 0.01);
+    EXPECT_LE(std::abs(std::remainder(mover.yaw() - yaw, 2 * 3.14159265358979)), 0.01 + 2e-3);
+    EXPECT_LE(mover.speed() - speed, 0.8 * 0.01 + 1e-12);
+    EXPECT_LE(mover.speed(), 1.2);
+    yaw = mover.yaw();
+    speed = mover.speed();
+  }
+}
+
+TEST(Mover, waits_for_the_robot_ahead_as_long_as_it_stands_there_and_no_longer) {
+  Mover mover = make(forklift({0, 0}, 0, {{{0, 0}, {10, 0}}, 1.0, 0.0}));
+  run(mover, 60.0, {{{6.0, 0.0}, 0.35}, {}, {}, false});
+  EXPECT_EQ(mover.speed(), 0.0);
+  EXPECT_LT(mover.position().x() + 1.5, 6.0 - 0.35 - 0.2);
+  EXPECT_EQ(mover.target(), 1u) << "it does not turn back for the robot";
+  run(mover, 3.0);
+  EXPECT_GT(mover.position().x(), 5.0);
+}
+
+TEST(Mover, passes_the_robot_that_stands_beside_its_way_or_behind) {
+  for (const Eigen::Vector2d& robot : {Eigen::Vector2d(5.0, 1.0), Eigen::Vector2d(-1.0, 0.0)}) {
+    Mover mover = make(forklift({0, 0}, 0, {{{0, 0}, {10, 0}}, 1.0, 60.0}));
+    run(mover, 14.0, {{robot, 0.35}, {}, {}, false});
+    EXPECT_NEAR(mover.position().x(), 10.0, 1e-9);
+  }
+}
+
+TEST(Mover, does_not_swing_its_tail_into_the_robot) {
+  Mover mover = make(forklift({0, 0}, 0, {{{0, 0}, {0, 5}}, 1.0, 0.0}));
+  run(mover, 5.0, {{{0.9, 1.2}, 0.35}, {}, {}, false});
+  EXPECT_EQ(mover.yaw(), 0.0);
+  run(mover, 5.0);
+  EXPECT_NEAR(mover.yaw(), 1.5707963, 1e-6);
+}
+
+TEST(Mover, stops_dead_where_it_would_crush_the_robot) {
+  Mover mover = make(forklift({0, 0}, 0, {{{0, 0}, {10, 0}}, 1.0, 0.0}), false);
+  run(mover, 3.0);
+  const Eigen::Vector2d before = mover.position();
+  run(mover, 1.0, {{{3.0, 0.0}, 0.35}, {}, {}, true});
+  EXPECT_EQ(mover.position(), before);
+  EXPECT_EQ(mover.speed(), 0.0);
+}
+
+}  // namespace
+}  // namespace navvi_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,165 @@
+// sim_node from outside: what it says, and that it stops.
+
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/DriveState.h>
+#include <navvi_msgs/Obstacles.h>
+#include <navvi_msgs/Proximity.h>
+#include <navvi_msgs/Scenario.h>
+#include <octomap_msgs/Octomap.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/transform_listener.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace {
+
+constexpr double kPatience = 15.0;  // s, wall clock
+
+/// The last message of a topic, and how many came.
+template <typename Message>
+class Listener {
+ public:
+  explicit Listener(const std::string& topic)
+      : subscriber_(ros::NodeHandle().subscribe(topic, 100, &Listener::receive, this,
+                                                ros::TransportHints().tcpNoDelay())) {}
+  [[nodiscard]] bool any() const { return count_ > 0; }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] const Message& last() const { return *last_; }
+
+ private:
+  void receive(const boost::shared_ptr<Message const>& msg) {
+    last_ = msg;
+    ++count_;
+  }
+  boost::shared_ptr<Message const> last_;
+  int count_ = 0;
+  ros::Subscriber subscriber_;
+};
+
+/// Drives and listens. The wall clock bounds every wait.
+class SimNode : public testing::Test {
+ protected:
+  SimNode() : commands_(ros::NodeHandle().advertise<geometry_msgs::Twist>("cmd_vel", 1)) {}
+
+  bool wait_until(const std::function<bool()>& done, double patience = kPatience) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(patience);
+    while (ros::ok() && ros::WallTime::now() < end) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.005));
+      if (done()) return true;
+    }
+    return false;
+  }
+  /// Sends `linear` at 50 Hz until `done`.
+  bool command_until(double linear, const std::function<bool()>& done) {
+    ros::WallTime next = ros::WallTime::now();
+    return wait_until([&] {
+      if (ros::WallTime::now() >= next) {
+        send(linear);
+        next += ros::WallDuration(0.02);
+      }
+      return done();
+    });
+  }
+  void send(double linear) {
+    geometry_msgs::Twist twist;
+    twist.linear.x = linear;
+    commands_.publish(twist);
+  }
+  bool start_moving() {
+    return command_until(0.0, [&] { return drive_.any() && drive_.last().state == 1; }) &&
+           command_until(0.4, [&] { return speed() > 0.15; });
+  }
+  [[nodiscard]] double speed() const {
+    return odom_.any() ? odom_.last().twist.twist.linear.x : 0.0;
+  }
+
+  ros::Publisher commands_;
+  Listener<nav_msgs::Odometry> odom_{"odom"};
+  Listener<navvi_msgs::DriveState> drive_{"navvi/drive_state"};
+};
+
+TEST_F(SimNode, says_everything_that_the_others_rely_on) {
+  Listener<rosgraph_msgs::Clock> clock("/clock");
+  Listener<octomap_msgs::Octomap> octomap("octomap_binary");
+  Listener<visualization_msgs::MarkerArray> cells("occupied_cells_vis_array");
+  Listener<visualization_msgs::MarkerArray> scene("navvi/scene");
+  Listener<visualization_msgs::MarkerArray> moving("navvi/scene_moving");
+  Listener<navvi_msgs::Obstacles> obstacles("navvi/obstacles");
+  Listener<navvi_msgs::Proximity> proximity("navvi/proximity");
+  Listener<navvi_msgs::Scenario> scenario("navvi/scenario");
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener transforms(buffer);
+  ASSERT_TRUE(wait_until([&] {
+    return clock.count() > 100 && octomap.any() && cells.any() && scene.any() && moving.any() &&
+           obstacles.any() && proximity.any() && scenario.any() && odom_.any() && drive_.any() &&
+           buffer.canTransform("map", "base_link", ros::Time(0));
+  })) << "clock "
+      << clock.count() << ", octomap " << octomap.count() << ", cells " << cells.count()
+      << ", scene " << scene.count() << ", moving " << moving.count() << ", obstacles "
+      << obstacles.count() << ", proximity " << proximity.count() << ", scenario "
+      << scenario.count() << ", odom " << odom_.count() << ", drive_state " << drive_.count();
+
+  EXPECT_STREQ(ros::message_traits::md5sum(octomap.last()), "9a45536b45c5e409cd49f04bb2d9999f");
+  EXPECT_TRUE(octomap.last().binary);
+  EXPECT_EQ(octomap.last().header.frame_id, "map");
+  EXPECT_GT(octomap.last().data.size(), 1000u);
+  EXPECT_FALSE(obstacles.last().obstacles.empty());
+  EXPECT_EQ(proximity.last().header.frame_id, "base_link");
+  EXPECT_EQ(scenario.last().seed, 3u);
+  const auto pose = buffer.lookupTransform("map", "base_link", ros::Time(0));
+  EXPECT_NEAR(pose.transform.translation.x, scenario.last().start.position.x, 0.01);
+  EXPECT_NEAR(pose.transform.translation.y, scenario.last().start.position.y, 0.01);
+}
+
+TEST_F(SimNode, keeps_pace_with_the_wall_clock) {
+  Listener<rosgraph_msgs::Clock> clock("/clock");
+  ASSERT_TRUE(wait_until([&] { return clock.any(); }));
+  const ros::WallTime wall = ros::WallTime::now();
+  const ros::Time sim = clock.last().clock;
+  ASSERT_TRUE(wait_until([&] { return clock.last().clock - sim > ros::Duration(1.0); }));
+  EXPECT_NEAR((ros::WallTime::now() - wall).toSec(), 1.0, 0.5);
+}
+
+TEST_F(SimNode, moves_only_after_a_neutral_command) {
+  ASSERT_TRUE(wait_until([&] { return odom_.any() && commands_.getNumSubscribers() > 0; }));
+  const int before = odom_.count();
+  ASSERT_TRUE(command_until(0.4, [&] { return odom_.count() > before + 60; }));
+  EXPECT_EQ(speed(), 0.0);
+  EXPECT_TRUE(start_moving());
+}
+
+TEST_F(SimNode, stands_still_soon_after_its_commander_falls_silent) {
+  ASSERT_TRUE(start_moving());
+  send(0.4);
+  const ros::WallTime silence = ros::WallTime::now();
+  ASSERT_TRUE(wait_until([&] { return speed() == 0.0; }));
+  EXPECT_LT((ros::WallTime::now() - silence).toSec(), 0.5) << "0.25 s, and as much for this test";
+  ASSERT_TRUE(wait_until([&] { return drive_.last().state == 2; }));
+  EXPECT_EQ(drive_.last().reason, 1) << "COMMAND_LOST";
+}
+
+TEST_F(SimNode, counts_commands_that_are_no_numbers_and_does_not_move_for_them) {
+  ASSERT_TRUE(wait_until([&] { return drive_.any() && commands_.getNumSubscribers() > 0; }));
+  const unsigned before = drive_.last().rejected;
+  ASSERT_TRUE(command_until(std::numeric_limits<double>::quiet_NaN(),
+                            [&] { return drive_.last().rejected > before + 5; }));
+  EXPECT_TRUE(std::isfinite(odom_.last().pose.pose.position.x));
+  EXPECT_EQ(speed(), 0.0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "sim_node_test");
+  ros::NodeHandle node;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,129 @@
+#include "navvi_sim/state_conversion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <navvi_config/reader.hpp>
+
+#include "navvi_sim/sim_node_config.hpp"
+
+namespace navvi_sim {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+WorldDescription world_of_two() {
+  WorldDescription world;
+  world.name = "two";
+  world.floor_height = -0.09;
+  world.things.resize(2);
+  world.things[0].name = "shelf 1";
+  world.things[0].thing_class = ThingClass::shelf;
+  world.things[1].name = "forklift 1";
+  world.things[1].thing_class = ThingClass::forklift;
+  world.things[1].route = Route{{{0, 0}, {1, 0}}, 1.0, 0.0};
+  return world;
+}
+
+RobotState robot_looking_north() {
+  RobotState robot;
+  robot.position = {1.0, 2.0};
+  robot.yaw = kPi / 2;
+  robot.velocity = {0.0, 0.5};
+  robot.turn_rate = 0.1;
+  return robot;
+}
+
+TEST(StateConversion, odometry_is_at_floor_height_with_its_twist_in_base_link) {
+  const auto msg = odometry_msg(robot_looking_north(), -0.09, ros::Time(3.0));
+  EXPECT_EQ(msg.header.frame_id, "odom");
+  EXPECT_EQ(msg.child_frame_id, "base_link");
+  EXPECT_EQ(msg.pose.pose.position.z, -0.09);
+  EXPECT_NEAR(msg.twist.twist.linear.x, 0.5, 1e-12);
+  EXPECT_NEAR(msg.twist.twist.linear.y, 0.0, 1e-12);
+  EXPECT_NEAR(2.0 * std::atan2(msg.pose.pose.orientation.z, msg.pose.pose.orientation.w), kPi / 2,
+              1e-12);
+  const auto transform = base_link_msg(robot_looking_north(), -0.09, ros::Time(3.0));
+  EXPECT_EQ(transform.transform.translation.y, msg.pose.pose.position.y);
+  EXPECT_EQ(transform.transform.rotation.w, msg.pose.pose.orientation.w);
+}
+
+TEST(StateConversion, near_points_are_taken_over_to_base_link) {
+  const auto msg = proximity_msg(world_of_two(), robot_looking_north(),
+                                 {{1, 0.65, {1.0, 3.0, 0.11}}}, 5.0, ros::Time(3.0));
+  ASSERT_EQ(msg.things.size(), 1u);
+  EXPECT_EQ(msg.header.frame_id, "base_link");
+  EXPECT_EQ(msg.things[0].thing_class, "forklift");
+  EXPECT_TRUE(msg.things[0].moving);
+  EXPECT_NEAR(msg.things[0].nearest.x, 1.0, 1e-12);
+  EXPECT_NEAR(msg.things[0].nearest.y, 0.0, 1e-12);
+  EXPECT_NEAR(msg.things[0].nearest.z, 0.20, 1e-12);
+}
+
+TEST(StateConversion, nothing_near_is_an_empty_message) {
+  const auto msg = proximity_msg(world_of_two(), RobotState{}, {}, 5.0, ros::Time(3.0));
+  EXPECT_TRUE(msg.things.empty());
+  EXPECT_EQ(msg.detection_radius, 5.0);
+  EXPECT_TRUE(obstacles_msg(world_of_two(), Snapshot{}, ros::Time(3.0)).obstacles.empty());
+}
+
+TEST(StateConversion, obstacles_stand_on_the_floor) {
+  Snapshot now;
+  MoverState mover{1, Eigen::Isometry3d::Identity(), 0.5, {0.3, 0.4}, 0.0, 1.2, 2.1};
+  mover.pose.translation() = {4.0, 5.0, 1.0};
+  now.movers.push_back(mover);
+  const auto msg = obstacles_msg(world_of_two(), now, ros::Time(3.0));
+  ASSERT_EQ(msg.obstacles.size(), 1u);
+  EXPECT_EQ(msg.obstacles[0].id, 1u);
+  EXPECT_EQ(msg.obstacles[0].pose.position.z, -0.09);
+  EXPECT_EQ(msg.obstacles[0].velocity.y, 0.4);
+  EXPECT_EQ(msg.obstacles[0].radius, 1.2);
+  EXPECT_EQ(msg.obstacles[0].height, 2.1);
+}
+
+TEST(StateConversion, contacts_carry_their_counts) {
+  const ContactEvent event{2, 0, {1, 2, 0.3}, 0.8, {{ThingClass::shelf, 2}}};
+  const auto msg = contact_msg(world_of_two(), robot_looking_north(), event, ros::Time(3.0));
+  EXPECT_EQ(msg.seq, 2u);
+  EXPECT_EQ(msg.name, "shelf 1");
+  ASSERT_EQ(msg.counts.size(), 1u);
+  EXPECT_EQ(msg.counts[0].thing_class, "shelf");
+  EXPECT_EQ(msg.counts[0].count, 2u);
+}
+
+TEST(SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
+  SimNodeConfig config;
+  EXPECT_FALSE(config.start_pose());
+  EXPECT_FALSE(config.goal_point());
+  config.start = "1,-9, 1.57";
+  config.goal = "1,6";
+  EXPECT_EQ(config.start_pose()->y, -9.0);
+  EXPECT_EQ(config.start_pose()->yaw, 1.57);
+  EXPECT_EQ(config.goal_point()->y(), 6.0);
+  for (const char* bad : {"1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,3x", "1,,3", "1,2,3,", ","}) {
+    config.start = bad;
+    EXPECT_THROW((void)config.start_pose(), navvi_config::ConfigError) << bad;
+  }
+}
+
+TEST(SimNodeConfig, describes_itself_within_its_own_ranges) {
+  SimNodeConfig config;
+  navvi_config::read(config,
+                     YAML::Load("{workers: standing, movers: {yield: false}, "
+                                "robot: {radius: 0.3}, gate: {timeout: 0.1}}"),
+                     "test");
+  EXPECT_FALSE(config.life.movers.yield);
+  EXPECT_EQ(config.gate.timeout, 0.1);
+  EXPECT_THROW(navvi_config::read(config, YAML::Load("{robot: {radius: .nan}}"), "test"),
+               navvi_config::ConfigError);
+  EXPECT_THROW(navvi_config::read(config, YAML::Load("{no_such: 1}"), "test"),
+               navvi_config::ConfigError);
+}
+
+}  // namespace
+}  // namespace navvi_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
