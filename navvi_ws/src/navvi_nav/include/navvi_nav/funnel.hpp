@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "navvi_nav/mesh.hpp"
+
+namespace navvi_nav {
+
+/// The shortest polyline from `start` to `goal` that crosses each portal in order (R-NAV-7).
+/// Simple Stupid Funnel, after Mononen, "Simple Stupid Funnel Algorithm", 2010; linear in the
+/// number of portals but where it starts again from a corner. Repeated points are left out.
+[[nodiscard]] Path funnel(Point start, Point goal, const std::vector<Link>& portals);
+
+}  // namespace navvi_nav

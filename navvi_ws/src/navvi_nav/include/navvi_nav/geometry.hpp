@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace navvi_nav {
+
+/// A point or a difference of points on the floor, frame map, m.
+struct Point {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+inline Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+inline Point operator*(double k, Point a) { return {k * a.x, k * a.y}; }
+inline bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
+inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+/// Positive where `b` lies counter-clockwise of `a`.
+inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+inline double norm(Point a) { return std::hypot(a.x, a.y); }
+inline double distance(Point a, Point b) { return norm(b - a); }
+inline bool finite(Point a) { return std::isfinite(a.x) && std::isfinite(a.y); }
+
+/// The point of the segment `a`-`b` nearest to `p`.
+inline Point nearest_on_segment(Point p, Point a, Point b) {
+  const Point d = b - a;
+  const double length2 = dot(d, d);
+  const double t = length2 > 0.0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
+  return a + t * d;
+}
+
+/// The robot on the floor: yaw counter-clockwise from x, rad.
+struct Pose {
+  Point position;
+  double yaw = 0.0;
+};
+
+/// `point` of the frame that stands at `frame`, in the frame in which `frame` is given.
+inline Point to_parent(const Pose& frame, Point point) {
+  const double c = std::cos(frame.yaw);
+  const double s = std::sin(frame.yaw);
+  return frame.position + Point{c * point.x - s * point.y, s * point.x + c * point.y};
+}
+
+/// A moving thing as a vertical cylinder on the floor (R-NAV-4).
+struct Cylinder {
+  std::uint32_t id = 0;
+  Point center;
+  double radius = 0.0;  ///< m, > 0
+  Point velocity;       ///< m/s
+};
+
+using Path = std::vector<Point>;
+
+/// m
+inline double length_of(const Path& path) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += distance(path[i - 1], path[i]);
+  return sum;
+}
+
+}  // namespace navvi_nav

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/Obstacles.h>
+#include <octomap_msgs/Octomap.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_nav/navigator.hpp"
+
+namespace navvi_nav {
+
+/// m, coordinates beyond are taken for garbage.
+inline constexpr double kFarthest = 1e5;
+
+/// nullopt if any number is not finite or out of range, or the rotation is no unit quaternion.
+[[nodiscard]] std::optional<Pose> from_msg(const geometry_msgs::Transform& transform);
+/// Forward speed, m/s; nullopt if the twist is not finite or absurd.
+[[nodiscard]] std::optional<double> speed_from_msg(const nav_msgs::Odometry& odometry);
+/// nullopt if any number of any obstacle is not finite or out of range (radius and height: above
+/// 0 and up to 20 m), an id repeats, or there are more than 10000. The frame is not looked at.
+[[nodiscard]] std::optional<std::vector<Cylinder>> from_msg(const navvi_msgs::Obstacles& obstacles);
+/// nullopt if the position is not finite or absurd. The frame is not looked at.
+[[nodiscard]] std::optional<Point> from_msg(const geometry_msgs::PoseStamped& goal);
+[[nodiscard]] MapMessage from_msg(const octomap_msgs::Octomap& map);
+
+[[nodiscard]] nav_msgs::Path to_msg(const Path& path, double z, const std::string& frame,
+                                    const ros::Time& stamp);
+/// All but `seq`.
+[[nodiscard]] navvi_msgs::Guidance to_msg(const Status& status, double z, const std::string& frame,
+                                          const ros::Time& stamp);
+/// The mesh as cyan triangles a little above the floor (R-VIS-3); holes are where there are none.
+[[nodiscard]] visualization_msgs::MarkerArray to_msg(const Mesh& mesh, double z,
+                                                     const std::string& frame,
+                                                     const ros::Time& stamp);
+
+}  // namespace navvi_nav

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <octomap/OcTree.h>
+
+#include <map>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "navvi_nav/floor.hpp"
+#include "navvi_nav/mesh.hpp"
+#include "navvi_nav/tile_field.hpp"
+
+namespace navvi_nav {
+
+struct NavMeshConfig {
+  double robot_radius = 0.35;
+  double robot_height = 0.8;
+  double cell_size = 0.0;
+  bool whole_cell_erosion = false;
+  double contour_error = 1.0;
+  double tile_size = 8.0;
+  double max_edge = 4.0;
+  double preferred_clearance = 0.4;
+  double carve_moved = 0.1;
+  double carve_changed = 0.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What one change of the mesh did.
+struct MeshUpdate {
+  std::string error;      ///< a sentence if the map was refused; the mesh is then unchanged
+  int tiles = 0;          ///< in the map
+  int tiles_rebuilt = 0;  ///< by this change
+};
+
+/// The floor that an OctoMap shows, as tiles of triangles (R-NAV-1..5). Clear by construction: no
+/// point of the mesh is nearer than the robot's radius to an occupied voxel that rises above the
+/// floor (or hangs lower than the robot's height), to the edge of the floor, or to a carved
+/// cylinder. The floor is one level: the lowest that is at least half as large as the largest.
+class NavMesh {
+ public:
+  explicit NavMesh(const NavMeshConfig& config) : config_(config) {}
+
+  /// Takes a new map. Tiles in which nothing changed keep their triangles.
+  MeshUpdate set_map(const octomap::OcTree& tree);
+  /// Makes the holes be those of `cylinders`: a cylinder whose id is gone heals. One that moved
+  /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
+  /// `carve_changed` of the carved area changed (R-NAV-5).
+  MeshUpdate carve(const std::vector<Cylinder>& cylinders);
+
+  [[nodiscard]] bool empty() const { return !floor_ || floor_->empty(); }
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  /// These two never change once handed out, so another thread may keep them.
+  [[nodiscard]] std::shared_ptr<const Mesh> shared_mesh() const { return mesh_; }
+  [[nodiscard]] std::shared_ptr<const Floor> shared_floor() const { return floor_; }
+  /// The cylinders as carved.
+  [[nodiscard]] const std::vector<Cylinder>& carved() const { return carved_; }
+  [[nodiscard]] Space space() const { return {floor_.get(), &carved_}; }
+  [[nodiscard]] const NavMeshConfig& config() const { return config_; }
+
+ private:
+  using TileIndex = std::pair<int, int>;
+  struct Tile {
+    TileField field;
+    std::vector<GridTriangle> triangles;
+  };
+  struct Survey;
+
+  [[nodiscard]] Survey survey(const octomap::OcTree& tree) const;
+  [[nodiscard]] double margin(double cell) const;
+  [[nodiscard]] bool same_open_cells(const TileField& field, const Floor& old) const;
+  [[nodiscard]] bool touches(const TileField& field, const Cylinder& cylinder) const;
+  [[nodiscard]] bool changed_enough(const std::vector<Cylinder>& next) const;
+  [[nodiscard]] bool clear(const std::vector<GridTriangle>& triangles) const;
+  void build(Tile& tile);
+  void join_tiles();
+
+  NavMeshConfig config_;
+  std::map<TileIndex, Tile> tiles_;
+  std::shared_ptr<const Floor> floor_ = std::make_shared<Floor>();
+  std::shared_ptr<const Mesh> mesh_ = std::make_shared<Mesh>();
+  std::vector<Cylinder> carved_;
+};
+
+}  // namespace navvi_nav

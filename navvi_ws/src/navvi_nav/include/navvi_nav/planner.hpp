@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "navvi_nav/nav_mesh.hpp"
+#include "navvi_nav/smoothing.hpp"
+
+namespace navvi_nav {
+
+struct PlannerConfig {
+  NavMeshConfig mesh;
+  SmoothingConfig smoothing;
+  double alpha = 1.0;
+  double start_snap = 0.5;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+enum class PlanStatus { found, no_map, off_mesh, refused, no_route };
+
+/// Values as in navvi_msgs/Guidance.
+enum class Refusal {
+  none,
+  not_finite,
+  unknown_frame,
+  inside_obstacle,
+  off_the_map,
+  unreachable,
+};
+
+struct Plan {
+  PlanStatus status = PlanStatus::no_map;
+  Refusal refusal = Refusal::none;
+  Path path;              ///< from the robot (or the mesh next to it) to the goal
+  double shortest = 0.0;  ///< m, of the funnel's path
+  std::size_t nodes_expanded = 0;
+  std::string detail;  ///< a sentence
+};
+
+/// From a map and obstacles to a path: the package in one function, plan().
+class Planner {
+ public:
+  explicit Planner(const PlannerConfig& config) : config_(config), nav_mesh_(config.mesh) {}
+
+  MeshUpdate set_map(const octomap::OcTree& tree) { return nav_mesh_.set_map(tree); }
+  MeshUpdate carve(const std::vector<Cylinder>& cylinders) { return nav_mesh_.carve(cylinders); }
+  /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
+  /// off the mesh is taken to the nearest point of it, at most `start_snap` away.
+  [[nodiscard]] Plan plan(Point start, Point goal) const;
+  [[nodiscard]] const NavMesh& nav_mesh() const { return nav_mesh_; }
+
+ private:
+  struct Anchor;
+  [[nodiscard]] Refusal refusal_of(Point goal) const;
+  [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
+  [[nodiscard]] std::set<int> components_near(Point point, double within) const;
+
+  PlannerConfig config_;
+  NavMesh nav_mesh_;
+};
+
+}  // namespace navvi_nav

@@ -1,0 +1,84 @@
+#include "navvi_nav/guidance.hpp"
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kOnPath = 0.5;  // m, who is nearer to a later leg has passed its start
+
+}  // namespace
+
+void GuidanceConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"waypoint_reached", Range{0.1, 5.0}, "m", "a way-point counts as reached (R-NAV-8)"},
+        waypoint_reached);
+  visit({"goal_reached", Range{0.1, 5.0}, "m", "the goal counts as reached (R-NAV-11)"},
+        goal_reached);
+  visit({"sight_radius", Range{0.0, 1.0}, "m",
+         "room that the straight way to a way-point must have before the one before is given up"},
+        sight_radius);
+}
+
+double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
+
+void Guidance::follow(const Path& path) {
+  path_ = path.size() >= 2 ? path : Path{};
+  next_ = path_.empty() ? 0 : 1;
+}
+
+Path Guidance::remaining(Point robot) const {
+  Path out;
+  if (!following()) return out;
+  out.push_back(robot);
+  out.insert(out.end(), path_.begin() + static_cast<std::ptrdiff_t>(next_), path_.end());
+  return out;
+}
+
+bool Guidance::sees(Point robot, Point target, const Space& space) const {
+  // A robot that already stands nearer to something must still be able to go on.
+  const double own = space.clearance(robot) - 0.02;
+  return space.segment_clear(robot, target, std::max(0.0, std::min(config_.sight_radius, own)));
+}
+
+void Guidance::advance(const Pose& robot, const Space& space) {
+  const Point at = robot.position;
+  while (next_ + 1 < path_.size() && distance(at, path_[next_]) <= config_.waypoint_reached &&
+         sees(at, path_[next_ + 1], space))
+    ++next_;
+
+  std::size_t nearest = next_ - 1;  // leg
+  double best = distance(at, nearest_on_segment(at, path_[nearest], path_[next_]));
+  for (std::size_t leg = next_; leg + 1 < path_.size(); ++leg) {
+    const double away = distance(at, nearest_on_segment(at, path_[leg], path_[leg + 1]));
+    if (away < best - 1e-6) {
+      best = away;
+      nearest = leg;
+    }
+  }
+  if (nearest >= next_ && best <= kOnPath && sees(at, path_[nearest + 1], space))
+    next_ = nearest + 1;
+}
+
+bool Guidance::arrived(const Pose& robot, const Space& space) const {
+  if (!following() || distance(robot.position, path_.back()) > config_.goal_reached) return false;
+  return space.floor->segment_clear(robot.position, path_.back(), 0.0);
+}
+
+Heading Guidance::heading(const Pose& robot) const {
+  Heading out;
+  const Point at = robot.position;
+  const Point ahead{std::cos(robot.yaw), std::sin(robot.yaw)};
+  const Point leg = path_[next_] - at;
+  out.waypoint = path_[next_];
+  out.waypoint_is_goal = next_ + 1 == path_.size();
+  out.waypoint_distance = norm(leg);
+  out.waypoint_angle = clockwise(ahead, leg);
+  if (!out.waypoint_is_goal) out.turn_angle = clockwise(leg, path_[next_ + 1] - path_[next_]);
+  out.goal_distance = length_of(remaining(at));
+  out.path_offset = distance(at, nearest_on_segment(at, path_[0], path_[1]));
+  for (std::size_t i = 1; i + 1 < path_.size(); ++i)
+    out.path_offset =
+        std::min(out.path_offset, distance(at, nearest_on_segment(at, path_[i], path_[i + 1])));
+  return out;
+}
+
+}  // namespace navvi_nav

@@ -1,0 +1,223 @@
+// OctoMap, obstacles, pose and goal in; path, guidance and mesh out.
+
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <navvi_config/ros_parameters.hpp>
+
+#include "navvi_nav/msg_conversion.hpp"
+#include "navvi_nav/worker.hpp"
+
+namespace navvi_nav {
+namespace {
+
+struct NodeConfig {
+  NavigatorConfig navigator;
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+  double mesh_period = 0.5;
+
+  void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Range;
+    navigator.describe(visit);
+    visit({"map_frame", navvi_config::Any{}, "", "frame of the map and of all that is published"},
+          map_frame);
+    visit({"base_frame", navvi_config::Any{}, "", "frame of the robot"}, base_frame);
+    visit({"mesh_period", Range{0.1, 60.0}, "s", "least time between two pictures of the mesh"},
+          mesh_period);
+  }
+};
+
+class NavNode {
+ public:
+  NavNode(ros::NodeHandle node, const NodeConfig& config)
+      : config_(config), navigator_(config.navigator), worker_(config.navigator.planner) {
+    path_ = node.advertise<nav_msgs::Path>("navvi/path", 1, true);
+    guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
+    mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
+    subscribers_ = {node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
+                    node.subscribe("navvi/obstacles", 1, &NavNode::on_obstacles, this),
+                    node.subscribe("odom", 1, &NavNode::on_odometry, this),
+                    node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
+    timer_ = node.createWallTimer(ros::WallDuration(0.05), &NavNode::on_timer, this);
+    publish_path();
+  }
+
+ private:
+  void on_map(const octomap_msgs::Octomap::ConstPtr& msg) {
+    if (msg->header.frame_id != config_.map_frame) {
+      ROS_ERROR("The map is refused: it is in frame '%s', not '%s'.", msg->header.frame_id.c_str(),
+                config_.map_frame.c_str());
+      return;
+    }
+    if (msg->data.size() > kMaxMapBytes) {
+      ROS_ERROR("The map is refused: it is larger than 64 MiB.");
+      return;
+    }
+    navigator_.set_map(std::make_shared<const MapMessage>(from_msg(*msg)));
+  }
+
+  void on_obstacles(const navvi_msgs::Obstacles::ConstPtr& msg) {
+    std::optional<std::vector<Cylinder>> obstacles = from_msg(*msg);
+    if (!obstacles || msg->header.frame_id != config_.map_frame) {
+      ++bad_messages_;
+      ROS_WARN_THROTTLE(5.0, "Obstacles with a bad number or frame are dropped (%u bad messages).",
+                        bad_messages_);
+      return;
+    }
+    navigator_.set_obstacles(std::move(*obstacles), ros::Time::now().toSec());
+  }
+
+  void on_odometry(const nav_msgs::Odometry::ConstPtr& msg) {
+    const std::optional<double> speed = speed_from_msg(*msg);
+    if (speed) {
+      navigator_.set_speed(*speed);
+      return;
+    }
+    ++bad_messages_;
+    ROS_WARN_THROTTLE(5.0, "Odometry with a bad number is dropped (%u bad messages).",
+                      bad_messages_);
+  }
+
+  void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
+    const std::optional<Point> goal = from_msg(*msg);
+    if (!goal) {
+      navigator_.refuse_goal(Refusal::not_finite, "the goal is not a finite point");
+    } else if (const std::optional<Point> there = in_map_frame(*goal, msg->header)) {
+      navigator_.set_goal(*there);
+    } else {
+      navigator_.refuse_goal(Refusal::unknown_frame, "the goal's frame is not known");
+    }
+    publish_all();
+  }
+
+  std::optional<Point> in_map_frame(Point point, const std_msgs::Header& header) const {
+    if (header.frame_id == config_.map_frame) return point;
+    try {
+      const std::optional<Pose> frame = from_msg(
+          buffer_.lookupTransform(config_.map_frame, header.frame_id, ros::Time(0)).transform);
+      if (!frame) return std::nullopt;
+      return to_parent(*frame, point);
+    } catch (const tf2::TransformException& error) {
+      ROS_WARN("Goal: %s", error.what());
+      return std::nullopt;
+    }
+  }
+
+  void read_pose() {
+    try {
+      const geometry_msgs::TransformStamped transform =
+          buffer_.lookupTransform(config_.map_frame, config_.base_frame, ros::Time(0));
+      if (const std::optional<Pose> pose = from_msg(transform.transform))
+        navigator_.set_pose(*pose, transform.header.stamp.toSec());
+    } catch (const tf2::TransformException&) {
+      // Told by the age of the pose.
+    }
+  }
+
+  void on_timer(const ros::WallTimerEvent&) {
+    const double now = ros::Time::now().toSec();
+    if (now < last_time_) {
+      ROS_WARN("Time jumped back; poses and obstacles start afresh.");
+      buffer_.clear();
+      navigator_.reset_times();
+    }
+    last_time_ = now;
+    read_pose();
+    if (const std::optional<Outcome> outcome = worker_.take()) {
+      report(*outcome);
+      navigator_.deliver(*outcome, now);
+      fresh_mesh_ = outcome->triangles;
+    }
+    const bool lost_before = navigator_.obstacles_lost();
+    if (std::optional<Job> job = navigator_.update(now)) worker_.start(std::move(*job));
+    if (navigator_.obstacles_lost() && !lost_before)
+      ROS_WARN("No obstacles came for too long; their holes are closed.");
+    publish_all();
+    publish_mesh();
+  }
+
+  void report(const Outcome& outcome) const {
+    if (outcome.reason != Reason::map_changed || outcome.plan) return;
+    if (outcome.map_taken) {
+      ROS_INFO("Map taken: %zu triangles, %d of %d tiles built in %.3f s.",
+               outcome.triangles->triangles.size(), outcome.mesh.tiles_rebuilt, outcome.mesh.tiles,
+               outcome.seconds);
+    } else {
+      ROS_ERROR("The map is refused: %s.", outcome.map_error.c_str());
+    }
+  }
+
+  void publish_all() {
+    const double now = ros::Time::now().toSec();
+    publish_path();
+    if (navigator_.undecided(now)) return;
+    const Status status = navigator_.status(now);
+    const bool changed = status.state != last_status_.state ||
+                         status.refusal != last_status_.refusal ||
+                         status.plans != last_status_.plans ||
+                         !(status.heading.waypoint == last_status_.heading.waypoint);
+    const ros::WallTime wall = ros::WallTime::now();
+    if (!changed && (wall - last_guidance_).toSec() < 0.09) return;
+    last_status_ = status;
+    last_guidance_ = wall;
+    navvi_msgs::Guidance msg =
+        to_msg(status, navigator_.floor_height(), config_.map_frame, ros::Time::now());
+    msg.seq = ++seq_;
+    guidance_.publish(msg);
+  }
+
+  void publish_path() {
+    if (shown_path_ && *shown_path_ == navigator_.path()) return;
+    shown_path_ = navigator_.path();
+    path_.publish(
+        to_msg(*shown_path_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
+  }
+
+  void publish_mesh() {
+    const ros::WallTime wall = ros::WallTime::now();
+    if (!fresh_mesh_ || fresh_mesh_ == shown_mesh_ ||
+        (wall - last_mesh_).toSec() < config_.mesh_period)
+      return;
+    shown_mesh_ = fresh_mesh_;
+    last_mesh_ = wall;
+    mesh_.publish(
+        to_msg(*shown_mesh_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
+  }
+
+  NodeConfig config_;
+  Navigator navigator_;
+  Worker worker_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_{buffer_};
+  ros::Publisher path_;
+  ros::Publisher guidance_;
+  ros::Publisher mesh_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
+  std::optional<Path> shown_path_;
+  std::shared_ptr<const Mesh> fresh_mesh_;
+  std::shared_ptr<const Mesh> shown_mesh_;
+  Status last_status_;
+  ros::WallTime last_guidance_;
+  ros::WallTime last_mesh_;
+  double last_time_ = 0.0;
+  unsigned seq_ = 0;
+  unsigned bad_messages_ = 0;
+};
+
+}  // namespace
+}  // namespace navvi_nav
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "nav_node");
+  ros::NodeHandle node;
+  try {
+    navvi_nav::NavNode nav(node, navvi_config::load<navvi_nav::NodeConfig>(ros::NodeHandle("~")));
+    ros::spin();
+  } catch (const navvi_config::ConfigError& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,257 @@
+#include "navvi_nav/navigator.hpp"
+
+#include <exception>
+
+namespace navvi_nav {
+namespace {
+
+ReplanPolicyConfig policy_of(const NavigatorConfig& config) {
+  ReplanPolicyConfig out = config.replan;
+  out.robot_radius = config.planner.mesh.robot_radius;
+  return out;
+}
+
+}  // namespace
+
+void NavigatorConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  planner.describe(visit);
+  visit.group("replan", replan);
+  visit.group("guidance", guidance);
+  visit({"carve_period", Range{0.05, 60.0}, "s",
+         "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)"},
+        carve_period);
+  visit({"pose_timeout", Range{0.1, 10.0}, "s", "an older pose of the robot is stale"},
+        pose_timeout);
+  visit({"obstacle_timeout", Range{0.1, 10.0}, "s", "older obstacles are forgotten"},
+        obstacle_timeout);
+  visit({"plan_timeout", Range{0.1, 10.0}, "s",
+         "a path that must change is hidden when no plan came for so long"},
+        plan_timeout);
+  visit({"off_path", Range{0.1, 10.0}, "m",
+         "a robot farther off its path gets a new one at the next plan"},
+        off_path);
+}
+
+Outcome work(Planner& planner, const Job& job) {
+  Outcome out;
+  out.reason = job.reason;
+  out.goal_number = job.goal_number;
+  try {
+    if (job.map) {
+      const ReadMap read = read_map({job.map->data.data(), job.map->data.size(), job.map->binary,
+                                     job.map->id, job.map->resolution});
+      out.map_error = read.error;
+      if (read.tree) {
+        out.mesh = planner.set_map(*read.tree);
+        out.map_error = out.mesh.error;
+        out.map_taken = out.mesh.error.empty();
+      }
+    }
+    const MeshUpdate carved = planner.carve(job.obstacles);
+    out.mesh.tiles = carved.tiles;
+    out.mesh.tiles_rebuilt += carved.tiles_rebuilt;
+    if (job.goal) out.plan = planner.plan(job.start, *job.goal);
+  } catch (const std::exception& error) {
+    if (job.map) out.map_error = error.what();
+    if (job.goal) {
+      out.plan = Plan{};
+      out.plan->status = PlanStatus::no_route;
+      out.plan->detail = error.what();
+    }
+  }
+  out.triangles = planner.nav_mesh().shared_mesh();
+  out.floor = planner.nav_mesh().shared_floor();
+  return out;
+}
+
+Navigator::Navigator(const NavigatorConfig& config)
+    : config_(config), policy_(policy_of(config)), guidance_(config.guidance) {}
+
+void Navigator::set_obstacles(std::vector<Cylinder> obstacles, double time) {
+  obstacles_ = std::move(obstacles);
+  obstacles_time_ = time;
+  obstacles_lost_ = false;
+}
+
+void Navigator::set_pose(const Pose& pose, double time) {
+  pose_ = pose;
+  pose_time_ = time;
+}
+
+void Navigator::set_goal(Point goal) {
+  drop_goal(State::no_goal);
+  goal_ = goal;
+  last_goal_ = goal;
+}
+
+void Navigator::refuse_goal(Refusal refusal, const std::string& detail) {
+  drop_goal(State::goal_refused);
+  refusal_ = refusal;
+  detail_ = detail;
+}
+
+void Navigator::drop_goal(State state) {
+  goal_.reset();
+  ++goal_number_;
+  goal_planned_ = false;
+  guidance_.follow({});
+  policy_.reset();
+  state_ = state;
+  refusal_ = Refusal::none;
+  detail_.clear();
+}
+
+void Navigator::reset_times() {
+  policy_.reset();
+  pose_.reset();
+  obstacles_.clear();
+  carved_at_.reset();
+  if (job_since_) job_since_ = 0.0;
+}
+
+bool Navigator::pose_fresh(double time) const {
+  return pose_ && time - pose_time_ <= config_.pose_timeout;
+}
+
+bool Navigator::undecided(double time) const {
+  return goal_ && !goal_planned_ && floor_ && pose_fresh(time) &&
+         (!job_since_ || time - *job_since_ < config_.plan_timeout);
+}
+
+std::optional<Job> Navigator::update(double time) {
+  if (!obstacles_.empty() && time - obstacles_time_ > config_.obstacle_timeout) {
+    obstacles_.clear();
+    obstacles_lost_ = true;
+  }
+  follow_progress(time);
+  return job_since_ ? std::nullopt : next_job(time);
+}
+
+void Navigator::follow_progress(double time) {
+  if (!guidance_.following() || !pose_fresh(time)) return;
+  guidance_.advance(*pose_, space());
+  if (guidance_.arrived(*pose_, space())) {
+    drop_goal(State::arrived);
+    return;
+  }
+  const bool must_change = job_reason_ == Reason::path_carved ||
+                           job_reason_ == Reason::waypoint_blocked ||
+                           job_reason_ == Reason::map_changed;
+  if (job_since_ && must_change && time - *job_since_ > config_.plan_timeout) {
+    guidance_.follow({});
+    state_ = State::no_route;
+    detail_ = "no plan came in time";
+  }
+}
+
+std::optional<Job> Navigator::next_job(double time) {
+  Job job;
+  job.obstacles = obstacles_;
+  job.goal_number = goal_number_;
+  if (new_map_) {
+    job.map = std::exchange(new_map_, nullptr);
+    job.reason = Reason::map_changed;
+  } else if (floor_ && goal_ && pose_fresh(time)) {
+    ReplanInput input;
+    input.time = time;
+    input.has_goal = true;
+    input.new_goal = !goal_planned_;
+    input.map_changed = map_changed_;
+    input.speed = speed_;
+    input.robot = *pose_;
+    input.remaining = guidance_.remaining(pose_->position);
+    input.obstacles = obstacles_;
+    if (const std::optional<Reason> reason = policy_.update(input)) {
+      job.goal = goal_;
+      job.start = pose_->position;
+      job.reason = *reason;
+      map_changed_ = false;
+    }
+  }
+  const bool carve = floor_ && (!carved_at_ || time - *carved_at_ >= config_.carve_period);
+  if (!job.map && !job.goal && !carve) return std::nullopt;
+  carved_at_ = time;
+  job_since_ = time;
+  job_reason_ = job.reason;
+  return job;
+}
+
+void Navigator::deliver(const Outcome& outcome, double time) {
+  job_since_.reset();
+  if (outcome.map_taken) map_changed_ = goal_planned_;
+  if (outcome.floor && !outcome.floor->empty()) floor_ = outcome.floor;
+  if (!outcome.plan || outcome.goal_number != goal_number_) return;
+  ++plans_;
+  plan_time_ = outcome.seconds;
+  nodes_expanded_ = outcome.plan->nodes_expanded;
+  reason_ = outcome.reason;
+  goal_planned_ = true;
+  take_plan(*outcome.plan, outcome.reason, time);
+}
+
+void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
+  switch (plan.status) {
+    case PlanStatus::found:
+      if (!keeps_path(plan, reason)) guidance_.follow(plan.path);
+      state_ = State::following;
+      detail_.clear();
+      follow_progress(time);
+      return;
+    case PlanStatus::refused:
+      // A goal that was accepted is not refused later on because of where the robot strayed.
+      if (reason == Reason::new_goal || reason == Reason::map_changed) {
+        refuse_goal(plan.refusal, plan.detail);
+        return;
+      }
+      state_ = State::no_route;
+      break;
+    case PlanStatus::no_map:
+    case PlanStatus::no_route:
+      state_ = State::no_route;
+      break;
+    case PlanStatus::off_mesh:
+      state_ = State::off_mesh;
+      break;
+  }
+  guidance_.follow({});
+  detail_ = plan.detail;
+}
+
+/// Hysteresis: a path that still serves stays, so that a person is not sent here and there.
+bool Navigator::keeps_path(const Plan& plan, Reason reason) const {
+  if (!guidance_.following() || !pose_) return false;
+  const Path remaining = guidance_.remaining(pose_->position);
+  return !policy_.worth_changing(reason, length_of(remaining), length_of(plan.path)) &&
+         !policy_.blocked(remaining, obstacles_) &&
+         guidance_.heading(*pose_).path_offset <= config_.off_path &&
+         guidance_.sees_next(pose_->position, space());
+}
+
+Status Navigator::status(double time) const {
+  Status out;
+  out.state = state_;
+  out.refusal = refusal_;
+  out.reason = reason_;
+  out.plans = plans_;
+  out.plan_time = plan_time_;
+  out.nodes_expanded = nodes_expanded_;
+  out.goal = last_goal_;
+  out.detail = detail_;
+  if (!floor_) {
+    out.state = State::no_map;
+    out.detail = "no usable map came yet";
+  } else if (goal_ && !pose_fresh(time)) {
+    out.state = State::pose_stale;
+    out.detail = "no fresh pose of the robot";
+  } else if (state_ == State::following) {
+    if (guidance_.following() && pose_) {
+      out.heading = guidance_.heading(*pose_);
+    } else {
+      out.state = State::no_route;
+    }
+  }
+  return out;
+}
+
+}  // namespace navvi_nav

@@ -1,0 +1,122 @@
+#include "navvi_nav/planner.hpp"
+
+#include "navvi_nav/funnel.hpp"
+#include "navvi_nav/search.hpp"
+
+namespace navvi_nav {
+namespace {
+
+Plan failure(PlanStatus status, Refusal refusal, std::string detail) {
+  Plan plan;
+  plan.status = status;
+  plan.refusal = refusal;
+  plan.detail = std::move(detail);
+  return plan;
+}
+
+Plan refused(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::not_finite:
+      return failure(PlanStatus::refused, refusal, "the goal is not a finite point");
+    case Refusal::off_the_map:
+      return failure(PlanStatus::refused, refusal, "the map shows no floor at the goal");
+    case Refusal::unreachable:
+      return failure(PlanStatus::refused, refusal, "no floor joins the goal with the robot");
+    default:
+      return failure(PlanStatus::refused, refusal,
+                     "the goal is within the robot's radius of an obstacle");
+  }
+}
+
+bool share(const std::set<int>& a, const std::set<int>& b) {
+  return std::any_of(a.begin(), a.end(), [&b](int item) { return b.count(item) > 0; });
+}
+
+}  // namespace
+
+/// Where a point meets the mesh, and whether the straight way there is clear.
+struct Planner::Anchor {
+  std::optional<Mesh::Place> place;
+  bool joined = false;
+};
+
+void PlannerConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit.group("mesh", mesh);
+  visit.group("smoothing", smoothing);
+  visit({"alpha", Range{0.0, 1.0}, "", "weight of A*'s heuristic (R-NAV-6)"}, alpha);
+  visit({"start_snap", Range{0.0, 2.0}, "m", "how far off the mesh the robot may stand"},
+        start_snap);
+}
+
+Plan Planner::plan(Point start, Point goal) const {
+  if (nav_mesh_.empty()) return failure(PlanStatus::no_map, Refusal::none, "there is no map yet");
+  const Refusal refusal = refusal_of(goal);
+  if (refusal != Refusal::none) return refused(refusal);
+  const double cell = nav_mesh_.shared_floor()->cell_size();
+  const double near_goal = (config_.mesh.contour_error + 4.0) * cell;
+  const std::set<int> goal_parts = components_near(goal, near_goal);
+  const std::set<int> start_parts = components_near(start, config_.start_snap);
+  if (goal_parts.empty()) return refused(Refusal::inside_obstacle);
+  if (!start_parts.empty() && !share(start_parts, goal_parts)) return refused(Refusal::unreachable);
+
+  const Anchor any = anchor(start, config_.start_snap, std::nullopt);
+  if (!any.place)
+    return failure(PlanStatus::off_mesh, Refusal::none, "the robot stands where no path can begin");
+  const Anchor to = anchor(goal, near_goal, std::nullopt);
+  if (!to.place || !to.joined)
+    return failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal");
+  const int part = nav_mesh_.mesh().triangles[static_cast<std::size_t>(to.place->triangle)].part;
+  const Anchor from = anchor(start, config_.start_snap, part);
+  if (!from.place)
+    return failure(PlanStatus::no_route, Refusal::none,
+                   "nothing joins the robot with the goal now");
+  const Corridor corridor = centroid_astar(nav_mesh_.mesh(), *from.place, *to.place, config_.alpha);
+  Plan plan;
+  plan.nodes_expanded = corridor.nodes_expanded;
+  plan.status = corridor.found ? PlanStatus::found : PlanStatus::no_route;
+  if (!corridor.found) return plan;
+  Path shortest = funnel(from.place->point, to.place->point, corridor.links);
+  if (from.joined && !(shortest.front() == start)) shortest.insert(shortest.begin(), start);
+  if (!(shortest.back() == goal)) shortest.push_back(goal);
+  plan.shortest = length_of(shortest);
+  plan.path =
+      smooth(shortest, nav_mesh_.space(),
+             {config_.mesh.robot_radius, config_.mesh.preferred_clearance}, config_.smoothing);
+  return plan;
+}
+
+Refusal Planner::refusal_of(Point goal) const {
+  if (!finite(goal)) return Refusal::not_finite;
+  const Floor& floor = *nav_mesh_.shared_floor();
+  if (floor.ground(floor.cell_at(goal)) == Ground::none) return Refusal::off_the_map;
+  if (!floor.segment_clear(goal, goal, config_.mesh.robot_radius)) return Refusal::inside_obstacle;
+  return Refusal::none;
+}
+
+Planner::Anchor Planner::anchor(Point point, double within, std::optional<int> part) const {
+  Anchor out;
+  out.place = nav_mesh_.mesh().locate(point, within, part);
+  if (out.place)
+    out.joined =
+        nav_mesh_.space().segment_clear(point, out.place->point, config_.mesh.robot_radius);
+  return out;
+}
+
+/// Components of the open cells around, holes disregarded.
+std::set<int> Planner::components_near(Point point, double within) const {
+  const Floor& floor = *nav_mesh_.shared_floor();
+  const Cell at = floor.cell_at(point);
+  const int window = static_cast<int>(std::ceil(within / floor.cell_size()));
+  std::set<int> found;
+  for (int y = at.y - window; y <= at.y + window; ++y) {
+    for (int x = at.x - window; x <= at.x + window; ++x) {
+      if (floor.component({x, y}) >= 0 &&
+          distance(point, floor.center_of({x, y})) <= within + floor.cell_size())
+        found.insert(floor.component({x, y}));
+    }
+  }
+  return found;
+}
+
+}  // namespace navvi_nav
