@@ -1,0 +1,163 @@
+#include "navvi_nav/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "navvi_nav/waypoints.hpp"
+#include "small_world.hpp"
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kRadius = 0.35;
+constexpr double kTolerance = 1e-6;
+
+Planner planner_on(SmallWorld& world) {
+  Planner planner{PlannerConfig{}};
+  EXPECT_EQ(planner.set_map(world.tree()).error, "");
+  return planner;
+}
+
+void expect_clear(const Path& path, const SmallWorld& map, const std::vector<Cylinder>& cylinders) {
+  for (const Point point : points_along(path, 0.01)) {
+    for (const auto& block : map.blocks())
+      ASSERT_GE(distance_to(block, point), kRadius - kTolerance) << point.x << " " << point.y;
+    for (const Cylinder& cylinder : cylinders)
+      ASSERT_GE(distance(cylinder.center, point), cylinder.radius + kRadius - kTolerance);
+  }
+}
+
+TEST(Planner, says_that_there_is_no_map) {
+  EXPECT_EQ(Planner(PlannerConfig{}).plan({0, 0}, {1, 1}).status, PlanStatus::no_map);
+}
+
+TEST(Planner, refuses_a_goal_that_is_not_finite) {
+  SmallWorld world;
+  world.room(6, 6);
+  const Planner planner = planner_on(world);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    const Plan plan = planner.plan({3, 3}, {bad, 3});
+    EXPECT_EQ(plan.status, PlanStatus::refused);
+    EXPECT_EQ(plan.refusal, Refusal::not_finite);
+  }
+}
+
+TEST(Planner, tells_the_refusals_apart) {
+  SmallWorld world;
+  world.room(12, 6).box(6, 0, 0, 6.1, 6, 1).box(2, 2, 0, 3, 3, 1);
+  const Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({1, 1}, {2.5, 2.5}).refusal, Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({1, 1}, {3.2, 2.5}).refusal, Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({1, 1}, {40, 2}).refusal, Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({1, 1}, {1e9, 2}).refusal, Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({1, 1}, {9, 3}).refusal, Refusal::unreachable);
+  EXPECT_EQ(planner.plan({1, 1}, {5, 5}).status, PlanStatus::found);
+}
+
+TEST(Planner, says_off_mesh_where_no_path_can_begin) {
+  SmallWorld world;
+  world.room(12, 8).box(2, 2, 0, 6, 6, 1);
+  const Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({4, 4}, {1, 1}).status, PlanStatus::off_mesh);
+  const Plan snapped = planner.plan({1.75, 4}, {1, 1});  // touches the box
+  ASSERT_EQ(snapped.status, PlanStatus::found);
+  expect_clear(snapped.path, world, {});
+}
+
+TEST(Planner, calls_a_route_closed_by_a_cylinder_no_route_not_unreachable) {
+  SmallWorld world;
+  world.room(12, 4).box(6, 0, 0, 6.2, 1.5, 1).box(6, 2.5, 0, 6.2, 4, 1);
+  Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::found);
+  planner.carve({{7, {6.1, 2.0}, 0.3, {}}});
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::no_route);
+  planner.carve({{7, {10, 2}, 0.3, {}}});
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::no_route);
+  planner.carve({});
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::found);
+}
+
+TEST(Planner, ends_exactly_at_the_goal_even_in_the_last_cell_before_a_wall) {
+  SmallWorld world;
+  world.room(8, 8);
+  const Planner planner = planner_on(world);
+  const Point goal{0.46, 4.0};
+  const Plan plan = planner.plan({4, 4}, goal);
+  ASSERT_EQ(plan.status, PlanStatus::found);
+  EXPECT_TRUE(plan.path.back() == goal);
+  expect_clear(plan.path, world, {});
+}
+
+TEST(Planner, survives_start_and_goal_in_one_place) {
+  SmallWorld world;
+  world.room(8, 8);
+  const Plan plan = planner_on(world).plan({4, 4}, {4, 4});
+  EXPECT_EQ(plan.status, PlanStatus::found);
+}
+
+TEST(Planner, gives_the_same_path_for_the_same_question) {
+  RandomWorld world(3);
+  const Planner planner = planner_on(world.map);
+  const Plan first = planner.plan(world.start, world.goal);
+  const Plan second = planner.plan(world.start, world.goal);
+  ASSERT_EQ(first.path.size(), second.path.size());
+  for (std::size_t i = 0; i < first.path.size(); ++i)
+    EXPECT_TRUE(first.path[i] == second.path[i]);
+}
+
+TEST(Planner, keeps_the_radius_from_everything_in_random_worlds) {
+  int found = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    RandomWorld world(seed);
+    Planner planner = planner_on(world.map);
+    planner.carve(world.cylinders);
+    const Plan plan = planner.plan(world.start, world.goal);
+    if (plan.status != PlanStatus::found) continue;
+    ++found;
+    SCOPED_TRACE(seed);
+    expect_clear(plan.path, world.map, world.cylinders);
+    const double length = length_of(plan.path);
+    EXPECT_LE(length, std::max(1.25 * plan.shortest, plan.shortest + 2.0) + 1e-9);
+    EXPECT_GE(length, distance(plan.path.front(), plan.path.back()) - 1e-9);
+    EXPECT_TRUE(plan.path.back() == world.goal);
+  }
+  EXPECT_GE(found, 12);
+}
+
+TEST(Planner, finds_a_route_wherever_open_cells_join_start_and_goal) {
+  for (unsigned seed = 100; seed < 125; ++seed) {
+    RandomWorld world(seed);
+    const Planner planner = planner_on(world.map);
+    const Floor& floor = *planner.nav_mesh().shared_floor();
+    const int from = floor.component(floor.cell_at(world.start));
+    const int to = floor.component(floor.cell_at(world.goal));
+    if (from < 0 || to < 0) continue;
+    EXPECT_EQ(planner.plan(world.start, world.goal).status,
+              from == to ? PlanStatus::found : PlanStatus::refused)
+        << seed;
+  }
+}
+
+TEST(Planner, leaves_the_preferred_clearance_where_there_is_room) {
+  SmallWorld world;
+  world.room(16, 10).box(4, 4, 0, 12, 6, 1);
+  const Planner planner = planner_on(world);
+  const Plan plan = planner.plan({2, 5}, {14, 5});
+  ASSERT_EQ(plan.status, PlanStatus::found);
+  const Space space = planner.nav_mesh().space();
+  double least = 10.0;
+  for (const Point point : points_along(plan.path, 0.05))
+    least = std::min(least, space.clearance(point));
+  EXPECT_GT(least, 0.5);
+  EXPECT_LE(plan.path.size(), 6U);
+}
+
+}  // namespace
+}  // namespace navvi_nav
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
