@@ -27,7 +27,7 @@ struct NodeConfig {
   }
 };
 
-double wall() { return ros::SteadyTime::now().toSec(); }
+double now() { return ros::Time::now().toSec(); }
 
 }  // namespace
 
@@ -40,10 +40,9 @@ int main(int argc, char** argv) {
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);
-    // Ear and hand live by the wall clock, as people do.
     ros::Subscriber cues = node.subscribe<navvi_msgs::Cue>(
         "navvi/cues", 100, [&](const navvi_msgs::Cue::ConstPtr& msg) {
-          if (const auto speech = navvi_study::heard(*msg)) person.hear(*speech, wall());
+          if (const auto speech = navvi_study::heard(*msg)) person.hear(*speech, now());
         });
     ros::Subscriber rumble = node.subscribe<sensor_msgs::JoyFeedbackArray>(
         "joy/set_feedback", 10, [&](const sensor_msgs::JoyFeedbackArray::ConstPtr& msg) {
@@ -54,12 +53,16 @@ int main(int argc, char** argv) {
           }
           person.feel(left, right);
         });
-    double last = wall();
+    // The timer beats by the wall clock, but a turn is as long as the world's time says, also where
+    // a busy machine slows the world down.
+    double last = 0.0;
     ros::WallTimer timer =
         node.createWallTimer(ros::WallDuration(1.0 / config.rate), [&](const ros::WallTimerEvent&) {
-          const double now = wall();
-          joy.publish(navvi_study::to_msg(person.update(now, now - last), ros::Time::now()));
-          last = now;
+          const double time = std::max(last, now());
+          navvi_study::StickAndButtons hand;
+          if (last > 0.0) hand = person.update(time, time - last);
+          last = time;
+          joy.publish(navvi_study::to_msg(hand, ros::Time::now()));
         });
     ros::spin();
   } catch (const navvi_config::ConfigError& error) {

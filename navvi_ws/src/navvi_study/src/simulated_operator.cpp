@@ -11,6 +11,8 @@ constexpr double kNeutralAtStart = 1.0;      // s
 constexpr double kPress = 0.15;              // s, a button is held
 constexpr double kBackOff = 0.7;             // s
 constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
+constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
+constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
 constexpr double kBlindTurn = 3.0;  // m one goes on after "turn now", which tells no distance
 
 /// rad, clockwise, to an hour on the clock face. A listener who hears 1 or 11 when it was 12 before
@@ -31,6 +33,8 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit({"max_reaction", Range{0.0, 5.0}, "s", "slowest; not below min_reaction"}, max_reaction);
   visit({"turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick"}, turn_rate);
   visit({"full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick"}, full_speed);
+  visit({"dead_zone", Range{0.0, 0.5}, "", "believed, of the stick"}, dead_zone);
+  visit({"expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic"}, expo);
   visit({"gain_error", Range{0.0, 0.5}, "", "standard deviation of how wrong these beliefs are"},
         gain_error);
   visit({"turn_error", Range{0.0, 1.0}, "rad", "standard deviation of each turn"}, turn_error);
@@ -81,10 +85,10 @@ void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& ins
   const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
   const double angle = angle_of(instruction.hour);
   target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
-  turn_speed_ = std::abs(angle) < 0.4 && mode_ == Mode::driving ? config_.slow * 0.5 : 0.0;
+  turn_speed_ = std::abs(angle) < 0.4 && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;
   mode_ = Mode::turning;
   go_for(sentence, instruction);
-  speed_ = std::min(speed_, config_.slow * 1.25);
+  speed_ = std::min(speed_, 0.5 * (config_.slow + config_.cruise));
 }
 
 void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
@@ -139,20 +143,30 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
   }
 }
 
+double SimulatedOperator::shaped(double stick) const {
+  const double beyond = (std::abs(stick) - config_.dead_zone) / (1.0 - config_.dead_zone);
+  if (beyond <= 0.0) return 0.0;
+  const double curved = (1.0 - config_.expo) * beyond + config_.expo * beyond * beyond * beyond;
+  return std::copysign(curved, stick);
+}
+
 StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
   double speed = speed_;
+  if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, config_.slow);
   if (left_motor_ > config_.strong_rumble && right_motor_ > config_.strong_rumble) {
     const double excess = (std::min(left_motor_, right_motor_) - config_.strong_rumble) /
                           std::max(0.05, 1.0 - config_.strong_rumble);
-    speed = std::min(speed, config_.slow * (1.0 - 0.5 * excess));
+    speed = std::min(speed, config_.slow * (1.0 - 0.15 * excess));
   }
   double aim = target_ + (time < veer_until_ ? veer_ : 0.0);
   const double lean = left_motor_ - right_motor_;
-  if (std::abs(lean) > config_.strong_rumble) aim += lean > 0.0 ? -0.1 : 0.1;
+  if (std::abs(lean) > kOneSided) aim += lean > 0.0 ? -0.07 : 0.07;
   hand.forward = speed;
-  hand.left = std::clamp((aim - heading_) * 1.5, -0.4, 0.4);
-  if (std::abs(aim - heading_) < 0.05) hand.left = 0.0;
+  const double error = aim - heading_;
+  if (std::abs(error) > 0.04) {
+    hand.left = std::copysign(std::clamp(std::abs(error) * 1.5, 0.35, 0.6), error);
+  }
   return hand;
 }
 
@@ -160,21 +174,23 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
   StickAndButtons hand;
   if (mode_ == Mode::turning) {
     const double error = target_ - heading_;
-    if (std::abs(error) < 0.02) {
+    if (std::abs(error) < std::max(0.02, 0.6 * config_.turn_rate * dt)) {
       mode_ = Mode::driving;
     } else {
-      hand.left = std::clamp(error / (config_.turn_rate * std::max(dt, 1e-3)), -1.0, 1.0);
+      hand.left = std::copysign(1.0, error);
       hand.forward = turn_speed_;
     }
   }
   if (mode_ == Mode::driving) {
-    if (odometer_ >= stop_at_)
+    if (odometer_ >= stop_at_) {
       mode_ = Mode::waiting;
-    else
+      last_news_ = time - config_.idle_patience + 0.5;
+    } else {
       hand = drive(time);
+    }
   }
   if (mode_ == Mode::backing) {
-    hand.forward = -config_.slow;
+    hand.forward = -1.0;
     if (time >= back_until_) {
       mode_ = Mode::waiting;
       last_news_ = time - config_.idle_patience;
@@ -210,8 +226,8 @@ StickAndButtons SimulatedOperator::update(double time, double dt) {
   StickAndButtons hand = act(time, dt);
   ask_when_lost(time);
   hand.repeat = time - asked_ < kPress;
-  heading_ += hand.left * config_.turn_rate * dt;
-  odometer_ += hand.forward * config_.full_speed * speed_gain_ * dt;
+  heading_ += shaped(hand.left) * config_.turn_rate * dt;
+  odometer_ += shaped(hand.forward) * config_.full_speed * speed_gain_ * dt;
   return hand;
 }
 

@@ -15,11 +15,13 @@ struct SimulatedOperatorConfig {
   double min_reaction = 0.4;
   double max_reaction = 1.0;
   double turn_rate = 1.2;
-  double full_speed = 1.0;
+  double full_speed = 0.9;
+  double dead_zone = 0.12;
+  double expo = 0.3;
   double gain_error = 0.10;
   double turn_error = 0.10;
-  double cruise = 0.8;
-  double slow = 0.4;
+  double cruise = 0.85;
+  double slow = 0.6;
   double patience = 6.0;
   double idle_patience = 2.5;
   double strong_rumble = 0.6;
@@ -74,6 +76,7 @@ class SimulatedOperator {
   void veer(Instruction::Side side, double angle, double until);
   [[nodiscard]] StickAndButtons act(double time, double dt);
   [[nodiscard]] StickAndButtons drive(double time) const;
+  [[nodiscard]] double shaped(double stick) const;
   void ask_when_lost(double time);
 
   SimulatedOperatorConfig config_;
