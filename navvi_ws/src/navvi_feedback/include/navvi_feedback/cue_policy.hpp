@@ -41,13 +41,21 @@ class CuePolicy {
 
  private:
   using Utterances = std::vector<Utterance>;
+  struct Links {
+    Link pad = Link::never;
+    Link simulator = Link::never;
+    Link proximity = Link::never;
+    Link guidance = Link::never;
+    Link audio = Link::never;
+  };
 
-  [[nodiscard]] Utterances lost_and_found(const Situation& now, double time);
-  [[nodiscard]] Utterances collisions(const Situation& now);
+  [[nodiscard]] Links judge(const Situation& now, double time);
+  [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links);
+  [[nodiscard]] Utterances collisions(const Situation& now, double time);
   [[nodiscard]] Utterances stuck(const Situation& now, double time);
-  [[nodiscard]] Utterances guidance_state(const Situation& now, double time);
+  [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
+  [[nodiscard]] Utterances route(const Situation& now, double time);
   [[nodiscard]] Utterances answers(const Situation& now) const;
-  [[nodiscard]] bool follows(const Situation& now) const;
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, double time);
 
   CuePolicyConfig config_;
@@ -56,13 +64,17 @@ class CuePolicy {
   NearCues near_;
 
   std::optional<double> first_update_;  ///< s
-  std::optional<Situation> last_;
+  Links links_;                         ///< as of the last update
+  Situation::Gate gate_ = Situation::Gate::unknown;
+  bool follows_ = false;                 ///< there is a fresh path now
   std::optional<double> blocked_since_;  ///< s, commanded without moving
   std::optional<double> stuck_said_;     ///< s
-  std::string problem_;                  ///< what keeps the guidance from leading, as a cue kind
-  double problem_since_ = 0.0;           ///< s
-  std::optional<double> problem_said_;   ///< s
-  std::map<std::string, double> last_said_;
+  std::string problem_;                  ///< why the guidance does not lead, as a cue kind
+  Eigen::Vector2d problem_goal_ = Eigen::Vector2d::Zero();
+  double problem_since_ = 0.0;          ///< s
+  std::optional<double> problem_said_;  ///< s
+  bool arrival_said_ = false;
+  std::map<std::string, double> last_said_;  ///< s, by kind
   std::set<std::string> noticed_;
 };
 

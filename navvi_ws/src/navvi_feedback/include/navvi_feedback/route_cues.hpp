@@ -25,6 +25,7 @@ struct RouteConfig {
   double settle = 0.3;            ///< s
   double straight_lead = 0.5;     ///< s
   double idle = 5.0;              ///< s
+  double reach = 0.8;             ///< m
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -47,34 +48,40 @@ class RouteCues {
 
   /// The path is gone: when there is one again, say where it leads.
   void pause();
+  /// The goal is gone too: the next one is introduced.
+  void forget();
   /// Something else was said that makes a person stop: say the direction again soon.
   void remind(double time);
 
  private:
-  enum class Change { none, new_goal, next_corner, reroute };
+  enum class Change { none, next_corner, reroute };
 
+  [[nodiscard]] bool new_goal(const Guidance& guidance) const;
   [[nodiscard]] Change compare(const Guidance& guidance) const;
   void observe(const Situation& now, double time);
-  [[nodiscard]] bool turning(double time) const;
   [[nodiscard]] bool about_to_face(const Situation& now) const;
+  [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, double time) const;
-  [[nodiscard]] bool direction_due(double time) const;
-  Utterance spoken(Utterance utterance, std::optional<int> hour, double time);
+  [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
+  [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
+  Utterance said(Utterance utterance, int hour, double time);
 
   RouteConfig config_;
   Rounding rounding_;
   SteadyHour steady_;
-  std::optional<Guidance> last_;    ///< of the path that is being followed
-  std::optional<int> hour_;         ///< to the way-point, now
-  std::optional<int> said_hour_;    ///< what the person last heard
-  Change pending_ = Change::none;   ///< still to be told
-  std::optional<int> turn_said_;    ///< hour of the last turn_ahead
-  bool ahead_told_ = false;         ///< this corner's turn_ahead was said
-  double said_time_ = 0.0;          ///< s, of the last direction
-  double turn_said_time_ = 0.0;     ///< s
-  double last_turning_ = 0.0;       ///< s, when the robot last turned
-  double last_commanded_ = 0.0;     ///< s, when the person last moved the stick
-  std::optional<double> reminder_;  ///< s, say the direction again from then on
+  std::optional<Eigen::Vector2d> goal_;  ///< m, in map, the one that was introduced
+  std::optional<Guidance> last_;         ///< of the path that is being followed
+  std::optional<int> hour_;              ///< to the way-point, now
+  std::optional<int> said_hour_;         ///< what the person last heard
+  Change pending_ = Change::none;        ///< still to be told
+  bool ahead_told_ = false;              ///< this corner's turn_ahead was said
+  std::optional<int> turn_said_;         ///< hour of the last turn_ahead
+  double turn_said_time_ = 0.0;          ///< s
+  double said_time_ = 0.0;               ///< s, of the last direction
+  bool turning_ = false;                 ///< on the spot, or not yet settled
+  std::optional<double> last_turning_;   ///< s
+  double last_commanded_ = 0.0;          ///< s, when the person last moved the stick
+  std::optional<double> reminder_;       ///< s, say the direction again from then on
 };
 
 }  // namespace navvi_feedback
