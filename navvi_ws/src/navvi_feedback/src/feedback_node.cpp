@@ -1,0 +1,381 @@
+// The person's side: one stick in; rumble, speech and a bright path out.
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/callback_queue.h>
+#include <ros/package.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <csignal>
+#include <map>
+#include <navvi_config/ros_parameters.hpp>
+
+#include "navvi_feedback/cue_policy.hpp"
+#include "navvi_feedback/diagnostics.hpp"
+#include "navvi_feedback/drive.hpp"
+#include "navvi_feedback/haptics.hpp"
+#include "navvi_feedback/input_source.hpp"
+#include "navvi_feedback/markers.hpp"
+#include "navvi_feedback/msg_conversion.hpp"
+#include "navvi_feedback/rumble_output.hpp"
+#include "navvi_feedback/speech_channel.hpp"
+
+namespace navvi_feedback {
+namespace {
+
+volatile std::sig_atomic_t g_stop = 0;
+
+struct NodeConfig {
+  std::string input = "auto";
+  std::string speech = "auto";
+  std::string phrases;
+  double stale = 1.0;  // s
+  DriveConfig drive;
+  HapticsConfig haptics;
+  CuePolicyConfig cues;
+  SpeakerConfig speaker;
+  MarkersConfig markers;
+
+  void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Any;
+    using navvi_config::OneOf;
+    using navvi_config::Range;
+    visit({"input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
+           "where the stick comes from; topic: joy from another driver"},
+          input);
+    visit({"speech", OneOf{{"auto", "true", "false"}}, "",
+           "auto: if there is an audio device; true: required; false: silent"},
+          speech);
+    visit({"phrases", Any{}, "", "file of the spoken phrases; empty for the English that ships"},
+          phrases);
+    visit({"stale", Range{0.2, 10.0}, "s",
+           "guidance, proximity or odometry older than this (wall clock) is lost"},
+          stale);
+    visit.group("drive", drive);
+    visit.group("haptics", haptics);
+    visit.group("cues", cues);
+    visit.group("speaker", speaker);
+    visit.group("markers", markers);
+  }
+};
+
+Audio audio_of(const std::string& speech) {
+  if (speech == "true") return Audio::required;
+  return speech == "false" ? Audio::off : Audio::automatic;
+}
+
+std::string phrases_file(const NodeConfig& config) {
+  if (!config.phrases.empty()) return config.phrases;
+  return ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
+}
+
+/// The person lives in wall time: a simulation that stops must not stop what tells of it.
+double now() { return ros::SteadyTime::now().toSec(); }
+
+/// The latest message of a topic, and when it came.
+template <typename T>
+struct Latest {
+  std::optional<T> value;
+  std::optional<double> time;  // s, of now()
+
+  [[nodiscard]] Link link(double at, double stale) const { return link_state(time, at, stale); }
+  [[nodiscard]] bool fresh(double at, double stale) const { return link(at, stale) == Link::alive; }
+};
+
+class FeedbackNode {
+ public:
+  explicit FeedbackNode(const NodeConfig& config)
+      : config_(config),
+        drive_(config.drive),
+        haptics_(config.haptics),
+        policy_(config.cues, Phrases(phrases_file(config), config.cues.words())),
+        speech_(config.speaker, audio_of(config.speech)),
+        source_(config.input) {
+    ROS_INFO("The stick comes from the %s.", to_string(source_.kind()));
+    advertise();
+    subscribe();
+    tick_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
+                                        [this](const ros::WallTimerEvent&) { tick(); });
+    diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
+                                               [this](const ros::WallTimerEvent&) { diagnose(); });
+  }
+
+  /// Leaves nothing running, driving or speaking.
+  void finish() {
+    tick_timer_.stop();
+    cmd_vel_.publish(geometry_msgs::Twist());
+    move_motors({}, now());
+    publish(speech_.finish());
+  }
+
+ private:
+  void advertise() {
+    cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
+    cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+    markers_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
+    diagnostics_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
+    // Another driver's joy is taken, never answered with one of our own.
+    if (source_.kind() != InputSource::Kind::topic)
+      joy_out_ = node_.advertise<sensor_msgs::Joy>("joy", 1);
+  }
+
+  void subscribe() {
+    if (source_.kind() == InputSource::Kind::topic) {
+      listen<sensor_msgs::Joy>("joy", 1,
+                               [this](const InputState& joy) { source_.receive(joy, now()); });
+    }
+    keep<navvi_msgs::Proximity>("navvi/proximity", nearby_);
+    keep<navvi_msgs::Guidance>("navvi/guidance", guidance_);
+    keep<navvi_msgs::DriveState>("navvi/drive_state", gate_);
+    keep<nav_msgs::Odometry>("odom", motion_);
+    keep<nav_msgs::Path>("navvi/path", path_);
+    listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const Situation::Contact& contact) {
+      contacts_.push_back(contact);
+    });
+  }
+
+  /// Passes on what a message means; one that means nothing is dropped whole and counted.
+  template <typename Msg, typename Take>
+  void listen(const std::string& topic, std::uint32_t queue, Take take) {
+    const boost::function<void(const boost::shared_ptr<const Msg>&)> callback =
+        [this, topic, take](const boost::shared_ptr<const Msg>& msg) {
+          if (const auto value = from_msg(*msg)) {
+            take(*value);
+            return;
+          }
+          ++dropped_[topic];
+          ROS_WARN_THROTTLE(5.0, "A message on %s is malformed and was dropped (%u so far).",
+                            topic.c_str(), dropped_[topic]);
+        };
+    subscribers_.push_back(node_.subscribe<Msg>(topic, queue, callback, ros::VoidConstPtr(),
+                                                ros::TransportHints().tcpNoDelay()));
+  }
+
+  template <typename Msg, typename T>
+  void keep(const std::string& topic, Latest<T>& latest) {
+    listen<Msg>(topic, 1, [&latest](const T& value) {
+      latest.value = value;
+      latest.time = now();
+    });
+  }
+
+  void tick() {
+    const double time = now();
+    const double dt = std::clamp(time - last_tick_.value_or(time), 0.0, 0.1);
+    last_tick_ = time;
+    const InputState input = source_.read(time);
+    drive(input, dt);
+    feel(time, dt);
+    say(input, time);
+    show(time);
+    last_input_ = input;
+  }
+
+  void drive(const InputState& input, double dt) {
+    // A device that was opened anew between two ticks was lost between them.
+    const bool live = input.live && (!last_input_.live || input.session == last_input_.session);
+    const std::optional<Velocity> velocity =
+        drive_.update(live ? std::optional<Stick>(input.stick()) : std::nullopt, dt);
+    // The last word of a lost stick is zero; after it, silence.
+    if (velocity || last_input_.live) cmd_vel_.publish(twist(velocity.value_or(Velocity{})));
+    commanded_ = velocity.value_or(Velocity{});
+    if (input.live && joy_out_) joy_out_.publish(to_msg(input, ros::Time::now()));
+  }
+
+  static geometry_msgs::Twist twist(const Velocity& velocity) {
+    geometry_msgs::Twist msg;
+    msg.linear.x = velocity.linear;
+    msg.angular.z = velocity.angular;
+    return msg;
+  }
+
+  void feel(double time, double dt) {
+    const bool fresh =
+        nearby_.fresh(time, config_.stale) && motion_.link(time, config_.stale) != Link::lost;
+    Rumble rumble = haptics_.update(nearby_.value.value_or(std::vector<Nearby>{}), fresh, dt);
+    if (speech_.status().device == Speaker::Status::Device::open ||
+        audio_of(config_.speech) == Audio::off) {
+      alarm_since_.reset();
+    } else if (!alarm_since_ && (!source_.pad() || source_.pad()->status().connected)) {
+      alarm_since_ = time;
+      ROS_WARN("There is no audio device: nothing is heard. %s", speech_.status().detail.c_str());
+    }
+    const double alarm = alarm_since_ ? alarm_force(time - *alarm_since_) : 0.0;
+    rumble = {std::max(rumble.left, alarm), std::max(rumble.right, alarm)};
+    move_motors(rumble, time);
+  }
+
+  void move_motors(const Rumble& rumble, double time) {
+    if (Gamepad* pad = source_.pad()) pad->rumble(rumble);
+    const RumbleOutput::Due due = rumble_output_.update(rumble, time);
+    if (due.feedback) feedback_.publish(feedback_msg(rumble));
+    if (due.changed) cues_.publish(rumble_msg(rumble, ++rumble_id_, ros::Time::now()));
+  }
+
+  void say(const InputState& input, double time) {
+    publish(speech_.tick(policy_.update(situation(input, time), time), time));
+    contacts_.clear();
+  }
+
+  [[nodiscard]] Situation situation(const InputState& input, double time) {
+    Situation result;
+    result.guidance = guidance_.value;
+    result.goal_angle = goal_angle();
+    result.guidance_link = guidance_.link(time, config_.stale);
+    result.proximity_link = nearby_.link(time, config_.stale);
+    result.simulator_link = motion_.link(time, config_.stale);
+    if (result.proximity_link == Link::alive) result.nearby = *nearby_.value;
+    if (result.simulator_link == Link::alive) result.measured = motion_.value;
+    result.contacts = contacts_;
+    result.commanded = {commanded_.linear, commanded_.angular};
+    result.gate = gate_.value.value_or(Situation::Gate::unknown);
+    result.pad_link = pad_link(input);
+    result.audio_link = audio_link();
+    result.repeat_pressed = input.button(0) && !last_input_.button(0);
+    result.goal_pressed = input.button(1) && !last_input_.button(1);
+    result.voice_busy = !speech_.idle();
+    result.notices = notices();
+    return result;
+  }
+
+  [[nodiscard]] Link pad_link(const InputState& input) {
+    seen_input_ = seen_input_ || input.live;
+    if (input.live) return Link::alive;
+    return seen_input_ ? Link::lost : Link::never;
+  }
+
+  [[nodiscard]] Link audio_link() const {
+    switch (speech_.status().device) {
+      case Speaker::Status::Device::missing:
+        return Link::never;
+      case Speaker::Status::Device::lost:
+        return Link::lost;
+      case Speaker::Status::Device::open:
+      case Speaker::Status::Device::off:
+        break;
+    }
+    return Link::alive;
+  }
+
+  [[nodiscard]] std::vector<std::string> notices() const {
+    if (!source_.pad()) return {};
+    const Gamepad::Status pad = source_.pad()->status();
+    std::vector<std::string> result;
+    if (pad.connected && !pad.has_rumble) result.push_back("no_rumble");
+    if (pad.others > 0) result.push_back("second_pad");
+    return result;
+  }
+
+  /// rad, clockwise from the nose to the goal.
+  [[nodiscard]] std::optional<double> goal_angle() const {
+    if (!guidance_.value || guidance_.value->state != Guidance::State::following)
+      return std::nullopt;
+    try {
+      const auto transform = tf_.lookupTransform("map", "base_link", ros::Time(0)).transform;
+      return angle_to(transform, guidance_.value->goal);
+    } catch (const tf2::TransformException&) {
+      return std::nullopt;
+    }
+  }
+
+  void show(double time) {
+    if (markers_time_ && time - *markers_time_ < 0.1) return;
+    markers_time_ = time;
+    const bool fresh = guidance_.fresh(time, config_.stale);
+    visualization_msgs::MarkerArray markers =
+        guide_markers(config_.markers, fresh ? guidance_.value : std::nullopt,
+                      path_.value.value_or(std::vector<Eigen::Vector2d>{}));
+    if (markers.markers == shown_.markers) return;
+    shown_ = markers;
+    stamp(markers, ros::Time::now());
+    markers_.publish(markers);
+  }
+
+  void publish(const std::vector<CueEvent>& events) {
+    for (const CueEvent& event : events) {
+      cues_.publish(to_msg(event, ros::Time::now()));
+      if (event.stage == CueStage::started)
+        ROS_INFO("[%s] %s", event.cue.kind.c_str(), event.cue.text.c_str());
+    }
+  }
+
+  void diagnose() {
+    diagnostic_msgs::DiagnosticArray array;
+    array.header.stamp = ros::Time::now();
+    std::optional<Gamepad::Status> pad;
+    if (source_.pad()) pad = source_.pad()->status();
+    array.status = {pad_status(pad, to_string(source_.kind()), last_input_.live),
+                    audio_status(speech_.status()), speech_status(speech_.status())};
+    diagnostics_.publish(array);
+    if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
+  }
+
+  NodeConfig config_;
+  Drive drive_;
+  Haptics haptics_;
+  CuePolicy policy_;
+  SpeechChannel speech_;
+  InputSource source_;
+  RumbleOutput rumble_output_;
+
+  ros::NodeHandle node_;
+  tf2_ros::Buffer tf_;
+  tf2_ros::TransformListener tf_listener_{tf_};
+  ros::Publisher cmd_vel_, joy_out_, feedback_, cues_, markers_, diagnostics_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer tick_timer_, diagnostics_timer_;
+
+  Latest<std::vector<Nearby>> nearby_;
+  Latest<Guidance> guidance_;
+  Latest<Situation::Gate> gate_;
+  Latest<Situation::Motion> motion_;
+  Latest<std::vector<Eigen::Vector2d>> path_;
+  std::vector<Situation::Contact> contacts_;
+  std::map<std::string, unsigned> dropped_;
+
+  std::optional<double> last_tick_;     // s, of now()
+  std::optional<double> markers_time_;  // s
+  std::optional<double> alarm_since_;   // s
+  InputState last_input_;
+  bool seen_input_ = false;
+  Velocity commanded_;
+  std::uint32_t rumble_id_ = 0;
+  visualization_msgs::MarkerArray shown_;
+};
+
+void spin(FeedbackNode& node) {
+  while (ros::ok() && g_stop == 0) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  }
+  if (!ros::ok()) return;
+  node.finish();
+  ros::WallDuration(0.05).sleep();  // lets the last messages leave
+}
+
+}  // namespace
+}  // namespace navvi_feedback
+
+int main(int argc, char** argv) {
+  // roscpp's own handler would close the topics before the last zero is out.
+  ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, [](int) { navvi_feedback::g_stop = 1; });
+  try {
+    ros::NodeHandle keep_alive;
+    navvi_feedback::FeedbackNode node(
+        navvi_config::load<navvi_feedback::NodeConfig>(ros::NodeHandle("~")));
+    navvi_feedback::spin(node);
+  } catch (const navvi_config::ConfigError& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  } catch (const navvi_feedback::DeviceError& error) {
+    ROS_FATAL("%s", error.what());
+    return 3;
+  } catch (const navvi_feedback::SpeakerError& error) {
+    ROS_FATAL("%s", error.what());
+    return 3;
+  }
+  return 0;
+}
