@@ -114,18 +114,19 @@ class Drawing {
     return places.empty() ? free_ : places;
   }
 
-  /// Those of `places` at the end of a way long enough; of shorter ways only the longest.
+  /// Those of `places` at the end of a way long enough, which in a small world is 0.8 of the
+  /// longest.
   [[nodiscard]] std::vector<std::size_t> far_enough(const FloorGrid::Ways& ways,
                                                     const std::vector<std::size_t>& places) const {
+    double longest = 0.0;
+    for (const std::size_t place : places)
+      if (std::isfinite(ways.length[place]))
+        longest = std::max(longest, static_cast<double>(ways.length[place]));
+    const double least = std::min(config_.min_route, 0.8 * longest);
     std::vector<std::size_t> ends;
-    std::size_t farthest = FloorGrid::kNone;
-    for (const std::size_t place : places) {
-      if (!std::isfinite(ways.length[place])) continue;
-      if (static_cast<double>(ways.length[place]) >= config_.min_route) ends.push_back(place);
-      if (farthest == FloorGrid::kNone || ways.length[place] > ways.length[farthest])
-        farthest = place;
-    }
-    if (ends.empty() && farthest != FloorGrid::kNone) ends.push_back(farthest);
+    for (const std::size_t place : places)
+      if (std::isfinite(ways.length[place]) && static_cast<double>(ways.length[place]) >= least)
+        ends.push_back(place);
     return ends;
   }
 

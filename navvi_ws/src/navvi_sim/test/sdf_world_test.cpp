@@ -1,0 +1,292 @@
+#include "navvi_sim/sdf_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "navvi_sim/occupancy.hpp"
+#include "navvi_sim/scenario.hpp"
+#include "navvi_sim/validate.hpp"
+
+namespace navvi_sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Thing* thing_named(const WorldDescription& world, const std::string& name) {
+  for (const Thing& thing : world.things)
+    if (thing.name == name) return &thing;
+  return nullptr;
+}
+
+/// Of meshes and boxes, in map.
+Eigen::AlignedBox3d bounds(const Thing& thing) {
+  Eigen::AlignedBox3d result;
+  for (const Shape& shape : thing.shapes) {
+    const Eigen::Isometry3d pose = thing.pose * shape.pose;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
+      for (const Eigen::Vector3f& vertex : (*mesh)->vertices)
+        result.extend(pose * vertex.cast<double>());
+    if (const Box* box = std::get_if<Box>(&shape.geometry)) {
+      const Eigen::Vector3d reach = pose.linear().cwiseAbs() * box->size / 2.0;
+      result.extend(pose.translation() + reach).extend(pose.translation() - reach);
+    }
+  }
+  return result;
+}
+
+std::string sentence_of(const std::string& spec, const std::string& models = "") {
+  try {
+    static_cast<void>(load_world(spec, models, 1, {}));
+  } catch (const WorldError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A folder for the files of one test, gone afterwards.
+class SdfWorld : public testing::Test {
+ protected:
+  SdfWorld() {
+    std::string pattern = (fs::temp_directory_path() / "navvi_sdf_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~SdfWorld() override { fs::remove_all(folder_); }
+
+  std::string write(const fs::path& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  std::string write_world(const std::string& body, const std::string& version = "1.6") const {
+    return write("a.world", "<?xml version='1.0'?><sdf version='" + version + "'><world name='w'>" +
+                                body + "</world></sdf>");
+  }
+  void write_model(const std::string& name, const std::string& body) const {
+    write("models/" + name + "/model.config",
+          "<?xml version='1.0'?><model><name>m</name><sdf version='1.6'>model.sdf</sdf></model>");
+    write("models/" + name + "/model.sdf", "<?xml version='1.0'?><sdf version='1.6'><model name='" +
+                                               name + "'>" + body + "</model></sdf>");
+  }
+
+  fs::path folder_;
+  const std::string ground_ =
+      "<model name='ground'><link name='l'><collision name='c'><pose>0 0 -0.05 0 0 0</pose>"
+      "<geometry><box><size>20 20 0.1</size></box></geometry></collision></link></model>";
+  const std::string cube_ =
+      "<link name='l'><collision name='c'><geometry><box><size>1 1 1</size></box></geometry>"
+      "</collision></link>";
+};
+
+TEST_F(SdfWorld, that_ships_is_a_room_with_a_shelf) {
+  const LoadedWorld loaded =
+      load_world(std::string(NAVVI_SIM_DIR) + "/worlds/small_room.world", "", 1, {});
+  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_EQ(loaded.world.name, "small_room");
+  EXPECT_EQ(loaded.world.things.size(), 8U);
+  EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
+  const Thing* shelf = thing_named(loaded.world, "shelf");
+  ASSERT_NE(shelf, nullptr);
+  EXPECT_EQ(shelf->thing_class, ThingClass::shelf);
+  EXPECT_EQ(shelf->shapes.size(), 4U) << "one of them in a nested model";
+  EXPECT_NEAR(bounds(*shelf).max().x(), 2.0, 1e-9);
+  EXPECT_EQ(thing_named(loaded.world, "pedestal")->thing_class, ThingClass::pedestal);
+  EXPECT_EQ(thing_named(loaded.world, "box_upper")->thing_class, ThingClass::box);
+  EXPECT_EQ(thing_named(loaded.world, "worker")->thing_class, ThingClass::worker);
+  const octomap::OcTree map = occupancy_of(loaded.world, {});
+  EXPECT_GT(draw_scenario(loaded.world, map, {}, 1).route_length, 5.0);
+}
+
+TEST_F(SdfWorld, adds_up_poses_of_world_model_link_and_collision) {
+  write_model(
+      "crate",
+      "<link name='l'><pose>0 2 0 0 0 0</pose><collision name='c'><pose>0 0 0.5 0 0 0</pose>"
+      "<geometry><box><size>1 1 1</size></box></geometry></collision></link>");
+  const LoadedWorld loaded = load_world(
+      write_world(ground_ + "<model name='crate_1'><include><uri>model://crate</uri></include>"
+                            "<pose>1 0 0 0 0 1.5707963267948966</pose></model>"),
+      "", 1, {});
+  const Thing* crate = thing_named(loaded.world, "crate_1");
+  ASSERT_NE(crate, nullptr);
+  EXPECT_LT((bounds(*crate).center() - Eigen::Vector3d(-1.0, 0.0, 0.5)).norm(), 1e-9);
+}
+
+TEST_F(SdfWorld, follows_relative_to) {
+  const LoadedWorld loaded = load_world(
+      write_world(ground_ +
+                      "<frame name='f'><pose>3 0 0 0 0 0</pose></frame><model name='box'>"
+                      "<pose relative_to='f'>0 1 0.5 0 0 0</pose>" +
+                      cube_ + "</model>",
+                  "1.7"),
+      "", 1, {});
+  EXPECT_LT(
+      (bounds(*thing_named(loaded.world, "box")).center() - Eigen::Vector3d(3, 1, 0.5)).norm(),
+      1e-9);
+}
+
+TEST_F(SdfWorld, takes_geometry_whatever_the_masses_are) {
+  const LoadedWorld loaded = load_world(
+      write_world(ground_ +
+                  "<model name='box'><link name='l'><inertial><mass>-3</mass><inertia><ixx>-1</ixx>"
+                  "</inertia></inertial><collision name='c'><geometry><box><size>1 1 1</size></box>"
+                  "</geometry></collision></link></model>"),
+      "", 1, {});
+  EXPECT_NE(thing_named(loaded.world, "box"), nullptr);
+}
+
+TEST_F(SdfWorld, as_gazebo_saves_it_is_read_with_its_state) {
+  const LoadedWorld loaded = load_world(
+      write_world(
+          ground_ +
+          "<model name='box'><link name='A::body'><collision name='c'><geometry><box>"
+          "<size>1 1 1</size></box></geometry></collision></link></model>"
+          "<state world_name='w'><model name='box'><pose frame=''>2 3 0.5 0 -0 0</pose>"
+          "<link name='A::body'><pose frame=''>2 3 0.5 0 -0 0</pose></link></model></state>"),
+      "", 1, {});
+  EXPECT_LT(
+      (bounds(*thing_named(loaded.world, "box")).center() - Eigen::Vector3d(2, 3, 0.5)).norm(),
+      1e-9);
+  EXPECT_FALSE(loaded.notes.empty());
+}
+
+TEST_F(SdfWorld, makes_a_floor_of_an_endless_plane) {
+  const LoadedWorld loaded = load_world(
+      write_world("<model name='ground_plane'><link name='l'><collision name='c'><geometry><plane>"
+                  "<normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
+                  "</model><model name='box'><pose>4 0 0.5 0 0 0</pose>" +
+                  cube_ + "</model>"),
+      "", 1, {});
+  EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
+  EXPECT_EQ(thing_named(loaded.world, "ground_plane")->thing_class, ThingClass::floor);
+}
+
+TEST_F(SdfWorld, lists_by_name_what_it_cannot_take_over) {
+  const LoadedWorld loaded = load_world(
+      write_world(
+          ground_ +
+          "<model name='pill'><link name='l'><collision name='c'><geometry><capsule><radius>"
+          "0.2</radius><length>1</length></capsule></geometry></collision></link></model>"
+          "<model name='ghost'><link name='l'/></model>"
+          "<model name='cellar'><pose>0 0 -5 0 0 0</pose>" +
+          cube_ + "</model>"),
+      "", 1, {});
+  EXPECT_EQ(loaded.world.things.size(), 1U);
+  for (const char* name : {"pill", "ghost", "cellar"}) {
+    bool listed = false;
+    for (const std::string& note : loaded.notes)
+      listed = listed || note.find(name) != std::string::npos;
+    EXPECT_TRUE(listed) << name;
+  }
+}
+
+TEST_F(SdfWorld, is_refused_with_a_sentence_when_it_is_none) {
+  EXPECT_NE(sentence_of("/nowhere/a.world"), "");
+  EXPECT_NE(sentence_of(folder_.string()), "");
+  EXPECT_NE(sentence_of(write("a.txt", "hello")), "");
+  EXPECT_NE(sentence_of(write("empty.world", "")), "");
+  EXPECT_NE(sentence_of(write("words.world", "this is no XML")), "");
+  EXPECT_NE(sentence_of(write("half.world", "<sdf version='1.6'><world name='w'><model name='a'>")),
+            "");
+  EXPECT_NE(sentence_of(write("html.sdf", "<html><body/></html>")), "");
+  EXPECT_NE(sentence_of(write("model.sdf",
+                              "<sdf version='1.6'><model name='m'>" + cube_ + "</model></sdf>")),
+            "");
+  EXPECT_NE(sentence_of(write_world("<model name='box'>" + cube_ + "</model>")), "") << "no floor";
+  EXPECT_NE(sentence_of(write_world("")), "");
+}
+
+TEST_F(SdfWorld, names_the_model_that_is_missing) {
+  const std::string sentence = sentence_of(write_world(
+      ground_ + "<model name='a'><include><uri>model://not_there</uri></include></model>"));
+  EXPECT_NE(sentence.find("model://not_there"), std::string::npos) << sentence;
+}
+
+TEST_F(SdfWorld, names_the_mesh_that_is_missing_or_broken) {
+  const auto with_mesh = [&](const std::string& uri) {
+    return sentence_of(write_world(
+        ground_ + "<model name='a'><link name='l'><collision name='c'><geometry><mesh><uri>" + uri +
+        "</uri></mesh></geometry></collision></link></model>"));
+  };
+  EXPECT_NE(with_mesh("model://m/a.dae").find("model://m/a.dae"), std::string::npos);
+  EXPECT_NE(with_mesh("http://example.org/a.dae"), "");
+  write("broken.dae", "no mesh");
+  write("empty.stl", "");
+  EXPECT_NE(with_mesh("broken.dae").find("broken.dae"), std::string::npos);
+  EXPECT_NE(with_mesh("empty.stl").find("empty.stl"), std::string::npos);
+}
+
+TEST_F(SdfWorld, refuses_models_that_include_each_other_in_a_circle) {
+  write_model("a", "<include><uri>model://b</uri></include>");
+  write_model("b", "<include><uri>model://a</uri></include>");
+  const std::string sentence =
+      sentence_of(write_world(ground_ + "<include><uri>model://a</uri></include>"));
+  EXPECT_NE(sentence.find("includes itself"), std::string::npos) << sentence;
+}
+
+TEST_F(SdfWorld, refuses_numbers_that_make_no_world) {
+  const auto with_box = [&](const std::string& pose, const std::string& size) {
+    return sentence_of(
+        write_world(ground_ + "<model name='box'><pose>" + pose +
+                    "</pose><link name='l'><collision name='c'><geometry><box><size>" + size +
+                    "</size></box></geometry></collision></link></model>"));
+  };
+  EXPECT_EQ(with_box("0 0 1 0 0 0", "1 1 1"), "");
+  EXPECT_NE(with_box("0 0 1 0 0 0", "1 0 1"), "");
+  EXPECT_NE(with_box("0 0 1 0 0 0", "1 -1 1"), "");
+  EXPECT_NE(with_box("0 0 1 0 0 0", "nan 1 1"), "");
+  EXPECT_NE(with_box("nan 0 1 0 0 0", "1 1 1"), "");
+  EXPECT_NE(with_box("1e9 0 1 0 0 0", "1 1 1"), "");
+}
+
+/// A world that others wrote, as it is found in the wild.
+class AwsWarehouse : public testing::Test {
+ protected:
+  void SetUp() override {
+    const fs::path file =
+        fs::path(NAVVI_SHARED_DIR) / "worlds/aws_small_warehouse/no_roof_small_warehouse.world";
+    if (!fs::exists(file)) GTEST_SKIP() << "the world " << file << " is not on this machine";
+    loaded_ = load_world(file.string(), "", 1, {});
+  }
+  LoadedWorld loaded_;
+};
+
+TEST_F(AwsWarehouse, has_all_models_at_their_size) {
+  const WorldDescription& world = loaded_.world;
+  EXPECT_EQ(world.things.size(), 25U);
+  const auto size_of = [&](const std::string& name) -> Eigen::Vector3d {
+    const Thing* thing = thing_named(world, "aws_robomaker_warehouse_" + name);
+    if (!thing) return Eigen::Vector3d::Zero();
+    return bounds(*thing).sizes();
+  };
+  EXPECT_LT((size_of("WallB_01_001") - Eigen::Vector3d(14.0, 20.9, 9.0)).norm(), 0.1);
+  EXPECT_LT((size_of("ShelfD_01_001") - Eigen::Vector3d(3.92, 0.88, 2.61)).norm(), 0.1);
+  EXPECT_LT((size_of("PalletJackB_01_001") - Eigen::Vector3d(1.16, 0.54, 0.97)).norm(), 0.1);
+  int shelves = 0;
+  for (const Thing& thing : world.things) shelves += thing.thing_class == ThingClass::shelf ? 1 : 0;
+  EXPECT_EQ(shelves, 7);
+}
+
+TEST_F(AwsWarehouse, has_the_floor_where_its_ground_mesh_is_level) {
+  const Thing* ground = thing_named(loaded_.world, "aws_robomaker_warehouse_GroundB_01_001");
+  ASSERT_NE(ground, nullptr);
+  EXPECT_EQ(ground->thing_class, ThingClass::floor);
+  EXPECT_NEAR(loaded_.world.floor_height, bounds(*ground).max().z(), 0.01);
+}
+
+TEST_F(AwsWarehouse, lets_a_robot_go_from_the_south_to_the_north) {
+  const octomap::OcTree map = occupancy_of(loaded_.world, {});
+  const Scenario scenario = draw_scenario(loaded_.world, map, {}, 1, FloorPose{1.0, -9.0, 1.57},
+                                          Eigen::Vector2d(1.0, 6.0));
+  EXPECT_GE(scenario.route_length, 15.0 - 0.1);
+  EXPECT_LT(scenario.route_length, 25.0);
+}
+
+}  // namespace
+}  // namespace navvi_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
