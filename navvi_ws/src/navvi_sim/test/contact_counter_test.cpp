@@ -5,6 +5,8 @@
 namespace navvi_sim {
 namespace {
 
+const Eigen::Vector3d kPoint = Eigen::Vector3d::Zero();
+
 class Contacts : public testing::Test {
  protected:
   Contacts() : things_(3) {
@@ -15,7 +17,7 @@ class Contacts : public testing::Test {
   std::size_t hold(double distance, double seconds) {
     std::size_t begun = 0;
     for (int i = 0; i < static_cast<int>(seconds / 0.01 + 0.5); ++i)
-      begun += counter_.update({{1, distance, {}}}, things_, 0.5, 0.01).size();
+      begun += counter_.update({{1, distance, kPoint}}, things_, 0.5, 0.01).size();
     return begun;
   }
   std::vector<Thing> things_;
@@ -42,7 +44,7 @@ TEST_F(Contacts, counts_again_only_after_being_apart_long_enough) {
 }
 
 TEST_F(Contacts, are_counted_by_class_and_numbered_without_gaps) {
-  const auto both = counter_.update({{1, 0.0, {}}, {2, 0.0, {}}}, things_, 0.7, 0.01);
+  const auto both = counter_.update({{1, 0.0, kPoint}, {2, 0.0, kPoint}}, things_, 0.7, 0.01);
   ASSERT_EQ(both.size(), 2u);
   EXPECT_EQ(both[0].seq, 1u);
   EXPECT_EQ(both[1].seq, 2u);

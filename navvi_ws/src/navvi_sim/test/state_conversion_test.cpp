@@ -70,7 +70,7 @@ TEST(StateConversion, nothing_near_is_an_empty_message) {
 TEST(StateConversion, obstacles_stand_on_the_floor) {
   Snapshot now;
   MoverState mover{1, Eigen::Isometry3d::Identity(), 0.5, {0.3, 0.4}, 0.0, 1.2, 2.1};
-  mover.pose.translation() = {4.0, 5.0, 1.0};
+  mover.pose.translation() = Eigen::Vector3d(4.0, 5.0, 1.0);
   now.movers.push_back(mover);
   const auto msg = obstacles_msg(world_of_two(), now, ros::Time(3.0));
   ASSERT_EQ(msg.obstacles.size(), 1u);

@@ -1,0 +1,112 @@
+// The built-in warehouse, alive for ten minutes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "navvi_sim/occupancy.hpp"
+#include "navvi_sim/scenario.hpp"
+#include "navvi_sim/warehouse.hpp"
+#include "navvi_sim/world.hpp"
+
+namespace navvi_sim {
+namespace {
+
+constexpr double kMinutes = 10.0;
+
+struct Life {
+  explicit Life(std::uint64_t seed, double off_routes = 0.0)
+      : description(warehouse(seed, {})),
+        map(occupancy_of(description, OccupancyConfig{0.10})),
+        world(description, {}, start(seed, off_routes), seed) {}
+
+  /// A drawn start that is farther than `distance` from every route.
+  [[nodiscard]] FloorPose start(std::uint64_t seed, double distance) const {
+    for (;; ++seed) {
+      const FloorPose pose = draw_scenario(description, map, {}, seed).start;
+      if (distance_to_routes({pose.x, pose.y}) > distance) return pose;
+    }
+  }
+  [[nodiscard]] double distance_to_routes(const Eigen::Vector2d& point) const {
+    double least = 1e9;
+    for (const Thing& thing : description.things) {
+      if (!thing.route) continue;
+      const auto& corners = thing.route->waypoints;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d from = corners[i];
+        const Eigen::Vector2d along = corners[(i + 1) % corners.size()] - from;
+        const double share = std::clamp(along.dot(point - from) / along.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (from + share * along - point).norm());
+      }
+    }
+    return least;
+  }
+
+  WorldDescription description;
+  octomap::OcTree map;
+  World world;
+};
+
+TEST(WarehouseLife, its_movers_keep_moving_and_never_meet) {
+  Life life(1, 2.0);
+  const std::size_t count = life.world.now().movers.size();
+  ASSERT_GE(count, 4u);
+  std::vector<double> minute(count, 0.0);
+  for (int step = 1; step <= static_cast<int>(kMinutes * 6000.0); ++step) {
+    ASSERT_EQ(life.world.step({}), World::Status::running);
+    const auto& movers = life.world.now().movers;
+    for (std::size_t a = 0; a < count; ++a) {
+      minute[a] += movers[a].velocity.norm() * 0.01;
+      for (std::size_t b = 0; b < a; ++b)
+        ASSERT_GT((movers[a].pose.translation() - movers[b].pose.translation()).head<2>().norm(),
+                  0.6)
+            << life.description.things[movers[a].thing].name << " in "
+            << life.description.things[movers[b].thing].name << " at " << life.world.now().time;
+    }
+    if (step % 6000 != 0) continue;
+    for (std::size_t a = 0; a < count; ++a)
+      EXPECT_GT(minute[a], 2.0) << life.description.things[movers[a].thing].name << " by "
+                                << life.world.now().time << " s, at "
+                                << movers[a].pose.translation().transpose() << ", the robot at "
+                                << life.world.now().robot.position.transpose();
+    minute.assign(count, 0.0);
+  }
+}
+
+TEST(WarehouseLife, its_movers_pass_through_nothing_that_stands) {
+  Life life(2);
+  for (int step = 1; step <= 30000; ++step) {
+    ASSERT_EQ(life.world.step({}), World::Status::running);
+    if (step % 20 != 0) continue;
+    for (const MoverState& mover : life.world.now().movers) {
+      const Eigen::Vector3d at = mover.pose.translation();
+      const auto* voxel = life.map.search(at.x(), at.y(), life.description.floor_height + 0.35);
+      ASSERT_FALSE(voxel && life.map.isNodeOccupied(voxel))
+          << life.description.things[mover.thing].name << " at " << at.transpose();
+    }
+  }
+}
+
+TEST(WarehouseLife, a_robot_that_drives_blindly_goes_through_no_wall) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Life life(seed);
+    for (int step = 0; step < 12000; ++step) {
+      const double t = 0.01 * step;
+      ASSERT_EQ(life.world.step({0.9, 0.6 * std::sin(0.11 * t)}), World::Status::running);
+      const Eigen::Vector2d at = life.world.now().robot.position;
+      ASSERT_LT(std::abs(at.x()), 25.0 - 0.34);
+      ASSERT_LT(std::abs(at.y()), 15.0 - 0.34);
+      const auto* voxel = life.map.search(at.x(), at.y(), 0.35);
+      ASSERT_FALSE(voxel && life.map.isNodeOccupied(voxel)) << at.transpose() << " seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace navvi_sim
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
