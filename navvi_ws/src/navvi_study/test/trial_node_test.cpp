@@ -14,6 +14,7 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,6 +43,7 @@ class Process {
     arguments.push_back(nullptr);
     pid_ = ::fork();
     if (pid_ == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       ::execv(arguments[0], arguments.data());
       ::_exit(127);
     }
