@@ -169,9 +169,12 @@ class WorldReader {
     read_links(model, Eigen::Isometry3d::Identity(), thing);
     if (!attribute(model, "placement_frame").empty())
       note("'" + thing.name + "' asks for a placement frame, which is not taken over");
-    if (!thing.shapes.empty())
+    if (!thing.shapes.empty()) {
       loaded_.world.things.push_back(std::move(thing));
-    else if (planes == planes_.size())
+      return;
+    }
+    names_.erase(thing.name);
+    if (planes == planes_.size())
       note("the model '" + thing.name + "' is not taken over: it has no collision geometry");
   }
 
