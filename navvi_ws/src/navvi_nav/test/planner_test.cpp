@@ -36,8 +36,8 @@ TEST(Planner, refuses_a_goal_that_is_not_finite) {
   SmallWorld world;
   world.room(6, 6);
   const Planner planner = planner_on(world);
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Plan plan = planner.plan({3, 3}, {bad, 3});
     EXPECT_EQ(plan.status, PlanStatus::refused);
     EXPECT_EQ(plan.refusal, Refusal::not_finite);
@@ -103,8 +103,7 @@ TEST(Planner, gives_the_same_path_for_the_same_question) {
   const Plan first = planner.plan(world.start, world.goal);
   const Plan second = planner.plan(world.start, world.goal);
   ASSERT_EQ(first.path.size(), second.path.size());
-  for (std::size_t i = 0; i < first.path.size(); ++i)
-    EXPECT_TRUE(first.path[i] == second.path[i]);
+  for (std::size_t i = 0; i < first.path.size(); ++i) EXPECT_TRUE(first.path[i] == second.path[i]);
 }
 
 TEST(Planner, keeps_the_radius_from_everything_in_random_worlds) {
