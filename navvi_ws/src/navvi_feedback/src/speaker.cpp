@@ -37,7 +37,8 @@ void SpeakerConfig::describe(navvi_config::Visitor& visit) {
   visit({"volume", Range{0.0, 1.0}, "", "gain of the voice"}, volume);
   visit({"voice", Any{}, "", "a voice of espeak-ng, such as en or en-us"}, voice);
   visit({"device", Any{}, "", "name of the OpenAL device; empty for the default one"}, device);
-  visit({"reopen", Range{0.5, 60.0}, "s", "between attempts to open a missing or lost device"},
+  visit({"reopen", Range{0.5, 60.0}, "s",
+         "between attempts to open a lost device; ten times that if there never was one"},
         reopen);
 }
 
@@ -186,7 +187,9 @@ class Speaker::Worker {
 
   void open_device(Status::Device otherwise) {
     if (audio_ == Audio::off) return;
-    next_attempt_ = Clock::now() + seconds(config_.reopen);
+    // Where there never was a device one is unlikely to come, and each attempt makes ALSA complain.
+    const double wait = otherwise == Status::Device::missing ? 10.0 : 1.0;
+    next_attempt_ = Clock::now() + seconds(wait * config_.reopen);
     if (output_.open(config_.device, config_.volume)) {
       report(Status::Device::open, "");
     } else {

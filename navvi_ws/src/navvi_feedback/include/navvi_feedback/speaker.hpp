@@ -13,7 +13,7 @@ struct SpeakerConfig {
   double volume = 1.0;       ///< gain of the voice
   std::string voice = "en";  ///< of espeak-ng
   std::string device;        ///< name of the OpenAL device; empty for the default one
-  double reopen = 2.0;       ///< s, between attempts to open a lost or missing device
+  double reopen = 2.0;       ///< s, between attempts to open a lost device, x10 if there was none
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -32,7 +32,7 @@ class SpeakerError : public std::runtime_error {
 
 /// The voice: espeak-ng into OpenAL Soft. It owns the device, the library and one thread. Without a
 /// device it keeps quiet for as long as speaking would take, so that the times of the cues stay
-/// true, and tries again to open one.
+/// true, and tries again to open one. There is one Speaker in a process at a time.
 class Speaker {
  public:
   struct Status {

@@ -1,0 +1,111 @@
+// Plays recorded cues again: what was heard and felt, when it was. It never drives.
+
+#include <navvi_msgs/Cue.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JoyFeedbackArray.h>
+
+#include <cmath>
+#include <navvi_config/ros_parameters.hpp>
+
+#include "navvi_feedback/gamepad.hpp"
+#include "navvi_feedback/msg_conversion.hpp"
+#include "navvi_feedback/rumble_output.hpp"
+#include "navvi_feedback/speaker.hpp"
+
+namespace navvi_feedback {
+namespace {
+
+/// s of wall time; once the recording's clock has stood for so long, the motors rest.
+constexpr double kStanding = 0.5;
+
+struct PlayerConfig {
+  std::string speech = "auto";
+  SpeakerConfig speaker;
+
+  void describe(navvi_config::Visitor& visit) {
+    visit({"speech", navvi_config::OneOf{{"auto", "true", "false"}}, "",
+           "auto: if there is an audio device; true: required; false: silent"},
+          speech);
+    visit.group("speaker", speaker);
+  }
+
+  [[nodiscard]] Audio audio() const {
+    if (speech == "true") return Audio::required;
+    return speech == "false" ? Audio::off : Audio::automatic;
+  }
+};
+
+bool is_force(double value) { return std::isfinite(value) && value >= 0.0 && value <= 1.0; }
+
+class CuePlayer {
+ public:
+  explicit CuePlayer(const PlayerConfig& config) : speaker_(config.speaker, config.audio()) {
+    const Speaker::Status status = speaker_.status();
+    if (status.device == Speaker::Status::Device::missing)
+      ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());
+    feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
+    cues_ = node_.subscribe("navvi/cues", 100, &CuePlayer::take, this,
+                            ros::TransportHints().tcpNoDelay());
+    motor_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
+                                         [this](const ros::WallTimerEvent&) { move_motors(); });
+  }
+
+ private:
+  void take(const navvi_msgs::Cue& cue) {
+    if (cue.modality == navvi_msgs::Cue::RUMBLE) {
+      if (is_force(cue.left) && is_force(cue.right)) rumble_ = {cue.left, cue.right};
+    } else if (cue.stage == navvi_msgs::Cue::STARTED) {
+      ROS_INFO("[%s] %s", cue.kind.c_str(), cue.text.c_str());
+      speaking_ = cue.id;
+      speaker_.start(cue.text);
+    } else if (cue.stage == navvi_msgs::Cue::CUT && speaking_ == cue.id) {
+      speaker_.stop();
+    }
+  }
+
+  void move_motors() {
+    const double wall = ros::SteadyTime::now().toSec();
+    const ros::Time stamp = ros::Time::now();
+    if (stamp != last_stamp_) moved_at_ = wall;
+    last_stamp_ = stamp;
+    if (wall - moved_at_ > kStanding) rumble_ = {};
+    pad_.rumble(rumble_);
+    if (output_.update(rumble_, wall).feedback) feedback_.publish(feedback_msg(rumble_));
+  }
+
+  Speaker speaker_;
+  Gamepad pad_;
+  RumbleOutput output_;
+  Rumble rumble_;
+  std::uint32_t speaking_ = 0;
+  ros::Time last_stamp_;
+  double moved_at_ = 0.0;  // s, steady
+
+  ros::NodeHandle node_;
+  ros::Publisher feedback_;
+  ros::Subscriber cues_;
+  ros::WallTimer motor_timer_;
+};
+
+}  // namespace
+}  // namespace navvi_feedback
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "cue_player");
+  try {
+    ros::NodeHandle keep_alive;
+    navvi_feedback::CuePlayer player(
+        navvi_config::load<navvi_feedback::PlayerConfig>(ros::NodeHandle("~")));
+    ros::spin();
+  } catch (const navvi_config::ConfigError& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  } catch (const navvi_feedback::DeviceError& error) {
+    ROS_FATAL("%s", error.what());
+    return 3;
+  } catch (const navvi_feedback::SpeakerError& error) {
+    ROS_FATAL("%s", error.what());
+    return 3;
+  }
+  return 0;
+}
