@@ -60,6 +60,7 @@ class SimNode {
   navvi_safety::CommandGate gate_;
   Pacer pacer_;
   std::uint64_t steps_ = 0;
+  double last_tick_ = 0.0;  // s, monotonic wall clock
   int exit_code_ = 0;
   std::optional<navvi_msgs::DriveState> drive_state_;
 
@@ -144,7 +145,11 @@ void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
 }
 
 void SimNode::tick(const ros::WallTimerEvent&) {
-  const int due = pacer_.due(ros::SteadyTime::now().toSec());
+  const double wall = ros::SteadyTime::now().toSec();
+  // Whoever was held up longer than a command lives must not go on with what waited in the queue.
+  if (wall - last_tick_ > config_.gate.timeout) (void)gate_.update(instant());
+  last_tick_ = wall;
+  const int due = pacer_.due(wall);
   const long dropped = pacer_.dropped();
   for (int i = 0; i < due; ++i) {
     // Commands that came while this process was held up must count before their age does.

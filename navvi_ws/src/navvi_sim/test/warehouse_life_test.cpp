@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
+#include "navvi_sim/world_source.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -100,6 +102,27 @@ TEST(WarehouseLife, a_robot_that_drives_blindly_goes_through_no_wall) {
       const auto* voxel = life.map.search(at.x(), at.y(), 0.35);
       ASSERT_FALSE(voxel && life.map.isNodeOccupied(voxel)) << at.transpose() << " seed " << seed;
     }
+  }
+}
+
+TEST(WarehouseLife, a_robot_that_drives_blindly_among_meshes_enters_none) {
+  const std::filesystem::path path = std::filesystem::path(NAVVI_SHARED_DIR) /
+                                     "worlds/aws_small_warehouse/no_roof_small_warehouse.world";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const WorldDescription description = load_world(path, "", 1, {}).world;
+  for (const double yaw : {0.0, 1.57, 3.14, -1.57}) {
+    World world(description, {}, {1.0, -9.0, yaw}, 1);
+    std::size_t contacts = 0;
+    for (int step = 0; step < 6000; ++step) {
+      ASSERT_EQ(world.step({0.9, 0.6 * std::sin(0.0011 * step)}), World::Status::running);
+      contacts += world.now().contacts.size();
+      if (step % 10 != 0) continue;
+      for (const NearThing& near : world.proximity(0.1))
+        ASSERT_GT(near.gap, -0.01) << description.things[near.thing].name << " after " << step
+                                   << " steps at " << world.now().robot.position.transpose();
+    }
+    EXPECT_GT(contacts, 0u);
+    EXPECT_LT(world.now().robot.position.norm(), 15.0);
   }
 }
 
