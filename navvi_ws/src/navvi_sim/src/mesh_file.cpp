@@ -1,12 +1,10 @@
 #include "navvi_sim/mesh_file.hpp"
 
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
-#include <cmath>
 
 #include "navvi_sim/validate.hpp"
 
@@ -27,24 +25,14 @@ void check_file(const std::filesystem::path& file) {
     refuse(file, "is larger than 200 MB or cannot be read; allowed is up to 200 MB");
 }
 
-bool is_collada(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".dae";
-}
-
-/// assimp brings Collada, whatever its up_axis, to y up and metres.
-Eigen::Vector3d z_up(const aiVector3D& v, bool collada) {
-  const Eigen::Vector3d p(static_cast<double>(v.x), static_cast<double>(v.y),
-                          static_cast<double>(v.z));
-  return collada ? Eigen::Vector3d(p.x(), -p.z(), p.y()) : p;
-}
-
-void append(Mesh& mesh, const aiMesh& part, bool collada, const Eigen::Vector3d& scale) {
+void append(Mesh& mesh, const aiMesh& part, const Eigen::Vector3d& scale) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (unsigned i = 0; i < part.mNumVertices; ++i)
-    mesh.vertices.push_back(z_up(part.mVertices[i], collada).cwiseProduct(scale).cast<float>());
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& v = part.mVertices[i];
+    const Eigen::Vector3d p(static_cast<double>(v.x), static_cast<double>(v.y),
+                            static_cast<double>(v.z));
+    mesh.vertices.push_back(p.cwiseProduct(scale).cast<float>());
+  }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;  // lines and points have no surface
@@ -60,6 +48,7 @@ Mesh read_mesh(const std::filesystem::path& file, const Eigen::Vector3d& scale) 
     refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
   check_file(file);
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does
   const aiScene* scene = nullptr;
   std::string reason;
   try {
@@ -73,8 +62,7 @@ Mesh read_mesh(const std::filesystem::path& file, const Eigen::Vector3d& scale) 
   if (scene == nullptr)
     refuse(file, "cannot be read (" + reason + "); allowed are whole .dae, .stl and .obj files");
   Mesh mesh;
-  const bool collada = is_collada(file);
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(mesh, *scene->mMeshes[i], collada, scale);
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(mesh, *scene->mMeshes[i], scale);
   if (mesh.triangles.empty()) refuse(file, "has no triangles; allowed are one or more");
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     if (!vertex.allFinite()) refuse(file, "has a vertex that is not finite");

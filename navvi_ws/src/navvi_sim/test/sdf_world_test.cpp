@@ -217,6 +217,35 @@ TEST_F(SdfWorld, names_the_mesh_that_is_missing_or_broken) {
   EXPECT_NE(with_mesh("empty.stl").find("empty.stl"), std::string::npos);
 }
 
+TEST_F(SdfWorld, takes_a_mesh_in_its_unit_and_as_it_lies_in_its_file) {
+  for (const char* up : {"Z_UP", "Y_UP"}) {
+    write(
+        "tri.dae",
+        "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+        "version='1.4.1'><asset><unit name='centimeter' meter='0.01'/><up_axis>" +
+            std::string(up) +
+            "</up_axis></asset><library_geometries><geometry id='g'><mesh><source id='p'>"
+            "<float_array id='a' count='9'>0 0 100 200 0 100 0 300 100</float_array>"
+            "<technique_common><accessor source='#a' count='3' stride='3'><param name='X' "
+            "type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
+            "</technique_common></source><vertices id='v'><input semantic='POSITION' "
+            "source='#p'/></vertices><triangles count='1'><input semantic='VERTEX' source='#v' "
+            "offset='0'/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
+            "<library_visual_scenes><visual_scene id='s'><node id='n'><instance_geometry "
+            "url='#g'/></node></visual_scene></library_visual_scenes><scene>"
+            "<instance_visual_scene url='#s'/></scene></COLLADA>");
+    const LoadedWorld loaded = load_world(
+        write_world(
+            ground_ +
+            "<model name='box'><link name='l'><collision name='c'><geometry><mesh><uri>"
+            "tri.dae</uri><scale>1 1 2</scale></mesh></geometry></collision></link></model>"),
+        "", 1, {});
+    const Eigen::AlignedBox3d box = bounds(*thing_named(loaded.world, "box"));
+    EXPECT_LT((box.max() - Eigen::Vector3d(2.0, 3.0, 2.0)).norm(), 1e-6) << up;
+    EXPECT_LT((box.min() - Eigen::Vector3d(0.0, 0.0, 2.0)).norm(), 1e-6) << up;
+  }
+}
+
 TEST_F(SdfWorld, refuses_models_that_include_each_other_in_a_circle) {
   write_model("a", "<include><uri>model://b</uri></include>");
   write_model("b", "<include><uri>model://a</uri></include>");
