@@ -1,0 +1,228 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Twist.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/Cue.h>
+#include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/Proximity.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+#include <sensor_msgs/JoyFeedbackArray.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <set>
+
+namespace {
+
+/// The world round the node: what a simulator, a planner and a stick would send, at 50 Hz.
+class FeedbackNode : public testing::Test {
+ protected:
+  void SetUp() override {
+    odom_msg_.pose.pose.orientation.w = 1.0;
+    proximity_msg_.detection_radius = 5.0;
+    proximity_msg_.header.frame_id = "base_link";
+    path_msg_.header.frame_id = "map";
+    cmd_vel_ = node_.subscribe<geometry_msgs::Twist>(
+        "cmd_vel", 100, [this](const geometry_msgs::Twist::ConstPtr& msg) {
+          twist_ = *msg;
+          ++twists_;
+        });
+    feedback_ = node_.subscribe<sensor_msgs::JoyFeedbackArray>(
+        "joy/set_feedback", 100, [this](const sensor_msgs::JoyFeedbackArray::ConstPtr& msg) {
+          left_ = msg->array.at(0).intensity;
+          right_ = msg->array.at(1).intensity;
+        });
+    cues_ = node_.subscribe<navvi_msgs::Cue>("navvi/cues", 100,
+                                             [this](const navvi_msgs::Cue::ConstPtr& msg) {
+                                               if (msg->modality == navvi_msgs::Cue::SPEECH)
+                                                 heard_.push_back(*msg);
+                                             });
+    markers_ = node_.subscribe<visualization_msgs::MarkerArray>(
+        "navvi/markers", 10, [this](const visualization_msgs::MarkerArray::ConstPtr& msg) {
+          shown_ = 0;
+          for (const auto& marker : msg->markers)
+            shown_ += marker.action == visualization_msgs::Marker::ADD ? 1 : 0;
+        });
+    diagnostics_ = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& msg) {
+          for (const auto& status : msg->status) statuses_.insert(status.name);
+        });
+    ASSERT_TRUE(until([this] { return joy_.getNumSubscribers() > 0 && twist_source(); }))
+        << "feedback_node does not listen";
+  }
+
+  bool twist_source() const { return cmd_vel_.getNumPublishers() > 0; }
+
+  /// Sends the present world until `condition` holds.
+  bool until(const std::function<bool()>& condition, double seconds = 6.0) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+    ros::WallRate rate(50.0);
+    while (ros::ok() && ros::WallTime::now() < end) {
+      send();
+      ros::spinOnce();
+      if (condition()) return true;
+      rate.sleep();
+    }
+    return false;
+  }
+  void pass(double seconds) {
+    until([] { return false; }, seconds);
+  }
+  void send() {
+    if (stick_) {
+      sensor_msgs::Joy joy;
+      joy.axes = {0.0F, *stick_};
+      joy.buttons = {0, 0};
+      joy_.publish(joy);
+    }
+    if (sensing_) proximity_.publish(proximity_msg_);
+    odom_.publish(odom_msg_);
+    if (guidance_on_) guidance_.publish(guidance_msg_);
+  }
+  void thing(const std::string& thing_class, double gap, double x, double y) {
+    navvi_msgs::ProximityThing thing;
+    thing.thing_class = thing_class;
+    thing.gap = gap;
+    thing.nearest.x = x;
+    thing.nearest.y = y;
+    proximity_msg_.things = {thing};
+  }
+  bool heard(const std::string& kind) const {
+    for (const navvi_msgs::Cue& cue : heard_) {
+      if (cue.kind == kind && !cue.text.empty()) return true;
+    }
+    return false;
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher joy_ = node_.advertise<sensor_msgs::Joy>("joy", 1);
+  ros::Publisher proximity_ = node_.advertise<navvi_msgs::Proximity>("navvi/proximity", 1);
+  ros::Publisher odom_ = node_.advertise<nav_msgs::Odometry>("odom", 1);
+  ros::Publisher guidance_ = node_.advertise<navvi_msgs::Guidance>("navvi/guidance", 1);
+  ros::Publisher contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 10);
+  ros::Publisher path_ = node_.advertise<nav_msgs::Path>("navvi/path", 1, true);
+  ros::Subscriber cmd_vel_, feedback_, cues_, markers_, diagnostics_;
+
+  std::optional<float> stick_ = 0.0F;
+  bool sensing_ = true;
+  bool guidance_on_ = false;
+  navvi_msgs::Proximity proximity_msg_;
+  nav_msgs::Odometry odom_msg_;
+  navvi_msgs::Guidance guidance_msg_;
+  nav_msgs::Path path_msg_;
+
+  geometry_msgs::Twist twist_;
+  int twists_ = 0;
+  double left_ = -1.0;
+  double right_ = -1.0;
+  int shown_ = -1;
+  std::vector<navvi_msgs::Cue> heard_;
+  std::set<std::string> statuses_;
+};
+
+TEST_F(FeedbackNode, DrivesOnlyAfterNeutralAndFallsSilentAfterAStop) {
+  stick_ = 1.0F;
+  pass(1.0);
+  EXPECT_GT(twists_, 0);
+  EXPECT_EQ(twist_.linear.x, 0.0) << "held forward from the start";
+
+  stick_ = 0.0F;
+  pass(0.5);
+  stick_ = 1.0F;
+  EXPECT_TRUE(until([this] { return twist_.linear.x > 0.5; }));
+
+  stick_.reset();
+  EXPECT_TRUE(until([this] { return twist_.linear.x == 0.0; }, 0.6));
+  pass(0.2);
+  const int count = twists_;
+  pass(0.5);
+  EXPECT_EQ(twists_, count) << "nothing is published while the stick is lost";
+  EXPECT_TRUE(heard("pad_lost"));
+
+  stick_ = 1.0F;
+  pass(1.0);
+  EXPECT_EQ(twist_.linear.x, 0.0) << "held forward when it came back";
+}
+
+TEST_F(FeedbackNode, MakesAThingOnTheLeftFeltOnTheLeftAndStopsWhenSensingDies) {
+  thing("box", 1.0, 0.5, 1.4);
+  EXPECT_TRUE(until([this] { return left_ > 0.3 && right_ == 0.0; }));
+
+  proximity_msg_.things[0].gap = std::numeric_limits<double>::quiet_NaN();
+  pass(0.3);
+  sensing_ = false;
+  EXPECT_TRUE(until([this] { return left_ == 0.0 && right_ == 0.0; }, 2.0));
+}
+
+TEST_F(FeedbackNode, IgnoresAProximityThatIsNotFinite) {
+  EXPECT_TRUE(until([this] { return left_ == 0.0; }));
+  thing("box", std::numeric_limits<double>::quiet_NaN(), 0.5, 1.4);
+  pass(0.5);
+  EXPECT_EQ(left_, 0.0);
+}
+
+TEST_F(FeedbackNode, SaysWhatWasHitButNothingOfAContactThatIsNotFinite) {
+  pass(0.5);
+  navvi_msgs::Contact contact;
+  contact.thing_class = "shelf";
+  contact.robot.orientation.w = 1.0;
+  contact.point.x = std::numeric_limits<double>::quiet_NaN();
+  contacts_.publish(contact);
+  pass(0.5);
+  for (const auto& cue : heard_) EXPECT_EQ(cue.kind.rfind("collision", 0), std::string::npos);
+
+  contact.point.x = 0.35;
+  contacts_.publish(contact);
+  const auto hit = [this] {
+    for (const auto& cue : heard_) {
+      if (cue.kind.rfind("collision", 0) == 0 && !cue.text.empty()) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(until(hit));
+}
+
+TEST_F(FeedbackNode, SaysTheDirectionShowsThePathAndTakesBothBackWhenTheGuideIsLost) {
+  path_msg_.poses.resize(2);
+  path_msg_.poses[1].pose.position.y = -5.0;
+  path_.publish(path_msg_);
+  guidance_msg_.state = navvi_msgs::Guidance::FOLLOWING;
+  guidance_msg_.goal.y = guidance_msg_.waypoint.y = -5.0;
+  guidance_msg_.waypoint_is_goal = true;
+  guidance_msg_.waypoint_distance = guidance_msg_.goal_distance = 5.0;
+  guidance_msg_.waypoint_angle = 1.5708;
+  guidance_on_ = true;
+  const auto direction = [this] {
+    for (const auto& cue : heard_) {
+      if (cue.text.find("3 o'clock") != std::string::npos) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(until(direction, 10.0));
+  EXPECT_TRUE(until([this] { return shown_ >= 5; }));
+
+  guidance_on_ = false;
+  EXPECT_TRUE(until([this] { return shown_ == 0; }, 3.0));
+  EXPECT_TRUE(until([this] { return heard("guidance_lost"); }));
+}
+
+TEST_F(FeedbackNode, ReportsItsHardwareOnceASecond) {
+  EXPECT_TRUE(until([this] {
+    return statuses_.count("navvi/pad") && statuses_.count("navvi/audio") &&
+           statuses_.count("navvi/speech");
+  }));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "feedback_node_test");
+  ros::NodeHandle keep_alive;
+  return RUN_ALL_TESTS();
+}
