@@ -47,30 +47,36 @@ void soften(Sound& sound) {
   }
 }
 
+/// Once in the life of the process: espeak_Terminate() can wait for ever for the library's own
+/// thread when it follows soon on a start. \return samples a second, or a negative number
+int initialize() {
+  static const int sample_rate = [] {
+    const int rate =
+        espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr, espeakINITIALIZE_DONT_EXIT);
+    if (rate > 0) espeak_SetSynthCallback(on_samples);
+    return rate;
+  }();
+  return sample_rate;
+}
+
 }  // namespace
 
 Voice::Voice(const std::string& name, int rate) {
   if (in_use.exchange(true)) throw SpeakerError("There is a speaker already in this process.");
-  sample_rate_ =
-      espeak_Initialize(AUDIO_OUTPUT_SYNCHRONOUS, 0, nullptr, espeakINITIALIZE_DONT_EXIT);
+  sample_rate_ = initialize();
   if (sample_rate_ <= 0) {
     in_use = false;
     throw SpeakerError("espeak-ng could not be started; is the package espeak-ng-data installed?");
   }
-  espeak_SetSynthCallback(on_samples);
   if (espeak_SetVoiceByName(name.c_str()) != EE_OK ||
       espeak_SetParameter(espeakRATE, rate, 0) != EE_OK) {
-    espeak_Terminate();
     in_use = false;
     throw SpeakerError("espeak-ng has no voice \"" + name + "\" at " + std::to_string(rate) +
                        " words a minute.");
   }
 }
 
-Voice::~Voice() {
-  espeak_Terminate();
-  in_use = false;
-}
+Voice::~Voice() { in_use = false; }
 
 Sound Voice::synthesize(const std::string& text, const std::function<bool()>& cancelled) {
   Synthesis synthesis;

@@ -47,8 +47,9 @@ fs::path recording() {
 
 void record_what_is_heard() {
   const fs::path config = recording().parent_path() / "alsoft.conf";
-  std::ofstream(config) << "[general]\ndrivers=wave\nchannels=mono\n[wave]\nfile="
-                        << recording().string() << "\n";
+  std::ofstream(config)
+      << "[general]\ndrivers=wave\nchannels=mono\nsample-type=int16\n[wave]\nfile="
+      << recording().string() << "\n";
   setenv("ALSOFT_CONF", config.c_str(), 1);
 }
 

@@ -16,8 +16,8 @@ struct Sound {
   [[nodiscard]] double duration() const { return static_cast<double>(samples.size()) / rate; }
 };
 
-/// espeak-ng, which is one for the whole process and bears only one thread: construct, use and
-/// destroy it there.
+/// espeak-ng, which is one for the whole process and bears one user at a time: construct and
+/// use it in one thread.
 class Voice {
  public:
   /// \param name  of an espeak-ng voice, such as "en" \param rate  words a minute, 80..449
