@@ -224,8 +224,8 @@ bool Floor::segment_clear(Point a, Point b, double radius) const {
   for (const Cell cell : cells_along(a, b)) {
     if (!contains(cell)) return false;
     const int known = gap2(cell);
-    if (known >= safe2) continue;
     if (ground(cell) != Ground::floor) return false;
+    if (known >= safe2) continue;
     for (int y = cell.y - window; y <= cell.y + window; ++y) {
       for (int x = cell.x - window; x <= cell.x + window; ++x) {
         if (ground({x, y}) == Ground::floor) continue;

@@ -1,0 +1,82 @@
+#include "navvi_nav/msg_conversion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+geometry_msgs::Transform transform_at(double x, double y, double yaw) {
+  geometry_msgs::Transform out;
+  out.translation.x = x;
+  out.translation.y = y;
+  out.rotation.z = std::sin(yaw / 2);
+  out.rotation.w = std::cos(yaw / 2);
+  return out;
+}
+
+navvi_msgs::Obstacle sound_obstacle() {
+  navvi_msgs::Obstacle out;
+  out.id = 3;
+  out.pose.position.x = 1.0;
+  out.pose.orientation.w = 1.0;
+  out.radius = 0.5;
+  out.height = 1.8;
+  return out;
+}
+
+TEST(MsgConversion, takes_a_sound_pose_and_drops_a_broken_one) {
+  const auto pose = from_msg(transform_at(1, 2, 0.7));
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->yaw, 0.7, 1e-12);
+  EXPECT_FALSE(from_msg(transform_at(kNan, 2, 0)));
+  EXPECT_FALSE(from_msg(transform_at(1e300, 2, 0)));
+  EXPECT_FALSE(from_msg(transform_at(1, 2, kNan)));
+  EXPECT_FALSE(from_msg(geometry_msgs::Transform()));  // a rotation of no length
+}
+
+TEST(MsgConversion, drops_all_obstacles_if_one_is_bad) {
+  navvi_msgs::Obstacles msg;
+  EXPECT_TRUE(from_msg(msg));
+  msg.obstacles = {sound_obstacle()};
+  ASSERT_TRUE(from_msg(msg));
+  EXPECT_DOUBLE_EQ(from_msg(msg)->front().radius, 0.5);
+  for (const double bad : {0.0, -1.0, 1e9, kNan}) {
+    msg.obstacles = {sound_obstacle()};
+    msg.obstacles[0].radius = bad;
+    EXPECT_FALSE(from_msg(msg)) << bad;
+  }
+  msg.obstacles = {sound_obstacle(), sound_obstacle()};  // one id twice
+  EXPECT_FALSE(from_msg(msg));
+}
+
+TEST(MsgConversion, writes_an_empty_path_as_an_empty_message) {
+  EXPECT_TRUE(to_msg(Path{}, 0.0, "map", ros::Time(1)).poses.empty());
+  EXPECT_EQ(to_msg(Path{{1, 1}}, 0.0, "map", ros::Time(1)).poses.size(), 1U);
+}
+
+TEST(MsgConversion, agrees_with_the_message_on_every_state_refusal_and_reason) {
+  using navvi_msgs::Guidance;
+  Status status;
+  status.state = State::pose_stale;
+  status.refusal = Refusal::unreachable;
+  status.reason = Reason::map_changed;
+  const Guidance msg = to_msg(status, 0.0, "map", ros::Time(1));
+  EXPECT_EQ(msg.state, Guidance::POSE_STALE);
+  EXPECT_EQ(msg.refusal, Guidance::UNREACHABLE);
+  EXPECT_EQ(msg.replan_reason, Guidance::MAP_CHANGED);
+  EXPECT_EQ(static_cast<int>(State::off_mesh), Guidance::OFF_MESH);
+  EXPECT_EQ(static_cast<int>(Refusal::inside_obstacle), Guidance::INSIDE_OBSTACLE);
+  EXPECT_EQ(static_cast<int>(Reason::waypoint_blocked), Guidance::WAYPOINT_BLOCKED);
+}
+
+}  // namespace
+}  // namespace navvi_nav
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,124 @@
+#include "navvi_nav/replan_policy.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_nav {
+namespace {
+
+/// A robot that drives well along a straight path, with nothing near.
+ReplanInput driving(double time) {
+  ReplanInput input;
+  input.time = time;
+  input.has_goal = true;
+  input.speed = 0.8;
+  input.remaining = {{0, 0}, {5, 0}, {5, 8}};
+  return input;
+}
+
+Cylinder obstacle(std::uint32_t id, Point center) { return {id, center, 0.3, {}}; }
+
+class Policy : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(policy_.update(driving(0.0)), Reason::new_goal); }
+  ReplanPolicy policy_{ReplanPolicyConfig{}};
+};
+
+TEST_F(Policy, without_a_goal_never_plans) {
+  ReplanInput input = driving(10.0);
+  input.has_goal = false;
+  EXPECT_FALSE(policy_.update(input));
+}
+
+TEST_F(Policy, plans_every_period_and_not_before) {
+  EXPECT_FALSE(policy_.update(driving(1.9)));
+  EXPECT_EQ(policy_.update(driving(2.0)), Reason::period);
+  EXPECT_FALSE(policy_.update(driving(3.9)));
+  EXPECT_EQ(policy_.update(driving(4.0)), Reason::period);
+}
+
+TEST_F(Policy, plans_at_once_for_a_new_goal_or_map) {
+  ReplanInput input = driving(0.05);
+  input.new_goal = true;
+  EXPECT_EQ(policy_.update(input), Reason::new_goal);
+  input = driving(0.1);
+  input.map_changed = true;
+  EXPECT_EQ(policy_.update(input), Reason::map_changed);
+}
+
+TEST_F(Policy, plans_when_a_hole_cuts_the_path) {
+  ReplanInput input = driving(0.6);
+  input.obstacles = {obstacle(1, {3.5, 0.5})};
+  EXPECT_EQ(policy_.update(input), Reason::path_carved);
+  input.time = 0.7;  // not again within min_interval
+  EXPECT_FALSE(policy_.update(input));
+}
+
+TEST_F(Policy, plans_when_the_next_waypoint_is_blocked) {
+  ReplanInput input = driving(0.6);
+  input.obstacles = {obstacle(1, {5.2, -0.2})};
+  EXPECT_EQ(policy_.update(input), Reason::waypoint_blocked);
+}
+
+TEST_F(Policy, leaves_obstacles_far_ahead_to_move_away) {
+  ReplanInput input = driving(0.6);
+  input.remaining = {{0, 0}, {40, 0}};
+  input.obstacles = {obstacle(1, {30, 0})};
+  EXPECT_FALSE(policy_.update(input));
+}
+
+TEST_F(Policy, plans_once_for_each_obstacle_that_comes_near) {
+  ReplanInput input = driving(0.6);
+  input.obstacles = {obstacle(1, {-1, 2})};
+  EXPECT_EQ(policy_.update(input), Reason::obstacle_near);
+  input.time = 1.2;
+  EXPECT_FALSE(policy_.update(input));
+  input.time = 1.8;
+  input.obstacles.push_back(obstacle(2, {-2, -1}));
+  EXPECT_EQ(policy_.update(input), Reason::obstacle_near);
+}
+
+TEST_F(Policy, remembers_an_obstacle_that_came_near_just_after_a_plan) {
+  ReplanInput input = driving(0.1);
+  input.obstacles = {obstacle(1, {-1, 2})};
+  EXPECT_FALSE(policy_.update(input));
+  input.time = 0.6;
+  EXPECT_EQ(policy_.update(input), Reason::obstacle_near);
+}
+
+TEST(ReplanPolicy, plans_when_the_robot_is_too_slow_for_too_long) {
+  ReplanPolicyConfig config;
+  config.period = 3.0;
+  ReplanPolicy policy(config);
+  ReplanInput input = driving(0.0);
+  ASSERT_EQ(policy.update(input), Reason::new_goal);
+  input.speed = 0.05;
+  for (const double time : {0.5, 1.0, 1.5}) {
+    input.time = time;
+    EXPECT_FALSE(policy.update(input)) << time;
+  }
+  input.time = 1.6;
+  EXPECT_EQ(policy.update(input), Reason::too_slow);
+  for (const double time : {2.0, 3.0, 4.0}) {  // never faster than tau
+    input.time = time;
+    EXPECT_FALSE(policy.update(input)) << time;
+  }
+  input.time = 4.7;
+  EXPECT_EQ(policy.update(input), Reason::too_slow);
+}
+
+TEST(ReplanPolicy, keeps_a_path_that_is_hardly_longer) {
+  const ReplanPolicy policy{ReplanPolicyConfig{}};
+  EXPECT_FALSE(policy.worth_changing(Reason::period, 10.0, 9.5));
+  EXPECT_FALSE(policy.worth_changing(Reason::too_slow, 10.0, 11.0));
+  EXPECT_TRUE(policy.worth_changing(Reason::period, 10.0, 8.0));
+  EXPECT_TRUE(policy.worth_changing(Reason::path_carved, 10.0, 12.0));
+  EXPECT_TRUE(policy.worth_changing(Reason::new_goal, 10.0, 12.0));
+}
+
+}  // namespace
+}  // namespace navvi_nav
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
