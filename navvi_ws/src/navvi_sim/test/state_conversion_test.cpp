@@ -120,6 +120,14 @@ TEST(SimNodeConfig, describes_itself_within_its_own_ranges) {
                navvi_config::ConfigError);
 }
 
+TEST(SimNodeConfig, reads_every_profile_that_ships) {
+  for (const char* profile : {"default", "paper"}) {
+    SimNodeConfig config;
+    const std::string path = std::string(NAVVI_SIM_DIR) + "/config/" + profile + ".yaml";
+    EXPECT_NO_THROW(navvi_config::read(config, navvi_config::load_yaml(path), path)) << path;
+  }
+}
+
 }  // namespace
 }  // namespace navvi_sim
 
