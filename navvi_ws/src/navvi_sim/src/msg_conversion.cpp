@@ -1,6 +1,8 @@
 #include "navvi_sim/msg_conversion.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -16,8 +18,7 @@ struct Color {
   float r, g, b;
 };
 
-/// High contrast on a dark background. RViz lights shapes, so these come out darker than written.
-/// Purple and red are left to the path and the goal.
+/// High contrast on a dark background. Purple and red are left to the path and the goal.
 Color color_of(ThingClass thing_class) {
   switch (thing_class) {
     case ThingClass::floor:
@@ -112,27 +113,60 @@ class ShapeMarker {
   Marker& msg_;
 };
 
-/// The twelve triangles of a box, counter-clockwise seen from outside.
-void append_box(std::vector<geometry_msgs::Point>& points, const Box& box,
-                const Eigen::Isometry3d& pose) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-0.5, 0.5}) {
-      const int u = (axis + 1) % 3;
-      const int v = (axis + 2) % 3;
-      std::array<geometry_msgs::Point, 4> corners;
-      constexpr std::array<std::array<double, 2>, 4> kRound{
-          {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-      for (std::size_t i = 0; i < 4; ++i) {
-        Eigen::Vector3d corner;
-        corner[axis] = side * box.size[axis];
-        corner[u] = kRound[i][side > 0.0 ? 0 : 1] * box.size[u];
-        corner[v] = kRound[i][side > 0.0 ? 1 : 0] * box.size[v];
-        corners[i] = point(pose * corner);
-      }
-      for (const std::size_t i : {0U, 1U, 2U, 0U, 2U, 3U}) points.push_back(corners[i]);
+/// Adds triangles with their colours. RViz draws such a list unlit, so that a colour is what it
+/// says from every side; a little shading by direction tells the faces apart.
+class Painter {
+ public:
+  Painter(Marker& msg, const Color& color) : msg_(msg), color_(color) {}
+
+  void triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+    const double shade = 0.74 + 0.26 * std::max(0.0, normal.z()) + 0.12 * std::abs(normal.x());
+    std_msgs::ColorRGBA color;
+    const float brightness = static_cast<float>(std::min(1.0, shade));
+    color.r = color_.r * brightness;
+    color.g = color_.g * brightness;
+    color.b = color_.b * brightness;
+    color.a = 1.0F;
+    for (const Eigen::Vector3d& corner : {a, b, c}) {
+      msg_.points.push_back(point(corner));
+      msg_.colors.push_back(color);
     }
   }
-}
+
+  /// The twelve triangles of a box, counter-clockwise seen from outside.
+  void box(const Box& box, const Eigen::Isometry3d& pose) {
+    constexpr std::array<std::array<double, 2>, 4> kRound{
+        {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      for (const double side : {-0.5, 0.5}) {
+        std::array<Eigen::Vector3d, 4> corners;
+        for (std::size_t i = 0; i < 4; ++i) {
+          Eigen::Vector3d corner;
+          corner[axis] = side * box.size[axis];
+          corner[u] = kRound[i][side > 0.0 ? 0 : 1] * box.size[u];
+          corner[v] = kRound[i][side > 0.0 ? 1 : 0] * box.size[v];
+          corners[i] = pose * corner;
+        }
+        triangle(corners[0], corners[1], corners[2]);
+        triangle(corners[0], corners[2], corners[3]);
+      }
+    }
+  }
+
+  void mesh(const Mesh& mesh, const Eigen::Isometry3d& pose) {
+    for (const auto& indices : mesh.triangles)
+      triangle(pose * mesh.vertices[indices[0]].cast<double>(),
+               pose * mesh.vertices[indices[1]].cast<double>(),
+               pose * mesh.vertices[indices[2]].cast<double>());
+  }
+
+ private:
+  Marker& msg_;
+  Color color_;
+};
 
 void append_shapes(MarkerArray& array, std::map<std::string, int>& next_id, const Thing& thing,
                    const Eigen::Isometry3d& pose, const ros::Time& stamp) {
@@ -153,14 +187,12 @@ void append_robot(MarkerArray& array, const RobotBody& robot, const ros::Time& s
   body.scale.z = robot.height;
   array.markers.push_back(body);
 
-  // An arrow on the lid, its tip over the rim, says where ahead is.
-  Marker nose = marker("robot", 1, Marker::ARROW, kNose, stamp);
-  nose.pose = pose_msg(robot.pose);
-  nose.points = {point({-0.7 * robot.radius, 0.0, robot.height + 0.06}),
-                 point({1.5 * robot.radius, 0.0, robot.height + 0.06})};
-  nose.scale.x = 0.12;  // shaft
-  nose.scale.y = 0.36;  // head
-  nose.scale.z = 0.30;  // head's length
+  // A flat arrow head over the lid, its tip over the rim, says where ahead is.
+  Marker nose = marker("robot", 1, Marker::TRIANGLE_LIST, kNose, stamp);
+  nose.pose = above(robot.height + 0.02);
+  Painter(nose, kNose)
+      .triangle({1.5 * robot.radius, 0.0, 0.0}, {-0.6 * robot.radius, 0.75 * robot.radius, 0.0},
+                {-0.6 * robot.radius, -0.75 * robot.radius, 0.0});
   array.markers.push_back(nose);
 }
 
@@ -201,26 +233,30 @@ MarkerArray occupied_cells_msg(const octomap::OcTree& map, const ros::Time& stam
 MarkerArray scene_msg(const WorldDescription& world, const ros::Time& stamp) {
   MarkerArray array;
   std::map<std::string, int> next_id;
-  std::map<ThingClass, Marker> boxes;  // all boxes of a class at once: one thing to draw
+  std::map<ThingClass, Marker> triangles;  // all flat faces of a class at once: one thing to draw
+  const auto painter = [&](ThingClass thing_class) {
+    const std::string ns = to_string(thing_class);
+    const Color color = color_of(thing_class);
+    if (triangles.count(thing_class) == 0)
+      triangles[thing_class] = marker(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color, stamp);
+    return Painter(triangles[thing_class], color);
+  };
   for (const Thing& thing : world.things) {
     if (thing.route) continue;
-    Thing others = thing;
-    others.shapes.clear();
+    Thing round = thing;
+    round.shapes.clear();
     for (const Shape& shape : thing.shapes) {
-      const Box* box = std::get_if<Box>(&shape.geometry);
-      if (!box) {
-        others.shapes.push_back(shape);
-        continue;
-      }
-      const std::string ns = to_string(thing.thing_class);
-      if (boxes.count(thing.thing_class) == 0)
-        boxes[thing.thing_class] =
-            marker(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color_of(thing.thing_class), stamp);
-      append_box(boxes[thing.thing_class].points, *box, thing.pose * shape.pose);
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      if (const auto* box = std::get_if<Box>(&shape.geometry))
+        painter(thing.thing_class).box(*box, pose);
+      else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
+        painter(thing.thing_class).mesh(**mesh, pose);
+      else
+        round.shapes.push_back(shape);
     }
-    append_shapes(array, next_id, others, thing.pose, stamp);
+    append_shapes(array, next_id, round, thing.pose, stamp);
   }
-  for (auto& [thing_class, msg] : boxes) array.markers.push_back(std::move(msg));
+  for (auto& [thing_class, msg] : triangles) array.markers.push_back(std::move(msg));
   return array;
 }
 

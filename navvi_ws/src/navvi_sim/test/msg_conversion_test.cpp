@@ -29,6 +29,7 @@ void expect_drawable(const MarkerArray& array) {
     EXPECT_GT(marker.scale.x, 0.0);
     if (marker.type == Marker::TRIANGLE_LIST) {
       EXPECT_EQ(marker.points.size() % 3, 0U);
+      EXPECT_EQ(marker.points.size(), marker.colors.size());
     }
   }
 }
@@ -123,7 +124,7 @@ TEST(MovingScene, keeps_its_ids_and_shows_the_robot_with_its_nose_ahead) {
   }
   const Marker& nose = one.markers.back();
   EXPECT_EQ(nose.ns, "robot");
-  EXPECT_GT(nose.points[1].x, robot.radius) << "over the rim";
+  EXPECT_GT(nose.points[0].x, robot.radius) << "over the rim";
   EXPECT_NEAR(nose.pose.orientation.z, std::sin(M_PI / 4.0), 1e-9);
 }
 
