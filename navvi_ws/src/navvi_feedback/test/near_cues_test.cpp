@@ -1,0 +1,116 @@
+#include "navvi_feedback/near_cues.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_feedback {
+namespace {
+
+Nearby shelf(double gap, const Eigen::Vector2d& nearest) {
+  return {ThingClass::shelf, 7, gap, nearest, false};
+}
+
+const Eigen::Vector2d kLeft(0.1, 1.3);
+const Eigen::Vector2d kRight(0.1, -1.3);
+const Eigen::Vector2d kAhead(1.3, 0.1);
+const Eigen::Vector2d kBehind(-1.3, 0.1);
+
+class NearCuesTest : public testing::Test {
+ protected:
+  NearCuesTest() { now_.measured.emplace(); }
+
+  /// The sides said within `seconds` of a situation, in order.
+  std::vector<Side> pass(double seconds, const std::vector<Nearby>& nearby) {
+    now_.nearby = nearby;
+    std::vector<Side> sides;
+    for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
+      for (const Utterance& utterance : cues_.update(now_, time_)) {
+        sides.push_back(*utterance.fillings.side);
+        last_ = utterance;
+      }
+    }
+    return sides;
+  }
+
+  NearCues cues_{NearConfig{}};
+  Situation now_;
+  Utterance last_;
+  double time_ = 10.0;
+};
+
+using Sides = std::vector<Side>;
+
+TEST_F(NearCuesTest, SaysNothingWhereNothingIsNear) {
+  EXPECT_EQ(pass(1.0, {}), Sides{});
+  EXPECT_EQ(pass(1.0, {shelf(1.01, kLeft)}), Sides{});
+}
+
+TEST_F(NearCuesTest, SaysOnceThatAShelfIsWithinAMetreAndOnWhichSide) {
+  EXPECT_EQ(pass(5.0, {shelf(0.99, kLeft)}), Sides{Side::left});
+  EXPECT_EQ(last_.kind, "shelf_near");
+  EXPECT_FALSE(last_.priority);
+}
+
+TEST_F(NearCuesTest, HoldsItsTongueWhileTheGapTremblesOnTheBorder) {
+  Sides said;
+  for (int i = 0; i < 100; ++i)
+    for (const Side side : pass(0.1, {shelf(i % 2 == 0 ? 0.98 : 1.15, kLeft)}))
+      said.push_back(side);
+  EXPECT_EQ(said, Sides{Side::left});
+}
+
+TEST_F(NearCuesTest, SaysItAgainAfterTheShelfWasGoneForAWhile) {
+  pass(1.0, {shelf(0.9, kLeft)});
+  pass(1.0, {});
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{});
+  pass(3.0, {});
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{Side::left});
+}
+
+TEST_F(NearCuesTest, SaysItOnceMoreWhenTheShelfIsClose) {
+  pass(1.0, {shelf(0.9, kLeft)});
+  EXPECT_EQ(pass(5.0, {shelf(0.3, kLeft)}), Sides{Side::left});
+}
+
+TEST_F(NearCuesTest, SaysBothSidesOfANarrowAisleOneAfterTheOther) {
+  EXPECT_EQ(pass(1.0, {shelf(0.8, kLeft), shelf(0.9, kRight)}), (Sides{Side::left, Side::right}));
+}
+
+TEST_F(NearCuesTest, WaitsForTheVoiceUnlessTheRobotRunsIntoIt) {
+  now_.voice_busy = true;
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kAhead)}), Sides{});
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(0.1, {shelf(0.9, kAhead)}), Sides{Side::ahead});
+  EXPECT_EQ(last_.priority, Priority::message);
+}
+
+TEST_F(NearCuesTest, TellsWhatIsBehindOnlyToWhoDrivesBack) {
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{});
+  now_.measured->linear = -0.5;
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{Side::behind});
+}
+
+TEST_F(NearCuesTest, SpeaksOfWallsToo) {
+  EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
+  EXPECT_EQ(last_.kind, "wall_near");
+}
+
+TEST_F(NearCuesTest, LeavesEverythingElseToTheHands) {
+  EXPECT_EQ(pass(1.0, {{ThingClass::forklift, 1, 0.5, kRight, true},
+                       {ThingClass::box, 2, 0.2, kLeft, false}}),
+            Sides{});
+}
+
+TEST_F(NearCuesTest, AddsNothingToACollision) {
+  now_.contacts = {{ThingClass::shelf, kLeft}};
+  EXPECT_EQ(pass(0.02, {shelf(0.0, kLeft)}), Sides{});
+  now_.contacts.clear();
+  EXPECT_EQ(pass(5.0, {shelf(0.0, kLeft)}), Sides{});
+}
+
+}  // namespace
+}  // namespace navvi_feedback
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,296 @@
+#include "navvi_feedback/route_cues.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvi_feedback {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTick = 0.02;
+
+double rad(double degrees) { return degrees * kPi / 180.0; }
+
+Guidance following(double degrees, double distance) {
+  Guidance guidance;
+  guidance.state = Guidance::State::following;
+  guidance.goal = {20.0, 5.0};
+  guidance.waypoint = {10.0, 0.0};
+  guidance.waypoint_angle = rad(degrees);
+  guidance.waypoint_distance = distance;
+  guidance.turn_angle = rad(90.0);
+  guidance.goal_distance = 25.0;
+  return guidance;
+}
+
+/// A drive as it is told: what was said at which second.
+class Drive {
+ public:
+  explicit Drive(const RouteConfig& config = {}) : cues(config) { now.measured.emplace(); }
+
+  /// Lets `seconds` pass in this situation and returns the kinds that were said.
+  std::vector<std::string> pass(double seconds) {
+    std::vector<std::string> kinds;
+    for (const double end = time + seconds; time < end - 1e-9; time += kTick) {
+      for (const Utterance& utterance : cues.update(now, time)) {
+        kinds.push_back(utterance.kind);
+        last = utterance;
+      }
+    }
+    return kinds;
+  }
+
+  /// After the introduction and the first direction, so that only news is said.
+  void settle(double degrees, double distance) {
+    now.guidance = following(degrees, distance);
+    now.commanded.linear = 1.0;
+    now.measured->linear = 1.0;
+    pass(3.0);
+  }
+
+  RouteCues cues;
+  Situation now;
+  Utterance last;
+  double time = 100.0;
+};
+
+using Kinds = std::vector<std::string>;
+
+TEST(RouteCues, IntroduceANewGoalAndThenTheWayToIt) {
+  Drive drive;
+  drive.now.guidance = following(90.0, 8.0);
+  drive.now.goal_angle = rad(-60.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"start"});
+  EXPECT_EQ(drive.last.fillings.hour, 10);
+  EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 25.0);
+  drive.now.voice_busy = true;
+  EXPECT_EQ(drive.pass(2.0), Kinds{});
+  drive.now.voice_busy = false;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 3);
+  EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 8.0);
+}
+
+TEST(RouteCues, IntroduceAGoalWhoseBearingIsUnknownByItsDistance) {
+  Drive drive;
+  drive.now.guidance = following(90.0, 8.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
+}
+
+TEST(RouteCues, SayNothingOfAnAngleThatIsNoNumber) {
+  Drive drive;
+  drive.now.guidance = following(std::nan(""), 8.0);
+  EXPECT_EQ(drive.pass(10.0), Kinds{});
+  drive.now.guidance = following(0.0, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(drive.pass(10.0), Kinds{});
+  EXPECT_FALSE(drive.cues.direction(*drive.now.guidance));
+}
+
+TEST(RouteCues, RepeatTheDirectionWhileTheRobotFacesElsewhere) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  EXPECT_EQ(drive.pass(12.0), (Kinds{"direction", "direction", "direction"}));
+}
+
+TEST(RouteCues, RepeatHalfAsOftenWhileTheStickRests) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.commanded = {};
+  drive.pass(8.0);
+  EXPECT_EQ(drive.pass(16.0).size(), 2U);
+}
+
+TEST(RouteCues, RepeatStraightAheadSeldom) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  EXPECT_EQ(drive.pass(16.0), (Kinds{"straight", "straight"}));
+}
+
+TEST(RouteCues, CorrectOnlyBeyondTheHysteresis) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance->waypoint_angle = rad(18.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{});
+  drive.now.guidance->waypoint_angle = rad(21.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 1);
+}
+
+TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.measured = Situation::Motion{0.0, -1.0};
+  double degrees = 90.0;
+  Kinds said;
+  double angle_when_told = 0.0;
+  while (degrees > 0.0) {
+    degrees -= kTick / kPi * 180.0;
+    drive.now.guidance->waypoint_angle = rad(degrees);
+    for (const std::string& kind : drive.pass(kTick)) {
+      said.push_back(kind);
+      angle_when_told = degrees;
+    }
+  }
+  EXPECT_EQ(said, Kinds{"straight"});
+  EXPECT_EQ(drive.last.priority, Priority::message);
+  EXPECT_GT(angle_when_told, 20.0) << "a person needs a moment to stop";
+  EXPECT_LT(angle_when_told, 60.0);
+}
+
+TEST(RouteCues, TellARobotThatTurnedTooFarOnceItHasSettled) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.measured = Situation::Motion{0.0, -1.0};
+  drive.now.guidance->waypoint_angle = rad(10.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  drive.now.guidance->waypoint_angle = rad(-30.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{});
+  drive.now.measured = Situation::Motion{};
+  EXPECT_EQ(drive.pass(1.0), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 11);
+}
+
+TEST(RouteCues, AnnounceATurnOnceAheadAndOnceWhenTheCornerIsReached) {
+  Drive drive;
+  drive.settle(0.0, 12.0);
+  Kinds said;
+  for (double distance = 12.0; distance > 1.0; distance -= kTick) {
+    drive.now.guidance->waypoint_distance = distance;
+    for (const std::string& kind : drive.pass(kTick)) {
+      if (kind == "turn_ahead") {
+        EXPECT_LE(distance, 6.0);
+        EXPECT_GT(distance, 4.0);
+        EXPECT_EQ(drive.last.fillings.hour, 3);
+      }
+      said.push_back(kind);
+    }
+  }
+  EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 1);
+  drive.now.guidance = following(80.0, 9.0);
+  drive.now.guidance->waypoint = {10.0, -10.0};
+  drive.now.voice_busy = true;  // it does not wait for a lesser cue to end
+  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_now"});
+  EXPECT_EQ(drive.last.fillings.hour, 3);
+}
+
+TEST(RouteCues, KeepQuietAboutATurnAtTheGoal) {
+  Drive drive;
+  drive.now.guidance = following(0.0, 5.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  const Kinds said = drive.pass(20.0);
+  EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 0);
+}
+
+TEST(RouteCues, KeepQuietAfterAReplanThatChangesNothingToDo) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  for (int plan = 0; plan < 3; ++plan) {
+    drive.now.guidance->replan_reason = Guidance::Replan::period;
+    drive.now.guidance->waypoint += Eigen::Vector2d(plan % 2 == 0 ? 1.5 : -1.5, 0.2);
+    EXPECT_EQ(drive.pass(1.5), Kinds{}) << plan;
+  }
+}
+
+TEST(RouteCues, SayANewRouteIfTheNextManoeuvreChanged) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance->waypoint = {0.0, -12.0};
+  drive.now.guidance->waypoint_angle = rad(150.0);
+  drive.now.guidance->waypoint_distance = 12.0;
+  EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted"});
+  EXPECT_EQ(drive.last.fillings.hour, 5);
+}
+
+TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
+  Drive drive;
+  drive.settle(0.0, 8.0);
+  drive.now.guidance->waypoint_distance = 1.4;
+  drive.now.guidance->waypoint_angle = rad(28.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{});
+}
+
+TEST(RouteCues, SayTheDirectionAgainAfterAStop) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.cues.remind(drive.time + 1.0);
+  EXPECT_EQ(drive.pass(0.9), Kinds{});
+  EXPECT_EQ(drive.pass(0.2), Kinds{"straight"});
+}
+
+TEST(RouteCues, SayTheDirectionWhenThePathIsBackWithoutANewIntroduction) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.cues.pause();
+  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  drive.cues.forget();
+  EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
+}
+
+/// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,
+/// and drives on when told that the way is straight ahead.
+TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
+  for (const double error : {0.8, 1.0, 1.2}) {
+    const std::vector<Eigen::Vector2d> path = {{12.0, 0.0}, {12.0, 9.0}, {0.0, 9.0}, {-3.0, 14.0}};
+    RouteCues cues{RouteConfig{}};
+    Eigen::Vector2d position(0.0, 0.0);
+    double heading = 2.5;
+    std::size_t next = 0;
+    double turn_left = 0.0;
+    bool drives = false;
+    double busy_until = 0.0;
+    std::optional<std::pair<double, Utterance>> heard;
+    double time = 0.0;
+    int words = 0;
+    while (next < path.size() && time < 200.0) {
+      if ((path[next] - position).norm() < 1.0 && ++next == path.size()) break;
+      const Eigen::Vector2d to = path[next] - position;
+      Situation now;
+      now.guidance = following(0.0, to.norm());
+      now.guidance->waypoint = path[next];
+      now.guidance->goal = path.back();
+      now.guidance->waypoint_is_goal = next + 1 == path.size();
+      now.guidance->waypoint_angle =
+          -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
+      const double rate = turn_left > 0.0 ? -0.8 : turn_left < 0.0 ? 0.8 : 0.0;
+      const double speed = rate == 0.0 && drives ? 0.8 : 0.0;
+      now.measured = now.commanded = Situation::Motion{speed, rate};
+      now.voice_busy = time < busy_until;
+      for (const Utterance& utterance : cues.update(now, time)) {
+        heard = {time + 1.0, utterance};
+        busy_until = time + 1.6;
+        ++words;
+      }
+      if (heard && time >= heard->first) {
+        const Utterance utterance = heard->second;
+        heard.reset();
+        if (utterance.kind == "straight") {
+          turn_left = 0.0;
+          drives = true;
+        } else if (utterance.kind == "direction" || utterance.kind == "turn_now" ||
+                   utterance.kind == "rerouted") {
+          turn_left = error * std::remainder(*utterance.fillings.hour * kPi / 6.0, 2.0 * kPi);
+          drives = true;
+        }
+      }
+      if (std::abs(turn_left) < 0.8 * kTick) turn_left = 0.0;
+      turn_left += rate * kTick;
+      heading += rate * kTick;
+      position += speed * kTick * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+      time += kTick;
+    }
+    EXPECT_EQ(next, path.size()) << "error " << error << ", got as far as corner " << next;
+    EXPECT_LT(time, 120.0) << error;
+    EXPECT_LT(words, 45) << error;
+  }
+}
+
+}  // namespace
+}  // namespace navvi_feedback
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
