@@ -1,5 +1,6 @@
 """One whole session as a person starts it, watched from outside, and what it leaves behind."""
 import csv
+import difflib
 import os
 import pathlib
 import re
@@ -15,6 +16,8 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from navvi_msgs.msg import Cue, DriveState
 from octomap_msgs.msg import Octomap
+
+import hearing
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
@@ -102,7 +105,7 @@ class Session:
         """Kills feedback_node while the stick is full forward. Returns the s until the wheels were held at zero."""
         self.wait_for(lambda: self.command > FULL_STICK and self.speed > 0.5 * FULL_STICK, 90, "the stick is full forward")
         pid = int(subprocess.check_output(["pgrep", "-n", "-f", "lib/navvi_feedback/feedback_node"], text=True))
-        before = len(self.drive_states)
+        before, self.heard_before_kill = len(self.drive_states), len(self.heard)
         killed = time.monotonic()
         os.kill(pid, signal.SIGKILL)
         stopped = lambda: [at for at, msg in self.drive_states[before:] if msg.state == DriveState.STOPPED]
@@ -205,6 +208,18 @@ def test_no_spoken_cue_was_cut_by_a_lesser_one(session):
         if cue.stage == Cue.CUT:
             started = [other for other in speech[index - 3:index + 4] if other.stage in (Cue.STARTED, Cue.QUEUED) and other.id != cue.id]
             assert any(other.priority > cue.priority for other in started), cue.text
+
+
+def test_what_was_said_can_be_heard(session):
+    """The recording, transcribed, holds the words of the cues in their order. Numbers that sound alike, such as fifteen
+    and fifty, are the recogniser's own affair."""
+    cues = session.heard[session.heard_before_kill:]  # the new process begins a new recording
+    ended = {cue.id for cue in cues if cue.stage == Cue.ENDED}
+    said = [word for cue in cues if cue.stage == Cue.STARTED and cue.modality == Cue.SPEECH and cue.id in ended
+            for word in hearing.words_of(cue.text)]
+    heard = [word for _, words in hearing.transcribe(session.sound) for word in words]
+    common = sum(block.size for block in difflib.SequenceMatcher(None, said, heard, autojunk=False).get_matching_blocks())
+    assert said and common > 0.75 * len(said), (said, heard)
 
 
 def test_the_picture_shows_path_goal_boxes_and_robot(session):

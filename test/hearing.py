@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Writes down what is heard in a recording of a session: `test/hearing.py sound.wav` prints onset and words.
+
+A speech recogniser with a grammar made from the phrase file listens to each stretch of sound between two silences.
+"""
+import array
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+PHRASES = pathlib.Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_feedback/config/phrases/en.yaml"
+RATE = 16000  # Hz, of the recogniser's model
+ONES = ("zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
+        "seventeen eighteen nineteen").split()
+TENS = "twenty thirty forty fifty sixty seventy eighty ninety".split()
+
+
+def number_words(number):
+    """The words of a number from 0 to 99, or with one decimal."""
+    whole, _, fraction = number.partition(".")
+    value = int(whole)
+    words = [ONES[value]] if value < 20 else [TENS[value // 10 - 2]] + ([ONES[value % 10]] if value % 10 else [])
+    return words + (["point", ONES[int(fraction)]] if fraction else [])
+
+
+def words_of(text):
+    """The words of a cue as they are spoken."""
+    words = []
+    for word in re.findall(r"[a-z']+|\d+(?:\.\d+)?", text.lower()):
+        words += number_words(word) if word[0].isdigit() else [word]
+    return words
+
+
+def grammar():
+    """The phrase file as a JSGF grammar."""
+    document = yaml.safe_load(PHRASES.read_text())
+    words = document["words"]
+    choices = {
+        "clock": " | ".join(ONES[1:13]),
+        "distance": "<number> meters | one meter | <number> point five meters | zero point five meters",
+        "thing": " | ".join(words[key] for key in
+                            ("shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other")),
+        "side": " | ".join(value for key, value in words.items() if key.startswith("side_")),
+        "where": " | ".join(value for key, value in words.items() if key.startswith("where_")),
+    }
+    lines = ["#JSGF V1.0;", "grammar cues;", f"<ones> = {' | '.join(ONES[1:])};",
+             f"<number> = <ones> | ({' | '.join(TENS)}) [{' | '.join(ONES[1:10])}];"]
+    lines += [f"<{name}> = {value};" for name, value in choices.items()]
+    cues = []
+    for template in document["phrases"].values():
+        text = re.sub(r"[.,]", " ", template.lower())
+        cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
+    return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
+                               "public <cues> = <cue> [<cue>] [<cue>];"])  # two cues may follow on one another at once
+
+
+def utterances(samples, quiet=300, gap=0.22):
+    """Yields (first, last) sample of each stretch that is louder than `quiet`, joined over gaps of `gap` s."""
+    block = RATE // 100
+    loud = [at for at in range(0, len(samples) - block, block)
+            if max(max(samples[at:at + block]), -min(samples[at:at + block])) > quiet]
+    while loud:
+        end = next((i for i in range(1, len(loud)) if loud[i] - loud[i - 1] > gap * RATE), len(loud))
+        yield loud[0], loud[end - 1] + block
+        loud = loud[end:]
+
+
+def transcribe(path):
+    """Returns a list of (onset in s, words) for a sound file."""
+    raw = subprocess.check_output(["sox", "--ignore-length", str(path), "-t", "raw", "-r", str(RATE), "-e", "signed", "-b", "16",
+                                   "-c", "1", "-"], stderr=subprocess.DEVNULL)
+    samples = array.array("h", raw[:len(raw) // 2 * 2])
+    heard = []
+    with tempfile.TemporaryDirectory() as folder:
+        rules = pathlib.Path(folder, "cues.jsgf")
+        rules.write_text(grammar())
+        pause = array.array("h", bytes(RATE // 2))
+        for first, last in utterances(samples):
+            if last - first < 0.2 * RATE:
+                continue
+            sound = pathlib.Path(folder, "utterance.raw")
+            sound.write_bytes((pause + samples[first:last] + pause).tobytes())
+            text = subprocess.check_output(["pocketsphinx_continuous", "-infile", str(sound), "-jsgf", str(rules),
+                                            "-logfn", "/dev/null"], text=True, stderr=subprocess.DEVNULL)
+            heard.append((first / RATE, text.split()))
+    return heard
+
+
+if __name__ == "__main__":
+    for onset, heard_words in transcribe(sys.argv[1]):
+        print(f"{onset:8.2f}  {' '.join(heard_words)}")

@@ -1,0 +1,72 @@
+"""launch/robot.launch with a robot that NavVI has never met: here the simulator, which knows nothing of the person's side."""
+import pathlib
+import re
+import subprocess
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+
+
+class Robot:
+    def __init__(self, master, folder):
+        self.env = master
+        self.processes = []
+        self.run("rosparam", "set", "use_sim_time", "true")
+        self.start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", f"_world:={WORLD}")
+        self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "input:=topic",
+                   "speech:=false", "rviz:=false", f"out:={folder}")
+
+    def run(self, *words, seconds=60):
+        return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=seconds)
+
+    def start(self, *words):
+        process = subprocess.Popen(words, env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.processes.append(process)
+        return process
+
+    def field(self, topic, name):
+        """A number of the topic's next message."""
+        text = self.run("rostopic", "echo", "-n1", f"{topic}/{name}").stdout
+        found = re.search(r"-?\d+(\.\d+)?(e-?\d+)?", text)
+        return float(found.group()) if found else None
+
+    def close(self):
+        for process in reversed(self.processes):
+            process.terminate()
+        for process in self.processes:
+            process.wait(20)
+
+
+@pytest.fixture(scope="module")
+def robot(master, tmp_path_factory):
+    robot = Robot(master, tmp_path_factory.mktemp("trials"))
+    yield robot
+    robot.close()
+
+
+def eventually(condition, seconds=40):
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        if condition():
+            return True
+    return False
+
+
+def test_a_goal_from_outside_is_followed(robot):
+    x, y = (robot.field("/navvi/scenario", f"goal/{axis}") for axis in "xy")
+    goal = f"{{header: {{frame_id: map}}, pose: {{position: {{x: {x}, y: {y}}}, orientation: {{w: 1.0}}}}}}"
+    robot.start("rostopic", "pub", "-r", "1", "/move_base_simple/goal", "geometry_msgs/PoseStamped", goal)
+    assert eventually(lambda: robot.field("/navvi/guidance", "state") == 1)
+
+
+def test_the_stick_moves_the_robot_through_the_relay(robot):
+    pushed = robot.run("/usr/bin/python3", str(ROOT / "test/push_stick.py"))
+    assert float(pushed.stdout) >= 0.3, pushed.stderr
+
+
+def test_the_nodes_on_a_robot_are_those_of_the_picture(robot):
+    names = set(robot.run("rosnode", "list").stdout.split())
+    assert {"/nav_node", "/feedback_node", "/relay_node", "/trial_node"} <= names
