@@ -9,6 +9,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNeutralAtStart = 1.0;      // s
 constexpr double kPress = 0.15;              // s, a button is held
+constexpr double kSameBump = 15.0;           // s
 constexpr double kBackOff = 0.7;             // s
 constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
 constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
@@ -104,6 +105,23 @@ void SimulatedOperator::veer(Instruction::Side side, double angle, double until)
   veer_until_ = until;
 }
 
+void SimulatedOperator::back_off(Instruction::Side side, double time) {
+  mode_ = side == Instruction::Side::behind ? Mode::waiting : Mode::backing;
+  // Who runs into the same thing again backs off further and tries it at an angle.
+  const bool again = time - bumped_ < kSameBump;
+  bumped_ = time;
+  back_until_ = time + (again ? 2.0 : 1.0) * kBackOff;
+  target_ = heading_;
+  if (side == Instruction::Side::left || side == Instruction::Side::right) {
+    veer(side, 0.25, time + 8.0);
+  } else if (again) {
+    other_side_ = !other_side_;
+    veer(other_side_ ? Instruction::Side::left : Instruction::Side::right, 0.3, time + 6.0);
+  }
+}
+
+void SimulatedOperator::ask_soon(double time) { last_news_ = time - config_.idle_patience + 0.4; }
+
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
   const Instruction instruction = understand(sentence.text);
   switch (instruction.kind) {
@@ -125,14 +143,15 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
       }
       break;
     case Instruction::Kind::near:
+      if (instruction.side == Instruction::Side::ahead && mode_ == Mode::driving) {
+        mode_ = Mode::waiting;
+        ask_soon(time);
+      }
       speed_ = std::min(speed_, config_.slow);
       veer(instruction.side, 0.1, time + 1.5);
       break;
     case Instruction::Kind::bump:
-      mode_ = instruction.side == Instruction::Side::behind ? Mode::waiting : Mode::backing;
-      back_until_ = time + kBackOff;
-      target_ = heading_;
-      veer(instruction.side, 0.25, time + 8.0);
+      back_off(instruction.side, time);
       break;
     case Instruction::Kind::halt:
       mode_ = Mode::waiting;
@@ -184,7 +203,7 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
   if (mode_ == Mode::driving) {
     if (odometer_ >= stop_at_) {
       mode_ = Mode::waiting;
-      last_news_ = time - config_.idle_patience + 0.5;
+      ask_soon(time);
     } else {
       hand = drive(time);
     }
@@ -193,7 +212,7 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
     hand.forward = -1.0;
     if (time >= back_until_) {
       mode_ = Mode::waiting;
-      last_news_ = time - config_.idle_patience;
+      ask_soon(time);
     }
   }
   return hand;

@@ -169,6 +169,26 @@ TEST(SimulatedOperator, backs_off_when_it_hears_that_it_hit_something) {
   EXPECT_LT(loop.x, -0.1);
 }
 
+TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
+  Loop loop(1, kAroundACorner);
+  const auto say = [&](std::uint32_t id, const char* text) {
+    loop.say(text);
+    loop.person.hear({id, HeardSpeech::Stage::ends, ""}, loop.time);
+  };
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  say(1, "straight ahead, 8 meters");
+  for (int i = 0; i < 150; ++i) (void)loop.step();
+  say(2, "shelf ahead");
+  for (int i = 0; i < 60; ++i) (void)loop.step();
+  const double stopped = loop.x;
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  EXPECT_EQ(loop.x, stopped);
+  EXPECT_TRUE(loop.asked);
+  say(3, "straight ahead, 6 meters");
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  EXPECT_GT(loop.x, stopped);
+}
+
 TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
   const auto covered = [](double motors) {
     Loop loop(1, kAroundACorner);

@@ -77,6 +77,8 @@ class SimulatedOperator {
   [[nodiscard]] StickAndButtons act(double time, double dt);
   [[nodiscard]] StickAndButtons drive(double time) const;
   [[nodiscard]] double shaped(double stick) const;
+  void back_off(Instruction::Side side, double time);
+  void ask_soon(double time);
   void ask_when_lost(double time);
 
   SimulatedOperatorConfig config_;
@@ -97,6 +99,8 @@ class SimulatedOperator {
   double veer_ = 0.0;  ///< rad, added to the target
   double veer_until_ = 0.0;
   double back_until_ = 0.0;
+  double bumped_ = -1e9;
+  bool other_side_ = false;
   double last_news_ = 0.0;
   double asked_ = -1e9;
   double left_motor_ = 0.0;
