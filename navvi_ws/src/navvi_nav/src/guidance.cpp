@@ -16,6 +16,9 @@ void GuidanceConfig::describe(navvi_config::Visitor& visit) {
   visit({"sight_radius", Range{0.0, 1.0}, "m",
          "room that the straight way to a way-point must have before the one before is given up"},
         sight_radius);
+  visit({"easy_radius", Range{0.0, 2.0}, "m", "the same while the robot is not yet close"},
+        easy_radius);
+  visit({"close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close"}, close);
 }
 
 double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
@@ -39,11 +42,17 @@ bool Guidance::sees(Point robot, Point target, const Space& space) const {
   return space.segment_clear(robot, target, std::max(0.0, std::min(config_.sight_radius, own)));
 }
 
+bool Guidance::reached(Point robot, const Space& space) const {
+  const double away = distance(robot, path_[next_]);
+  if (away > config_.waypoint_reached) return false;
+  const Point after = path_[next_ + 1];
+  return space.segment_clear(robot, after, config_.easy_radius) ||
+         (away <= config_.close && sees(robot, after, space));
+}
+
 void Guidance::advance(const Pose& robot, const Space& space) {
   const Point at = robot.position;
-  while (next_ + 1 < path_.size() && distance(at, path_[next_]) <= config_.waypoint_reached &&
-         sees(at, path_[next_ + 1], space))
-    ++next_;
+  while (next_ + 1 < path_.size() && reached(at, space)) ++next_;
 
   std::size_t nearest = next_ - 1;  // leg
   double best = distance(at, nearest_on_segment(at, path_[nearest], path_[next_]));

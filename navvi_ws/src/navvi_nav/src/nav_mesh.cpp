@@ -1,18 +1,11 @@
 #include "navvi_nav/nav_mesh.hpp"
 
-#include <limits>
+#include <utility>
 
 namespace navvi_nav {
 namespace {
 
-constexpr int kBorder = 4;            // cells looked at around a tile, so that neighbours agree
-constexpr int kMaxLevels = 8000;      // Recast's spans have 13 bits
-constexpr double kMaxCells = 64.0e6;  // of the whole map
-constexpr double kRounding = 1e-4;    // cells
-
-int floor_cell(double value) { return static_cast<int>(std::floor(value + kRounding)); }
-int ceil_cell(double value) { return static_cast<int>(std::ceil(value - kRounding)); }
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+constexpr int kMaxHeadroom = 250;  // levels; Recast's compact spans have 8 bits for it
 
 const Cylinder* find(const std::vector<Cylinder>& cylinders, std::uint32_t id) {
   for (const Cylinder& cylinder : cylinders) {
@@ -37,19 +30,6 @@ bool same_hole(const Cylinder& a, const Cylinder& b) {
 }
 
 }  // namespace
-
-/// Everything of a new map before it replaces the old one.
-struct NavMesh::Survey {
-  std::string error;
-  double cell_size = 0.0;
-  double level_height = 0.0;
-  int lowest_level = 0;
-  int levels = 0;
-  Cell low;   // of the tiles
-  Cell high;  // one beyond
-  int tile_cells = 0;
-  std::map<TileIndex, TileField> fields;
-};
 
 void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -83,114 +63,26 @@ double NavMesh::margin(double cell) const {
   return eroded + config_.contour_error * cell;
 }
 
-NavMesh::Survey NavMesh::survey(const octomap::OcTree& tree) const {
-  Survey out;
-  out.level_height = tree.getResolution();
-  out.cell_size = config_.cell_size > 0.0 ? config_.cell_size : tree.getResolution();
-  double low[3] = {1e9, 1e9, 1e9};
-  double high[3] = {-1e9, -1e9, -1e9};
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    if (!tree.isNodeOccupied(*leaf)) continue;
-    const double half = leaf.getSize() / 2;
-    const double at[3] = {leaf.getX(), leaf.getY(), leaf.getZ()};
-    for (int k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], at[k] - half);
-      high[k] = std::max(high[k], at[k] + half);
-    }
-  }
-  if (low[0] > high[0]) {
-    out.error = "the map has no occupied voxel";
-    return out;
-  }
-  out.lowest_level = floor_cell(low[2] / out.level_height);
-  out.levels = ceil_cell(high[2] / out.level_height) - out.lowest_level;
-  if (out.levels > kMaxLevels) {
-    out.error = "the map is taller than 8000 voxels";
-    return out;
-  }
-  if ((high[0] - low[0]) * (high[1] - low[1]) > kMaxCells * out.cell_size * out.cell_size) {
-    out.error = "the map has more than 64 million cells of floor";
-    return out;
-  }
-  out.tile_cells = std::max(16, static_cast<int>(std::lround(config_.tile_size / out.cell_size)));
-  const int size = out.tile_cells;
-  out.low = {floor_div(floor_cell(low[0] / out.cell_size), size) * size,
-             floor_div(floor_cell(low[1] / out.cell_size), size) * size};
-  out.high = {(floor_div(ceil_cell(high[0] / out.cell_size) - 1, size) + 1) * size,
-              (floor_div(ceil_cell(high[1] / out.cell_size) - 1, size) + 1) * size};
-  for (int y = out.low.y; y < out.high.y; y += size) {
-    for (int x = out.low.x; x < out.high.x; x += size)
-      out.fields.emplace(TileIndex{x / size, y / size}, TileField({x, y}, size, kBorder, out.levels,
-                                                                  out.cell_size, out.level_height));
-  }
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    if (!tree.isNodeOccupied(*leaf)) continue;
-    const double half = leaf.getSize() / 2;
-    const int x0 = floor_cell((leaf.getX() - half) / out.cell_size);
-    const int x1 = ceil_cell((leaf.getX() + half) / out.cell_size);
-    const int y0 = floor_cell((leaf.getY() - half) / out.cell_size);
-    const int y1 = ceil_cell((leaf.getY() + half) / out.cell_size);
-    const int bottom = floor_cell((leaf.getZ() - half) / out.level_height) - out.lowest_level;
-    const int top = ceil_cell((leaf.getZ() + half) / out.level_height) - out.lowest_level;
-    for (int ty = floor_div(y0 - kBorder, size); ty <= floor_div(y1 + kBorder, size); ++ty) {
-      for (int tx = floor_div(x0 - kBorder, size); tx <= floor_div(x1 + kBorder, size); ++tx) {
-        const auto found = out.fields.find({tx, ty});
-        if (found == out.fields.end()) continue;
-        TileField& field = found->second;
-        const int from_x = std::max(x0, field.origin().x - kBorder);
-        const int to_x = std::min(x1, field.origin().x + size + kBorder);
-        const int from_y = std::max(y0, field.origin().y - kBorder);
-        const int to_y = std::min(y1, field.origin().y + size + kBorder);
-        for (int y = from_y; y < to_y; ++y) {
-          for (int x = from_x; x < to_x; ++x) field.add_span({x, y}, bottom, top);
-        }
-      }
-    }
-  }
-  return out;
-}
-
 MeshUpdate NavMesh::set_map(const octomap::OcTree& tree) {
-  Survey next = survey(tree);
-  if (!next.error.empty()) return {next.error, 0, 0};
-  const int headroom = std::clamp(ceil_cell(config_.robot_height / next.level_height), 1, 250);
-  std::map<int, int> tops;
-  for (const auto& entry : next.fields) entry.second.count_tops(headroom, tops);
-  int largest = 0;
-  for (const auto& [top, cells] : tops) largest = std::max(largest, cells);
-  int floor_top = 0;
-  for (const auto& [top, cells] : tops) {
-    if (2 * cells < largest) continue;
-    floor_top = top;
-    break;
-  }
-
-  const int columns = next.high.x - next.low.x;
-  const int rows = next.high.y - next.low.y;
-  std::vector<Ground> ground(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  for (auto& entry : next.fields) {
-    TileField& field = entry.second;
-    const std::vector<Ground> own = field.settle(floor_top, headroom);
-    const auto size = static_cast<std::ptrdiff_t>(field.size());
-    for (int y = 0; y < field.size(); ++y) {
-      const std::ptrdiff_t to =
-          static_cast<std::ptrdiff_t>(field.origin().y - next.low.y + y) * columns +
-          (field.origin().x - next.low.x);
-      std::copy_n(own.begin() + y * size, size, ground.begin() + to);
-    }
-  }
-
-  const double keep = margin(next.cell_size);
+  MapSurvey survey = survey_map(tree, config_.cell_size, config_.tile_size);
+  if (!survey.error.empty()) return {survey.error, 0, 0};
+  const double cell = survey.cell_size;
+  const int headroom =
+      std::clamp(static_cast<int>(std::ceil(config_.robot_height / survey.level_height - 1e-6)), 1,
+                 kMaxHeadroom);
+  const int floor_top = survey.floor_top(headroom);
+  const double keep = margin(cell);
   auto floor = std::make_shared<const Floor>(
-      next.low, columns, rows, next.cell_size, (next.lowest_level + floor_top) * next.level_height,
-      std::move(ground), keep + config_.preferred_clearance + 2 * next.cell_size, keep);
+      survey.low, survey.high.x - survey.low.x, survey.high.y - survey.low.y, cell,
+      (survey.lowest_level + floor_top) * survey.level_height, survey.settle(floor_top, headroom),
+      keep + config_.preferred_clearance + 2 * cell, keep);
   if (!floor->any_open()) return {"the map shows no walkable floor", 0, 0};
   const std::shared_ptr<const Floor> old = std::exchange(floor_, std::move(floor));
 
   MeshUpdate update;
   const bool comparable = !old->empty() && old->cell_size() == floor_->cell_size();
   std::map<TileIndex, Tile> tiles;
-  for (auto& [index, field] : next.fields) {
+  for (auto& [index, field] : survey.fields) {
     Tile tile{std::move(field), {}};
     const auto before = tiles_.find(index);
     if (comparable && before != tiles_.end() && same_open_cells(tile.field, *old)) {

@@ -10,6 +10,8 @@ struct GuidanceConfig {
   double waypoint_reached = 1.0;
   double goal_reached = 1.0;
   double sight_radius = 0.3;
+  double easy_radius = 0.6;
+  double close = 0.4;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -38,8 +40,9 @@ class Guidance {
   [[nodiscard]] Path remaining(Point robot) const;
   [[nodiscard]] Point next_waypoint() const { return path_[next_]; }
 
-  /// Passes on to the next way-point where the robot is near enough and sees the one after; a
-  /// corner that it could only cut through something stays. following() must hold.
+  /// Passes on to the next way-point where the robot is near enough and the straight way to the
+  /// one after has easy_radius of room, or sight_radius once it is `close`; a corner that it could
+  /// only cut through something stays. following() must hold.
   void advance(const Pose& robot, const Space& space);
   /// True if the robot is near enough to the goal and nothing stands in between.
   [[nodiscard]] bool arrived(const Pose& robot, const Space& space) const;
@@ -51,6 +54,7 @@ class Guidance {
 
  private:
   [[nodiscard]] bool sees(Point robot, Point target, const Space& space) const;
+  [[nodiscard]] bool reached(Point robot, const Space& space) const;
 
   GuidanceConfig config_;
   Path path_;

@@ -6,12 +6,11 @@
 #include <memory>
 #include <navvi_config/field.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "navvi_nav/floor.hpp"
+#include "navvi_nav/map_survey.hpp"
 #include "navvi_nav/mesh.hpp"
-#include "navvi_nav/tile_field.hpp"
 
 namespace navvi_nav {
 
@@ -63,14 +62,11 @@ class NavMesh {
   [[nodiscard]] const NavMeshConfig& config() const { return config_; }
 
  private:
-  using TileIndex = std::pair<int, int>;
   struct Tile {
     TileField field;
     std::vector<GridTriangle> triangles;
   };
-  struct Survey;
 
-  [[nodiscard]] Survey survey(const octomap::OcTree& tree) const;
   [[nodiscard]] double margin(double cell) const;
   [[nodiscard]] bool same_open_cells(const TileField& field, const Floor& old) const;
   [[nodiscard]] bool touches(const TileField& field, const Cylinder& cylinder) const;
