@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -13,6 +14,8 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 constexpr const char* kFrame = "map";
+constexpr double kWallCut = 1.0;  // m above the floor, to which walls are drawn
+constexpr double kCut = 2.7;      // m above the floor, to which everything else is drawn
 
 struct Color {
   float r, g, b;
@@ -65,6 +68,15 @@ geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose) {
   return msg;
 }
 
+std_msgs::ColorRGBA color_msg(const Color& color, float brightness = 1.0F) {
+  std_msgs::ColorRGBA msg;
+  msg.r = color.r * brightness;
+  msg.g = color.g * brightness;
+  msg.b = color.b * brightness;
+  msg.a = 1.0F;
+  return msg;
+}
+
 Marker marker(const std::string& ns, int id, int type, const Color& color, const ros::Time& stamp) {
   Marker msg;
   msg.header.frame_id = kFrame;
@@ -75,10 +87,7 @@ Marker marker(const std::string& ns, int id, int type, const Color& color, const
   msg.action = Marker::ADD;
   msg.pose.orientation.w = 1.0;
   msg.scale.x = msg.scale.y = msg.scale.z = 1.0;
-  msg.color.r = color.r;
-  msg.color.g = color.g;
-  msg.color.b = color.b;
-  msg.color.a = 1.0F;
+  msg.color = color_msg(color);
   return msg;
 }
 
@@ -117,21 +126,19 @@ class ShapeMarker {
 /// says from every side; a little shading by direction tells the faces apart.
 class Painter {
  public:
-  Painter(Marker& msg, const Color& color) : msg_(msg), color_(color) {}
+  /// \param cut  m, z above which nothing is drawn
+  Painter(Marker& msg, const Color& color, double cut) : msg_(msg), color_(color), cut_(cut) {}
 
   void triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
     const double shade = 0.74 + 0.26 * std::max(0.0, normal.z()) + 0.12 * std::abs(normal.x());
-    std_msgs::ColorRGBA color;
     const float brightness = static_cast<float>(std::min(1.0, shade));
-    color.r = color_.r * brightness;
-    color.g = color_.g * brightness;
-    color.b = color_.b * brightness;
-    color.a = 1.0F;
-    for (const Eigen::Vector3d& corner : {a, b, c}) {
-      msg_.points.push_back(point(corner));
-      msg_.colors.push_back(color);
-    }
+    const std::vector<Eigen::Vector3d> corners = below_cut({a, b, c});
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      for (const Eigen::Vector3d& corner : {corners[0], corners[i - 1], corners[i]}) {
+        msg_.points.push_back(point(corner));
+        msg_.colors.push_back(color_msg(color_, brightness));
+      }
   }
 
   /// The twelve triangles of a box, counter-clockwise seen from outside.
@@ -164,8 +171,23 @@ class Painter {
   }
 
  private:
+  /// The part of a polygon below the cut (Sutherland and Hodgman, 1974).
+  [[nodiscard]] std::vector<Eigen::Vector3d> below_cut(
+      const std::vector<Eigen::Vector3d>& corners) const {
+    std::vector<Eigen::Vector3d> kept;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector3d& here = corners[i];
+      const Eigen::Vector3d& next = corners[(i + 1) % corners.size()];
+      if (here.z() <= cut_) kept.push_back(here);
+      if ((here.z() <= cut_) != (next.z() <= cut_))
+        kept.push_back(here + (next - here) * ((cut_ - here.z()) / (next.z() - here.z())));
+    }
+    return kept;
+  }
+
   Marker& msg_;
   Color color_;
+  double cut_;
 };
 
 void append_shapes(MarkerArray& array, std::map<std::string, int>& next_id, const Thing& thing,
@@ -190,7 +212,7 @@ void append_robot(MarkerArray& array, const RobotBody& robot, const ros::Time& s
   // A flat arrow head over the lid, its tip over the rim, says where ahead is.
   Marker nose = marker("robot", 1, Marker::TRIANGLE_LIST, kNose, stamp);
   nose.pose = above(robot.height + 0.02);
-  Painter(nose, kNose)
+  Painter(nose, kNose, std::numeric_limits<double>::max())
       .triangle({1.5 * robot.radius, 0.0, 0.0}, {-0.6 * robot.radius, 0.75 * robot.radius, 0.0},
                 {-0.6 * robot.radius, -0.75 * robot.radius, 0.0});
   array.markers.push_back(nose);
@@ -239,7 +261,8 @@ MarkerArray scene_msg(const WorldDescription& world, const ros::Time& stamp) {
     const Color color = color_of(thing_class);
     if (triangles.count(thing_class) == 0)
       triangles[thing_class] = marker(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color, stamp);
-    return Painter(triangles[thing_class], color);
+    const double cut = thing_class == ThingClass::wall ? kWallCut : kCut;
+    return Painter(triangles[thing_class], color, world.floor_height + cut);
   };
   for (const Thing& thing : world.things) {
     if (thing.route) continue;
@@ -251,7 +274,7 @@ MarkerArray scene_msg(const WorldDescription& world, const ros::Time& stamp) {
         painter(thing.thing_class).box(*box, pose);
       else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
         painter(thing.thing_class).mesh(**mesh, pose);
-      else
+      else if (pose.translation().z() < world.floor_height + kCut)
         round.shapes.push_back(shape);
     }
     append_shapes(array, next_id, round, thing.pose, stamp);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -83,7 +84,7 @@ TEST(Scene, draws_a_box_with_its_faces_outwards_and_where_it_is) {
   Thing box;
   box.name = "box";
   box.thing_class = ThingClass::box;
-  box.pose.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);
+  box.pose.translation() = Eigen::Vector3d(1.0, 2.0, -3.0);
   box.pose.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
   box.shapes.push_back({Box{{4.0, 2.0, 6.0}}, Eigen::Isometry3d::Identity()});
   world.things = {box};
@@ -91,7 +92,7 @@ TEST(Scene, draws_a_box_with_its_faces_outwards_and_where_it_is) {
   ASSERT_EQ(array.markers.size(), 1U);
   const auto& points = array.markers[0].points;
   ASSERT_EQ(points.size(), 36U);
-  const Eigen::Vector3d centre(1.0, 2.0, 3.0);
+  const Eigen::Vector3d centre(1.0, 2.0, -3.0);
   Eigen::AlignedBox3d bounds;
   const auto at = [&](std::size_t i) {
     return Eigen::Vector3d(points[i].x, points[i].y, points[i].z);
@@ -103,6 +104,26 @@ TEST(Scene, draws_a_box_with_its_faces_outwards_and_where_it_is) {
   }
   EXPECT_LT((bounds.sizes() - Eigen::Vector3d(2.0, 4.0, 6.0)).norm(), 1e-9);
   EXPECT_LT((bounds.center() - centre).norm(), 1e-9);
+}
+
+TEST(Scene, is_cut_open_above_walls_and_heads) {
+  WorldDescription world;
+  world.floor_height = 0.5;
+  for (const ThingClass thing_class : {ThingClass::wall, ThingClass::shelf}) {
+    Thing thing;
+    thing.name = to_string(thing_class);
+    thing.thing_class = thing_class;
+    thing.pose.translation().z() = 5.0;
+    thing.shapes.push_back({Box{{1.0, 1.0, 10.0}}, Eigen::Isometry3d::Identity()});
+    world.things.push_back(thing);
+  }
+  const MarkerArray array = scene_msg(world, kStamp);
+  expect_drawable(array);
+  for (const Marker& marker : array.markers) {
+    double top = 0.0;
+    for (const auto& point : marker.points) top = std::max(top, point.z);
+    EXPECT_NEAR(top, marker.ns == "wall" ? 1.5 : 3.2, 1e-9) << marker.ns;
+  }
 }
 
 TEST(MovingScene, keeps_its_ids_and_shows_the_robot_with_its_nose_ahead) {

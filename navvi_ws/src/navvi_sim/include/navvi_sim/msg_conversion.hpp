@@ -34,7 +34,9 @@ struct RobotBody {
 [[nodiscard]] visualization_msgs::MarkerArray occupied_cells_msg(const octomap::OcTree& map,
                                                                  const ros::Time& stamp);
 
-/// What stands still, one namespace a class; to be latched.
+/// What stands still, one namespace a class; to be latched. A picture cut open, so that a view from
+/// behind the robot or from above sees in: walls are drawn to 1.0 m above the floor, everything
+/// else to 2.7 m.
 [[nodiscard]] visualization_msgs::MarkerArray scene_msg(const WorldDescription& world,
                                                         const ros::Time& stamp);
 
