@@ -231,59 +231,86 @@ TEST(RouteCues, SayTheDirectionWhenThePathIsBackWithoutANewIntroduction) {
 
 /// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,
 /// and drives on when told that the way is straight ahead.
-TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
-  for (const double error : {0.8, 1.0, 1.2}) {
-    const std::vector<Eigen::Vector2d> path = {{12.0, 0.0}, {12.0, 9.0}, {0.0, 9.0}, {-3.0, 14.0}};
-    RouteCues cues{RouteConfig{}};
-    Eigen::Vector2d position(0.0, 0.0);
-    double heading = 2.5;
-    std::size_t next = 0;
-    double turn_left = 0.0;
-    bool drives = false;
-    double busy_until = 0.0;
-    std::optional<std::pair<double, Utterance>> heard;
-    double time = 0.0;
-    int words = 0;
-    while (next < path.size() && time < 200.0) {
-      if ((path[next] - position).norm() < 1.0 && ++next == path.size()) break;
-      const Eigen::Vector2d to = path[next] - position;
-      Situation now;
-      now.guidance = following(0.0, to.norm());
-      now.guidance->waypoint = path[next];
-      now.guidance->goal = path.back();
-      now.guidance->waypoint_is_goal = next + 1 == path.size();
-      now.guidance->waypoint_angle =
-          -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
-      const double rate = turn_left > 0.0 ? -0.8 : turn_left < 0.0 ? 0.8 : 0.0;
-      const double speed = rate == 0.0 && drives ? 0.8 : 0.0;
-      now.measured = now.commanded = Situation::Motion{speed, rate};
-      now.voice_busy = time < busy_until;
-      for (const Utterance& utterance : cues.update(now, time)) {
-        heard = {time + 1.0, utterance};
-        busy_until = time + 1.6;
-        ++words;
+class Person {
+ public:
+  explicit Person(double error) : error_(error) {}
+
+  void hear(const Utterance& utterance, double time) {
+    heard_ = {time + 1.0, utterance};
+    busy_until_ = time + 1.6;
+    ++words;
+  }
+
+  Situation::Motion command(double time) {
+    if (heard_ && time >= heard_->first) {
+      if (heard_->second.kind == "straight") {
+        turn_left_ = 0.0;
+        drives_ = true;
+      } else if (heard_->second.kind != "turn_ahead") {
+        const double turn = *heard_->second.fillings.hour * kPi / 6.0;
+        turn_left_ = error_ * std::remainder(turn, 2.0 * kPi);
+        drives_ = true;
       }
-      if (heard && time >= heard->first) {
-        const Utterance utterance = heard->second;
-        heard.reset();
-        if (utterance.kind == "straight") {
-          turn_left = 0.0;
-          drives = true;
-        } else if (utterance.kind == "direction" || utterance.kind == "turn_now" ||
-                   utterance.kind == "rerouted") {
-          turn_left = error * std::remainder(*utterance.fillings.hour * kPi / 6.0, 2.0 * kPi);
-          drives = true;
-        }
-      }
-      if (std::abs(turn_left) < 0.8 * kTick) turn_left = 0.0;
-      turn_left += rate * kTick;
-      heading += rate * kTick;
-      position += speed * kTick * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-      time += kTick;
+      heard_.reset();
     }
-    EXPECT_EQ(next, path.size()) << "error " << error << ", got as far as corner " << next;
-    EXPECT_LT(time, 120.0) << error;
-    EXPECT_LT(words, 45) << error;
+    if (std::abs(turn_left_) < 0.8 * kTick) turn_left_ = 0.0;
+    const double rate = turn_left_ > 0.0 ? -0.8 : turn_left_ < 0.0 ? 0.8 : 0.0;
+    turn_left_ += rate * kTick;
+    return {rate == 0.0 && drives_ ? 0.8 : 0.0, rate};
+  }
+
+  [[nodiscard]] bool listens(double time) const { return time < busy_until_; }
+
+  int words = 0;
+
+ private:
+  double error_;
+  double turn_left_ = 0.0;  // rad, clockwise
+  bool drives_ = false;
+  double busy_until_ = 0.0;
+  std::optional<std::pair<double, Utterance>> heard_;
+};
+
+/// Leads a person along a path of four corners, and checks that they get there without much talk.
+void lead(const RouteConfig& config, double error) {
+  const std::vector<Eigen::Vector2d> path = {{12.0, 0.0}, {12.0, 9.0}, {0.0, 9.0}, {-3.0, 14.0}};
+  RouteCues cues(config);
+  Person person(error);
+  Eigen::Vector2d position(0.0, 0.0);
+  double heading = 2.5;
+  std::size_t next = 0;
+  Situation now;
+  now.measured.emplace();
+  double time = 0.0;
+  for (; time < 120.0; time += kTick) {
+    if ((path[next] - position).norm() < 1.0 && ++next == path.size()) break;
+    const Eigen::Vector2d to = path[next] - position;
+    now.guidance = following(0.0, to.norm());
+    now.guidance->waypoint = path[next];
+    now.guidance->goal = path.back();
+    now.guidance->waypoint_is_goal = next + 1 == path.size();
+    now.guidance->waypoint_angle = -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
+    now.voice_busy = person.listens(time);
+    for (const Utterance& utterance : cues.update(now, time))
+      if (utterance.fillings.hour) person.hear(utterance, time);
+    now.commanded = person.command(time);
+    now.measured = now.commanded;
+    heading += now.commanded.angular * kTick;
+    position +=
+        now.commanded.linear * kTick * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  }
+  EXPECT_EQ(next, path.size()) << "got as far as corner " << next;
+  EXPECT_LT(person.words, 45);
+}
+
+TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
+  for (const char* rounding : {"nearest", "floor"}) {
+    for (const double error : {0.8, 1.0, 1.2}) {
+      SCOPED_TRACE(std::string(rounding) + ", turns by " + std::to_string(error) + " of the hour");
+      RouteConfig config;
+      config.rounding = rounding;
+      lead(config, error);
+    }
   }
 }
 
