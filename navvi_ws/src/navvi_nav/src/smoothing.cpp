@@ -20,7 +20,7 @@ namespace og = ompl::geometric;
 
 constexpr std::uint_fast32_t kSeed = 1;  // the same always: equal input, equal path
 constexpr double kSpacing = 1.0;         // m, between points that may be moved
-constexpr std::size_t kMaxPoints = 90;
+constexpr std::size_t kMaxStations = 25;
 
 using State = ob::RealVectorStateSpace::StateType;
 
@@ -189,10 +189,10 @@ Path smooth(const Path& path, const Space& space, const Room& room, const Smooth
   if (acceptable(shorter, path, space, room, shortest + 1e-9)) best = shorter;
   if (room.preferred <= 0.0) return best;
 
-  const double spacing = std::max(kSpacing, 2.0 * length_of(best) / kMaxPoints);
+  const double spacing = std::max(kSpacing, length_of(best) / kMaxStations);
   const Path roomy =
       moved_away(dense(push_corners(best, space, room), spacing), information, space, room, config);
-  const Path guide = choose_waypoints(roomy, space, room, config);
+  const Path guide = choose_waypoints(candidates_along(roomy, space, room), space, room, config);
   if (acceptable(guide, path, space, room, longest)) return guide;
   return best;
 }

@@ -5,8 +5,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kSample = 0.1;          // m
-constexpr std::size_t kCandidates = 90;  // so that the choice stays within milliseconds
+constexpr double kSample = 0.2;  // m
 
 double leg_cost(Point a, Point b, const Space& space, const Room& room, double weight) {
   const double length = distance(a, b);
@@ -74,31 +73,48 @@ Path dense(const Path& path, double spacing) {
   return out;
 }
 
-Path choose_waypoints(const Path& all, const Space& space, const Room& room,
-                      const SmoothingConfig& config) {
-  Path candidates = all;
-  if (candidates.size() < 3) return candidates;
-  if (candidates.size() > kCandidates) return {};
+std::vector<Candidate> candidates_along(const Path& path, const Space& space, const Room& room) {
+  std::vector<Candidate> out;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const int station = static_cast<int>(i);
+    out.push_back({path[i], station});
+    if (i == 0 || i + 1 == path.size()) continue;
+    const Point along = path[i + 1] - path[i - 1];
+    if (norm(along) == 0.0) continue;
+    const Point across = (room.preferred / norm(along)) * Point{-along.y, along.x};
+    for (const double share : {0.5, 1.0, -0.5, -1.0}) {
+      const Point aside = path[i] + share * across;
+      if (space.segment_clear(path[i], aside, room.radius)) out.push_back({aside, station});
+    }
+  }
+  // The last point is the last candidate: it has nothing beside it.
+  return out;
+}
+
+Path choose_waypoints(const std::vector<Candidate>& candidates, const Space& space,
+                      const Room& room, const SmoothingConfig& config) {
   const std::size_t count = candidates.size();
+  if (count < 2) return {};
   std::vector<double> cost(count, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> from(count, 0);
   cost[0] = 0.0;
   for (std::size_t to = 1; to < count; ++to) {
-    for (std::size_t i = 0; i < to; ++i) {
+    const Point target = candidates[to].point;
+    for (std::size_t i = to; i-- > 0;) {
+      if (candidates[i].station >= candidates[to].station) continue;
+      const Point source = candidates[i].point;
       const double start = cost[i] + (i == 0 ? 0.0 : config.turn_price);
-      if (start + distance(candidates[i], candidates[to]) >= cost[to]) continue;
-      const double sum =
-          start + leg_cost(candidates[i], candidates[to], space, room, config.clearance_weight);
-      if (sum >= cost[to] || !space.segment_clear(candidates[i], candidates[to], room.radius))
-        continue;
+      if (start + distance(source, target) >= cost[to]) continue;
+      const double sum = start + leg_cost(source, target, space, room, config.clearance_weight);
+      if (sum >= cost[to] || !space.segment_clear(source, target, room.radius)) continue;
       cost[to] = sum;
       from[to] = i;
     }
   }
   if (!std::isfinite(cost.back())) return {};
   Path out;
-  for (std::size_t i = count - 1; i != 0; i = from[i]) out.push_back(candidates[i]);
-  out.push_back(candidates.front());
+  for (std::size_t i = count - 1; i != 0; i = from[i]) out.push_back(candidates[i].point);
+  out.push_back(candidates.front().point);
   std::reverse(out.begin(), out.end());
   return out;
 }

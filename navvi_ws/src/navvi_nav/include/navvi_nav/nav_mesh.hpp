@@ -22,7 +22,7 @@ struct NavMeshConfig {
   double contour_error = 1.0;
   double tile_size = 8.0;
   double max_edge = 4.0;
-  double preferred_clearance = 0.4;
+  double preferred_clearance = 0.6;
   double carve_moved = 0.1;
   double carve_changed = 0.0;
 

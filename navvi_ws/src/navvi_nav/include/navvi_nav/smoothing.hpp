@@ -20,7 +20,7 @@ struct SmoothingConfig {
 /// What a path must keep: `radius` always, `radius + preferred` where there is room, m.
 struct Room {
   double radius = 0.35;
-  double preferred = 0.4;
+  double preferred = 0.6;
 };
 
 /// m: the length of the path, each metre dearer the less of the preferred clearance it keeps.
