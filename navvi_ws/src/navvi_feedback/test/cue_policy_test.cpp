@@ -61,6 +61,13 @@ TEST(CuePolicyConfig, RefusesWhatItDoesNotKnow) {
         << text;
 }
 
+TEST(CuePolicyConfig, FloorsTheHoursInThePapersProfile) {
+  const std::string file = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/paper.yaml";
+  CuePolicyConfig config;
+  navvi_config::read(config, navvi_config::load_yaml(file)["cues"], file);
+  EXPECT_EQ(config.route.rounding, "floor");
+}
+
 TEST_F(CuePolicyTest, SaysNothingBeforeAnythingIsKnown) {
   now_ = Situation();
   EXPECT_EQ(pass(5.0), Texts{});
