@@ -19,7 +19,6 @@ namespace {
 constexpr double kStep = 0.05;          // s, of the wall timer
 constexpr double kSayAgain = 5.0;       // s, between sentences on what is missing
 constexpr double kRefuseAfter = 60.0;   // s, without what a trial needs
-constexpr double kFresh = 1.0;          // s, age of a message that still flows
 constexpr double kSimulatorLost = 5.0;  // s, without odometry
 constexpr double kBagStart = 6.0;       // s, for the recorder to listen
 constexpr double kSettle = 0.5;         // s, for links to come up before the first event
@@ -73,24 +72,8 @@ void refuse_control_characters(const char* name, const std::string& text) {
 
 }  // namespace
 
-void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Any;
-  using navvi_config::OneOf;
-  using navvi_config::Range;
-  visit({"out", Any{}, "", "folder that gets a folder for each trial"}, out);
-  visit({"limit", Range{0.0, 86400.0}, "s", "a trial ends after this much ROS time; 0 for never"},
-        limit);
-  visit({"operator", Any{}, "", "who drives, as it stands in the summary; no names of people"},
-        operator_kind);
-  visit({"profile", Any{}, "", "of the session, as it stands in the summary"}, profile);
-  visit({"require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities"}, require);
-  visit({"once", Any{}, "", "end after one trial"}, once);
-  visit({"record", Any{}, "", "keep a bag of each trial"}, record);
-  visit({"tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words"}, tail);
-  visit.group("monitor", monitor);
-}
-
-TrialNode::TrialNode(const TrialNodeConfig& config) : config_(config), monitor_(config.monitor) {
+TrialNode::TrialNode(const TrialNodeConfig& config)
+    : config_(config), readiness_(config.require), monitor_(config.monitor) {
   refuse_control_characters("operator", config_.operator_kind);
   refuse_control_characters("profile", config_.profile);
   if (config_.out.empty()) throw std::runtime_error("out names no folder");
@@ -155,7 +138,7 @@ void TrialNode::on_odometry(const nav_msgs::Odometry::ConstPtr& msg) {
     ROS_WARN_THROTTLE(5.0, "a bad odometry message was dropped");
     return;
   }
-  odometry_seen_ = wall();
+  readiness_.saw_odometry(wall());
   take(*report);
 }
 
@@ -165,15 +148,13 @@ void TrialNode::on_guidance(const navvi_msgs::Guidance::ConstPtr& msg) {
     ROS_WARN_THROTTLE(5.0, "a bad guidance message was dropped");
     return;
   }
-  guidance_seen_ = wall();
-  has_map_ = report->state != GuidanceReport::State::no_map &&
-             report->state != GuidanceReport::State::pose_stale;
+  readiness_.saw(*report, wall());
   take(*report);
 }
 
 void TrialNode::on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& msg) {
   for (const auto& report : from_msg(*msg)) {
-    devices_[report.device] = report.usable;
+    readiness_.saw(report);
     take(report);
   }
 }
@@ -201,25 +182,7 @@ void TrialNode::on_scenario(const navvi_msgs::Scenario::ConstPtr& msg) {
 }
 
 std::vector<std::string> TrialNode::missing() const {
-  std::vector<std::string> words;
-  const double now = wall();
-  if (sim_ns() == 0) words.push_back("the clock");
-  if (now - odometry_seen_ > kFresh) words.push_back("odometry");
-  if (now - guidance_seen_ > kFresh)
-    words.push_back("guidance");
-  else if (!has_map_)
-    words.push_back("a map and pose in guidance");
-  for (const auto& modality : config_.require) {
-    const std::vector<std::string> needed = modality == "rumble"
-                                                ? std::vector<std::string>{"pad"}
-                                                : std::vector<std::string>{"audio", "speech"};
-    for (const auto& device : needed) {
-      const auto known = devices_.find(device);
-      if (known == devices_.end() || !known->second)
-        words.push_back("a working " + device + " device");
-    }
-  }
-  return words;
+  return readiness_.missing(wall(), sim_ns() != 0);
 }
 
 void TrialNode::step() {
@@ -351,7 +314,7 @@ void TrialNode::watch() {
   if (monitor_.world_restarted()) return end("aborted", "simulator_restarted", monitor_.latest());
   if (now + kTimeBack < monitor_.latest())
     return end("aborted", "time_went_back", monitor_.latest());
-  if (wall() - odometry_seen_ > kSimulatorLost) {
+  if (readiness_.silence(wall()) > kSimulatorLost) {
     return end("aborted", "simulator_lost", monitor_.latest());
   }
   const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);

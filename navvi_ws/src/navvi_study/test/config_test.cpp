@@ -4,7 +4,7 @@
 #include <navvi_config/reader.hpp>
 
 #include "navvi_study/simulated_operator.hpp"
-#include "navvi_study/trial_node.hpp"
+#include "navvi_study/trial_node_config.hpp"
 
 namespace navvi_study {
 namespace {

@@ -12,7 +12,6 @@
 #include <ros/ros.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,23 +19,11 @@
 
 #include "navvi_study/bag_recorder.hpp"
 #include "navvi_study/journal.hpp"
+#include "navvi_study/readiness.hpp"
 #include "navvi_study/trial_monitor.hpp"
+#include "navvi_study/trial_node_config.hpp"
 
 namespace navvi_study {
-
-struct TrialNodeConfig {
-  std::string out = "trials";
-  double limit = 0.0;
-  std::string operator_kind = "unknown";
-  std::string profile = "default";
-  std::vector<std::string> require;
-  bool once = true;
-  bool record = true;
-  double tail = 4.0;
-  TrialMonitorConfig monitor;
-
-  void describe(navvi_config::Visitor& visit);
-};
 
 /// Runs trials one after the other: waits until every part is there, records, sets the goal, keeps
 /// the journal, ends, and writes the results. Everything happens in the thread that spins.
@@ -93,14 +80,11 @@ class TrialNode {
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
 
+  Readiness readiness_;
   TrialMonitor monitor_;
   Phase phase_ = Phase::waiting;
   double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
   double said_ = 0.0;
-  double odometry_seen_ = -1e9;
-  double guidance_seen_ = -1e9;
-  bool has_map_ = false;
-  std::map<std::string, bool> devices_;
   std::optional<navvi_msgs::Scenario> scenario_;
   bool scenario_played_ = false;
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "navvi_study/trial_monitor.hpp"
+
+namespace navvi_study {
+
+/// Whether everything is there that a trial needs. Times are s on any monotonic clock.
+class Readiness {
+ public:
+  /// \param modalities  of the condition: speech, rumble. Without them no trial begins.
+  explicit Readiness(std::vector<std::string> modalities) : modalities_(std::move(modalities)) {}
+
+  void saw_odometry(double time) { odometry_ = time; }
+  void saw(const GuidanceReport& guidance, double time);
+  void saw(const DeviceReport& device) { devices_[device.device] = device.usable; }
+
+  /// What is not there, in words; empty when a trial can begin.
+  [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;
+  /// s since the last odometry
+  [[nodiscard]] double silence(double time) const { return time - odometry_; }
+
+ private:
+  std::vector<std::string> modalities_;
+  double odometry_ = -1e9;
+  double guidance_ = -1e9;
+  bool has_map_ = false;
+  std::map<std::string, bool> devices_;
+};
+
+}  // namespace navvi_study

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+#include "navvi_study/trial_monitor.hpp"
+
+namespace navvi_study {
+
+struct TrialNodeConfig {
+  std::string out = "trials";
+  double limit = 0.0;
+  std::string operator_kind = "unknown";
+  std::string profile = "default";
+  std::vector<std::string> require;
+  bool once = true;
+  bool record = true;
+  double tail = 4.0;
+  TrialMonitorConfig monitor;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+}  // namespace navvi_study

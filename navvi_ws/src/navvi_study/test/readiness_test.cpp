@@ -1,0 +1,47 @@
+#include "navvi_study/readiness.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_study {
+namespace {
+
+using Words = std::vector<std::string>;
+
+GuidanceReport guidance(GuidanceReport::State state) {
+  GuidanceReport report;
+  report.state = state;
+  return report;
+}
+
+TEST(Readiness, of_nothing_misses_everything) {
+  EXPECT_EQ(Readiness({}).missing(0.0, false), (Words{"the clock", "odometry", "guidance"}));
+}
+
+TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
+  Readiness ready({});
+  ready.saw_odometry(10.0);
+  ready.saw(guidance(GuidanceReport::State::no_map), 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{"a map and a pose in guidance"});
+  ready.saw(guidance(GuidanceReport::State::no_goal), 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{});
+  EXPECT_EQ(ready.missing(12.0, true), (Words{"odometry", "guidance"}));
+  EXPECT_EQ(ready.silence(12.0), 2.0);
+}
+
+TEST(Readiness, needs_the_devices_of_the_condition) {
+  Readiness ready({"speech", "rumble"});
+  ready.saw_odometry(0.0);
+  ready.saw(guidance(GuidanceReport::State::no_goal), 0.0);
+  ready.saw({0, "audio", true});
+  ready.saw({0, "speech", true});
+  ready.saw({0, "pad", false});
+  EXPECT_EQ(ready.missing(0.1, true), Words{"a working pad device"});
+}
+
+}  // namespace
+}  // namespace navvi_study
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
