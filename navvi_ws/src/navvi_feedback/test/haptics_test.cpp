@@ -15,13 +15,10 @@ constexpr double kStep = 0.02;  // s
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 HapticsConfig paper() {
-  struct Node {
-    HapticsConfig haptics;
-    void describe(navvi_config::Visitor& visit) { visit.group("haptics", haptics); }
-  } node;
   const std::string file = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/paper.yaml";
-  navvi_config::read(node, navvi_config::load_yaml(file), file);
-  return node.haptics;
+  HapticsConfig config;
+  navvi_config::read(config, navvi_config::load_yaml(file)["haptics"], file);
+  return config;
 }
 
 Nearby thing(double gap, double x, double y, ThingClass thing_class = ThingClass::box) {
