@@ -125,6 +125,27 @@ TEST(Planner, keeps_the_radius_from_everything_in_random_worlds) {
   EXPECT_GE(found, 12);
 }
 
+TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {
+  PlannerConfig config;
+  config.mesh.cell_size = 0.2;
+  config.mesh.whole_cell_erosion = true;
+  config.mesh.contour_error = 0.0;
+  config.mesh.preferred_clearance = 0.0;
+  int found = 0;
+  for (unsigned seed = 0; seed < 15; ++seed) {
+    RandomWorld world(seed);
+    Planner planner(config);
+    ASSERT_EQ(planner.set_map(world.map.tree()).error, "");
+    planner.carve(world.cylinders);
+    const Plan plan = planner.plan(world.start, world.goal);
+    if (plan.status != PlanStatus::found) continue;
+    ++found;
+    expect_clear(plan.path, world.map, world.cylinders);
+    EXPECT_LE(length_of(plan.path), plan.shortest + 1e-9);
+  }
+  EXPECT_GE(found, 3);
+}
+
 TEST(Planner, finds_a_route_wherever_open_cells_join_start_and_goal) {
   for (unsigned seed = 100; seed < 125; ++seed) {
     RandomWorld world(seed);
