@@ -40,6 +40,16 @@ class QuietSdformat {
   QuietSdformat(const QuietSdformat&) = delete;
   QuietSdformat& operator=(const QuietSdformat&) = delete;
 
+  /// What libsdformat said first, without its source line; empty if it said nothing.
+  [[nodiscard]] std::string first_words() const {
+    std::istringstream lines(talk_.str());
+    std::string line;
+    std::getline(lines, line);
+    const std::string plain = "\033[0m ";  // ends the coloured "Error [file:line]" in front
+    const std::size_t place = line.find(plain);
+    return place == std::string::npos ? line : line.substr(place + plain.size());
+  }
+
  private:
   std::ostream* stream_;
   std::ostringstream talk_;
@@ -323,7 +333,7 @@ class WorldReader {
   std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
 };
 
-sdf::SDFPtr parse(const fs::path& file) {
+sdf::SDFPtr parse(const fs::path& file, const QuietSdformat& quiet) {
   const auto document = std::make_shared<sdf::SDF>();
   sdf::Errors errors;
   bool read = false;
@@ -339,7 +349,8 @@ sdf::SDFPtr parse(const fs::path& file) {
   }
   const bool has_world = document->Root() && document->Root()->HasElement("world");
   if (!read || !has_world) {
-    std::string why = errors.empty() ? "it has no <world>" : errors.front().Message();
+    std::string why = errors.empty() ? quiet.first_words() : errors.front().Message();
+    if (read || why.empty()) why = "it has no <world>";
     throw WorldError(file.string() + ": is no SDF world (" + why +
                      "); allowed is an <sdf> element with one <world> in it");
   }
@@ -355,7 +366,7 @@ LoadedWorld read_sdf_world(const fs::path& file, const std::vector<fs::path>& mo
     const auto found = files.find(uri, file);
     return found ? found->string() : std::string();
   });
-  const sdf::SDFPtr document = parse(file);
+  const sdf::SDFPtr document = parse(file, quiet);
   return WorldReader(file, files).read(document->Root()->GetElement("world"));
 }
 
