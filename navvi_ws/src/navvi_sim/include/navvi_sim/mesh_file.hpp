@@ -9,7 +9,7 @@
 namespace navvi_sim {
 
 /// Reads all triangles of a mesh file as one mesh in metres, as Gazebo takes it: z is up, Collada's
-/// <unit> is applied and its <up_axis> is not (gazebo-classic issue 1305), so that a world stands
+/// <unit> is applied and its <up_axis> is not (gazebo-classic #1305), so that a world stands
 /// here as it stands there. Other formats (STL, OBJ) are metres already.
 /// \param scale  of x, y, z, as in SDF; not 0
 /// \throws WorldError if the file is missing, larger than 200 MB, unreadable, without triangles,
