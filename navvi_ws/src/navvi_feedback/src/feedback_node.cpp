@@ -362,8 +362,8 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { navvi_feedback::g_stop = 1; });
+  const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is told
   try {
-    ros::NodeHandle keep_alive;
     navvi_feedback::FeedbackNode node(
         navvi_config::load<navvi_feedback::NodeConfig>(ros::NodeHandle("~")));
     navvi_feedback::spin(node);

@@ -19,6 +19,12 @@ constexpr auto kPeriod = 10ms;
 constexpr auto kFrozen = 250ms;
 constexpr const char* kTitle = "NavVI - arrow keys drive, space repeats, G says where the goal is";
 
+/// SDL also has video drivers that nobody sees, and falls back on them.
+bool visible() {
+  const char* driver = SDL_GetCurrentVideoDriver();
+  return driver && (std::string(driver) == "x11" || std::string(driver) == "wayland");
+}
+
 InputState read_keys(bool focused) {
   InputState input;
   input.live = true;
@@ -61,9 +67,14 @@ class Keyboard::Window {
   void run(std::promise<std::string>& started) {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    const std::string no_display = "The keyboard needs a display, and there is none. ";
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) {
-      started.set_value(std::string("The keyboard needs a display, and there is none: ") +
-                        SDL_GetError());
+      started.set_value(no_display + SDL_GetError());
+      return;
+    }
+    if (!visible()) {
+      SDL_QuitSubSystem(SDL_INIT_VIDEO);
+      started.set_value(no_display + "Is DISPLAY set?");
       return;
     }
     SDL_Window* window = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
