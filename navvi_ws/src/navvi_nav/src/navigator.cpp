@@ -1,6 +1,7 @@
 #include "navvi_nav/navigator.hpp"
 
 #include <exception>
+#include <limits>
 
 namespace navvi_nav {
 namespace {
@@ -208,6 +209,7 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
       break;
     case PlanStatus::no_map:
     case PlanStatus::no_route:
+      if (keeps_path(plan, reason)) return;
       state_ = State::no_route;
       break;
     case PlanStatus::off_mesh:
@@ -218,11 +220,14 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   detail_ = plan.detail;
 }
 
-/// Hysteresis: a path that still serves stays, so that a person is not sent here and there.
+/// Hysteresis: a path that still serves stays, so that a person is not sent here and there. It
+/// serves, too, while only something far ahead closes the way: that may have moved off by then.
 bool Navigator::keeps_path(const Plan& plan, Reason reason) const {
   if (!guidance_.following() || !pose_) return false;
   const Path remaining = guidance_.remaining(pose_->position);
-  return !policy_.worth_changing(reason, length_of(remaining), length_of(plan.path)) &&
+  const double fresh = plan.status == PlanStatus::found ? length_of(plan.path)
+                                                        : std::numeric_limits<double>::infinity();
+  return !policy_.worth_changing(reason, length_of(remaining), fresh) &&
          !policy_.blocked(remaining, obstacles_) &&
          guidance_.heading(*pose_).path_offset <= config_.off_path &&
          guidance_.sees_next(pose_->position, space());

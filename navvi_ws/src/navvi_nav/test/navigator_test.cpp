@@ -170,6 +170,21 @@ TEST_F(Lockstep, says_no_route_while_the_way_is_blocked_and_finds_it_again) {
   EXPECT_EQ(status().state, State::following);
 }
 
+TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
+  config_.replan.look_ahead = 2.0;
+  navigator_ = Navigator(config_);
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
+  tick(100);
+  EXPECT_GT(status().plans, 1U);
+  EXPECT_EQ(status().state, State::following);
+  robot_.position = navigator_.path()[1];
+  tick(100);
+  EXPECT_EQ(status().state, State::no_route);
+}
+
 TEST_F(Lockstep, plans_again_when_the_map_changed) {
   load();
   navigator_.set_goal({14, 5});
