@@ -13,6 +13,7 @@ constexpr double kSameBump = 15.0;           // s
 constexpr double kBackOff = 0.7;             // s
 constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
 constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
+constexpr double kListenFirst = 2.5;         // m, likewise
 constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
 constexpr double kBlindTurn = 3.0;  // m one goes on after "turn now", which tells no distance
 
@@ -86,7 +87,8 @@ void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& ins
   const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
   const double angle = angle_of(instruction.hour);
   target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
-  turn_speed_ = std::abs(angle) < 0.4 && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;
+  const bool far = instruction.distance.value_or(0.0) > kListenFirst;
+  turn_speed_ = std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;
   mode_ = Mode::turning;
   go_for(sentence, instruction);
   speed_ = std::min(speed_, 0.5 * (config_.slow + config_.cruise));
@@ -171,6 +173,9 @@ double SimulatedOperator::shaped(double stick) const {
 
 StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
+  // Near a corner whoever is spoken to listens first.
+  const bool listening = !hearing_.empty() || !understood_.empty();
+  if (listening && stop_at_ - odometer_ < kListenFirst) return hand;
   double speed = speed_;
   if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, config_.slow);
   if (left_motor_ > config_.strong_rumble && right_motor_ > config_.strong_rumble) {
