@@ -80,7 +80,7 @@ class Recount {
     const bool reached = monitor_.reached().has_value();
     const std::string told = end_.fields.get("result");
     // What the messages show counts; only ends that no message shows are taken on trust.
-    const bool contradicts = reached != (told == "reached");
+    const bool contradicts = told != "invalid" && reached != (told == "reached");
     fields.set("result", contradicts ? (reached ? "reached" : "not reached") : told);
     fields.set("reason", end_.fields.get("reason"));
     push({"TRIAL_END", fields, end_.sim_ns});

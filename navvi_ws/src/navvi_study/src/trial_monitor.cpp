@@ -261,14 +261,12 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
   }
   if (guidance.state == State::arrived && !reached_) {
     reached_ = guidance.stamp;
-    end(guidance.stamp);
     Fields fields = place();
     fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
     events.push_back({"GOAL_REACHED", fields, guidance.stamp});
   }
   if (guidance.state == State::refused && !refused_) {
     refused_ = guidance.refusal;
-    end(guidance.stamp);
     events.push_back({"GOAL_REFUSED", Fields().set("reason", guidance.refusal), guidance.stamp});
   }
   return events;

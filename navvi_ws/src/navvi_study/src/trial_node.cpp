@@ -130,6 +130,13 @@ void TrialNode::take(const Report& report) {
   for (const auto& event : monitor_.observe(report)) {
     if (active()) record(event);
   }
+  // At once: a report that is stamped later may be the next to come.
+  if (phase_ != Phase::running) return;
+  if (monitor_.reached()) {
+    end("reached", "goal_reached", monitor_.latest());
+  } else if (const auto why = monitor_.refused()) {
+    end("refused", *why, monitor_.latest());
+  }
 }
 
 void TrialNode::on_odometry(const nav_msgs::Odometry::ConstPtr& msg) {
@@ -267,6 +274,8 @@ void TrialNode::start(const Point2& goal) {
   const TrialStart beginning = monitor_.start_now(sim_ns(), goal);
   start_stamp_ = beginning.stamp;
   monitor_.start(beginning);
+  const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);
+  if (limit > 0) monitor_.end(start_stamp_ + limit);
   result_.clear();
   reason_.clear();
   goal_sent_ = 0;
@@ -308,8 +317,6 @@ void TrialNode::ask_for_goal() {
 void TrialNode::watch() {
   const std::int64_t now = sim_ns();
   watch_bag();
-  if (const auto stamp = monitor_.reached()) return end("reached", "goal_reached", *stamp);
-  if (const auto why = monitor_.refused()) return end("refused", *why, monitor_.latest());
   if (journal_->reserve_used()) return end("invalid", "disk_full", monitor_.latest());
   if (monitor_.world_restarted()) return end("aborted", "simulator_restarted", monitor_.latest());
   if (now + kTimeBack < monitor_.latest())
@@ -342,18 +349,16 @@ void TrialNode::end(const std::string& result, const std::string& reason, std::i
   monitor_.end(stamp);
   result_ = result;
   reason_ = reason;
-  end_stamp_ = stamp;
+  end_stamp_ = *monitor_.ended();
   phase_ = Phase::draining;
   phase_since_ = wall();
 }
 
 void TrialNode::write_end() {
   // The goal may have been reached just before the end that was called first.
-  if (const auto stamp = monitor_.reached();
-      stamp && *stamp <= end_stamp_ && result_ == "timeout") {
+  if (monitor_.reached() && result_ != "invalid") {
     result_ = "reached";
     reason_ = "goal_reached";
-    end_stamp_ = *stamp;
   }
   if (journal_->reserve_used()) result_ = "invalid";
   Fields fields = monitor_.tally_fields();

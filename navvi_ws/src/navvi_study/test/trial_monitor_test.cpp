@@ -121,6 +121,7 @@ TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
   const auto events = monitor_.observe(guidance(17.25, State::arrived, 2));
   ASSERT_EQ(types(events), (Names{"GUIDANCE", "GOAL_REACHED"}));
   EXPECT_EQ(events[1].fields.get("elapsed"), "7.250");
+  monitor_.end(monitor_.latest());
   EXPECT_EQ(monitor_.observe(contact(17.2, 1, "shelf", 1, 0)).size(), 1u) << "late, but in time";
   EXPECT_TRUE(monitor_.observe(contact(17.3, 2, "shelf", 2, 0)).empty()) << "the trial is over";
 }

@@ -132,8 +132,11 @@ class TrialMonitor {
   void start(const TrialStart& start);
   /// From now on another goal counts. \param stamp  when it was set
   [[nodiscard]] Event change_goal(const Point2& goal, std::int64_t stamp);
-  /// Reports stamped later than `stamp` no longer belong to the trial.
+  /// Reports stamped later than `stamp` no longer belong to the trial. Of two ends the earlier
+  /// counts. To get the same figures again from a bag, end at latest(), or say the end before it
+  /// comes.
   void end(std::int64_t stamp);
+  [[nodiscard]] std::optional<std::int64_t> ended() const { return end_; }
 
   [[nodiscard]] std::vector<Event> observe(const OdometryReport& odometry);
   [[nodiscard]] std::vector<Event> observe(const ContactReport& contact);
@@ -150,7 +153,7 @@ class TrialMonitor {
   [[nodiscard]] Fields tally_fields() const;
   /// The guide shows a path to the goal, has arrived, or refused.
   [[nodiscard]] bool goal_taken() const { return goal_taken_; }
-  /// ns, when the goal was reached; the trial's end
+  /// ns, when the goal was reached
   [[nodiscard]] std::optional<std::int64_t> reached() const { return reached_; }
   /// why the goal was refused
   [[nodiscard]] std::optional<std::string> refused() const { return refused_; }
