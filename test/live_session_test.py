@@ -76,7 +76,7 @@ class Session:
     def _read(self):
         for line in self.process.stdout:
             self.output.append(line)
-            found = re.search(r"ROS_MASTER_URI=(\S+)", line)
+            found = re.search(r"ROS_MASTER_URI=(http:[\w.:/]+)", line)
             if found:
                 self.uri = found.group(1)
 

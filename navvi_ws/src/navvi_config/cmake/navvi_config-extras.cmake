@@ -9,3 +9,12 @@ function(navvi_own_code)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Werror)
   endforeach()
 endfunction()
+
+# The test test/<name>.cpp, linked to the targets that follow. All packages share one name space of targets, so its
+# target bears the package's name as well.
+function(navvi_gtest name)
+  set(target ${PROJECT_NAME}_${name})
+  catkin_add_gtest(${target} test/${name}.cpp)
+  target_link_libraries(${target} ${ARGN})
+  navvi_own_code(${target})
+endfunction()

@@ -192,9 +192,10 @@ class Painter {
 
 void append_shapes(MarkerArray& array, std::map<std::string, int>& next_id, const Thing& thing,
                    const Eigen::Isometry3d& pose, const ros::Time& stamp) {
-  const std::string ns = to_string(thing.thing_class);
   for (const Shape& shape : thing.shapes) {
-    Marker msg = marker(ns, next_id[ns]++, Marker::CUBE, color_of(thing.thing_class), stamp);
+    const ThingClass look = look_of(thing, shape);
+    const std::string ns = to_string(look);
+    Marker msg = marker(ns, next_id[ns]++, Marker::CUBE, color_of(look), stamp);
     std::visit(ShapeMarker(msg), shape.geometry);
     msg.pose = pose_msg(pose * shape.pose);
     array.markers.push_back(std::move(msg));
@@ -271,9 +272,9 @@ MarkerArray scene_msg(const WorldDescription& world, const ros::Time& stamp) {
     for (const Shape& shape : thing.shapes) {
       const Eigen::Isometry3d pose = thing.pose * shape.pose;
       if (const auto* box = std::get_if<Box>(&shape.geometry))
-        painter(thing.thing_class).box(*box, pose);
+        painter(look_of(thing, shape)).box(*box, pose);
       else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
-        painter(thing.thing_class).mesh(**mesh, pose);
+        painter(look_of(thing, shape)).mesh(**mesh, pose);
       else if (pose.translation().z() < world.floor_height + kCut)
         round.shapes.push_back(shape);
     }

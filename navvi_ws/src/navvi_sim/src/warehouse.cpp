@@ -97,9 +97,10 @@ std::vector<Shape> rack() {
   return shapes;
 }
 
-/// The boxes on one rack, in the rack's frame. They stay clear of the uprights and of each other.
-std::vector<Shape> boxes_on_rack(Random& random, double fill) {
-  std::vector<Shape> boxes;
+/// A rack and the boxes on it, which stay clear of the uprights and of each other. To who drives
+/// they are one shelf, so that it is felt and said once.
+std::vector<Shape> loaded_rack(Random& random, double fill) {
+  std::vector<Shape> shapes = rack();
   for (std::size_t deck = 0; deck + 1 < kDecks.size(); ++deck) {
     const double room = kDecks[deck + 1] - kDeckThickness - kDecks[deck];
     for (int place = 0; place < static_cast<int>(kShelfLength / kBoxPlace); ++place) {
@@ -107,22 +108,20 @@ std::vector<Shape> boxes_on_rack(Random& random, double fill) {
       const double width = random.uniform(0.45, 0.70);
       const double height = random.uniform(0.5, 0.85) * room;
       const double x = -kShelfLength / 2.0 + kBoxPlace * (place + 0.5);
-      if (random.chance(fill)) boxes.push_back(box_on(x, 0.0, kDecks[deck], length, width, height));
+      if (!random.chance(fill)) continue;
+      shapes.push_back(box_on(x, 0.0, kDecks[deck], length, width, height));
+      shapes.back().look = ThingClass::box;
     }
   }
-  return boxes;
+  return shapes;
 }
 
 void add_shelves(std::vector<Thing>& things, Random& random, double fill) {
   std::size_t number = 0;
   for (const double y : kRows) {
     for (const double x : kColumns) {
-      const std::string name = numbered("shelf", ++number);
-      things.push_back({name, ThingClass::shelf, at(x, y, 0.0), rack(), std::nullopt});
-      std::vector<Shape> boxes = boxes_on_rack(random, fill);
-      if (!boxes.empty())
-        things.push_back(
-            {name + "_boxes", ThingClass::box, at(x, y, 0.0), std::move(boxes), std::nullopt});
+      things.push_back({numbered("shelf", ++number), ThingClass::shelf, at(x, y, 0.0),
+                        loaded_rack(random, fill), std::nullopt});
     }
   }
 }

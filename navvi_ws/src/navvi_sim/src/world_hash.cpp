@@ -79,6 +79,7 @@ std::string world_hash(const WorldDescription& world) {
       hash.add(static_cast<std::uint64_t>(shape.geometry.index()));
       std::visit([&hash](const auto& geometry) { hash(geometry); }, shape.geometry);
       hash.add(shape.pose);
+      hash.add(std::string(to_string(look_of(thing, shape))));
     }
     hash.add(static_cast<std::uint64_t>(thing.route.has_value()));
     if (thing.route) add(hash, *thing.route);

@@ -67,8 +67,17 @@ TEST(Warehouse, has_what_a_warehouse_has) {
   EXPECT_EQ(count[ThingClass::pallet_robot], 2);
   EXPECT_EQ(count[ThingClass::worker], 6);
   EXPECT_EQ(count[ThingClass::pedestal], 8);
-  EXPECT_GE(count[ThingClass::box], 22);
+  EXPECT_GE(count[ThingClass::box], 4);
   EXPECT_EQ(world.floor_height, 0.0);
+}
+
+TEST(Warehouse, shows_the_boxes_on_a_shelf_as_boxes_that_belong_to_the_shelf) {
+  std::size_t boxes = 0;
+  for (const Thing& thing : warehouse(1, {}).things)
+    for (const Shape& shape : thing.shapes)
+      if (thing.thing_class == ThingClass::shelf && look_of(thing, shape) == ThingClass::box)
+        ++boxes;
+  EXPECT_GE(boxes, 100u);
 }
 
 TEST(Warehouse, is_valid_and_without_overlaps_for_every_seed) {

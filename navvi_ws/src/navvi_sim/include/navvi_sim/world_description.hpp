@@ -39,6 +39,8 @@ using Geometry = std::variant<Box, Cylinder, Sphere, std::shared_ptr<const Mesh>
 struct Shape {
   Geometry geometry;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the thing's frame
+  std::optional<ThingClass> look =
+      std::nullopt;  ///< shown as this class where not as its thing: a shelf's boxes
 };
 
 /// Way-points that a moving thing follows for ever, in order, back to the first after the last.
@@ -56,6 +58,11 @@ struct Thing {
   std::vector<Shape> shapes;                               ///< one or more
   std::optional<Route> route;
 };
+
+/// The class that a shape of the thing is shown as.
+[[nodiscard]] inline ThingClass look_of(const Thing& thing, const Shape& shape) {
+  return shape.look.value_or(thing.thing_class);
+}
 
 /// Everything there is to know of a world before it lives. Frame: map, z up.
 struct WorldDescription {
