@@ -19,19 +19,12 @@ namespace {
 constexpr double kStanding = 0.5;
 
 struct PlayerConfig {
-  std::string speech = "auto";
+  bool speech = true;
   SpeakerConfig speaker;
 
   void describe(navvi_config::Visitor& visit) {
-    visit({"speech", navvi_config::OneOf{{"auto", "true", "false"}}, "",
-           "auto: if there is an audio device; true: required; false: silent"},
-          speech);
+    visit({"speech", navvi_config::Any{}, "", "false: nothing is heard"}, speech);
     visit.group("speaker", speaker);
-  }
-
-  [[nodiscard]] Audio audio() const {
-    if (speech == "true") return Audio::required;
-    return speech == "false" ? Audio::off : Audio::automatic;
   }
 };
 
@@ -39,7 +32,8 @@ bool is_force(double value) { return std::isfinite(value) && value >= 0.0 && val
 
 class CuePlayer {
  public:
-  explicit CuePlayer(const PlayerConfig& config) : speaker_(config.speaker, config.audio()) {
+  explicit CuePlayer(const PlayerConfig& config)
+      : speaker_(config.speaker, config.speech ? Audio::on : Audio::off) {
     const Speaker::Status status = speaker_.status();
     if (status.device == Speaker::Status::Device::missing)
       ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());

@@ -28,7 +28,7 @@ volatile std::sig_atomic_t g_stop = 0;
 
 struct NodeConfig {
   std::string input = "auto";
-  std::string speech = "auto";
+  bool speech = true;
   std::string phrases;
   double stale = 1.0;  // s
   DriveConfig drive;
@@ -44,8 +44,7 @@ struct NodeConfig {
     visit({"input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
            "where the stick comes from; topic: joy from another driver"},
           input);
-    visit({"speech", OneOf{{"auto", "true", "false"}}, "",
-           "auto: if there is an audio device; true: required; false: silent"},
+    visit({"speech", Any{}, "", "false: cues are timed and published, but nothing is heard"},
           speech);
     visit({"phrases", Any{}, "", "file of the spoken phrases; empty for the English that ships"},
           phrases);
@@ -59,11 +58,6 @@ struct NodeConfig {
     visit.group("markers", markers);
   }
 };
-
-Audio audio_of(const std::string& speech) {
-  if (speech == "true") return Audio::required;
-  return speech == "false" ? Audio::off : Audio::automatic;
-}
 
 std::string phrases_file(const NodeConfig& config) {
   if (!config.phrases.empty()) return config.phrases;
@@ -90,7 +84,7 @@ class FeedbackNode {
         drive_(config.drive),
         haptics_(config.haptics),
         policy_(config.cues, Phrases(phrases_file(config), config.cues.words())),
-        speech_(config.speaker, audio_of(config.speech)),
+        speech_(config.speaker, config.speech ? Audio::on : Audio::off),
         source_(config.input) {
     ROS_INFO("The stick comes from the %s.", to_string(source_.kind()));
     advertise();
@@ -195,8 +189,7 @@ class FeedbackNode {
     const bool fresh =
         nearby_.fresh(time, config_.stale) && motion_.link(time, config_.stale) != Link::lost;
     Rumble rumble = haptics_.update(nearby_.value.value_or(std::vector<Nearby>{}), fresh, dt);
-    if (speech_.status().device == Speaker::Status::Device::open ||
-        audio_of(config_.speech) == Audio::off) {
+    if (speech_.status().device == Speaker::Status::Device::open || !config_.speech) {
       alarm_since_.reset();
     } else if (!alarm_since_ && (!source_.pad() || source_.pad()->status().connected)) {
       alarm_since_ = time;

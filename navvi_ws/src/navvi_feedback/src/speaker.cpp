@@ -105,8 +105,6 @@ class Speaker::Worker {
     try {
       voice.emplace(config_.voice, config_.rate);
       open_device(Status::Device::missing);
-      if (audio_ == Audio::required && !output_.is_open())
-        throw SpeakerError("No audio device could be opened: " + status().detail);
       ready.set_value();
     } catch (...) {
       ready.set_exception(std::current_exception());

@@ -18,11 +18,10 @@ struct SpeakerConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Whether there must be sound.
+/// Whether there is to be sound.
 enum class Audio {
-  automatic,  ///< use a device if there is one, otherwise go on silently
-  required,   ///< without a device there is no speaker
-  off         ///< silent, no device is opened
+  on,  ///< through a device, as soon and as long as there is one
+  off  ///< silent by intent: no device is opened
 };
 
 class SpeakerError : public std::runtime_error {
@@ -49,8 +48,7 @@ class Speaker {
     unsigned failed = 0;  ///< texts that the synthesizer refused
   };
 
-  /// \throws SpeakerError with a sentence if the voice cannot be loaded, or with Audio::required if
-  /// no audio device can be opened
+  /// \throws SpeakerError with a sentence if the voice cannot be loaded
   Speaker(const SpeakerConfig& config, Audio audio);
   ~Speaker();
   Speaker(const Speaker&) = delete;
