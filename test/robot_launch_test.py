@@ -63,7 +63,7 @@ def test_a_goal_from_outside_is_followed(robot):
 
 
 def test_the_stick_moves_the_robot_through_the_relay(robot):
-    pushed = robot.run("/usr/bin/python3", str(ROOT / "test/push_stick.py"))
+    pushed = robot.run("/usr/bin/python3", str(ROOT / "test/stick.py"), "push")
     assert float(pushed.stdout) >= 0.3, pushed.stderr
 
 

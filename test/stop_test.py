@@ -1,0 +1,30 @@
+"""What happens to the wheels when the person's side dies at full speed."""
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+
+
+@pytest.fixture
+def session(master, tmp_path):
+    launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=topic", f"world:={WORLD}",
+                               "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "rviz:=false", f"out:={tmp_path}"],
+                              env=master, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    yield master
+    launch.terminate()
+    launch.wait(30)
+
+
+def test_a_killed_feedback_node_stops_the_robot_and_its_successor_does_not_start_it(session):
+    stick = subprocess.run(["/usr/bin/python3", str(ROOT / "test/stick.py"), "kill"], env=session, capture_output=True,
+                           text=True, timeout=60)
+    assert stick.returncode == 0, stick.stderr
+    speed, held, still, afterwards = map(float, stick.stdout.split())
+    print(f"at {speed:.2f} m/s: wheels held after {1000 * held:.0f} ms, still after {1000 * still:.0f} ms")
+    assert speed >= 0.8
+    # The bound is 250 ms on an idle machine, and twice that on a loaded one.
+    assert held < 0.5 and still < 0.5
+    assert afterwards < 1e-3, "the stick was never neutral"
