@@ -55,7 +55,7 @@ def grammar():
         text = re.sub(r"[.,]", " ", template.lower())
         cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
-                               "public <cues> = <cue> [<cue>] [<cue>];"])  # two cues may follow on one another at once
+                               "public <cues> = <cue>+;"])  # cues may follow on one another at once
 
 
 def utterances(samples, quiet=300, gap=0.22):
