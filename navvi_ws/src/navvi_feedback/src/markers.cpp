@@ -95,7 +95,9 @@ std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& 
 std::string turn_text(const Guidance& guidance) {
   const int hour = clock_hour(guidance.waypoint_angle, Rounding::nearest).value_or(12);
   char text[64];
-  std::snprintf(text, sizeof text, "%d o'clock, %.0f m", hour, guidance.waypoint_distance);
+  const int decimals = guidance.waypoint_distance < 2.0 ? 1 : 0;
+  std::snprintf(text, sizeof text, "%d o'clock, %.*f m", hour, decimals,
+                guidance.waypoint_distance);
   return text;
 }
 
@@ -130,7 +132,8 @@ void add_turn(const MarkersConfig& config, const Guidance& guidance,
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;
   markers[5] = arrow;
-  markers[6] = label("turn", 1, turn_text(guidance), guidance.waypoint, 1.4, config.label_height);
+  markers[6] = label("turn", 1, turn_text(guidance), guidance.waypoint, 1.2,
+                     0.6 * config.label_height);
 }
 
 }  // namespace
@@ -157,6 +160,7 @@ visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
   add_path(config, path, markers);
   add_goal(config, guidance->goal, markers);
   add_turn(config, *guidance, path, markers);
+  for (Marker& marker : markers) marker.pose.position.z += guidance->floor;
   return array;
 }
 

@@ -85,6 +85,7 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
   guidance.replan_reason = static_cast<Guidance::Replan>(msg.replan_reason);
   guidance.goal = flat(msg.goal);
   guidance.waypoint = flat(msg.waypoint);
+  guidance.floor = msg.waypoint.z;
   guidance.waypoint_is_goal = msg.waypoint_is_goal != 0;
   guidance.waypoint_distance = msg.waypoint_distance;
   guidance.waypoint_angle = msg.waypoint_angle;

@@ -115,6 +115,17 @@ TEST(Markers, TheTurnTellsHourAndDistanceAndPointsAlongTheNextLeg) {
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
 }
 
+TEST(Markers, EverythingStandsOnTheFloorOfTheMap) {
+  Guidance guidance = following();
+  const MarkerArray flat = guide_markers({}, guidance, kPath);
+  guidance.floor = -5.0;
+  const MarkerArray sunk = guide_markers({}, guidance, kPath);
+  for (std::size_t i = 0; i < flat.markers.size(); ++i) {
+    if (flat.markers[i].action != Marker::ADD) continue;
+    EXPECT_DOUBLE_EQ(sunk.markers[i].pose.position.z, flat.markers[i].pose.position.z - 5.0);
+  }
+}
+
 TEST(Markers, BeforeTheGoalThereIsNoTurn) {
   Guidance guidance = following();
   guidance.waypoint = guidance.goal;
