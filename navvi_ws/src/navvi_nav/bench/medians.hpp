@@ -1,0 +1,52 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace navvi_nav {
+
+/// Runs all benchmarks several times in mixed order, so that what else the machine does falls on
+/// all of them alike, and keeps the median of every time and counter instead of printing it.
+class Medians : public benchmark::BenchmarkReporter {
+ public:
+  /// \param argv  of main; its flags go before the ones set here
+  Medians(int argc, char** argv) {
+    std::vector<std::string> words{argv[0], "--benchmark_repetitions=3", "--benchmark_min_time=0.2",
+                                   "--benchmark_enable_random_interleaving=true"};
+    words.insert(words.end(), argv + 1, argv + argc);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    int count = static_cast<int>(pointers.size());
+    benchmark::Initialize(&count, pointers.data());
+    benchmark::RunSpecifiedBenchmarks(this);
+  }
+
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.error_occurred)
+        std::fprintf(stderr, "%s: %s\n", run.benchmark_name().c_str(), run.error_message.c_str());
+      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
+      auto& values = values_[run.run_name.function_name];
+      values["ms"] = 1e3 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
+      for (const auto& [counter, value] : run.counters) values[counter] = value;
+    }
+  }
+
+  /// A counter of a benchmark, or its processor time "ms"; 0 if it was filtered out.
+  [[nodiscard]] double get(const std::string& benchmark, const std::string& value) const {
+    const auto values = values_.find(benchmark);
+    if (values == values_.end()) return 0.0;
+    const auto found = values->second.find(value);
+    return found == values->second.end() ? 0.0 : found->second;
+  }
+
+ private:
+  std::map<std::string, std::map<std::string, double>> values_;
+};
+
+}  // namespace navvi_nav

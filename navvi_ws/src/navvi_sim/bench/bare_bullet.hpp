@@ -1,0 +1,59 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "navvi_sim/robot.hpp"
+#include "navvi_sim/scenario.hpp"
+#include "navvi_sim/world_description.hpp"
+
+namespace navvi_sim {
+
+/// Bullet used plainly on the bodies of a world: what a step costs without World. Movers run along
+/// their routes at full speed and mind nobody; nothing is asked of the world but to step.
+class BareBullet {
+ public:
+  enum class Settings {
+    as_they_come,  ///< all bounds are renewed in each step, also of what stands still
+    as_ours,       ///< they are not, and bodies are filtered as in Physics
+  };
+
+  /// Boxes, cylinders and spheres only; floors have no body.
+  BareBullet(const WorldDescription& description, const RobotConfig& robot, const FloorPose& start,
+             Settings settings);
+  ~BareBullet();
+  BareBullet(const BareBullet&) = delete;
+  BareBullet& operator=(const BareBullet&) = delete;
+
+  /// \param speed  m/s, forward \param turn_rate  rad/s, counter-clockwise \param dt  s
+  void step(double speed, double turn_rate, double dt);
+
+ private:
+  struct Mover {
+    btRigidBody* body;
+    Route route;
+    std::size_t next;  ///< way-point
+  };
+
+  void add_thing(const Thing& thing);
+  btRigidBody& add_body(double mass, btCollisionShape& shape, const btTransform& pose, int group,
+                        int mask);
+  template <typename Shape, typename... Arguments>
+  Shape& keep(Arguments&&... arguments);
+
+  Settings settings_;
+  // In this order: what is used is older than what uses it.
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<Mover> movers_;
+  btRigidBody* robot_ = nullptr;
+};
+
+}  // namespace navvi_sim
