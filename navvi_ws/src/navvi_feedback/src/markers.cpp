@@ -22,6 +22,8 @@ constexpr Color kRed{1.00F, 0.15F, 0.15F};
 constexpr Color kWhite{1.00F, 1.00F, 1.00F};
 
 constexpr int kRingPoints = 48;
+constexpr double kAbove =
+    0.1;  // m, of the line over its edge: less, and a far camera mixes the two
 
 Marker absent(const char* ns, int id) {
   Marker marker;
@@ -106,7 +108,7 @@ void add_path(const MarkersConfig& config, const std::vector<Eigen::Vector2d>& p
   if (path.size() < 2) return;
   markers[0] =
       strip("path", 0, path, config.path_width + 2.0 * config.outline, config.path_height, kWhite);
-  markers[1] = strip("path", 1, path, config.path_width, config.path_height + 0.02, kPurple);
+  markers[1] = strip("path", 1, path, config.path_width, config.path_height + kAbove, kPurple);
 }
 
 void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal,
@@ -116,8 +118,7 @@ void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal,
   pole.scale.x = pole.scale.y = 0.5;
   pole.scale.z = config.goal_height;
   markers[2] = pole;
-  markers[3] =
-      strip("goal", 1, ring(goal, config.goal_radius), 0.15, config.path_height + 0.04, kWhite);
+  markers[3] = strip("goal", 1, ring(goal, config.goal_radius), 0.15, config.path_height, kWhite);
   markers[4] = label("goal", 2, "GOAL", goal, config.goal_height + config.label_height,
                      config.label_height * 1.3);
 }
@@ -132,8 +133,8 @@ void add_turn(const MarkersConfig& config, const Guidance& guidance,
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;
   markers[5] = arrow;
-  markers[6] = label("turn", 1, turn_text(guidance), guidance.waypoint, 1.2,
-                     0.6 * config.label_height);
+  markers[6] =
+      label("turn", 1, turn_text(guidance), guidance.waypoint, 1.8, 0.6 * config.label_height);
 }
 
 }  // namespace
