@@ -155,7 +155,7 @@ Summary summarize(const std::vector<Row>& rows) {
   add("shelf_collision_count", count_of(rows, "COLLISION", "shelf"));
   add("obstacle_collision_count", count_of(rows, "COLLISION", "obstacle"));
   add("path_length_m", tally ? tally->fields.get("path_length") : nothing);
-  add("optimal_length_m", route ? route->fields.get("optimal_length") : nothing);
+  add("first_path_length_m", route ? route->fields.get("first_path_length") : nothing);
   add("obstacle_proximity_count", count_of(rows, "PROXIMITY_ENTER", "obstacle"));
   add("shelf_proximity_count", count_of(rows, "PROXIMITY_ENTER", "shelf"));
   add("stuck_count", count_of(rows, "STUCK"));

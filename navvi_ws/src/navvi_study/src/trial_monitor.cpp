@@ -243,11 +243,11 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
     events.push_back({"GUIDANCE", Fields().set("state", name_of(guidance.state)), guidance.stamp});
   }
   if (guidance.state == State::following) {
-    if (!tally_.optimal_length) tally_.optimal_length = guidance.goal_distance;
+    if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
     if (!first_plans_) {
       first_plans_ = guidance.plans;
       Fields fields;
-      fields.set("optimal_length", guidance.goal_distance);
+      fields.set("first_path_length", guidance.goal_distance);
       events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});
     }
   }

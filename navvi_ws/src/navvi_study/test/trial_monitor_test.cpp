@@ -117,7 +117,7 @@ TEST_F(Monitor, takes_a_shelf_as_near_within_one_meter_only) {
 TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
   EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
             (Names{"GUIDANCE", "ROUTE"}));
-  EXPECT_EQ(monitor_.tally().optimal_length, 5.0);
+  EXPECT_EQ(monitor_.tally().first_path_length, 5.0);
   const auto events = monitor_.observe(guidance(17.25, State::arrived, 2));
   ASSERT_EQ(types(events), (Names{"GUIDANCE", "GOAL_REACHED"}));
   EXPECT_EQ(events[1].fields.get("elapsed"), "7.250");
