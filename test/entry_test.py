@@ -69,4 +69,4 @@ def test_a_node_refuses_an_unknown_parameter_and_starts_nothing(package, node, m
     result = subprocess.run(["rosrun", package, node, "_no_such_key:=1"], capture_output=True, text=True, timeout=30,
                             env=master)
     assert result.returncode == 2
-    assert "unknown key \"no_such_key\"" in result.stdout + result.stderr
+    assert "the key \"no_such_key\" is unknown" in result.stdout + result.stderr

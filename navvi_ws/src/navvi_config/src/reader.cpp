@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <set>
 #include <sstream>
 
@@ -13,6 +14,8 @@ constexpr std::uintmax_t kLargestFile = 1 << 20;  // bytes
 
 std::string to_text(double number) {
   std::ostringstream out;
+  if (number == std::round(number) && std::abs(number) < 1e15)
+    out << std::fixed << std::setprecision(0);
   out << number;
   return out.str();
 }
@@ -78,11 +81,12 @@ class YamlReader : public Visitor {
     for (const auto& pair : level.node) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "(not a word)";
       if (!level.known.count(key)) {
-        throw ConfigError(where(pair.first) + " has the unknown key \"" + level.prefix + key +
-                          "\"; known here are " + join(level.known) + ".");
+        throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
+                          "\" is unknown; known here are " + join(level.known) + ".");
       }
       if (!seen.insert(key).second) {
-        throw ConfigError(where(pair.first) + " has the key \"" + level.prefix + key + "\" twice.");
+        throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
+                          "\" stands there twice.");
       }
     }
   }
@@ -109,13 +113,13 @@ class YamlReader : public Visitor {
       levels_.push_back({node.IsMap() ? node : YAML::Node(YAML::NodeType::Map), prefix, {}});
       return;
     }
-    throw ConfigError(where(node) + " must be a map of keys and values" +
+    throw ConfigError(where(node) + ": there must be a map of keys and values" +
                       (prefix.empty() ? "." : " under \"" + prefix + "\"."));
   }
 
   [[nodiscard]] std::string where(const YAML::Node& node) const {
     const YAML::Mark mark = node.Mark();
-    return mark.is_null() ? source_ : source_ + ", line " + std::to_string(mark.line + 1) + ",";
+    return mark.is_null() ? source_ : source_ + ", line " + std::to_string(mark.line + 1);
   }
 
   YAML::Node find(const std::string& name) {
@@ -129,8 +133,8 @@ class YamlReader : public Visitor {
 
   [[noreturn]] void refuse(const Field& field, const YAML::Node& node, const std::string& text,
                            const std::string& allowed) const {
-    throw ConfigError(where(node) + " gives \"" + levels_.back().prefix + field.name + "\" as " +
-                      text + "; allowed is " + allowed + ".");
+    throw ConfigError(where(node) + ": \"" + levels_.back().prefix + field.name + "\" is " + text +
+                      "; allowed is " + allowed + ".");
   }
 
   std::string scalar(const Field& field, const YAML::Node& node, const std::string& allowed) const {

@@ -56,7 +56,7 @@ TEST(Reader, keys_that_are_given_overlay_those_that_are_not) {
 
 TEST(Reader, a_number_out_of_range_is_refused_with_line_key_and_range) {
   EXPECT_EQ(refusal("count: 1\nspeed: -4"),
-            "test.yaml, line 2, gives \"speed\" as -4; allowed is 0.1 to 3 m/s.");
+            "test.yaml, line 2: \"speed\" is -4; allowed is 0.1 to 3 m/s.");
 }
 
 TEST(Reader, every_bad_document_is_refused) {
@@ -72,7 +72,7 @@ TEST(Reader, every_bad_document_is_refused) {
 TEST(Reader, an_unknown_key_is_named_with_the_known_ones) {
   EXPECT_EQ(
       refusal("inner: {kurve: log}"),
-      "test.yaml, line 1, has the unknown key \"inner/kurve\"; known here are classes, curve.");
+      "test.yaml, line 1: the key \"inner/kurve\" is unknown; known here are classes, curve.");
 }
 
 TEST(Reader, a_missing_file_and_a_broken_file_are_told_apart) {
