@@ -8,10 +8,10 @@ const std::vector<CueKind>& cue_kinds() {
   using P = Priority;
   // kind, priority, least interval in s, largest age in s
   static const std::vector<CueKind> kinds = {
-      // Safety: nothing cuts these.
-      {"collision_shelf", P::important, 1.5, 2.0},
-      {"collision_wall", P::important, 1.5, 2.0},
-      {"collision_obstacle", P::important, 1.5, 2.0},
+      // Safety: nothing cuts these. A thing that is hit is told by itself, see CuePolicy.
+      {"collision_shelf", P::important, 0.0, 3.0},
+      {"collision_wall", P::important, 0.0, 3.0},
+      {"collision_obstacle", P::important, 0.0, 3.0},
       {"pad_lost", P::important, 2.0, 10.0},
       {"robot_stopped", P::important, 2.0, 4.0},
       {"simulator_lost", P::important, 5.0, 10.0},
@@ -31,6 +31,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"goal_refused_inside_obstacle", P::message, 1.0, 10.0},
       {"goal_refused_off_the_map", P::message, 1.0, 10.0},
       {"goal_refused_unreachable", P::message, 1.0, 10.0},
+      {"release_stick", P::message, 3.0, 2.0},
       {"pad_back", P::message, 2.0, 5.0},
       {"audio_back", P::message, 2.0, 5.0},
       {"no_rumble", P::message, 5.0, 10.0},

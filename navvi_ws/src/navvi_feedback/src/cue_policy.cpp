@@ -11,6 +11,12 @@ namespace {
 constexpr double kRecover = 2.0;
 /// s, what a start may take before it is a problem.
 constexpr double kStarting = 3.0;
+/// s after the start, when a path may still be on its way.
+constexpr double kFirstPath = 5.0;
+/// s; the same thing again within it is the same collision.
+constexpr double kSameHit = 1.5;
+/// m/s and rad/s; slower counts as standing.
+constexpr double kMoving = 0.05;
 
 const char* refusal_kind(Guidance::Refusal refusal) {
   switch (refusal) {
@@ -104,13 +110,14 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const auto add = [&](Utterances more) {
     utterances.insert(utterances.end(), more.begin(), more.end());
   };
-  add(lost_and_found(now, links));
+  add(lost_and_found(now, links, time));
   add(collisions(now, time));
+  add(release(now, links, time));
   add(stuck(now, time));
   add(guidance_state(now, links, time));
-  add(answers(now));
-  add(near_.update(now, time));
-  add(route(now, time));
+  add(answers(now, time));
+  add(near(now, time));
+  add(route(now, links, time));
   links_ = links;
   gate_ = now.gate;
   return phrase(utterances, time);
@@ -124,7 +131,8 @@ CuePolicy::Links CuePolicy::judge(const Situation& now, double time) {
           judged(now.guidance_link), now.audio_link};
 }
 
-CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links) {
+CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links,
+                                                double time) {
   Utterances told;
   const auto say = [&](const std::string& kind) { told.push_back({kind, {}, {}}); };
   const auto lost = [](Link before, Link after) {
@@ -144,19 +152,37 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
         links.pad != Link::lost)
       say("robot_stopped");
   }
+  for (const Utterance& utterance : told)
+    if (utterance.kind == "pad_back" || utterance.kind == "robot_stopped") held_.told(time);
   for (const std::string& notice : now.notices)
     if (noticed_.insert(notice).second) say(notice);
   return told;
 }
 
 CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
-  if (now.contacts.empty()) return {};
+  for (auto hit = hit_.begin(); hit != hit_.end();)
+    hit = time - hit->second >= kSameHit ? hit_.erase(hit) : std::next(hit);
+  Utterances told;
+  for (const Situation::Contact& contact : now.contacts) {
+    route_.remind(time + kRecover);
+    if (!hit_.emplace(contact.id, time).second) continue;
+    const std::string kind = contact.thing_class == ThingClass::shelf  ? "collision_shelf"
+                             : contact.thing_class == ThingClass::wall ? "collision_wall"
+                                                                       : "collision_obstacle";
+    told.push_back({kind, where(contact.thing_class, contact.point), {}});
+  }
+  return told;
+}
+
+CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
+  if (links.pad != Link::alive || links.simulator != Link::alive) {
+    held_.forget();
+    return {};
+  }
+  const auto request = held_.update(now, time);
+  if (!request) return {};
   route_.remind(time + kRecover);
-  const Situation::Contact& contact = now.contacts.front();
-  const std::string kind = contact.thing_class == ThingClass::shelf  ? "collision_shelf"
-                           : contact.thing_class == ThingClass::wall ? "collision_wall"
-                                                                     : "collision_obstacle";
-  return {{kind, where(contact.thing_class, contact.point), {}}};
+  return {*request};
 }
 
 CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
@@ -220,8 +246,18 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   return {{problem_, {}, {}}};
 }
 
-CuePolicy::Utterances CuePolicy::route(const Situation& now, double time) {
-  if (follows_) return route_.update(now, time);
+CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
+  // To a robot that stands without a way to go, what is near is no news.
+  const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
+                                      std::abs(now.measured->angular) > kMoving);
+  if (!follows_ && !moves) return {};
+  return near_.update(now, time);
+}
+
+CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
+  // Nobody can follow without a stick; once it is back, that is told first, then the way.
+  const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
+  if (follows_ && steered) return route_.update(now, time);
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
   if (goal_gone)
     route_.forget();
@@ -230,7 +266,7 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, double time) {
   return {};
 }
 
-CuePolicy::Utterances CuePolicy::answers(const Situation& now) const {
+CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) const {
   if (!now.repeat_pressed && !now.goal_pressed) return {};
   Utterance answer;
   if (follows_ && now.goal_pressed) {
@@ -239,6 +275,7 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now) const {
     answer = *way;
   } else {
     answer.kind = problem_.empty() || problem_ == "welcome" ? "no_goal" : problem_;
+    if (answer.kind == "no_goal" && time - *first_update_ < kFirstPath) return {};
   }
   // Who asks wants it now.
   answer.priority = Priority::message;
@@ -258,6 +295,17 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
   std::stable_sort(cues.begin(), cues.end(),
                    [](const Cue& a, const Cue& b) { return a.priority > b.priority; });
   return cues;
+}
+
+void CuePolicy::note(const std::vector<CueEvent>& events) {
+  const auto replaced = [&](const std::string& kind) {
+    return std::any_of(events.begin(), events.end(), [&](const CueEvent& event) {
+      return event.stage == CueStage::queued && event.cue.kind == kind;
+    });
+  };
+  for (const CueEvent& event : events)
+    if (event.stage == CueStage::dropped && !replaced(event.cue.kind))
+      last_said_.erase(event.cue.kind);
 }
 
 }  // namespace navvi_feedback

@@ -39,8 +39,11 @@ CueQueue::Step CueQueue::clear() {
 void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const Entry entry{++last_id_, time, cue};
   step.events.push_back({entry.id, CueStage::queued, cue});
-  const auto same = std::find_if(waiting_.begin(), waiting_.end(),
-                                 [&](const Entry& other) { return other.cue.kind == cue.kind; });
+  const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
+    // Two things that were hit are two messages of one kind.
+    return other.cue.kind == cue.kind &&
+           (cue.priority < Priority::important || other.cue.text == cue.text);
+  });
   if (same != waiting_.end()) {
     step.events.push_back({same->id, CueStage::dropped, same->cue});
     waiting_.erase(same);

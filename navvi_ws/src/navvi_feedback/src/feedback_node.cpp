@@ -175,8 +175,11 @@ class FeedbackNode {
     // The last word of a lost stick is zero; after it, silence.
     if (velocity || last_input_.live) cmd_vel_.publish(twist(velocity.value_or(Velocity{})));
     commanded_ = velocity.value_or(Velocity{});
+    held_unarmed_ = live && !drive_.armed() && deflected(drive_.shaped(input.stick()));
     if (input.live && joy_out_) joy_out_.publish(to_msg(input, ros::Time::now()));
   }
+
+  static bool deflected(const Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
   static geometry_msgs::Twist twist(const Velocity& velocity) {
     geometry_msgs::Twist msg;
@@ -208,7 +211,10 @@ class FeedbackNode {
   }
 
   void say(const InputState& input, double time) {
-    publish(speech_.tick(policy_.update(situation(input, time), time), time));
+    const std::vector<CueEvent> events =
+        speech_.tick(policy_.update(situation(input, time), time), time);
+    policy_.note(events);
+    publish(events);
     contacts_.clear();
   }
 
@@ -223,6 +229,7 @@ class FeedbackNode {
     if (result.simulator_link == Link::alive) result.measured = motion_.value;
     result.contacts = contacts_;
     result.commanded = {commanded_.linear, commanded_.angular};
+    result.stick_held_unarmed = held_unarmed_;
     result.gate = gate_.value.value_or(Situation::Gate::unknown);
     result.pad_link = pad_link(input);
     result.audio_link = audio_link();
@@ -334,6 +341,7 @@ class FeedbackNode {
   InputState last_input_;
   bool seen_input_ = false;
   Velocity commanded_;
+  bool held_unarmed_ = false;
   std::uint32_t rumble_id_ = 0;
   visualization_msgs::MarkerArray shown_;
 };

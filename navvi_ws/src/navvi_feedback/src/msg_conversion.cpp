@@ -64,7 +64,7 @@ std::optional<Situation::Contact> from_msg(const navvi_msgs::Contact& msg) {
   }
   const Eigen::Rotation2Dd into_robot(-yaw_of(msg.robot.orientation));
   return Situation::Contact{class_of(msg.thing_class),
-                            into_robot * (flat(msg.point) - flat(msg.robot.position))};
+                            into_robot * (flat(msg.point) - flat(msg.robot.position)), msg.id};
 }
 
 std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {

@@ -146,7 +146,8 @@ TEST_F(CuePolicyTest, TellsAStoppedRobotFromALostController) {
   now_.gate = Situation::Gate::stopped;
   EXPECT_EQ(pass(1.0), Texts{"controller disconnected"});
   now_.pad_link = Link::alive;
-  EXPECT_EQ(pass(1.0), Texts{"controller connected, release the stick"});
+  EXPECT_EQ(pass(1.0),
+            (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
 }
 
 TEST_F(CuePolicyTest, SaysANoticeOnce) {
@@ -202,8 +203,70 @@ TEST_F(CuePolicyTest, AnswersAtOnceWhoAsks) {
   now_.goal_pressed = true;
   EXPECT_EQ(pass(0.1), Texts{"goal 20 meters, 9 o'clock"});
   now_.guidance.reset();
+  pass(3.0);
   now_.goal_pressed = true;
   EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
+}
+
+TEST_F(CuePolicyTest, DoesNotSayThatThereIsNoGoalWhileAPathMayBeOnItsWay) {
+  now_.guidance.reset();
+  now_.repeat_pressed = true;
+  EXPECT_EQ(pass(4.0), Texts{});
+}
+
+TEST_F(CuePolicyTest, SpeaksOfWhatIsNearBeforeThereIsAGoalOnlyToWhoMoves) {
+  now_.guidance.reset();
+  now_.nearby = {{ThingClass::shelf, 1, 0.5, {0.0, 0.9}, false}};
+  EXPECT_EQ(pass(3.0), Texts{});
+  now_.commanded.angular = now_.measured->angular = 0.5;
+  EXPECT_EQ(pass(1.0), Texts{"shelf on the left"});
+}
+
+TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenItIsBack) {
+  under_way();
+  now_.commanded = {};
+  now_.measured = Situation::Motion{};
+  now_.guidance->waypoint_angle = 1.6;
+  now_.pad_link = Link::lost;
+  EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
+  now_.pad_link = Link::alive;
+  EXPECT_EQ(pass(1.0), (Texts{"controller connected, release the stick", "3 o'clock, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, AsksToReleaseAStickThatIsHeldInVainAndThenSaysTheWay) {
+  under_way();
+  now_.commanded = {};
+  now_.measured = Situation::Motion{};
+  now_.stick_held_unarmed = true;
+  const Texts held = pass(5.0);
+  EXPECT_EQ(std::count(held.begin(), held.end(), "release the stick"), 2);
+  now_.stick_held_unarmed = false;
+  EXPECT_EQ(pass(3.0), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, SaysEveryThingThatIsHitButTheSameOnlyOnceInAWhile) {
+  under_way();
+  now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}, {ThingClass::pedestal, {0.0, -0.35}, 5}};
+  EXPECT_EQ(pass(0.5), (Texts{"hit a box ahead", "hit a pedestal on the right"}));
+  now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}, {ThingClass::box, {0.0, 0.35}, 6}};
+  EXPECT_EQ(pass(0.5), Texts{"hit a box on the left"});
+  pass(3.0);
+  now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}};
+  EXPECT_EQ(pass(0.1), Texts{"hit a box ahead"});
+}
+
+TEST_F(CuePolicyTest, MaySayAgainAtOnceWhatWasDropped) {
+  under_way();
+  const auto lose_and_find = [&] {
+    now_.proximity_link = Link::alive;
+    pass(0.1);
+    now_.proximity_link = Link::lost;
+    return pass(0.1);
+  };
+  EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
+  EXPECT_EQ(lose_and_find(), Texts{});
+  policy_.note({{1, CueStage::dropped, last_}});
+  EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
 }
 
 TEST_F(CuePolicyTest, WordsDirectionsByLeftAndRightWhereThatIsWanted) {
@@ -246,6 +309,7 @@ TEST_F(CuePolicyTest, SpeaksOnlyKnownKindsInAnySituation) {
     if (draw(30) == 0) now_.contacts = {{static_cast<ThingClass>(draw(8)), {number(1), number(1)}}};
     now_.voice_busy = draw(2) == 0;
     now_.repeat_pressed = draw(50) == 0;
+    now_.stick_held_unarmed = draw(2) == 0;
     time_ += 0.02;
     for (const Cue& cue : policy_.update(now_, time_)) {
       EXPECT_NO_THROW((void)cue_kind(cue.kind));

@@ -81,6 +81,16 @@ TEST(CueQueue, ReplacesAWaitingCueByANewerOfItsKind) {
             (Words{"queued b", "dropped b"}));
 }
 
+TEST(CueQueue, KeepsImportantCuesOfOneKindThatSayDifferentThings) {
+  CueQueue queue;
+  Cue box = cue("hit", Priority::important);
+  Cue shelf = box;
+  shelf.text = "another";
+  EXPECT_EQ(told(queue.update({box, shelf, shelf}, false, 0.0)),
+            (Words{"queued hit", "queued hit", "queued hit", "dropped hit", "started hit"}));
+  EXPECT_EQ(queue.update({}, false, 0.5).start, "another");
+}
+
 TEST(CueQueue, KeepsAtMostTwoWaitingBelowImportantAndTheGreatestOfThem) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::important)}, false, 0.0);

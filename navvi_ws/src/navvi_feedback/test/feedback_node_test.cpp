@@ -130,6 +130,7 @@ TEST_F(FeedbackNode, DrivesOnlyAfterNeutralAndFallsSilentAfterAStop) {
   pass(1.0);
   EXPECT_GT(twists_, 0);
   EXPECT_EQ(twist_.linear.x, 0.0) << "held forward from the start";
+  EXPECT_TRUE(heard("release_stick"));
 
   stick_ = 0.0F;
   pass(0.5);

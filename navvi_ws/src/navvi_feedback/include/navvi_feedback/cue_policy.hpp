@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "navvi_feedback/held_stick.hpp"
 #include "navvi_feedback/near_cues.hpp"
 #include "navvi_feedback/phrases.hpp"
 #include "navvi_feedback/route_cues.hpp"
@@ -39,6 +40,9 @@ class CuePolicy {
   /// \return the cues decided now, most urgent first
   [[nodiscard]] std::vector<Cue> update(const Situation& now, double time);
 
+  /// Takes note of what became of the cues: one that was dropped may be said again at once.
+  void note(const std::vector<CueEvent>& events);
+
  private:
   using Utterances = std::vector<Utterance>;
   struct Links {
@@ -50,18 +54,21 @@ class CuePolicy {
   };
 
   [[nodiscard]] Links judge(const Situation& now, double time);
-  [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links);
+  [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances collisions(const Situation& now, double time);
   [[nodiscard]] Utterances stuck(const Situation& now, double time);
+  [[nodiscard]] Utterances release(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterances route(const Situation& now, double time);
-  [[nodiscard]] Utterances answers(const Situation& now) const;
+  [[nodiscard]] Utterances near(const Situation& now, double time);
+  [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
+  [[nodiscard]] Utterances answers(const Situation& now, double time) const;
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, double time);
 
   CuePolicyConfig config_;
   Phrases phrases_;
   RouteCues route_;
   NearCues near_;
+  HeldStick held_;
 
   std::optional<double> first_update_;  ///< s
   Links links_;                         ///< as of the last update
@@ -75,6 +82,7 @@ class CuePolicy {
   std::optional<double> problem_said_;  ///< s
   bool arrival_said_ = false;
   std::map<std::string, double> last_said_;  ///< s, by kind
+  std::map<std::uint32_t, double> hit_;      ///< s, by thing
   std::set<std::string> noticed_;
 };
 

@@ -11,7 +11,8 @@ namespace navvi_feedback {
 
 /// Decides which cue is spoken when (R-AUD-6). A higher priority cuts a lower one; an equal or
 /// lower one waits; nothing cuts an important one. Below `important` at most two wait, the least
-/// goes first. A newer cue of a kind replaces the waiting one. Whoever waited beyond max_age is
+/// goes first. A newer cue of a kind replaces the waiting one, but an important one only the same
+/// text. Whoever waited beyond max_age is
 /// dropped. Every cue that enters reaches exactly one of ended, cut, dropped.
 class CueQueue {
  public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct Situation {
   struct Contact {
     ThingClass thing_class = ThingClass::other;
     Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< m, in base_link
+    std::uint32_t id = 0;                             ///< of the thing
   };
   /// The last stage before the wheels, as navvi_msgs/DriveState.
   enum class Gate { unknown, waiting, running, stopped };
@@ -28,6 +30,7 @@ struct Situation {
   std::vector<Nearby> nearby;        ///< the latest; empty if stale
   std::vector<Contact> contacts;     ///< begun since the last update
   Motion commanded;                  ///< what was last sent to the robot
+  bool stick_held_unarmed = false;   ///< held since before it was neutral, so nothing is sent
   std::optional<Motion> measured;    ///< nullopt while the odometry is missing or stale
   Gate gate = Gate::unknown;
 
