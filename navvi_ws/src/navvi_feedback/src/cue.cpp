@@ -46,6 +46,9 @@ const std::vector<CueKind>& cue_kinds() {
       {"rerouted", P::text, 4.0, 2.0},
       {"shelf_near", P::text, 1.5, 1.5},
       {"wall_near", P::text, 1.5, 1.5},
+      {"shelf_close", P::text, 1.5, 1.5},
+      {"wall_close", P::text, 1.5, 1.5},
+      {"obstacle_near", P::text, 1.5, 1.5},
       // On demand, and by the way.
       {"goal_info", P::text, 0.5, 4.0},
       {"goal_info_distance", P::text, 0.5, 4.0},

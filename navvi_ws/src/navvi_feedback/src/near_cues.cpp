@@ -1,5 +1,6 @@
 #include "navvi_feedback/near_cues.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace navvi_feedback {
@@ -14,6 +15,20 @@ bool approaches(const Situation& now, Side side) {
   return side == Side::behind && now.measured->linear < -kMoving;
 }
 
+/// Less than 60 degrees off the way in which the robot drives.
+bool in_the_way(const Situation& now, const Eigen::Vector2d& point) {
+  if (!now.measured || std::abs(now.measured->linear) <= kMoving) return false;
+  const double forward = std::copysign(point.x(), point.x() * now.measured->linear);
+  return forward >= 0.5 * point.norm();
+}
+
+Utterance utterance(const char* kind, ThingClass thing, Side side, bool urgent) {
+  Fillings fillings;
+  fillings.thing = thing;
+  fillings.side = side;
+  return {kind, fillings, urgent ? std::optional(Priority::message) : std::nullopt};
+}
+
 }  // namespace
 
 void NearConfig::describe(navvi_config::Visitor& visit) {
@@ -25,6 +40,9 @@ void NearConfig::describe(navvi_config::Visitor& visit) {
         hysteresis);
   visit({"forget", Range{0.0, 30.0}, "s", "how long it must be gone to be announced again"},
         forget);
+  visit({"obstacles", navvi_config::Any{}, "",
+         "also name any other thing that the robot drives towards"},
+        obstacles);
 }
 
 NearCues::Level NearCues::level(double gap, Level said) const {
@@ -34,7 +52,29 @@ NearCues::Level NearCues::level(double gap, Level said) const {
   return gap <= near ? Level::near : Level::none;
 }
 
+NearCues::Level NearCues::observe(Watch& watch, double gap, double time) const {
+  const Level reached = level(gap, watch.said);
+  if (reached >= watch.said) watch.last_near = time;
+  if (reached < watch.said && time - watch.last_near > config_.forget) watch.said = reached;
+  return reached;
+}
+
+bool NearCues::too_soon(const std::string& kind, double time) const {
+  const auto said = said_.find(kind);
+  return said != said_.end() && time - said->second < cue_kind(kind).min_interval;
+}
+
 std::vector<Utterance> NearCues::update(const Situation& now, double time) {
+  std::optional<Candidate> best;
+  consider_sides(now, time, best);
+  if (config_.obstacles) consider_things(now, time, best);
+  if (!best) return {};
+  *best->watch = {best->level, time};
+  said_[best->utterance.kind] = time;
+  return {best->utterance};
+}
+
+void NearCues::consider_sides(const Situation& now, double time, std::optional<Candidate>& best) {
   std::map<std::pair<ThingClass, Side>, double> gaps;
   for (const ThingClass thing : {ThingClass::shelf, ThingClass::wall})
     for (const Side side : {Side::ahead, Side::left, Side::behind, Side::right})
@@ -48,32 +88,40 @@ std::vector<Utterance> NearCues::update(const Situation& now, double time) {
     if (const std::pair where{contact.thing_class, side_of(contact.point)}; gaps.count(where) > 0)
       watches_[where] = {Level::close, time};
 
-  std::optional<Utterance> nearest;
-  double nearest_gap = std::numeric_limits<double>::infinity();
-  Watch* told = nullptr;
-  Level told_level = Level::none;
   for (const auto& [where, gap] : gaps) {
     Watch& watch = watches_[where];
-    const Level reached = level(gap, watch.said);
-    if (reached >= watch.said) watch.last_near = time;
-    if (reached < watch.said && time - watch.last_near > config_.forget) watch.said = reached;
+    const Level reached = observe(watch, gap, time);
     const auto [thing, side] = where;
     const bool urgent = approaches(now, side);
-    if (reached <= watch.said || gap >= nearest_gap) continue;
+    if (reached <= watch.said || (best && gap >= best->gap)) continue;
     if (side == Side::behind && !urgent) continue;
     if (now.voice_busy && !urgent) continue;
-    Fillings fillings;
-    fillings.thing = thing;
-    fillings.side = side;
-    nearest = Utterance{thing == ThingClass::shelf ? "shelf_near" : "wall_near", fillings,
-                        urgent ? std::optional(Priority::message) : std::nullopt};
-    nearest_gap = gap;
-    told = &watch;
-    told_level = reached;
+    const bool shelf = thing == ThingClass::shelf;
+    const char* kind = reached == Level::close ? (shelf ? "shelf_close" : "wall_close")
+                                               : (shelf ? "shelf_near" : "wall_near");
+    if (too_soon(kind, time)) continue;
+    best = Candidate{utterance(kind, thing, side, urgent), gap, &watch, reached};
   }
-  if (!nearest) return {};
-  *told = {told_level, time};
-  return {*nearest};
+}
+
+void NearCues::consider_things(const Situation& now, double time, std::optional<Candidate>& best) {
+  for (const Situation::Contact& contact : now.contacts) things_[contact.id] = {Level::close, time};
+  for (auto thing = things_.begin(); thing != things_.end();)
+    thing = time - thing->second.last_near > config_.forget ? things_.erase(thing) : ++thing;
+  for (const Nearby& thing : now.nearby) {
+    if (thing.thing_class == ThingClass::shelf || thing.thing_class == ThingClass::wall) continue;
+    const auto known = things_.find(thing.id);
+    if (known == things_.end() && level(thing.gap, Level::none) == Level::none) continue;
+    Watch& watch = known == things_.end() ? things_[thing.id] : known->second;
+    const bool near = observe(watch, thing.gap, time) != Level::none;
+    if (!near || watch.said != Level::none || !in_the_way(now, thing.nearest)) continue;
+    const Side side = side_of(thing.nearest);
+    const bool urgent = approaches(now, side);
+    if (now.voice_busy && !urgent) continue;
+    if (too_soon("obstacle_near", time) || (best && thing.gap >= best->gap)) continue;
+    best = Candidate{utterance("obstacle_near", thing.thing_class, side, urgent), thing.gap, &watch,
+                     Level::near};
+  }
 }
 
 }  // namespace navvi_feedback

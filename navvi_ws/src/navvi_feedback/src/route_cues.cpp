@@ -51,6 +51,9 @@ void RouteConfig::describe(navvi_config::Visitor& visit) {
   visit({"reach", Range{0.1, 5.0}, "m",
          "no correction while the robot heads to pass the way-point within this distance"},
         reach);
+  visit({"at_hand", Range{0.0, 5.0}, "m",
+         "nearer than this a way-point roughly ahead needs no more directions"},
+        at_hand);
 }
 
 RouteCues::RouteCues(const RouteConfig& config)
@@ -183,6 +186,12 @@ bool RouteCues::passes_within_reach(const Guidance& guidance) const {
          guidance.waypoint_distance < config_.turn_now;
 }
 
+bool RouteCues::at_hand(const Guidance& guidance, double time) const {
+  const auto ahead = [](std::optional<int> hour) { return hour && (*hour >= 11 || *hour == 1); };
+  return guidance.waypoint_distance < config_.at_hand && ahead(hour_) && ahead(said_hour_) &&
+         time - last_commanded_ <= config_.idle;
+}
+
 bool RouteCues::turn_ahead_due(const Guidance& guidance, double time) const {
   const auto turn = clock_hour(guidance.turn_angle, rounding_);
   if (guidance.waypoint_is_goal || ahead_told_ || *hour_ != 12 || !turn || *turn == 12)
@@ -199,6 +208,7 @@ bool RouteCues::direction_due(const Guidance& guidance, double time) const {
   const double since = time - said_time_;
   if (since < config_.pause) return false;
   if (reminder_ && time >= *reminder_) return true;
+  if (at_hand(guidance, time)) return false;
   if (pending_ == Change::next_corner) return true;
   if (hour_ != said_hour_ && !passes_within_reach(guidance)) return true;
   const double interval = *hour_ == 12 ? config_.repeat_straight : config_.repeat_direction;

@@ -66,6 +66,7 @@ TEST(CuePolicyConfig, FloorsTheHoursInThePapersProfile) {
   CuePolicyConfig config;
   navvi_config::read(config, navvi_config::load_yaml(file)["cues"], file);
   EXPECT_EQ(config.route.rounding, "floor");
+  EXPECT_FALSE(config.near.obstacles);
 }
 
 TEST_F(CuePolicyTest, SaysNothingBeforeAnythingIsKnown) {

@@ -68,11 +68,18 @@ TEST_F(NearCuesTest, SaysItAgainAfterTheShelfWasGoneForAWhile) {
 
 TEST_F(NearCuesTest, SaysItOnceMoreWhenTheShelfIsClose) {
   pass(1.0, {shelf(0.9, kLeft)});
+  EXPECT_EQ(last_.kind, "shelf_near");
   EXPECT_EQ(pass(5.0, {shelf(0.3, kLeft)}), Sides{Side::left});
+  EXPECT_EQ(last_.kind, "shelf_close");
+  pass(5.0, {});
+  pass(1.0, {{ThingClass::wall, 1, 0.3, kRight, false}});
+  EXPECT_EQ(last_.kind, "wall_close");
 }
 
 TEST_F(NearCuesTest, SaysBothSidesOfANarrowAisleOneAfterTheOther) {
-  EXPECT_EQ(pass(1.0, {shelf(0.8, kLeft), shelf(0.9, kRight)}), (Sides{Side::left, Side::right}));
+  const std::vector<Nearby> aisle = {shelf(0.8, kLeft), shelf(0.9, kRight)};
+  EXPECT_EQ(pass(1.0, aisle), Sides{Side::left});
+  EXPECT_EQ(pass(1.0, aisle), Sides{Side::right});
 }
 
 TEST_F(NearCuesTest, WaitsForTheVoiceUnlessTheRobotRunsIntoIt) {
@@ -94,8 +101,55 @@ TEST_F(NearCuesTest, SpeaksOfWallsToo) {
   EXPECT_EQ(last_.kind, "wall_near");
 }
 
-TEST_F(NearCuesTest, LeavesEverythingElseToTheHands) {
-  EXPECT_EQ(pass(1.0, {{ThingClass::forklift, 1, 0.5, kRight, true},
+TEST_F(NearCuesTest, NamesAThingOnceThatTheRobotDrivesTowards) {
+  const Nearby pedestal{ThingClass::pedestal, 3, 0.9, kAhead, false};
+  EXPECT_EQ(pass(1.0, {pedestal}), Sides{}) << "the robot stands";
+  now_.measured->linear = 0.5;
+  now_.voice_busy = true;
+  EXPECT_EQ(pass(5.0, {pedestal}), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_near");
+  EXPECT_EQ(last_.fillings.thing, ThingClass::pedestal);
+  EXPECT_EQ(last_.priority, Priority::message);
+  EXPECT_EQ(pass(1.0, {{ThingClass::box, 4, 0.8, kAhead, false}}), Sides{Side::ahead});
+  EXPECT_EQ(pass(1.0, {{ThingClass::box, 5, 1.1, kAhead, false}}), Sides{}) << "too far";
+}
+
+TEST_F(NearCuesTest, NamesAThingBehindOnlyToWhoDrivesBackAndNoneThatIsPassed) {
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
+                       {ThingClass::box, 4, 0.6, kLeft, false}}),
+            Sides{});
+  now_.measured->linear = -0.5;
+  EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
+                       {ThingClass::box, 4, 0.6, kLeft, false}}),
+            Sides{Side::behind});
+}
+
+TEST_F(NearCuesTest, NamesAThingAgainOnlyAfterItWasGoneForAWhile) {
+  now_.measured->linear = 0.5;
+  const auto box = [](double gap) { return Nearby{ThingClass::box, 4, gap, kAhead, false}; };
+  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
+  EXPECT_EQ(pass(3.0, {box(1.15)}), Sides{});
+  EXPECT_EQ(pass(1.0, {box(1.3)}), Sides{});
+  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{});
+  EXPECT_EQ(pass(2.5, {}), Sides{});
+  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
+}
+
+TEST_F(NearCuesTest, AddsNothingToACollisionWithAThing) {
+  now_.measured->linear = 0.5;
+  now_.contacts = {{ThingClass::box, kAhead, 4}};
+  EXPECT_EQ(pass(0.02, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
+  now_.contacts.clear();
+  EXPECT_EQ(pass(5.0, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
+}
+
+TEST_F(NearCuesTest, LeavesEverythingElseToTheHandsWhereThatIsWanted) {
+  NearConfig config;
+  config.obstacles = false;
+  cues_ = NearCues(config);
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(1.0, {{ThingClass::forklift, 1, 0.5, kAhead, true},
                        {ThingClass::box, 2, 0.2, kLeft, false}}),
             Sides{});
 }

@@ -90,6 +90,9 @@ TEST(Phrases, SayWhatPeopleAndSimulatedOperatorsListenFor) {
   EXPECT_EQ(phrases.say("turn_now", everything()), "turn to 3 o'clock now");
   EXPECT_EQ(phrases.say("start", everything()), "Ready. Goal 8 meters, 3 o'clock");
   EXPECT_EQ(phrases.say("shelf_near", everything()), "shelf on the left");
+  EXPECT_EQ(phrases.say("shelf_close", everything()), "shelf very close, on the left");
+  EXPECT_EQ(phrases.say("obstacle_near", everything()), "pallet robot on the left");
+  EXPECT_EQ(phrases.say("release_stick"), "release the stick");
   EXPECT_EQ(phrases.say("collision_obstacle", everything()), "hit a pallet robot on the left");
   EXPECT_EQ(phrases.say("stuck", everything()), "stuck, pallet robot left");
   EXPECT_EQ(phrases.say("arrived"), "You have reached your destination");

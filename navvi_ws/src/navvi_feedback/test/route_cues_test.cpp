@@ -212,6 +212,29 @@ TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
   EXPECT_EQ(drive.pass(1.0), Kinds{});
 }
 
+TEST(RouteCues, DoNotWaverBetweenTheHoursAheadJustBeforeTheWayPoint) {
+  Drive drive;
+  drive.settle(0.0, 8.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.now.guidance->waypoint_distance = 0.95;
+  Kinds said;
+  for (int i = 0; i < 10; ++i) {
+    drive.now.guidance->waypoint_angle = rad(i % 2 == 0 ? -40.0 : 0.0);
+    for (const std::string& kind : drive.pass(2.0)) said.push_back(kind);
+  }
+  EXPECT_EQ(said, Kinds{});
+  EXPECT_TRUE(drive.cues.direction(*drive.now.guidance)) << "who asks is told";
+  drive.now.guidance->waypoint_angle = rad(100.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{"direction"}) << "who missed it is told";
+}
+
+TEST(RouteCues, TellWhoStandsJustBeforeTheWayPointToGoOn) {
+  Drive drive;
+  drive.settle(0.0, 0.9);
+  drive.now.commanded = {};
+  EXPECT_FALSE(drive.pass(20.0).empty());
+}
+
 TEST(RouteCues, SayTheDirectionAgainAfterAStop) {
   Drive drive;
   drive.settle(0.0, 30.0);

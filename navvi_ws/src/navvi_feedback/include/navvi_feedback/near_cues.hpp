@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,12 +18,14 @@ struct NearConfig {
   double close = 0.35;      ///< m, gap
   double hysteresis = 0.2;  ///< m
   double forget = 2.0;      ///< s
+  bool obstacles = true;
 
   void describe(navvi_config::Visitor& visit);
 };
 
 /// Says when a shelf or a wall comes near (R-AUD-3): once a side at `distance`, once more at
-/// `close`.
+/// `close`. Any other thing is named once at `distance`, if the robot drives towards it: a hand
+/// that feels it cannot tell what it is.
 class NearCues {
  public:
   explicit NearCues(const NearConfig& config) : config_(config) {}
@@ -35,10 +40,26 @@ class NearCues {
     double last_near = 0.0;  ///< s, when the thing was last within reach
   };
 
+  /// What may be said now.
+  struct Candidate {
+    Utterance utterance;
+    double gap = 0.0;  ///< m
+    Watch* watch = nullptr;
+    Level level = Level::none;
+  };
+
   [[nodiscard]] Level level(double gap, Level said) const;
+  void consider_sides(const Situation& now, double time, std::optional<Candidate>& best);
+  void consider_things(const Situation& now, double time, std::optional<Candidate>& best);
+  /// The same kind was said too short a time ago; its next thing waits, so that it is not lost.
+  [[nodiscard]] bool too_soon(const std::string& kind, double time) const;
+  /// Brings a watch up to date. \return what its thing has reached
+  Level observe(Watch& watch, double gap, double time) const;
 
   NearConfig config_;
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
+  std::map<std::string, double> said_;     ///< s, by kind
+  std::map<std::uint32_t, Watch> things_;  ///< by id
 };
 
 }  // namespace navvi_feedback

@@ -26,6 +26,7 @@ struct RouteConfig {
   double straight_lead = 0.5;     ///< s
   double idle = 5.0;              ///< s
   double reach = 0.8;             ///< m
+  double at_hand = 1.0;           ///< m
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -61,6 +62,7 @@ class RouteCues {
   void observe(const Situation& now, double time);
   [[nodiscard]] bool about_to_face(const Situation& now) const;
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
+  [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, double time) const;
   [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
