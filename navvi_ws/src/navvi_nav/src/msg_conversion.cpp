@@ -67,7 +67,9 @@ std::optional<std::vector<Cylinder>> from_msg(const navvi_msgs::Obstacles& obsta
 }
 
 std::optional<Point> from_msg(const geometry_msgs::PoseStamped& goal) {
-  if (!within_each(goal.pose.position, kFarthest)) return std::nullopt;
+  const auto& q = goal.pose.orientation;
+  if (!within_each(goal.pose.position, kFarthest) || !std::isfinite(q.x + q.y + q.z + q.w))
+    return std::nullopt;
   return Point{goal.pose.position.x, goal.pose.position.y};
 }
 

@@ -82,13 +82,20 @@ class NavNode {
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
     const std::optional<Point> goal = from_msg(*msg);
     if (!goal) {
-      navigator_.refuse_goal(Refusal::not_finite, "the goal is not a finite point");
+      drop_goal(Refusal::not_finite, "the goal is not a finite point");
     } else if (const std::optional<Point> there = in_map_frame(*goal, msg->header)) {
       navigator_.set_goal(*there);
     } else {
-      navigator_.refuse_goal(Refusal::unknown_frame, "the goal's frame is not known");
+      drop_goal(Refusal::unknown_frame, "the goal's frame is not known");
     }
     publish_all();
+  }
+
+  void drop_goal(Refusal refusal, const char* what) {
+    ++bad_messages_;
+    const bool stands = navigator_.drop_bad_goal(refusal, what);
+    ROS_WARN("A goal message is dropped: %s%s (%u bad messages).", what,
+             stands ? "; the goal before it stands" : "", bad_messages_);
   }
 
   std::optional<Point> in_map_frame(Point point, const std_msgs::Header& header) const {
@@ -132,7 +139,7 @@ class NavNode {
     const bool lost_before = navigator_.obstacles_lost();
     if (std::optional<Job> job = navigator_.update(now)) worker_.start(std::move(*job));
     if (navigator_.obstacles_lost() && !lost_before)
-      ROS_WARN("No obstacles came for too long; their holes are closed.");
+      ROS_WARN("No fresh obstacles come any more; moving things are not in the path.");
     publish_all();
     publish_mesh();
   }
@@ -140,9 +147,9 @@ class NavNode {
   void report(const Outcome& outcome) const {
     if (outcome.reason != Reason::map_changed || outcome.plan) return;
     if (outcome.map_taken) {
-      ROS_INFO("Map taken: %zu triangles, %d of %d tiles built in %.3f s.",
-               outcome.triangles->triangles.size(), outcome.mesh.tiles_rebuilt, outcome.mesh.tiles,
-               outcome.seconds);
+      ROS_INFO("Map taken in %.3f s: %zu triangles; %d of %d tiles built, %d carved.",
+               outcome.seconds, outcome.triangles->triangles.size(), outcome.mesh.tiles_rebuilt,
+               outcome.mesh.tiles, outcome.carved.tiles_rebuilt);
     } else {
       ROS_ERROR("The map is refused: %s.", outcome.map_error.c_str());
     }

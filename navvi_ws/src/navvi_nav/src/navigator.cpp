@@ -49,9 +49,7 @@ Outcome work(Planner& planner, const Job& job) {
         out.map_taken = out.mesh.error.empty();
       }
     }
-    const MeshUpdate carved = planner.carve(job.obstacles);
-    out.mesh.tiles = carved.tiles;
-    out.mesh.tiles_rebuilt += carved.tiles_rebuilt;
+    out.carved = planner.carve(job.obstacles);
     if (job.goal) out.plan = planner.plan(job.start, *job.goal);
   } catch (const std::exception& error) {
     if (job.map) out.map_error = error.what();
@@ -86,6 +84,12 @@ void Navigator::set_goal(Point goal) {
   last_goal_ = goal;
 }
 
+bool Navigator::drop_bad_goal(Refusal refusal, const std::string& detail) {
+  if (goal_) return true;
+  refuse_goal(refusal, detail);
+  return false;
+}
+
 void Navigator::refuse_goal(Refusal refusal, const std::string& detail) {
   drop_goal(State::goal_refused);
   refusal_ = refusal;
@@ -107,6 +111,8 @@ void Navigator::reset_times() {
   policy_.reset();
   pose_.reset();
   obstacles_.clear();
+  obstacles_time_.reset();
+  obstacles_lost_ = false;
   carved_at_.reset();
   if (job_since_) job_since_ = 0.0;
 }
@@ -115,13 +121,17 @@ bool Navigator::pose_fresh(double time) const {
   return pose_ && time - pose_time_ <= config_.pose_timeout;
 }
 
+bool Navigator::obstacles_fresh(double time) const {
+  return obstacles_time_ && time - *obstacles_time_ <= config_.obstacle_timeout;
+}
+
 bool Navigator::undecided(double time) const {
   return goal_ && !goal_planned_ && floor_ && pose_fresh(time) &&
          (!job_since_ || time - *job_since_ < config_.plan_timeout);
 }
 
 std::optional<Job> Navigator::update(double time) {
-  if (!obstacles_.empty() && time - obstacles_time_ > config_.obstacle_timeout) {
+  if (obstacles_time_ && !obstacles_fresh(time)) {
     obstacles_.clear();
     obstacles_lost_ = true;
   }
@@ -255,6 +265,10 @@ Status Navigator::status(double time) const {
     } else {
       out.state = State::no_route;
     }
+  }
+  if (floor_ && goal_ && !obstacles_fresh(time)) {
+    if (!out.detail.empty()) out.detail += "; ";
+    out.detail += "no fresh obstacles: moving things are not in the path";
   }
   return out;
 }

@@ -53,6 +53,17 @@ TEST(MsgConversion, drops_all_obstacles_if_one_is_bad) {
   EXPECT_FALSE(from_msg(msg));
 }
 
+TEST(MsgConversion, drops_a_goal_with_any_number_that_is_not_finite) {
+  geometry_msgs::PoseStamped goal;
+  goal.pose.position.x = 3.0;
+  EXPECT_TRUE(from_msg(goal));
+  goal.pose.orientation.z = kNan;
+  EXPECT_FALSE(from_msg(goal));
+  goal.pose.orientation.z = 0.0;
+  goal.pose.position.z = kNan;
+  EXPECT_FALSE(from_msg(goal));
+}
+
 TEST(MsgConversion, writes_an_empty_path_as_an_empty_message) {
   EXPECT_TRUE(to_msg(Path{}, 0.0, "map", ros::Time(1)).poses.empty());
   EXPECT_EQ(to_msg(Path{{1, 1}}, 0.0, "map", ros::Time(1)).poses.size(), 1U);

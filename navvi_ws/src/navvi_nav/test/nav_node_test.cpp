@@ -139,6 +139,13 @@ TEST_F(NavNodeTest, guides_refuses_and_replans) {
   }));
   EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
 
+  // What cannot be read does not take the goal away; what can be read is a new request.
+  send_goal(std::numeric_limits<double>::quiet_NaN(), 5);
+  send_goal(14, 5, "nowhere");
+  const unsigned before = guidance_.seq;
+  EXPECT_TRUE(until([&] { return guidance_.seq > before + 5; }));
+  EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
+  EXPECT_FALSE(path_.poses.empty());
   send_goal(7, 5);
   EXPECT_TRUE(until([this] { return refused_as(navvi_msgs::Guidance::INSIDE_OBSTACLE); }));
   EXPECT_TRUE(until([this] { return path_.poses.empty(); }));

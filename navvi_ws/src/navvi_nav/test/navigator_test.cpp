@@ -37,7 +37,7 @@ class Lockstep : public testing::Test {
       time_ += kTick;
       if (has_pose_) navigator_.set_pose(robot_, time_);
       navigator_.set_speed(speed_);
-      navigator_.set_obstacles(obstacles_, time_);
+      if (has_obstacles_) navigator_.set_obstacles(obstacles_, time_);
       if (const auto job = navigator_.update(time_)) {
         last_ = work(planner_, *job);
         navigator_.deliver(*last_, time_);
@@ -62,6 +62,7 @@ class Lockstep : public testing::Test {
   std::vector<Cylinder> obstacles_;
   Pose robot_{{2, 5}, 0.0};
   bool has_pose_ = true;
+  bool has_obstacles_ = true;
   double speed_ = 0.5;
   double time_ = 100.0;
 };
@@ -110,6 +111,39 @@ TEST_F(Lockstep, refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
   EXPECT_TRUE(navigator_.path().empty());
   tick(60);
   EXPECT_EQ(status().state, State::goal_refused);
+}
+
+TEST_F(Lockstep, keeps_a_standing_goal_when_a_goal_that_cannot_be_read_comes) {
+  load();
+  EXPECT_FALSE(navigator_.drop_bad_goal(Refusal::not_finite, "not finite"));
+  EXPECT_EQ(status().state, State::goal_refused);
+  EXPECT_EQ(status().refusal, Refusal::not_finite);
+  navigator_.set_goal({14, 5});
+  tick(2);
+  const Path before = navigator_.path();
+  EXPECT_TRUE(navigator_.drop_bad_goal(Refusal::unknown_frame, "no such frame"));
+  tick(2);
+  EXPECT_EQ(status().state, State::following);
+  EXPECT_EQ(status().refusal, Refusal::none);
+  EXPECT_EQ(navigator_.path(), before);
+}
+
+TEST_F(Lockstep, says_while_no_fresh_obstacles_come) {
+  const std::string said = "no fresh obstacles: moving things are not in the path";
+  has_obstacles_ = false;
+  load();
+  navigator_.set_goal({14, 5});
+  tick(40);
+  EXPECT_EQ(status().detail, said);
+  EXPECT_FALSE(navigator_.obstacles_lost());  // none came yet, so none are lost
+  has_obstacles_ = true;
+  tick();
+  EXPECT_EQ(status().detail, "");
+  has_obstacles_ = false;
+  tick(40);
+  EXPECT_EQ(status().state, State::following);
+  EXPECT_EQ(status().detail, said);
+  EXPECT_TRUE(navigator_.obstacles_lost());
 }
 
 TEST_F(Lockstep, leads_around_the_block_and_arrives) {

@@ -28,7 +28,8 @@ inline constexpr double kFarthest = 1e5;
 /// nullopt if any number of any obstacle is not finite or out of range (radius and height: above
 /// 0 and up to 20 m), an id repeats, or there are more than 10000. The frame is not looked at.
 [[nodiscard]] std::optional<std::vector<Cylinder>> from_msg(const navvi_msgs::Obstacles& obstacles);
-/// nullopt if the position is not finite or absurd. The frame is not looked at.
+/// nullopt if a number is not finite or the position absurd. The frame is not looked at, and the
+/// direction need not be a rotation: a goal is a place.
 [[nodiscard]] std::optional<Point> from_msg(const geometry_msgs::PoseStamped& goal);
 [[nodiscard]] MapMessage from_msg(const octomap_msgs::Octomap& map);
 

@@ -47,7 +47,8 @@ struct Outcome {
   Reason reason = Reason::none;
   unsigned goal_number = 0;
   std::optional<Plan> plan;
-  MeshUpdate mesh;
+  MeshUpdate mesh;    ///< by the new map, if one came
+  MeshUpdate carved;  ///< by the obstacles
   bool map_taken = false;
   std::string map_error;  ///< a sentence if a map came and was refused
   std::shared_ptr<const Mesh> triangles;
@@ -95,8 +96,9 @@ class Navigator {
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(Point goal);
-  /// A goal that cannot even be tried; it replaces the old one too.
-  void refuse_goal(Refusal refusal, const std::string& detail);
+  /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
+  /// without one the refusal is told. \returns true if a goal stands
+  bool drop_bad_goal(Refusal refusal, const std::string& detail);
   void reset_times();
 
   /// Brings everything up to `time`. \returns the next job, if one is due and none is running
@@ -115,12 +117,14 @@ class Navigator {
 
  private:
   [[nodiscard]] bool pose_fresh(double time) const;
+  [[nodiscard]] bool obstacles_fresh(double time) const;
   [[nodiscard]] Space space() const { return {floor_.get(), &obstacles_}; }
   [[nodiscard]] std::optional<Job> next_job(double time);
   void follow_progress(double time);
   void take_plan(const Plan& plan, Reason reason, double time);
   [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason) const;
   void drop_goal(State state);
+  void refuse_goal(Refusal refusal, const std::string& detail);
 
   NavigatorConfig config_;
   ReplanPolicy policy_;
@@ -128,7 +132,7 @@ class Navigator {
   std::shared_ptr<const Floor> floor_;
   std::shared_ptr<const MapMessage> new_map_;
   std::vector<Cylinder> obstacles_;
-  double obstacles_time_ = 0.0;
+  std::optional<double> obstacles_time_;  ///< nullopt: none came yet
   bool obstacles_lost_ = false;
   std::optional<Pose> pose_;
   double pose_time_ = 0.0;
