@@ -194,6 +194,7 @@ class TableWriter : public Visitor {
  public:
   void operator()(const Field& field, bool& value) override {
     add(field, value ? "true" : "false");
+    rows.back().allowed = "true or false";
   }
   void operator()(const Field& field, int& value) override { add(field, std::to_string(value)); }
   void operator()(const Field& field, double& value) override { add(field, to_text(value)); }
@@ -243,6 +244,16 @@ void read_fields(const Describe& describe, const YAML::Node& node, const std::st
   YamlReader reader(node, source);
   describe(reader);
   reader.finish();
+}
+
+std::string markdown(const std::vector<Row>& rows) {
+  std::ostringstream out;
+  out << "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
+  for (const Row& row : rows) {
+    out << "| " << row.key << " | " << row.default_value << " | " << row.allowed << " | "
+        << row.help << " |\n";
+  }
+  return out.str();
 }
 
 std::vector<Row> table_of(const Describe& describe) {

@@ -86,6 +86,8 @@ TEST(Table, lists_each_field_with_its_group_default_and_range) {
   EXPECT_EQ(rows[0].allowed, "0.1 to 3 m/s");
   EXPECT_EQ(rows[3].key, "inner/curve");
   EXPECT_EQ(rows[3].allowed, "one of log, linear");
+  EXPECT_NE(markdown(rows).find("| speed | 1 | 0.1 to 3 m/s | speed at full stick |\n"),
+            std::string::npos);
 }
 
 }  // namespace

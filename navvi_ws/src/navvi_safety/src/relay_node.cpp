@@ -7,6 +7,7 @@
 #include <navvi_safety/msg_conversion.hpp>
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_safety::CommandGateConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "relay_node");
   ros::NodeHandle node;
   try {

@@ -215,6 +215,7 @@ void SimNode::publish_drive_state() {
 }  // namespace navvi_sim
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_sim::SimNodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "sim_node");
   ros::NodeHandle node;
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -48,11 +49,23 @@ struct Row {
 
 [[nodiscard]] std::vector<Row> table_of(const Describe& describe);
 
+/// The rows as a table in Markdown.
+[[nodiscard]] std::string markdown(const std::vector<Row>& rows);
+
 /// The fields of `Config` with their defaults, in order of description.
 template <typename Config>
 [[nodiscard]] std::vector<Row> table() {
   Config config;
   return table_of([&](Visitor& visit) { config.describe(visit); });
+}
+
+/// Prints the table of `Config` if the one argument is --parameters. \return whether it did, and so
+/// is all that is asked
+template <typename Config>
+[[nodiscard]] bool tells_parameters(int argc, char** argv) {
+  if (argc != 2 || std::string(argv[1]) != "--parameters") return false;
+  std::cout << markdown(table<Config>());
+  return true;
 }
 
 }  // namespace navvi_config
