@@ -204,7 +204,7 @@ void Navigator::deliver(const Outcome& outcome, double time) {
 void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   switch (plan.status) {
     case PlanStatus::found:
-      if (!keeps_path(plan, reason)) guidance_.follow(plan.path);
+      if (!keeps_path(plan, reason, time)) guidance_.follow(plan.path);
       state_ = State::following;
       detail_.clear();
       follow_progress(time);
@@ -219,7 +219,7 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
       break;
     case PlanStatus::no_map:
     case PlanStatus::no_route:
-      if (keeps_path(plan, reason)) return;
+      if (keeps_path(plan, reason, time)) return;
       state_ = State::no_route;
       break;
     case PlanStatus::off_mesh:
@@ -231,16 +231,23 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
 }
 
 /// Hysteresis: a path that still serves stays, so that a person is not sent here and there. It
-/// serves, too, while only something far ahead closes the way: that may have moved off by then.
-bool Navigator::keeps_path(const Plan& plan, Reason reason) const {
+/// serves, too, while only something far ahead closes the way, or something that moves on and would
+/// make the person turn back or go a long way round: that may have moved off by then.
+bool Navigator::keeps_path(const Plan& plan, Reason reason, double time) {
   if (!guidance_.following() || !pose_) return false;
   const Path remaining = guidance_.remaining(pose_->position);
-  const double fresh = plan.status == PlanStatus::found ? length_of(plan.path)
-                                                        : std::numeric_limits<double>::infinity();
+  const bool found = plan.status == PlanStatus::found;
+  const bool held = policy_.holds(time, remaining, found ? plan.path : Path{}, obstacles_);
+  if (reason == Reason::new_goal || reason == Reason::map_changed ||
+      guidance_.heading(*pose_).path_offset > config_.off_path)
+    return false;
+  if (held) {
+    const std::vector<Cylinder> none;
+    return guidance_.sees_next(pose_->position, {floor_.get(), &none});
+  }
+  const double fresh = found ? length_of(plan.path) : std::numeric_limits<double>::infinity();
   return !policy_.worth_changing(reason, length_of(remaining), fresh) &&
-         !policy_.blocked(remaining, obstacles_) &&
-         guidance_.heading(*pose_).path_offset <= config_.off_path &&
-         guidance_.sees_next(pose_->position, space());
+         !policy_.blocked(remaining, obstacles_) && guidance_.sees_next(pose_->position, space());
 }
 
 Status Navigator::status(double time) const {

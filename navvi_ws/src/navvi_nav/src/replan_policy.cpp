@@ -1,6 +1,37 @@
 #include "navvi_nav/replan_policy.hpp"
 
 namespace navvi_nav {
+namespace {
+
+constexpr double kMoving = 0.2;               // m/s, what is slower stands
+constexpr double kDetour = 1.5;               // times the length of the path that is followed
+constexpr double kDetourLength = 5.0;         // m longer
+constexpr double kBack = 120.0 / 180 * M_PI;  // rad, from the course that is followed
+constexpr double kCourse = 1.0;               // m, how much of a path makes its course
+
+/// From the path's start to the point kCourse along it.
+Point course_of(const Path& path) {
+  double left = kCourse;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double length = distance(path[i - 1], path[i]);
+    if (length >= left)
+      return path[i - 1] + (left / length) * (path[i] - path[i - 1]) - path.front();
+    left -= length;
+  }
+  return path.back() - path.front();
+}
+
+bool is_detour(const Path& followed, const Path& fresh) {
+  if (fresh.size() < 2) return true;
+  const double length = length_of(followed);
+  const double fresh_length = length_of(fresh);
+  if (fresh_length > kDetour * length || fresh_length > length + kDetourLength) return true;
+  const Point a = course_of(followed);
+  const Point b = course_of(fresh);
+  return std::abs(std::atan2(cross(a, b), dot(a, b))) > kBack;
+}
+
+}  // namespace
 
 void ReplanPolicyConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -23,29 +54,68 @@ void ReplanPolicyConfig::describe(navvi_config::Visitor& visit) {
         gain);
   visit({"gain_length", Range{0.0, 10.0}, "m", "length by which it must be shorter besides"},
         gain_length);
+  visit({"hold_time", Range{0.0, 60.0}, "s",
+         "a path cut by moving things is kept so long before a detour is taken; 0: never kept"},
+        hold_time);
+  visit({"hold_distance", Range{0.0, 100.0}, "m",
+         "a path cut within this distance of the robot is not kept"},
+        hold_distance);
 }
 
 void ReplanPolicy::reset() {
   last_plan_.reset();
   last_slow_.reset();
   slow_since_.reset();
+  held_since_.reset();
   near_.clear();
   near_pending_ = false;
 }
 
-bool ReplanPolicy::blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
-  double left = config_.look_ahead;
-  for (std::size_t i = 1; i < path.size() && left > 0.0; ++i) {
+std::optional<double> ReplanPolicy::cut_at(const Path& path, const Cylinder& obstacle) const {
+  const double room = obstacle.radius + config_.robot_radius - config_.tolerance;
+  double before = 0.0;
+  for (std::size_t i = 1; i < path.size() && before < config_.look_ahead; ++i) {
+    const double left = config_.look_ahead - before;
     const double length = distance(path[i - 1], path[i]);
     const double share = length > left ? left / length : 1.0;
     const Point end = path[i - 1] + share * (path[i] - path[i - 1]);
-    left -= length;
-    for (const Cylinder& obstacle : obstacles) {
-      const double room = obstacle.radius + config_.robot_radius - config_.tolerance;
-      if (distance(obstacle.center, nearest_on_segment(obstacle.center, path[i - 1], end)) < room)
-        return true;
+    const Point nearest = nearest_on_segment(obstacle.center, path[i - 1], end);
+    const double gap = distance(obstacle.center, nearest);
+    if (gap < room) {
+      const double chord = std::sqrt(room * room - gap * gap);
+      return before + std::max(0.0, distance(path[i - 1], nearest) - chord);
     }
+    before += length;
   }
+  return std::nullopt;
+}
+
+bool ReplanPolicy::blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const Cylinder& obstacle) { return cut_at(path, obstacle).has_value(); });
+}
+
+/// True if something cuts the path, and all that does is moving and far enough, and leaves the
+/// next way-point free.
+bool ReplanPolicy::may_clear(const Path& path, const std::vector<Cylinder>& obstacles) const {
+  if (path.size() < 2 || blocked({path[1], path[1]}, obstacles)) return false;
+  bool cut = false;
+  for (const Cylinder& obstacle : obstacles) {
+    const std::optional<double> at = cut_at(path, obstacle);
+    if (!at) continue;
+    if (*at <= config_.hold_distance || norm(obstacle.velocity) <= kMoving) return false;
+    cut = true;
+  }
+  return cut;
+}
+
+bool ReplanPolicy::holds(double time, const Path& followed, const Path& fresh,
+                         const std::vector<Cylinder>& obstacles) {
+  if (may_clear(followed, obstacles) && is_detour(followed, fresh)) {
+    if (!held_since_) held_since_ = time;
+    if (time - *held_since_ < config_.hold_time) return true;
+  }
+  held_since_.reset();
   return false;
 }
 

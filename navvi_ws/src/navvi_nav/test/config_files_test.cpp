@@ -3,6 +3,7 @@
 #include <navvi_config/reader.hpp>
 
 #include "navvi_nav/navigator.hpp"
+#include "small_world.hpp"
 
 namespace navvi_nav {
 namespace {
@@ -29,6 +30,20 @@ TEST(ConfigFiles, paper_holds_the_printed_constants) {
   EXPECT_DOUBLE_EQ(paper.replan.period, 2.0);                // R-NAV-9
   EXPECT_DOUBLE_EQ(paper.replan.slow_speed, 0.1);            // R-NAV-9
   EXPECT_DOUBLE_EQ(paper.guidance.goal_reached, 1.0);        // R-NAV-11
+  EXPECT_DOUBLE_EQ(paper.replan.hold_time, 0.0);             // every plan is taken
+}
+
+/// Coarser cells than the voxels, and an aisle that begins on the border of neither.
+TEST(ConfigFiles, paper_finds_a_path_through_an_aisle_of_three_meters) {
+  SmallWorld world;
+  world.room(16, 9.5).box(3, 0.1, 0, 13, 3.15, 1.5).box(3, 6.15, 0, 13, 9.4, 1.5);
+  Planner planner(read_file("paper.yaml").planner);
+  ASSERT_EQ(planner.set_map(world.tree()).error, "");
+  const Plan plan = planner.plan({1.5, 2.0}, {14.5, 7.0});
+  ASSERT_EQ(plan.status, PlanStatus::found) << plan.detail;
+  for (const Point point : points_along(plan.path, 0.02)) {
+    for (const auto& block : world.blocks()) EXPECT_GE(distance_to(block, point), 0.35 - 1e-6);
+  }
 }
 
 }  // namespace

@@ -219,6 +219,33 @@ TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
   EXPECT_EQ(status().state, State::no_route);
 }
 
+TEST_F(Lockstep, waits_for_a_forklift_that_crosses_before_it_goes_round_by_the_other_aisle) {
+  world_.box(6, 1.5, 0, 13, 8.5, 1.0);
+  robot_.position = {2, 1.5};
+  load();
+  navigator_.set_goal({14.5, 1.2});
+  tick(2);
+  const Path before = navigator_.path();
+  ASSERT_LT(length_of(before), 13.5);
+  obstacles_ = {{1, {9.5, 0.8}, 0.6, {0.0, 1.0}}};
+  tick(70);
+  EXPECT_EQ(navigator_.path(), before);
+  EXPECT_EQ(status().state, State::following);
+  tick(30);
+  EXPECT_GT(length_of(navigator_.path()), 18.0);
+}
+
+TEST_F(Lockstep, goes_round_at_once_when_what_cuts_the_path_stands) {
+  world_.box(6, 1.5, 0, 13, 8.5, 1.0);
+  robot_.position = {2, 1.5};
+  load();
+  navigator_.set_goal({14.5, 1.2});
+  tick(2);
+  obstacles_ = {{1, {9.5, 0.8}, 0.6, {}}};
+  tick(15);
+  EXPECT_GT(length_of(navigator_.path()), 18.0);
+}
+
 TEST_F(Lockstep, plans_again_when_the_map_changed) {
   load();
   navigator_.set_goal({14, 5});

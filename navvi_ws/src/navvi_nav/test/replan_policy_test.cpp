@@ -115,6 +115,61 @@ TEST(ReplanPolicy, keeps_a_path_that_is_hardly_longer) {
   EXPECT_TRUE(policy.worth_changing(Reason::new_goal, 10.0, 12.0));
 }
 
+/// A path of 13 m that something cuts 10 m ahead, and two ways around it.
+class Hold : public testing::Test {
+ protected:
+  [[nodiscard]] static Cylinder forklift(Point center, double speed = 1.0) {
+    return {1, center, 0.5, {0.0, speed}};
+  }
+  /// Asks every 0.5 s. \returns s for which the path is held
+  double held(const Path& fresh, const std::vector<Cylinder>& obstacles) {
+    double time = 10.0;
+    while (time < 30.0 && policy_.holds(time, followed_, fresh, obstacles)) time += 0.5;
+    return time - 10.0;
+  }
+  Path followed_ = {{0, 0}, {5, 0}, {5, 8}};
+  Path longer_ = {{0, 0}, {5, -6}, {12, 0}, {5, 8}};
+  Path slight_ = {{0, 0}, {5, 0}, {6, 4}, {5, 8}};
+  ReplanPolicyConfig config_;
+  ReplanPolicy policy_{config_};
+};
+
+TEST_F(Hold, waits_for_what_moves_far_ahead_before_a_long_way_round) {
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 5})}), 4.0);
+  EXPECT_DOUBLE_EQ(held({}, {forklift({5, 5})}), 4.0);  // no other route
+}
+
+TEST_F(Hold, waits_before_it_turns_the_person_round) {
+  EXPECT_DOUBLE_EQ(held({{0, 0}, {-1.5, 0.5}, {5, 8}}, {forklift({5, 5})}), 4.0);
+}
+
+TEST_F(Hold, takes_a_slightly_longer_path_at_once) {
+  EXPECT_DOUBLE_EQ(held(slight_, {forklift({5, 5})}), 0.0);
+}
+
+TEST_F(Hold, does_not_wait_for_what_stands_is_near_or_is_on_the_waypoint) {
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 5}, 0.1)}), 0.0);
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({3.5, 0})}), 0.0);
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 0.5})}), 0.0);
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 5}), {2, {5, 7}, 0.3, {}}}), 0.0);
+}
+
+TEST_F(Hold, waits_anew_once_the_path_was_free) {
+  ASSERT_TRUE(policy_.holds(0.0, followed_, longer_, {forklift({5, 5})}));
+  ASSERT_FALSE(policy_.holds(2.0, followed_, longer_, {}));
+  EXPECT_TRUE(policy_.holds(5.0, followed_, longer_, {forklift({5, 5})}));
+}
+
+TEST_F(Hold, follows_its_distance_and_its_time) {
+  config_.hold_distance = 1.0;
+  config_.hold_time = 2.0;
+  policy_ = ReplanPolicy(config_);
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({2.5, 0})}), 2.0);
+  config_.hold_time = 0.0;
+  policy_ = ReplanPolicy(config_);
+  EXPECT_DOUBLE_EQ(held(longer_, {forklift({2.5, 0})}), 0.0);
+}
+
 }  // namespace
 }  // namespace navvi_nav
 

@@ -122,7 +122,7 @@ class Navigator {
   [[nodiscard]] std::optional<Job> next_job(double time);
   void follow_progress(double time);
   void take_plan(const Plan& plan, Reason reason, double time);
-  [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason) const;
+  [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason, double time);
   void drop_goal(State state);
   void refuse_goal(Refusal refusal, const std::string& detail);
 

@@ -32,6 +32,8 @@ struct ReplanPolicyConfig {
   double look_ahead = 12.0;
   double gain = 0.1;
   double gain_length = 0.5;
+  double hold_time = 4.0;
+  double hold_distance = 3.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -59,6 +61,11 @@ class ReplanPolicy {
   void reset();
   /// False if the path that is being followed should stay: the new one is not shorter by enough.
   [[nodiscard]] bool worth_changing(Reason reason, double followed, double fresh) const;
+  /// True if the path that is followed should stay although moving things cut it: they do so only
+  /// beyond hold_distance, `fresh` (empty: no route) is a detour or leads back, and that has not
+  /// gone on for hold_time. Ask for every plan: it remembers since when.
+  [[nodiscard]] bool holds(double time, const Path& followed, const Path& fresh,
+                           const std::vector<Cylinder>& obstacles);
   /// True if a robot on some point of the first `look_ahead` m would touch a cylinder.
   [[nodiscard]] bool blocked(const Path& path, const std::vector<Cylinder>& obstacles) const;
 
@@ -66,10 +73,15 @@ class ReplanPolicy {
   [[nodiscard]] std::optional<Reason> choose(const ReplanInput& input, bool slow,
                                              bool fresh_near) const;
 
+  /// m along the path to where a robot on it would touch, within look_ahead; nullopt: nowhere.
+  [[nodiscard]] std::optional<double> cut_at(const Path& path, const Cylinder& obstacle) const;
+  [[nodiscard]] bool may_clear(const Path& path, const std::vector<Cylinder>& obstacles) const;
+
   ReplanPolicyConfig config_;
   std::optional<double> last_plan_;
   std::optional<double> last_slow_;
   std::optional<double> slow_since_;
+  std::optional<double> held_since_;
   std::set<std::uint32_t> near_;
   bool near_pending_ = false;
 };
