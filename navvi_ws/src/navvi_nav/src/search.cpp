@@ -17,7 +17,6 @@ struct Node {
 struct Open {
   double f = 0.0;
   int triangle = 0;
-  double cost = 0.0;
 };
 
 bool operator>(const Open& a, const Open& b) {
@@ -42,7 +41,7 @@ Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start, const Mesh::
   };
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   at(start.triangle).cost = 0.0;
-  open.push({alpha * distance(start.point, goal.point), start.triangle, 0.0});
+  open.push({alpha * distance(start.point, goal.point), start.triangle});
   while (!open.empty()) {
     const int current = open.top().triangle;
     open.pop();
@@ -58,13 +57,14 @@ Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start, const Mesh::
     const auto& links = triangle(current).links;
     for (std::size_t i = 0; i < links.size(); ++i) {
       Node& next = at(links[i].to);
+      if (next.closed) continue;
       const Point there = position(links[i].to);
       const double cost = node.cost + distance(here, there);
-      if (next.closed || cost >= next.cost) continue;
+      if (cost >= next.cost) continue;
       next.cost = cost;
       next.parent = current;
       next.link = static_cast<int>(i);
-      open.push({cost + alpha * distance(there, goal.point), links[i].to, cost});
+      open.push({cost + alpha * distance(there, goal.point), links[i].to});
     }
   }
   if (!out.found) return out;

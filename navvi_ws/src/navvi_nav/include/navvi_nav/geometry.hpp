@@ -20,7 +20,7 @@ inline bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
 inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 /// Positive where `b` lies counter-clockwise of `a`.
 inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-inline double norm(Point a) { return std::hypot(a.x, a.y); }
+inline double norm(Point a) { return std::sqrt(dot(a, a)); }
 inline double distance(Point a, Point b) { return norm(b - a); }
 inline bool finite(Point a) { return std::isfinite(a.x) && std::isfinite(a.y); }
 
