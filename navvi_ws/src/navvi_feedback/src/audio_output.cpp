@@ -3,10 +3,42 @@
 #include <AL/al.h>
 #include <AL/alc.h>
 #include <AL/alext.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <array>
 
 namespace navvi_feedback {
+
+namespace {
+
+/// Keeps the libraries below OpenAL, which complain of every device that is not there, from
+/// writing to the terminal. What other threads write to it meanwhile is lost too.
+class QuietErrors {
+ public:
+  QuietErrors() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0)) {
+    const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nothing >= 0) dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0) ::close(nothing);
+  }
+  ~QuietErrors() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+ private:
+  int kept_;
+};
+
+ALCdevice* open_quietly(const std::string& name) {
+  const QuietErrors quiet;
+  return alcOpenDevice(name.empty() ? nullptr : name.c_str());
+}
+
+}  // namespace
 
 struct AudioOutput::Handles {
   ALCdevice* device = nullptr;
@@ -22,7 +54,7 @@ AudioOutput::~AudioOutput() { close(); }
 
 bool AudioOutput::open(const std::string& device, double volume) {
   close();
-  handles_->device = alcOpenDevice(device.empty() ? nullptr : device.c_str());
+  handles_->device = open_quietly(device);
   if (handles_->device == nullptr) return false;
   // A hundred mixes a second: what is stopped is silent within some 10 ms.
   const std::array<ALCint, 3> attributes = {ALC_REFRESH, 100, 0};

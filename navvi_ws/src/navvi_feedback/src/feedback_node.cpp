@@ -346,6 +346,15 @@ class FeedbackNode {
   visualization_msgs::MarkerArray shown_;
 };
 
+/// roscpp waits for the master where no signal reaches it; so wait here first.
+/// \return false if the wait was ended by a signal
+bool await_master() {
+  if (!ros::master::check())
+    ROS_WARN("Waiting for the ROS master at %s.", ros::master::getURI().c_str());
+  while (g_stop == 0 && !ros::master::check()) ros::WallDuration(0.2).sleep();
+  return g_stop == 0;
+}
+
 void spin(FeedbackNode& node) {
   while (ros::ok() && g_stop == 0) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
@@ -363,6 +372,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { navvi_feedback::g_stop = 1; });
+  if (!navvi_feedback::await_master()) return 0;
   const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is told
   try {
     navvi_feedback::FeedbackNode node(
