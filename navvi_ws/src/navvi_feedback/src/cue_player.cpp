@@ -85,6 +85,7 @@ class CuePlayer {
 }  // namespace navvi_feedback
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_feedback::PlayerConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "cue_player");
   try {
     ros::NodeHandle keep_alive;

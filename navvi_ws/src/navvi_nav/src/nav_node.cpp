@@ -217,6 +217,7 @@ class NavNode {
 }  // namespace navvi_nav
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_nav::NodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "nav_node");
   ros::NodeHandle node;
   try {
