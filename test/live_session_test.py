@@ -117,7 +117,7 @@ class Session:
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
     session = Session(tmp_path_factory.mktemp("session"), "operator:=simulated", f"world:={WORLD}", "seed:=3",
-                      "rviz:=true", "speech:=true", "limit:=240")
+                      "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01")
     try:
         session.watch()
         session.wait_for(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
@@ -147,6 +147,7 @@ def summary(trial):
 def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert session.process.returncode == 0, session.text()[-3000:]
     assert summary(trial)["result"] == "reached"
+    assert summary(trial)["participant"] == "sub-01"
 
 
 def test_topics_and_nodes_have_the_names_of_the_picture(session):

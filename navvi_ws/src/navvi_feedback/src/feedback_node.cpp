@@ -368,6 +368,7 @@ void spin(FeedbackNode& node) {
 }  // namespace navvi_feedback
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_feedback::NodeConfig>(argc, argv)) return 0;
   // roscpp's own handler would close the topics before the last zero is out.
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})

@@ -32,6 +32,7 @@ double now() { return ros::Time::now().toSec(); }
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "operator_node");
   ros::NodeHandle node;
   try {

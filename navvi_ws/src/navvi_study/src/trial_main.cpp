@@ -18,6 +18,7 @@ void ask_to_stop(int) { asked_to_stop = 1; }
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_study::TrialNodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "trial_node", ros::init_options::NoSigintHandler);
   ros::NodeHandle node;
   signal(SIGINT, ask_to_stop);

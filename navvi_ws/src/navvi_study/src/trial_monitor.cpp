@@ -242,6 +242,8 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
     state_ = guidance.state;
     events.push_back({"GUIDANCE", Fields().set("state", name_of(guidance.state)), guidance.stamp});
   }
+  // Only a guidance that was started anew forgets a goal that it had taken.
+  if (guidance.state == State::no_goal) goal_taken_ = false;
   if (guidance.state == State::following) {
     if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
     if (!first_plans_) {

@@ -20,6 +20,7 @@ constexpr double kStep = 0.05;          // s, of the wall timer
 constexpr double kSayAgain = 5.0;       // s, between sentences on what is missing
 constexpr double kRefuseAfter = 60.0;   // s, without what a trial needs
 constexpr double kSimulatorLost = 5.0;  // s, without odometry
+constexpr double kGuidanceLost = 10.0;  // s, wall clock
 constexpr double kBagStart = 6.0;       // s, for the recorder to listen
 constexpr double kSettle = 0.5;         // s, for links to come up before the first event
 constexpr double kBagStill = 3.0;       // s, without growth
@@ -70,12 +71,22 @@ void refuse_control_characters(const char* name, const std::string& text) {
   }
 }
 
+/// Letters, digits and hyphens, such as sub-01, so that names do not slip into the record.
+void refuse_all_but_pseudonyms(const std::string& text) {
+  const bool plain = std::all_of(text.begin(), text.end(),
+                                 [](unsigned char c) { return std::isalnum(c) || c == '-'; });
+  if (text == "n/a" || (plain && !text.empty() && text.size() <= 32)) return;
+  throw std::runtime_error("participant is \"" + text +
+                           "\"; allowed are up to 32 letters, digits and hyphens, such as sub-01");
+}
+
 }  // namespace
 
 TrialNode::TrialNode(const TrialNodeConfig& config)
     : config_(config), readiness_(config.require), monitor_(config.monitor) {
   refuse_control_characters("operator", config_.operator_kind);
   refuse_control_characters("profile", config_.profile);
+  refuse_all_but_pseudonyms(config_.participant);
   if (config_.out.empty()) throw std::runtime_error("out names no folder");
   config_.out = fs::absolute(config_.out).lexically_normal().string();
   for (const auto& sentence : recover_trials(config_.out)) ROS_WARN("%s", sentence.c_str());
@@ -274,6 +285,9 @@ void TrialNode::start(const Point2& goal) {
   const TrialStart beginning = monitor_.start_now(sim_ns(), goal);
   start_stamp_ = beginning.stamp;
   monitor_.start(beginning);
+  if (readiness_.guidance_silence(wall()) > kGuidanceLost) {
+    return end("aborted", "guidance_lost", monitor_.latest());
+  }
   const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);
   if (limit > 0) monitor_.end(start_stamp_ + limit);
   result_.clear();
@@ -286,7 +300,8 @@ void TrialNode::start(const Point2& goal) {
   fields.set("world", scenario_ ? scenario_->world : "n/a");
   fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
   fields.set("seed", scenario_ ? std::to_string(scenario_->seed) : "n/a");
-  fields.set("operator", config_.operator_kind).set("profile", config_.profile);
+  fields.set("operator", config_.operator_kind).set("participant", config_.participant);
+  fields.set("profile", config_.profile);
   fields.set("goal_x", goal.x, 6).set("goal_y", goal.y, 6).set("limit", config_.limit);
   fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
   fields.set("shelf_contacts", beginning.shelf_count);
@@ -328,6 +343,9 @@ void TrialNode::watch() {
   if (limit > 0 && now - start_stamp_ >= limit) {
     return end("timeout", "limit", start_stamp_ + limit);
   }
+  // A guidance that was started anew knows no goal: it is asked again, with all tries.
+  if (goal_stood_ && !monitor_.goal_taken()) goal_sent_ = 0;
+  goal_stood_ = monitor_.goal_taken();
   ask_for_goal();
 }
 

@@ -9,8 +9,9 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit({"out", Any{}, "", "folder that gets a folder for each trial"}, out);
   visit({"limit", Range{0.0, 86400.0}, "s", "a trial ends after this much ROS time; 0 for never"},
         limit);
-  visit({"operator", Any{}, "", "who drives, as it stands in the summary; no names of people"},
+  visit({"operator", Any{}, "", "what drives, as it stands in the summary: pad, simulated, ..."},
         operator_kind);
+  visit({"participant", Any{}, "", "a pseudonym for the record, such as sub-01"}, participant);
   visit({"profile", Any{}, "", "of the session, as it stands in the summary"}, profile);
   visit({"require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities"}, require);
   visit({"once", Any{}, "", "end after one trial"}, once);

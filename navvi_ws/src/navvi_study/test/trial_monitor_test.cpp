@@ -126,6 +126,16 @@ TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
   EXPECT_TRUE(monitor_.observe(contact(17.3, 2, "shelf", 2, 0)).empty()) << "the trial is over";
 }
 
+TEST_F(Monitor, wants_its_goal_set_again_where_guidance_was_started_anew) {
+  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
+            (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_TRUE(monitor_.goal_taken());
+  EXPECT_EQ(types(monitor_.observe(guidance(12.0, State::no_goal))), Names{"GUIDANCE"});
+  EXPECT_FALSE(monitor_.goal_taken());
+  EXPECT_EQ(types(monitor_.observe(guidance(13.0, State::following))), Names{"GUIDANCE"});
+  EXPECT_TRUE(monitor_.goal_taken());
+}
+
 TEST_F(Monitor, does_not_take_the_last_goals_arrival_for_its_own) {
   TrialMonitor monitor{TrialMonitorConfig()};
   (void)monitor.observe(guidance(9.9, State::arrived));

@@ -22,6 +22,8 @@ class Readiness {
   [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;
   /// s since the last odometry
   [[nodiscard]] double silence(double time) const { return time - odometry_; }
+  /// s since the last guidance.
+  [[nodiscard]] double guidance_silence(double time) const { return time - guidance_; }
 
  private:
   std::vector<std::string> modalities_;

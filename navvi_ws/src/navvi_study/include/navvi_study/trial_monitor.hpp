@@ -112,7 +112,7 @@ struct TrialStart {
 
 /// Running figures of a trial.
 struct Tally {
-  double path_length = 0.0;              ///< m, driven
+  double path_length = 0.0;                 ///< m, driven
   std::optional<double> first_path_length;  ///< m, of the first path
   std::uint64_t shelf_collisions = 0;
   std::uint64_t obstacle_collisions = 0;

@@ -99,6 +99,7 @@ class TrialNode {
   Point2 goal_;
   std::int64_t start_stamp_ = 0;
   int goal_sent_ = 0;
+  bool goal_stood_ = false;
   double goal_sent_at_ = 0.0;
   std::string result_;
   std::string reason_;

@@ -12,6 +12,7 @@ struct TrialNodeConfig {
   std::string out = "trials";
   double limit = 0.0;
   std::string operator_kind = "unknown";
+  std::string participant = "n/a";
   std::string profile = "default";
   std::vector<std::string> require;
   bool once = true;
