@@ -85,7 +85,8 @@ def transcribe(path):
             sound = pathlib.Path(folder, "utterance.raw")
             sound.write_bytes((pause + samples[first:last] + pause).tobytes())
             text = subprocess.check_output(["pocketsphinx_continuous", "-infile", str(sound), "-jsgf", str(rules),
-                                            "-logfn", "/dev/null"], text=True, stderr=subprocess.DEVNULL)
+                                            "-beam", "1e-100", "-wbeam", "1e-80", "-pbeam", "1e-100", "-logfn", "/dev/null"],
+                                           text=True, stderr=subprocess.DEVNULL)
             heard.append((first / RATE, text.split()))
     return heard
 

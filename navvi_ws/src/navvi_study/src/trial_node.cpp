@@ -71,13 +71,14 @@ void refuse_control_characters(const char* name, const std::string& text) {
   }
 }
 
-/// Letters, digits and hyphens, such as sub-01, so that names do not slip into the record.
+/// Letters, digits, - and _, such as sub-01, so that names do not slip into the record.
 void refuse_all_but_pseudonyms(const std::string& text) {
-  const bool plain = std::all_of(text.begin(), text.end(),
-                                 [](unsigned char c) { return std::isalnum(c) || c == '-'; });
+  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '_';
+  });
   if (text == "n/a" || (plain && !text.empty() && text.size() <= 32)) return;
   throw std::runtime_error("participant is \"" + text +
-                           "\"; allowed are up to 32 letters, digits and hyphens, such as sub-01");
+                           "\"; allowed are up to 32 letters, digits, - and _, such as sub-01");
 }
 
 }  // namespace
@@ -285,14 +286,12 @@ void TrialNode::start(const Point2& goal) {
   const TrialStart beginning = monitor_.start_now(sim_ns(), goal);
   start_stamp_ = beginning.stamp;
   monitor_.start(beginning);
-  if (readiness_.guidance_silence(wall()) > kGuidanceLost) {
-    return end("aborted", "guidance_lost", monitor_.latest());
-  }
   const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);
   if (limit > 0) monitor_.end(start_stamp_ + limit);
   result_.clear();
   reason_.clear();
   goal_sent_ = 0;
+  goal_stood_ = false;
   goal_sent_at_ = wall();
   phase_ = Phase::running;
   phase_since_ = bag_grew_ = wall();
@@ -338,6 +337,9 @@ void TrialNode::watch() {
     return end("aborted", "time_went_back", monitor_.latest());
   if (readiness_.silence(wall()) > kSimulatorLost) {
     return end("aborted", "simulator_lost", monitor_.latest());
+  }
+  if (readiness_.guidance_silence(wall()) > kGuidanceLost) {
+    return end("aborted", "guidance_lost", monitor_.latest());
   }
   const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);
   if (limit > 0 && now - start_stamp_ >= limit) {
