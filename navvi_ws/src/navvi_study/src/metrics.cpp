@@ -144,7 +144,8 @@ Summary summarize(const std::vector<Row>& rows) {
   const Row* route = first_of(rows, "ROUTE");
   const std::string nothing = "n/a";
   add("trial", rows.empty() ? nothing : rows.front().trial);
-  for (const char* name : {"world", "world_hash", "seed", "operator", "participant", "profile"}) {
+  for (const char* name :
+       {"world", "world_hash", "seed", "operator", "participant", "profile", "audio", "pad"}) {
     add(name, start ? start->fields.get(name) : nothing);
   }
   add("result", end ? end->fields.get("result") : "aborted");

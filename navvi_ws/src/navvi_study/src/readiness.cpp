@@ -36,4 +36,10 @@ std::vector<std::string> Readiness::missing(double time, bool clock_runs) const 
   return words;
 }
 
+std::string Readiness::state_of(const std::string& device) const {
+  const auto known = devices_.find(device);
+  if (known == devices_.end()) return "unknown";
+  return known->second ? "works" : "missing";
+}
+
 }  // namespace navvi_study

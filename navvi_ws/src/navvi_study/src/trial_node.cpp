@@ -301,6 +301,7 @@ void TrialNode::start(const Point2& goal) {
   fields.set("seed", scenario_ ? std::to_string(scenario_->seed) : "n/a");
   fields.set("operator", config_.operator_kind).set("participant", config_.participant);
   fields.set("profile", config_.profile);
+  for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
   fields.set("goal_x", goal.x, 6).set("goal_y", goal.y, 6).set("limit", config_.limit);
   fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
   fields.set("shelf_contacts", beginning.shelf_count);

@@ -28,6 +28,15 @@ TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
   EXPECT_EQ(ready.silence(12.0), 2.0);
 }
 
+TEST(Readiness, says_of_each_device_what_was_last_reported) {
+  Readiness ready({});
+  EXPECT_EQ(ready.state_of("audio"), "unknown");
+  ready.saw({0, "audio", true});
+  EXPECT_EQ(ready.state_of("audio"), "works");
+  ready.saw({0, "audio", false});
+  EXPECT_EQ(ready.state_of("audio"), "missing");
+}
+
 TEST(Readiness, needs_the_devices_of_the_condition) {
   Readiness ready({"speech", "rumble"});
   ready.saw_odometry(0.0);

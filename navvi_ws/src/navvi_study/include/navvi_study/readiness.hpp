@@ -20,6 +20,9 @@ class Readiness {
 
   /// What is not there, in words; empty when a trial can begin.
   [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;
+  /// For the record: "works", "missing" (or switched off), or "unknown" before its first report.
+  /// \param device  pad, audio or speech
+  [[nodiscard]] std::string state_of(const std::string& device) const;
   /// s since the last odometry
   [[nodiscard]] double silence(double time) const { return time - odometry_; }
   /// s since the last guidance.
