@@ -227,7 +227,8 @@ void TrialNode::wait() {
   if (words.empty()) return arm();
   const double now = wall();
   if (config_.once && now - phase_since_ > kRefuseAfter) {
-    ROS_FATAL("No trial: after %.0f s there is still no %s.", kRefuseAfter, list_of(words).c_str());
+    ROS_FATAL("No trial: after %.0f s what is missing is still %s.", kRefuseAfter,
+              list_of(words).c_str());
     return leave(3);
   }
   if (now - said_ < kSayAgain) return;
