@@ -90,7 +90,7 @@ void BareBullet::add_thing(const Thing& thing) {
 void BareBullet::step(double speed, double turn_rate, double dt) {
   for (Mover& mover : movers_) {
     btTransform pose = mover.body->getWorldTransform();
-    const Eigen::Vector2d& goal = mover.route.waypoints[mover.next];
+    const Eigen::Vector2d& goal = mover.route.waypoints[mover.next].at;
     const btVector3 way(static_cast<btScalar>(goal.x()) - pose.getOrigin().x(),
                         static_cast<btScalar>(goal.y()) - pose.getOrigin().y(), 0);
     const auto stride = static_cast<btScalar>(mover.route.speed * dt);

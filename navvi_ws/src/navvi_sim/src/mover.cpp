@@ -41,14 +41,13 @@ std::vector<Eigen::Vector3d> hull_points(const Geometry& geometry) {
 
 /// The way-point that a mover at `position` goes to first: the one after the way-point it stands
 /// on, the end of the segment it stands on, or else the first.
-std::size_t first_target(const std::vector<Eigen::Vector2d>& waypoints,
-                         const Eigen::Vector2d& position) {
+std::size_t first_target(const std::vector<Waypoint>& waypoints, const Eigen::Vector2d& position) {
   const std::size_t count = waypoints.size();
   for (std::size_t i = 0; i < count; ++i)
-    if ((waypoints[i] - position).norm() < kOnWaypoint) return (i + 1) % count;
+    if ((waypoints[i].at - position).norm() < kOnWaypoint) return (i + 1) % count;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d& from = waypoints[i];
-    const Eigen::Vector2d along = waypoints[(i + 1) % count] - from;
+    const Eigen::Vector2d& from = waypoints[i].at;
+    const Eigen::Vector2d along = waypoints[(i + 1) % count].at - from;
     const double share = along.dot(position - from) / along.squaredNorm();
     if (share > 0.0 && share < 1.0 && (from + share * along - position).norm() < kOnWaypoint)
       return (i + 1) % count;
@@ -114,6 +113,7 @@ Mover::Mover(std::size_t id, const Thing& thing, const MoversConfig& config, std
       Eigen::AngleAxisd(-yaw_, Eigen::Vector3d::UnitZ()) * Eigen::Quaterniond(thing.pose.linear());
   footprint_ = footprint_of(thing, tilt_);
   target_ = first_target(route_.waypoints, position_);
+  pause_left_ = route_.delay;
 }
 
 Eigen::Isometry3d Mover::pose() const {
@@ -129,7 +129,7 @@ Eigen::Vector2d Mover::velocity() const {
 
 void Mover::step(const Surroundings& around, double dt) {
   turn_rate_ = 0.0;
-  if (around.pushing_back) {
+  if (around.pushing_back || ended_) {
     speed_ = 0.0;
     return;
   }
@@ -153,10 +153,11 @@ void Mover::step(const Surroundings& around, double dt) {
     advance_target();
     return;
   }
-  const double distance = (route_.waypoints[target_] - position_).norm();
+  const Waypoint& goal = route_.waypoints[target_];
+  const double cruise = goal.speed > 0.0 ? goal.speed : route_.speed;
+  const double distance = (goal.at - position_).norm();
   const double limit =
-      by == Blocked::no ? std::min(route_.speed, std::sqrt(2.0 * config_.acceleration * distance))
-                        : 0.0;
+      by == Blocked::no ? std::min(cruise, std::sqrt(2.0 * config_.acceleration * distance)) : 0.0;
   speed_ = std::clamp(limit, by == Blocked::no ? 0.0 : speed_ - 2.0 * config_.acceleration * dt,
                       speed_ + config_.acceleration * dt);
   speed_ = std::max(speed_, 0.0);
@@ -168,11 +169,11 @@ Mover::Blocked Mover::blocked(const Surroundings& around) const {
     const double reach = footprint_.radius + around.robot.radius + 0.5 * kSideMargin;
     const bool sweeps = footprint_.radius > 1.2 * footprint_.side;
     const bool near = (around.robot.centre - position_).norm() < reach;
-    return config_.yield && sweeps && near ? Blocked::by_robot : Blocked::no;
+    return yields() && sweeps && near ? Blocked::by_robot : Blocked::no;
   }
   const double stopping = speed_ * speed_ / (4.0 * config_.acceleration);
   const double reach = stopping + config_.clearance;
-  if (config_.yield && in_way(around.robot, reach)) return Blocked::by_robot;
+  if (yields() && in_way(around.robot, reach)) return Blocked::by_robot;
   for (const Disc& disc : around.first)
     if (in_way(disc, reach + kRightOfWay)) return Blocked::by_mover;
   for (const Disc& disc : around.rest)
@@ -188,7 +189,7 @@ bool Mover::in_way(const Disc& disc, double reach) const {
 }
 
 double Mover::course_error() const {
-  const Eigen::Vector2d way = route_.waypoints[target_] - position_;
+  const Eigen::Vector2d way = route_.waypoints[target_].at - position_;
   return way.norm() > 1e-9 ? wrap(std::atan2(way.y(), way.x()) - yaw_) : 0.0;
 }
 
@@ -206,11 +207,14 @@ void Mover::drive(double distance, double dt) {
 }
 
 void Mover::arrive() {
-  position_ = route_.waypoints[target_];
+  position_ = route_.waypoints[target_].at;
   speed_ = 0.0;
   const double share = static_cast<double>(random_() >> 11) * 0x1p-53;  // [0, 1), the same anywhere
-  pause_left_ = route_.pause * (1.0 + config_.pause_spread * (2.0 * share - 1.0));
-  advance_target();
+  pause_left_ =
+      route_.waypoints[target_].pause * (1.0 + config_.pause_spread * (2.0 * share - 1.0));
+  ended_ = !route_.loop && target_ + 1 == route_.waypoints.size();
+  if (target_ == 0) pause_left_ += route_.delay;
+  if (!ended_) advance_target();
 }
 
 void Mover::advance_target() {

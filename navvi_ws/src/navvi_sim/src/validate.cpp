@@ -83,6 +83,12 @@ class GeometryCheck {
   MeshBudget& budget_;
 };
 
+void check_pause(double seconds, const std::string& who, const std::string& what) {
+  if (!(seconds >= 0.0 && seconds <= Limits::pause))
+    refuse(who, "has " + what + " " + number(seconds) + "; allowed are 0 to " +
+                    number(Limits::pause) + " s");
+}
+
 void check_route(const Route& route, const std::string& who) {
   const std::size_t count = route.waypoints.size();
   if (count < 2 || count > Limits::waypoints)
@@ -91,17 +97,20 @@ void check_route(const Route& route, const std::string& who) {
   double length = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     for (int axis = 0; axis < 2; ++axis)
-      check_coordinate(route.waypoints[i][axis], who, "a way-point at");
-    length += (route.waypoints[i] - route.waypoints[(i + 1) % count]).norm();
+      check_coordinate(route.waypoints[i].at[axis], who, "a way-point at");
+    length += (route.waypoints[i].at - route.waypoints[(i + 1) % count].at).norm();
+    check_pause(route.waypoints[i].pause, who, "a way-point with pause");
+    const double speed = route.waypoints[i].speed;
+    if (!(speed >= 0.0 && speed <= Limits::speed))
+      refuse(who, "has a way-point with speed " + number(speed) + "; allowed are 0, for the " +
+                      "route's, to " + number(Limits::speed) + " m/s");
   }
   if (!(length > 0.01))
     refuse(who, "has a route that leads nowhere; allowed is a length of 0.01 m or more");
   if (!(route.speed > 0.0 && route.speed <= Limits::speed))
     refuse(who, "has a route with speed " + number(route.speed) +
                     "; allowed is more than 0 and up to " + number(Limits::speed) + " m/s");
-  if (!(route.pause >= 0.0 && route.pause <= Limits::pause))
-    refuse(who, "has a route with pause " + number(route.pause) + "; allowed are 0 to " +
-                    number(Limits::pause) + " s");
+  check_pause(route.delay, who, "a route with delay");
 }
 
 void check_thing(const Thing& thing, MeshBudget& budget) {

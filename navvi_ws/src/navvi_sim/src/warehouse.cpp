@@ -172,13 +172,21 @@ void add_clutter(std::vector<Thing>& things, Random& random) {
   for (std::size_t i = 8; i < 12; ++i) add_floor_box(things, random, quiet[i], i - 7);
 }
 
+/// A route with the same pause at all its way-points.
+Route round(const std::vector<Eigen::Vector2d>& corners, double speed, double pause) {
+  Route route;
+  for (const Eigen::Vector2d& corner : corners) route.waypoints.push_back({corner, pause});
+  route.speed = speed;
+  return route;
+}
+
 double heading(const Route& route) {
-  const Eigen::Vector2d way = route.waypoints[1] - route.waypoints[0];
+  const Eigen::Vector2d way = route.waypoints[1].at - route.waypoints[0].at;
   return std::atan2(way.y(), way.x());
 }
 
 Thing mover(std::string name, ThingClass thing_class, std::vector<Shape> shapes, Route route) {
-  const Eigen::Vector2d start = route.waypoints[0];
+  const Eigen::Vector2d start = route.waypoints[0].at;
   return {std::move(name), thing_class, at(start.x(), start.y(), 0.0, heading(route)),
           std::move(shapes), std::move(route)};
 }
@@ -214,18 +222,18 @@ void add_vehicles(std::vector<Thing>& things, const WarehouseConfig& config) {
   const double y = 13.3;
   const double wall_x = 23.3;
   const double cross_x = 11.0;
-  things.push_back(mover(
-      "forklift_01", ThingClass::forklift, forklift_shapes(),
-      {{{-wall_x, -y}, {-wall_x, y}, {-cross_x, y}, {-cross_x, -y}}, config.forklift_speed, 1.0}));
+  things.push_back(mover("forklift_01", ThingClass::forklift, forklift_shapes(),
+                         round({{-wall_x, -y}, {-wall_x, y}, {-cross_x, y}, {-cross_x, -y}},
+                               config.forklift_speed, 1.0)));
   things.push_back(mover(
       "forklift_02", ThingClass::forklift, forklift_shapes(),
-      {{{wall_x, y}, {wall_x, -y}, {cross_x, -y}, {cross_x, y}}, config.forklift_speed, 1.0}));
+      round({{wall_x, y}, {wall_x, -y}, {cross_x, -y}, {cross_x, y}}, config.forklift_speed, 1.0)));
+  things.push_back(mover("pallet_robot_01", ThingClass::pallet_robot, pallet_robot_shapes(),
+                         round({{0.8, -11.5}, {0.8, 11.5}, {-0.8, 11.5}, {-0.8, -11.5}},
+                               config.pallet_robot_speed, 1.0)));
   things.push_back(mover(
-      "pallet_robot_01", ThingClass::pallet_robot, pallet_robot_shapes(),
-      {{{0.8, -11.5}, {0.8, 11.5}, {-0.8, 11.5}, {-0.8, -11.5}}, config.pallet_robot_speed, 1.0}));
-  things.push_back(
-      mover("pallet_robot_02", ThingClass::pallet_robot, pallet_robot_shapes(),
-            {{{2.6, -0.8}, {8.6, -0.8}, {8.6, 0.8}, {2.6, 0.8}}, config.pallet_robot_speed, 2.0}));
+      "pallet_robot_02", ThingClass::pallet_robot, pallet_robot_shapes(),
+      round({{2.6, -0.8}, {8.6, -0.8}, {8.6, 0.8}, {2.6, 0.8}}, config.pallet_robot_speed, 2.0)));
 }
 
 /// Six workers at one side of six stretches, walking to and fro or standing.
@@ -238,7 +246,7 @@ void add_workers(std::vector<Thing>& things, Random& random, const WarehouseConf
     const double to = places[i].x() + random.uniform(1.5, 3.3);
     const bool walks = config.workers == "walking" || (config.workers == "both" && i % 2 == 0);
     const std::string name = numbered("worker", i + 1);
-    const Route route{{{from, y}, {to, y}}, config.worker_speed, 2.0};
+    const Route route = round({{from, y}, {to, y}}, config.worker_speed, 2.0);
     if (walks)
       things.push_back(mover(name, ThingClass::worker, worker_shapes(), route));
     else

@@ -55,12 +55,13 @@ class Fnv1a {
 
 void add(Fnv1a& hash, const Route& route) {
   hash.add(static_cast<std::uint64_t>(route.waypoints.size()));
-  for (const Eigen::Vector2d& waypoint : route.waypoints) {
-    hash.add(waypoint.x());
-    hash.add(waypoint.y());
-  }
+  for (const Waypoint& waypoint : route.waypoints)
+    for (const double value : {waypoint.at.x(), waypoint.at.y(), waypoint.pause, waypoint.speed})
+      hash.add(value);
   hash.add(route.speed);
-  hash.add(route.pause);
+  hash.add(static_cast<std::uint64_t>(route.loop));
+  hash.add(route.delay);
+  hash.add(static_cast<std::uint64_t>(route.yields));
 }
 
 }  // namespace

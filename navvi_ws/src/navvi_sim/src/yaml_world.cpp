@@ -72,6 +72,12 @@ class Reader {
     return value;
   }
 
+  [[nodiscard]] bool truth(const YAML::Node& node, const std::string& what) const {
+    if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false"))
+      refuse(node, what + " must be true or false");
+    return node.Scalar() == "true";
+  }
+
   [[nodiscard]] std::vector<double> numbers(const YAML::Node& node,
                                             std::initializer_list<std::size_t> counts,
                                             const std::string& what) const {
@@ -118,17 +124,32 @@ class Reader {
     return result;
   }
 
+  /// [x, y], or {at: [x, y], pause: s, speed: m/s}
+  [[nodiscard]] Waypoint waypoint(const YAML::Node& node, double usual_pause) const {
+    const bool plain = node.IsSequence();
+    if (!plain) check_keys(node, {"at", "pause", "speed"}, "a way-point");
+    const std::vector<double> at =
+        numbers(plain ? node : required(node, "at"), {2}, "the place of a way-point");
+    Waypoint result{{at[0], at[1]}, usual_pause};
+    if (plain) return result;
+    if (const YAML::Node pause = node["pause"]) result.pause = number(pause, "pause");
+    if (const YAML::Node speed = node["speed"]) result.speed = number(speed, "speed");
+    return result;
+  }
+
   [[nodiscard]] Route route(const YAML::Node& node) const {
-    check_keys(node, {"waypoints", "speed", "pause"}, "a route");
+    check_keys(node, {"waypoints", "speed", "pause", "loop", "delay", "yields"}, "a route");
     Route result;
+    if (const YAML::Node speed = node["speed"]) result.speed = number(speed, "speed");
+    if (const YAML::Node loop = node["loop"]) result.loop = truth(loop, "loop");
+    if (const YAML::Node delay = node["delay"]) result.delay = number(delay, "delay");
+    if (const YAML::Node yields = node["yields"]) result.yields = truth(yields, "yields");
+    const YAML::Node pause = node["pause"];
+    const double usual_pause = pause ? number(pause, "pause") : 0.0;
     const YAML::Node waypoints = required(node, "waypoints");
     if (!waypoints.IsSequence()) refuse(waypoints, "waypoints must be a list of [x, y]");
-    for (const YAML::Node& item : waypoints) {
-      const std::vector<double> xy = numbers(item, {2}, "a way-point");
-      result.waypoints.emplace_back(xy[0], xy[1]);
-    }
-    if (const YAML::Node speed = node["speed"]) result.speed = number(speed, "speed");
-    if (const YAML::Node pause = node["pause"]) result.pause = number(pause, "pause");
+    for (const YAML::Node& item : waypoints)
+      result.waypoints.push_back(waypoint(item, usual_pause));
     return result;
   }
 

@@ -147,7 +147,7 @@ TEST(Occupancy, keeps_what_is_thinner_than_a_voxel) {
 
 TEST(Occupancy, leaves_out_what_has_a_route) {
   Thing mover = standing(ThingClass::forklift, Box{{1.0, 1.0, 1.0}}, pose(0, 0, 0.5));
-  mover.route = Route{{{0, 0}, {5, 0}}, 1.0, 0.0};
+  mover.route = Route{{{{0, 0}}, {{5, 0}}}};
   EXPECT_FALSE(occupied(map_of({mover}), 0.0, 0.0, 0.5));
 }
 

@@ -101,7 +101,7 @@ TEST_F(ScenarioIn, passes_on_a_goal_in_a_wall_and_refuses_a_start_there) {
 TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
   WorldDescription world = two_rooms(2.0);
   Thing mover = thing("mover", ThingClass::forklift, {-4.0, 0.0, 0.5}, {1.0, 1.0, 1.0});
-  mover.route = Route{{{-4.0, 0.0}, {-4.0, 2.0}}, 1.0, 0.0};
+  mover.route = Route{{{{-4.0, 0.0}}, {{-4.0, 2.0}}}};
   world.things.push_back(mover);
   enter(world);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

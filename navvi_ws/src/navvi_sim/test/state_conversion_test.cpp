@@ -21,7 +21,7 @@ WorldDescription world_of_two() {
   world.things[0].thing_class = ThingClass::shelf;
   world.things[1].name = "forklift 1";
   world.things[1].thing_class = ThingClass::forklift;
-  world.things[1].route = Route{{{0, 0}, {1, 0}}, 1.0, 0.0};
+  world.things[1].route = Route{{{{0, 0}}, {{1, 0}}}};
   return world;
 }
 

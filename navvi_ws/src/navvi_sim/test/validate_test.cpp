@@ -33,7 +33,7 @@ WorldDescription good_world() {
   mover.shapes.push_back({Cylinder{0.2, 1.0}, Eigen::Isometry3d::Identity()});
   mover.shapes.push_back({Sphere{0.2}, Eigen::Isometry3d::Identity()});
   mover.shapes.push_back({triangle(2, 0.0F), Eigen::Isometry3d::Identity()});
-  mover.route = Route{{{0.0, 0.0}, {1.0, 0.0}}, 1.0, 0.0};
+  mover.route = Route{{{{0.0, 0.0}}, {{1.0, 0.0}}}};
   world.things = {floor, mover};
   return world;
 }
@@ -81,11 +81,13 @@ const std::vector<std::pair<const char*, Damage>>& damages() {
       {"no mesh", [](auto& w) { w.things[1].shapes[2].geometry = std::shared_ptr<const Mesh>(); }},
       {"route of one way-point", [](auto& w) { w.things[1].route->waypoints.pop_back(); }},
       {"route to nowhere",
-       [](auto& w) { w.things[1].route->waypoints[1] = w.things[1].route->waypoints[0]; }},
-      {"way-point NaN", [](auto& w) { w.things[1].route->waypoints[1].x() = kNan; }},
+       [](auto& w) { w.things[1].route->waypoints[1].at = w.things[1].route->waypoints[0].at; }},
+      {"way-point's pause", [](auto& w) { w.things[1].route->waypoints[1].pause = -1.0; }},
+      {"way-point's speed", [](auto& w) { w.things[1].route->waypoints[1].speed = kNan; }},
+      {"route's delay", [](auto& w) { w.things[1].route->delay = 1e9; }},
+      {"way-point NaN", [](auto& w) { w.things[1].route->waypoints[1].at.x() = kNan; }},
       {"speed 0", [](auto& w) { w.things[1].route->speed = 0.0; }},
       {"speed too high", [](auto& w) { w.things[1].route->speed = 100.0; }},
-      {"pause negative", [](auto& w) { w.things[1].route->pause = -1.0; }},
       {"floor on a route", [](auto& w) { w.things[0].route = w.things[1].route; }},
   };
   return all;

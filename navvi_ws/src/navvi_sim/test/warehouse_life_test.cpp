@@ -36,8 +36,8 @@ struct Life {
       if (!thing.route) continue;
       const auto& corners = thing.route->waypoints;
       for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Eigen::Vector2d from = corners[i];
-        const Eigen::Vector2d along = corners[(i + 1) % corners.size()] - from;
+        const Eigen::Vector2d from = corners[i].at;
+        const Eigen::Vector2d along = corners[(i + 1) % corners.size()].at - from;
         const double share = std::clamp(along.dot(point - from) / along.squaredNorm(), 0.0, 1.0);
         least = std::min(least, (from + share * along - point).norm());
       }

@@ -46,8 +46,8 @@ bool overlap(const Thing& a, const Thing& b) {
 double distance_to_route(const Route& route, const Eigen::AlignedBox3d& box) {
   double least = 1e9;
   for (std::size_t i = 0; i < route.waypoints.size(); ++i) {
-    const Eigen::Vector2d a = route.waypoints[i];
-    const Eigen::Vector2d b = route.waypoints[(i + 1) % route.waypoints.size()];
+    const Eigen::Vector2d a = route.waypoints[i].at;
+    const Eigen::Vector2d b = route.waypoints[(i + 1) % route.waypoints.size()].at;
     for (double t = 0.0; t <= 1.0; t += 0.005) {
       const Eigen::Vector2d p = a + t * (b - a);
       least =

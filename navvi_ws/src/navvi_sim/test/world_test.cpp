@@ -30,7 +30,7 @@ WorldDescription floor_only() {
 Thing mover_thing(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed) {
   Thing thing =
       box_thing("mover", ThingClass::pallet_robot, {from.x(), from.y(), 0.25}, {0.8, 0.6, 0.5});
-  thing.route = Route{{from, to}, speed, 0.5};
+  thing.route = Route{{{from, 0.5}, {to, 0.5}}, speed};
   return thing;
 }
 

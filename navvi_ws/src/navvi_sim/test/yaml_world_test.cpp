@@ -48,7 +48,8 @@ things:
     shapes:
       - {cylinder: [0.24, 1.5], pose: [0, 0, 0.75]}
       - {sphere: 0.15, pose: [0, 0, 1.6]}
-    route: {waypoints: [[1, 2], [1, -2]], speed: 0.5, pause: 1.5}
+    route: {waypoints: [[1, 2], {at: [1, -2], pause: 4, speed: 0.2}],
+            speed: 0.5, pause: 1.5, loop: false, delay: 3, yields: false}
 )";
 
 TEST_F(YamlWorld, has_every_number_where_it_was_written) {
@@ -64,9 +65,15 @@ TEST_F(YamlWorld, has_every_number_where_it_was_written) {
   EXPECT_EQ(std::get<Cylinder>(mover.shapes[0].geometry).length, 1.5);
   EXPECT_EQ(std::get<Sphere>(mover.shapes[1].geometry).radius, 0.15);
   ASSERT_TRUE(mover.route.has_value());
-  EXPECT_EQ(mover.route->waypoints[1], Eigen::Vector2d(1, -2));
+  EXPECT_EQ(mover.route->waypoints[1].at, Eigen::Vector2d(1, -2));
   EXPECT_EQ(mover.route->speed, 0.5);
-  EXPECT_EQ(mover.route->pause, 1.5);
+  EXPECT_EQ(mover.route->waypoints[0].pause, 1.5);
+  EXPECT_EQ(mover.route->waypoints[0].speed, 0.0);
+  EXPECT_EQ(mover.route->waypoints[1].pause, 4.0);
+  EXPECT_EQ(mover.route->waypoints[1].speed, 0.2);
+  EXPECT_FALSE(mover.route->loop);
+  EXPECT_EQ(mover.route->delay, 3.0);
+  EXPECT_FALSE(mover.route->yields);
 }
 
 TEST_F(YamlWorld, is_refused_with_file_and_line) {
@@ -85,9 +92,12 @@ TEST_F(YamlWorld, is_refused_with_file_and_line) {
       {"{sphere: 0.15,", "{sphere: 0.15, box: [1, 1, 1],"},
       {"{sphere: 0.15,", "{sphere: [0.15],"},
       {"[1, 2, 0, 0, 0, 1.5]", "[1, 2, 0, 0]"},
-      {"[[1, 2], [1, -2]]", "[1, 2]"},
+      {"[1, 2], {at: [1, -2]", "1, {at: 3"},
       {"speed: 0.5", "speed: fast"},
       {"speed: 0.5", "haste: 0.5"},
+      {"{at: [1, -2]", "{to: [1, -2]"},
+      {"loop: false", "loop: never"},
+      {"delay: 3", "delay: [3]"},
   };
   for (const auto& [from, to] : changes) {
     std::string text = kGood;

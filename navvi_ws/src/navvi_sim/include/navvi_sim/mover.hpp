@@ -45,7 +45,7 @@ struct Footprint {
 /// The thing's heading: rad, the direction of its x axis seen from above.
 [[nodiscard]] double yaw_of(const Eigen::Isometry3d& pose);
 
-/// Follows a Route for ever: along straight lines at the route's speed with a smooth start and
+/// Follows a Route: along straight lines at the route's speed with a smooth start and
 /// stop, turning on the spot at corners. Pure: the same calls give the same poses.
 class Mover {
  public:
@@ -76,6 +76,7 @@ class Mover {
  private:
   enum class Blocked { no, by_robot, by_mover };
 
+  [[nodiscard]] bool yields() const { return config_.yield && route_.yields; }
   [[nodiscard]] Blocked blocked(const Surroundings& around) const;
   [[nodiscard]] bool in_way(const Disc& disc, double reach) const;
   /// rad, from the heading to the next way-point's direction
@@ -101,6 +102,7 @@ class Mover {
   std::size_t target_ = 0;
   bool backwards_ = false;  ///< the route's order is reversed
   bool turning_ = true;
+  bool ended_ = false;  ///< at the last way-point of a route that does not loop
 };
 
 }  // namespace navvi_sim

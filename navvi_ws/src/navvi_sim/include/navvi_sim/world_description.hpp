@@ -43,11 +43,21 @@ struct Shape {
       std::nullopt;  ///< shown as this class where not as its thing: a shelf's boxes
 };
 
-/// Way-points that a moving thing follows for ever, in order, back to the first after the last.
+/// A place on a route.
+struct Waypoint {
+  Eigen::Vector2d at;  ///< m, in map
+  double pause = 0.0;  ///< s, stop here: to load, to look; >= 0
+  double speed = 0.0;  ///< m/s on the way to it; 0: the route's
+};
+
+/// Way-points that a moving thing follows in order: a round. After the last it drives back to the
+/// first, and the next round begins.
 struct Route {
-  std::vector<Eigen::Vector2d> waypoints;  ///< m, in map; two or more
-  double speed = 1.0;                      ///< m/s, > 0
-  double pause = 0.0;                      ///< s, stop at each way-point, >= 0
+  std::vector<Waypoint> waypoints;  ///< two or more
+  double speed = 1.0;               ///< m/s, > 0
+  bool loop = true;                 ///< false: it ends at the last way-point and stays there
+  double delay = 0.0;               ///< s, stands still before each round, >= 0
+  bool yields = true;               ///< stops for the robot
 };
 
 /// Anything with a body and a class. It stands still unless it has a route.
