@@ -59,7 +59,7 @@ struct Course {
   [[nodiscard]] Mesh::Place place(Point point) const { return *mesh().locate(point, kNear); }
   [[nodiscard]] Path search(const Mesh::Place& from, const Mesh::Place& to) const {
     const Corridor corridor = centroid_astar(mesh(), from, to, config.alpha);
-    return corridor.found ? funnel(from.point, to.point, corridor.links) : Path{};
+    return corridor.found ? funnel(from.point, to.point, corridor.portals) : Path{};
   }
 
   PlannerConfig config;

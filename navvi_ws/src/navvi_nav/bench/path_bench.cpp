@@ -182,7 +182,7 @@ void print(const Medians& medians, Course& c) {
     row(what, medians.get("our " + name + c.name, value),
         medians.get("plain " + name + c.name, value));
   };
-  row("polygons", static_cast<double>(c.mesh().triangles.size()), c.plain.polygons());
+  row("polygons", static_cast<double>(c.mesh().polygons.size()), c.plain.polygons());
   both("map to mesh, ms", "bake", "ms");
   for (const int holes : kHoles) {
     const std::string name = "carve " + std::to_string(holes) + c.name;

@@ -8,7 +8,7 @@ double side(Point a, Point b, Point c) { return cross(b - a, c - a); }
 
 }  // namespace
 
-Path funnel(Point start, Point goal, const std::vector<Link>& portals) {
+Path funnel(Point start, Point goal, const std::vector<Portal>& portals) {
   Path path{start};
   const auto append = [&path](Point point) {
     if (!(path.back() == point)) path.push_back(point);

@@ -8,6 +8,8 @@ namespace {
 
 using Corner = std::array<int, 2>;
 
+constexpr double kStraight = 1e-12;  // rad, above the rounding of a sum of angles
+
 /// An edge on the line through `offset` along the primitive direction (dx, dy), from `begin` to
 /// `end` in steps of that direction.
 struct Edge {
@@ -16,15 +18,26 @@ struct Edge {
   std::int64_t offset = 0;
   int begin = 0;
   int end = 0;
+  int begin_vertex = 0;
+  int end_vertex = 0;
   bool forward = true;
-  int triangle = 0;
+  int polygon = 0;
+  int number = 0;  ///< within its polygon
 
   [[nodiscard]] auto line() const { return std::tie(dx, dy, offset); }
 };
 
+/// A link and where on the polygon's boundary it begins.
+struct Crossing {
+  int polygon = 0;
+  int edge = 0;
+  int along = 0;
+  Link link;
+};
+
 int along(const Edge& edge, Corner corner) { return edge.dx != 0 ? corner[0] : corner[1]; }
 
-Edge edge_between(Corner from, Corner to, int triangle) {
+Edge edge_between(Corner from, Corner to) {
   Edge edge;
   const int dx = to[0] - from[0];
   const int dy = to[1] - from[1];
@@ -34,61 +47,144 @@ Edge edge_between(Corner from, Corner to, int triangle) {
   edge.dy = (edge.forward ? dy : -dy) / step;
   edge.offset =
       static_cast<std::int64_t>(edge.dx) * from[1] - static_cast<std::int64_t>(edge.dy) * from[0];
-  const int a = along(edge, from);
-  const int b = along(edge, to);
-  edge.begin = std::min(a, b);
-  edge.end = std::max(a, b);
-  edge.triangle = triangle;
+  edge.begin = along(edge, edge.forward ? from : to);
+  edge.end = along(edge, edge.forward ? to : from);
   return edge;
 }
 
-/// The point of the edge's line whose leading coordinate is `at`, in cells.
-Point point_at(const Edge& edge, int at) {
-  if (edge.dx == 0) return {-static_cast<double>(edge.offset) / edge.dy, static_cast<double>(at)};
-  return {static_cast<double>(at),
-          (static_cast<double>(edge.offset) + static_cast<double>(edge.dy) * at) / edge.dx};
+/// One vertex for each place; polygons get their corners.
+Mesh place_corners(const std::vector<GridPolygon>& polygons, double cell_size) {
+  std::vector<Corner> places;
+  for (const GridPolygon& polygon : polygons)
+    places.insert(places.end(), polygon.corners.begin(), polygon.corners.end());
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  Mesh mesh;
+  mesh.vertices.reserve(places.size());
+  for (const Corner& place : places)
+    mesh.vertices.push_back({{place[0] * cell_size, place[1] * cell_size}, false});
+  mesh.polygons.resize(polygons.size());
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    mesh.polygons[i].corners.reserve(polygons[i].corners.size());
+    for (const Corner& corner : polygons[i].corners)
+      mesh.polygons[i].corners.push_back(static_cast<int>(
+          std::lower_bound(places.begin(), places.end(), corner) - places.begin()));
+  }
+  return mesh;
 }
 
-std::vector<Edge> edges_of(const std::vector<GridTriangle>& triangles) {
+std::vector<Edge> edges_of(const std::vector<GridPolygon>& polygons, const Mesh& mesh) {
   std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto& corners = triangles[i].corners;
-    for (std::size_t k = 0; k < 3; ++k)
-      edges.push_back(edge_between(corners[k], corners[(k + 1) % 3], static_cast<int>(i)));
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const auto& corners = polygons[i].corners;
+    const auto& vertices = mesh.polygons[i].corners;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const std::size_t next = k + 1 < corners.size() ? k + 1 : 0;
+      Edge edge = edge_between(corners[k], corners[next]);
+      edge.begin_vertex = vertices[edge.forward ? k : next];
+      edge.end_vertex = vertices[edge.forward ? next : k];
+      edge.polygon = static_cast<int>(i);
+      edge.number = static_cast<int>(k);
+      edges.push_back(edge);
+    }
   }
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.dx, a.dy, a.offset, a.begin, a.end, a.triangle) <
-           std::tie(b.dx, b.dy, b.offset, b.begin, b.end, b.triangle);
+    return std::tie(a.dx, a.dy, a.offset, a.begin, a.end, a.polygon) <
+           std::tie(b.dx, b.dy, b.offset, b.begin, b.end, b.polygon);
   });
   return edges;
 }
 
-void link(Mesh& mesh, const Edge& a, const Edge& b, double cell_size) {
-  const Point low = cell_size * point_at(a, std::max(a.begin, b.begin));
-  const Point high = cell_size * point_at(a, std::min(a.end, b.end));
-  const Edge& ahead = a.forward ? a : b;  // its triangle lies on the left of the line
+void cross_over(std::vector<Crossing>& out, const Edge& a, const Edge& b) {
+  const int low = a.begin > b.begin ? a.begin_vertex : b.begin_vertex;
+  const int high = a.end < b.end ? a.end_vertex : b.end_vertex;
+  const Edge& ahead = a.forward ? a : b;  // its polygon lies on the left of the line
   const Edge& back = a.forward ? b : a;
   // Who leaves the left side looks to the right of the line: its left hand points along the line.
-  mesh.triangles[static_cast<std::size_t>(ahead.triangle)].links.push_back(
-      {back.triangle, high, low});
-  mesh.triangles[static_cast<std::size_t>(back.triangle)].links.push_back(
-      {ahead.triangle, low, high});
+  out.push_back(
+      {ahead.polygon, ahead.number, std::max(a.begin, b.begin), {back.polygon, low, high}});
+  out.push_back({back.polygon, back.number, -std::min(a.end, b.end), {ahead.polygon, high, low}});
+}
+
+std::vector<Crossing> crossings_of(const std::vector<Edge>& edges) {
+  std::vector<Crossing> out;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t j = i + 1;
+         j < edges.size() && edges[j].line() == edges[i].line() && edges[j].begin < edges[i].end;
+         ++j) {
+      if (edges[i].forward != edges[j].forward) cross_over(out, edges[i], edges[j]);
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tie(a.polygon, a.edge, a.along) < std::tie(b.polygon, b.edge, b.along);
+  });
+  return out;
+}
+
+/// Gives the polygon its links, and corners where they end.
+void split_edges(Polygon& polygon, const Crossing* first, const Crossing* last) {
+  std::vector<int> corners;
+  corners.reserve(polygon.corners.size());
+  const auto add = [&corners](int vertex) {
+    if (corners.empty() || (corners.back() != vertex && corners.front() != vertex))
+      corners.push_back(vertex);
+  };
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+    add(polygon.corners[k]);
+    for (; first != last && first->edge == static_cast<int>(k); ++first) {
+      add(first->link.right);
+      const std::size_t next = k + 1 < polygon.corners.size() ? k + 1 : 0;
+      if (first->link.left != polygon.corners[next]) add(first->link.left);
+      polygon.links.push_back(first->link);
+    }
+  }
+  polygon.corners = std::move(corners);
+}
+
+/// The angle at a corner inside a polygon, rad.
+double angle_at(Point before, Point corner, Point after) {
+  const Point a = after - corner;
+  const Point b = before - corner;
+  return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
+}
+
+/// A vertex where several free angles meet in a point may be taken for a corner without need.
+void find_corners(Mesh& mesh) {
+  std::vector<double> free(mesh.vertices.size(), 0.0);
+  std::vector<char> walled(mesh.vertices.size(), 0);
+  for (const Polygon& polygon : mesh.polygons) {
+    const std::size_t count = polygon.corners.size();
+    std::size_t link = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto before = static_cast<std::size_t>(polygon.corners[(k + count - 1) % count]);
+      const auto here = static_cast<std::size_t>(polygon.corners[k]);
+      const auto after = static_cast<std::size_t>(polygon.corners[(k + 1) % count]);
+      free[here] +=
+          angle_at(mesh.vertices[before].at, mesh.vertices[here].at, mesh.vertices[after].at);
+      if (link < polygon.links.size() && polygon.links[link].right == static_cast<int>(here)) {
+        ++link;
+      } else {
+        walled[here] = walled[after] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    mesh.vertices[i].corner = walled[i] != 0 && free[i] > M_PI + kStraight;
 }
 
 void number_parts(Mesh& mesh) {
   std::vector<int> waiting;
   int count = 0;
-  for (Triangle& triangle : mesh.triangles) triangle.part = -1;
-  for (std::size_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (mesh.triangles[seed].part >= 0) continue;
-    mesh.triangles[seed].part = count;
+  for (Polygon& polygon : mesh.polygons) polygon.part = -1;
+  for (std::size_t seed = 0; seed < mesh.polygons.size(); ++seed) {
+    if (mesh.polygons[seed].part >= 0) continue;
+    mesh.polygons[seed].part = count;
     waiting.push_back(static_cast<int>(seed));
     while (!waiting.empty()) {
       const auto at = static_cast<std::size_t>(waiting.back());
       waiting.pop_back();
-      for (const Link& link : mesh.triangles[at].links) {
-        Triangle& next = mesh.triangles[static_cast<std::size_t>(link.to)];
+      for (const Link& link : mesh.polygons[at].links) {
+        Polygon& next = mesh.polygons[static_cast<std::size_t>(link.to)];
         if (next.part >= 0) continue;
         next.part = count;
         waiting.push_back(link.to);
@@ -100,38 +196,43 @@ void number_parts(Mesh& mesh) {
 
 }  // namespace
 
-Point Triangle::centroid() const { return (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]); }
-
-bool Triangle::contains(Point point) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point a = corners[k];
-    const Point b = corners[(k + 1) % 3];
-    if (cross(b - a, point - a) < 0.0) return false;
-  }
-  return true;
+std::vector<Point> Mesh::outline(int index) const {
+  std::vector<Point> out;
+  out.reserve(polygon(index).corners.size());
+  for (const int corner : polygon(index).corners) out.push_back(at(corner));
+  return out;
 }
 
-Point Triangle::nearest(Point point) const {
-  if (contains(point)) return point;
-  Point best = corners[0];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point candidate = nearest_on_segment(point, corners[k], corners[(k + 1) % 3]);
-    if (distance(candidate, point) < distance(best, point)) best = candidate;
+Point Mesh::centroid(int index) const {
+  const auto& corners = polygon(index).corners;
+  const Point origin = at(corners[0]);
+  Point sum;
+  double area = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Point a = at(corners[k - 1]) - origin;
+    const Point b = at(corners[k]) - origin;
+    const double twice = cross(a, b);
+    sum = sum + twice * (a + b);
+    area += twice;
   }
-  return best;
+  return area > 0.0 ? origin + (1.0 / (3.0 * area)) * sum : origin;
 }
 
 std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optional<int> part) const {
   std::optional<Place> best;
   double best_distance = within;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (part && triangles[i].part != *part) continue;
-    const auto& corners = triangles[i].corners;
-    const auto [x0, x1] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-    const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-    const double aside = std::max({x0 - point.x, point.x - x1, y0 - point.y, point.y - y1});
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (polygons[i].corners.empty() || (part && polygons[i].part != *part)) continue;
+    Point low = at(polygons[i].corners[0]);
+    Point high = low;
+    for (const int corner : polygons[i].corners) {
+      low = {std::min(low.x, at(corner).x), std::min(low.y, at(corner).y)};
+      high = {std::max(high.x, at(corner).x), std::max(high.y, at(corner).y)};
+    }
+    const double aside =
+        std::max({low.x - point.x, point.x - high.x, low.y - point.y, point.y - high.y});
     if (!(aside <= best_distance)) continue;
-    const Point candidate = triangles[i].nearest(point);
+    const Point candidate = nearest_in_convex(point, outline(static_cast<int>(i)));
     const double away = distance(candidate, point);
     if (away > best_distance || (best && away == best_distance)) continue;
     best = Place{static_cast<int>(i), candidate};
@@ -141,23 +242,18 @@ std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optiona
   return best;
 }
 
-Mesh join(const std::vector<GridTriangle>& triangles, double cell_size) {
-  Mesh mesh;
-  mesh.triangles.resize(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Corner& corner = triangles[i].corners[k];
-      mesh.triangles[i].corners[k] = {corner[0] * cell_size, corner[1] * cell_size};
-    }
+Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {
+  Mesh mesh = place_corners(polygons, cell_size);
+  const std::vector<Crossing> crossings = crossings_of(edges_of(polygons, mesh));
+  const Crossing* first = crossings.data();
+  const Crossing* const end = first + crossings.size();
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    const Crossing* last = first;
+    while (last != end && last->polygon == static_cast<int>(i)) ++last;
+    split_edges(mesh.polygons[i], first, last);
+    first = last;
   }
-  const std::vector<Edge> edges = edges_of(triangles);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    for (std::size_t j = i + 1;
-         j < edges.size() && edges[j].line() == edges[i].line() && edges[j].begin < edges[i].end;
-         ++j) {
-      if (edges[i].forward != edges[j].forward) link(mesh, edges[i], edges[j], cell_size);
-    }
-  }
+  find_corners(mesh);
   number_parts(mesh);
   return mesh;
 }

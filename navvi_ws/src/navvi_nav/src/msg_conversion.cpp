@@ -133,16 +133,17 @@ visualization_msgs::MarkerArray to_msg(const Mesh& mesh, double z, const std::st
   marker.ns = "navmesh";
   marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
   marker.action =
-      mesh.triangles.empty() ? visualization_msgs::Marker::DELETE : visualization_msgs::Marker::ADD;
+      mesh.polygons.empty() ? visualization_msgs::Marker::DELETE : visualization_msgs::Marker::ADD;
   marker.pose.orientation.w = 1.0;
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   marker.color.g = 1.0F;
   marker.color.b = 1.0F;
   marker.color.a = kMeshAlpha;
-  marker.points.reserve(3 * mesh.triangles.size());
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const Point corner : triangle.corners)
-      marker.points.push_back(point_msg(corner, z + kAboveFloor));
+  for (const Polygon& polygon : mesh.polygons) {
+    for (std::size_t k = 2; k < polygon.corners.size(); ++k) {
+      for (const std::size_t corner : {std::size_t{0}, k - 1, k})
+        marker.points.push_back(point_msg(mesh.at(polygon.corners[corner]), z + kAboveFloor));
+    }
   }
   out.markers.push_back(std::move(marker));
   return out;

@@ -86,7 +86,7 @@ MeshUpdate NavMesh::set_map(const octomap::OcTree& tree) {
     Tile tile{std::move(field), {}};
     const auto before = tiles_.find(index);
     if (comparable && before != tiles_.end() && same_open_cells(tile.field, *old)) {
-      tile.triangles = std::move(before->second.triangles);
+      tile.polygons = std::move(before->second.polygons);
     } else {
       build(tile);
       ++update.tiles_rebuilt;
@@ -194,40 +194,43 @@ void NavMesh::build(Tile& tile) {
   contours.max_error = config_.contour_error;
   contours.max_edge = static_cast<int>(config_.max_edge / cell);
   contours.merge_region = static_cast<int>(1.0 / (cell * cell));
-  tile.triangles = tile.field.build(open, contours);
-  if (clear(tile.triangles)) return;
+  tile.polygons = tile.field.build(open, contours);
+  if (clear(tile.polygons)) return;
   // Simplified contours can cross in places one cell wide; exact ones cannot.
   contours.max_error = 0.0;
-  tile.triangles = tile.field.build(open, contours);
-  if (clear(tile.triangles)) return;
-  std::vector<GridTriangle> kept;
-  for (const GridTriangle& triangle : tile.triangles) {
-    if (clear({triangle})) kept.push_back(triangle);
+  tile.polygons = tile.field.build(open, contours);
+  if (clear(tile.polygons)) return;
+  std::vector<GridPolygon> kept;
+  for (const GridPolygon& polygon : tile.polygons) {
+    if (clear({polygon})) kept.push_back(polygon);
   }
-  tile.triangles = std::move(kept);
+  tile.polygons = std::move(kept);
 }
 
-/// True if no point of the triangles is nearer than the robot's radius to anything that blocks.
-bool NavMesh::clear(const std::vector<GridTriangle>& triangles) const {
+/// True if no point of the polygons is nearer than the robot's radius to anything that blocks.
+bool NavMesh::clear(const std::vector<GridPolygon>& polygons) const {
   const Space around = space();
   const double cell = floor_->cell_size();
-  for (const GridTriangle& grid : triangles) {
-    Triangle triangle;
-    for (std::size_t k = 0; k < 3; ++k)
-      triangle.corners[k] = {grid.corners[k][0] * cell, grid.corners[k][1] * cell};
-    const auto& c = triangle.corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!around.segment_clear(c[k], c[(k + 1) % 3], config_.robot_radius)) return false;
+  for (const GridPolygon& grid : polygons) {
+    std::vector<Point> c;
+    Cell low{grid.corners[0][0], grid.corners[0][1]};
+    Cell high = low;
+    for (const auto& [x, y] : grid.corners) {
+      c.push_back({x * cell, y * cell});
+      low = {std::min(low.x, x), std::min(low.y, y)};
+      high = {std::max(high.x, x), std::max(high.y, y)};
+    }
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      if (!around.segment_clear(c[k], c[(k + 1) % c.size()], config_.robot_radius)) return false;
     }
     for (const Cylinder& cylinder : carved_) {
-      if (triangle.contains(cylinder.center)) return false;
+      if (convex_contains(c, cylinder.center)) return false;
     }
     // With clear edges only something that lies wholly inside is left: some cell then blocks.
-    const auto [x0, x1] = std::minmax({grid.corners[0][0], grid.corners[1][0], grid.corners[2][0]});
-    const auto [y0, y1] = std::minmax({grid.corners[0][1], grid.corners[1][1], grid.corners[2][1]});
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
-        if (floor_->ground({x, y}) != Ground::floor && triangle.contains(floor_->center_of({x, y})))
+    for (int y = low.y; y < high.y; ++y) {
+      for (int x = low.x; x < high.x; ++x) {
+        if (floor_->ground({x, y}) != Ground::floor &&
+            convex_contains(c, floor_->center_of({x, y})))
           return false;
       }
     }
@@ -236,9 +239,9 @@ bool NavMesh::clear(const std::vector<GridTriangle>& triangles) const {
 }
 
 void NavMesh::join_tiles() {
-  std::vector<GridTriangle> all;
+  std::vector<GridPolygon> all;
   for (const auto& entry : tiles_)
-    all.insert(all.end(), entry.second.triangles.begin(), entry.second.triangles.end());
+    all.insert(all.end(), entry.second.polygons.begin(), entry.second.polygons.end());
   mesh_ = std::make_shared<Mesh>(join(all, floor_->cell_size()));
 }
 

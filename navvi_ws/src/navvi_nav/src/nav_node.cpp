@@ -134,7 +134,7 @@ class NavNode {
     if (const std::optional<Outcome> outcome = worker_.take()) {
       report(*outcome);
       navigator_.deliver(*outcome, now);
-      fresh_mesh_ = outcome->triangles;
+      fresh_mesh_ = outcome->navmesh;
     }
     const bool lost_before = navigator_.obstacles_lost();
     if (std::optional<Job> job = navigator_.update(now)) worker_.start(std::move(*job));
@@ -147,8 +147,8 @@ class NavNode {
   void report(const Outcome& outcome) const {
     if (outcome.reason != Reason::map_changed || outcome.plan) return;
     if (outcome.map_taken) {
-      ROS_INFO("Map taken in %.3f s: %zu triangles; %d of %d tiles built, %d carved.",
-               outcome.seconds, outcome.triangles->triangles.size(), outcome.mesh.tiles_rebuilt,
+      ROS_INFO("Map taken in %.3f s: %zu polygons; %d of %d tiles built, %d carved.",
+               outcome.seconds, outcome.navmesh->polygons.size(), outcome.mesh.tiles_rebuilt,
                outcome.mesh.tiles, outcome.carved.tiles_rebuilt);
     } else {
       ROS_ERROR("The map is refused: %s.", outcome.map_error.c_str());

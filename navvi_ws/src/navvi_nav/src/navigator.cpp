@@ -59,7 +59,7 @@ Outcome work(Planner& planner, const Job& job) {
       out.plan->detail = error.what();
     }
   }
-  out.triangles = planner.nav_mesh().shared_mesh();
+  out.navmesh = planner.nav_mesh().shared_mesh();
   out.floor = planner.nav_mesh().shared_floor();
   return out;
 }

@@ -66,7 +66,7 @@ Plan Planner::plan(Point start, Point goal) const {
   const Anchor to = anchor(goal, near_goal, std::nullopt);
   if (!to.place || !to.joined)
     return failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal");
-  const int part = nav_mesh_.mesh().triangles[static_cast<std::size_t>(to.place->triangle)].part;
+  const int part = nav_mesh_.mesh().polygon(to.place->polygon).part;
   const Anchor from = anchor(start, config_.start_snap, part);
   if (!from.place)
     return failure(PlanStatus::no_route, Refusal::none,
@@ -76,7 +76,7 @@ Plan Planner::plan(Point start, Point goal) const {
   plan.nodes_expanded = corridor.nodes_expanded;
   plan.status = corridor.found ? PlanStatus::found : PlanStatus::no_route;
   if (!corridor.found) return plan;
-  Path shortest = funnel(from.place->point, to.place->point, corridor.links);
+  Path shortest = funnel(from.place->point, to.place->point, corridor.portals);
   if (from.joined && !(shortest.front() == start)) shortest.insert(shortest.begin(), start);
   if (!(shortest.back() == goal)) shortest.push_back(goal);
   plan.shortest = length_of(shortest);

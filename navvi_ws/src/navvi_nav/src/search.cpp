@@ -16,11 +16,11 @@ struct Node {
 
 struct Open {
   double f = 0.0;
-  int triangle = 0;
+  int polygon = 0;
 };
 
 bool operator>(const Open& a, const Open& b) {
-  return std::tie(a.f, a.triangle) > std::tie(b.f, b.triangle);
+  return std::tie(a.f, a.polygon) > std::tie(b.f, b.polygon);
 }
 
 }  // namespace
@@ -28,33 +28,30 @@ bool operator>(const Open& a, const Open& b) {
 Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
                         double alpha) {
   Corridor out;
-  std::vector<Node> nodes(mesh.triangles.size());
-  const auto at = [&nodes](int triangle) -> Node& {
-    return nodes[static_cast<std::size_t>(triangle)];
-  };
-  const auto triangle = [&mesh](int index) -> const Triangle& {
-    return mesh.triangles[static_cast<std::size_t>(index)];
+  std::vector<Node> nodes(mesh.polygons.size());
+  const auto at = [&nodes](int polygon) -> Node& {
+    return nodes[static_cast<std::size_t>(polygon)];
   };
   const auto position = [&](int index) {
-    if (index == start.triangle) return start.point;
-    return index == goal.triangle ? goal.point : triangle(index).centroid();
+    if (index == start.polygon) return start.point;
+    return index == goal.polygon ? goal.point : mesh.centroid(index);
   };
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  at(start.triangle).cost = 0.0;
-  open.push({alpha * distance(start.point, goal.point), start.triangle});
+  at(start.polygon).cost = 0.0;
+  open.push({alpha * distance(start.point, goal.point), start.polygon});
   while (!open.empty()) {
-    const int current = open.top().triangle;
+    const int current = open.top().polygon;
     open.pop();
     Node& node = at(current);
     if (node.closed) continue;
     node.closed = true;
     ++out.nodes_expanded;
-    if (current == goal.triangle) {
+    if (current == goal.polygon) {
       out.found = true;
       break;
     }
     const Point here = position(current);
-    const auto& links = triangle(current).links;
+    const auto& links = mesh.polygon(current).links;
     for (std::size_t i = 0; i < links.size(); ++i) {
       Node& next = at(links[i].to);
       if (next.closed) continue;
@@ -68,11 +65,12 @@ Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start, const Mesh::
     }
   }
   if (!out.found) return out;
-  for (int index = goal.triangle; index != start.triangle; index = at(index).parent) {
+  for (int index = goal.polygon; index != start.polygon; index = at(index).parent) {
     const Node& node = at(index);
-    out.links.push_back(triangle(node.parent).links[static_cast<std::size_t>(node.link)]);
+    const Link& link = mesh.polygon(node.parent).links[static_cast<std::size_t>(node.link)];
+    out.portals.push_back({mesh.at(link.right), mesh.at(link.left)});
   }
-  std::reverse(out.links.begin(), out.links.end());
+  std::reverse(out.portals.begin(), out.portals.end());
   return out;
 }
 

@@ -34,7 +34,7 @@ void colour_regions(rcCompactHeightfield& field) {
   }
 }
 
-std::int64_t twice_area(const GridTriangle& triangle) {
+std::int64_t twice_area(const GridPolygon& triangle) {
   const auto& c = triangle.corners;
   return static_cast<std::int64_t>(c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) -
          static_cast<std::int64_t>(c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
@@ -125,8 +125,8 @@ std::vector<Ground> TileField::settle(int floor_top, int headroom) {
   return ground;
 }
 
-std::vector<GridTriangle> TileField::build(const std::function<bool(Cell)>& open,
-                                           const Contours& contours) {
+std::vector<GridPolygon> TileField::build(const std::function<bool(Cell)>& open,
+                                          const Contours& contours) {
   rcCompactHeightfield& field = *recast_->compact;
   if (field.spanCount == 0) return {};
   bool any = false;
@@ -142,10 +142,10 @@ std::vector<GridTriangle> TileField::build(const std::function<bool(Cell)>& open
         field.areas[i] = walk ? RC_WALKABLE_AREA : RC_NULL_AREA;
     }
   }
-  return any ? triangulate(contours) : std::vector<GridTriangle>{};
+  return any ? triangulate(contours) : std::vector<GridPolygon>{};
 }
 
-std::vector<GridTriangle> TileField::triangulate(const Contours& contours) {
+std::vector<GridPolygon> TileField::triangulate(const Contours& contours) {
   rcContext* context = &recast_->context;
   rcCompactHeightfield& field = *recast_->compact;
   require(rcBuildDistanceField(context, field), "rcBuildDistanceField");
@@ -159,10 +159,11 @@ std::vector<GridTriangle> TileField::triangulate(const Contours& contours) {
   const PolyMesh mesh(rcAllocPolyMesh());
   require(mesh && rcBuildPolyMesh(context, *set, 3, *mesh), "rcBuildPolyMesh");
 
-  std::vector<GridTriangle> triangles;
+  std::vector<GridPolygon> triangles;
   triangles.reserve(static_cast<std::size_t>(mesh->npolys));
   for (int i = 0; i < mesh->npolys; ++i) {
-    GridTriangle triangle{};
+    GridPolygon triangle;
+    triangle.corners.resize(3);
     for (std::size_t k = 0; k < 3; ++k) {
       const unsigned short* vertex = &mesh->verts[3 * mesh->polys[6 * i + static_cast<int>(k)]];
       triangle.corners[k] = {origin_.x + vertex[0], origin_.y + vertex[2]};
@@ -170,7 +171,7 @@ std::vector<GridTriangle> TileField::triangulate(const Contours& contours) {
     const std::int64_t area = twice_area(triangle);
     if (area == 0) continue;
     if (area < 0) std::swap(triangle.corners[1], triangle.corners[2]);
-    triangles.push_back(triangle);
+    triangles.push_back(std::move(triangle));
   }
   return triangles;
 }

@@ -23,24 +23,25 @@ bool joined(const NavMesh& mesh, Point a, Point b) {
   const auto from = mesh.mesh().locate(a, 0.3);
   const auto to = mesh.mesh().locate(b, 0.3);
   return from && to &&
-         mesh.mesh().triangles[static_cast<std::size_t>(from->triangle)].part ==
-             mesh.mesh().triangles[static_cast<std::size_t>(to->triangle)].part;
+         mesh.mesh().polygon(from->polygon).part == mesh.mesh().polygon(to->polygon).part;
 }
 
 double area_of(const Mesh& mesh) {
   double sum = 0.0;
-  for (const Triangle& triangle : mesh.triangles)
-    sum += cross(triangle.corners[1] - triangle.corners[0],
-                 triangle.corners[2] - triangle.corners[0]) /
-           2;
+  for (const Polygon& polygon : mesh.polygons) {
+    const Point origin = mesh.at(polygon.corners[0]);
+    for (std::size_t k = 2; k < polygon.corners.size(); ++k)
+      sum +=
+          cross(mesh.at(polygon.corners[k - 1]) - origin, mesh.at(polygon.corners[k]) - origin) / 2;
+  }
   return sum;
 }
 
 bool equal(const Mesh& a, const Mesh& b) {
-  if (a.triangles.size() != b.triangles.size()) return false;
-  for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-    if (a.triangles[i].corners != b.triangles[i].corners ||
-        a.triangles[i].links.size() != b.triangles[i].links.size())
+  if (a.polygons.size() != b.polygons.size()) return false;
+  for (std::size_t i = 0; i < a.polygons.size(); ++i) {
+    if (!(a.outline(static_cast<int>(i)) == b.outline(static_cast<int>(i))) ||
+        a.polygons[i].links.size() != b.polygons[i].links.size())
       return false;
   }
   return true;
@@ -126,9 +127,10 @@ TEST(NavMesh, keeps_the_radius_everywhere_and_loses_little_room) {
       }
     }
     EXPECT_GT(area_of(mesh.mesh()), 0.97 * open_area) << seed;
-    for (const Triangle& triangle : mesh.mesh().triangles) {
-      const Path outline{triangle.corners[0], triangle.corners[1], triangle.corners[2],
-                         triangle.corners[0], triangle.centroid()};
+    for (std::size_t i = 0; i < mesh.mesh().polygons.size(); ++i) {
+      Path outline = mesh.mesh().outline(static_cast<int>(i));
+      outline.push_back(outline.front());
+      outline.push_back(mesh.mesh().centroid(static_cast<int>(i)));
       for (const Point point : points_along(outline, 0.02)) {
         for (const auto& block : world.map.blocks())
           ASSERT_GE(distance_to(block, point), kRadius - 1e-6) << seed;

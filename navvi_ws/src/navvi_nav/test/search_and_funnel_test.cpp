@@ -6,19 +6,19 @@
 namespace navvi_nav {
 namespace {
 
-GridTriangle triangle(int ax, int ay, int bx, int by, int cx, int cy) {
-  return {{{{ax, ay}, {bx, by}, {cx, cy}}}};
+GridPolygon triangle(int ax, int ay, int bx, int by, int cx, int cy) {
+  return {{{ax, ay}, {bx, by}, {cx, cy}}};
 }
 
 /// Two triangles a unit square, from (x, y).
-void add_square(std::vector<GridTriangle>& out, int x, int y) {
+void add_square(std::vector<GridPolygon>& out, int x, int y) {
   out.push_back(triangle(x, y, x + 1, y, x + 1, y + 1));
   out.push_back(triangle(x, y, x + 1, y + 1, x, y + 1));
 }
 
 /// An L of unit squares: along x to (n, 0), then up to (n, n).
 Mesh corner_mesh(int n) {
-  std::vector<GridTriangle> triangles;
+  std::vector<GridPolygon> triangles;
   for (int i = 0; i <= n; ++i) add_square(triangles, i, 0);
   for (int i = 1; i <= n; ++i) add_square(triangles, n, i);
   return join(triangles, 1.0);
@@ -29,27 +29,50 @@ Path path_between(const Mesh& mesh, Point start, Point goal) {
   const auto to = mesh.locate(goal, 0.0);
   if (!from || !to) return {};
   const Corridor corridor = centroid_astar(mesh, *from, *to, 1.0);
-  return corridor.found ? funnel(start, goal, corridor.links) : Path{};
+  return corridor.found ? funnel(start, goal, corridor.portals) : Path{};
 }
 
 TEST(Mesh, of_no_triangles_locates_nothing) {
   EXPECT_FALSE(Mesh{}.locate({0, 0}, 100.0));
-  EXPECT_TRUE(join({}, 0.05).triangles.empty());
+  EXPECT_TRUE(join({}, 0.05).polygons.empty());
 }
 
 TEST(Mesh, links_triangles_that_share_only_a_part_of_an_edge) {
   const Mesh mesh = join({triangle(0, 0, 4, 0, 0, 4), triangle(1, 0, 0, -2, 3, 0)}, 0.5);
-  ASSERT_EQ(mesh.triangles[0].links.size(), 1U);
-  const Link& link = mesh.triangles[0].links[0];
+  ASSERT_EQ(mesh.polygons[0].links.size(), 1U);
+  const Link& link = mesh.polygons[0].links[0];
   EXPECT_EQ(link.to, 1);
-  EXPECT_EQ(link.left, (Point{1.5, 0}));  // who goes down has east on the left
-  EXPECT_EQ(link.right, (Point{0.5, 0}));
+  EXPECT_EQ(mesh.at(link.left), (Point{1.5, 0}));  // who goes down has east on the left
+  EXPECT_EQ(mesh.at(link.right), (Point{0.5, 0}));
+}
+
+TEST(Mesh, makes_the_end_of_a_link_a_corner_of_both_polygons) {
+  const Mesh mesh = join({{{{0, 0}, {4, 0}, {4, 2}, {0, 2}}}, {{{1, 2}, {3, 2}, {2, 4}}}}, 1.0);
+  EXPECT_EQ(mesh.outline(0), (Path{{0, 0}, {4, 0}, {4, 2}, {3, 2}, {1, 2}, {0, 2}}));
+  EXPECT_EQ(mesh.outline(1), (Path{{1, 2}, {3, 2}, {2, 4}}));
+}
+
+TEST(Mesh, knows_where_a_path_may_turn) {
+  // An L of three squares, its long side in one piece, with the square above split by a T.
+  const Mesh mesh =
+      join({{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}}, 1.0);
+  for (const Vertex& vertex : mesh.vertices)
+    EXPECT_EQ(vertex.corner, vertex.at == (Point{1, 1})) << vertex.at.x << " " << vertex.at.y;
+}
+
+TEST(Mesh, takes_neither_open_floor_nor_a_straight_wall_for_a_corner) {
+  std::vector<GridPolygon> squares;
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 3; ++y)
+      squares.push_back({{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}});
+  }
+  for (const Vertex& vertex : join(squares, 0.05).vertices) EXPECT_FALSE(vertex.corner);
 }
 
 TEST(Mesh, does_not_link_triangles_that_touch_in_a_point) {
   const Mesh mesh = join({triangle(0, 0, 1, 0, 0, 1), triangle(1, 0, 2, 0, 2, 1)}, 1.0);
-  EXPECT_TRUE(mesh.triangles[0].links.empty());
-  EXPECT_NE(mesh.triangles[0].part, mesh.triangles[1].part);
+  EXPECT_TRUE(mesh.polygons[0].links.empty());
+  EXPECT_NE(mesh.polygons[0].part, mesh.polygons[1].part);
 }
 
 TEST(Mesh, locates_the_nearest_point_within_reach_only) {
@@ -64,7 +87,7 @@ TEST(Search, from_a_triangle_to_itself_crosses_nothing) {
   const auto place = mesh.locate({0.6, 0.3}, 0.0);
   const Corridor corridor = centroid_astar(mesh, *place, *place, 1.0);
   EXPECT_TRUE(corridor.found);
-  EXPECT_TRUE(corridor.links.empty());
+  EXPECT_TRUE(corridor.portals.empty());
   EXPECT_EQ(corridor.nodes_expanded, 1U);
 }
 
@@ -76,7 +99,7 @@ TEST(Search, tells_that_nothing_joins_two_triangles) {
 }
 
 TEST(Search, takes_the_shorter_way_round_a_block) {
-  std::vector<GridTriangle> triangles;  // a ring, 5 wide and 3 high, open in its middle
+  std::vector<GridPolygon> triangles;  // a ring, 5 wide and 3 high, open in its middle
   for (int x = 0; x < 5; ++x) {
     for (int y = 0; y < 3; ++y) {
       if (y != 1 || x == 0 || x == 4) add_square(triangles, x, y);
@@ -105,7 +128,7 @@ TEST(Funnel, turns_at_the_inner_corner) {
 }
 
 TEST(Funnel, goes_straight_through_collinear_portals) {
-  std::vector<GridTriangle> triangles;
+  std::vector<GridPolygon> triangles;
   for (int i = 0; i < 10; ++i) add_square(triangles, i, 0);
   const Mesh mesh = join(triangles, 1.0);
   EXPECT_EQ(path_between(mesh, {0.2, 0.5}, {9.7, 0.5}).size(), 2U);
@@ -114,14 +137,14 @@ TEST(Funnel, goes_straight_through_collinear_portals) {
 }
 
 TEST(Funnel, passes_portals_of_no_width) {
-  const Path path = funnel({0, 0}, {4, 0}, {{0, {2, 1}, {2, 1}}});
+  const Path path = funnel({0, 0}, {4, 0}, {{{2, 1}, {2, 1}}});
   ASSERT_EQ(path.size(), 3U);
   EXPECT_EQ(path[1], (Point{2, 1}));
 }
 
 TEST(Funnel, winds_through_a_slalom) {
   // Gates to be passed above, below, above.
-  const std::vector<Link> gates{{0, {1, 3}, {1, 1}}, {0, {2, -1}, {2, -3}}, {0, {3, 3}, {3, 1}}};
+  const std::vector<Portal> gates{{{1, 1}, {1, 3}}, {{2, -3}, {2, -1}}, {{3, 1}, {3, 3}}};
   const Path path = funnel({0, 0}, {4, 0}, gates);
   ASSERT_EQ(path.size(), 5U);
   EXPECT_EQ(path[1], (Point{1, 1}));

@@ -32,6 +32,30 @@ inline Point nearest_on_segment(Point p, Point a, Point b) {
   return a + t * d;
 }
 
+/// True if `p` lies in the convex polygon, borders included.
+/// \param corners  counter-clockwise
+inline bool convex_contains(const std::vector<Point>& corners, Point p) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point a = corners[k];
+    const Point b = corners[k + 1 < corners.size() ? k + 1 : 0];
+    if (cross(b - a, p - a) < 0.0) return false;
+  }
+  return true;
+}
+
+/// The point of the convex polygon nearest to `p`.
+/// \param corners  counter-clockwise, not empty
+inline Point nearest_in_convex(Point p, const std::vector<Point>& corners) {
+  if (convex_contains(corners, p)) return p;
+  Point best = corners[0];
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point candidate =
+        nearest_on_segment(p, corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]);
+    if (distance(candidate, p) < distance(best, p)) best = candidate;
+  }
+  return best;
+}
+
 /// The robot on the floor: yaw counter-clockwise from x, rad.
 struct Pose {
   Point position;

@@ -8,51 +8,66 @@
 
 namespace navvi_nav {
 
-/// The way from a triangle into its neighbour: the part of the edge that both share. Left and
-/// right as seen when leaving the triangle.
+struct Vertex {
+  Point at;  ///< m, map
+  /// A shortest path may turn here: a wall ends at it and the free angle around it is over 180
+  /// degrees. A false "true" only costs time, a false "false" costs exactness.
+  bool corner = false;
+};
+
+/// The way from a polygon into its neighbour: the part of the edge that both share. Right and left
+/// are vertices, as seen when leaving: the polygon's boundary runs counter-clockwise from right to
+/// left.
 struct Link {
-  int to = 0;  ///< index into Mesh::triangles
-  Point left;
-  Point right;
+  int to = 0;  ///< index into Mesh::polygons
+  int right = 0;
+  int left = 0;
 };
 
-struct Triangle {
-  std::array<Point, 3> corners;  ///< counter-clockwise, m, map
-  std::vector<Link> links;
-  int part = 0;  ///< triangles with the same part are connected, others are not
-
-  [[nodiscard]] Point centroid() const;
-  /// Borders count as inside.
-  [[nodiscard]] bool contains(Point point) const;
-  [[nodiscard]] Point nearest(Point point) const;
+/// Convex; a polygon without corners is an empty slot.
+struct Polygon {
+  std::vector<int> corners;  ///< vertices, counter-clockwise; some may lie on a straight edge
+  std::vector<Link> links;   ///< in counter-clockwise order
+  int part = 0;              ///< polygons with the same part are connected, others are not
 };
 
-/// Where the robot's centre may be (R-NAV-3): graph G is its triangles and their links.
+/// Where the robot's centre may be (R-NAV-3): graph G is its polygons and their links.
 struct Mesh {
-  std::vector<Triangle> triangles;
+  std::vector<Vertex> vertices;  ///< no two in the same place, but where nothing joins them
+  std::vector<Polygon> polygons;
 
   struct Place {
-    int triangle = 0;
+    int polygon = 0;
     Point point;
   };
   /// The point of the mesh nearest to `point`, at most `within` m away.
-  /// \param part  if given, only triangles of this part
+  /// \param part  if given, only polygons of this part
   [[nodiscard]] std::optional<Place> locate(Point point, double within,
                                             std::optional<int> part = std::nullopt) const;
+
+  [[nodiscard]] Point at(int vertex) const { return vertices[static_cast<std::size_t>(vertex)].at; }
+  [[nodiscard]] const Polygon& polygon(int index) const {
+    return polygons[static_cast<std::size_t>(index)];
+  }
+  /// The corners of a polygon in their places.
+  [[nodiscard]] std::vector<Point> outline(int polygon) const;
+  /// Centre of a polygon's area.
+  [[nodiscard]] Point centroid(int polygon) const;
 };
 
-/// A triangle's corners in cell borders, (0, 0) at the origin of map: exact, so that neighbours
-/// match without a tolerance.
-struct GridTriangle {
-  std::array<std::array<int, 2>, 3> corners;  ///< counter-clockwise
+/// A convex polygon's corners in cell borders, (0, 0) at the origin of map: exact, so that
+/// neighbours match without a tolerance. Counter-clockwise; some may lie on a straight edge.
+struct GridPolygon {
+  std::vector<std::array<int, 2>> corners;
 };
 
-inline bool operator==(const GridTriangle& a, const GridTriangle& b) {
+inline bool operator==(const GridPolygon& a, const GridPolygon& b) {
   return a.corners == b.corners;
 }
 
-/// The mesh of `triangles`. Two triangles are linked where their edges overlap over some length,
-/// whether or not they share corners.
-[[nodiscard]] Mesh join(const std::vector<GridTriangle>& triangles, double cell_size);
+/// The mesh of `polygons`. Two of them are linked where their edges overlap over some length,
+/// whether or not they share corners; where a link ends within an edge, its vertex is made a corner
+/// of the polygon. So each edge between two following corners is a link or a wall, whole.
+[[nodiscard]] Mesh join(const std::vector<GridPolygon>& polygons, double cell_size);
 
 }  // namespace navvi_nav

@@ -36,15 +36,16 @@ struct MeshUpdate {
   int tiles_rebuilt = 0;  ///< by this change
 };
 
-/// The floor that an OctoMap shows, as tiles of triangles (R-NAV-1..5). Clear by construction: no
-/// point of the mesh is nearer than the robot's radius to an occupied voxel that rises above the
-/// floor (or hangs lower than the robot's height), to the edge of the floor, or to a carved
-/// cylinder. The floor is one level: the lowest that is at least half as large as the largest.
+/// The floor that an OctoMap shows, as tiles of convex polygons (R-NAV-1..5). Clear by
+/// construction: no point of the mesh is nearer than the robot's radius to an occupied voxel that
+/// rises above the floor (or hangs lower than the robot's height), to the edge of the floor, or to
+/// a carved cylinder. The floor is one level: the lowest that is at least half as large as the
+/// largest.
 class NavMesh {
  public:
   explicit NavMesh(const NavMeshConfig& config) : config_(config) {}
 
-  /// Takes a new map. Tiles in which nothing changed keep their triangles.
+  /// Takes a new map. Tiles in which nothing changed keep their polygons.
   MeshUpdate set_map(const octomap::OcTree& tree);
   /// Makes the holes be those of `cylinders`: a cylinder whose id is gone heals. One that moved
   /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
@@ -64,14 +65,14 @@ class NavMesh {
  private:
   struct Tile {
     TileField field;
-    std::vector<GridTriangle> triangles;
+    std::vector<GridPolygon> polygons;
   };
 
   [[nodiscard]] double margin(double cell) const;
   [[nodiscard]] bool same_open_cells(const TileField& field, const Floor& old) const;
   [[nodiscard]] bool touches(const TileField& field, const Cylinder& cylinder) const;
   [[nodiscard]] bool changed_enough(const std::vector<Cylinder>& next) const;
-  [[nodiscard]] bool clear(const std::vector<GridTriangle>& triangles) const;
+  [[nodiscard]] bool clear(const std::vector<GridPolygon>& polygons) const;
   void build(Tile& tile);
   void join_tiles();
 

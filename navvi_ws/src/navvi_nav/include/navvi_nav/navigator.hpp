@@ -51,7 +51,7 @@ struct Outcome {
   MeshUpdate carved;  ///< by the obstacles
   bool map_taken = false;
   std::string map_error;  ///< a sentence if a map came and was refused
-  std::shared_ptr<const Mesh> triangles;
+  std::shared_ptr<const Mesh> navmesh;
   std::shared_ptr<const Floor> floor;
   double seconds = 0.0;  ///< wall clock, filled in by the caller of work()
 };

@@ -15,7 +15,7 @@ namespace navvi_nav {
 /// then settle() fixes the floor, then build() can be called as often as holes come and go.
 class TileField {
  public:
-  /// How Recast turns open cells into triangles.
+  /// How Recast turns open cells into polygons.
   struct Contours {
     double max_error = 1.0;  ///< cells by which a contour may leave the open cells' border
     int max_edge = 0;        ///< cells, longer wall edges are split; 0: never
@@ -41,14 +41,14 @@ class TileField {
   /// Takes `floor_top` as the floor, keeps what stands on it, and drops the height field.
   /// \returns the ground of the tile's cells (no border), row by row
   [[nodiscard]] std::vector<Ground> settle(int floor_top, int headroom);
-  /// Watershed regions, contours and triangles of the cells for which `open` holds. Ear clipping
+  /// Watershed regions, contours and polygons of the cells for which `open` holds. Ear clipping
   /// is what Recast does, not a constrained Delaunay triangulation.
-  [[nodiscard]] std::vector<GridTriangle> build(const std::function<bool(Cell)>& open,
-                                                const Contours& contours);
+  [[nodiscard]] std::vector<GridPolygon> build(const std::function<bool(Cell)>& open,
+                                               const Contours& contours);
 
  private:
   struct Recast;
-  [[nodiscard]] std::vector<GridTriangle> triangulate(const Contours& contours);
+  [[nodiscard]] std::vector<GridPolygon> triangulate(const Contours& contours);
 
   Cell origin_;
   int size_ = 0;
