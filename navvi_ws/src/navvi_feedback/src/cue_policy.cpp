@@ -52,6 +52,10 @@ std::string problem_of(const Guidance& guidance) {
       return "no_map";
     case Guidance::State::pose_stale:
       return "pose_stale";
+    case Guidance::State::map_stale:
+      return "map_stale";
+    case Guidance::State::blocked:
+      return "blocked";
   }
   return "";
 }
@@ -243,7 +247,13 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
     return {};
   problem_said_ = time;
   if (problem_ == "arrived" && std::exchange(arrival_said_, true)) return {};
-  return {{problem_, {}, {}}};
+  return {tell_problem(now)};
+}
+
+Utterance CuePolicy::tell_problem(const Situation& now) const {
+  Utterance told{problem_, {}, {}};
+  if (now.guidance) told.fillings.thing = now.guidance->blocked_by;
+  return told;
 }
 
 CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
@@ -274,7 +284,8 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) cons
   } else if (const auto way = follows_ ? route_.direction(*now.guidance) : std::nullopt) {
     answer = *way;
   } else {
-    answer.kind = problem_.empty() || problem_ == "welcome" ? "no_goal" : problem_;
+    answer = tell_problem(now);
+    if (problem_.empty() || problem_ == "welcome") answer.kind = "no_goal";
     if (answer.kind == "no_goal" && time - *first_update_ < kFirstPath) return {};
   }
   // Who asks wants it now.

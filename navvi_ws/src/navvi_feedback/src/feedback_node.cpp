@@ -270,8 +270,7 @@ class FeedbackNode {
 
   /// rad, clockwise from the nose to the goal.
   [[nodiscard]] std::optional<double> goal_angle() const {
-    if (!guidance_.value || guidance_.value->state != Guidance::State::following)
-      return std::nullopt;
+    if (!guidance_.value || !guidance_.value->leads()) return std::nullopt;
     try {
       const auto transform = tf_.lookupTransform("map", "base_link", ros::Time(0)).transform;
       return angle_to(transform, guidance_.value->goal);

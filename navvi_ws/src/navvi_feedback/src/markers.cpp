@@ -157,7 +157,7 @@ visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
   std::vector<Marker>& markers = array.markers;
   markers = {absent("path", 0), absent("path", 1), absent("goal", 0), absent("goal", 1),
              absent("goal", 2), absent("turn", 0), absent("turn", 1)};
-  if (!guidance || guidance->state != Guidance::State::following) return array;
+  if (!guidance || !guidance->leads()) return array;
   add_path(config, path, markers);
   add_goal(config, guidance->goal, markers);
   add_turn(config, *guidance, path, markers);

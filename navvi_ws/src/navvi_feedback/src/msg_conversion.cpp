@@ -69,9 +69,10 @@ std::optional<Situation::Contact> from_msg(const navvi_msgs::Contact& msg) {
 
 std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
   constexpr double kAngle = M_PI + 1e-6;
-  const bool in_range = msg.state <= navvi_msgs::Guidance::POSE_STALE &&
+  const bool in_range = msg.state <= navvi_msgs::Guidance::BLOCKED &&
                         msg.refusal <= navvi_msgs::Guidance::UNREACHABLE &&
-                        msg.replan_reason <= navvi_msgs::Guidance::MAP_CHANGED;
+                        msg.replan_reason <= navvi_msgs::Guidance::MAP_CHANGED &&
+                        msg.reroute_reason <= navvi_msgs::Guidance::MAP_CHANGED;
   if (!in_range || !valid(msg.goal) || !valid(msg.waypoint) ||
       !all_within(kAngle, {msg.waypoint_angle, msg.turn_angle}) ||
       !all_within(kFarthest, {msg.waypoint_distance, msg.goal_distance, msg.path_offset}) ||
@@ -83,6 +84,9 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
   guidance.state = static_cast<Guidance::State>(msg.state);
   guidance.refusal = static_cast<Guidance::Refusal>(msg.refusal);
   guidance.replan_reason = static_cast<Guidance::Replan>(msg.replan_reason);
+  guidance.reroutes = msg.reroutes;
+  guidance.reroute_reason = static_cast<Guidance::Replan>(msg.reroute_reason);
+  guidance.blocked_by = class_of(msg.blocked_by);
   guidance.goal = flat(msg.goal);
   guidance.waypoint = flat(msg.waypoint);
   guidance.floor = msg.waypoint.z;

@@ -75,6 +75,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, double time) {
 
   if (new_goal(guidance)) {
     goal_ = guidance.goal;
+    reroutes_ = guidance.reroutes;
     pending_ = Change::none;
     said_hour_.reset();
     return {goal("start", now)};
@@ -98,7 +99,8 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   }
   if (now.voice_busy) return {};
   if (pending_ == Change::reroute && *hour_ != said_hour_) {
-    way.kind = "rerouted";
+    way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+    reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
   if (direction_due(guidance, time)) return {said(way, *hour_, time)};
@@ -149,6 +151,13 @@ void RouteCues::remind(double time) { reminder_ = time; }
 
 bool RouteCues::new_goal(const Guidance& guidance) const {
   return !goal_ || (guidance.goal - *goal_).norm() > kSameGoal;
+}
+
+/// True if a reroute that was not told yet was made because something stands in the old way.
+bool RouteCues::closed_way(const Guidance& guidance) const {
+  return guidance.reroutes != reroutes_ &&
+         (guidance.reroute_reason == Guidance::Replan::path_carved ||
+          guidance.reroute_reason == Guidance::Replan::waypoint_blocked);
 }
 
 RouteCues::Change RouteCues::compare(const Guidance& guidance) const {

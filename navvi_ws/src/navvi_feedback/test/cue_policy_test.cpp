@@ -114,6 +114,21 @@ TEST_F(CuePolicyTest, PassesOverAStateThatLastsNoTime) {
   EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
 }
 
+TEST_F(CuePolicyTest, TellsToWaitForWhatIsInTheWayAndThenToGoOn) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::forklift;
+  EXPECT_EQ(pass(5.0), Texts{"wait, forklift in the way"});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(1.0), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, SaysThatTheMapIsTooOld) {
+  under_way();
+  now_.guidance->state = Guidance::State::map_stale;
+  EXPECT_EQ(pass(5.0), Texts{"map out of date"});
+}
+
 TEST_F(CuePolicyTest, RemindsOfAProblemThatLasts) {
   under_way();
   now_.guidance->state = Guidance::State::no_route;

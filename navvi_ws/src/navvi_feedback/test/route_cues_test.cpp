@@ -204,6 +204,21 @@ TEST(RouteCues, SayANewRouteIfTheNextManoeuvreChanged) {
   EXPECT_EQ(drive.last.fillings.hour, 5);
 }
 
+TEST(RouteCues, SayThatTheOldWayIsBlockedOnceForEachReroute) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  const auto lead_to = [&drive](double x, double degrees) {
+    drive.now.guidance->waypoint = {x, -12.0};
+    drive.now.guidance->waypoint_angle = rad(degrees);
+  };
+  drive.now.guidance->reroutes = 1;
+  drive.now.guidance->reroute_reason = Guidance::Replan::path_carved;
+  lead_to(0.0, 150.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted_blocked"});
+  lead_to(9.0, 60.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+}
+
 TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
   Drive drive;
   drive.settle(0.0, 8.0);

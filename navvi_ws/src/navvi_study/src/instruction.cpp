@@ -39,7 +39,8 @@ Instruction understand(const std::string& spoken) {
   } else if (says(text, "\\b(hit|stuck|touching|back away)\\b")) {
     heard.kind = Kind::bump;
   } else if (says(text,
-                  "\\b(lost|disconnected|stopped|no route|no way|no map|refused|release)\\b")) {
+                  "\\b(lost|disconnected|stopped|no route|no way|no map|out of "
+                  "date|wait|refused|release)\\b")) {
     heard.kind = Kind::halt;
   } else if (says(text, "\\b(goal|destination)\\b")) {
     // As the crow flies: good to know, but no way to go.

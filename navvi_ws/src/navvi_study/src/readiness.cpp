@@ -10,6 +10,7 @@ constexpr double kFresh = 1.0;  // s, age of a message that still flows
 void Readiness::saw(const GuidanceReport& guidance, double time) {
   guidance_ = time;
   has_map_ = guidance.state != GuidanceReport::State::no_map &&
+             guidance.state != GuidanceReport::State::map_stale &&
              guidance.state != GuidanceReport::State::pose_stale;
 }
 

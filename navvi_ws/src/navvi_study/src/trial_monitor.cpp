@@ -30,6 +30,10 @@ const char* name_of(GuidanceReport::State state) {
       return "no_map";
     case GuidanceReport::State::pose_stale:
       return "pose_stale";
+    case GuidanceReport::State::map_stale:
+      return "map_stale";
+    case GuidanceReport::State::blocked:
+      return "blocked";
   }
   return "unknown";
 }
@@ -74,7 +78,7 @@ void TrialMonitor::start(const TrialStart& start) {
   odometry_.reset();
   guidance_before_ = guidance_;
   guidance_.reset();
-  first_plans_.reset();
+  plans_.reset();
   stuck_cues_.clear();
   goal_taken_ = false;
   state_.reset();
@@ -221,9 +225,8 @@ bool TrialMonitor::about_this_goal(const GuidanceReport& guidance) {
              guidance_before_->plans == guidance.plans) {
     goal_taken_ = guidance.stamp > start_->stamp + kOldNews;
   } else {
-    goal_taken_ =
-        goal_matches && (guidance.state == State::following || guidance.state == State::arrived ||
-                         guidance.state == State::no_route);
+    goal_taken_ = goal_matches && (guidance.leads() || guidance.state == State::arrived ||
+                                   guidance.state == State::no_route);
   }
   return goal_taken_;
 }
@@ -244,18 +247,19 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
   }
   // Only a guidance that was started anew forgets a goal that it had taken.
   if (guidance.state == State::no_goal) goal_taken_ = false;
-  if (guidance.state == State::following) {
+  if (guidance.leads()) {
     if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
-    if (!first_plans_) {
-      first_plans_ = guidance.plans;
+    if (!plans_) {
+      plans_ = guidance.plans;
       Fields fields;
       fields.set("first_path_length", guidance.goal_distance);
       events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});
     }
   }
-  if (first_plans_ && guidance.plans - *first_plans_ > tally_.replans &&
-      guidance.plans > *first_plans_) {
-    tally_.replans = guidance.plans - *first_plans_;
+  if (plans_ && guidance.plans < *plans_) plans_ = 0;  // a guidance that was started anew
+  if (plans_ && guidance.plans > *plans_) {
+    tally_.replans += guidance.plans - *plans_;
+    plans_ = guidance.plans;
     Fields fields;
     fields.set("count", tally_.replans).set("reason", guidance.replan_reason);
     events.push_back(

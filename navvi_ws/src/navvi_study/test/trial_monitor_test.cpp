@@ -171,6 +171,25 @@ TEST_F(Monitor, counts_plans_after_the_first_even_where_a_message_was_lost) {
   EXPECT_EQ(monitor_.tally().missed_messages, 3u);
 }
 
+TEST_F(Monitor, goes_on_counting_plans_when_the_guidance_was_started_anew) {
+  (void)monitor_.observe(guidance(10.5, State::following, 1));
+  auto later = guidance(11.0, State::following, 2);
+  later.plans = 4;
+  (void)monitor_.observe(later);
+  auto anew = guidance(12.0, State::no_goal, 1);
+  anew.plans = 0;
+  (void)monitor_.observe(anew);
+  anew = guidance(12.5, State::following, 2);
+  anew.plans = 1;
+  EXPECT_EQ(types(monitor_.observe(anew)), (Names{"GUIDANCE", "REPLAN"}));
+  EXPECT_EQ(monitor_.tally().replans, 4u);
+}
+
+TEST_F(Monitor, takes_a_way_that_is_blocked_for_a_moment_for_a_way) {
+  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::blocked))), (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_TRUE(monitor_.goal_taken());
+}
+
 TEST_F(Monitor, measures_the_way_driven) {
   for (int i = 0; i <= 10; ++i) {
     (void)monitor_.observe(OdometryReport{(11 + i) * kSecond, {0.5 * i, 0.0}});

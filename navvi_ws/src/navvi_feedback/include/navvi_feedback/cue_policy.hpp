@@ -59,6 +59,7 @@ class CuePolicy {
   [[nodiscard]] Utterances stuck(const Situation& now, double time);
   [[nodiscard]] Utterances release(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
+  [[nodiscard]] Utterance tell_problem(const Situation& now) const;
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances answers(const Situation& now, double time) const;

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "navvi_feedback/nearby.hpp"
+
 namespace navvi_feedback {
 
 /// Where the guide path leads from here: navvi_msgs/Guidance without ROS, with the values of its
@@ -17,6 +19,8 @@ struct Guidance {
     off_mesh = 5,
     no_map = 6,
     pose_stale = 7,
+    map_stale = 8,
+    blocked = 9,  ///< by something that is expected to move on; as following otherwise
   };
   enum class Refusal : std::uint8_t {
     not_refused = 0,
@@ -40,7 +44,10 @@ struct Guidance {
   std::uint32_t seq = 0;
   State state = State::no_goal;
   Refusal refusal = Refusal::not_refused;
-  Replan replan_reason = Replan::none;  ///< of the last plan
+  Replan replan_reason = Replan::none;        ///< of the last plan
+  std::uint32_t reroutes = 0;                 ///< of this goal
+  Replan reroute_reason = Replan::none;       ///< of the last of them
+  ThingClass blocked_by = ThingClass::other;  ///< while blocked
 
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();      ///< m, in map
   Eigen::Vector2d waypoint = Eigen::Vector2d::Zero();  ///< m, in map: the next corner, or the goal
@@ -51,6 +58,9 @@ struct Guidance {
   double turn_angle = 0.0;         ///< change of course at the way-point; 0 at the goal
   double goal_distance = 0.0;      ///< m, along the path
   double path_offset = 0.0;        ///< m, from the robot to the nearest point of the path
+
+  /// There is a path: the fields from `goal` on are valid.
+  [[nodiscard]] bool leads() const { return state == State::following || state == State::blocked; }
 };
 
 }  // namespace navvi_feedback

@@ -58,6 +58,7 @@ class RouteCues {
   enum class Change { none, next_corner, reroute };
 
   [[nodiscard]] bool new_goal(const Guidance& guidance) const;
+  [[nodiscard]] bool closed_way(const Guidance& guidance) const;
   [[nodiscard]] Change compare(const Guidance& guidance) const;
   void observe(const Situation& now, double time);
   [[nodiscard]] bool about_to_face(const Situation& now) const;
@@ -76,6 +77,7 @@ class RouteCues {
   std::optional<int> hour_;              ///< to the way-point, now
   std::optional<int> said_hour_;         ///< what the person last heard
   Change pending_ = Change::none;        ///< still to be told
+  std::uint32_t reroutes_ = 0;           ///< of this goal, those told or passed over
   bool ahead_told_ = false;              ///< this corner's turn_ahead was said
   std::optional<int> turn_said_;         ///< hour of the last turn_ahead
   double turn_said_time_ = 0.0;          ///< s

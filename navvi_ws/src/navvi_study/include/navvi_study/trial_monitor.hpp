@@ -49,7 +49,19 @@ struct ProximityReport {
 };
 
 struct GuidanceReport {
-  enum class State { no_goal, following, arrived, refused, no_route, off_mesh, no_map, pose_stale };
+  /// Values as in navvi_msgs/Guidance.
+  enum class State {
+    no_goal,
+    following,
+    arrived,
+    refused,
+    no_route,
+    off_mesh,
+    no_map,
+    pose_stale,
+    map_stale,
+    blocked,
+  };
   std::int64_t stamp = 0;
   std::uint32_t seq = 0;
   State state = State::no_goal;
@@ -58,7 +70,10 @@ struct GuidanceReport {
   std::uint32_t plans = 0;    ///< so far
   double plan_time = 0.0;     ///< s
   Point2 goal;
-  double goal_distance = 0.0;  ///< m, along the path; valid when following
+  double goal_distance = 0.0;  ///< m, along the path; valid when there is one
+
+  /// There is a path.
+  [[nodiscard]] bool leads() const { return state == State::following || state == State::blocked; }
 };
 
 struct CueReport {
@@ -189,7 +204,7 @@ class TrialMonitor {
   std::map<std::uint32_t, Inside> inside_;
   std::optional<GuidanceReport> guidance_;         ///< the last one
   std::optional<GuidanceReport> guidance_before_;  ///< the last one before the goal was set
-  std::optional<std::uint32_t> first_plans_;
+  std::optional<std::uint32_t> plans_;             ///< of the guidance, counted so far
   std::set<std::uint32_t> stuck_cues_;
   std::optional<DriveReport> drive_;
   std::map<std::string, bool> devices_;
