@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 #include "solid.hpp"
 
@@ -14,158 +12,151 @@ constexpr double kReach = 0.05;  // share of a voxel's edge that a shape must re
 constexpr std::size_t kMaxNodes = 20'000'000;
 constexpr unsigned kDepth = 16;  // of octomap's trees
 
-/// Puts solids into a tree from its root down: a cell that lies wholly in a solid becomes one node,
-/// whatever its size.
-class Filler {
- public:
-  explicit Filler(octomap::OcTree& tree) : tree_(tree) {}
+/// What there is to put into a map.
+struct Bodies {
+  /// A solid must reach into a voxel by this much on each side.
+  struct Filled {
+    Solid solid;
+    double reach;  ///< m
+  };
+  std::vector<Filled> solids;
+  std::vector<Triangle> triangles;
+};
 
-  /// \param thickness  m, the least extent of the solid
-  template <typename Solid>
-  void fill(const Solid& solid, double thickness) {
-    const double shrink = std::min(kReach * tree_.getResolution(), thickness / 4.0);
-    Branch root = this->root();
-    fill(solid, shrink, root, 0);
+/// An octomap::OcTree that begins with a root; octomap's own begins with the path to one voxel.
+class RootedTree : public octomap::OcTree {
+ public:
+  explicit RootedTree(double resolution) : octomap::OcTree(resolution) {
+    root = new octomap::OcTreeNode;
+    root->setLogOdds(getClampingThresMaxLog());
+    ++tree_size;
+  }
+};
+
+/// Puts bodies into a tree from its root down, all of them at once: of a cell that they fill, one
+/// node is made, whatever its size, and of a cell that they leave free, none. So no node is made
+/// that pruning would take away again.
+class TreeBuilder {
+ public:
+  TreeBuilder(const Bodies& bodies, double resolution) : bodies_(bodies), tree_(resolution) {
+    for (std::size_t i = 0; i < bodies.solids.size() + bodies.triangles.size(); ++i)
+      candidates_.push_back({i, 0});
   }
 
-  void fill(const std::vector<Convex>& triangles) {
-    std::vector<std::size_t> all(triangles.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    Branch root = this->root();
-    fill(triangles, all, root, 0);
+  void build_into(octomap::OcTree& tree) {
+    const Cell cell{Eigen::Vector3d::Zero(), tree_.getNodeSize(0) / 2.0};
+    Branch root{nullptr, 0, cell, tree_.getRoot(), 0, candidates_.size()};
+    if (fill(root, 0) != Overlap::none) tree.swapContent(tree_);
   }
 
  private:
   using Node = octomap::OcTreeNode;
 
-  /// A cell of the tree, whose node may not be there yet: octomap cannot take away a node again
-  /// once it had children, so nodes grow only when something is put in.
+  struct Candidate {
+    std::size_t body;
+    unsigned touched;  ///< the eighths of the branch's cell that it reaches into
+  };
+  /// A cell of the tree, and the bodies that may reach into it: `candidates_` from begin to end.
   struct Branch {
     Branch* parent;
     unsigned index;  ///< among the parent's children
     Cell cell;
-    Node* node;
+    Node* node;  ///< null until something is put in
+    std::size_t begin;
+    std::size_t end;
   };
 
-  [[nodiscard]] Branch root() const {
-    return {nullptr, 0, {Eigen::Vector3d::Zero(), tree_.getNodeSize(0) / 2.0}, tree_.getRoot()};
+  Node* grow(Branch& branch) {
+    if (branch.node == nullptr) branch.node = add_child(grow(*branch.parent), branch.index);
+    return branch.node;
   }
-  [[nodiscard]] Branch child(Branch& parent, unsigned i) const {
-    const double half = parent.cell.half / 2.0;
-    const Eigen::Vector3d step((i & 1U) ? half : -half, (i & 2U) ? half : -half,
-                               (i & 4U) ? half : -half);
-    const bool exists = parent.node != nullptr && tree_.nodeChildExists(parent.node, i);
-    return {&parent,
-            i,
-            {parent.cell.centre + step, half},
-            exists ? tree_.getNodeChild(parent.node, i) : nullptr};
-  }
-  [[nodiscard]] bool is_full(const Node* node) const {
-    return node != nullptr && !tree_.nodeHasChildren(node) && node->getLogOdds() > 0.0F;
-  }
-
-  Node* grow_child(Node* node, unsigned i) {
-    if (tree_.nodeChildExists(node, i)) return tree_.getNodeChild(node, i);
+  Node* add_child(Node* node, unsigned i) {
     if (tree_.size() >= kMaxNodes)
       throw WorldError("the OctoMap of this world comes to more than " + std::to_string(kMaxNodes) +
                        " nodes; allowed is a smaller world or a coarser resolution than " +
                        std::to_string(tree_.getResolution()) + " m");
-    return tree_.createNodeChild(node, i);
-  }
-  Node* grow(Branch& branch) {
-    if (branch.node == nullptr) {
-      Node* parent = grow(*branch.parent);
-      branch.node = grow_child(parent, branch.index);
-    }
-    return branch.node;
-  }
-  void set_full(Node* node) {
-    if (tree_.nodeHasChildren(node)) {
-      for (unsigned i = 0; i < 8; ++i) set_full(grow_child(node, i));
-      tree_.pruneNode(node);
-    }
-    node->setLogOdds(tree_.getClampingThresMaxLog());
-  }
-  void set_full(Branch& branch) {
-    if (tree_.getRoot() == nullptr) {
-      // octomap makes a root only with a first voxel.
-      const Eigen::Vector3d& c = branch.cell.centre;
-      tree_.updateNode(c.x(), c.y(), c.z(), true);
-      for (Branch* up = &branch; up != nullptr; up = up->parent)
-        if (up->parent == nullptr) up->node = tree_.getRoot();
-    }
-    set_full(grow(branch));
+    Node* child = tree_.createNodeChild(node, i);
+    child->setLogOdds(tree_.getClampingThresMaxLog());
+    return child;
   }
 
-  template <typename Solid>
-  void fill(const Solid& solid, double shrink, Branch& branch, unsigned depth) {
-    if (is_full(branch.node)) return;
-    const bool leaf = depth + 1 == kDepth;
+  /// What reaches by its way into the voxels of an eighth, reaches so into the eighth.
+  [[nodiscard]] Octants octants_in(std::size_t body, const Cell& cell) const {
+    if (body >= bodies_.solids.size())
+      return octants(bodies_.triangles[body - bodies_.solids.size()], cell);
+    return octants(bodies_.solids[body].solid, cell, bodies_.solids[body].reach);
+  }
+
+  /// Fills a branch; what of it is occupied. If all of it is, no node was made in it.
+  Overlap fill(Branch& branch, unsigned depth) {
+    unsigned touched = 0;
+    unsigned full = 0;
+    for (std::size_t i = branch.begin; i < branch.end; ++i) {
+      const Octants part = octants_in(candidates_[i].body, branch.cell);
+      candidates_[i].touched = part.touched;
+      touched |= part.touched;
+      full |= part.full;
+    }
+    if (depth + 1 == kDepth) full = touched;
+    bool grew = false;
     for (unsigned i = 0; i < 8; ++i) {
-      Branch inner = child(branch, i);
-      if (leaf) inner.cell.half -= shrink;
-      const Overlap overlap = solid.overlap(inner.cell);
-      if (overlap == Overlap::none) continue;
-      if (leaf || overlap == Overlap::full)
-        set_full(inner);
-      else
-        fill(solid, shrink, inner, depth + 1);
+      if (!((touched & ~full) >> i & 1U)) continue;
+      const Overlap part = fill_child(branch, i, depth + 1);
+      if (part == Overlap::full) full |= 1U << i;
+      grew = grew || part == Overlap::partial;
     }
-    if (branch.node != nullptr) tree_.pruneNode(branch.node);
+    if (full == 0xFFU) return Overlap::full;
+    for (unsigned i = 0; i < 8; ++i)
+      if (full >> i & 1U) add_child(grow(branch), i);
+    return full != 0 || grew ? Overlap::partial : Overlap::none;
   }
 
-  void fill(const std::vector<Convex>& triangles, const std::vector<std::size_t>& candidates,
-            Branch& branch, unsigned depth) {
-    if (is_full(branch.node)) return;
-    std::vector<std::size_t> inside;
-    for (unsigned i = 0; i < 8; ++i) {
-      Branch inner = child(branch, i);
-      inside.clear();
-      for (const std::size_t candidate : candidates)
-        if (triangles[candidate].overlap(inner.cell) != Overlap::none) inside.push_back(candidate);
-      if (inside.empty()) continue;
-      if (depth + 1 == kDepth)
-        set_full(inner);
-      else
-        fill(triangles, inside, inner, depth + 1);
-    }
-    if (branch.node != nullptr) tree_.pruneNode(branch.node);
+  Overlap fill_child(Branch& parent, unsigned i, unsigned depth) {
+    Branch child{&parent, i, octant(parent.cell, i), nullptr, candidates_.size(), 0};
+    for (std::size_t k = parent.begin; k < parent.end; ++k)
+      if (candidates_[k].touched >> i & 1U) candidates_.push_back({candidates_[k].body, 0});
+    child.end = candidates_.size();
+    const Overlap part = fill(child, depth);
+    candidates_.resize(child.begin);
+    return part;
   }
 
-  octomap::OcTree& tree_;
+  const Bodies& bodies_;
+  RootedTree tree_;
+  std::vector<Candidate> candidates_;  ///< a stack of those of the branches from the root down
 };
 
-/// Puts one shape of any kind into the tree.
-class ShapeFiller {
+/// Adds a shape of any kind to the bodies.
+class BodyMaker {
  public:
-  ShapeFiller(Filler& filler, const Eigen::Isometry3d& pose, double resolution)
-      : filler_(filler), pose_(pose), resolution_(resolution) {}
+  BodyMaker(Bodies& bodies, const Eigen::Isometry3d& pose, double resolution)
+      : bodies_(bodies), pose_(pose), resolution_(resolution) {}
 
-  void operator()(const Box& box) const {
-    filler_.fill(Convex::box(box.size, pose_), box.size.minCoeff());
-  }
+  void operator()(const Box& box) const { add(solid_box(box.size, pose_), box.size.minCoeff()); }
   void operator()(const Cylinder& cylinder) const {
-    filler_.fill(SolidCylinder(cylinder, pose_), std::min(2.0 * cylinder.radius, cylinder.length));
+    add(SolidCylinder(cylinder, pose_), std::min(2.0 * cylinder.radius, cylinder.length));
   }
   void operator()(const Sphere& sphere) const {
-    filler_.fill(SolidSphere(sphere, pose_.translation()), 2.0 * sphere.radius);
+    add(SolidSphere(sphere, pose_.translation()), 2.0 * sphere.radius);
   }
   void operator()(const std::shared_ptr<const Mesh>& mesh) const {
     // A surface has no inside to reach into: it counts a little below where it is instead.
     const Eigen::Vector3d down = -kReach * resolution_ * Eigen::Vector3d::UnitZ();
-    std::vector<Convex> triangles;
-    triangles.reserve(mesh->triangles.size());
-    for (const auto& triangle : mesh->triangles) {
-      std::array<Eigen::Vector3d, 3> corners;
+    for (const auto& indices : mesh->triangles) {
+      Triangle triangle;
       for (std::size_t i = 0; i < 3; ++i)
-        corners[i] = pose_ * mesh->vertices[triangle[i]].cast<double>() + down;
-      triangles.push_back(Convex::triangle(corners));
+        triangle.corners[i] = pose_ * mesh->vertices[indices[i]].cast<double>() + down;
+      bodies_.triangles.push_back(triangle);
     }
-    filler_.fill(triangles);
   }
 
  private:
-  Filler& filler_;
+  /// \param thickness  m, the least extent of the solid
+  void add(Solid solid, double thickness) const {
+    bodies_.solids.push_back({std::move(solid), std::min(kReach * resolution_, thickness / 4.0)});
+  }
+
+  Bodies& bodies_;
   Eigen::Isometry3d pose_;
   double resolution_;
 };
@@ -204,20 +195,18 @@ void OccupancyConfig::describe(navvi_config::Visitor& visit) {
 
 octomap::OcTree occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
   octomap::OcTree tree(config.resolution);
-  Filler filler(tree);
   const double border = std::round(world.floor_height / config.resolution) * config.resolution;
   const Eigen::Translation3d lift(0.0, 0.0, border - world.floor_height);
+  Bodies bodies;
   for (const Thing& thing : world.things) {
     if (thing.route) continue;
     for (const Shape& shape : thing.shapes) {
       check_reach(thing, shape, tree);
-      Eigen::Isometry3d pose = thing.pose * shape.pose;
-      if (thing.thing_class == ThingClass::floor) pose = lift * pose;
-      std::visit(ShapeFiller(filler, pose, config.resolution), shape.geometry);
+      const Eigen::Isometry3d pose = lift * (thing.pose * shape.pose);
+      std::visit(BodyMaker(bodies, pose, config.resolution), shape.geometry);
     }
   }
-  tree.updateInnerOccupancy();
-  tree.prune();
+  TreeBuilder(bodies, config.resolution).build_into(tree);
   return tree;
 }
 

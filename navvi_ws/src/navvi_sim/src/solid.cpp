@@ -2,80 +2,134 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace navvi_sim {
 namespace {
-
-constexpr double kTolerance = 1e-9;  // m
 
 /// Distances from a point to the nearest and the farthest point of a square or cube around
 /// `centre`, along one axis.
 double nearest(double centre, double half) { return std::max(0.0, std::abs(centre) - half); }
 double farthest(double centre, double half) { return std::abs(centre) + half; }
 
+bool is_aligned(const Eigen::Isometry3d& pose) {
+  return (pose.linear().cwiseAbs().rowwise().maxCoeff().array() > 1.0 - 1e-9).all();
+}
+
 }  // namespace
 
-void Convex::add_axis(const Eigen::Vector3d& direction,
-                      const std::vector<Eigen::Vector3d>& corners) {
+AlignedBox::AlignedBox(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d half = pose.linear().array().round().matrix().cwiseAbs() * size / 2.0;
+  min_ = pose.translation() - half;
+  max_ = pose.translation() + half;
+}
+
+Octants AlignedBox::octants(const Cell& cell, double shrink) const {
+  // Along each axis alone: the eighths below the cell's centre, and those above it.
+  constexpr std::array<unsigned, 3> kAbove{0b10101010U, 0b11001100U, 0b11110000U};
+  Octants all{0xFFU, 0xFFU};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double min = min_[axis];
+    const double max = max_[axis];
+    const double low = cell.centre[axis] - cell.half + shrink;
+    const double high = cell.centre[axis] + cell.half - shrink;
+    const double under = cell.centre[axis] - shrink;
+    const double over = cell.centre[axis] + shrink;
+    const unsigned above = kAbove[static_cast<std::size_t>(axis)];
+    const auto pick = [&](bool lower, bool upper) {
+      return (lower ? ~above : 0U) | (upper ? above : 0U);
+    };
+    all.touched &= pick(under >= min && low <= max, high >= min && over <= max);
+    all.full &= pick(low >= min && under <= max, over >= min && high <= max);
+  }
+  return all;
+}
+
+TurnedBox::TurnedBox(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
+  for (int axis = 0; axis < 3; ++axis) add_axis(pose.linear().col(axis), size / 2.0, pose);
+  for (int axis = 0; axis < 3; ++axis) {
+    add_axis(Eigen::Vector3d::Unit(axis), size / 2.0, pose);
+    for (int other = 0; other < 3; ++other)
+      add_axis(Eigen::Vector3d::Unit(axis).cross(pose.linear().col(other)), size / 2.0, pose);
+  }
+}
+
+void TurnedBox::add_axis(const Eigen::Vector3d& direction, const Eigen::Vector3d& half,
+                         const Eigen::Isometry3d& pose) {
   const double norm = direction.norm();
   if (!(norm > 1e-9)) return;  // of parallel edges: separates nothing
-  Axis axis;
-  axis.direction = direction / norm;
-  axis.min = std::numeric_limits<double>::max();
-  axis.max = std::numeric_limits<double>::lowest();
-  for (const Eigen::Vector3d& corner : corners) {
-    axis.min = std::min(axis.min, axis.direction.dot(corner));
-    axis.max = std::max(axis.max, axis.direction.dot(corner));
-  }
-  axis.cell_reach = axis.direction.cwiseAbs().sum();
-  axes_.push_back(axis);
+  const Eigen::Vector3d unit = direction / norm;
+  const double centre = unit.dot(pose.translation());
+  const double reach = (pose.linear().transpose() * unit).cwiseAbs().dot(half);
+  axes_.push_back({unit, centre - reach, centre + reach, unit.cwiseAbs().sum()});
 }
 
-Convex Convex::box(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
-  std::vector<Eigen::Vector3d> corners;
-  for (const double x : {-0.5, 0.5})
-    for (const double y : {-0.5, 0.5})
-      for (const double z : {-0.5, 0.5})
-        corners.push_back(pose * Eigen::Vector3d(x * size.x(), y * size.y(), z * size.z()));
-  Convex convex;
-  for (int axis = 0; axis < 3; ++axis) convex.add_axis(pose.linear().col(axis), corners);
-  convex.faces_ = convex.axes_.size();
-  const bool aligned = (pose.linear().cwiseAbs().rowwise().maxCoeff().array() > 1.0 - 1e-9).all();
-  if (aligned) return convex;
-  for (int axis = 0; axis < 3; ++axis) {
-    convex.add_axis(Eigen::Vector3d::Unit(axis), corners);
-    for (int other = 0; other < 3; ++other)
-      convex.add_axis(Eigen::Vector3d::Unit(axis).cross(pose.linear().col(other)), corners);
-  }
-  return convex;
-}
-
-Convex Convex::triangle(const std::array<Eigen::Vector3d, 3>& corners) {
-  const std::vector<Eigen::Vector3d> points(corners.begin(), corners.end());
-  const std::array<Eigen::Vector3d, 3> edges{corners[1] - corners[0], corners[2] - corners[1],
-                                             corners[0] - corners[2]};
-  Convex convex;
-  for (int axis = 0; axis < 3; ++axis) convex.add_axis(Eigen::Vector3d::Unit(axis), points);
-  convex.add_axis(edges[0].cross(edges[1]), points);
-  for (const Eigen::Vector3d& edge : edges)
-    for (int axis = 0; axis < 3; ++axis)
-      convex.add_axis(Eigen::Vector3d::Unit(axis).cross(edge), points);
-  return convex;
-}
-
-Overlap Convex::overlap(const Cell& cell) const {
-  bool full = faces_ > 0;
+Overlap TurnedBox::overlap(const Cell& cell) const {
+  bool full = true;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const Axis& axis = axes_[i];
     const double centre = axis.direction.dot(cell.centre);
     const double reach = axis.cell_reach * cell.half;
     if (centre - reach > axis.max || centre + reach < axis.min) return Overlap::none;
-    if (i < faces_ &&
-        (centre - reach < axis.min - kTolerance || centre + reach > axis.max + kTolerance))
-      full = false;
+    if (i < 3 && (centre - reach < axis.min || centre + reach > axis.max)) full = false;
   }
   return full ? Overlap::full : Overlap::partial;
+}
+
+Overlap Triangle::overlap(const Cell& cell) const {
+  std::array<Eigen::Vector3d, 3> v;
+  for (std::size_t i = 0; i < 3; ++i) v[i] = corners[i] - cell.centre;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::min({v[0][axis], v[1][axis], v[2][axis]}) > cell.half) return Overlap::none;
+    if (std::max({v[0][axis], v[1][axis], v[2][axis]}) < -cell.half) return Overlap::none;
+  }
+  const std::array<Eigen::Vector3d, 3> edges{v[1] - v[0], v[2] - v[1], v[0] - v[2]};
+  // Apart along `axis`? An axis of length 0 separates nothing.
+  const auto apart = [&](const Eigen::Vector3d& axis) {
+    const double a = axis.dot(v[0]);
+    const double b = axis.dot(v[1]);
+    const double c = axis.dot(v[2]);
+    const double reach = axis.cwiseAbs().sum() * cell.half;
+    return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+  };
+  if (apart(edges[0].cross(edges[1]))) return Overlap::none;
+  for (const Eigen::Vector3d& edge : edges)
+    for (int axis = 0; axis < 3; ++axis)
+      if (apart(Eigen::Vector3d::Unit(axis).cross(edge))) return Overlap::none;
+  return Overlap::partial;
+}
+
+namespace {
+
+template <typename Body>
+Octants one_by_one(const Body& body, const Cell& cell, double shrink) {
+  Octants all{0U, 0U};
+  for (unsigned i = 0; i < 8; ++i) {
+    Cell eighth = octant(cell, i);
+    eighth.half -= shrink;
+    const Overlap part = body.overlap(eighth);
+    if (part != Overlap::none) all.touched |= 1U << i;
+    if (part == Overlap::full) all.full |= 1U << i;
+  }
+  return all;
+}
+
+}  // namespace
+
+Octants octants(const Solid& solid, const Cell& cell, double shrink) {
+  if (const auto* box = std::get_if<AlignedBox>(&solid)) return box->octants(cell, shrink);
+  if (const auto* box = std::get_if<TurnedBox>(&solid)) return one_by_one(*box, cell, shrink);
+  if (const auto* upright = std::get_if<SolidCylinder>(&solid))
+    return one_by_one(*upright, cell, shrink);
+  return one_by_one(std::get<SolidSphere>(solid), cell, shrink);
+}
+
+Octants octants(const Triangle& triangle, const Cell& cell) {
+  return one_by_one(triangle, cell, 0.0);
+}
+
+Solid solid_box(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
+  if (is_aligned(pose)) return AlignedBox(size, pose);
+  return TurnedBox(size, pose);
 }
 
 SolidCylinder::SolidCylinder(const Cylinder& cylinder, const Eigen::Isometry3d& pose)
@@ -92,7 +146,7 @@ Overlap SolidCylinder::overlap_upright(const Eigen::Vector3d& centre, double hal
   if (std::hypot(nearest(centre.x(), half), nearest(centre.y(), half)) > cylinder_.radius)
     return Overlap::none;
   const bool full =
-      farthest(centre.z(), half) <= reach + kTolerance &&
+      farthest(centre.z(), half) <= reach &&
       std::hypot(farthest(centre.x(), half), farthest(centre.y(), half)) <= cylinder_.radius;
   return full ? Overlap::full : Overlap::partial;
 }

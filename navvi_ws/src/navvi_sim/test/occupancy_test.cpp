@@ -26,11 +26,12 @@ Eigen::Isometry3d pose(double x, double y, double z, double roll = 0.0, double y
   return result;
 }
 
-octomap::OcTree map_of(const std::vector<Thing>& things, double floor_height = 0.0) {
+octomap::OcTree map_of(const std::vector<Thing>& things, double floor_height = 0.0,
+                       double resolution = kVoxel) {
   WorldDescription world;
   world.floor_height = floor_height;
   world.things = things;
-  return occupancy_of(world, OccupancyConfig{});
+  return occupancy_of(world, OccupancyConfig{resolution});
 }
 
 bool occupied(const octomap::OcTree& map, double x, double y, double z) {
@@ -123,20 +124,78 @@ TEST(Occupancy, does_not_let_the_floor_creep_up) {
   }
 }
 
-TEST(Occupancy, shows_a_low_pedestal_on_a_floor_at_any_height) {
-  for (const double floor : {0.0, -0.09, -0.099, -0.076, -0.074, -0.06, 0.03, 12.345}) {
-    for (const double height : {0.05, 0.10}) {
-      const auto map = map_of(
-          {standing(ThingClass::floor, Box{{4.0, 4.0, 0.1}}, pose(0, 0, floor - 0.05)),
-           standing(ThingClass::pedestal, Box{{1.2, 1.0, height}}, pose(0, 0, floor + height / 2))},
-          floor);
-      const double border = std::round(floor / kVoxel) * kVoxel;
-      EXPECT_NEAR(border, floor, kVoxel / 2 + 1e-9);
+TEST(Occupancy, shows_a_pedestal_of_5_cm_on_a_floor_at_any_height) {
+  for (const double resolution : {0.05, 0.08, 0.1, 0.2}) {
+    for (double floor = -0.3; floor < 0.3; floor += 0.007) {
+      const auto map =
+          map_of({standing(ThingClass::floor, Box{{4.0, 4.0, 0.1}}, pose(0, 0, floor - 0.05)),
+                  standing(ThingClass::pedestal, Box{{1.2, 1.0, 0.05}}, pose(0, 0, floor + 0.025))},
+                 floor, resolution);
+      const double border = std::round(floor / resolution) * resolution;
+      EXPECT_NEAR(border, floor, resolution / 2 + 1e-9);
       EXPECT_TRUE(occupied(map, 1.5, 1.5, border - 0.02)) << floor;
       EXPECT_FALSE(occupied(map, 1.5, 1.5, border + 0.02)) << floor;
-      EXPECT_TRUE(occupied(map, 0.1, 0.1, border + 0.02)) << floor << " with " << height;
+      EXPECT_TRUE(occupied(map, 0.1, 0.1, border + 0.02)) << floor << " at " << resolution;
+      EXPECT_FALSE(occupied(map, 0.1, 0.1, border + 0.05 + resolution)) << floor;
     }
   }
+}
+
+/// The same voxels, put in one by one as octomap would have it.
+octomap::OcTree inserted(const octomap::OcTree& map) {
+  octomap::OcTree tree(map.getResolution());
+  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
+    const octomap::OcTreeKey low = leaf.getIndexKey();
+    const int side = 1 << (map.getTreeDepth() - leaf.getDepth());
+    for (int x = 0; x < side; ++x)
+      for (int y = 0; y < side; ++y)
+        for (int z = 0; z < side; ++z)
+          tree.setNodeValue(octomap::OcTreeKey(static_cast<octomap::key_type>(low[0] + x),
+                                               static_cast<octomap::key_type>(low[1] + y),
+                                               static_cast<octomap::key_type>(low[2] + z)),
+                            map.getClampingThresMaxLog(), true);
+  }
+  tree.updateInnerOccupancy();
+  tree.prune();
+  return tree;
+}
+
+TEST(Occupancy, is_the_tree_that_octomap_makes_of_the_same_voxels) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices = {{0.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 1.0F}};
+  mesh->triangles = {{0, 1, 2}};
+  const std::vector<Thing> things{
+      standing(ThingClass::floor, Box{{6.0, 6.0, 0.1}}, pose(0, 0, -0.05)),
+      standing(ThingClass::box, Box{{0.8, 0.8, 0.8}}, pose(0, 0, 0.4)),
+      standing(ThingClass::box, Box{{0.4, 0.8, 0.8}}, pose(0.6, 0, 0.4)),  // joins it to one cell
+      standing(ThingClass::box, Box{{0.7, 0.6, 0.5}}, pose(-1.5, 0.3, 0.4, 0.3, 0.7)),
+      standing(ThingClass::other, Cylinder{0.3, 1.0}, pose(1.5, -1.0, 0.5)),
+      standing(ThingClass::other, Cylinder{0.3, 1.0}, pose(1.5, 1.0, 0.5, 1.2)),
+      standing(ThingClass::other, Sphere{0.4}, pose(-1.0, -1.0, 0.3)),
+      standing(ThingClass::other, std::shared_ptr<const Mesh>(mesh), pose(0.3, 0.3, 0.5))};
+  for (std::size_t count = 1; count <= things.size(); ++count) {
+    const octomap::OcTree map =
+        map_of({things.begin(), things.begin() + static_cast<std::ptrdiff_t>(count)});
+    EXPECT_GT(map.getNumLeafNodes(), 100U);
+    EXPECT_TRUE(map == inserted(map)) << "with " << count << " things";
+  }
+}
+
+TEST(Occupancy, of_many_things_is_that_of_each_one) {
+  const std::vector<Thing> things{
+      standing(ThingClass::box, Box{{0.8, 0.8, 0.8}}, pose(0, 0, 0.4)),
+      standing(ThingClass::box, Box{{0.9, 0.3, 0.5}}, pose(0.2, 0.1, 0.6, 0.3, 0.7)),
+      standing(ThingClass::other, Cylinder{0.3, 1.0}, pose(0.4, 0.2, 0.5))};
+  const auto all = map_of(things);
+  std::vector<octomap::OcTree> each;
+  for (const Thing& thing : things) each.push_back(map_of({thing}));
+  for (double x = -1.0; x < 1.5; x += 0.03)
+    for (double y = -1.0; y < 1.0; y += 0.03)
+      for (double z = -0.2; z < 1.5; z += 0.03) {
+        bool any = false;
+        for (const auto& one : each) any = any || occupied(one, x, y, z);
+        ASSERT_EQ(occupied(all, x, y, z), any) << x << " " << y << " " << z;
+      }
 }
 
 TEST(Occupancy, keeps_what_is_thinner_than_a_voxel) {

@@ -20,8 +20,12 @@ struct OccupancyConfig {
 /// along each axis, so that a top that lies on a border of voxels does not occupy the voxel above
 /// it. Boxes, cylinders and spheres are filled, meshes are surfaces. Free space is not marked.
 ///
-/// Things of class floor are moved along z, by half a voxel at most, so that `floor_height` falls
-/// on a border of voxels: a thing that stands on the floor then always shows above it.
+/// The whole world is moved along z, by half a voxel at most, so that `floor_height` falls on a
+/// border of voxels: a thing on the floor then shows above it, however low it is and wherever the
+/// floor lies (R-NAV-12).
+///
+/// The tree is the one that octomap makes of the same voxels by insertion, inner nodes and pruning,
+/// node by node; every node has the greatest log-odds that octomap allows.
 /// \throws WorldError if a shape reaches further than the tree does (32 768 voxels to each side),
 /// or the tree comes to more than 20 million nodes
 [[nodiscard]] octomap::OcTree occupancy_of(const WorldDescription& world,
