@@ -12,10 +12,10 @@
 #include <navvi_safety/msg_conversion.hpp>
 
 #include "navvi_sim/pacer.hpp"
+#include "navvi_sim/session.hpp"
 #include "navvi_sim/sim_node_config.hpp"
 #include "navvi_sim/state_conversion.hpp"
 #include "navvi_sim/world_hash.hpp"
-#include "navvi_sim/world_source.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -46,26 +46,29 @@ class SimNode {
   [[nodiscard]] bool step();
   void publish_state();
   void publish_drive_state();
-  [[nodiscard]] ros::Time stamp() const { return ros::Time(world_->now().time); }
+  void publish_record();
+  [[nodiscard]] const World& world() const { return session_->world(); }
+  [[nodiscard]] ros::Time stamp() const { return ros::Time(world().now().time); }
   /// The gate is told simulated time by the world itself, not by a clock that lags behind it.
   [[nodiscard]] navvi_safety::Instant instant() const {
-    return {ros::SteadyTime::now().toSec(), world_->now().time};
+    return {ros::SteadyTime::now().toSec(), world().now().time};
   }
 
   ros::NodeHandle node_;
   ros::CallbackQueue commands_queue_;
   SimNodeConfig config_;
   WorldDescription description_;
-  std::optional<World> world_;
+  std::optional<Session> session_;
   navvi_safety::CommandGate gate_;
   Pacer pacer_;
-  std::uint64_t steps_ = 0;
+  std::size_t commands_told_ = 0;
+  std::size_t hashes_told_ = 0;
   double last_tick_ = 0.0;  // s, monotonic wall clock
   int exit_code_ = 0;
   std::optional<navvi_msgs::DriveState> drive_state_;
 
   ros::Publisher clock_, odom_, octomap_, cells_, scene_, moving_, obstacles_, proximity_,
-      contacts_, scenario_, drive_;
+      contacts_, scenario_, drive_, applied_, hash_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Subscriber commands_;
@@ -77,18 +80,16 @@ SimNode::SimNode(const SimNodeConfig& config, LoadedWorld loaded)
       description_(std::move(loaded.world)),
       gate_(config.gate),
       pacer_(config.life.step, config.rate, config.max_catch_up) {
-  const auto seed = static_cast<std::uint64_t>(config_.seed);
   const octomap::OcTree map = occupancy_of(description_, config_.octomap);
-  ScenarioConfig drawing;
-  drawing.robot_radius = config_.life.robot.radius;
-  const Scenario scenario =
-      draw_scenario(description_, map, drawing, seed, config_.start_pose(), config_.goal_point());
-  world_.emplace(description_, config_.life, scenario.start, seed);
+  const Scenario scenario = scenario_of(config_, description_, map);
+  session_.emplace(description_, config_.life, scenario.start,
+                   static_cast<std::uint64_t>(config_.seed));
 
   advertise();
   tell_what_there_is(loaded.notes, scenario);
   publish_what_stands(map, scenario);
   publish_drive_state();
+  publish_record();
 
   ros::SubscribeOptions commands = ros::SubscribeOptions::create<geometry_msgs::Twist>(
       "cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) { receive(msg); },
@@ -110,6 +111,12 @@ void SimNode::advertise() {
   contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
   scenario_ = node_.advertise<navvi_msgs::Scenario>("navvi/scenario", 1, true);
   drive_ = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
+  // Who begins to listen in mid-session can still repeat it from its first step.
+  applied_ = node_.advertise<navvi_msgs::AppliedCommands>(
+      "navvi/applied_commands", 1000, [this](const ros::SingleSubscriberPublisher& listener) {
+        listener.publish(applied_commands_msg(session_->commands(), 0, stamp()));
+      });
+  hash_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
 }
 
 void SimNode::publish_what_stands(const octomap::OcTree& map, const Scenario& scenario) {
@@ -117,8 +124,11 @@ void SimNode::publish_what_stands(const octomap::OcTree& map, const Scenario& sc
   octomap_.publish(to_msg(map, stamp()));
   cells_.publish(occupied_cells_msg(map, stamp()));
   scene_.publish(scene_msg(description_, stamp()));
-  scenario_.publish(scenario_msg(description_, world_hash(description_),
-                                 static_cast<std::uint64_t>(config_.seed), scenario, stamp()));
+  navvi_msgs::Scenario played =
+      scenario_msg(description_, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
+                   scenario, stamp());
+  played.parameters = recipe(config_, scenario);
+  scenario_.publish(played);
 }
 
 void SimNode::tell_what_there_is(const std::vector<std::string>& notes,
@@ -164,23 +174,24 @@ void SimNode::tick(const ros::WallTimerEvent&) {
 bool SimNode::step() {
   const navvi_safety::Velocity wheels = gate_.update(instant());
   const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
-  const World::Status status = world_->step(wheels, running ? Braking::normal : Braking::emergency);
+  const World::Status status =
+      session_->step(wheels, running ? Braking::normal : Braking::emergency);
   if (status != World::Status::running) {
     ROS_FATAL("the simulation has stopped at %.2f s: a number in it is not finite",
-              world_->now().time);
+              world().now().time);
     exit_code_ = 3;
     timer_.stop();
     ros::requestShutdown();
     return false;
   }
-  ++steps_;
   publish_state();
   publish_drive_state();
+  publish_record();
   return true;
 }
 
 void SimNode::publish_state() {
-  const Snapshot& now = world_->now();
+  const Snapshot& now = world().now();
   const double floor = description_.floor_height;
   const double dt = config_.life.step;
   rosgraph_msgs::Clock clock;
@@ -190,12 +201,12 @@ void SimNode::publish_state() {
   odom_.publish(odometry_msg(now.robot, floor, stamp()));
   for (const ContactEvent& contact : now.contacts)
     contacts_.publish(contact_msg(description_, now.robot, contact, stamp()));
-  if (is_due(steps_, dt, kProximityRate)) {
+  if (is_due(session_->steps(), dt, kProximityRate)) {
     proximity_.publish(proximity_msg(description_, now.robot,
-                                     world_->proximity(config_.detection_radius),
+                                     world().proximity(config_.detection_radius),
                                      config_.detection_radius, stamp()));
   }
-  if (is_due(steps_, dt, kObstaclesRate)) {
+  if (is_due(session_->steps(), dt, kObstaclesRate)) {
     obstacles_.publish(obstacles_msg(description_, now, stamp()));
     moving_.publish(moving_scene_msg(description_, moving_poses(now),
                                      robot_body(now.robot, config_.life.robot, floor), stamp()));
@@ -211,6 +222,18 @@ void SimNode::publish_drive_state() {
   drive_state_ = msg;
 }
 
+/// What repeats this world, and what proves that the repetition is the same.
+void SimNode::publish_record() {
+  if (commands_told_ < session_->commands().size()) {
+    applied_.publish(applied_commands_msg(session_->commands(), commands_told_, stamp()));
+    commands_told_ = session_->commands().size();
+  }
+  if (hashes_told_ < session_->hashes().size()) {
+    hash_.publish(state_hash_msg(session_->hashes().back(), stamp()));
+    hashes_told_ = session_->hashes().size();
+  }
+}
+
 }  // namespace
 }  // namespace navvi_sim
 
@@ -221,9 +244,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   try {
     const auto config = navvi_config::load<navvi_sim::SimNodeConfig>(ros::NodeHandle("~"));
-    navvi_sim::SimNode sim(
-        config, navvi_sim::load_world(config.world, config.models,
-                                      static_cast<std::uint64_t>(config.seed), config.warehouse));
+    navvi_sim::SimNode sim(config, navvi_sim::load_world(config));
     ros::spin();
     return sim.exit_code();
   } catch (const std::exception& error) {

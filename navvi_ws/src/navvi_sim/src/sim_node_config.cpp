@@ -1,8 +1,12 @@
 #include "navvi_sim/sim_node_config.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <navvi_config/reader.hpp>
+#include <navvi_config/writer.hpp>
 #include <sstream>
 #include <vector>
 
@@ -28,6 +32,17 @@ std::vector<double> numbers(const std::string& list, std::size_t count, const st
   }
   if (values.size() != count || list.back() == ',') throw error;
   return values;
+}
+
+/// The shortest texts that are read back as the same numbers.
+std::string exact(const std::vector<double>& values) {
+  std::string list;
+  for (const double value : values) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    list += (list.empty() ? "" : ",") + std::string(text.data(), end.ptr);
+  }
+  return list;
 }
 
 }  // namespace
@@ -67,6 +82,28 @@ std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
   if (goal.empty()) return std::nullopt;
   const auto values = numbers(goal, 2, "goal", "x,y");
   return Eigen::Vector2d(values[0], values[1]);
+}
+
+LoadedWorld load_world(const SimNodeConfig& config) {
+  return load_world(config.world, config.models, static_cast<std::uint64_t>(config.seed),
+                    config.warehouse);
+}
+
+Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
+                     const octomap::OcTree& map) {
+  ScenarioConfig drawing;
+  drawing.robot_radius = config.life.robot.radius;
+  return draw_scenario(world, map, drawing, static_cast<std::uint64_t>(config.seed),
+                       config.start_pose(), config.goal_point());
+}
+
+std::string recipe(SimNodeConfig config, const Scenario& scenario) {
+  config.start = exact({scenario.start.x, scenario.start.y, scenario.start.yaw});
+  config.goal = exact({scenario.goal.x(), scenario.goal.y()});
+  std::error_code error;
+  if (std::filesystem::is_regular_file(config.world, error))
+    config.world = std::filesystem::absolute(config.world).lexically_normal().string();
+  return navvi_config::write(config);
 }
 
 }  // namespace navvi_sim

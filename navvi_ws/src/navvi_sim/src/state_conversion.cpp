@@ -1,6 +1,9 @@
 #include "navvi_sim/state_conversion.hpp"
 
+#include <charconv>
 #include <cmath>
+
+#include "navvi_sim/world_hash.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -139,6 +142,54 @@ navvi_msgs::Scenario scenario_msg(const WorldDescription& world, const std::stri
       pose_msg({scenario.start.x, scenario.start.y}, world.floor_height, scenario.start.yaw);
   msg.goal = point_msg(Eigen::Vector3d(scenario.goal.x(), scenario.goal.y(), world.floor_height));
   return msg;
+}
+
+navvi_msgs::AppliedCommands applied_commands_msg(const std::vector<AppliedCommand>& commands,
+                                                 std::size_t first, const ros::Time& stamp) {
+  navvi_msgs::AppliedCommands msg;
+  msg.header = header("base_link", stamp);
+  msg.first = static_cast<std::uint32_t>(first);
+  for (std::size_t i = first; i < commands.size(); ++i) {
+    navvi_msgs::AppliedCommand entry;
+    entry.step = commands[i].step;
+    entry.linear = commands[i].velocity.linear;
+    entry.angular = commands[i].velocity.angular;
+    entry.braking = commands[i].braking == Braking::emergency;
+    msg.commands.push_back(entry);
+  }
+  return msg;
+}
+
+navvi_msgs::StateHash state_hash_msg(const StateHash& state, const ros::Time& stamp) {
+  navvi_msgs::StateHash msg;
+  msg.header = header("map", stamp);
+  msg.step = state.step;
+  msg.hash = to_hex(state.hash);
+  return msg;
+}
+
+bool append(const navvi_msgs::AppliedCommands& msg, std::vector<AppliedCommand>& commands) {
+  if (msg.first > commands.size()) return false;
+  std::vector<AppliedCommand> whole = commands;
+  for (std::size_t i = commands.size() - msg.first; i < msg.commands.size(); ++i) {
+    const navvi_msgs::AppliedCommand& entry = msg.commands[i];
+    if (!std::isfinite(entry.linear) || !std::isfinite(entry.angular)) return false;
+    if (!whole.empty() && entry.step <= whole.back().step) return false;
+    whole.push_back({entry.step,
+                     {entry.linear, entry.angular},
+                     entry.braking ? Braking::emergency : Braking::normal});
+  }
+  commands = std::move(whole);
+  return true;
+}
+
+std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
+  StateHash state;
+  state.step = msg.step;
+  const char* end = msg.hash.data() + msg.hash.size();
+  const auto [rest, error] = std::from_chars(msg.hash.data(), end, state.hash, 16);
+  if (msg.hash.size() != 16 || error != std::errc() || rest != end) return std::nullopt;
+  return state;
 }
 
 std::vector<MovingPose> moving_poses(const Snapshot& now) {

@@ -66,6 +66,12 @@ void add(Fnv1a& hash, const Route& route) {
 
 }  // namespace
 
+std::string to_hex(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
 std::string world_hash(const WorldDescription& world) {
   Fnv1a hash;
   hash.add(world.name);
@@ -85,9 +91,7 @@ std::string world_hash(const WorldDescription& world) {
     hash.add(static_cast<std::uint64_t>(thing.route.has_value()));
     if (thing.route) add(hash, *thing.route);
   }
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.state()));
-  return text;
+  return to_hex(hash.state());
 }
 
 }  // namespace navvi_sim

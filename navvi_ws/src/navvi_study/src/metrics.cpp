@@ -164,6 +164,8 @@ Summary summarize(const std::vector<Row>& rows) {
   add("safe_stop_count", count_of(rows, "SAFE_STOP"));
   add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
   add("missed_messages", tally ? tally->fields.get("missed_messages") : nothing);
+  for (const char* name : {"state_step", "state_hash"})
+    add(name, tally ? tally->fields.get(name) : nothing);
   add("bag", bag ? bag->fields.get("state") : nothing);
   return summary;
 }

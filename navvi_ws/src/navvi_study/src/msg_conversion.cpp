@@ -87,6 +87,13 @@ std::optional<DriveReport> from_msg(const navvi_msgs::DriveState& msg) {
                      word(kReasons, msg.reason)};
 }
 
+std::optional<StateReport> from_msg(const navvi_msgs::StateHash& msg) {
+  const bool is_hash =
+      msg.hash.size() == 16 && msg.hash.find_first_not_of("0123456789abcdef") == msg.hash.npos;
+  if (!is_hash) return std::nullopt;
+  return StateReport{ns(msg.header.stamp), msg.step, msg.hash};
+}
+
 std::vector<DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg) {
   std::vector<DeviceReport> reports;
   for (const auto& status : msg.status) {

@@ -133,7 +133,8 @@ class Recount {
            as<navvi_msgs::Proximity>(item, "/navvi/proximity", before) ||
            as<navvi_msgs::Guidance>(item, "/navvi/guidance", before) ||
            as<navvi_msgs::Cue>(item, "/navvi/cues", before) ||
-           as<navvi_msgs::DriveState>(item, "/navvi/drive_state", before));
+           as<navvi_msgs::DriveState>(item, "/navvi/drive_state", before) ||
+           as<navvi_msgs::StateHash>(item, "/navvi/state_hash", before));
   }
 
   TrialMonitor monitor_{TrialMonitorConfig()};

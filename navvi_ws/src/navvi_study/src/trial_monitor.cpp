@@ -112,7 +112,9 @@ const char* TrialMonitor::zone(double lateral) const {
 Fields TrialMonitor::tally_fields() const {
   Fields fields = place();
   fields.set("path_length", tally_.path_length).set("cues_spoken", tally_.cues_spoken);
-  return fields.set("missed_messages", tally_.missed_messages);
+  fields.set("missed_messages", tally_.missed_messages);
+  fields.set("state_step", world_state_ ? std::to_string(world_state_->step) : "n/a");
+  return fields.set("state_hash", world_state_ ? world_state_->hash : "n/a");
 }
 
 std::vector<Event> TrialMonitor::observe(const OdometryReport& odometry) {
@@ -303,6 +305,12 @@ std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
   Fields fields;
   fields.set("device", device.device);
   return {{device.usable ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp, true}};
+}
+
+std::vector<Event> TrialMonitor::observe(const StateReport& state) {
+  latest_ = std::max(latest_, state.stamp);
+  if (!end_ || state.stamp <= *end_) world_state_ = state;
+  return {};
 }
 
 }  // namespace navvi_study

@@ -48,6 +48,8 @@ const std::vector<std::string> kRecorded = {"/clock",
                                             "navvi/cues",
                                             "navvi/scenario",
                                             "navvi/drive_state",
+                                            "navvi/applied_commands",
+                                            "navvi/state_hash",
                                             "cmd_vel",
                                             "joy",
                                             "joy/set_feedback",
@@ -127,6 +129,7 @@ void TrialNode::subscribe() {
   listen<navvi_msgs::Proximity>("navvi/proximity");
   listen<navvi_msgs::Cue>("navvi/cues");
   listen<navvi_msgs::DriveState>("navvi/drive_state");
+  listen<navvi_msgs::StateHash>("navvi/state_hash");
   const auto hints = ros::TransportHints().tcpNoDelay();
   subscribers_.push_back(node_.subscribe("odom", kQueue, &TrialNode::on_odometry, this, hints));
   subscribers_.push_back(

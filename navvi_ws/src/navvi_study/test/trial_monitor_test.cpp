@@ -67,6 +67,17 @@ TEST_F(Monitor, tells_shelves_from_everything_else) {
   EXPECT_EQ(monitor_.tally().obstacle_collisions, 4u);
 }
 
+TEST_F(Monitor, keeps_the_last_state_of_the_world_that_is_not_after_the_end) {
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "n/a");
+  (void)monitor_.observe(StateReport{9 * kSecond, 900, "aa"});
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "aa") << "before the start, but none later";
+  (void)monitor_.observe(StateReport{11 * kSecond, 1100, "bb"});
+  monitor_.end(11 * kSecond);
+  (void)monitor_.observe(StateReport{12 * kSecond, 1200, "cc"});
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "bb");
+  EXPECT_EQ(monitor_.tally_fields().get("state_step"), "1100");
+}
+
 TEST_F(Monitor, makes_a_lost_contact_good_from_the_running_counts) {
   (void)monitor_.observe(contact(11.0, 1, "shelf", 1, 0));
   const auto events = monitor_.observe(contact(12.0, 4, "shelf", 2, 2));

@@ -9,6 +9,7 @@
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/Scenario.h>
+#include <navvi_msgs/StateHash.h>
 #include <navvi_msgs/TrialEvent.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -80,6 +81,7 @@ class World {
     contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
     cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
     drive_ = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
+    state_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
     scenario_ = node_.advertise<navvi_msgs::Scenario>("navvi/scenario", 1, true);
     goal_ = node_.subscribe<geometry_msgs::PoseStamped>(
         "move_base_simple/goal", 1, [this](const geometry_msgs::PoseStamped::ConstPtr& msg) {
@@ -128,6 +130,11 @@ class World {
     proximity.things[1].gap = 4.0;
     proximity.things[1].nearest.y = 2.0;
     proximity_.publish(proximity);
+    navvi_msgs::StateHash state;
+    state.header.stamp = stamp();
+    state.step = static_cast<std::uint64_t>(tick_);
+    state.hash = "00000000c0ffee00";
+    if (tick_ % 50 == 0) state_.publish(state);
     if (x_ > 2.0 && !hit_) touch();
   }
 
@@ -182,7 +189,7 @@ class World {
   }
 
   ros::NodeHandle node_;
-  ros::Publisher clock_, odom_, guidance_, proximity_, contacts_, cues_, drive_, scenario_;
+  ros::Publisher clock_, odom_, guidance_, proximity_, contacts_, cues_, drive_, scenario_, state_;
   ros::Subscriber goal_, events_;
   int tick_ = 0;
   std::uint32_t seq_ = 0;
@@ -269,6 +276,7 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   EXPECT_EQ(summary["safe_stop_count"], "1");
   EXPECT_EQ(summary["replan_count"], "1");
   EXPECT_EQ(summary["cues_spoken"], "1");
+  EXPECT_EQ(summary["state_hash"], "00000000c0ffee00");
   EXPECT_EQ(summary["bag"], "ok");
   EXPECT_NEAR(std::stod(summary["path_length_m"]), 3.0, 0.15);
   EXPECT_FALSE(fs::exists(folder / "trial.bag.active"));

@@ -9,6 +9,7 @@
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
+#include "navvi_sim/world_source.hpp"
 
 namespace navvi_sim {
 
@@ -40,5 +41,18 @@ struct SimNodeConfig {
   /// \throws navvi_config::ConfigError with a sentence if it is not two finite numbers
   [[nodiscard]] std::optional<Eigen::Vector2d> goal_point() const;
 };
+
+/// The world that `config` names. \throws WorldError with a sentence
+[[nodiscard]] LoadedWorld load_world(const SimNodeConfig& config);
+
+/// Start and goal: as given, and drawn from the seed where they are not.
+/// \param map  of `world` (occupancy.hpp)
+/// \throws ConfigError or WorldError with a sentence
+[[nodiscard]] Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
+                                   const octomap::OcTree& map);
+
+/// Every parameter as YAML, with the scenario's start and goal written exactly and the world's path
+/// absolute: who reads this plays the same world again and needs to draw nothing.
+[[nodiscard]] std::string recipe(SimNodeConfig config, const Scenario& scenario);
 
 }  // namespace navvi_sim

@@ -2,17 +2,21 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <navvi_msgs/AppliedCommands.h>
 #include <navvi_msgs/Contact.h>
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/Scenario.h>
+#include <navvi_msgs/StateHash.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "navvi_sim/msg_conversion.hpp"
 #include "navvi_sim/scenario.hpp"
+#include "navvi_sim/session.hpp"
 #include "navvi_sim/world.hpp"
 
 namespace navvi_sim {
@@ -44,6 +48,18 @@ namespace navvi_sim {
 [[nodiscard]] navvi_msgs::Scenario scenario_msg(const WorldDescription& world,
                                                 const std::string& world_hash, std::uint64_t seed,
                                                 const Scenario& scenario, const ros::Time& stamp);
+
+/// The commands from number `first` on.
+[[nodiscard]] navvi_msgs::AppliedCommands applied_commands_msg(
+    const std::vector<AppliedCommand>& commands, std::size_t first, const ros::Time& stamp);
+[[nodiscard]] navvi_msgs::StateHash state_hash_msg(const StateHash& state, const ros::Time& stamp);
+
+/// Adds to `commands`, every command of the world so far, those of a message that are new. False
+/// if commands are missing between, or the message is not in order: nothing is added then.
+[[nodiscard]] bool append(const navvi_msgs::AppliedCommands& msg,
+                          std::vector<AppliedCommand>& commands);
+/// nullopt if its hash is not 16 hexadecimal digits.
+[[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
 
 /// What moving_scene_msg draws.
 [[nodiscard]] std::vector<MovingPose> moving_poses(const Snapshot& now);

@@ -9,6 +9,7 @@
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/Scenario.h>
+#include <navvi_msgs/StateHash.h>
 #include <navvi_msgs/TrialEvent.h>
 #include <sensor_msgs/Joy.h>
 
@@ -27,6 +28,7 @@ namespace navvi_study {
 [[nodiscard]] std::optional<GuidanceReport> from_msg(const navvi_msgs::Guidance& msg);
 [[nodiscard]] std::optional<CueReport> from_msg(const navvi_msgs::Cue& msg);
 [[nodiscard]] std::optional<DriveReport> from_msg(const navvi_msgs::DriveState& msg);
+[[nodiscard]] std::optional<StateReport> from_msg(const navvi_msgs::StateHash& msg);
 /// Only the devices of feedback_node.
 [[nodiscard]] std::vector<DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg);
 [[nodiscard]] std::optional<Point2> from_msg(const geometry_msgs::PoseStamped& msg);

@@ -97,6 +97,13 @@ struct DeviceReport {
   bool usable = false;
 };
 
+/// What the world was like after so many steps: the proof that a repetition is the same.
+struct StateReport {
+  std::int64_t stamp = 0;
+  std::uint64_t step = 0;
+  std::string hash;  ///< 16 hexadecimal digits
+};
+
 /// Something that happened in a trial; the journal makes a row of it.
 struct Event {
   std::string type;
@@ -160,11 +167,13 @@ class TrialMonitor {
   [[nodiscard]] std::vector<Event> observe(const CueReport& cue);
   [[nodiscard]] std::vector<Event> observe(const DriveReport& drive);
   [[nodiscard]] std::vector<Event> observe(const DeviceReport& device);
+  [[nodiscard]] std::vector<Event> observe(const StateReport& state);
 
   /// What start() needs to know of the past.
   [[nodiscard]] TrialStart start_now(std::int64_t stamp, const Point2& goal) const;
   [[nodiscard]] const Tally& tally() const { return tally_; }
-  /// Adds the figures that no single event carries: path_length, cues_spoken, missed_messages.
+  /// The figures that no single event carries: path_length, cues_spoken, missed_messages, and the
+  /// last state of the world by step and hash (n/a where there is no simulator).
   [[nodiscard]] Fields tally_fields() const;
   /// The guide shows a path to the goal, has arrived, or refused.
   [[nodiscard]] bool goal_taken() const { return goal_taken_; }
@@ -208,6 +217,7 @@ class TrialMonitor {
   std::set<std::uint32_t> stuck_cues_;
   std::optional<DriveReport> drive_;
   std::map<std::string, bool> devices_;
+  std::optional<StateReport> world_state_;  ///< the last one, none later than the end
   bool goal_taken_ = false;
   std::optional<GuidanceReport::State> state_;
   std::optional<std::int64_t> reached_;
