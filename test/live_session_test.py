@@ -10,6 +10,7 @@ import threading
 import time
 
 import pytest
+import rosbag
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
@@ -171,6 +172,24 @@ def test_the_bag_holds_the_topics_and_agrees_with_the_summary(trial):
     info = subprocess.check_output(["rosbag", "info", "-y", "-k", "topics", str(trial / "trial.bag")], text=True)
     assert BAGGED - {"/navvi/contacts"} <= set(re.findall(r"topic: (\S+)", info))
     subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(trial)], check=True, timeout=120)
+
+
+def check(trial):
+    return subprocess.run(["rosrun", "navvi_study", "check_trial", str(trial)], text=True, capture_output=True, timeout=120)
+
+
+def test_the_record_repeats_the_simulation_bit_for_bit(trial, tmp_path):
+    result = check(trial)
+    assert result.returncode == 0 and result.stdout.startswith("equal"), result.stdout + result.stderr
+    # One command that was the least bit different does not go unnoticed.
+    (tmp_path / "summary.csv").write_bytes((trial / "summary.csv").read_bytes())
+    with rosbag.Bag(str(trial / "trial.bag")) as bag, rosbag.Bag(str(tmp_path / "trial.bag"), "w") as other:
+        for topic, message, stamp in bag.read_messages(["/navvi/scenario", "/navvi/applied_commands", "/navvi/state_hash"]):
+            if topic == "/navvi/applied_commands" and message.first > 100:
+                message.commands[-1].angular += 1e-9
+            other.write(topic, message, stamp)
+    result = check(tmp_path)
+    assert result.returncode == 1 and "differ" in result.stdout, result.stdout + result.stderr
 
 
 def test_the_robot_did_not_go_through_anything(trial):

@@ -188,7 +188,8 @@ std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
   state.step = msg.step;
   const char* end = msg.hash.data() + msg.hash.size();
   const auto [rest, error] = std::from_chars(msg.hash.data(), end, state.hash, 16);
-  if (msg.hash.size() != 16 || error != std::errc() || rest != end) return std::nullopt;
+  if (msg.hash.size() != 16 || msg.hash[0] == '-' || error != std::errc() || rest != end)
+    return std::nullopt;
   return state;
 }
 

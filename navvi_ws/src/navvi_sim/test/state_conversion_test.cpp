@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <navvi_config/reader.hpp>
 
 #include "navvi_sim/sim_node_config.hpp"
@@ -125,6 +127,52 @@ TEST(SimNodeConfig, reads_every_profile_that_ships) {
     SimNodeConfig config;
     const std::string path = std::string(NAVVI_SIM_DIR) + "/config/" + profile + ".yaml";
     EXPECT_NO_THROW(navvi_config::read(config, navvi_config::load_yaml(path), path)) << path;
+  }
+}
+
+const std::vector<AppliedCommand> kThree{{0, {0.0, 0.0}, Braking::emergency},
+                                         {5, {0.1, 1.0 / 3.0}, Braking::normal},
+                                         {6, {-0.0, 0.2}, Braking::normal}};
+
+bool equal(const std::vector<AppliedCommand>& a, const std::vector<AppliedCommand>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.step == y.step && x.velocity.linear == y.velocity.linear &&
+           x.velocity.angular == y.velocity.angular && x.braking == y.braking;
+  });
+}
+
+TEST(StateConversion, commands_come_back_whole_however_they_are_cut_and_repeated) {
+  for (const std::vector<std::size_t>& begins :
+       {std::vector<std::size_t>{0}, {0, 1, 2}, {0, 0}, {1, 0}}) {
+    std::vector<AppliedCommand> commands;
+    for (const std::size_t first : begins) {
+      const bool ok = append(applied_commands_msg(kThree, first, ros::Time(1.0)), commands);
+      EXPECT_EQ(ok, first == 0 || !commands.empty()) << first;
+    }
+    EXPECT_TRUE(equal(commands, kThree));
+  }
+}
+
+TEST(StateConversion, commands_out_of_order_or_not_finite_are_refused_whole) {
+  const auto good = applied_commands_msg(kThree, 0, ros::Time(1.0));
+  for (const auto& spoil : std::vector<std::function<void(navvi_msgs::AppliedCommand&)>>{
+           [](auto& last) { last.step = 5; }, [](auto& last) { last.linear = NAN; },
+           [](auto& last) { last.angular = INFINITY; }}) {
+    auto bad = good;
+    spoil(bad.commands.back());
+    std::vector<AppliedCommand> commands;
+    EXPECT_FALSE(append(bad, commands));
+    EXPECT_TRUE(commands.empty());
+  }
+}
+
+TEST(StateConversion, a_state_hash_comes_back_and_what_is_no_hash_does_not) {
+  const StateHash state{4100, 0x00f4c0bca0694f33};
+  auto msg = state_hash_msg(state, ros::Time(41.0));
+  EXPECT_EQ(from_msg(msg), state);
+  for (const char* bad : {"", "f4c0bca0694f33", "00f4c0bca0694f3x", "-0f4c0bca0694f33"}) {
+    msg.hash = bad;
+    EXPECT_FALSE(from_msg(msg)) << bad;
   }
 }
 

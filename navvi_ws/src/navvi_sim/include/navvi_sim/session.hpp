@@ -52,9 +52,9 @@ class Session {
   std::vector<StateHash> hashes_;
 };
 
-/// Steps a session that has just begun with recorded commands, up to `steps` in all.
+/// Goes on with recorded commands until the session has taken `steps` in all.
 /// \param commands  ordered by step; before the first one the robot is braked
-/// \return the status of the last step
+/// \return of the last step
 World::Status replay(Session& session, const std::vector<AppliedCommand>& commands,
                      std::uint64_t steps);
 
