@@ -1,35 +1,29 @@
 #pragma once
 
-#include <octomap/OcTree.h>
-
 #include <memory>
+#include <vector>
 
-#include "navvi_nav/geometry.hpp"
+#include "plain_recast.hpp"
 
-namespace navvi_nav {
+namespace navvi_nav::plain {
 
-/// Recast and Detour used as their samples do: one mesh over the whole map, convex polygons of up
-/// to six corners, Detour's own A* on edge midpoints and its own funnel. The voxels go in as spans,
-/// and no height detail is made, so that nothing is paid for that our mesh does not need either.
-class PlainDetour {
+/// Recast used as its samples do: one watershed mesh over the whole map, convex polygons of up to
+/// six corners for Detour. The voxels go in as spans, and no height detail is made, so that nothing
+/// is paid for that our mesh does not need either.
+class Detour {
  public:
   /// \param robot_radius  m, eroded in whole cells \param robot_height  m
-  PlainDetour(const octomap::OcTree& tree, double robot_radius, double robot_height);
-  ~PlainDetour();
-  PlainDetour(const PlainDetour&) = delete;
-  PlainDetour& operator=(const PlainDetour&) = delete;
+  Detour(const Columns& columns, double robot_radius, double robot_height);
 
-  [[nodiscard]] int polygons() const;
-
-  /// Sets where the next search() runs: findNearestPoly for both ends.
-  /// \returns false if either is off the mesh
-  bool locate(Point start, Point goal);
-  /// findPath and findStraightPath. \returns empty if there is no path or only a part of one
-  Path search();
+  [[nodiscard]] const dtNavMesh& mesh() const { return *mesh_; }
+  /// The corners of each polygon in whole cells of map, counter-clockwise.
+  [[nodiscard]] const std::vector<std::vector<std::array<int, 2>>>& polygons() const {
+    return polygons_;
+  }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  NavMesh mesh_;
+  std::vector<std::vector<std::array<int, 2>>> polygons_;
 };
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::plain
