@@ -33,11 +33,13 @@ class Medians : public benchmark::BenchmarkReporter {
       if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       auto& values = values_[run.run_name.function_name];
       values["ms"] = 1e3 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
+      values["real_ms"] = 1e3 * run.real_accumulated_time / static_cast<double>(run.iterations);
       for (const auto& [counter, value] : run.counters) values[counter] = value;
     }
   }
 
-  /// A counter of a benchmark, or its processor time "ms"; 0 if it was filtered out.
+  /// A counter of a benchmark, or its processor time "ms" or wall time "real_ms"; 0 if it was
+  /// filtered out.
   [[nodiscard]] double get(const std::string& benchmark, const std::string& value) const {
     const auto values = values_.find(benchmark);
     if (values == values_.end()) return 0.0;
