@@ -141,6 +141,55 @@ void split_edges(Polygon& polygon, const Crossing* first, const Crossing* last) 
   polygon.corners = std::move(corners);
 }
 
+/// A polygon's corner: which polygon, and the how manyth.
+struct Wedge {
+  int polygon = 0;
+  std::size_t corner = 0;
+};
+
+/// Where polygons meet in a point and nothing else joins them, each group gets a vertex of its own:
+/// a path can not pass there, and what is known of a vertex must not pass there either.
+void split_pinches(Mesh& mesh) {
+  std::vector<std::vector<Wedge>> wedges(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    for (std::size_t k = 0; k < mesh.polygons[i].corners.size(); ++k)
+      wedges[static_cast<std::size_t>(mesh.polygons[i].corners[k])].push_back(
+          {static_cast<int>(i), k});
+  }
+  std::vector<int> group;
+  for (std::size_t vertex = 0; vertex < wedges.size(); ++vertex) {
+    const std::vector<Wedge>& around = wedges[vertex];
+    const int here = static_cast<int>(vertex);
+    group.assign(around.size(), 0);
+    std::iota(group.begin(), group.end(), 0);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      for (const Link& link : mesh.polygon(around[i].polygon).links) {
+        if (link.right != here && link.left != here) continue;
+        const auto joined = std::find_if(around.begin(), around.end(), [&](const Wedge& wedge) {
+          return wedge.polygon == link.to;
+        });
+        const int from = group[static_cast<std::size_t>(joined - around.begin())];
+        std::replace(group.begin(), group.end(), from, int{group[i]});
+      }
+    }
+    for (std::size_t i = 1; i < around.size(); ++i) {
+      if (group[i] == group[0]) continue;
+      const int own = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.push_back({mesh.at(here), false});
+      for (std::size_t j = around.size(); j-- > i;) {
+        if (group[j] != group[i]) continue;
+        Polygon& polygon = mesh.polygons[static_cast<std::size_t>(around[j].polygon)];
+        polygon.corners[around[j].corner] = own;
+        for (Link& link : polygon.links) {
+          if (link.right == here) link.right = own;
+          if (link.left == here) link.left = own;
+        }
+        group[j] = group[0];
+      }
+    }
+  }
+}
+
 /// The angle at a corner inside a polygon, rad.
 double angle_at(Point before, Point corner, Point after) {
   const Point a = after - corner;
@@ -148,7 +197,6 @@ double angle_at(Point before, Point corner, Point after) {
   return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
 }
 
-/// A vertex where several free angles meet in a point may be taken for a corner without need.
 void find_corners(Mesh& mesh) {
   std::vector<double> free(mesh.vertices.size(), 0.0);
   std::vector<char> walled(mesh.vertices.size(), 0);
@@ -253,6 +301,7 @@ Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {
     split_edges(mesh.polygons[i], first, last);
     first = last;
   }
+  split_pinches(mesh);
   find_corners(mesh);
   number_parts(mesh);
   return mesh;

@@ -69,6 +69,20 @@ TEST(Mesh, takes_neither_open_floor_nor_a_straight_wall_for_a_corner) {
   for (const Vertex& vertex : join(squares, 0.05).vertices) EXPECT_FALSE(vertex.corner);
 }
 
+TEST(Mesh, gives_each_side_of_a_pinch_its_own_vertex) {
+  const auto square = [](int x, int y) {
+    return GridPolygon{{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
+  };
+  const Mesh mesh = join({square(0, 0), square(1, 1), square(0, 1), square(2, 1), square(2, 0)}, 1);
+  int there = 0;
+  for (const Vertex& vertex : mesh.vertices) there += vertex.at == (Point{1, 1}) ? 1 : 0;
+  EXPECT_EQ(there, 1);  // (0, 1) joins them
+  const Mesh pinch = join({square(0, 0), square(1, 1), square(2, 1), square(2, 0)}, 1);
+  there = 0;
+  for (const Vertex& vertex : pinch.vertices) there += vertex.at == (Point{1, 1}) ? 1 : 0;
+  EXPECT_EQ(there, 2);
+}
+
 TEST(Mesh, does_not_link_triangles_that_touch_in_a_point) {
   const Mesh mesh = join({triangle(0, 0, 1, 0, 0, 1), triangle(1, 0, 2, 0, 2, 1)}, 1.0);
   EXPECT_TRUE(mesh.polygons[0].links.empty());

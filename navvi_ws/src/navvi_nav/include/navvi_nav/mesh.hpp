@@ -33,7 +33,10 @@ struct Polygon {
 
 /// Where the robot's centre may be (R-NAV-3): graph G is its polygons and their links.
 struct Mesh {
-  std::vector<Vertex> vertices;  ///< no two in the same place, but where nothing joins them
+  /// One for each place where polygons meet; but where they meet in a point only, as two obstacles
+  /// that touch leave them, each group that links join has its own. A search knows a vertex by its
+  /// number: were it shared, what is known of one side would be taken for the other's.
+  std::vector<Vertex> vertices;
   std::vector<Polygon> polygons;
 
   struct Place {
