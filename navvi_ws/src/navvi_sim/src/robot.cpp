@@ -35,6 +35,7 @@ void RobotConfig::describe(navvi_config::Visitor& visit) {
   visit({"angular_brake", Range{1.0, 200.0}, "rad/s^2",
          "angular deceleration when commands fail to come"},
         angular_brake);
+  visit.group("imperfections", imperfections);
 }
 
 double RobotState::forward_speed() const {

@@ -120,7 +120,9 @@ void SimNode::advertise() {
 }
 
 void SimNode::publish_what_stands(const octomap::OcTree& map, const Scenario& scenario) {
-  static_transforms_.sendTransform(odom_msg(stamp()));
+  if (!config_.life.robot.imperfections.odometry_drifts())
+    static_transforms_.sendTransform(
+        odom_msg(world().now().robot, world().now().odometry, stamp()));
   octomap_.publish(to_msg(map, stamp()));
   cells_.publish(occupied_cells_msg(map, stamp()));
   scene_.publish(scene_msg(description_, stamp()));
@@ -197,8 +199,11 @@ void SimNode::publish_state() {
   rosgraph_msgs::Clock clock;
   clock.clock = stamp();
   clock_.publish(clock);
-  transforms_.sendTransform(base_link_msg(now.robot, floor, stamp()));
-  odom_.publish(odometry_msg(now.robot, floor, stamp()));
+  std::vector<geometry_msgs::TransformStamped> frames{base_link_msg(now.odometry, floor, stamp())};
+  if (config_.life.robot.imperfections.odometry_drifts())
+    frames.push_back(odom_msg(now.robot, now.odometry, stamp()));
+  transforms_.sendTransform(frames);
+  odom_.publish(odometry_msg(now.odometry, floor, stamp()));
   for (const ContactEvent& contact : now.contacts)
     contacts_.publish(contact_msg(description_, now.robot, contact, stamp()));
   if (is_due(session_->steps(), dt, kProximityRate)) {

@@ -33,26 +33,12 @@ geometry_msgs::Point point_msg(const Eigen::Vector3d& point) {
   return msg;
 }
 
-}  // namespace
-
-nav_msgs::Odometry odometry_msg(const RobotState& robot, double floor_height,
-                                const ros::Time& stamp) {
-  nav_msgs::Odometry msg;
-  msg.header = header("odom", stamp);
-  msg.child_frame_id = "base_link";
-  msg.pose.pose = pose_msg(robot.position, floor_height, robot.yaw);
-  msg.twist.twist.linear.x = robot.forward_speed();
-  msg.twist.twist.linear.y = robot.sideways_speed();
-  msg.twist.twist.angular.z = robot.turn_rate;
-  return msg;
-}
-
-geometry_msgs::TransformStamped base_link_msg(const RobotState& robot, double floor_height,
+geometry_msgs::TransformStamped transform_msg(const char* frame, const char* child,
+                                              const geometry_msgs::Pose& pose,
                                               const ros::Time& stamp) {
   geometry_msgs::TransformStamped msg;
-  msg.header = header("odom", stamp);
-  msg.child_frame_id = "base_link";
-  const geometry_msgs::Pose pose = pose_msg(robot.position, floor_height, robot.yaw);
+  msg.header = header(frame, stamp);
+  msg.child_frame_id = child;
   msg.transform.translation.x = pose.position.x;
   msg.transform.translation.y = pose.position.y;
   msg.transform.translation.z = pose.position.z;
@@ -60,12 +46,32 @@ geometry_msgs::TransformStamped base_link_msg(const RobotState& robot, double fl
   return msg;
 }
 
-geometry_msgs::TransformStamped odom_msg(const ros::Time& stamp) {
-  geometry_msgs::TransformStamped msg;
-  msg.header = header("map", stamp);
-  msg.child_frame_id = "odom";
-  msg.transform.rotation.w = 1.0;
+}  // namespace
+
+nav_msgs::Odometry odometry_msg(const RobotState& odometry, double floor_height,
+                                const ros::Time& stamp) {
+  nav_msgs::Odometry msg;
+  msg.header = header("odom", stamp);
+  msg.child_frame_id = "base_link";
+  msg.pose.pose = pose_msg(odometry.position, floor_height, odometry.yaw);
+  msg.twist.twist.linear.x = odometry.forward_speed();
+  msg.twist.twist.linear.y = odometry.sideways_speed();
+  msg.twist.twist.angular.z = odometry.turn_rate;
   return msg;
+}
+
+geometry_msgs::TransformStamped base_link_msg(const RobotState& odometry, double floor_height,
+                                              const ros::Time& stamp) {
+  return transform_msg("odom", "base_link", pose_msg(odometry.position, floor_height, odometry.yaw),
+                       stamp);
+}
+
+geometry_msgs::TransformStamped odom_msg(const RobotState& robot, const RobotState& odometry,
+                                         const ros::Time& stamp) {
+  const double yaw = robot.yaw - odometry.yaw;
+  const Eigen::Vector2d origin =
+      robot.position - Eigen::Rotation2Dd(yaw).toRotationMatrix() * odometry.position;
+  return transform_msg("map", "odom", pose_msg(origin, 0.0, yaw), stamp);
 }
 
 navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world, const Snapshot& now,

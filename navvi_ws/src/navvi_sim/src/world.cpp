@@ -36,7 +36,8 @@ World::World(const WorldDescription& description, const WorldConfig& config, con
     : config_(config),
       floor_height_(description.floor_height),
       things_(description.things),
-      physics_(description, config.robot, {start.x, start.y}, start.yaw) {
+      physics_(description, config.robot, {start.x, start.y}, start.yaw),
+      drivetrain_(config.robot, config.step, physics_.robot(), seed) {
   for (std::size_t id = 0; id < things_.size(); ++id)
     if (things_[id].route) movers_.emplace_back(id, things_[id], config.movers, seed);
   take_snapshot();
@@ -52,6 +53,7 @@ World::Status World::step(const navvi_safety::Velocity& command, Braking braking
   step_movers();
   drive_robot(command, braking);
   physics_.advance(config_.step);
+  drivetrain_.count(now_.robot, physics_.robot());
   ++steps_;
   touches_ = physics_.touches();
   take_snapshot();
@@ -108,8 +110,7 @@ void World::drive_robot(const navvi_safety::Velocity& command, Braking braking) 
   const double limit = kMaxPushed;
   const navvi_safety::Velocity measured{std::clamp(robot.forward_speed(), -limit, limit),
                                         robot.turn_rate};
-  const navvi_safety::Velocity wheels =
-      servo(config_.robot, measured, command, braking, config_.step);
+  const navvi_safety::Velocity wheels = drivetrain_.drive(measured, command, braking);
   physics_.set_robot_velocity(
       wheels.linear * Eigen::Vector2d(std::cos(robot.yaw), std::sin(robot.yaw)), wheels.angular);
 }
@@ -117,6 +118,7 @@ void World::drive_robot(const navvi_safety::Velocity& command, Braking braking) 
 void World::take_snapshot() {
   now_.time = static_cast<double>(steps_) * config_.step;
   now_.robot = physics_.robot();
+  now_.odometry = drivetrain_.odometry();
   now_.contacts.clear();
   now_.movers.clear();
   for (const Mover& mover : movers_)
@@ -137,7 +139,7 @@ bool World::finite() const {
 
 std::uint64_t World::state_hash() const {
   std::uint64_t hash = mix(0xCBF29CE484222325ull, static_cast<double>(steps_));
-  hash = physics_.hash(hash);
+  hash = drivetrain_.hash(physics_.hash(hash));
   for (const Mover& mover : movers_)
     for (const double value :
          {mover.position().x(), mover.position().y(), mover.yaw(), mover.speed(), mover.turn_rate(),

@@ -50,6 +50,27 @@ TEST(StateConversion, odometry_is_at_floor_height_with_its_twist_in_base_link) {
   EXPECT_EQ(transform.transform.rotation.w, msg.pose.pose.orientation.w);
 }
 
+TEST(StateConversion, the_correction_brings_a_drifted_odometry_back_to_the_truth) {
+  const RobotState robot = robot_looking_north();
+  const auto same = odom_msg(robot, robot, ros::Time(3.0)).transform;
+  EXPECT_EQ(same.translation.x, 0.0);
+  EXPECT_EQ(same.translation.y, 0.0);
+  EXPECT_EQ(same.rotation.w, 1.0);
+
+  RobotState odometry;
+  odometry.position = {4.0, -3.0};
+  odometry.yaw = -2.5;
+  const auto isometry = [](const geometry_msgs::Transform& msg) {
+    return Eigen::Translation3d(msg.translation.x, msg.translation.y, msg.translation.z) *
+           Eigen::Quaterniond(msg.rotation.w, msg.rotation.x, msg.rotation.y, msg.rotation.z);
+  };
+  const Eigen::Isometry3d map_to_base =
+      isometry(odom_msg(robot, odometry, ros::Time(3.0)).transform) *
+      isometry(base_link_msg(odometry, -0.09, ros::Time(3.0)).transform);
+  EXPECT_NEAR((map_to_base.translation() - Eigen::Vector3d(1.0, 2.0, -0.09)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((map_to_base.linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-12);
+}
+
 TEST(StateConversion, near_points_are_taken_over_to_base_link) {
   const auto msg = proximity_msg(world_of_two(), robot_looking_north(),
                                  {{1, 0.65, {1.0, 3.0, 0.11}}}, 5.0, ros::Time(3.0));

@@ -22,14 +22,18 @@
 namespace navvi_sim {
 
 /// odom -> base_link, the pose at floor height, the twist in base_link.
-[[nodiscard]] nav_msgs::Odometry odometry_msg(const RobotState& robot, double floor_height,
+/// \param odometry  Snapshot::odometry
+[[nodiscard]] nav_msgs::Odometry odometry_msg(const RobotState& odometry, double floor_height,
                                               const ros::Time& stamp);
 /// odom -> base_link
-[[nodiscard]] geometry_msgs::TransformStamped base_link_msg(const RobotState& robot,
+[[nodiscard]] geometry_msgs::TransformStamped base_link_msg(const RobotState& odometry,
                                                             double floor_height,
                                                             const ros::Time& stamp);
-/// map -> odom: identity, for the simulator's odometry does not drift.
-[[nodiscard]] geometry_msgs::TransformStamped odom_msg(const ros::Time& stamp);
+/// map -> odom: what corrects the odometry, so that map -> base_link is the truth. The identity
+/// where the odometry does not drift.
+[[nodiscard]] geometry_msgs::TransformStamped odom_msg(const RobotState& robot,
+                                                       const RobotState& odometry,
+                                                       const ros::Time& stamp);
 
 /// Every moving thing as a cylinder on the floor, in map.
 [[nodiscard]] navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world,

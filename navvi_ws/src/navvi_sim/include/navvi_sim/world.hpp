@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "navvi_sim/contact_counter.hpp"
+#include "navvi_sim/drivetrain.hpp"
 #include "navvi_sim/mover.hpp"
 #include "navvi_sim/physics.hpp"
 #include "navvi_sim/robot.hpp"
@@ -35,10 +36,11 @@ struct MoverState {
   double height;             ///< m, its top above the floor
 };
 
-/// Everything that moves, at one instant. Frame: map.
+/// Everything that moves, at one instant. Frame: map, but for the odometry.
 struct Snapshot {
   double time = 0.0;  ///< s since the world began
   RobotState robot;
+  RobotState odometry;                 ///< base_link in odom, as its wheels count it
   std::vector<MoverState> movers;      ///< ordered by thing
   std::vector<ContactEvent> contacts;  ///< begun in the last step
 };
@@ -54,7 +56,7 @@ class World {
   };
 
   /// \param description  valid (validate.hpp)
-  /// \param seed         of the movers' pauses
+  /// \param seed         of the movers' pauses and the robot's imperfections
   World(const WorldDescription& description, const WorldConfig& config, const FloorPose& start,
         std::uint64_t seed);
 
@@ -81,6 +83,7 @@ class World {
   std::vector<Thing> things_;
   std::vector<Mover> movers_;
   Physics physics_;
+  Drivetrain drivetrain_;
   ContactCounter contacts_;
   std::vector<Touch> touches_;
   Snapshot now_;
