@@ -1,10 +1,9 @@
 #include "navvi_nav/smoothing.hpp"
 
 #include <ompl/base/MotionValidator.h>
+#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
-#include <ompl/base/objectives/StateCostIntegralObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
@@ -19,8 +18,10 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
 constexpr std::uint_fast32_t kSeed = 1;  // the same always: equal input, equal path
-constexpr double kSpacing = 1.0;         // m, between points that may be moved
-constexpr std::size_t kMaxStations = 25;
+constexpr double kSample = 0.2;          // m, between places where guide_cost looks
+constexpr double kStride = 0.6;          // m, farthest that OMPL moves a point at once
+constexpr double kRange = 0.5;           // share of the path that one shortcut may replace
+constexpr double kSnap = 0.1;            // share of the path within which a corner is meant
 
 using State = ob::RealVectorStateSpace::StateType;
 
@@ -66,15 +67,16 @@ class Motion : public ob::MotionValidator {
   Room room_;
 };
 
-/// guide_cost as OMPL sees it.
+/// guide_cost and turn_price as OMPL sees them: each motion costs its leg and one turn.
 class Clearance : public ob::OptimizationObjective {
  public:
   Clearance(const ob::SpaceInformationPtr& information, const Space& space, const Room& room,
             const SmoothingConfig& config)
       : ob::OptimizationObjective(information), space_(space), room_(room), config_(config) {}
-  ob::Cost stateCost(const ob::State*) const override { return ob::Cost(1.0); }
+  ob::Cost stateCost(const ob::State*) const override { return ob::Cost(0.0); }
   ob::Cost motionCost(const ob::State* a, const ob::State* b) const override {
-    return ob::Cost(guide_cost({point_of(a), point_of(b)}, space_, room_, config_));
+    return ob::Cost(guide_cost({point_of(a), point_of(b)}, space_, room_, config_) +
+                    config_.turn_price);
   }
 
  private:
@@ -135,29 +137,47 @@ Path from_ompl(const og::PathGeometric& path) {
   return out;
 }
 
-bool acceptable(const Path& path, const Path& original, const Space& space, const Room& room,
-                double longest) {
-  return path.size() >= 2 && path.front() == original.front() && path.back() == original.back() &&
-         std::all_of(path.begin(), path.end(), [](Point p) { return finite(p); }) &&
-         length_of(path) <= longest && clear(path, space, room.radius);
-}
-
-Path shortened(const Path& path, const ob::SpaceInformationPtr& information, unsigned int steps) {
+/// OMPL moves points of the path at random and keeps what is cheaper, then leaves out the corners
+/// that do not pay.
+Path polished(const Path& path, const Space& space, const Room& room,
+              const SmoothingConfig& config) {
+  ompl::msg::noOutputHandler();
+  const auto information = information_of(space, room);
   og::PathGeometric out = to_ompl(path, information);
-  Simplifier simplifier(information,
-                        std::make_shared<ob::PathLengthOptimizationObjective>(information));
-  simplifier.reduceVertices(out, steps, steps);
-  simplifier.shortcutPath(out, steps, steps, 0.33, 0.005);
-  return from_ompl(out);
-}
-
-Path moved_away(const Path& path, const ob::SpaceInformationPtr& information, const Space& space,
-                const Room& room, const SmoothingConfig& config) {
-  og::PathGeometric out = to_ompl(path, information);
-  Simplifier simplifier(information, std::make_shared<Clearance>(information, space, room, config));
   const auto steps = static_cast<unsigned int>(config.steps);
-  simplifier.perturbPath(out, room.preferred, steps, steps);
+  SmoothingConfig any_turns = config;
+  any_turns.turn_price = 0.0;
+  Simplifier mover(information, std::make_shared<Clearance>(information, space, room, any_turns));
+  mover.perturbPath(out, kStride, steps, steps);
+  Simplifier saver(information, std::make_shared<Clearance>(information, space, room, config));
+  saver.shortcutPath(out, steps, steps, kRange, kSnap);
   return from_ompl(out);
+}
+
+/// What the path is measured by: guide_cost and one turn_price for each leg.
+double person_cost(const Path& path, const Space& space, const Room& room,
+                   const SmoothingConfig& config) {
+  return guide_cost(path, space, room, config) +
+         config.turn_price * static_cast<double>(path.size());
+}
+
+/// The cylinders that may matter to a path within room.preferred of this one.
+std::vector<Cylinder> cylinders_near(const Path& path, const Space& space, const Room& room) {
+  Point low = path.front();
+  Point high = low;
+  for (const Point point : path) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  std::vector<Cylinder> out;
+  for (const Cylinder& cylinder : *space.cylinders) {
+    const double reach = cylinder.radius + 2.0 * (room.radius + std::max(room.preferred, 0.6));
+    const Point at = cylinder.center;
+    if (at.x > low.x - reach && at.x < high.x + reach && at.y > low.y - reach &&
+        at.y < high.y + reach)
+      out.push_back(cylinder);
+  }
+  return out;
 }
 
 }  // namespace
@@ -165,35 +185,60 @@ Path moved_away(const Path& path, const ob::SpaceInformationPtr& information, co
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit({"enabled", navvi_config::Any{}, "", "false: the path is the funnel's"}, enabled);
-  visit({"steps", Range{1, 10000}, "", "upper limit of each of OMPL's loops"}, steps);
+  visit({"steps", Range{0, 10000}, "", "upper limit of each of OMPL's two loops"}, steps);
   visit({"clearance_weight", Range{0.0, 100.0}, "",
          "how much dearer a metre without any preferred clearance is"},
         clearance_weight);
   visit({"turn_price", Range{0.0, 20.0}, "m", "length a path may gain to save one turn"},
         turn_price);
-  visit({"max_stretch", Range{1.0, 5.0}, "", "longest smoothed path, times the funnel's"},
+  visit({"short_leg", Range{0.1, 10.0}, "m",
+         "a leg shorter than this costs up to one turn_price more"},
+        short_leg);
+  visit({"max_stretch", Range{1.0, 5.0}, "", "longest smoothed path, times the shortest"},
         max_stretch);
-  visit({"max_detour", Range{0.0, 20.0}, "m", "or so much longer than the funnel's"}, max_detour);
+  visit({"max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest"}, max_detour);
+}
+
+double guide_cost(const Path& path, const Space& space, const Room& room,
+                  const SmoothingConfig& config) {
+  if (room.preferred <= 0.0 || config.clearance_weight <= 0.0) return length_of(path);
+  double sum = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Point leg = path[k] - path[k - 1];
+    const double length = norm(leg);
+    const int samples = std::max(1, static_cast<int>(std::ceil(length / kSample)));
+    double prices = 0.0;
+    for (int i = 0; i < samples; ++i) {
+      const Point at = path[k - 1] + ((i + 0.5) / samples) * leg;
+      double gap = space.floor->gap(space.floor->cell_at(at));
+      for (const Cylinder& cylinder : *space.cylinders)
+        gap = std::min(gap, distance(at, cylinder.center) - cylinder.radius);
+      const double missing = room.missing(gap);
+      prices += 1.0 + config.clearance_weight * missing * missing;
+    }
+    sum += length * prices / samples;
+  }
+  return sum;
 }
 
 Path smooth(const Path& path, const Space& space, const Room& room, const SmoothingConfig& config) {
-  if (!config.enabled || path.size() < 2) return path;
-  ompl::msg::noOutputHandler();
   const double shortest = length_of(path);
+  if (!config.enabled || shortest <= 0.0 || !clear(path, space, room.radius)) return path;
+  const std::vector<Cylinder> cylinders = cylinders_near(path, space, room);
+  const Space near{space.floor, &cylinders};
   const double longest = std::max(config.max_stretch * shortest, shortest + config.max_detour);
-  const auto information = information_of(space, room);
-  const auto steps = static_cast<unsigned int>(config.steps);
-
+  const Channel channel(path, near, room);
   Path best = path;
-  const Path shorter = shortened(path, information, steps);
-  if (acceptable(shorter, path, space, room, shortest + 1e-9)) best = shorter;
-  if (room.preferred <= 0.0) return best;
-
-  const double spacing = std::max(kSpacing, length_of(best) / kMaxStations);
-  const Path roomy =
-      moved_away(dense(push_corners(best, space, room), spacing), information, space, room, config);
-  const Path guide = choose_waypoints(candidates_along(roomy, space, room), space, room, config);
-  if (acceptable(guide, path, space, room, longest)) return guide;
+  double cost = person_cost(path, near, room, config);
+  const auto offer = [&](const Path& fresh) {
+    if (fresh.size() < 2 || !channel.holds(fresh) || length_of(fresh) > longest) return;
+    const double price = person_cost(fresh, near, room, config);
+    if (price >= cost || !clear(fresh, space, room.radius)) return;
+    best = fresh;
+    cost = price;
+  };
+  offer(choose_waypoints(channel, near, room.radius, config));
+  if (config.steps > 0) offer(polished(best, near, room, config));
   return best;
 }
 

@@ -131,6 +131,7 @@ TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {
   config.mesh.whole_cell_erosion = true;
   config.mesh.contour_error = 0.0;
   config.mesh.preferred_clearance = 0.0;
+  config.smoothing.turn_price = 0.0;
   int found = 0;
   for (unsigned seed = 0; seed < 15; ++seed) {
     RandomWorld world(seed);
