@@ -112,7 +112,7 @@ void declare_bakes(Course& c) {
   add("bytes to mesh, ours", [&c] {
     Planner planner(c.config);
     planner.set_map(
-        *read_map({c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()}).tree);
+        MapBytes{c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()});
   });
   add("spans to mesh, watershed",
       [&c, &mesh] { plain::Detour(c.columns, mesh.robot_radius, mesh.robot_height); });

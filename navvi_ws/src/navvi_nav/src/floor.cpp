@@ -1,11 +1,17 @@
 #include "navvi_nav/floor.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
+
+#include "parallel.hpp"
 
 namespace navvi_nav {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // m
+constexpr double kRounding = 1e-6;   // cells, or steps
 
 double distance_to_box(Point p, Point low, Point high) {
   const double dx = std::max({low.x - p.x, 0.0, p.x - high.x});
@@ -36,26 +42,107 @@ double segment_to_box(Point a, Point b, Point low, Point high) {
   return best;
 }
 
-int squared_gap(int cells) {
-  const int between = std::max(0, std::abs(cells) - 1);
+/// Units squared between the squares of two cells that lie so many cells apart along one axis, if
+/// one is grown by `grow` units. A cell has `unit` units along a side.
+int squared_gap(int cells, int unit, int grow) {
+  const int between = std::max(0, (std::abs(cells) - 1) * unit - grow);
   return between * between;
+}
+
+/// How many cells away, along the column, the nearest one that blocks is; at most `reach` + 1. What
+/// lies beyond the grid blocks.
+std::vector<std::uint8_t> steps_along_columns(const std::vector<Ground>& ground, int columns,
+                                              int rows, int reach, int threads) {
+  std::vector<std::uint8_t> out(ground.size());
+  constexpr int kBand = 256;
+  in_parallel((columns + kBand - 1) / kBand, threads, [&](int band) {
+    const int from = band * kBand;
+    const int count = std::min(kBand, columns - from);
+    const auto at = [&](int y) {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+             static_cast<std::size_t>(from);
+    };
+    const auto cap = static_cast<std::uint8_t>(reach + 1);
+    std::array<std::uint8_t, kBand> steps{};
+    for (int y = 0; y < rows; ++y) {
+      const Ground* here = ground.data() + at(y);
+      std::uint8_t* to = out.data() + at(y);
+      for (int x = 0; x < count; ++x) {
+        const auto next = static_cast<std::uint8_t>(steps[static_cast<std::size_t>(x)] +
+                                                    (steps[static_cast<std::size_t>(x)] < cap));
+        to[x] = steps[static_cast<std::size_t>(x)] = here[x] == Ground::floor ? next : 0;
+      }
+    }
+    steps.fill(0);
+    for (int y = rows - 1; y >= 0; --y) {
+      std::uint8_t* to = out.data() + at(y);
+      for (int x = 0; x < count; ++x) {
+        const auto next = static_cast<std::uint8_t>(steps[static_cast<std::size_t>(x)] +
+                                                    (steps[static_cast<std::size_t>(x)] < cap));
+        to[x] = steps[static_cast<std::size_t>(x)] = std::min(next, to[x]);
+      }
+    }
+  });
+  return out;
+}
+
+/// For a row of columns' gaps, with `reach` more on either side: the least of gap + gap along the
+/// row, squared, into `row`.
+template <typename Number>
+void least_over_row(const Number* gaps, int count, int reach, const std::vector<Number>& aside,
+                    Number* row) {
+  std::copy_n(gaps + reach, count, row);
+  for (int shift = 1; shift <= reach; ++shift) {
+    const Number add = aside[static_cast<std::size_t>(shift)];
+    const Number* left = gaps + reach - shift;
+    const Number* right = gaps + reach + shift;
+    for (int x = 0; x < count; ++x) {
+      const Number least = static_cast<Number>(std::min(left[x], right[x]) + add);
+      row[x] = std::min(row[x], least);
+    }
+  }
+}
+
+/// Squared gaps of all cells: least over the rows within `reach` cells, in units. `store(row, x0,
+/// values)` takes each row.
+template <typename Number, typename Store>
+void for_each_row(const std::vector<std::uint8_t>& steps, int columns, int rows, int reach,
+                  int unit, int grow, int threads, const Store& store) {
+  // Nothing nearer than `reach` is as far as anything: one more than any sum that counts.
+  const int farthest = squared_gap(reach + 1, unit, grow);
+  std::vector<Number> squares(static_cast<std::size_t>(reach) + 2);
+  for (int k = 0; k <= reach + 1; ++k)
+    squares[static_cast<std::size_t>(k)] = static_cast<Number>(squared_gap(k, unit, grow));
+  squares.back() = static_cast<Number>(farthest);
+  constexpr int kBand = 32;
+  in_parallel((rows + kBand - 1) / kBand, threads, [&](int band) {
+    std::vector<Number> gaps(static_cast<std::size_t>(columns + 2 * reach), 0);
+    std::vector<Number> row(static_cast<std::size_t>(columns));
+    for (int y = band * kBand; y < std::min(rows, (band + 1) * kBand); ++y) {
+      const std::uint8_t* from =
+          steps.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns);
+      for (int x = 0; x < columns; ++x)
+        gaps[static_cast<std::size_t>(x + reach)] =
+            squares[std::min<std::size_t>(from[x], squares.size() - 1)];
+      least_over_row(gaps.data(), columns, reach, squares, row.data());
+      store(y, row.data());
+    }
+  });
 }
 
 }  // namespace
 
 Floor::Floor(Cell origin, int columns, int rows, double cell_size, double height,
-             std::vector<Ground> ground, double reach, double margin)
+             std::vector<Ground> ground, double reach, double margin, int threads)
     : origin_(origin),
       columns_(columns),
       rows_(rows),
       cell_size_(cell_size),
       height_(height),
-      reach_(reach),
-      reach_cells_(static_cast<int>(std::ceil(reach / cell_size)) + 1),
+      reach_(std::min(reach, (kMaxReach - 1) * cell_size)),
+      reach_cells_(static_cast<int>(std::ceil(reach_ / cell_size - kRounding)) + 1),
       ground_(std::move(ground)) {
-  const double margin_cells = margin / cell_size;
-  open_gap2_ = margin_cells * margin_cells - 1e-6;
-  measure_gaps();
+  measure(margin, threads);
   find_components();
 }
 
@@ -85,10 +172,6 @@ Ground Floor::ground(Cell cell) const {
 
 int Floor::gap2(Cell cell) const { return contains(cell) ? gap2_[index(cell)] : 0; }
 
-bool Floor::open(Cell cell) const {
-  return ground(cell) == Ground::floor && gap2(cell) >= open_gap2_;
-}
-
 bool Floor::any_open() const {
   return std::any_of(component_.begin(), component_.end(), [](std::int32_t c) { return c >= 0; });
 }
@@ -99,71 +182,110 @@ double Floor::gap(Cell cell) const {
   return std::min(reach_, std::sqrt(static_cast<double>(gap2(cell))) * cell_size_);
 }
 
-/// Two passes: the gap along each column, then the least sum over each row within reach.
-void Floor::measure_gaps() {
-  const int reach = reach_cells_;
-  const int cap =
-      std::min(reach * reach, static_cast<int>(std::numeric_limits<std::uint16_t>::max()));
+/// Two passes: how far along each column, then the least sum over each row within reach.
+void Floor::measure(double margin, int threads) {
   const auto width = static_cast<std::size_t>(columns_);
-  std::vector<std::uint16_t> along_column(ground_.size(), 0);
-  const auto sweep = [&](int begin, int end, int step, bool first) {
-    for (int x = 0; x < columns_; ++x) {
-      int steps = 0;  // the row beyond the grid blocks
-      for (int y = begin; y != end; y += step) {
-        const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-        steps = ground_[at] == Ground::floor ? std::min(steps + 1, reach + 1) : 0;
-        const auto value = static_cast<std::uint16_t>(steps);
-        along_column[at] = first ? value : std::min(along_column[at], value);
-      }
-    }
+  const double margin_cells = margin / cell_size_;
+  const double spare = std::ceil(margin_cells - kRounding) - margin_cells;
+  grow_ = std::min(kStepsPerCellSide / 2,
+                   std::max(0, static_cast<int>(spare * kStepsPerCellSide + kRounding)));
+  const std::vector<std::uint8_t> steps =
+      steps_along_columns(ground_, columns_, rows_, reach_cells_, threads);
+  gap2_.resize(ground_.size());
+  open_.resize(ground_.size());
+  const auto is_open = [](auto least) { return [least](auto gap2) { return gap2 >= least; }; };
+  const auto keep_open = [&](int y, const auto* row, const auto& far_enough) {
+    std::uint8_t* open = open_.data() + static_cast<std::size_t>(y) * width;
+    for (std::size_t x = 0; x < width; ++x) open[x] = far_enough(row[x]);
   };
-  sweep(0, rows_, 1, true);
-  sweep(rows_ - 1, -1, -1, false);
-
-  gap2_.assign(ground_.size(), 0);
-  std::vector<int> column(static_cast<std::size_t>(columns_ + 2 * reach));
-  std::vector<int> row(width);
-  for (int y = 0; y < rows_; ++y) {
-    const std::size_t base = static_cast<std::size_t>(y) * width;
-    std::fill(column.begin(), column.end(), 0);
-    for (std::size_t x = 0; x < width; ++x) {
-      const int steps = along_column[base + x];
-      column[x + static_cast<std::size_t>(reach)] = steps == 0 ? 0 : squared_gap(steps);
-    }
-    std::fill(row.begin(), row.end(), cap);
-    for (int shift = -reach; shift <= reach; ++shift) {
-      const int aside = squared_gap(shift);
-      const int* from = column.data() + reach + shift;
-      for (std::size_t x = 0; x < width; ++x) row[x] = std::min(row[x], from[x] + aside);
-    }
-    for (std::size_t x = 0; x < width; ++x) {
-      if (ground_[base + x] == Ground::floor) gap2_[base + x] = static_cast<std::uint16_t>(row[x]);
-    }
-  }
+  const auto whole = static_cast<std::uint16_t>(std::ceil(margin_cells * margin_cells - kRounding));
+  const bool grown = grow_ > 0;
+  for_each_row<std::uint16_t>(
+      steps, columns_, rows_, reach_cells_, 1, 0, threads, [&](int y, const std::uint16_t* row) {
+        std::copy_n(row, width, gap2_.begin() + static_cast<std::ptrdiff_t>(y) * columns_);
+        if (!grown) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
+      });
+  if (!grown) return;
+  const double margin_steps = margin_cells * kStepsPerCellSide;
+  const int far = std::max(1, static_cast<int>(std::ceil(margin_steps * margin_steps - kRounding)));
+  const int reach = static_cast<int>(std::ceil(margin_cells)) + 1;
+  const auto fine = [&](auto number) {
+    using Number = decltype(number);
+    for_each_row<Number>(
+        steps, columns_, rows_, reach, kStepsPerCellSide, grow_, threads,
+        [&](int y, const Number* row) { keep_open(y, row, is_open(static_cast<Number>(far))); });
+  };
+  if (2 * squared_gap(reach + 1, kStepsPerCellSide, 0) <= std::numeric_limits<std::uint16_t>::max())
+    fine(std::uint16_t{0});
+  else
+    fine(std::uint32_t{0});
 }
 
+/// Runs of open cells are joined with those they touch in the row before; components are numbered
+/// in the order of their first cells.
 void Floor::find_components() {
-  component_.assign(ground_.size(), -1);
-  std::vector<Cell> waiting;
-  int count = 0;
+  struct Run {
+    int from, to, label;
+  };
+  std::vector<int> joined;  // label -> a label of the same component, never larger
+  const auto root = [&joined](int label) {
+    while (joined[static_cast<std::size_t>(label)] != label)
+      label = joined[static_cast<std::size_t>(label)] =
+          joined[static_cast<std::size_t>(joined[static_cast<std::size_t>(label)])];
+    return label;
+  };
+  std::vector<Run> runs;
+  std::vector<std::size_t> row_begin;
+  std::size_t before = 0;
   for (int y = 0; y < rows_; ++y) {
-    for (int x = 0; x < columns_; ++x) {
-      const Cell seed{origin_.x + x, origin_.y + y};
-      if (!open(seed) || component(seed) >= 0) continue;
-      component_[index(seed)] = count;
-      waiting.push_back(seed);
-      while (!waiting.empty()) {
-        const Cell cell = waiting.back();
-        waiting.pop_back();
-        for (const Cell next : {Cell{cell.x + 1, cell.y}, Cell{cell.x - 1, cell.y},
-                                Cell{cell.x, cell.y + 1}, Cell{cell.x, cell.y - 1}}) {
-          if (!open(next) || component(next) >= 0) continue;
-          component_[index(next)] = count;
-          waiting.push_back(next);
+    const std::uint8_t* open =
+        open_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_);
+    const std::size_t row = runs.size();
+    row_begin.push_back(row);
+    std::size_t above = before;
+    for (int x = 0; x < columns_;) {
+      if (open[x] == 0) {
+        const void* next = std::memchr(open + x, 1, static_cast<std::size_t>(columns_ - x));
+        if (next == nullptr) break;
+        x = static_cast<int>(static_cast<const std::uint8_t*>(next) - open);
+      }
+      const void* end = std::memchr(open + x, 0, static_cast<std::size_t>(columns_ - x));
+      Run run{x, end ? static_cast<int>(static_cast<const std::uint8_t*>(end) - open) : columns_,
+              -1};
+      while (above < row && runs[above].to <= run.from) ++above;
+      for (std::size_t k = above; k < row && runs[k].from < run.to; ++k) {
+        const int other = root(runs[k].label);
+        if (run.label < 0) {
+          run.label = other;
+        } else {
+          const int mine = root(run.label);
+          joined[static_cast<std::size_t>(std::max(mine, other))] = std::min(mine, other);
         }
       }
-      ++count;
+      if (run.label < 0) {
+        run.label = static_cast<int>(joined.size());
+        joined.push_back(run.label);
+      }
+      x = run.to;
+      runs.push_back(run);
     }
+    before = row;
+  }
+  row_begin.push_back(runs.size());
+  std::vector<int> number(joined.size(), -1);
+  int count = 0;
+  for (std::size_t label = 0; label < joined.size(); ++label) {
+    const int of = root(static_cast<int>(label));
+    number[label] = of == static_cast<int>(label) ? count++ : number[static_cast<std::size_t>(of)];
+  }
+  component_.assign(ground_.size(), -1);
+  for (int y = 0; y < rows_; ++y) {
+    std::int32_t* row =
+        component_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_);
+    for (std::size_t k = row_begin[static_cast<std::size_t>(y)];
+         k < row_begin[static_cast<std::size_t>(y) + 1]; ++k)
+      std::fill(row + runs[k].from, row + runs[k].to,
+                number[static_cast<std::size_t>(runs[k].label)]);
   }
 }
 

@@ -1,138 +1,122 @@
 #include "navvi_nav/map_survey.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <map>
+
+#include "floor_spread.hpp"
+#include "navvi_nav/columns.hpp"
+#include "resample.hpp"
+
 namespace navvi_nav {
 namespace {
 
-constexpr int kBorder = 4;  // cells looked at around a tile, so that neighbours agree
-constexpr int kMinTileCells = 16;
-constexpr int kMaxLevels = 8000;      // Recast's spans have 13 bits
-constexpr double kMaxCells = 64.0e6;  // of the whole map
-constexpr double kRounding = 1e-4;    // cells
+constexpr double kFloorTolerance = 0.25;  // m, around SurveyConfig::floor_height
+constexpr double kRounding = 1e-6;        // levels
+constexpr int kNoLevel = -1;
 
-int floor_cell(double value) { return static_cast<int>(std::floor(value + kRounding)); }
-int ceil_cell(double value) { return static_cast<int>(std::ceil(value - kRounding)); }
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
-/// A leaf in cells and levels, upper ends excluded.
-struct Block {
-  int x0, x1, y0, y1, bottom, top;
-};
-
-/// The occupied space, m.
-struct Extent {
-  double low[3] = {1e9, 1e9, 1e9};
-  double high[3] = {-1e9, -1e9, -1e9};
-};
-
-template <typename Visit>
-void for_each_occupied(const octomap::OcTree& tree, Visit visit) {
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    if (tree.isNodeOccupied(*leaf))
-      visit(leaf.getX(), leaf.getY(), leaf.getZ(), leaf.getSize() / 2);
-  }
-}
-
-Extent extent_of(const octomap::OcTree& tree) {
-  Extent out;
-  for_each_occupied(tree, [&out](double x, double y, double z, double half) {
-    const double at[3] = {x, y, z};
-    for (int k = 0; k < 3; ++k) {
-      out.low[k] = std::min(out.low[k], at[k] - half);
-      out.high[k] = std::max(out.high[k], at[k] + half);
-    }
-  });
-  return out;
-}
-
-std::string refusal_of(const Extent& extent, double cell_size, double level_height) {
-  if (extent.low[0] > extent.high[0]) return "the map has no occupied voxel";
-  if (extent.high[2] - extent.low[2] > kMaxLevels * level_height)
-    return "the map is taller than 8000 voxels";
-  if ((extent.high[0] - extent.low[0]) * (extent.high[1] - extent.low[1]) >
-      kMaxCells * cell_size * cell_size)
-    return "the map has more than 64 million cells of floor";
-  return {};
-}
-
-void add_block(MapSurvey& survey, const Block& block, int tile) {
-  for (int ty = floor_div(block.y0 - kBorder, tile); ty <= floor_div(block.y1 + kBorder, tile);
-       ++ty) {
-    for (int tx = floor_div(block.x0 - kBorder, tile); tx <= floor_div(block.x1 + kBorder, tile);
-         ++tx) {
-      const auto found = survey.fields.find({tx, ty});
-      if (found == survey.fields.end()) continue;
-      TileField& field = found->second;
-      const Cell low{field.origin().x - kBorder, field.origin().y - kBorder};
-      const int side = tile + 2 * kBorder;
-      for (int y = std::max(block.y0, low.y); y < std::min(block.y1, low.y + side); ++y) {
-        for (int x = std::max(block.x0, low.x); x < std::min(block.x1, low.x + side); ++x)
-          field.add_span({x, y}, block.bottom, block.top);
+/// For each level, how many voxels end there with room for the robot above.
+std::vector<int> count_places(const Columns& columns, int headroom) {
+  std::vector<int> counts;
+  const std::size_t all =
+      static_cast<std::size_t>(columns.width()) * static_cast<std::size_t>(columns.height());
+  for (std::size_t column = 0; column < all; ++column) {
+    int ceiling = std::numeric_limits<int>::max();
+    for (std::uint32_t at = columns.highest(column); at != 0; at = columns.span(at).below) {
+      const Span& span = columns.span(at);
+      if (ceiling - span.top >= headroom) {
+        if (counts.size() <= span.top) counts.resize(span.top + 1U, 0);
+        ++counts[span.top];
       }
+      ceiling = span.bottom;
     }
   }
+  return counts;
+}
+
+int lowest_large_level(const std::vector<int>& counts) {
+  const int largest = *std::max_element(counts.begin(), counts.end());
+  const auto found = std::find_if(counts.begin(), counts.end(), [largest](int count) {
+    return count > 0 && 2 * count >= largest;
+  });
+  return static_cast<int>(found - counts.begin());
+}
+
+/// \param wanted  levels, not whole
+int largest_level_near(const std::vector<int>& counts, double wanted, double tolerance) {
+  int best = kNoLevel;
+  for (std::size_t level = 0; level < counts.size(); ++level) {
+    if (counts[level] == 0 || std::abs(static_cast<double>(level) - wanted) > tolerance) continue;
+    if (best == kNoLevel || counts[level] > counts[static_cast<std::size_t>(best)])
+      best = static_cast<int>(level);
+  }
+  return best;
+}
+
+/// What the level `floor_top` alone makes of each column.
+std::vector<Ground> on_one_level(const Columns& columns, int floor_top, int headroom) {
+  const std::size_t all =
+      static_cast<std::size_t>(columns.width()) * static_cast<std::size_t>(columns.height());
+  std::vector<Ground> ground(all, Ground::none);
+  for (std::size_t column = 0; column < all; ++column) {
+    int ceiling = std::numeric_limits<int>::max();
+    for (std::uint32_t at = columns.highest(column); at != 0; at = columns.span(at).below) {
+      const Span& span = columns.span(at);
+      if (span.top < floor_top) break;
+      if (span.top == floor_top && ceiling - floor_top >= headroom) {
+        ground[column] = Ground::floor;
+      } else if (span.bottom < floor_top + headroom) {
+        ground[column] = Ground::obstacle;
+      }
+      ceiling = span.bottom;
+    }
+  }
+  return ground;
+}
+
+std::string no_floor_near(double height) {
+  char text[96];
+  std::snprintf(text, sizeof text, "the map shows no floor within %.2f m of %.2f m (floor_height)",
+                kFloorTolerance, height);
+  return text;
 }
 
 }  // namespace
 
-MapSurvey survey_map(const octomap::OcTree& tree, double cell_size, double tile_size) {
-  MapSurvey out;
-  out.level_height = tree.getResolution();
-  out.cell_size = cell_size > 0.0 ? cell_size : out.level_height;
-  const Extent extent = extent_of(tree);
-  out.error = refusal_of(extent, out.cell_size, out.level_height);
-  if (!out.error.empty()) return out;
+MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
+  MapSurvey refused;
+  refused.error = voxels.error;
+  if (!refused.error.empty()) return refused;
+  const double level = voxels.resolution;
+  const Columns columns(voxels);
+  refused.error = columns.error();
+  if (!refused.error.empty()) return refused;
 
-  const double cell = out.cell_size;
-  const int tile = std::max(kMinTileCells, static_cast<int>(std::lround(tile_size / cell)));
-  out.low = {floor_div(floor_cell(extent.low[0] / cell), tile) * tile,
-             floor_div(floor_cell(extent.low[1] / cell), tile) * tile};
-  out.high = {(floor_div(ceil_cell(extent.high[0] / cell) - 1, tile) + 1) * tile,
-              (floor_div(ceil_cell(extent.high[1] / cell) - 1, tile) + 1) * tile};
-  out.lowest_level = floor_cell(extent.low[2] / out.level_height);
-  const int levels = ceil_cell(extent.high[2] / out.level_height) - out.lowest_level;
-  for (int y = out.low.y; y < out.high.y; y += tile) {
-    for (int x = out.low.x; x < out.high.x; x += tile)
-      out.fields.emplace(TileIndex{x / tile, y / tile},
-                         TileField({x, y}, tile, kBorder, levels, cell, out.level_height));
+  const int headroom =
+      std::max(1, static_cast<int>(std::ceil(config.robot_height / level - kRounding)));
+  const std::vector<int> counts = count_places(columns, headroom);
+  const int floor_top =
+      config.floor_height == kAnyFloor
+          ? lowest_large_level(counts)
+          : largest_level_near(counts, config.floor_height / level - columns.low_z(),
+                               kFloorTolerance / level + kRounding);
+  if (floor_top == kNoLevel) {
+    refused.error = no_floor_near(config.floor_height);
+    return refused;
   }
-  for_each_occupied(tree, [&](double x, double y, double z, double half) {
-    add_block(
-        out,
-        {floor_cell((x - half) / cell), ceil_cell((x + half) / cell), floor_cell((y - half) / cell),
-         ceil_cell((y + half) / cell), floor_cell((z - half) / out.level_height) - out.lowest_level,
-         ceil_cell((z + half) / out.level_height) - out.lowest_level},
-        tile);
-  });
-  return out;
-}
-
-int MapSurvey::floor_top(int headroom) const {
-  std::map<int, int> tops;
-  for (const auto& entry : fields) entry.second.count_tops(headroom, tops);
-  int largest = 0;
-  for (const auto& [top, cells] : tops) largest = std::max(largest, cells);
-  for (const auto& [top, cells] : tops) {
-    if (2 * cells >= largest) return top;
-  }
-  return 0;
-}
-
-std::vector<Ground> MapSurvey::settle(int floor_top, int headroom) {
-  const int columns = high.x - low.x;
-  const int rows = high.y - low.y;
-  std::vector<Ground> ground(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  for (auto& entry : fields) {
-    TileField& field = entry.second;
-    const std::vector<Ground> own = field.settle(floor_top, headroom);
-    const auto size = static_cast<std::ptrdiff_t>(field.size());
-    for (int y = 0; y < field.size(); ++y) {
-      const std::ptrdiff_t to =
-          static_cast<std::ptrdiff_t>(field.origin().y - low.y + y) * columns +
-          (field.origin().x - low.x);
-      std::copy_n(own.begin() + y * size, size, ground.begin() + to);
-    }
-  }
-  return ground;
+  Sheet sheet{level,
+              {columns.low_x() * level, columns.low_y() * level},
+              columns.width(),
+              columns.height(),
+              on_one_level(columns, floor_top, headroom)};
+  const int climb = static_cast<int>(std::floor(config.climb / level + kRounding));
+  if (climb > 0) spread_floor(sheet.ground, columns, {floor_top, headroom, climb});
+  MapSurvey survey = resample(std::move(sheet), config.cell_size > 0.0 ? config.cell_size : level);
+  survey.floor_height = (columns.low_z() + floor_top) * level;
+  return survey;
 }
 
 }  // namespace navvi_nav

@@ -5,8 +5,6 @@
 namespace navvi_nav {
 namespace {
 
-constexpr int kMaxHeadroom = 250;  // levels; Recast's compact spans have 8 bits for it
-
 const Cylinder* find(const std::vector<Cylinder>& cylinders, std::uint32_t id) {
   for (const Cylinder& cylinder : cylinders) {
     if (cylinder.id == id) return &cylinder;
@@ -38,15 +36,23 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
         robot_height);
   visit({"cell_size", Range{0.0, 1.0}, "m", "edge of a cell of the mesh; 0: the map's voxel"},
         cell_size);
+  visit({"climb", Range{0.0, 0.5}, "m",
+         "highest step that is driven over; steps below 0.05 m are no obstacles (R-NAV-12)"},
+        climb);
+  visit({"floor_height", Range{kAnyFloor, 1000.0}, "m",
+         "z of the floor in map; -1000: the lowest that is at least half as large as the largest"},
+        floor_height);
   visit({"whole_cell_erosion", navvi_config::Any{}, "",
          "round the eroded width up to whole cells (R-NAV-2)"},
         whole_cell_erosion);
   visit({"contour_error", Range{0.0, 2.0}, "cells",
-         "how far contours are simplified; the mesh is eroded by as much more"},
+         "how deep a notch in a wall may be that is filled to draw the wall straight"},
         contour_error);
   visit({"tile_size", Range{2.0, 64.0}, "m", "edge of a tile"}, tile_size);
   visit({"max_edge", Range{0.0, 100.0}, "m", "longer edges along walls are split; 0: never"},
         max_edge);
+  visit({"polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon"}, polygon_corners);
+  visit({"threads", Range{1.0, 64.0}, "", "that share the work on a new map"}, threads);
   visit({"preferred_clearance", Range{0.0, 2.0}, "m",
          "room a guide path leaves beyond the robot's radius where there is room"},
         preferred_clearance);
@@ -58,64 +64,39 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
 }
 
 double NavMesh::margin(double cell) const {
-  const double eroded = config_.whole_cell_erosion ? std::ceil(config_.robot_radius / cell) * cell
-                                                   : config_.robot_radius;
-  return eroded + config_.contour_error * cell;
+  return config_.whole_cell_erosion ? std::ceil(config_.robot_radius / cell) * cell
+                                    : config_.robot_radius;
 }
 
-MeshUpdate NavMesh::set_map(const octomap::OcTree& tree) {
-  MapSurvey survey = survey_map(tree, config_.cell_size, config_.tile_size);
-  if (!survey.error.empty()) return {survey.error, 0, 0};
-  const double cell = survey.cell_size;
-  const int headroom =
-      std::clamp(static_cast<int>(std::ceil(config_.robot_height / survey.level_height - 1e-6)), 1,
-                 kMaxHeadroom);
-  const int floor_top = survey.floor_top(headroom);
-  const double keep = margin(cell);
-  auto floor = std::make_shared<const Floor>(
-      survey.low, survey.high.x - survey.low.x, survey.high.y - survey.low.y, cell,
-      (survey.lowest_level + floor_top) * survey.level_height, survey.settle(floor_top, headroom),
-      keep + config_.preferred_clearance + 2 * cell, keep);
-  if (!floor->any_open()) return {"the map shows no walkable floor", 0, 0};
-  const std::shared_ptr<const Floor> old = std::exchange(floor_, std::move(floor));
+SurveyConfig survey_config(const NavMeshConfig& config) {
+  return {config.cell_size, config.robot_height, config.climb, config.floor_height};
+}
 
-  MeshUpdate update;
-  const bool comparable = !old->empty() && old->cell_size() == floor_->cell_size();
-  std::map<TileIndex, Tile> tiles;
-  for (auto& [index, field] : survey.fields) {
-    Tile tile{std::move(field), {}};
-    const auto before = tiles_.find(index);
-    if (comparable && before != tiles_.end() && same_open_cells(tile.field, *old)) {
-      tile.polygons = std::move(before->second.polygons);
-    } else {
-      build(tile);
-      ++update.tiles_rebuilt;
-    }
-    tiles.emplace(index, std::move(tile));
-  }
-  tiles_ = std::move(tiles);
-  update.tiles = static_cast<int>(tiles_.size());
+MeshUpdate NavMesh::set_map(MapSurvey survey) {
+  MapBakeConfig how;
+  how.margin = margin(survey.cell_size);
+  how.reach = config_.preferred_clearance + 2.0 * survey.cell_size;
+  how.tile_size = config_.tile_size;
+  how.contour_error = config_.contour_error;
+  how.max_edge = config_.max_edge;
+  how.max_corners = config_.polygon_corners;
+  how.threads = config_.threads;
+  BakedMap baked = bake_map(std::move(survey), how, &baked_);
+  if (!baked.error.empty()) return {baked.error, 0, 0};
+  baked_ = std::move(baked);
+  floor_ = baked_.floor;
+  tiles_ = baked_.tiles;
+  for (const auto& entry : baked_.tiles) carve_tile(entry.first);
   join_tiles();
-  return update;
+  return {{}, static_cast<int>(tiles_.size()), static_cast<int>(baked_.rebuilt.size())};
 }
 
-bool NavMesh::same_open_cells(const TileField& field, const Floor& old) const {
-  const Cell low{field.origin().x - field.border(), field.origin().y - field.border()};
-  const int side = field.size() + 2 * field.border();
-  for (int y = low.y; y < low.y + side; ++y) {
-    for (int x = low.x; x < low.x + side; ++x) {
-      if (old.open({x, y}) != floor_->open({x, y})) return false;
-    }
-  }
-  return true;
-}
-
-bool NavMesh::touches(const TileField& field, const Cylinder& cylinder) const {
+bool NavMesh::touches(TileIndex tile, const Cylinder& cylinder) const {
   const double cell = floor_->cell_size();
-  const double reach = cylinder.radius + margin(cell) + (field.border() + 2) * cell;
-  const double x0 = field.origin().x * cell;
-  const double y0 = field.origin().y * cell;
-  const double side = field.size() * cell;
+  const double side = baked_.tile_cells * cell;
+  const double reach = cylinder.radius + margin(cell) + 2 * cell;
+  const double x0 = tile.first * side;
+  const double y0 = tile.second * side;
   const double dx = std::max({x0 - cylinder.center.x, 0.0, cylinder.center.x - x0 - side});
   const double dy = std::max({y0 - cylinder.center.y, 0.0, cylinder.center.y - y0 - side});
   return dx * dx + dy * dy <= reach * reach;
@@ -159,90 +140,53 @@ MeshUpdate NavMesh::carve(const std::vector<Cylinder>& cylinders) {
   }
   if (touched.empty() || !changed_enough(next)) return update;
   carved_ = std::move(next);
-  for (auto& entry : tiles_) {
-    Tile& tile = entry.second;
+  for (const auto& entry : baked_.tiles) {
     const bool hit = std::any_of(touched.begin(), touched.end(), [&](const Cylinder& cylinder) {
-      return touches(tile.field, cylinder);
+      return touches(entry.first, cylinder);
     });
     if (!hit) continue;
-    build(tile);
+    tiles_[entry.first] = entry.second;
+    carve_tile(entry.first);
     ++update.tiles_rebuilt;
   }
   if (update.tiles_rebuilt > 0) join_tiles();
   return update;
 }
 
-void NavMesh::build(Tile& tile) {
-  std::vector<Cylinder> near;
-  for (const Cylinder& cylinder : carved_) {
-    if (touches(tile.field, cylinder)) near.push_back(cylinder);
-  }
+void NavMesh::carve_tile(TileIndex tile) {
+  TileCells cells = cells_of(*floor_, tile, baked_.tile_cells);
   const double cell = floor_->cell_size();
+  const double grow = floor_->grow() * cell / kStepsPerCellSide;
   const double keep = margin(cell);
-  const auto open = [&](Cell at) {
-    if (!floor_->open(at)) return false;
-    const Point low{at.x * cell, at.y * cell};
-    return std::none_of(near.begin(), near.end(), [&](const Cylinder& cylinder) {
-      const double dx =
-          std::max({low.x - cylinder.center.x, 0.0, cylinder.center.x - low.x - cell});
-      const double dy =
-          std::max({low.y - cylinder.center.y, 0.0, cylinder.center.y - low.y - cell});
-      return std::hypot(dx, dy) < cylinder.radius + keep;
-    });
-  };
-  TileField::Contours contours;
-  contours.max_error = config_.contour_error;
-  contours.max_edge = static_cast<int>(config_.max_edge / cell);
-  contours.merge_region = static_cast<int>(1.0 / (cell * cell));
-  tile.polygons = tile.field.build(open, contours);
-  if (clear(tile.polygons)) return;
-  // Simplified contours can cross in places one cell wide; exact ones cannot.
-  contours.max_error = 0.0;
-  tile.polygons = tile.field.build(open, contours);
-  if (clear(tile.polygons)) return;
-  std::vector<GridPolygon> kept;
-  for (const GridPolygon& polygon : tile.polygons) {
-    if (clear({polygon})) kept.push_back(polygon);
-  }
-  tile.polygons = std::move(kept);
-}
-
-/// True if no point of the polygons is nearer than the robot's radius to anything that blocks.
-bool NavMesh::clear(const std::vector<GridPolygon>& polygons) const {
-  const Space around = space();
-  const double cell = floor_->cell_size();
-  for (const GridPolygon& grid : polygons) {
-    std::vector<Point> c;
-    Cell low{grid.corners[0][0], grid.corners[0][1]};
-    Cell high = low;
-    for (const auto& [x, y] : grid.corners) {
-      c.push_back({x * cell, y * cell});
-      low = {std::min(low.x, x), std::min(low.y, y)};
-      high = {std::max(high.x, x), std::max(high.y, y)};
-    }
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      if (!around.segment_clear(c[k], c[(k + 1) % c.size()], config_.robot_radius)) return false;
-    }
-    for (const Cylinder& cylinder : carved_) {
-      if (convex_contains(c, cylinder.center)) return false;
-    }
-    // With clear edges only something that lies wholly inside is left: some cell then blocks.
-    for (int y = low.y; y < high.y; ++y) {
-      for (int x = low.x; x < high.x; ++x) {
-        if (floor_->ground({x, y}) != Ground::floor &&
-            convex_contains(c, floor_->center_of({x, y})))
-          return false;
+  bool any = false;
+  for (const Cylinder& cylinder : carved_) {
+    if (!touches(tile, cylinder)) continue;
+    any = true;
+    for (int y = -1; y <= cells.size; ++y) {
+      for (int x = -1; x <= cells.size; ++x) {
+        const Point low{(cells.origin.x + x) * cell - grow, (cells.origin.y + y) * cell - grow};
+        const Point high{low.x + cell + 2 * grow, low.y + cell + 2 * grow};
+        const double dx = std::max({low.x - cylinder.center.x, 0.0, cylinder.center.x - high.x});
+        const double dy = std::max({low.y - cylinder.center.y, 0.0, cylinder.center.y - high.y});
+        if (std::hypot(dx, dy) < cylinder.radius + keep)
+          cells.open[static_cast<std::size_t>((y + 1) * (cells.size + 2) + x + 1)] = 0;
       }
     }
   }
-  return true;
+  if (!any) return;
+  BakeConfig how;
+  how.contour_error = config_.contour_error;
+  how.max_edge = static_cast<int>(config_.max_edge / cell);
+  how.max_corners = config_.polygon_corners;
+  how.merge_region = static_cast<int>(1.0 / (cell * cell));
+  how.grow = floor_->grow();
+  tiles_[tile] = bake_tile(cells, how);
 }
 
 void NavMesh::join_tiles() {
   std::vector<GridPolygon> all;
-  for (const auto& entry : tiles_)
-    all.insert(all.end(), entry.second.polygons.begin(), entry.second.polygons.end());
-  mesh_ = std::make_shared<Mesh>(join(all, floor_->cell_size()));
+  for (const auto& entry : tiles_) all.insert(all.end(), entry.second.begin(), entry.second.end());
+  mesh_ = std::make_shared<Mesh>(join(all, floor_->cell_size() / kStepsPerCellSide));
 }
 
 }  // namespace navvi_nav

@@ -40,14 +40,10 @@ Outcome work(Planner& planner, const Job& job) {
   out.goal_number = job.goal_number;
   try {
     if (job.map) {
-      const ReadMap read = read_map({job.map->data.data(), job.map->data.size(), job.map->binary,
-                                     job.map->id, job.map->resolution});
-      out.map_error = read.error;
-      if (read.tree) {
-        out.mesh = planner.set_map(*read.tree);
-        out.map_error = out.mesh.error;
-        out.map_taken = out.mesh.error.empty();
-      }
+      out.mesh = planner.set_map(MapBytes{job.map->data.data(), job.map->data.size(),
+                                          job.map->binary, job.map->id, job.map->resolution});
+      out.map_error = out.mesh.error;
+      out.map_taken = out.mesh.error.empty();
     }
     out.carved = planner.carve(job.obstacles);
     if (job.goal) out.plan = planner.plan(job.start, *job.goal);

@@ -168,7 +168,9 @@ TEST(NavMesh, carves_and_heals_to_the_same_mesh) {
 TEST(NavMesh, rebuilds_only_the_tiles_that_a_cylinder_touches) {
   SmallWorld world;
   world.room(32, 24);
-  NavMesh mesh = mesh_of(world);
+  NavMeshConfig config;
+  config.tile_size = 8.0;
+  NavMesh mesh = mesh_of(world, config);
   EXPECT_EQ(mesh.carve({{1, {4, 4}, 0.3, {}}}).tiles_rebuilt, 1);
   EXPECT_EQ(mesh.carve({{1, {4.05, 4}, 0.3, {}}}).tiles_rebuilt, 0);  // hardly moved
   EXPECT_EQ(mesh.carve({{1, {12, 4}, 0.3, {}}}).tiles_rebuilt, 2);    // left one, entered one

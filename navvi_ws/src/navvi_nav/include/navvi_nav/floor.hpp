@@ -7,6 +7,9 @@
 
 namespace navvi_nav {
 
+/// Places finer than cells are told in steps, so many to a cell, (0, 0) at the origin of map.
+inline constexpr int kStepsPerCellSide = 16;
+
 /// A square of the floor; cell (0, 0) has its lower corner at the origin of map.
 struct Cell {
   int x = 0;
@@ -24,11 +27,15 @@ enum class Ground : std::uint8_t {
 /// never more than the true distance between any two points of the cells.
 class Floor {
  public:
+  static constexpr int kMaxReach = 180;  ///< cells: squares of distances fit 16 bits
+
   Floor() = default;
-  /// \param reach  m, distances are known up to here
-  /// \param margin  m, an open cell is at least so far from everything that blocks
+  /// \param reach  m, distances are known up to here, but never farther than kMaxReach - 1 cells
+  /// \param margin  m, an open cell, grown, is at least so far from everything that blocks; at most
+  ///                kMaxReach - 2 cells
+  /// \param threads  that may share the work
   Floor(Cell origin, int columns, int rows, double cell_size, double height,
-        std::vector<Ground> ground, double reach, double margin);
+        std::vector<Ground> ground, double reach, double margin, int threads = 1);
 
   [[nodiscard]] bool empty() const { return ground_.empty(); }
   [[nodiscard]] double cell_size() const { return cell_size_; }  ///< m
@@ -41,8 +48,15 @@ class Floor {
   [[nodiscard]] Cell cell_at(Point point) const;
   [[nodiscard]] Point center_of(Cell cell) const;
   [[nodiscard]] Ground ground(Cell cell) const;
-  /// True if the whole cell keeps the margin from everything that blocks.
-  [[nodiscard]] bool open(Cell cell) const;
+  /// True if the whole cell, and grow() steps around it along each axis, keeps the margin from
+  /// everything that blocks.
+  [[nodiscard]] bool open(Cell cell) const { return contains(cell) && open_[index(cell)] != 0; }
+  /// Whole cells would round the margin up along walls; this gives back what they took too much.
+  [[nodiscard]] int grow() const { return grow_; }
+  /// The open cells of a row that exists, 1 or 0, columns() of them from origin() on.
+  [[nodiscard]] const std::uint8_t* open_row(int y) const {
+    return open_.data() + index({origin_.x, y});
+  }
   [[nodiscard]] bool any_open() const;
   /// Connected component of an open cell (neighbours share an edge), else -1.
   [[nodiscard]] int component(Cell cell) const;
@@ -60,7 +74,7 @@ class Floor {
   [[nodiscard]] std::size_t index(Cell cell) const;
   [[nodiscard]] bool contains(Cell cell) const;
   [[nodiscard]] int gap2(Cell cell) const;
-  void measure_gaps();
+  void measure(double margin, int threads);
   void find_components();
 
   Cell origin_;
@@ -70,9 +84,10 @@ class Floor {
   double height_ = 0.0;
   double reach_ = 0.0;
   int reach_cells_ = 0;
-  double open_gap2_ = 0.0;  // cells squared
+  int grow_ = 0;  // steps
   std::vector<Ground> ground_;
   std::vector<std::uint16_t> gap2_;  // cells squared, capped
+  std::vector<std::uint8_t> open_;
   std::vector<std::int32_t> component_;
 };
 

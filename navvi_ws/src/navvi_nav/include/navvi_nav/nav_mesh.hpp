@@ -1,14 +1,12 @@
 #pragma once
 
-#include <octomap/OcTree.h>
-
-#include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
 #include <string>
 #include <vector>
 
 #include "navvi_nav/floor.hpp"
+#include "navvi_nav/map_bake.hpp"
 #include "navvi_nav/map_survey.hpp"
 #include "navvi_nav/mesh.hpp"
 
@@ -18,16 +16,23 @@ struct NavMeshConfig {
   double robot_radius = 0.35;
   double robot_height = 0.8;
   double cell_size = 0.0;
+  double climb = 0.04;
+  double floor_height = kAnyFloor;
   bool whole_cell_erosion = false;
   double contour_error = 1.0;
-  double tile_size = 8.0;
-  double max_edge = 4.0;
+  double tile_size = 16.0;
+  double max_edge = 0.0;
+  int polygon_corners = 12;
+  int threads = 2;
   double preferred_clearance = 0.6;
   double carve_moved = 0.1;
   double carve_changed = 0.0;
 
   void describe(navvi_config::Visitor& visit);
 };
+
+/// How a map is surveyed for this mesh.
+[[nodiscard]] SurveyConfig survey_config(const NavMeshConfig& config);
 
 /// What one change of the mesh did.
 struct MeshUpdate {
@@ -39,14 +44,22 @@ struct MeshUpdate {
 /// The floor that an OctoMap shows, as tiles of convex polygons (R-NAV-1..5). Clear by
 /// construction: no point of the mesh is nearer than the robot's radius to an occupied voxel that
 /// rises above the floor (or hangs lower than the robot's height), to the edge of the floor, or to
-/// a carved cylinder. The floor is one level: the lowest that is at least half as large as the
-/// largest.
+/// a carved cylinder. survey_map() says what floor is.
 class NavMesh {
  public:
   explicit NavMesh(const NavMeshConfig& config) : config_(config) {}
 
-  /// Takes a new map. Tiles in which nothing changed keep their polygons.
-  MeshUpdate set_map(const octomap::OcTree& tree);
+  /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
+  /// changed keep their polygons.
+  MeshUpdate set_map(MapSurvey survey);
+  MeshUpdate set_map(const MapBytes& bytes) { return set_map(read_voxels(bytes)); }
+  MeshUpdate set_map(const octomap::OcTree& tree) { return set_map(voxels_of(tree)); }
+  MeshUpdate set_map(const Voxels& voxels) {
+    return set_map(survey_map(voxels, survey_config(config_)));
+  }
+  MeshUpdate set_map(const OccupancyGrid& grid) {
+    return set_map(read_grid(grid, config_.cell_size));
+  }
   /// Makes the holes be those of `cylinders`: a cylinder whose id is gone heals. One that moved
   /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
   /// `carve_changed` of the carved area changed (R-NAV-5).
@@ -63,21 +76,15 @@ class NavMesh {
   [[nodiscard]] const NavMeshConfig& config() const { return config_; }
 
  private:
-  struct Tile {
-    TileField field;
-    std::vector<GridPolygon> polygons;
-  };
-
   [[nodiscard]] double margin(double cell) const;
-  [[nodiscard]] bool same_open_cells(const TileField& field, const Floor& old) const;
-  [[nodiscard]] bool touches(const TileField& field, const Cylinder& cylinder) const;
+  [[nodiscard]] bool touches(TileIndex tile, const Cylinder& cylinder) const;
   [[nodiscard]] bool changed_enough(const std::vector<Cylinder>& next) const;
-  [[nodiscard]] bool clear(const std::vector<GridPolygon>& polygons) const;
-  void build(Tile& tile);
+  void carve_tile(TileIndex tile);
   void join_tiles();
 
   NavMeshConfig config_;
-  std::map<TileIndex, Tile> tiles_;
+  BakedMap baked_;
+  std::map<TileIndex, std::vector<GridPolygon>> tiles_;  // holes included
   std::shared_ptr<const Floor> floor_ = std::make_shared<Floor>();
   std::shared_ptr<const Mesh> mesh_ = std::make_shared<Mesh>();
   std::vector<Cylinder> carved_;

@@ -44,7 +44,11 @@ class Planner {
  public:
   explicit Planner(const PlannerConfig& config) : config_(config), nav_mesh_(config.mesh) {}
 
-  MeshUpdate set_map(const octomap::OcTree& tree) { return nav_mesh_.set_map(tree); }
+  /// \param map  anything that NavMesh::set_map takes
+  template <typename Map>
+  MeshUpdate set_map(const Map& map) {
+    return nav_mesh_.set_map(map);
+  }
   MeshUpdate carve(const std::vector<Cylinder>& cylinders) { return nav_mesh_.carve(cylinders); }
   /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
   /// off the mesh is taken to the nearest point of it, at most `start_snap` away.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "navvi_nav/map_survey.hpp"
+
+namespace navvi_nav {
+
+inline constexpr double kMaxCells = 25.0e6;  ///< of a surveyed map
+
+/// Squares of ground that need not lie on the mesh's lattice.
+struct Sheet {
+  double cell_size = 0.0;  ///< m
+  Point origin;            ///< m, lower corner of the first square in map
+  int columns = 0;
+  int rows = 0;
+  std::vector<Ground> ground;  ///< row by row
+};
+
+/// The sheet in cells of `cell_size` (m) on the lattice through the origin of map: a cell is floor
+/// only if all of it is, and an obstacle if a part is. Sets all but the floor's height; an error if
+/// there would be too many cells.
+[[nodiscard]] MapSurvey resample(Sheet sheet, double cell_size);
+
+}  // namespace navvi_nav
