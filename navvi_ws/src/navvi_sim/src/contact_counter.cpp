@@ -5,8 +5,8 @@
 namespace navvi_sim {
 
 std::vector<ContactEvent> ContactCounter::update(const std::vector<Touch>& touches,
-                                                 const std::vector<Thing>& things, double speed,
-                                                 double dt) {
+                                                 const std::vector<ThingClass>& classes,
+                                                 double speed, double dt) {
   for (auto held = held_.begin(); held != held_.end();) {
     const bool near = std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
       return touch.thing == held->first && touch.distance <= kApart;
@@ -17,7 +17,7 @@ std::vector<ContactEvent> ContactCounter::update(const std::vector<Touch>& touch
   std::vector<ContactEvent> begun;
   for (const Touch& touch : touches) {
     if (touch.distance > kTouching || !held_.emplace(touch.thing, 0.0).second) continue;
-    ++counts_[things[touch.thing].thing_class];
+    ++counts_[classes[touch.thing]];
     begun.push_back({++seq_, touch.thing, touch.point, speed, counts_});
   }
   return begun;

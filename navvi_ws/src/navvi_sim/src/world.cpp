@@ -7,7 +7,6 @@
 namespace navvi_sim {
 namespace {
 
-constexpr double kForesight = 1.5;  // s, how far ahead movers give way to those with right of way
 constexpr double kCrushing = 0.01;  // m, deeper in the robot than this no mover pushes on
 constexpr double kMaxPushed = 3.0;  // m/s, the fastest a mover can shove the robot
 
@@ -35,11 +34,20 @@ World::World(const WorldDescription& description, const WorldConfig& config, con
              std::uint64_t seed)
     : config_(config),
       floor_height_(description.floor_height),
-      things_(description.things),
+      traffic_(description, config.movers, seed),
       physics_(description, config.robot, {start.x, start.y}, start.yaw),
       drivetrain_(config.robot, config.step, physics_.robot(), seed) {
-  for (std::size_t id = 0; id < things_.size(); ++id)
-    if (things_[id].route) movers_.emplace_back(id, things_[id], config.movers, seed);
+  for (const Thing& thing : description.things) classes_.push_back(thing.thing_class);
+  for (std::size_t i = 0; i < traffic_.size(); ++i) {
+    const Thing& thing = description.things[traffic_.thing(i)];
+    const double z = thing.pose.translation().z();
+    bodies_.push_back({tilt_of(thing.pose), z});
+    const Footprint print = footprint_of(thing, bodies_[i].tilt);
+    now_.movers.push_back({traffic_.thing(i), Eigen::Isometry3d::Identity(), 0.0,
+                           Eigen::Vector2d::Zero(), 0.0, print.radius,
+                           z + print.top - floor_height_});
+  }
+  place_movers(true);
   take_snapshot();
 }
 
@@ -61,7 +69,7 @@ World::Status World::step(const navvi_safety::Velocity& command, Braking braking
     failed_ = true;
     return Status::numeric_failure;
   }
-  now_.contacts = contacts_.update(touches_, things_, speed_before, config_.step);
+  now_.contacts = contacts_.update(touches_, classes_, speed_before, config_.step);
   return Status::running;
 }
 
@@ -69,38 +77,40 @@ std::vector<NearThing> World::proximity(double detection_radius) const {
   return physics_.proximity(detection_radius, config_.ceiling);
 }
 
-/// Lower ids have right of way. All look at the same instant, so their order does not matter.
 void World::step_movers() {
-  const std::vector<Mover> before = movers_;
-  for (std::size_t i = 0; i < movers_.size(); ++i) {
-    Mover::Surroundings around;
-    around.robot = {now_.robot.position, config_.robot.radius};
-    for (std::size_t other = 0; other < before.size(); ++other) {
-      if (other == i) continue;
-      const Mover& mover = before[other];
-      const Disc disc{mover.position(), mover.footprint().radius};
-      if (other > i) {
-        around.rest.push_back(disc);
-      } else {
-        around.first.push_back(disc);
-        around.first.push_back({disc.centre + kForesight * mover.velocity(), disc.radius});
-      }
-    }
-    around.pushing_back = crushes(movers_[i].id());
-    movers_[i].step(around, config_.step);
-    physics_.move_thing(movers_[i].id(), movers_[i].pose());
+  traffic_.step({now_.robot.position, config_.robot.radius}, pressing(), config_.step);
+  place_movers(false);
+}
+
+/// Takes over what moved, or all.
+void World::place_movers(bool all) {
+  for (std::size_t i = 0; i < traffic_.size(); ++i) {
+    const Mover& mover = traffic_.mover(i);
+    MoverState& state = now_.movers[i];
+    state.velocity = mover.velocity();
+    state.turn_rate = mover.turn_rate();
+    if (!all && !mover.has_moved()) continue;
+    const Place& place = mover.place();
+    if (all || place.yaw != state.yaw)
+      state.pose.linear() =
+          (Eigen::AngleAxisd(place.yaw, Eigen::Vector3d::UnitZ()) * bodies_[i].tilt)
+              .toRotationMatrix();
+    state.yaw = place.yaw;
+    state.pose.translation() << place.at, bodies_[i].z;
+    physics_.move_thing(state.thing, state.pose);
   }
 }
 
-/// True if the thing presses the robot so far into itself or into another thing that the robot
-/// cannot give way.
-bool World::crushes(std::size_t thing) const {
-  bool touching = false, deep = false;
-  for (const Touch& touch : touches_) {
-    touching = touching || (touch.thing == thing && touch.distance < ContactCounter::kTouching);
-    deep = deep || touch.distance < (touch.thing == thing ? -kCrushing : -0.5 * kCrushing);
+std::vector<std::size_t> World::pressing() const {
+  std::vector<std::size_t> found;
+  for (const Touch& candidate : touches_) {
+    if (candidate.distance >= ContactCounter::kTouching) continue;
+    const bool deep = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
+      return touch.distance < (touch.thing == candidate.thing ? -kCrushing : -0.5 * kCrushing);
+    });
+    if (deep) found.push_back(candidate.thing);
   }
-  return touching && deep;
+  return found;
 }
 
 /// The wheels take hold of the body anew in each step: they drive along its x axis and do not
@@ -120,31 +130,18 @@ void World::take_snapshot() {
   now_.robot = physics_.robot();
   now_.odometry = drivetrain_.odometry();
   now_.contacts.clear();
-  now_.movers.clear();
-  for (const Mover& mover : movers_)
-    now_.movers.push_back(
-        {mover.id(), mover.pose(), mover.yaw(), mover.velocity(), mover.turn_rate(),
-         mover.footprint().radius,
-         things_[mover.id()].pose.translation().z() + mover.footprint().top - floor_height_});
 }
 
+/// What moves follows its track, which is finite.
 bool World::finite() const {
   const RobotState& robot = now_.robot;
   return is_finite(robot.position) && is_finite(robot.velocity) && std::isfinite(robot.yaw) &&
-         std::isfinite(robot.turn_rate) &&
-         std::all_of(now_.movers.begin(), now_.movers.end(), [](const MoverState& mover) {
-           return mover.pose.matrix().allFinite() && is_finite(mover.velocity);
-         });
+         std::isfinite(robot.turn_rate);
 }
 
 std::uint64_t World::state_hash() const {
   std::uint64_t hash = mix(0xCBF29CE484222325ull, static_cast<double>(steps_));
-  hash = drivetrain_.hash(physics_.hash(hash));
-  for (const Mover& mover : movers_)
-    for (const double value :
-         {mover.position().x(), mover.position().y(), mover.yaw(), mover.speed(), mover.turn_rate(),
-          mover.pause_left(), static_cast<double>(mover.target())})
-      hash = mix(hash, value);
+  hash = traffic_.hash(drivetrain_.hash(physics_.hash(hash)));
   for (const auto& [thing, apart] : contacts_.held())
     hash = mix(mix(hash, static_cast<double>(thing)), apart);
   for (const auto& [thing_class, count] : contacts_.counts())

@@ -9,10 +9,6 @@ const Eigen::Vector3d kPoint = Eigen::Vector3d::Zero();
 
 class Contacts : public testing::Test {
  protected:
-  Contacts() : things_(3) {
-    things_[1].thing_class = ThingClass::shelf;
-    things_[2].thing_class = ThingClass::worker;
-  }
   /// Holds thing 1 at `distance` for `seconds`; returns how many contacts began.
   std::size_t hold(double distance, double seconds) {
     std::size_t begun = 0;
@@ -20,7 +16,7 @@ class Contacts : public testing::Test {
       begun += counter_.update({{1, distance, kPoint}}, things_, 0.5, 0.01).size();
     return begun;
   }
-  std::vector<Thing> things_;
+  std::vector<ThingClass> things_{ThingClass::other, ThingClass::shelf, ThingClass::worker};
   ContactCounter counter_;
 };
 

@@ -37,11 +37,12 @@ class ContactCounter {
   static constexpr double kApartFor = 0.2;    ///< s
 
   /// \param touches  at most one per thing, ordered by thing; a thing that is absent is far
+  /// \param classes  of all things
   /// \param speed    m/s, the robot's before this step
   /// \param dt       s, since the last call
   [[nodiscard]] std::vector<ContactEvent> update(const std::vector<Touch>& touches,
-                                                 const std::vector<Thing>& things, double speed,
-                                                 double dt);
+                                                 const std::vector<ThingClass>& classes,
+                                                 double speed, double dt);
 
   [[nodiscard]] const ContactCounts& counts() const { return counts_; }
   /// Things in contact, or not long enough apart, with the time they have been apart in s.

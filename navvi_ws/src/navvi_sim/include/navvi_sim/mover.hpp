@@ -1,108 +1,68 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <navvi_config/field.hpp>
-#include <random>
-#include <vector>
+#include <limits>
 
-#include "navvi_sim/world_description.hpp"
+#include "navvi_sim/footprint.hpp"
+#include "navvi_sim/lanes.hpp"
 
 namespace navvi_sim {
 
-/// How things with a route behave (R-SIM-3).
-struct MoversConfig {
-  bool yield = true;          ///< stop for the robot
-  double acceleration = 0.8;  ///< m/s^2, to faster and to slower
-  double turn_rate = 1.0;     ///< rad/s
-  double clearance = 0.4;     ///< m, at which they stop before what is in their way
-  double patience = 6.0;      ///< s before two movers that block each other turn back
-  double pause_spread = 0.3;  ///< share by which a pause varies either way, drawn from the seed
-
-  void describe(navvi_config::Visitor& visit);
-};
-
-/// A vertical cylinder that may stand in a mover's way.
-struct Disc {
-  Eigen::Vector2d centre;  ///< m, in map
-  double radius;           ///< m
-};
-
-/// The horizontal extent of a thing about its origin, in its own frame, and its top.
-struct Footprint {
-  double front = 0.0;   ///< m, from the origin along x to the foremost point
-  double back = 0.0;    ///< m, from the origin against x
-  double side = 0.0;    ///< m, largest distance from the x axis
-  double radius = 0.0;  ///< m, largest distance from the origin
-  double bottom = 0.0;  ///< m, lowest z in the frame of the thing's origin, map's axes
-  double top = 0.0;     ///< m, likewise
-};
-
-/// \param tilt  of the thing's shapes: its orientation without its yaw
-[[nodiscard]] Footprint footprint_of(const Thing& thing, const Eigen::Quaterniond& tilt);
-
-/// The thing's heading: rad, the direction of its x axis seen from above.
-[[nodiscard]] double yaw_of(const Eigen::Isometry3d& pose);
-
-/// Follows a Route: along straight lines at the route's speed with a smooth start and
-/// stop, turning on the spot at corners. Pure: the same calls give the same poses.
+/// Drives along a track, smoothly and as fast as it may, up to where it was allowed to go. Pure:
+/// the same calls give the same places.
 class Mover {
  public:
-  /// What is near on this step.
-  struct Surroundings {
-    Disc robot;
-    std::vector<Disc> first;    ///< other movers with right of way over this one
-    std::vector<Disc> rest;     ///< other movers without
-    bool pushing_back = false;  ///< the robot is pressed against and cannot give way: stop dead
-  };
+  static constexpr double kFree = std::numeric_limits<double>::infinity();
 
-  /// \param thing  must have a route
-  Mover(std::size_t id, const Thing& thing, const MoversConfig& config, std::uint64_t seed);
+  /// \param lane   outlives the mover
+  /// \param start  m along its track
+  /// \param seed   of its pauses
+  Mover(const Lane& lane, double start, const MoversConfig& config, std::uint64_t seed);
 
-  void step(const Surroundings& around, double dt);
+  /// \param room  m, how far it can go before something stands in its way; kFree: nothing does
+  void step(double room, double dt);
+  /// It is pressed against what cannot give way.
+  void stop_dead();
+  /// Stands still for `seconds`.
+  void wait(double seconds) { pause_left_ = seconds; }
+  /// Allows it to go on to `s`, m along the track and more than `s()`; beyond the track's length it
+  /// comes round. It will not go further.
+  void allow(double s) { allowed_ = s; }
 
-  [[nodiscard]] std::size_t id() const { return id_; }
-  [[nodiscard]] Eigen::Isometry3d pose() const;
-  [[nodiscard]] const Eigen::Vector2d& position() const { return position_; }
-  [[nodiscard]] double yaw() const { return yaw_; }
-  [[nodiscard]] double speed() const { return speed_; }
-  [[nodiscard]] double turn_rate() const { return turn_rate_; }
-  [[nodiscard]] Eigen::Vector2d velocity() const;
-  [[nodiscard]] const Footprint& footprint() const { return footprint_; }
-  [[nodiscard]] std::size_t target() const { return target_; }
+  /// m it can go until it would touch the disc, less the clearance; kFree if not soon.
+  [[nodiscard]] double room_before(const Disc& disc, double clearance) const;
+
+  [[nodiscard]] double s() const { return s_; }
+  [[nodiscard]] double allowed() const { return allowed_; }
+  [[nodiscard]] const Place& place() const { return place_; }
+  [[nodiscard]] double speed() const { return speed_; }  ///< m/s along the track, also in turning
   [[nodiscard]] double pause_left() const { return pause_left_; }
+  [[nodiscard]] Eigen::Vector2d velocity() const;  ///< m/s, in map
+  [[nodiscard]] double turn_rate() const;          ///< rad/s
+  /// True if the place changed in the last step.
+  [[nodiscard]] bool has_moved() const { return moved_; }
+  /// True at the end of a track that does not come round.
+  [[nodiscard]] bool has_ended() const {
+    return !lane_->track.closed() && s_ >= lane_->track.length();
+  }
 
  private:
-  enum class Blocked { no, by_robot, by_mover };
+  [[nodiscard]] const Track::Element& element() const { return lane_->track.elements()[element_]; }
+  void pass_end();
 
-  [[nodiscard]] bool yields() const { return config_.yield && route_.yields; }
-  [[nodiscard]] Blocked blocked(const Surroundings& around) const;
-  [[nodiscard]] bool in_way(const Disc& disc, double reach) const;
-  /// rad, from the heading to the next way-point's direction
-  [[nodiscard]] double course_error() const;
-  void turn(double dt);
-  void drive(double distance, double dt);
-  void arrive();
-  void advance_target();
-
-  std::size_t id_;
-  MoversConfig config_;
-  Route route_;
-  Footprint footprint_;
-  Eigen::Quaterniond tilt_;
-  double z_;
-  std::mt19937_64 random_;
-  Eigen::Vector2d position_;
-  double yaw_;
+  const Lane* lane_;
+  double acceleration_;
+  double pause_spread_;
+  std::uint64_t random_;
+  double s_;
+  double allowed_;
   double speed_ = 0.0;
-  double turn_rate_ = 0.0;
   double pause_left_ = 0.0;
-  double waited_ = 0.0;
-  std::size_t target_ = 0;
-  bool backwards_ = false;  ///< the route's order is reversed
-  bool turning_ = true;
-  bool ended_ = false;  ///< at the last way-point of a route that does not loop
+  std::size_t element_;
+  Place place_;
+  bool moved_ = false;
 };
 
 }  // namespace navvi_sim

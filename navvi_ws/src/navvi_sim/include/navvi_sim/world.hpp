@@ -8,10 +8,10 @@
 
 #include "navvi_sim/contact_counter.hpp"
 #include "navvi_sim/drivetrain.hpp"
-#include "navvi_sim/mover.hpp"
 #include "navvi_sim/physics.hpp"
 #include "navvi_sim/robot.hpp"
 #include "navvi_sim/scenario.hpp"
+#include "navvi_sim/traffic.hpp"
 #include "navvi_sim/world_description.hpp"
 
 namespace navvi_sim {
@@ -55,8 +55,10 @@ class World {
     numeric_failure   ///< a state was not finite: the world has stopped for good
   };
 
-  /// \param description  valid (validate.hpp)
+  /// \param description  valid (validate.hpp); it need not outlive the constructor
   /// \param seed         of the movers' pauses and the robot's imperfections
+  /// \throws WorldError naming the things, if what moves cannot be kept from what stands or from
+  ///         each other (lanes.hpp)
   World(const WorldDescription& description, const WorldConfig& config, const FloorPose& start,
         std::uint64_t seed);
 
@@ -72,16 +74,26 @@ class World {
   [[nodiscard]] std::uint64_t state_hash() const;
 
  private:
+  /// What does not change of a moving thing.
+  struct Body {
+    Eigen::Quaterniond tilt;
+    double z;  ///< m, of the thing's origin
+  };
+
+  void place_movers(bool all);
   void step_movers();
-  [[nodiscard]] bool crushes(std::size_t thing) const;
+  /// Things, in order, that press the robot so far into themselves or into others that it cannot
+  /// give way.
+  [[nodiscard]] std::vector<std::size_t> pressing() const;
   void drive_robot(const navvi_safety::Velocity& command, Braking braking);
   void take_snapshot();
   [[nodiscard]] bool finite() const;
 
   WorldConfig config_;
   double floor_height_;
-  std::vector<Thing> things_;
-  std::vector<Mover> movers_;
+  std::vector<ThingClass> classes_;  ///< by thing
+  Traffic traffic_;
+  std::vector<Body> bodies_;  ///< by index in traffic_
   Physics physics_;
   Drivetrain drivetrain_;
   ContactCounter contacts_;

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "navvi_sim/lanes.hpp"
+#include "navvi_sim/mover.hpp"
+
+namespace navvi_sim {
+
+/// All that moves in a world, and who goes first (R-SIM-3).
+///
+/// The rule. A mover waits in refuges only: places of its track whose ground no other lane touches.
+/// From one it takes all ground up to the next at once, or none of it; what lies behind it is free
+/// again. It is given the ground if nobody is on what its leg touches, or was given it, and nobody
+/// who asked earlier wants it. Who shares a track also lets the one ahead get clear of the refuge.
+///
+/// Why nobody meets. A body lies within the ground of the block its place is in; a mover is only in
+/// blocks that it holds; and held blocks of two movers never touch, for each grant is checked
+/// against all that is held.
+///
+/// Why nobody waits for ever, while the robot stands in nobody's way. A leg once given is driven to
+/// its end: nothing on it waits for anybody. So it is left within a time that depends on its length
+/// and pauses only. Consider what can keep a mover from its next leg:
+/// - a mover on a leg that touches it: gone within that time;
+/// - one that waits: it stands in a refuge, which no leg of another lane touches. On a shared track
+///   the one ahead may stand in the next refuge; but there are more refuges than movers, so that
+///   somebody's is free, and free room comes back to each in turn;
+/// - one that asked earlier: it counts only where none of its own track is in its way. Those form a
+///   line. The first of it is given its leg when the movers that touch it are gone, for nobody who
+///   came later can take that ground; then it is the last. So each waits for finitely many legs.
+///
+/// The robot. A mover that the robot keeps from going on gives back what lies ahead of it after a
+/// while and asks anew when the robot is gone, so that a robot that stands still blocks those only
+/// whose way leads over the bodies it stops. Of the movers that stand on shared ground so, the leg
+/// of the one that was given its leg last touched none of the others when it was given, so it can
+/// be given again; likewise, when it is gone, of those that remain. Things that start on shared
+/// ground are such movers, in an order that lay_lanes has found.
+class Traffic {
+ public:
+  /// \throws WorldError as lay_lanes
+  Traffic(const WorldDescription& world, const MoversConfig& config, std::uint64_t seed);
+  Traffic(const Traffic&) = delete;
+  Traffic& operator=(const Traffic&) = delete;
+
+  /// \param robot    what movers that yield stop for
+  /// \param pressing things, in order, that must stop dead, for the robot cannot give way to them
+  void step(const Disc& robot, const std::vector<std::size_t>& pressing, double dt);
+
+  [[nodiscard]] std::size_t size() const { return drivers_.size(); }
+  [[nodiscard]] const Mover& mover(std::size_t i) const { return drivers_[i].mover; }
+  /// Index in WorldDescription::things.
+  [[nodiscard]] std::size_t thing(std::size_t i) const { return lanes_.users[i].thing; }
+  /// Mixes every bit of the state into `hash` (FNV-1a over words).
+  [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
+
+ private:
+  struct Driver {
+    Mover mover;
+    const Lane* lane;
+    std::size_t ahead;     ///< user before it on a shared track; itself if there is none
+    std::size_t next = 0;  ///< leg to be asked for
+    double ask_at = 0.0;   ///< m before the end of what it was given, at which it asks for more
+    double kept = 0.0;     ///< s that the robot has kept it from going on
+    bool yields = true;
+    bool asking = false;    ///< is in the line
+    bool claims = false;    ///< asks, and only who drives is in its way
+    bool stranded = false;  ///< stands on shared ground, or did when it last asked
+    bool in_robots_way = false;
+  };
+  /// What keeps a mover from a leg.
+  enum class Obstacle { none, driving, waiting };
+
+  void drive(Driver& driver, const Disc& robot, double dt);
+  void strand(Driver& driver, std::size_t user);
+  void ask(std::size_t user);
+  void serve_line();
+  void give(std::size_t user);
+  [[nodiscard]] Obstacle obstacle(std::size_t user) const;
+  [[nodiscard]] bool clear_of_one_ahead(std::size_t user) const;
+  [[nodiscard]] bool holds(const Driver& driver, const Crossing& crossing) const;
+  [[nodiscard]] bool wants(const Driver& driver, const Crossing& crossing) const;
+
+  MoversConfig config_;
+  Lanes lanes_;
+  std::vector<Driver> drivers_;    ///< ordered by thing
+  std::vector<std::size_t> line_;  ///< who asks, the first first
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace navvi_sim
