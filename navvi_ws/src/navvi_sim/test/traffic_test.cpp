@@ -7,6 +7,8 @@
 #include <optional>
 #include <random>
 
+#include "navvi_sim/warehouse.hpp"
+
 namespace navvi_sim {
 namespace {
 
@@ -340,6 +342,11 @@ TEST(Lanes, let_two_start_on_shared_ground_only_if_one_can_leave_first) {
   two.pose.translation().y() = -1.0;
   const std::string sentence = refusal(world_of({one, two}));
   EXPECT_NE(sentence.find("each other's way"), std::string::npos) << sentence;
+}
+
+TEST(Lanes, can_be_laid_in_the_built_in_warehouse_of_any_seed) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+    EXPECT_EQ(refusal(warehouse(seed, {})), "") << "seed " << seed;
 }
 
 }  // namespace
