@@ -7,6 +7,7 @@
 
 #include "bare_bullet.hpp"
 #include "medians.hpp"
+#include "navvi_sim/scene.hpp"
 #include "navvi_sim/state_conversion.hpp"
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
@@ -42,7 +43,7 @@ std::size_t bytes_of(const Message& message) {
 }
 
 /// Everything that sim_node publishes after a step, made and serialized but not sent.
-std::size_t state_bytes(const World& world, const WorldConfig& config, std::uint64_t steps) {
+std::size_t state_bytes(const World& world, Scene& looks, std::uint64_t steps) {
   const Snapshot& now = world.now();
   const double floor = description().floor_height;
   const ros::Time stamp(now.time);
@@ -57,8 +58,7 @@ std::size_t state_bytes(const World& world, const WorldConfig& config, std::uint
                                     kDetectionRadius, stamp));
   if (steps % kObstaclesEach == 0) {
     bytes += bytes_of(obstacles_msg(description(), now, stamp));
-    bytes += bytes_of(moving_scene_msg(description(), moving_poses(now),
-                                       robot_body(now.robot, config.robot, floor), stamp));
+    bytes += bytes_of(looks.moving(now, stamp));
   }
   return bytes;
 }
@@ -67,11 +67,12 @@ void run_world(benchmark::State& state, bool publishing) {
   const WorldConfig config;
   World world(description(), config, kStart, 1);
   for (int i = 0; i < kWarmUp; ++i) (void)world.step(kCommand);
+  Scene looks(description(), config.robot);
   std::uint64_t steps = 0;
   std::size_t bytes = 0;
   for (auto _ : state) {
     if (world.step(kCommand) != World::Status::running) state.SkipWithError("the world stopped");
-    if (publishing) bytes += state_bytes(world, config, ++steps);
+    if (publishing) bytes += state_bytes(world, looks, ++steps);
   }
   count_steps(state, config.step);
   if (publishing) state.SetBytesProcessed(static_cast<std::int64_t>(bytes));

@@ -11,7 +11,9 @@
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/msg_conversion.hpp>
 
+#include "navvi_sim/msg_conversion.hpp"
 #include "navvi_sim/pacer.hpp"
+#include "navvi_sim/scene.hpp"
 #include "navvi_sim/session.hpp"
 #include "navvi_sim/sim_node_config.hpp"
 #include "navvi_sim/state_conversion.hpp"
@@ -59,6 +61,7 @@ class SimNode {
   SimNodeConfig config_;
   WorldDescription description_;
   std::optional<Session> session_;
+  Scene looks_;
   navvi_safety::CommandGate gate_;
   Pacer pacer_;
   std::size_t commands_told_ = 0;
@@ -78,6 +81,7 @@ class SimNode {
 SimNode::SimNode(const SimNodeConfig& config, LoadedWorld loaded)
     : config_(config),
       description_(std::move(loaded.world)),
+      looks_(description_, config.life.robot),
       gate_(config.gate),
       pacer_(config.life.step, config.rate, config.max_catch_up) {
   const octomap::OcTree map = occupancy_of(description_, config_.octomap);
@@ -125,7 +129,7 @@ void SimNode::publish_what_stands(const octomap::OcTree& map, const Scenario& sc
         odom_msg(world().now().robot, world().now().odometry, stamp()));
   octomap_.publish(to_msg(map, stamp()));
   cells_.publish(occupied_cells_msg(map, stamp()));
-  scene_.publish(scene_msg(description_, stamp()));
+  scene_.publish(looks_.standing(stamp()));
   navvi_msgs::Scenario played =
       scenario_msg(description_, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
                    scenario, stamp());
@@ -213,8 +217,7 @@ void SimNode::publish_state() {
   }
   if (is_due(session_->steps(), dt, kObstaclesRate)) {
     obstacles_.publish(obstacles_msg(description_, now, stamp()));
-    moving_.publish(moving_scene_msg(description_, moving_poses(now),
-                                     robot_body(now.robot, config_.life.robot, floor), stamp()));
+    moving_.publish(looks_.moving(now, stamp()));
   }
 }
 

@@ -199,19 +199,4 @@ std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
   return state;
 }
 
-std::vector<MovingPose> moving_poses(const Snapshot& now) {
-  std::vector<MovingPose> poses;
-  for (const MoverState& mover : now.movers) poses.push_back({mover.thing, mover.pose});
-  return poses;
-}
-
-RobotBody robot_body(const RobotState& robot, const RobotConfig& config, double floor_height) {
-  RobotBody body;
-  body.pose.translate(Eigen::Vector3d(robot.position.x(), robot.position.y(), floor_height));
-  body.pose.rotate(Eigen::AngleAxisd(robot.yaw, Eigen::Vector3d::UnitZ()));
-  body.radius = config.radius;
-  body.height = config.height;
-  return body;
-}
-
 }  // namespace navvi_sim

@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "navvi_sim/msg_conversion.hpp"
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/session.hpp"
 #include "navvi_sim/world.hpp"
@@ -64,10 +63,5 @@ namespace navvi_sim {
                           std::vector<AppliedCommand>& commands);
 /// nullopt if its hash is not 16 hexadecimal digits.
 [[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
-
-/// What moving_scene_msg draws.
-[[nodiscard]] std::vector<MovingPose> moving_poses(const Snapshot& now);
-[[nodiscard]] RobotBody robot_body(const RobotState& robot, const RobotConfig& config,
-                                   double floor_height);
 
 }  // namespace navvi_sim

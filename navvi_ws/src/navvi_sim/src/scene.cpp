@@ -1,0 +1,385 @@
+#include "navvi_sim/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "block_lists.hpp"
+#include "painter.hpp"
+
+namespace navvi_sim {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+constexpr double kWallCut = 1.0;  // m above the floor, to which walls are drawn
+constexpr double kCut = 2.7;      // m above the floor, to which everything else is drawn
+constexpr double kNoCut = std::numeric_limits<double>::max();
+constexpr std::size_t kMostLists = 150;  // of blocks
+constexpr double kBoxGrid = 0.1;         // m, of the sizes of boxes on shelves
+constexpr double kBeam = 0.08;           // m, of uprights and rims
+constexpr double kBoard = 0.05;          // m, thickness
+constexpr double kFloorGrid = 5.0;       // m, between lines on the floor
+constexpr std::size_t kMany = 100;       // movers; beyond, far ones take turns
+constexpr double kFar = 30.0;            // m from the robot
+constexpr std::uint64_t kTurns = 10;     // a far mover is told in one message of these
+
+/// High contrast on a dark background. Purple and red are left to the path and the goal.
+Color color_of(ThingClass thing_class) {
+  switch (thing_class) {
+    case ThingClass::floor:
+      return {0.07F, 0.08F, 0.09F};
+    case ThingClass::shelf:
+      return {0.33F, 0.45F, 0.58F};
+    case ThingClass::wall:
+      return {0.78F, 0.78F, 0.78F};
+    case ThingClass::box:
+      return {1.00F, 0.90F, 0.00F};
+    case ThingClass::pedestal:
+      return {0.72F, 0.42F, 0.16F};
+    case ThingClass::worker:
+      return {0.20F, 1.00F, 0.35F};
+    case ThingClass::forklift:
+      return {1.00F, 0.50F, 0.00F};
+    case ThingClass::pallet_robot:
+      return {0.00F, 0.80F, 0.80F};
+    case ThingClass::other:
+      return {0.55F, 0.55F, 0.50F};
+  }
+  return {0.55F, 0.55F, 0.50F};
+}
+
+constexpr Color kUpright{0.25F, 0.50F, 0.85F};
+constexpr Color kFloorLine{0.17F, 0.19F, 0.21F};
+constexpr Color kRobot{0.95F, 1.00F, 0.95F};
+constexpr Color kNose{0.00F, 1.00F, 0.20F};
+
+/// What is drawn in place of a thing's own shapes, as large as they are together.
+std::optional<std::string> model_of(ThingClass thing_class) {
+  switch (thing_class) {
+    case ThingClass::worker:
+    case ThingClass::forklift:
+    case ThingClass::pallet_robot:
+      return std::string("package://navvi_sim/meshes/") + to_string(thing_class) + ".dae";
+    default:
+      return std::nullopt;
+  }
+}
+
+Eigen::AlignedBox3d bounds_of(const Geometry& geometry, const Eigen::Isometry3d& pose) {
+  Eigen::AlignedBox3d bounds;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&geometry)) {
+    for (const Eigen::Vector3f& vertex : (*mesh)->vertices)
+      bounds.extend(pose * vertex.cast<double>());
+    return bounds;
+  }
+  Eigen::Vector3d half;
+  if (const auto* box = std::get_if<Box>(&geometry)) {
+    half = 0.5 * box->size;
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    half = {cylinder->radius, cylinder->radius, 0.5 * cylinder->length};
+  } else {
+    half = Eigen::Vector3d::Constant(std::get<Sphere>(geometry).radius);
+  }
+  for (int corner = 0; corner < 8; ++corner)
+    bounds.extend(pose * Eigen::Vector3d(corner & 1 ? half.x() : -half.x(),
+                                         corner & 2 ? half.y() : -half.y(),
+                                         corner & 4 ? half.z() : -half.z()));
+  return bounds;
+}
+
+bool is_upright(const Eigen::Isometry3d& pose) { return pose.linear()(2, 2) > 1.0 - 1e-6; }
+
+/// A box whose faces look along the axes of map.
+std::optional<Eigen::AlignedBox3d> block_of(const Geometry& geometry,
+                                            const Eigen::Isometry3d& pose) {
+  if (!std::holds_alternative<Box>(geometry) || !is_upright(pose)) return std::nullopt;
+  const double x = std::abs(pose.linear()(0, 0));
+  if (x > 1e-6 && x < 1.0 - 1e-6) return std::nullopt;
+  return bounds_of(geometry, pose);
+}
+
+/// A part of a rack, about the centre of the box that it is drawn for.
+struct Part {
+  Eigen::AlignedBox3d block;
+  Color color;
+};
+
+/// Adds blocks along the longer side of a box, whichever it is.
+class Carpenter {
+ public:
+  explicit Carpenter(const Eigen::Vector3d& size) : along_x_(size.x() >= size.y()) {}
+
+  /// \param low, high  m: along, across, up
+  void add(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Color& color) {
+    parts_.push_back({Eigen::AlignedBox3d(turned(low), turned(high)), color});
+  }
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d turned(const Eigen::Vector3d& v) const {
+    return along_x_ ? v : Eigen::Vector3d(v.y(), v.x(), v.z());
+  }
+
+  bool along_x_;
+  std::vector<Part> parts_;
+};
+
+/// The four beams around a board.
+std::vector<Part> rim(const Eigen::Vector3d& size) {
+  const Eigen::Vector3d half = 0.5 * size;
+  const Color color = color_of(ThingClass::shelf);
+  Carpenter carpenter(size);
+  const double length = std::max(half.x(), half.y()), depth = std::min(half.x(), half.y());
+  for (const double side : {-depth, depth - kBeam})
+    carpenter.add({-length, side, -half.z()}, {length, side + kBeam, half.z()}, color);
+  for (const double end : {-length, length - kBeam})
+    carpenter.add({end, kBeam - depth, -half.z()}, {end + kBeam, depth - kBeam, half.z()}, color);
+  return carpenter.parts();
+}
+
+/// An open rack in place of a block: uprights in pairs and boards, the highest one a rim.
+std::vector<Part> rack(const Eigen::Vector3d& size) {
+  constexpr double kBay = 2.0, kLevel = 0.7;  // m, about
+  const Eigen::Vector3d half = 0.5 * size;
+  const double length = std::max(half.x(), half.y()), depth = std::min(half.x(), half.y());
+  Carpenter carpenter(size);
+  const int bays = std::max(1, static_cast<int>(std::lround(2.0 * length / kBay)));
+  for (int i = 0; i <= bays; ++i) {
+    const double at = -length + (2.0 * length - kBeam) * i / bays;
+    for (const double side : {-depth, depth - kBeam})
+      carpenter.add({at, side, -half.z()}, {at + kBeam, side + kBeam, half.z()}, kUpright);
+  }
+  const int levels = std::max(1, static_cast<int>(std::lround(size.z() / kLevel)));
+  for (int i = 0; i < levels; ++i) {
+    const double z = -half.z() + (size.z() - kBoard) * i / levels;
+    carpenter.add({-length, -depth, z}, {length, depth, z + kBoard}, color_of(ThingClass::shelf));
+  }
+  std::vector<Part> parts = carpenter.parts();
+  for (Part part : rim({size.x(), size.y(), kBoard})) {
+    part.block.translate(Eigen::Vector3d(0.0, 0.0, half.z() - 0.5 * kBoard));
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+/// How a box of a shelf is drawn.
+/// \param highest  nothing of the shelf is above it
+std::vector<Part> parts_of(const Eigen::Vector3d& size, bool highest) {
+  const double across = size.head<2>().minCoeff();
+  const bool is_post = size.z() > 4.0 * size.head<2>().maxCoeff();
+  if (size.z() > 1.0 && !is_post && across > 0.3) return rack(size);
+  if (highest && size.z() < 0.2 && across > 4.0 * kBeam) return rim(size);
+  const Eigen::AlignedBox3d whole(-0.5 * size, 0.5 * size);
+  if (!is_post) return {{whole, color_of(ThingClass::shelf)}};
+  // A little out of what it holds, so that the faces of the two are not in one plane.
+  const Eigen::Vector3d out(0.005, 0.005, -0.005);
+  return {{Eigen::AlignedBox3d(whole.min() - out, whole.max() + out), kUpright}};
+}
+
+/// Draws everything that stands still.
+class StillLife {
+ public:
+  explicit StillLife(const WorldDescription& world) : floor_(world.floor_height) {}
+
+  void add(const Thing& thing) {
+    if (thing.thing_class == ThingClass::shelf) return add_shelf(thing);
+    for (const Shape& shape : thing.shapes) {
+      const ThingClass look = look_of(thing, shape);
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      add(look, color_of(look), shape.geometry, pose);
+      if (look == ThingClass::floor) ground_.extend(bounds_of(shape.geometry, pose));
+    }
+  }
+
+  void append_to(MarkerArray& array, std::map<std::string, int>& next_id) {
+    for (auto& [ns, msg] : triangles_) {
+      if (msg.points.empty()) continue;
+      msg.id = next_id[ns]++;
+      array.markers.push_back(std::move(msg));
+    }
+    for (Marker& msg : blocks_.markers(kMostLists, next_id))
+      array.markers.push_back(std::move(msg));
+    if (!ground_.isEmpty()) array.markers.push_back(floor_lines(next_id["floor"]++));
+  }
+
+ private:
+  /// A rack is drawn so that it is seen into: from above through its highest board, of which only
+  /// the rim is drawn, and from aside through what is a block to whoever drives.
+  void add_shelf(const Thing& thing) {
+    Eigen::AlignedBox3d bounds;
+    for (const Shape& shape : thing.shapes) bounds.extend(bounds_of(shape.geometry, shape.pose));
+    for (const Shape& shape : thing.shapes) {
+      const ThingClass look = look_of(thing, shape);
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      const auto* box = std::get_if<Box>(&shape.geometry);
+      if (!box || look == ThingClass::box || !is_upright(shape.pose)) {
+        add(look, color_of(look), shape.geometry, pose, look == ThingClass::box);
+        continue;
+      }
+      const double top = shape.pose.translation().z() + 0.5 * box->size.z();
+      for (const Part& part : parts_of(box->size, top > bounds.max().z() - 1e-6))
+        add(look, part.color, Box{part.block.sizes()},
+            pose * Eigen::Translation3d(part.block.center()));
+    }
+  }
+
+  void add(ThingClass look, const Color& color, const Geometry& geometry,
+           const Eigen::Isometry3d& pose, bool coarse = false) {
+    const std::string ns = to_string(look);
+    const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
+    // Lists of blocks darken towards the ends of what is long.
+    const bool is_long = look == ThingClass::wall || look == ThingClass::floor;
+    if (auto block = is_long ? std::nullopt : block_of(geometry, pose)) {
+      if (block->min().z() >= cut) return;
+      block->max().z() = std::min(block->max().z(), cut);
+      if (coarse) *block = on_grid(*block);
+      return blocks_.add(ns, color, *block);
+    }
+    if (triangles_.count(ns) == 0)
+      triangles_[ns] = marker_msg(ns, 0, Marker::TRIANGLE_LIST, color_of(look));
+    Painter(triangles_[ns], color, cut).shape(geometry, pose);
+  }
+
+  /// Not larger, with its centre and underside where they were: so that many have one size.
+  static Eigen::AlignedBox3d on_grid(const Eigen::AlignedBox3d& block) {
+    const Eigen::Vector3d size = block.sizes().unaryExpr([](double side) {
+      return std::max(kBoxGrid, kBoxGrid * std::floor(side / kBoxGrid + 1e-6));
+    });
+    Eigen::Vector3d centre = block.center();
+    centre.z() = block.min().z() + 0.5 * size.z();
+    return {centre - 0.5 * size, centre + 0.5 * size};
+  }
+
+  /// Motion is seen against something.
+  [[nodiscard]] Marker floor_lines(int id) const {
+    Marker msg = marker_msg("floor", id, Marker::LINE_LIST, kFloorLine);
+    msg.scale.x = 0.04;
+    const Eigen::Vector3d low = ground_.min(), high = ground_.max();
+    for (int axis = 0; axis < 2; ++axis) {
+      for (double at = std::ceil(low[axis] / kFloorGrid) * kFloorGrid; at <= high[axis];
+           at += kFloorGrid) {
+        for (const Eigen::Vector3d& end : {low, high}) {
+          Eigen::Vector3d point(end.x(), end.y(), floor_ + 0.01);
+          point[axis] = at;
+          msg.points.push_back(point_msg(point));
+        }
+      }
+    }
+    return msg;
+  }
+
+  double floor_;
+  BlockLists blocks_;
+  std::map<std::string, Marker> triangles_;
+  Eigen::AlignedBox3d ground_;
+};
+
+bool is_moving(const Thing& thing) { return thing.route.has_value(); }
+
+}  // namespace
+
+Scene::Scene(const WorldDescription& world, const RobotConfig& robot)
+    : world_(world), robot_(robot) {
+  std::map<std::string, int> next_id;
+  for (std::size_t id = 0; id < world.things.size(); ++id)
+    if (is_moving(world.things[id])) movers_[id] = parts_of(world.things[id], next_id);
+}
+
+/// The model of its class where there is one, or a marker a shape.
+Scene::Parts Scene::parts_of(const Thing& thing, std::map<std::string, int>& next_id) const {
+  Parts parts;
+  const auto model = model_of(thing.thing_class);
+  if (model && is_upright(thing.pose)) {
+    const std::string ns = to_string(thing.thing_class);
+    Eigen::AlignedBox3d bounds;
+    for (const Shape& shape : thing.shapes) bounds.extend(bounds_of(shape.geometry, shape.pose));
+    Marker msg = marker_msg(ns, next_id[ns]++, Marker::MESH_RESOURCE, {0.0F, 0.0F, 0.0F});
+    msg.color.a = 0.0F;  // no tint: the model's own colours
+    msg.mesh_resource = *model;
+    msg.mesh_use_embedded_materials = true;
+    msg.scale.x = bounds.sizes().x();
+    msg.scale.y = bounds.sizes().y();
+    msg.scale.z = bounds.sizes().z();
+    parts.push_back({std::move(msg), Eigen::Isometry3d(Eigen::Translation3d(bounds.center()))});
+    return parts;
+  }
+  for (const Shape& shape : thing.shapes) {
+    const ThingClass look = look_of(thing, shape);
+    const std::string ns = to_string(look);
+    Marker msg = marker_msg(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color_of(look));
+    if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+      msg.type = Marker::CUBE;
+      msg.scale.x = box->size.x();
+      msg.scale.y = box->size.y();
+      msg.scale.z = box->size.z();
+    } else {
+      Painter(msg, color_of(look), kNoCut).shape(shape.geometry, Eigen::Isometry3d::Identity());
+    }
+    parts.push_back({std::move(msg), shape.pose});
+  }
+  return parts;
+}
+
+MarkerArray Scene::standing(const ros::Time& stamp) const {
+  MarkerArray array;
+  std::map<std::string, int> next_id;
+  StillLife still(world_);
+  for (const Thing& thing : world_.things) {
+    if (is_moving(thing)) continue;
+    if (!model_of(thing.thing_class) || !is_upright(thing.pose)) {
+      still.add(thing);
+      continue;
+    }
+    for (Part& part : parts_of(thing, next_id)) {
+      part.marker.pose = pose_msg(thing.pose * part.pose);
+      array.markers.push_back(std::move(part.marker));
+    }
+  }
+  still.append_to(array, next_id);
+  for (Marker& msg : array.markers) msg.header.stamp = stamp;
+  return array;
+}
+
+MarkerArray Scene::moving(const Snapshot& now, const ros::Time& stamp) {
+  MarkerArray array;
+  ++turn_;
+  for (std::size_t i = 0; i < now.movers.size(); ++i) {
+    const MoverState& mover = now.movers[i];
+    const Eigen::Vector2d away = mover.pose.translation().head<2>() - now.robot.position;
+    const bool has_turn = now.movers.size() <= kMany || (turn_ + i) % kTurns == 0;
+    if (!has_turn && away.norm() > kFar) continue;
+    for (const Part& part : movers_.at(mover.thing)) {
+      array.markers.push_back(part.marker);
+      array.markers.back().pose = pose_msg(mover.pose * part.pose);
+    }
+  }
+  append_robot(array, now.robot);
+  for (Marker& msg : array.markers) msg.header.stamp = stamp;
+  return array;
+}
+
+void Scene::append_robot(MarkerArray& array, const RobotState& robot) const {
+  const auto above = [&](double z) {
+    return pose_msg(
+        Eigen::Translation3d(robot.position.x(), robot.position.y(), world_.floor_height + z) *
+        Eigen::Isometry3d(Eigen::AngleAxisd(robot.yaw, Eigen::Vector3d::UnitZ())));
+  };
+  Marker body = marker_msg("robot", 0, Marker::CYLINDER, kRobot);
+  body.pose = above(robot_.height / 2.0);
+  body.scale.x = body.scale.y = 2.0 * robot_.radius;
+  body.scale.z = robot_.height;
+  array.markers.push_back(std::move(body));
+
+  // A flat arrow head over the lid, its tip over the rim, says where ahead is.
+  Marker nose = marker_msg("robot", 1, Marker::TRIANGLE_LIST, kNose);
+  nose.pose = above(robot_.height + 0.02);
+  const double r = robot_.radius;
+  Painter(nose, kNose, kNoCut)
+      .triangle({1.5 * r, 0.0, 0.0}, {-0.6 * r, 0.75 * r, 0.0}, {-0.6 * r, -0.75 * r, 0.0});
+  array.markers.push_back(std::move(nose));
+}
+
+}  // namespace navvi_sim
