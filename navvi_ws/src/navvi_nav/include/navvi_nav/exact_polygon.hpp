@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "navvi_nav/geometry.hpp"
+
+namespace navvi_nav {
+
+/// Cells are divided into so many steps along a side. Whatever cuts the floor has its corners on
+/// whole steps, so that all that follows can be told without rounding.
+constexpr int kStepsPerCell = 1024;
+/// Steps from the origin, at most: no product below leaves 128 bits.
+constexpr std::int64_t kFarthestStep = std::int64_t{1} << 36;
+/// Steps along an edge of what is cut out, at most.
+constexpr std::int64_t kLongestEdge = std::int64_t{1} << 24;
+
+struct Step {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+/// The points with a x + b y + c >= 0, in steps; a and b have no common divisor, so equal lines
+/// have equal numbers.
+struct HalfPlane {
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  std::int64_t c = 0;
+
+  [[nodiscard]] HalfPlane opposite() const { return {-a, -b, -c}; }
+};
+
+inline bool operator==(const HalfPlane& p, const HalfPlane& q) {
+  return p.a == q.a && p.b == q.b && p.c == q.c;
+}
+
+/// What lies on the left of the way between two different steps.
+[[nodiscard]] HalfPlane left_of(Step from, Step to);
+
+/// Where two lines meet: (x / w, y / w) in steps, w > 0. Exact.
+struct Meeting {
+  __extension__ typedef __int128 Wide;
+  Wide x = 0;
+  Wide y = 0;
+  std::int64_t w = 1;
+};
+
+[[nodiscard]] Meeting meet(const HalfPlane& p, const HalfPlane& q);
+/// 1 inside, 0 on the border, -1 outside.
+[[nodiscard]] int side_of(const HalfPlane& half, const Meeting& at);
+/// The doubles nearest to the place, steps. However a place came to be, it gets the same ones.
+[[nodiscard]] Point place_of(const Meeting& at);
+
+/// A strictly convex polygon made of its edges' lines, after Sugihara and Iri, "A solid modelling
+/// system free from topological inconsistency" (1989): no cut rounds, so neighbours that were cut
+/// by the same line still match, and no order of cuts opens a gap.
+struct ExactPolygon {
+  struct Edge {
+    HalfPlane line;  ///< the polygon is inside
+    Meeting begin;   ///< with the edge before
+    int number = 0;  ///< of the edge in what was cut; kCut for a cut
+  };
+  static constexpr int kCut = -1;
+
+  std::vector<Edge> edges;  ///< counter-clockwise; none if the polygon is empty
+  /// Steps, at most one too wide on each side.
+  Point low;
+  Point high;
+};
+
+/// \param corners  counter-clockwise, convex; those on a straight edge are left out. An edge has
+///                 the number of the last corner where it may be said to begin.
+[[nodiscard]] ExactPolygon exact_polygon(const std::vector<Step>& corners);
+
+/// A convex hole, and the order in which its edges cut what is around it.
+struct Hole {
+  ExactPolygon shape;
+  std::vector<int> order;  ///< of shape's edges
+};
+
+/// A hole about a circle: no point outside it is nearer than `radius` to `center`. Where an edge
+/// faces along an axis nothing more is lost than a step or two, elsewhere up to 1 / cos(pi / sides)
+/// of the radius. Those four edges cut first: they box the hole in, and the others only bevel the
+/// box, so that few cuts run far.
+/// \param center, radius  steps \param sides  at least 4. A circle too large for exact cutting gets
+/// a square hole. \returns an empty hole for a circle beyond the farthest step
+[[nodiscard]] Hole hole_about(Point center, double radius, int sides);
+
+/// True if the two share more than their borders.
+[[nodiscard]] bool overlap(const ExactPolygon& a, const ExactPolygon& b);
+
+/// Cuts holes out of polygons. Keeps its memory from one cut to the next.
+class Cutter {
+ public:
+  /// Convex pieces that cover `polygon` without the holes, and do not overlap each other. They
+  /// stand in pieces() until the next cut.
+  void cut(const ExactPolygon& polygon, const std::vector<const Hole*>& holes);
+
+  [[nodiscard]] std::size_t count() const { return pieces_.count; }
+  [[nodiscard]] const ExactPolygon& piece(std::size_t i) const { return pieces_.items[i]; }
+
+ private:
+  struct Pool {
+    std::vector<ExactPolygon> items;
+    std::size_t count = 0;
+    ExactPolygon& add();
+  };
+
+  /// Where the corners of a polygon lie.
+  struct Sides {
+    std::vector<signed char> each;  ///< as side_of()
+    bool inside = false;            ///< any
+    bool outside = false;           ///< any
+
+    void look(const ExactPolygon& polygon, const HalfPlane& line);
+  };
+
+  bool bite(const ExactPolygon& piece, const Hole& hole);
+  bool find_biting_edges(const ExactPolygon& piece, const Hole& hole);
+
+  Pool pieces_;
+  Pool next_;
+  ExactPolygon rest_;
+  ExactPolygon spare_;
+  Sides sides_;
+  std::vector<char> bites_;
+};
+
+}  // namespace navvi_nav
