@@ -3,31 +3,6 @@
 #include <utility>
 
 namespace navvi_nav {
-namespace {
-
-const Cylinder* find(const std::vector<Cylinder>& cylinders, std::uint32_t id) {
-  for (const Cylinder& cylinder : cylinders) {
-    if (cylinder.id == id) return &cylinder;
-  }
-  return nullptr;
-}
-
-double area(double radius) { return M_PI * radius * radius; }
-
-/// m^2, of the part that two circles share
-double shared_area(double d, double r, double s) {
-  if (d >= r + s) return 0.0;
-  if (d <= std::abs(r - s)) return area(std::min(r, s));
-  const double a = std::acos(std::clamp((d * d + r * r - s * s) / (2 * d * r), -1.0, 1.0));
-  const double b = std::acos(std::clamp((d * d + s * s - r * r) / (2 * d * s), -1.0, 1.0));
-  return r * r * (a - std::sin(2 * a) / 2) + s * s * (b - std::sin(2 * b) / 2);
-}
-
-bool same_hole(const Cylinder& a, const Cylinder& b) {
-  return a.center == b.center && a.radius == b.radius;
-}
-
-}  // namespace
 
 void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -59,8 +34,10 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   visit({"carve_moved", Range{0.0, 1.0}, "m", "an obstacle that moved less keeps its hole"},
         carve_moved);
   visit({"carve_changed", Range{0.0, 1.0}, "",
-         "fraction of the carved area that must have changed before tiles are rebuilt"},
+         "fraction of the carved area that must have changed before holes follow (R-NAV-5)"},
         carve_changed);
+  visit({"hole_sides", Range{6, 64}, "", "sides of a hole; more follow the circle closer"},
+        hole_sides);
 }
 
 double NavMesh::margin(double cell) const {
@@ -82,111 +59,37 @@ MeshUpdate NavMesh::set_map(MapSurvey survey) {
   how.max_corners = config_.polygon_corners;
   how.threads = config_.threads;
   BakedMap baked = bake_map(std::move(survey), how, &baked_);
-  if (!baked.error.empty()) return {baked.error, 0, 0};
+  if (!baked.error.empty()) return {baked.error, 0, 0, 0};
   baked_ = std::move(baked);
   floor_ = baked_.floor;
-  tiles_ = baked_.tiles;
-  for (const auto& entry : baked_.tiles) carve_tile(entry.first);
   join_tiles();
-  return {{}, static_cast<int>(tiles_.size()), static_cast<int>(baked_.rebuilt.size())};
-}
-
-bool NavMesh::touches(TileIndex tile, const Cylinder& cylinder) const {
-  const double cell = floor_->cell_size();
-  const double side = baked_.tile_cells * cell;
-  const double reach = cylinder.radius + margin(cell) + 2 * cell;
-  const double x0 = tile.first * side;
-  const double y0 = tile.second * side;
-  const double dx = std::max({x0 - cylinder.center.x, 0.0, cylinder.center.x - x0 - side});
-  const double dy = std::max({y0 - cylinder.center.y, 0.0, cylinder.center.y - y0 - side});
-  return dx * dx + dy * dy <= reach * reach;
-}
-
-bool NavMesh::changed_enough(const std::vector<Cylinder>& next) const {
-  if (config_.carve_changed <= 0.0) return true;
-  double total = 0.0;
-  double kept = 0.0;
-  for (const Cylinder& cylinder : carved_) total += area(cylinder.radius);
-  double changed = total;
-  for (const Cylinder& cylinder : next) {
-    changed += area(cylinder.radius);
-    if (const Cylinder* before = find(carved_, cylinder.id))
-      kept +=
-          shared_area(distance(before->center, cylinder.center), before->radius, cylinder.radius);
-  }
-  changed -= 2.0 * kept;
-  return total <= 0.0 ? changed > 0.0 : changed > config_.carve_changed * total;
+  return {{}, static_cast<int>(baked_.tiles.size()), static_cast<int>(baked_.rebuilt.size()), 0};
 }
 
 MeshUpdate NavMesh::carve(const std::vector<Cylinder>& cylinders) {
   MeshUpdate update;
-  update.tiles = static_cast<int>(tiles_.size());
-  std::vector<Cylinder> next = cylinders;
-  for (Cylinder& cylinder : next) {
-    const Cylinder* before = find(carved_, cylinder.id);
-    if (before && before->radius == cylinder.radius &&
-        distance(before->center, cylinder.center) < config_.carve_moved)
-      cylinder.center = before->center;
-  }
-  std::vector<Cylinder> touched;
-  for (const Cylinder& cylinder : next) {
-    const Cylinder* before = find(carved_, cylinder.id);
-    if (before && same_hole(*before, cylinder)) continue;
-    touched.push_back(cylinder);
-    if (before) touched.push_back(*before);
-  }
-  for (const Cylinder& before : carved_) {
-    if (!find(next, before.id)) touched.push_back(before);
-  }
-  if (touched.empty() || !changed_enough(next)) return update;
-  carved_ = std::move(next);
-  for (const auto& entry : baked_.tiles) {
-    const bool hit = std::any_of(touched.begin(), touched.end(), [&](const Cylinder& cylinder) {
-      return touches(entry.first, cylinder);
-    });
-    if (!hit) continue;
-    tiles_[entry.first] = entry.second;
-    carve_tile(entry.first);
-    ++update.tiles_rebuilt;
-  }
-  if (update.tiles_rebuilt > 0) join_tiles();
+  update.tiles = static_cast<int>(baked_.tiles.size());
+  update.polygons_cut = carving_.carve(mesh_, cylinders, rules());
+  if (update.polygons_cut > 0) shown_.reset();
   return update;
 }
 
-void NavMesh::carve_tile(TileIndex tile) {
-  TileCells cells = cells_of(*floor_, tile, baked_.tile_cells);
-  const double cell = floor_->cell_size();
-  const double grow = floor_->grow() * cell / kStepsPerCellSide;
-  const double keep = margin(cell);
-  bool any = false;
-  for (const Cylinder& cylinder : carved_) {
-    if (!touches(tile, cylinder)) continue;
-    any = true;
-    for (int y = -1; y <= cells.size; ++y) {
-      for (int x = -1; x <= cells.size; ++x) {
-        const Point low{(cells.origin.x + x) * cell - grow, (cells.origin.y + y) * cell - grow};
-        const Point high{low.x + cell + 2 * grow, low.y + cell + 2 * grow};
-        const double dx = std::max({low.x - cylinder.center.x, 0.0, cylinder.center.x - high.x});
-        const double dy = std::max({low.y - cylinder.center.y, 0.0, cylinder.center.y - high.y});
-        if (std::hypot(dx, dy) < cylinder.radius + keep)
-          cells.open[static_cast<std::size_t>((y + 1) * (cells.size + 2) + x + 1)] = 0;
-      }
-    }
-  }
-  if (!any) return;
-  BakeConfig how;
-  how.contour_error = config_.contour_error;
-  how.max_edge = static_cast<int>(config_.max_edge / cell);
-  how.max_corners = config_.polygon_corners;
-  how.merge_region = static_cast<int>(1.0 / (cell * cell));
-  how.grow = floor_->grow();
-  tiles_[tile] = bake_tile(cells, how);
+CarvingRules NavMesh::rules() const {
+  return {config_.robot_radius, config_.hole_sides, config_.carve_moved, config_.carve_changed};
+}
+
+std::shared_ptr<const Mesh> NavMesh::shared_mesh() const {
+  if (!shown_) shown_ = std::make_shared<const Mesh>(mesh_.mesh());
+  return shown_;
 }
 
 void NavMesh::join_tiles() {
   std::vector<GridPolygon> all;
-  for (const auto& entry : tiles_) all.insert(all.end(), entry.second.begin(), entry.second.end());
-  mesh_ = std::make_shared<Mesh>(join(all, floor_->cell_size() / kStepsPerCellSide));
+  for (const auto& entry : baked_.tiles)
+    all.insert(all.end(), entry.second.begin(), entry.second.end());
+  mesh_ = CutMesh(all, floor_->cell_size() / kStepsPerCellSide);
+  carving_.repeat(mesh_, rules());
+  shown_.reset();
 }
 
 }  // namespace navvi_nav

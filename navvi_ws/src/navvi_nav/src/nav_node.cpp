@@ -134,22 +134,23 @@ class NavNode {
     if (const std::optional<Outcome> outcome = worker_.take()) {
       report(*outcome);
       navigator_.deliver(*outcome, now);
-      fresh_mesh_ = outcome->navmesh;
+      publish_mesh(*outcome);
     }
     const bool lost_before = navigator_.obstacles_lost();
-    if (std::optional<Job> job = navigator_.update(now)) worker_.start(std::move(*job));
+    if (std::optional<Job> job = navigator_.update(now)) {
+      job->show_mesh = (ros::WallTime::now() - last_mesh_).toSec() >= config_.mesh_period;
+      worker_.start(std::move(*job));
+    }
     if (navigator_.obstacles_lost() && !lost_before)
       ROS_WARN("No fresh obstacles come any more; moving things are not in the path.");
     publish_all();
-    publish_mesh();
   }
 
   void report(const Outcome& outcome) const {
     if (outcome.reason != Reason::map_changed || outcome.plan) return;
     if (outcome.map_taken) {
-      ROS_INFO("Map taken in %.3f s: %zu polygons; %d of %d tiles built, %d carved.",
-               outcome.seconds, outcome.navmesh->polygons.size(), outcome.mesh.tiles_rebuilt,
-               outcome.mesh.tiles, outcome.carved.tiles_rebuilt);
+      ROS_INFO("Map taken in %.3f s: %zu polygons; %d of %d tiles built.", outcome.seconds,
+               outcome.polygons, outcome.mesh.tiles_rebuilt, outcome.mesh.tiles);
     } else {
       ROS_ERROR("The map is refused: %s.", outcome.map_error.c_str());
     }
@@ -181,13 +182,10 @@ class NavNode {
         to_msg(*shown_path_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
   }
 
-  void publish_mesh() {
-    const ros::WallTime wall = ros::WallTime::now();
-    if (!fresh_mesh_ || fresh_mesh_ == shown_mesh_ ||
-        (wall - last_mesh_).toSec() < config_.mesh_period)
-      return;
-    shown_mesh_ = fresh_mesh_;
-    last_mesh_ = wall;
+  void publish_mesh(const Outcome& outcome) {
+    if (!outcome.navmesh || outcome.navmesh == shown_mesh_) return;
+    shown_mesh_ = outcome.navmesh;
+    last_mesh_ = ros::WallTime::now();
     mesh_.publish(
         to_msg(*shown_mesh_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
   }
@@ -203,7 +201,6 @@ class NavNode {
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   std::optional<Path> shown_path_;
-  std::shared_ptr<const Mesh> fresh_mesh_;
   std::shared_ptr<const Mesh> shown_mesh_;
   Status last_status_;
   ros::WallTime last_guidance_;

@@ -55,7 +55,8 @@ Outcome work(Planner& planner, const Job& job) {
       out.plan->detail = error.what();
     }
   }
-  out.navmesh = planner.nav_mesh().shared_mesh();
+  out.polygons = planner.nav_mesh().mesh().polygons.size();
+  if (job.show_mesh) out.navmesh = planner.nav_mesh().shared_mesh();
   out.floor = planner.nav_mesh().shared_floor();
   return out;
 }

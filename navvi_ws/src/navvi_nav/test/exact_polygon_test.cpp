@@ -8,7 +8,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr std::int64_t kCell = kStepsPerCell;
+constexpr std::int64_t kCell = 1024;  // steps
 
 std::vector<Point> outline(const ExactPolygon& polygon) {
   std::vector<Point> out;

@@ -7,18 +7,17 @@
 
 namespace navvi_nav {
 
-/// Cells are divided into so many steps along a side. Whatever cuts the floor has its corners on
-/// whole steps, so that all that follows can be told without rounding.
-constexpr int kStepsPerCell = 1024;
-/// Steps from the origin, at most: no product below leaves 128 bits.
-constexpr std::int64_t kFarthestStep = std::int64_t{1} << 36;
-/// Steps along an edge of what is cut out, at most.
-constexpr std::int64_t kLongestEdge = std::int64_t{1} << 24;
-
+/// Whole steps of a lattice that is finer than the map's cells: whatever is cut, and whatever cuts,
+/// has its corners there, so that all that follows can be told without rounding.
 struct Step {
   std::int64_t x = 0;
   std::int64_t y = 0;
 };
+
+/// Steps from the origin, at most: no product below leaves 128 bits.
+constexpr std::int64_t kFarthestStep = std::int64_t{1} << 36;
+/// Steps along an edge of what is cut out, at most.
+constexpr std::int64_t kLongestEdge = std::int64_t{1} << 24;
 
 /// The points with a x + b y + c >= 0, in steps; a and b have no common divisor, so equal lines
 /// have equal numbers.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "navvi_nav/box_grid.hpp"
 #include "navvi_nav/geometry.hpp"
 
 namespace navvi_nav {
@@ -38,6 +39,7 @@ struct Mesh {
   /// number: were it shared, what is known of one side would be taken for the other's.
   std::vector<Vertex> vertices;
   std::vector<Polygon> polygons;
+  BoxGrid grid;  ///< of polygons, by their corners
 
   struct Place {
     int polygon = 0;
@@ -72,5 +74,8 @@ inline bool operator==(const GridPolygon& a, const GridPolygon& b) {
 /// whether or not they share corners; where a link ends within an edge, its vertex is made a corner
 /// of the polygon. So each edge between two following corners is a link or a wall, whole.
 [[nodiscard]] Mesh join(const std::vector<GridPolygon>& polygons, double cell_size);
+
+/// Gives connected polygons the same part.
+void number_parts(Mesh& mesh);
 
 }  // namespace navvi_nav

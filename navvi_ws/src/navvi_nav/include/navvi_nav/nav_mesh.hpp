@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "navvi_nav/carving.hpp"
+#include "navvi_nav/cut_mesh.hpp"
 #include "navvi_nav/floor.hpp"
 #include "navvi_nav/map_bake.hpp"
 #include "navvi_nav/map_survey.hpp"
@@ -27,6 +29,7 @@ struct NavMeshConfig {
   double preferred_clearance = 0.6;
   double carve_moved = 0.1;
   double carve_changed = 0.0;
+  int hole_sides = 16;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -39,6 +42,7 @@ struct MeshUpdate {
   std::string error;      ///< a sentence if the map was refused; the mesh is then unchanged
   int tiles = 0;          ///< in the map
   int tiles_rebuilt = 0;  ///< by this change
+  int polygons_cut = 0;   ///< polygons of the floor that were cut anew because holes changed
 };
 
 /// The floor that an OctoMap shows, as tiles of convex polygons (R-NAV-1..5). Clear by
@@ -60,34 +64,33 @@ class NavMesh {
   MeshUpdate set_map(const OccupancyGrid& grid) {
     return set_map(read_grid(grid, config_.cell_size));
   }
-  /// Makes the holes be those of `cylinders`: a cylinder whose id is gone heals. One that moved
+  /// Makes the holes those of `cylinders`: the hole of one whose id is gone heals. One that moved
   /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
   /// `carve_changed` of the carved area changed (R-NAV-5).
   MeshUpdate carve(const std::vector<Cylinder>& cylinders);
 
   [[nodiscard]] bool empty() const { return !floor_ || floor_->empty(); }
-  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
-  /// These two never change once handed out, so another thread may keep them.
-  [[nodiscard]] std::shared_ptr<const Mesh> shared_mesh() const { return mesh_; }
+  [[nodiscard]] const Mesh& mesh() const { return mesh_.mesh(); }
+  /// These two never change once handed out, so another thread may keep them. The mesh is copied
+  /// when it is asked for, once after each change.
+  [[nodiscard]] std::shared_ptr<const Mesh> shared_mesh() const;
   [[nodiscard]] std::shared_ptr<const Floor> shared_floor() const { return floor_; }
   /// The cylinders as carved.
-  [[nodiscard]] const std::vector<Cylinder>& carved() const { return carved_; }
-  [[nodiscard]] Space space() const { return {floor_.get(), &carved_}; }
+  [[nodiscard]] const std::vector<Cylinder>& carved() const { return carving_.carved(); }
+  [[nodiscard]] Space space() const { return {floor_.get(), &carved()}; }
   [[nodiscard]] const NavMeshConfig& config() const { return config_; }
 
  private:
   [[nodiscard]] double margin(double cell) const;
-  [[nodiscard]] bool touches(TileIndex tile, const Cylinder& cylinder) const;
-  [[nodiscard]] bool changed_enough(const std::vector<Cylinder>& next) const;
-  void carve_tile(TileIndex tile);
+  [[nodiscard]] CarvingRules rules() const;
   void join_tiles();
 
   NavMeshConfig config_;
   BakedMap baked_;
-  std::map<TileIndex, std::vector<GridPolygon>> tiles_;  // holes included
   std::shared_ptr<const Floor> floor_ = std::make_shared<Floor>();
-  std::shared_ptr<const Mesh> mesh_ = std::make_shared<Mesh>();
-  std::vector<Cylinder> carved_;
+  CutMesh mesh_;
+  Carving carving_;
+  mutable std::shared_ptr<const Mesh> shown_;  // a copy of the mesh as it is; null: none yet
 };
 
 }  // namespace navvi_nav

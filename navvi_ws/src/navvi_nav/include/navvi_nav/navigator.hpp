@@ -40,6 +40,7 @@ struct Job {
   Point start;
   Reason reason = Reason::none;
   unsigned goal_number = 0;
+  bool show_mesh = false;  ///< a picture of the mesh is wanted, too
 };
 
 /// A finished job.
@@ -50,8 +51,9 @@ struct Outcome {
   MeshUpdate mesh;    ///< by the new map, if one came
   MeshUpdate carved;  ///< by the obstacles
   bool map_taken = false;
-  std::string map_error;  ///< a sentence if a map came and was refused
-  std::shared_ptr<const Mesh> navmesh;
+  std::string map_error;                ///< a sentence if a map came and was refused
+  std::size_t polygons = 0;             ///< of the mesh, empty slots included
+  std::shared_ptr<const Mesh> navmesh;  ///< if it was to be shown
   std::shared_ptr<const Floor> floor;
   double seconds = 0.0;  ///< wall clock, filled in by the caller of work()
 };

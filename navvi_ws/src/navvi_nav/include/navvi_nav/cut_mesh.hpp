@@ -1,0 +1,104 @@
+#pragma once
+
+#include <vector>
+
+#include "navvi_nav/boundary.hpp"
+#include "navvi_nav/box_grid.hpp"
+#include "navvi_nav/exact_polygon.hpp"
+#include "navvi_nav/mesh.hpp"
+#include "navvi_nav/pinches.hpp"
+#include "navvi_nav/vertex_pool.hpp"
+
+namespace navvi_nav {
+
+/// A floor of convex polygons with round holes that come and go (R-NAV-4, R-NAV-5).
+///
+/// The floor's polygons are kept as they are. One that holes reach into is shown as the pieces that
+/// they leave of it, and is cut anew from the whole when one of them changes, so that a floor
+/// without holes is the very floor that was given, whatever happened before. Only these polygons
+/// and their neighbours are looked at: the cost follows what changed, not the floor.
+class CutMesh {
+ public:
+  CutMesh() = default;
+  /// \param floor  polygons that do not overlap \param unit  m, of their numbers
+  CutMesh(const std::vector<GridPolygon>& floor, double unit);
+
+  /// Changes what the next update() makes of the mesh.
+  /// \param center, radius  m \param sides  as hole_about() \returns a number for remove()
+  int add(Point center, double radius, int sides);
+  void remove(int hole);
+  /// \returns polygons of the floor that were cut anew
+  int update();
+
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+
+ private:
+  /// A polygon of the floor.
+  struct Ground {
+    struct Neighbour {
+      int ground = 0;
+      int edge = 0;  ///< number of our edge that it touches
+    };
+    ExactPolygon shape;
+    std::vector<Neighbour> neighbours;
+    std::vector<int> holes;   ///< that reach into it
+    std::vector<int> pieces;  ///< its polygons in the mesh
+  };
+  /// What must be known besides of a polygon of the mesh.
+  struct Piece {
+    int ground = 0;
+    std::vector<Side> sides;
+    std::vector<int> link_sides;  ///< through which each link leaves
+    Point low;                    ///< m
+    Point high;
+  };
+  struct Opening {
+    Hole hole;
+    Point center;  ///< steps
+    double radius = 0.0;
+    std::vector<int> grounds;  ///< that it reaches into
+    std::vector<int> corners;  ///< vertices
+  };
+
+  [[nodiscard]] Point position(const Meeting& at) const;
+  [[nodiscard]] bool cut_before(int a, int b) const;
+  void touch(int ground);
+  void find_borders();
+  void keep_links(int ground);
+  void cut(int ground);
+  void clear_pieces(int ground);
+  void add_piece(int ground, const ExactPolygon& shape);
+  int free_slot(int ground);
+  void recut();
+  void link();
+  void mark_corners();
+  void shrink();
+
+  double unit_ = 1.0;   // m
+  double steps_ = 1.0;  // in a unit
+  Mesh mesh_;
+  std::vector<Ground> grounds_;
+  std::vector<Piece>
+      pieces_;  // as mesh_.polygons; the first ones belong to the ground of their number
+  std::vector<int> free_pieces_;
+  std::vector<Opening> openings_;
+  std::vector<int> free_openings_;
+  VertexPool pool_;
+  Pinches pinches_;
+  std::size_t own_vertices_ = 0;  // of the floor
+  BoxGrid ground_grid_;
+
+  // Kept for their memory, and valid during one update only.
+  enum Mark : char { kNone, kTouched, kBorder };
+  std::vector<char> marks_;   // of grounds
+  std::vector<int> touched_;  // grounds to be cut anew
+  std::vector<int> borders_;  // their neighbours that are not
+  std::vector<int> changed_;  // polygons of the mesh
+  std::vector<int> near_edges_;
+  std::vector<const Hole*> holes_;
+  std::vector<Crossing> crossings_;
+  Matcher matcher_;
+  Cutter cutter_;
+};
+
+}  // namespace navvi_nav

@@ -1,0 +1,93 @@
+#include "navvi_nav/boundary.hpp"
+
+#include <algorithm>
+
+namespace navvi_nav {
+namespace {
+
+std::uint64_t hash_of(const HalfPlane& line) {
+  std::uint64_t out = static_cast<std::uint64_t>(line.a) * 0x9E3779B97F4A7C15ULL;
+  out = (out ^ (out >> 32U)) + static_cast<std::uint64_t>(line.b) * 0xC2B2AE3D27D4EB4FULL;
+  out = (out ^ (out >> 29U)) + static_cast<std::uint64_t>(line.c) * 0x165667B19E3779F9ULL;
+  return out ^ (out >> 32U);
+}
+
+/// With the half-plane on the left, its border leads along (b, -a).
+bool leads_ahead(const HalfPlane& line) { return line.b > 0 || (line.b == 0 && line.a < 0); }
+
+}  // namespace
+
+double along(const Side& side, Point at) {
+  const HalfPlane& line = side.line;
+  if (std::abs(line.b) >= std::abs(line.a)) return line.b > 0 ? at.x : -at.x;
+  return line.a < 0 ? at.y : -at.y;
+}
+
+void Matcher::clear() {
+  entries_.clear();
+  crossings_.clear();
+}
+
+void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool fresh,
+                  const std::vector<Vertex>& vertices) {
+  const auto k = static_cast<std::size_t>(number);
+  const int begin = sides[k].begin;
+  const int end = sides[k + 1 < sides.size() ? k + 1 : 0].begin;
+  Entry entry;
+  entry.ahead = leads_ahead(sides[k].line);
+  entry.line = entry.ahead ? sides[k].line : sides[k].line.opposite();
+  entry.hash = hash_of(entry.line);
+  entry.low_vertex = entry.ahead ? begin : end;
+  entry.high_vertex = entry.ahead ? end : begin;
+  const Side canonical{entry.line, 0, 0};
+  entry.low = along(canonical, vertices[static_cast<std::size_t>(entry.low_vertex)].at);
+  entry.high = along(canonical, vertices[static_cast<std::size_t>(entry.high_vertex)].at);
+  entry.polygon = polygon;
+  entry.side = number;
+  entry.fresh = fresh;
+  entries_.push_back(entry);
+}
+
+const std::vector<Crossing>& Matcher::match() {
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+    return a.hash != b.hash ? a.hash < b.hash : a.low < b.low;
+  });
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& a = entries_[i];
+    for (std::size_t j = i + 1;
+         j < entries_.size() && entries_[j].hash == a.hash && entries_[j].low < a.high; ++j) {
+      const Entry& b = entries_[j];
+      if (a.ahead != b.ahead && (a.fresh || b.fresh) && a.line == b.line) cross_over(a, b);
+    }
+  }
+  return crossings_;
+}
+
+void Matcher::cross_over(const Entry& a, const Entry& b) {
+  const int low = a.low > b.low ? a.low_vertex : b.low_vertex;
+  const int high = a.high < b.high ? a.high_vertex : b.high_vertex;
+  const Entry& ahead = a.ahead ? a : b;
+  const Entry& back = a.ahead ? b : a;
+  // Who leaves the left side looks to the right of the line: its left hand points along the line.
+  crossings_.push_back(
+      {ahead.polygon, ahead.side, std::max(a.low, b.low), {back.polygon, low, high}});
+  crossings_.push_back(
+      {back.polygon, back.side, -std::min(a.high, b.high), {ahead.polygon, high, low}});
+}
+
+void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
+           const Crossing* last) {
+  polygon.corners.clear();
+  polygon.links.clear();
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    polygon.corners.push_back(sides[k].begin);
+    const int end = sides[k + 1 < sides.size() ? k + 1 : 0].begin;
+    for (; first != last && first->side == static_cast<int>(k); ++first) {
+      if (first->link.right != polygon.corners.back()) polygon.corners.push_back(first->link.right);
+      if (first->link.left != end) polygon.corners.push_back(first->link.left);
+      polygon.links.push_back(first->link);
+    }
+  }
+}
+
+}  // namespace navvi_nav

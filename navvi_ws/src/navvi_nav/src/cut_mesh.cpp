@@ -1,0 +1,332 @@
+#include "navvi_nav/cut_mesh.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kFinest = 1e-4;     // m, a step at most
+constexpr double kSquare = 2.0;      // m, of the grids in which polygons are looked up
+constexpr double kStraight = 1e-12;  // rad, above the rounding of a sum of angles
+
+std::size_t slot(int index) { return static_cast<std::size_t>(index); }
+
+/// The angle at a corner inside a polygon, rad.
+double angle_at(Point before, Point corner, Point after) {
+  const Point a = after - corner;
+  const Point b = before - corner;
+  return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
+}
+
+void widen(Point& low, Point& high, Point at) {
+  low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+  high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+}
+
+}  // namespace
+
+CutMesh::CutMesh(const std::vector<GridPolygon>& floor, double unit) : unit_(unit) {
+  while (unit / steps_ > kFinest) steps_ *= 2.0;
+  const auto steps = static_cast<std::int64_t>(steps_);
+  Point low, high;
+  bool first = true;
+  for (const GridPolygon& polygon : floor) {
+    std::vector<Step> corners;
+    for (const auto& corner : polygon.corners) {
+      corners.push_back({corner[0] * steps, corner[1] * steps});
+      const Point at{corner[0] * unit, corner[1] * unit};
+      if (std::exchange(first, false)) low = high = at;
+      widen(low, high, at);
+    }
+    grounds_.emplace_back();
+    grounds_.back().shape = exact_polygon(corners);
+  }
+  ground_grid_ = BoxGrid(low, high, kSquare);
+  mesh_.grid = BoxGrid(low, high, kSquare);
+  mesh_.polygons.resize(grounds_.size());
+  pieces_.resize(grounds_.size());
+  marks_.assign(grounds_.size(), kNone);
+  for (std::size_t i = 0; i < grounds_.size(); ++i) {
+    const ExactPolygon& shape = grounds_[i].shape;
+    ground_grid_.add(static_cast<int>(i), (unit_ / steps_) * shape.low,
+                     (unit_ / steps_) * shape.high);
+    for (const ExactPolygon::Edge& edge : shape.edges)
+      pool_.take(mesh_.vertices, position(edge.begin));
+    touch(static_cast<int>(i));
+  }
+  recut();
+  for (std::size_t i = 0; i < grounds_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    for (std::size_t k = 0; k < piece.link_sides.size(); ++k)
+      grounds_[i].neighbours.push_back(
+          {mesh_.polygons[i].links[k].to, piece.sides[slot(piece.link_sides[k])].number});
+  }
+  mark_corners();
+  pinches_.split(mesh_, pool_, changed_);
+  pinches_.keep_all();
+  own_vertices_ = pool_.in_use();
+  number_parts(mesh_);
+}
+
+/// Which vertices are corners without holes: holes can add their own corners to these, no others.
+/// The groups at a pinch are told apart later.
+void CutMesh::mark_corners() {
+  std::vector<double> free(mesh_.vertices.size(), 0.0);
+  std::vector<char> walled(mesh_.vertices.size(), 0);
+  for (const Polygon& polygon : mesh_.polygons) {
+    const std::size_t count = polygon.corners.size();
+    std::size_t link = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const int before = polygon.corners[(k + count - 1) % count];
+      const int here = polygon.corners[k];
+      const int after = polygon.corners[(k + 1) % count];
+      free[slot(here)] += angle_at(mesh_.at(before), mesh_.at(here), mesh_.at(after));
+      if (link < polygon.links.size() && polygon.links[link].right == here) {
+        ++link;
+      } else {
+        walled[slot(here)] = walled[slot(after)] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (walled[i] != 0 && free[i] > M_PI + kStraight)
+      pool_.mark(mesh_.vertices, static_cast<int>(i));
+  }
+}
+
+Point CutMesh::position(const Meeting& at) const {
+  const Point steps = place_of(at);
+  return {steps.x / steps_ * unit_, steps.y / steps_ * unit_};
+}
+
+void CutMesh::touch(int ground) {
+  if (marks_[slot(ground)] == kTouched) return;
+  marks_[slot(ground)] = kTouched;
+  touched_.push_back(ground);
+}
+
+int CutMesh::add(Point center, double radius, int sides) {
+  int number = static_cast<int>(openings_.size());
+  if (free_openings_.empty()) {
+    openings_.emplace_back();
+  } else {
+    number = free_openings_.back();
+    free_openings_.pop_back();
+  }
+  Opening& opening = openings_[slot(number)];
+  opening.center = (steps_ / unit_) * center;
+  opening.radius = steps_ / unit_ * radius;
+  opening.hole = hole_about(opening.center, opening.radius, sides);
+  const ExactPolygon& shape = opening.hole.shape;
+  if (shape.edges.empty()) return number;
+  ground_grid_.visit((unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high, [&](int ground) {
+    std::vector<int>& holes = grounds_[slot(ground)].holes;
+    if (!holes.empty() && holes.back() == number) return;
+    if (!overlap(grounds_[slot(ground)].shape, shape)) return;
+    holes.push_back(number);
+    opening.grounds.push_back(ground);
+    touch(ground);
+  });
+  if (opening.grounds.empty()) return number;
+  for (const ExactPolygon::Edge& edge : shape.edges) {
+    opening.corners.push_back(pool_.take(mesh_.vertices, position(edge.begin)));
+    pool_.mark(mesh_.vertices, opening.corners.back());
+  }
+  return number;
+}
+
+void CutMesh::remove(int number) {
+  Opening& opening = openings_[slot(number)];
+  for (const int ground : opening.grounds) {
+    std::vector<int>& holes = grounds_[slot(ground)].holes;
+    holes.erase(std::find(holes.begin(), holes.end(), number));
+    touch(ground);
+  }
+  for (const int corner : opening.corners) {
+    pool_.unmark(mesh_.vertices, corner);
+    pool_.drop(mesh_.vertices, corner);
+  }
+  opening.grounds.clear();
+  opening.corners.clear();
+  free_openings_.push_back(number);
+}
+
+int CutMesh::update() {
+  const auto count = static_cast<int>(touched_.size());
+  if (count == 0) return 0;
+  recut();
+  pinches_.split(mesh_, pool_, changed_);
+  shrink();
+  number_parts(mesh_);
+  return count;
+}
+
+void CutMesh::recut() {
+  matcher_.clear();
+  crossings_.clear();
+  changed_.clear();
+  find_borders();
+  for (const int ground : borders_) keep_links(ground);
+  for (const int ground : touched_) cut(ground);
+  link();
+  for (const int ground : touched_) marks_[slot(ground)] = kNone;
+  for (const int ground : borders_) marks_[slot(ground)] = kNone;
+  touched_.clear();
+}
+
+void CutMesh::find_borders() {
+  borders_.clear();
+  for (const int ground : touched_) {
+    for (const Ground::Neighbour& next : grounds_[slot(ground)].neighbours) {
+      if (marks_[slot(next.ground)] != kNone) continue;
+      marks_[slot(next.ground)] = kBorder;
+      borders_.push_back(next.ground);
+    }
+  }
+}
+
+/// Of a neighbour's pieces along a touched ground: the links that stay, and the sides to be linked.
+void CutMesh::keep_links(int number) {
+  const Ground& ground = grounds_[slot(number)];
+  near_edges_.clear();
+  for (const Ground::Neighbour& next : ground.neighbours) {
+    if (marks_[slot(next.ground)] == kTouched) near_edges_.push_back(next.edge);
+  }
+  for (const int index : ground.pieces) {
+    const Piece& piece = pieces_[slot(index)];
+    bool changes = false;
+    for (std::size_t k = 0; k < piece.sides.size(); ++k) {
+      if (std::find(near_edges_.begin(), near_edges_.end(), piece.sides[k].number) ==
+          near_edges_.end())
+        continue;
+      matcher_.add(piece.sides, static_cast<int>(k), index, false, mesh_.vertices);
+      changes = true;
+    }
+    if (!changes) continue;
+    changed_.push_back(index);
+    const Polygon& polygon = mesh_.polygons[slot(index)];
+    pinches_.forget(pool_, polygon);
+    for (std::size_t i = 0; i < polygon.links.size(); ++i) {
+      const Link& link = polygon.links[i];
+      if (marks_[slot(pieces_[slot(link.to)].ground)] == kTouched) continue;
+      const int side = piece.link_sides[i];
+      crossings_.push_back({index,
+                            side,
+                            along(piece.sides[slot(side)], mesh_.at(link.right)),
+                            {link.to, pool_.place_of(link.right), pool_.place_of(link.left)}});
+    }
+  }
+}
+
+/// One order for equal holes, whatever the order in which they came.
+bool CutMesh::cut_before(int a, int b) const {
+  const Opening& p = openings_[slot(a)];
+  const Opening& q = openings_[slot(b)];
+  return std::tie(p.center.x, p.center.y, p.radius) < std::tie(q.center.x, q.center.y, q.radius);
+}
+
+void CutMesh::cut(int number) {
+  clear_pieces(number);
+  Ground& ground = grounds_[slot(number)];
+  if (ground.shape.edges.size() < 3) return;
+  std::sort(ground.holes.begin(), ground.holes.end(),
+            [this](int a, int b) { return cut_before(a, b); });
+  holes_.clear();
+  for (const int hole : ground.holes) holes_.push_back(&openings_[slot(hole)].hole);
+  cutter_.cut(ground.shape, holes_);
+  for (std::size_t i = 0; i < cutter_.count(); ++i) add_piece(number, cutter_.piece(i));
+}
+
+void CutMesh::clear_pieces(int number) {
+  Ground& ground = grounds_[slot(number)];
+  for (const int index : ground.pieces) {
+    Piece& piece = pieces_[slot(index)];
+    mesh_.grid.remove(index, piece.low, piece.high);
+    for (const Side& side : piece.sides) pool_.drop(mesh_.vertices, side.begin);
+    piece.sides.clear();
+    pinches_.forget(pool_, mesh_.polygons[slot(index)]);
+    mesh_.polygons[slot(index)].corners.clear();
+    mesh_.polygons[slot(index)].links.clear();
+    if (index != number) free_pieces_.push_back(index);
+  }
+  ground.pieces.clear();
+}
+
+int CutMesh::free_slot(int number) {
+  if (grounds_[slot(number)].pieces.empty()) return number;
+  if (free_pieces_.empty()) {
+    mesh_.polygons.emplace_back();
+    pieces_.emplace_back();
+    return static_cast<int>(pieces_.size()) - 1;
+  }
+  const int index = free_pieces_.back();
+  free_pieces_.pop_back();
+  return index;
+}
+
+void CutMesh::add_piece(int ground, const ExactPolygon& shape) {
+  const int index = free_slot(ground);
+  Piece& piece = pieces_[slot(index)];
+  piece.ground = ground;
+  for (const ExactPolygon::Edge& edge : shape.edges) {
+    const int vertex = pool_.take(mesh_.vertices, position(edge.begin));
+    // A side too short for doubles has no length.
+    if (!piece.sides.empty() && piece.sides.back().begin == vertex) {
+      piece.sides.back() = {edge.line, vertex, edge.number};
+      pool_.drop(mesh_.vertices, vertex);
+    } else {
+      piece.sides.push_back({edge.line, vertex, edge.number});
+    }
+  }
+  if (piece.sides.size() > 1 && piece.sides.back().begin == piece.sides.front().begin) {
+    pool_.drop(mesh_.vertices, piece.sides.back().begin);
+    piece.sides.pop_back();
+  }
+  piece.low = piece.high = mesh_.at(piece.sides[0].begin);
+  for (const Side& side : piece.sides) widen(piece.low, piece.high, mesh_.at(side.begin));
+  mesh_.grid.add(index, piece.low, piece.high);
+  grounds_[slot(ground)].pieces.push_back(index);
+  changed_.push_back(index);
+  for (std::size_t k = 0; k < piece.sides.size(); ++k)
+    matcher_.add(piece.sides, static_cast<int>(k), index, true, mesh_.vertices);
+}
+
+void CutMesh::link() {
+  const std::vector<Crossing>& fresh = matcher_.match();
+  crossings_.insert(crossings_.end(), fresh.begin(), fresh.end());
+  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tie(a.polygon, a.side, a.along) < std::tie(b.polygon, b.side, b.along);
+  });
+  std::sort(changed_.begin(), changed_.end());
+  const Crossing* first = crossings_.data();
+  const Crossing* const end = first + crossings_.size();
+  for (const int index : changed_) {
+    const Crossing* last = first;
+    while (last != end && last->polygon == index) ++last;
+    Piece& piece = pieces_[slot(index)];
+    piece.link_sides.clear();
+    for (const Crossing* crossing = first; crossing != last; ++crossing)
+      piece.link_sides.push_back(crossing->side);
+    bound(mesh_.polygons[slot(index)], piece.sides, first, last);
+    pinches_.learn(pool_, mesh_.polygons[slot(index)]);
+    first = last;
+  }
+}
+
+/// Without holes the mesh is as it was at first.
+void CutMesh::shrink() {
+  if (free_pieces_.size() + grounds_.size() == pieces_.size()) {
+    pieces_.resize(grounds_.size());
+    mesh_.polygons.resize(grounds_.size());
+    free_pieces_.clear();
+  }
+  if (pool_.in_use() == own_vertices_) pool_.shrink(mesh_.vertices, own_vertices_);
+}
+
+Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {
+  return CutMesh(polygons, cell_size).mesh();
+}
+
+}  // namespace navvi_nav
