@@ -8,11 +8,6 @@ namespace {
 
 constexpr std::size_t kLongestNotch = 24;  // corners
 
-std::int64_t cross_of(const OutlineCorner& from, const OutlineCorner& to, const OutlineCorner& at) {
-  return static_cast<std::int64_t>(to.x - from.x) * (at.y - from.y) -
-         static_cast<std::int64_t>(to.y - from.y) * (at.x - from.x);
-}
-
 /// Corners that must stay: the ends of walls, and places that the outline visits twice.
 std::vector<char> fixed_corners(const std::vector<OutlineCorner>& outline) {
   std::vector<char> fixed(outline.size(), 0);
@@ -32,6 +27,11 @@ std::vector<char> fixed_corners(const std::vector<OutlineCorner>& outline) {
 }
 
 }  // namespace
+
+std::int64_t turn(const OutlineCorner& from, const OutlineCorner& to, const OutlineCorner& at) {
+  return static_cast<std::int64_t>(to.x - from.x) * (at.y - from.y) -
+         static_cast<std::int64_t>(to.y - from.y) * (at.x - from.x);
+}
 
 std::int64_t twice_area(const std::vector<OutlineCorner>& outline) {
   std::int64_t sum = 0;
@@ -75,11 +75,14 @@ void fill_notches(std::vector<OutlineCorner>& outline, double error) {
     const OutlineCorner& a = at(from);
     const OutlineCorner& b = at(to);
     const double dx = b.x - a.x, dy = b.y - a.y;
-    const double limit = error * error * (dx * dx + dy * dy);
+    const double length2 = dx * dx + dy * dy;
+    const double limit = error * error * length2;
     for (std::size_t k = from + 1; k < to; ++k) {
-      const auto side = static_cast<double>(cross_of(a, b, at(k)));
-      if (side < 0.0 || side * side > limit) return false;
+      const auto side = static_cast<double>(turn(a, b, at(k)));
+      const double along = dx * (at(k).x - a.x) + dy * (at(k).y - a.y);
+      if (side < 0.0 || side * side > limit || along < 0.0 || along > length2) return false;
     }
+    if (length2 == 0.0) return false;
     return true;
   };
   std::vector<OutlineCorner> kept;

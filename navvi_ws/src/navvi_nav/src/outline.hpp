@@ -15,6 +15,10 @@ struct OutlineCorner {
   bool wall = false;  ///< what lies on the left of the edge that begins here
 };
 
+/// Positive if `at` is on the left of the way between the other two, 0 if on its line.
+[[nodiscard]] std::int64_t turn(const OutlineCorner& from, const OutlineCorner& to,
+                                const OutlineCorner& at);
+
 /// Positive for an outline, negative for a hole.
 [[nodiscard]] std::int64_t twice_area(const std::vector<OutlineCorner>& outline);
 

@@ -82,6 +82,44 @@ CompactField compact_field(const TileCells& cells) {
   return out;
 }
 
+/// rcBuildDistanceField's distances, without its blur and only up to 15 cells: beyond, a wide place
+/// is one basin to the watershed, which has fewer levels to climb.
+void measure_distances(rcCompactHeightfield& field, const TileCells& cells) {
+  constexpr int kStraight = 2, kDiagonal = 3, kFarthest = 30;  // half cells
+  const int side = field.width;
+  const int stride = side + 2;  // a frame of zeros
+  std::vector<std::uint16_t> near(static_cast<std::size_t>(stride * stride), 0);
+  const auto pass = [&](int begin, int end, int step) {
+    for (int y = begin; y != end; y += step) {
+      std::uint16_t* row = near.data() + (y + 1) * stride + 1;
+      const std::uint16_t* beside = row - step * stride;
+      for (int x = begin; x != end; x += step) {
+        const int least = std::min({beside[x - step] + kDiagonal, beside[x] + kStraight,
+                                    beside[x + step] + kDiagonal, row[x - step] + kStraight});
+        row[x] = static_cast<std::uint16_t>(std::min<int>(row[x], least));
+      }
+    }
+  };
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x)
+      near[static_cast<std::size_t>((y + 1) * stride + x + 1)] = static_cast<std::uint16_t>(
+          cells.open[static_cast<std::size_t>(y * side + x)] * kFarthest);
+  }
+  pass(0, side, 1);
+  pass(side - 1, -1, -1);
+  field.dist = allocate<unsigned short>(field.spanCount);
+  field.maxDistance = 0;
+  unsigned short* out = field.dist;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      if (cells.open[static_cast<std::size_t>(y * side + x)] == 0) continue;
+      *out = near[static_cast<std::size_t>((y + 1) * stride + x + 1)];
+      field.maxDistance = std::max(field.maxDistance, *out);
+      ++out;
+    }
+  }
+}
+
 /// An area of its own for each region: Recast then keeps the border between two regions on the
 /// cells, as it keeps a wall. By default it draws it straight, through whatever stands there.
 void colour_regions(rcCompactHeightfield& field) {
@@ -130,30 +168,32 @@ std::int64_t count_open(const TileCells& cells) {
 }
 
 /// Twice its area if the polygon is convex and turns as an outline does, else -1.
-std::int64_t twice_convex_area(const GridPolygon& polygon) {
-  const std::size_t count = polygon.corners.size();
-  const auto cross = [&](std::size_t i, std::size_t j, std::size_t k) {
-    const auto& a = polygon.corners[i];
-    const auto& b = polygon.corners[j];
-    const auto& c = polygon.corners[k];
-    return static_cast<std::int64_t>(b[0] - a[0]) * (c[1] - a[1]) -
-           static_cast<std::int64_t>(b[1] - a[1]) * (c[0] - a[0]);
-  };
-  std::int64_t sum = 0;
+std::int64_t twice_convex_area(const std::vector<OutlineCorner>& polygon) {
+  const std::size_t count = polygon.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (cross(i, (i + 1) % count, (i + 2) % count) > 0) return -1;
-    if (i >= 2) sum -= cross(0, i - 1, i);
+    if (turn(polygon[i], polygon[(i + 1) % count], polygon[(i + 2) % count]) > 0) return -1;
   }
-  return sum;
+  return twice_area(polygon);
 }
 
-GridPolygon polygon_of(const rcPolyMesh& mesh, int index) {
-  GridPolygon out;
+std::vector<OutlineCorner> polygon_of(const rcPolyMesh& mesh, int index) {
+  std::vector<OutlineCorner> out;
   for (int k = 0; k < mesh.nvp; ++k) {
     const unsigned short corner = mesh.polys[2 * mesh.nvp * index + k];
     if (corner == RC_MESH_NULL_IDX) break;
-    out.corners.push_back({mesh.verts[3 * corner], mesh.verts[3 * corner + 2]});
+    out.push_back({mesh.verts[3 * corner], mesh.verts[3 * corner + 2], false});
   }
+  return out;
+}
+
+/// In steps of map, and counter-clockwise.
+template <typename Corners>
+GridPolygon placed(const Corners& clockwise, const TileCells& cells) {
+  GridPolygon out;
+  out.corners.reserve(clockwise.size());
+  for (auto corner = clockwise.rbegin(); corner != clockwise.rend(); ++corner)
+    out.corners.push_back({cells.origin.x * kStepsPerCellSide + corner->x,
+                           cells.origin.y * kStepsPerCellSide + corner->y});
   return out;
 }
 
@@ -167,24 +207,18 @@ std::optional<std::vector<GridPolygon>> try_contours(rcContext& context, const T
   std::vector<GridPolygon> out;
   out.reserve(static_cast<std::size_t>(mesh->npolys));
   for (int i = 0; i < mesh->npolys; ++i) {
-    GridPolygon polygon = polygon_of(*mesh, i);
+    const std::vector<OutlineCorner> polygon = polygon_of(*mesh, i);
     const std::int64_t area = twice_convex_area(polygon);
-    if (area == 0) continue;
     if (area < 0) return {};
+    if (area > 0) out.push_back(placed(polygon, cells));
     drawn -= area;
-    std::reverse(polygon.corners.begin(), polygon.corners.end());
-    for (auto& corner : polygon.corners) {
-      corner[0] += cells.origin.x * kStepsPerCellSide;
-      corner[1] += cells.origin.y * kStepsPerCellSide;
-    }
-    out.push_back(std::move(polygon));
   }
   if (drawn != 0) return {};
   return out;
 }
 
 std::optional<std::vector<GridPolygon>> try_bake(rcContext& context, const TileCells& cells,
-                                                 rcCompactHeightfield& field,
+                                                 std::int64_t open, rcCompactHeightfield& field,
                                                  const BakeConfig& config, const Try& how) {
   if (how.coloured) colour_regions(field);
   const ContourSet set(rcAllocContourSet());
@@ -200,7 +234,7 @@ std::optional<std::vector<GridPolygon>> try_bake(rcContext& context, const TileC
     drawn += twice_area(outline);
     put_back(outline, set->conts[i]);
   }
-  if (outlined != 2 * count_open(cells)) return {};
+  if (outlined != 2 * open) return {};
   return try_contours(context, cells, *set, drawn, config.max_corners);
 }
 
@@ -238,19 +272,59 @@ std::vector<GridPolygon> rectangles(const TileCells& cells) {
   return out;
 }
 
+/// Recast draws no contour around a lone cell. They are taken out of `cells`, a square each.
+std::vector<GridPolygon> take_lone_cells(TileCells& cells, int grow) {
+  const int side = cells.size + 2 * kBorder;
+  const auto open = [&](int x, int y) -> std::uint8_t& {
+    return cells.open[static_cast<std::size_t>((y + kBorder) * side + x + kBorder)];
+  };
+  std::vector<Cell> lone;
+  for (int y = 0; y < cells.size; ++y) {
+    for (int x = 0; x < cells.size; ++x) {
+      const bool alone = open(x, y) != 0 && !(x > 0 && open(x - 1, y) != 0) &&
+                         !(x + 1 < cells.size && open(x + 1, y) != 0) &&
+                         !(y > 0 && open(x, y - 1) != 0) &&
+                         !(y + 1 < cells.size && open(x, y + 1) != 0);
+      if (alone) lone.push_back({x, y});
+    }
+  }
+  std::vector<GridPolygon> out;
+  for (const Cell& cell : lone) {
+    std::vector<OutlineCorner> outline{{cell.x, cell.y, true},
+                                       {cell.x, cell.y + 1, true},
+                                       {cell.x + 1, cell.y + 1, true},
+                                       {cell.x + 1, cell.y, true}};
+    grow_walls(outline, cells, grow);
+    out.push_back(placed(outline, cells));
+  }
+  for (const Cell& cell : lone) open(cell.x, cell.y) = 0;
+  return out;
+}
+
+/// \param cells  that walls grow away from \param rest  those to cover
+std::vector<GridPolygon> bake_regions(const TileCells& cells, const TileCells& rest,
+                                      const BakeConfig& config) {
+  rcContext context(false);
+  const CompactField field = compact_field(rest);
+  measure_distances(*field, rest);
+  if (rcBuildRegions(&context, *field, kBorder, 0, config.merge_region)) {
+    for (const Try& how : kTries) {
+      if (auto polygons = try_bake(context, cells, count_open(rest), *field, config, how))
+        return *polygons;
+    }
+  }
+  return rectangles(rest);
+}
+
 }  // namespace
 
 std::vector<GridPolygon> bake_tile(const TileCells& cells, const BakeConfig& config) {
-  if (count_open(cells) == 0) return {};
-  rcContext context(false);
-  const CompactField field = compact_field(cells);
-  if (rcBuildDistanceField(&context, *field) &&
-      rcBuildRegions(&context, *field, kBorder, 0, config.merge_region)) {
-    for (const Try& how : kTries) {
-      if (auto polygons = try_bake(context, cells, *field, config, how)) return *polygons;
-    }
-  }
-  return rectangles(cells);
+  TileCells rest = cells;
+  std::vector<GridPolygon> out = take_lone_cells(rest, config.grow);
+  if (count_open(rest) == 0) return out;
+  std::vector<GridPolygon> polygons = bake_regions(cells, rest, config);
+  polygons.insert(polygons.end(), out.begin(), out.end());
+  return polygons;
 }
 
 }  // namespace navvi_nav
