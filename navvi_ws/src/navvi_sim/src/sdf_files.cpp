@@ -1,87 +1,103 @@
 #include "sdf_files.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <cctype>
 
 #include "navvi_sim/world_error.hpp"
+#include "sdf_value.hpp"
 
 namespace navvi_sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxBytes = 50'000'000;
 constexpr std::size_t kMaxDepth = 32;
+constexpr std::size_t kMaxElements = 500'000;
 
-std::string text_of(const fs::path& file) {
+std::size_t size_of(const XmlElement& element) {
+  std::size_t size = 1;
+  for (const XmlElement& child : element.children) size += size_of(child);
+  return size;
+}
+
+/// The SDF file of a model: itself if it is a file, else what its model.config (or manifest.xml)
+/// names, the newest version that is there.
+fs::path sdf_file_of(const fs::path& model) {
   std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) throw WorldError(file.string() + " cannot be read; it must be a file");
-  if (size > kMaxBytes)
-    throw WorldError(file.string() + " is larger than 50 MB; allowed is up to 50 MB");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-std::string without_comments(const std::string& xml) {
-  std::string result;
-  std::size_t at = 0;
-  while (at < xml.size()) {
-    const std::size_t open = xml.find("<!--", at);
-    result.append(xml, at, open - at);
-    if (open == std::string::npos) break;
-    const std::size_t close = xml.find("-->", open + 4);
-    if (close == std::string::npos) break;
-    at = close + 3;
-  }
-  return result;
-}
-
-std::string trimmed(const std::string& text) {
-  const char* space = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
-
-/// What stands between <tag ...> and </tag>, each time; `xml` has no comments.
-std::vector<std::string> contents(const std::string& xml, const std::string& tag) {
-  std::vector<std::string> result;
-  std::size_t at = 0;
-  while ((at = xml.find("<" + tag, at)) != std::string::npos) {
-    const std::size_t after = at + 1 + tag.size();
-    at = after;
-    if (after >= xml.size() || std::string(" \t\r\n>").find(xml[after]) == std::string::npos)
-      continue;  // a longer word
-    const std::size_t open = xml.find('>', after);
-    if (open == std::string::npos) break;
-    const std::size_t close = xml.find("</" + tag, open);
-    if (close == std::string::npos) break;
-    if (xml[open - 1] != '/') result.push_back(xml.substr(open + 1, close - open - 1));
-    at = open;
-  }
-  return result;
-}
-
-/// The SDF files of a model: itself if it is a file, else what its model.config (or manifest.xml)
-/// names.
-std::vector<fs::path> sdf_files_of(const fs::path& model) {
-  std::error_code error;
-  if (!fs::is_directory(model, error)) return {model};
+  if (!fs::is_directory(model, error)) return model;
   for (const char* config : {"model.config", "manifest.xml"}) {
     if (!fs::is_regular_file(model / config, error)) continue;
-    std::vector<fs::path> files;
-    for (const std::string& name : contents(without_comments(text_of(model / config)), "sdf"))
-      if (fs::is_regular_file(model / trimmed(name), error)) files.push_back(model / trimmed(name));
-    if (files.empty())
+    const XmlElement document = read_xml(model / config);
+    fs::path file;
+    std::string newest;
+    for (const XmlElement* sdf : document.children_named("sdf")) {
+      if (sdf->text.empty() || !fs::is_regular_file(model / sdf->text, error)) continue;
+      if (!file.empty() && sdf->attribute("version") < newest) continue;
+      file = model / sdf->text;
+      newest = sdf->attribute("version");
+    }
+    if (file.empty())
       throw WorldError("the model in " + model.string() + " has no SDF file; its " + config +
                        " must name one that exists");
-    return files;
+    return file;
   }
-  throw WorldError("the model in " + model.string() + " has no model.config; a model needs one");
+  if (fs::is_regular_file(model / "model.sdf", error)) return model / "model.sdf";
+  throw WorldError("the model in " + model.string() +
+                   " has neither model.config nor model.sdf; a model needs one");
+}
+
+/// Gazebo brings these two itself, so that worlds count on them.
+enum class Stock { none, sun, ground_plane };
+
+Stock stock_of(const std::string& uri) {
+  std::string name =
+      uri.substr(uri.find_last_of('/') == std::string::npos ? 0 : uri.find_last_of('/') + 1);
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+    return c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+  });
+  if (name == "sun") return Stock::sun;
+  if (name == "ground_plane" || name == "ground%20plane") return Stock::ground_plane;
+  return Stock::none;
+}
+
+XmlElement element_at(const XmlElement& place, const std::string& name) {
+  XmlElement element;
+  element.name = name;
+  element.file = place.file;
+  element.line = place.line;
+  return element;
+}
+
+/// \param names  of elements, each within the one before
+XmlElement nested(const XmlElement& place, const std::vector<std::string>& names) {
+  XmlElement element = element_at(place, names.front());
+  if (names.size() > 1) element.children.push_back(nested(place, {names.begin() + 1, names.end()}));
+  return element;
+}
+
+XmlElement stock_ground(const XmlElement& include) {
+  XmlElement ground = nested(include, {"model", "link", "collision", "geometry", "plane"});
+  ground.set_attribute("name", "ground_plane");
+  return ground;
+}
+
+/// What the include says of the model stands above what the model says.
+void override_with(XmlElement& model, const XmlElement& include) {
+  const std::string name = include.text_of("name");
+  if (!name.empty()) model.set_attribute("name", name);
+  if (const XmlElement* pose = include.child("pose")) {
+    auto& children = model.children;
+    children.erase(std::remove_if(children.begin(), children.end(),
+                                  [](const XmlElement& child) { return child.name == "pose"; }),
+                   children.end());
+    children.push_back(*pose);
+  }
+  const std::string placement = include.text_of("placement_frame");
+  if (!placement.empty()) model.set_attribute("placement_frame", placement);
+  for (const XmlElement* plugin : include.children_named("plugin"))
+    model.children.push_back(*plugin);
+  if (include.attribute("merge") == "true" || include.attribute("merge") == "1")
+    model.set_attribute("merge", "true");
 }
 
 }  // namespace
@@ -110,8 +126,10 @@ std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& f
     if (fs::path(path).is_absolute()) return existing(path);
     if (const auto beside = existing(fs::absolute(from).parent_path() / path)) return beside;
   }
+  const fs::path inside = fs::path(path).lexically_normal();
+  if (inside.is_absolute() || *inside.begin() == "..") return std::nullopt;
   for (const fs::path& folder : folders_)
-    if (const auto found = existing(folder / path)) return found;
+    if (const auto found = existing(folder / inside)) return found;
   return std::nullopt;
 }
 
@@ -121,32 +139,94 @@ std::string SdfFiles::looked_in() const {
   return text;
 }
 
-void SdfFiles::check_includes() const {
-  std::vector<fs::path> chain;
-  check_includes(world_file_, chain);
+const XmlElement& SdfFiles::document(const fs::path& file) {
+  const auto known = documents_.find(file);
+  if (known != documents_.end()) return known->second;
+  return documents_.emplace(file, read_xml(file)).first->second;
 }
 
-void SdfFiles::check_includes(const fs::path& file, std::vector<fs::path>& chain) const {
+XmlElement SdfFiles::world(SdfNotes& notes) {
+  const XmlElement& root = document(world_file_);
+  if (root.name != "sdf" || root.child("world") == nullptr)
+    throw WorldError(world_file_.string() + ": is no SDF world (it has " +
+                     (root.name == "sdf" ? "no <world>" : "<" + root.name + "> for its root") +
+                     "); allowed is an <sdf> element with one <world> in it");
+  if (root.children_named("world").size() > 1)
+    notes.add(*root.children_named("world")[1], "a second world is not taken over");
+  XmlElement world = *root.child("world");
+  elements_ = size_of(world);
+  std::error_code error;
+  std::vector<fs::path> chain{fs::weakly_canonical(world_file_, error)};
+  expand(world, notes, chain);
+  return world;
+}
+
+void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path>& chain) {
+  std::vector<XmlElement> children;
+  for (XmlElement& child : element.children) {
+    if (child.name == "include") {
+      if (auto model = included(child, notes, chain)) children.push_back(std::move(*model));
+      continue;
+    }
+    if (child.name == "model") expand(child, notes, chain);
+    children.push_back(std::move(child));
+  }
+  element.children = std::move(children);
+}
+
+std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes& notes,
+                                             std::vector<fs::path>& chain) {
+  const std::string uri = required(include, "uri").text;
+  const auto found = find(uri, *include.file);
+  if (!found) {
+    const Stock stock = stock_of(uri);
+    if (stock == Stock::none)
+      refuse(include, "the model " + uri + " is not there; looked in " + looked_in() +
+                          " (give its folder as models)");
+    if (stock == Stock::sun) {
+      notes.add_harmless(include);
+      return std::nullopt;
+    }
+    XmlElement ground = stock_ground(include);
+    override_with(ground, include);
+    notes.add(include, "the model " + uri + " is not there; a level plane stands for it");
+    return ground;
+  }
+  const XmlElement* root = nullptr;
+  fs::path file;
+  try {
+    auto known = model_files_.find(*found);
+    if (known == model_files_.end())
+      known = model_files_.emplace(*found, sdf_file_of(*found)).first;
+    file = known->second;
+    root = &document(file);
+  } catch (const WorldError& error) {
+    refuse(include, error.what());
+  }
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(file, error);
   if (std::find(chain.begin(), chain.end(), canonical) != chain.end())
-    throw WorldError(world_file_.string() + ": " + file.string() +
-                     " includes itself; includes must not go in a circle");
+    refuse(include, "the model " + uri + " includes itself; includes must not go in a circle");
   if (chain.size() >= kMaxDepth)
-    throw WorldError(world_file_.string() + ": includes are nested more than " +
-                     std::to_string(kMaxDepth) + " deep at " + file.string());
-  chain.push_back(canonical);
-  for (const std::string& include : contents(without_comments(text_of(file)), "include")) {
-    for (const std::string& item : contents(include, "uri")) {
-      const std::string uri = trimmed(item);
-      const auto model = find(uri, file);
-      if (!model)
-        throw WorldError(file.string() + ": the model " + uri + " is not there; looked in " +
-                         looked_in() + " (give its folder as models)");
-      for (const fs::path& sdf : sdf_files_of(*model)) check_includes(sdf, chain);
-    }
+    refuse(include, "includes are nested more than " + std::to_string(kMaxDepth) +
+                        " deep; allowed is up to that");
+  for (const char* kind : {"model", "actor", "light"}) {
+    if (root->name != "sdf" || root->child(kind) == nullptr) continue;
+    XmlElement model = *root->child(kind);
+    elements_ += size_of(model);
+    if (elements_ > kMaxElements)
+      refuse(include, "with this include the world comes to more than " +
+                          std::to_string(kMaxElements) + " elements; allowed is up to that");
+    chain.push_back(canonical);
+    expand(model, notes, chain);
+    chain.pop_back();
+    override_with(model, include);
+    return model;
   }
-  chain.pop_back();
+  refuse(include, "the model " + uri + " holds " +
+                      (root->name == "sdf" ? "no <model>, <actor> or <light>"
+                                           : "a <" + root->name + "> and no <sdf>") +
+                      "; allowed is an <sdf> element with one of these in it");
 }
 
 }  // namespace navvi_sim

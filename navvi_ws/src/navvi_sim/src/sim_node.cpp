@@ -17,6 +17,7 @@
 #include "navvi_sim/session.hpp"
 #include "navvi_sim/sim_node_config.hpp"
 #include "navvi_sim/state_conversion.hpp"
+#include "navvi_sim/thing_table.hpp"
 #include "navvi_sim/world_hash.hpp"
 
 namespace navvi_sim {
@@ -252,7 +253,10 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   try {
     const auto config = navvi_config::load<navvi_sim::SimNodeConfig>(ros::NodeHandle("~"));
-    navvi_sim::SimNode sim(config, navvi_sim::load_world(config));
+    navvi_sim::LoadedWorld loaded = navvi_sim::load_world(config);
+    if (!loaded.rules.empty())
+      ROS_INFO("what the models of the world are:\n%s", thing_table(loaded, 100).c_str());
+    navvi_sim::SimNode sim(config, std::move(loaded));
     ros::spin();
     return sim.exit_code();
   } catch (const std::exception& error) {

@@ -55,6 +55,9 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
          "folders for SDF's model://, separated by colons; those beside the world are always "
          "searched"},
         models);
+  visit({"classes", Any{}, "",
+         "a YAML file of class rules for SDF's models; empty: navvi_sim's config/classes.yaml"},
+        classes);
   visit({"seed", Range{0, std::numeric_limits<int>::max()}, "",
          "draws the world's fill, the movers' pauses, and start and goal where not given"},
         seed);
@@ -86,7 +89,7 @@ std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
 
 LoadedWorld load_world(const SimNodeConfig& config) {
   return load_world(config.world, config.models, static_cast<std::uint64_t>(config.seed),
-                    config.warehouse);
+                    config.warehouse, config.classes);
 }
 
 Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,

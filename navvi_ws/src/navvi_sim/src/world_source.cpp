@@ -15,7 +15,7 @@ constexpr const char* kAllowed =
     "; allowed are 'warehouse' and files that end in .yaml, .yml, .sdf or .world";
 
 LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
-                 const WarehouseConfig& config) {
+                 const WarehouseConfig& config, const std::string& classes) {
   if (spec == "warehouse") return {warehouse(seed, config), {}};
   const std::filesystem::path file(spec);
   std::string ending = file.extension().string();
@@ -28,7 +28,8 @@ LoadedWorld load(const std::string& spec, const std::string& models, std::uint64
   if (!std::filesystem::is_regular_file(file, error))
     throw WorldError("the world file '" + spec + "' does not exist or is no file" + kAllowed);
   if (is_yaml) return {read_yaml_world(file), {}};
-  return read_sdf_world(file, folders(models));
+  return read_sdf_world(file, folders(models),
+                        classes.empty() ? ClassRules::standard() : ClassRules::read(classes));
 }
 
 }  // namespace
@@ -42,8 +43,8 @@ std::vector<std::filesystem::path> folders(const std::string& colon_separated) {
 }
 
 LoadedWorld load_world(const std::string& spec, const std::string& models, std::uint64_t seed,
-                       const WarehouseConfig& warehouse) {
-  LoadedWorld loaded = load(spec, models, seed, warehouse);
+                       const WarehouseConfig& warehouse, const std::string& classes) {
+  LoadedWorld loaded = load(spec, models, seed, warehouse, classes);
   try {
     validate(loaded.world);
   } catch (const WorldError& error) {

@@ -3,82 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/scenario.hpp"
-#include "navvi_sim/validate.hpp"
+#include "sdf_folder.hpp"
 
 namespace navvi_sim {
 namespace {
 
-namespace fs = std::filesystem;
-
-const Thing* thing_named(const WorldDescription& world, const std::string& name) {
-  for (const Thing& thing : world.things)
-    if (thing.name == name) return &thing;
-  return nullptr;
-}
-
-/// Of meshes and boxes, in map.
-Eigen::AlignedBox3d bounds(const Thing& thing) {
-  Eigen::AlignedBox3d result;
-  for (const Shape& shape : thing.shapes) {
-    const Eigen::Isometry3d pose = thing.pose * shape.pose;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
-      for (const Eigen::Vector3f& vertex : (*mesh)->vertices)
-        result.extend(pose * vertex.cast<double>());
-    if (const Box* box = std::get_if<Box>(&shape.geometry)) {
-      const Eigen::Vector3d reach = pose.linear().cwiseAbs() * box->size / 2.0;
-      result.extend(pose.translation() + reach).extend(pose.translation() - reach);
-    }
-  }
-  return result;
-}
-
-std::string sentence_of(const std::string& spec, const std::string& models = "") {
-  try {
-    static_cast<void>(load_world(spec, models, 1, {}));
-  } catch (const WorldError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// A folder for the files of one test, gone afterwards.
-class SdfWorld : public testing::Test {
- protected:
-  SdfWorld() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_sdf_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~SdfWorld() override { fs::remove_all(folder_); }
-
-  std::string write(const fs::path& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
-  }
-  std::string write_world(const std::string& body, const std::string& version = "1.6") const {
-    return write("a.world", "<?xml version='1.0'?><sdf version='" + version + "'><world name='w'>" +
-                                body + "</world></sdf>");
-  }
-  void write_model(const std::string& name, const std::string& body) const {
-    write("models/" + name + "/model.config",
-          "<?xml version='1.0'?><model><name>m</name><sdf version='1.6'>model.sdf</sdf></model>");
-    write("models/" + name + "/model.sdf", "<?xml version='1.0'?><sdf version='1.6'><model name='" +
-                                               name + "'>" + body + "</model></sdf>");
-  }
-
-  fs::path folder_;
-  const std::string ground_ =
-      "<model name='ground'><link name='l'><collision name='c'><pose>0 0 -0.05 0 0 0</pose>"
-      "<geometry><box><size>20 20 0.1</size></box></geometry></collision></link></model>";
-  const std::string cube_ =
-      "<link name='l'><collision name='c'><geometry><box><size>1 1 1</size></box></geometry>"
-      "</collision></link>";
-};
+class SdfWorld : public SdfFolder {};
 
 TEST_F(SdfWorld, that_ships_is_a_room_with_a_shelf) {
   const LoadedWorld loaded =
@@ -162,23 +95,29 @@ TEST_F(SdfWorld, makes_a_floor_of_an_endless_plane) {
   EXPECT_EQ(thing_named(loaded.world, "ground_plane")->thing_class, ThingClass::floor);
 }
 
-TEST_F(SdfWorld, lists_by_name_what_it_cannot_take_over) {
-  const LoadedWorld loaded = load_world(
-      write_world(
-          ground_ +
-          "<model name='pill'><link name='l'><collision name='c'><geometry><capsule><radius>"
-          "0.2</radius><length>1</length></capsule></geometry></collision></link></model>"
-          "<model name='ghost'><link name='l'/></model>"
-          "<model name='cellar'><pose>0 0 -5 0 0 0</pose>" +
-          cube_ + "</model>"),
-      "", 1, {});
-  EXPECT_EQ(loaded.world.things.size(), 1U);
-  for (const char* name : {"pill", "ghost", "cellar"}) {
-    bool listed = false;
-    for (const std::string& note : loaded.notes)
-      listed = listed || note.find(name) != std::string::npos;
-    EXPECT_TRUE(listed) << name;
-  }
+TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
+  const LoadedWorld loaded =
+      load("<light name='lamp' type='point'/>\n" + ground_ +
+           "\n<model name='ghost'><link name='l'/></model>\n" +
+           model("hill", "<heightmap><uri>a.png</uri></heightmap>") + "\n" +
+           model("ramp", "<plane><normal>1 0 1</normal></plane>") + "\n" +
+           model("cellar", "<box><size>1 1 1</size></box>", "0 0 -5 0 0 0") + "\n" +
+           "<model name='door'>" + cube_ +
+           "<joint name='hinge' type='revolute'><parent>world</parent><child>l</child></joint>\n"
+           "<plugin name='opener' filename='libDoor.so'/>\n"
+           "<link name='sign'><visual name='v'/></link></model>\n"
+           "<population name='crowd'/>\n<plugin name='weather' filename='libRain.so'/>");
+  EXPECT_EQ(loaded.world.things.size(), 2U) << "ground and door";
+  EXPECT_TRUE(has_note(loaded, {"line 3", "ghost", "no collision geometry"}));
+  EXPECT_TRUE(has_note(loaded, {"line 4", "<heightmap>"}));
+  EXPECT_TRUE(has_note(loaded, {"line 5", "ramp", "not level"}));
+  EXPECT_TRUE(has_note(loaded, {"line 6", "cellar", "under the floor"}));
+  EXPECT_TRUE(has_note(loaded, {"line 8", "opener", "libDoor.so", "door"}));
+  EXPECT_TRUE(has_note(loaded, {"line 9", "sign", "touches nothing"}));
+  EXPECT_TRUE(has_note(loaded, {"line 10", "<population>"}));
+  EXPECT_TRUE(has_note(loaded, {"line 11", "weather", "libRain.so"}));
+  EXPECT_TRUE(has_note(loaded, {"without meaning", "'lamp', line 1", "'hinge', line 7"}));
+  EXPECT_EQ(loaded.notes.size(), 11U) << "hill and ramp are named once more, as models";
 }
 
 TEST_F(SdfWorld, is_refused_with_a_sentence_when_it_is_none) {
@@ -189,8 +128,7 @@ TEST_F(SdfWorld, is_refused_with_a_sentence_when_it_is_none) {
   EXPECT_NE(sentence_of(write("words.world", "this is no XML")), "");
   const std::string half =
       sentence_of(write("half.world", "<sdf version='1.6'><world name='w'>\n<model name='a'>"));
-  EXPECT_NE(half.find("ine number"), std::string::npos) << half;
-  EXPECT_EQ(half.find('\033'), std::string::npos) << half;
+  EXPECT_NE(half.find("line 2"), std::string::npos) << half;
   EXPECT_NE(sentence_of(write("html.sdf", "<html><body/></html>")), "");
   EXPECT_NE(sentence_of(write("model.sdf",
                               "<sdf version='1.6'><model name='m'>" + cube_ + "</model></sdf>")),
@@ -269,49 +207,6 @@ TEST_F(SdfWorld, refuses_numbers_that_make_no_world) {
   EXPECT_NE(with_box("0 0 1 0 0 0", "nan 1 1"), "");
   EXPECT_NE(with_box("nan 0 1 0 0 0", "1 1 1"), "");
   EXPECT_NE(with_box("1e9 0 1 0 0 0", "1 1 1"), "");
-}
-
-/// A world that others wrote, as it is found in the wild.
-class AwsWarehouse : public testing::Test {
- protected:
-  void SetUp() override {
-    const fs::path file =
-        fs::path(NAVVI_SHARED_DIR) / "worlds/aws_small_warehouse/no_roof_small_warehouse.world";
-    if (!fs::exists(file)) GTEST_SKIP() << "the world " << file << " is not on this machine";
-    loaded_ = load_world(file.string(), "", 1, {});
-  }
-  LoadedWorld loaded_;
-};
-
-TEST_F(AwsWarehouse, has_all_models_at_their_size) {
-  const WorldDescription& world = loaded_.world;
-  EXPECT_EQ(world.things.size(), 25U);
-  const auto size_of = [&](const std::string& name) -> Eigen::Vector3d {
-    const Thing* thing = thing_named(world, "aws_robomaker_warehouse_" + name);
-    if (!thing) return Eigen::Vector3d::Zero();
-    return bounds(*thing).sizes();
-  };
-  EXPECT_LT((size_of("WallB_01_001") - Eigen::Vector3d(14.0, 20.9, 9.0)).norm(), 0.1);
-  EXPECT_LT((size_of("ShelfD_01_001") - Eigen::Vector3d(3.92, 0.88, 2.61)).norm(), 0.1);
-  EXPECT_LT((size_of("PalletJackB_01_001") - Eigen::Vector3d(1.16, 0.54, 0.97)).norm(), 0.1);
-  int shelves = 0;
-  for (const Thing& thing : world.things) shelves += thing.thing_class == ThingClass::shelf ? 1 : 0;
-  EXPECT_EQ(shelves, 7);
-}
-
-TEST_F(AwsWarehouse, has_the_floor_where_its_ground_mesh_is_level) {
-  const Thing* ground = thing_named(loaded_.world, "aws_robomaker_warehouse_GroundB_01_001");
-  ASSERT_NE(ground, nullptr);
-  EXPECT_EQ(ground->thing_class, ThingClass::floor);
-  EXPECT_NEAR(loaded_.world.floor_height, bounds(*ground).max().z(), 0.01);
-}
-
-TEST_F(AwsWarehouse, lets_a_robot_go_from_the_south_to_the_north) {
-  const octomap::OcTree map = occupancy_of(loaded_.world, {});
-  const Scenario scenario = draw_scenario(loaded_.world, map, {}, 1, FloorPose{1.0, -9.0, 1.57},
-                                          Eigen::Vector2d(1.0, 6.0));
-  EXPECT_GE(scenario.route_length, 15.0 - 0.1);
-  EXPECT_LT(scenario.route_length, 25.0);
 }
 
 }  // namespace

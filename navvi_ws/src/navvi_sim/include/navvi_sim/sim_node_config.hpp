@@ -17,6 +17,7 @@ namespace navvi_sim {
 struct SimNodeConfig {
   std::string world = "warehouse";
   std::string models;
+  std::string classes;
   int seed = 1;
   std::string start;              ///< "x,y,yaw" in m and rad; empty: drawn from the seed
   std::string goal;               ///< "x,y" in m; empty: drawn from the seed

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace navvi_sim {
 struct LoadedWorld {
   WorldDescription world;
   std::vector<std::string> notes;
+  std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
 };
 
 /// Loads and validates the world that `spec` names: the built-in "warehouse", or a file by its
@@ -23,9 +25,12 @@ struct LoadedWorld {
 /// \param models  folders for model://, separated by colons; may be empty. The world's folder and
 ///                its `models` subfolder are always tried, after these.
 /// \param seed    of the built-in warehouse; files do not depend on it
+/// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
+///                standard ones
 /// \throws WorldError naming the file or thing, what is wrong and what is allowed
 [[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
-                                     std::uint64_t seed, const WarehouseConfig& warehouse);
+                                     std::uint64_t seed, const WarehouseConfig& warehouse,
+                                     const std::string& classes = "");
 
 /// The folders of a colon separated list; empty items are left out.
 [[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& colon_separated);
