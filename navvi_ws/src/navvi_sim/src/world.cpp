@@ -35,14 +35,15 @@ World::World(const WorldDescription& description, const WorldConfig& config, con
     : config_(config),
       floor_height_(description.floor_height),
       traffic_(description, config.movers, seed),
-      physics_(description, config.robot, {start.x, start.y}, start.yaw),
+      bodies_(description, description.floor_height + config.robot.clearance),
+      physics_(bodies_, description.floor_height, config.robot, {start.x, start.y}, start.yaw),
       drivetrain_(config.robot, config.step, physics_.robot(), seed) {
   for (const Thing& thing : description.things) classes_.push_back(thing.thing_class);
   for (std::size_t i = 0; i < traffic_.size(); ++i) {
     const Thing& thing = description.things[traffic_.thing(i)];
     const double z = thing.pose.translation().z();
-    bodies_.push_back({tilt_of(thing.pose), z});
-    const Footprint print = footprint_of(thing, bodies_[i].tilt);
+    stances_.push_back({tilt_of(thing.pose), z});
+    const Footprint print = footprint_of(thing, stances_[i].tilt);
     now_.movers.push_back({traffic_.thing(i), Eigen::Isometry3d::Identity(), 0.0,
                            Eigen::Vector2d::Zero(), 0.0, print.radius,
                            z + print.top - floor_height_});
@@ -60,21 +61,23 @@ World::Status World::step(const navvi_safety::Velocity& command, Braking braking
   speed_before_ = now_.robot.velocity.norm();
   step_movers();
   drive_robot(command, braking);
-  physics_.advance(config_.step);
+  physics_.advance(config_.step, now_.movers);
   drivetrain_.count(now_.robot, physics_.robot());
   ++steps_;
-  touches_ = physics_.touches();
   take_snapshot();
   if (!finite()) {
     failed_ = true;
     return Status::numeric_failure;
   }
-  now_.contacts = contacts_.update(touches_, classes_, speed_before, config_.step);
+  now_.contacts = contacts_.update(physics_.touches(), classes_, speed_before, config_.step);
   return Status::running;
 }
 
 std::vector<NearThing> World::proximity(double detection_radius) const {
-  return physics_.proximity(detection_radius, config_.ceiling);
+  const RobotConfig& robot = config_.robot;
+  const Hull hull{now_.robot.position, robot.radius, floor_height_ + robot.clearance,
+                  floor_height_ + robot.height};
+  return things_near(hull, detection_radius, floor_height_ + config_.ceiling, bodies_, now_.movers);
 }
 
 void World::step_movers() {
@@ -93,19 +96,19 @@ void World::place_movers(bool all) {
     const Place& place = mover.place();
     if (all || place.yaw != state.yaw)
       state.pose.linear() =
-          (Eigen::AngleAxisd(place.yaw, Eigen::Vector3d::UnitZ()) * bodies_[i].tilt)
+          (Eigen::AngleAxisd(place.yaw, Eigen::Vector3d::UnitZ()) * stances_[i].tilt)
               .toRotationMatrix();
     state.yaw = place.yaw;
-    state.pose.translation() << place.at, bodies_[i].z;
-    physics_.move_thing(state.thing, state.pose);
+    state.pose.translation() << place.at, stances_[i].z;
   }
 }
 
 std::vector<std::size_t> World::pressing() const {
+  const std::vector<Touch>& touches = physics_.touches();
   std::vector<std::size_t> found;
-  for (const Touch& candidate : touches_) {
+  for (const Touch& candidate : touches) {
     if (candidate.distance >= ContactCounter::kTouching) continue;
-    const bool deep = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
+    const bool deep = std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
       return touch.distance < (touch.thing == candidate.thing ? -kCrushing : -0.5 * kCrushing);
     });
     if (deep) found.push_back(candidate.thing);

@@ -1,8 +1,10 @@
+#include "navvi_sim/proximity.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "navvi_sim/physics.hpp"
+#include "navvi_sim/robot.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -23,7 +25,9 @@ std::vector<NearThing> near(const std::vector<Thing>& things, double radius = 5.
                             const Eigen::Vector2d& robot = Eigen::Vector2d::Zero()) {
   WorldDescription world;
   world.things = things;
-  return Physics(world, RobotConfig{}, robot, 0.3).proximity(radius, 2.0);
+  const RobotConfig config;
+  return things_near({robot, config.radius, config.clearance, config.height}, radius, 2.0,
+                     Bodies(world, config.clearance), {});
 }
 
 Mesh cube(double half) {

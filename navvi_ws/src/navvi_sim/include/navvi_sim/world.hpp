@@ -8,7 +8,9 @@
 
 #include "navvi_sim/contact_counter.hpp"
 #include "navvi_sim/drivetrain.hpp"
+#include "navvi_sim/mover_state.hpp"
 #include "navvi_sim/physics.hpp"
+#include "navvi_sim/proximity.hpp"
 #include "navvi_sim/robot.hpp"
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/traffic.hpp"
@@ -23,17 +25,6 @@ struct WorldConfig {
   MoversConfig movers;
 
   void describe(navvi_config::Visitor& visit);
-};
-
-/// A moving thing at one instant. Frame: map.
-struct MoverState {
-  std::size_t thing;         ///< index in WorldDescription::things
-  Eigen::Isometry3d pose;    ///< of the thing's origin
-  double yaw;                ///< rad, its heading
-  Eigen::Vector2d velocity;  ///< m/s
-  double turn_rate;          ///< rad/s, counter-clockwise
-  double radius;             ///< m, horizontal, about the origin, around all its shapes (R-NAV-4)
-  double height;             ///< m, its top above the floor
 };
 
 /// Everything that moves, at one instant. Frame: map, but for the odometry.
@@ -74,10 +65,10 @@ class World {
   [[nodiscard]] std::uint64_t state_hash() const;
 
  private:
-  /// What does not change of a moving thing.
-  struct Body {
+  /// What does not change of a moving thing's pose.
+  struct Stance {
     Eigen::Quaterniond tilt;
-    double z;  ///< m, of the thing's origin
+    double z;  ///< m
   };
 
   void place_movers(bool all);
@@ -93,11 +84,11 @@ class World {
   double floor_height_;
   std::vector<ThingClass> classes_;  ///< by thing
   Traffic traffic_;
-  std::vector<Body> bodies_;  ///< by index in traffic_
+  std::vector<Stance> stances_;  ///< by index in traffic_
+  Bodies bodies_;
   Physics physics_;
   Drivetrain drivetrain_;
   ContactCounter contacts_;
-  std::vector<Touch> touches_;
   Snapshot now_;
   std::uint64_t steps_ = 0;
   double speed_before_ = 0.0;  ///< m/s, one step earlier than now_
