@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "block_lists.hpp"
+#include "navvi_sim/bodies.hpp"
 #include "painter.hpp"
 
 namespace navvi_sim {
@@ -66,28 +67,6 @@ std::optional<std::string> model_of(ThingClass thing_class) {
     default:
       return std::nullopt;
   }
-}
-
-Eigen::AlignedBox3d bounds_of(const Geometry& geometry, const Eigen::Isometry3d& pose) {
-  Eigen::AlignedBox3d bounds;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&geometry)) {
-    for (const Eigen::Vector3f& vertex : (*mesh)->vertices)
-      bounds.extend(pose * vertex.cast<double>());
-    return bounds;
-  }
-  Eigen::Vector3d half;
-  if (const auto* box = std::get_if<Box>(&geometry)) {
-    half = 0.5 * box->size;
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
-    half = {cylinder->radius, cylinder->radius, 0.5 * cylinder->length};
-  } else {
-    half = Eigen::Vector3d::Constant(std::get<Sphere>(geometry).radius);
-  }
-  for (int corner = 0; corner < 8; ++corner)
-    bounds.extend(pose * Eigen::Vector3d(corner & 1 ? half.x() : -half.x(),
-                                         corner & 2 ? half.y() : -half.y(),
-                                         corner & 4 ? half.z() : -half.z()));
-  return bounds;
 }
 
 bool is_upright(const Eigen::Isometry3d& pose) { return pose.linear()(2, 2) > 1.0 - 1e-6; }
