@@ -1,5 +1,6 @@
 #include "navvi_study/metrics.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
@@ -161,7 +162,10 @@ Summary summarize(const std::vector<Row>& rows) {
   add("shelf_proximity_count", count_of(rows, "PROXIMITY_ENTER", "shelf"));
   add("stuck_count", count_of(rows, "STUCK"));
   add("replan_count", replan ? replan->fields.get("count") : "0");
-  add("safe_stop_count", count_of(rows, "SAFE_STOP"));
+  // Wheels that had not turned yet were held, not stopped.
+  add("safe_stop_count", std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row& row) {
+        return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes";
+      })));
   add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
   add("missed_messages", tally ? tally->fields.get("missed_messages") : nothing);
   for (const char* name : {"state_step", "state_hash"})

@@ -7,6 +7,7 @@ namespace navvi_study {
 namespace {
 
 constexpr double kSameGoal = 0.05;  // m
+constexpr double kMoved = 0.05;     // m, driven
 constexpr std::int64_t kOldNews =
     2'000'000'000;  // ns in which an arrival may still be the last goal's
 
@@ -293,7 +294,9 @@ std::vector<Event> TrialMonitor::observe(const DriveReport& drive) {
   const bool stopped_before = drive_ && drive_->stopped;
   drive_ = drive;
   if (!inside || drive.reason == "none" || !drive.stopped || stopped_before) return {};
-  return {{"SAFE_STOP", place().set("reason", drive.reason), drive.stamp, true}};
+  Fields fields = place();
+  fields.set("reason", drive.reason).set("moved", tally_.path_length > kMoved ? "yes" : "no");
+  return {{"SAFE_STOP", fields, drive.stamp, true}};
 }
 
 std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {

@@ -4,7 +4,6 @@
 #include <ros/callback_queue.h>
 
 #include <algorithm>
-#include <cctype>
 #include <ctime>
 #include <stdexcept>
 
@@ -16,19 +15,9 @@ namespace navvi_study {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kStep = 0.05;          // s, of the wall timer
-constexpr double kSayAgain = 5.0;       // s, between sentences on what is missing
-constexpr double kRefuseAfter = 60.0;   // s, without what a trial needs
-constexpr double kSimulatorLost = 5.0;  // s, without odometry
-constexpr double kGuidanceLost = 10.0;  // s, wall clock
-constexpr double kBagStart = 6.0;       // s, for the recorder to listen
-constexpr double kSettle = 0.5;         // s, for links to come up before the first event
-constexpr double kBagStill = 3.0;       // s, without growth
-constexpr double kBagClose = 8.0;       // s, for the recorder to close the bag
-constexpr double kDrain = 0.3;          // s, for reports on their way when a trial ends
-constexpr double kGoalAgain = 2.0;      // s, before a goal is sent again
-constexpr int kGoalTries = 3;
-constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
+constexpr double kStep = 0.05;     // s, of the wall timer
+constexpr double kSayAgain = 5.0;  // s, between sentences on what is missing
+constexpr double kDrain = 0.3;     // s, for reports on their way when a trial ends
 constexpr std::uint32_t kQueue = 1000;
 
 const std::vector<std::string> kRecorded = {"/clock",
@@ -67,30 +56,11 @@ std::string list_of(const std::vector<std::string>& words) {
   return text;
 }
 
-void refuse_control_characters(const char* name, const std::string& text) {
-  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); })) {
-    throw std::runtime_error(std::string(name) + " may hold no control characters");
-  }
-}
-
-/// Letters, digits, - and _, such as sub-01, so that names do not slip into the record.
-void refuse_all_but_pseudonyms(const std::string& text) {
-  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '-' || c == '_';
-  });
-  if (text == "n/a" || (plain && !text.empty() && text.size() <= 32)) return;
-  throw std::runtime_error("participant is \"" + text +
-                           "\"; allowed are up to 32 letters, digits, - and _, such as sub-01");
-}
-
 }  // namespace
 
 TrialNode::TrialNode(const TrialNodeConfig& config)
-    : config_(config), readiness_(config.require), monitor_(config.monitor) {
-  refuse_control_characters("operator", config_.operator_kind);
-  refuse_control_characters("profile", config_.profile);
-  refuse_all_but_pseudonyms(config_.participant);
-  if (config_.out.empty()) throw std::runtime_error("out names no folder");
+    : config_(config), readiness_(config.require), monitor_(config.monitor), flow_(config.limit) {
+  check(config_);
   config_.out = fs::absolute(config_.out).lexically_normal().string();
   for (const auto& sentence : recover_trials(config_.out)) ROS_WARN("%s", sentence.c_str());
   subscribe();
@@ -120,8 +90,7 @@ void TrialNode::subscribe() {
         const std::string& name = link.getSubscriberName();
         if (name.size() >= recorder_name_.size() &&
             name.compare(name.size() - recorder_name_.size(), name.npos, recorder_name_) == 0) {
-          recorder_listens_ = true;
-          phase_since_ = wall();
+          bag_.hears(wall());
         }
       });
   goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
@@ -138,6 +107,9 @@ void TrialNode::subscribe() {
       node_.subscribe("/diagnostics", kQueue, &TrialNode::on_diagnostics, this, hints));
   subscribers_.push_back(node_.subscribe("move_base_simple/goal", 10, &TrialNode::on_goal, this));
   subscribers_.push_back(node_.subscribe("navvi/scenario", 1, &TrialNode::on_scenario, this));
+  if (config_.operator_kind != "simulated") return;
+  subscribers_.push_back(node_.subscribe<sensor_msgs::Joy>(
+      "joy", 1, [this](const sensor_msgs::Joy::ConstPtr&) { operator_seen_ = wall(); }));
 }
 
 template <typename Report>
@@ -148,9 +120,9 @@ void TrialNode::take(const Report& report) {
   // At once: a report that is stamped later may be the next to come.
   if (phase_ != Phase::running) return;
   if (monitor_.reached()) {
-    end("reached", "goal_reached", monitor_.latest());
+    end({"reached", "goal_reached", monitor_.latest()});
   } else if (const auto why = monitor_.refused()) {
-    end("refused", *why, monitor_.latest());
+    end({"refused", *why, monitor_.latest()});
   }
 }
 
@@ -192,8 +164,7 @@ void TrialNode::on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const
     start(*goal);
   } else if (phase_ == Phase::running) {
     goal_ = *goal;
-    goal_sent_ = kGoalTries;
-    goal_sent_at_ = wall();
+    goal_tries_.sent_elsewhere(wall());
     record(monitor_.change_goal(*goal, std::max(sim_ns(), monitor_.latest())));
   }
 }
@@ -229,8 +200,10 @@ void TrialNode::wait() {
   const auto words = missing();
   if (words.empty()) return arm();
   const double now = wall();
-  if (config_.once && now - phase_since_ > kRefuseAfter) {
-    ROS_FATAL("No trial: after %.0f s what is missing is still %s.", kRefuseAfter,
+  // Who drives one trial after the other may take their time, but a robot must be there at all.
+  const bool refuses = config_.once || !readiness_.saw_any_odometry();
+  if (refuses && config_.patience > 0.0 && now - phase_since_ > config_.patience) {
+    ROS_FATAL("No trial: after %.0f s what is missing is still %s.", config_.patience,
               list_of(words).c_str());
     return leave(3);
   }
@@ -247,28 +220,21 @@ void TrialNode::arm() {
     ROS_FATAL("%s", error.what());
     return leave(3);
   }
-  bag_bad_ = recorder_listens_ = false;
-  bag_size_ = 0;
+  std::unique_ptr<BagRecorder> recorder;
   if (config_.record) {
     std::vector<std::string> topics;
     for (const auto& topic : kRecorded) topics.push_back(node_.resolveName(topic));
-    recorder_ = std::make_unique<BagRecorder>(folder_ / "trial.bag", recorder_name_, topics);
+    recorder = std::make_unique<BagRecorder>(folder_ / "trial.bag", recorder_name_, topics);
   }
+  bag_ = BagWatch(std::move(recorder), wall());
+  bag_lost_ = false;
   phase_ = Phase::armed;
-  phase_since_ = said_ = bag_grew_ = wall();
+  phase_since_ = said_ = wall();
 }
 
 void TrialNode::try_to_start() {
   const double now = wall();
-  if (recorder_ && !bag_bad_) {
-    if (!recorder_->running() || (!recorder_listens_ && now - phase_since_ > kBagStart)) {
-      ROS_ERROR("The bag recorder does not record. The trial goes on without a bag.");
-      bag_bad_ = true;
-    } else if (!recorder_listens_) {
-      return;
-    }
-  }
-  if (now - phase_since_ < kSettle) return;
+  if (!bag_.ready(now)) return;
   if (scenario_ && !scenario_played_) {
     const auto words = missing();
     if (words.empty()) {
@@ -290,15 +256,13 @@ void TrialNode::start(const Point2& goal) {
   const TrialStart beginning = monitor_.start_now(sim_ns(), goal);
   start_stamp_ = beginning.stamp;
   monitor_.start(beginning);
-  const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);
-  if (limit > 0) monitor_.end(start_stamp_ + limit);
-  result_.clear();
-  reason_.clear();
-  goal_sent_ = 0;
-  goal_stood_ = false;
-  goal_sent_at_ = wall();
+  flow_.start(start_stamp_);
+  if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
+  ending_ = Ending();
+  goal_tries_.begin();
   phase_ = Phase::running;
-  phase_since_ = bag_grew_ = wall();
+  phase_since_ = operator_seen_ = wall();
+  bag_.expect_growth(phase_since_);
   Fields fields;
   fields.set("world", scenario_ ? scenario_->world : "n/a");
   fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
@@ -323,74 +287,55 @@ void TrialNode::start(const Point2& goal) {
 }
 
 void TrialNode::ask_for_goal() {
-  if (monitor_.goal_taken() || (goal_sent_ > 0 && wall() - goal_sent_at_ < kGoalAgain)) return;
-  if (goal_sent_ >= kGoalTries) {
-    ROS_ERROR("The goal was set %d times, but the guidance does not show it.", kGoalTries);
-    return end("aborted", "goal_not_taken", monitor_.latest());
+  switch (goal_tries_.next(monitor_.goal_taken(), wall())) {
+    case GoalTries::Next::wait:
+      return;
+    case GoalTries::Next::send:
+      return goals_.publish(goal_msg(goal_, ros::Time::now()));
+    case GoalTries::Next::give_up:
+      ROS_ERROR("The goal was set several times, but the guidance does not show it.");
+      return end({"aborted", "goal_not_taken", monitor_.latest()});
   }
-  ++goal_sent_;
-  goal_sent_at_ = wall();
-  goals_.publish(goal_msg(goal_, ros::Time::now()));
 }
 
 void TrialNode::watch() {
-  const std::int64_t now = sim_ns();
   watch_bag();
-  if (journal_->reserve_used()) return end("invalid", "disk_full", monitor_.latest());
-  if (monitor_.world_restarted()) return end("aborted", "simulator_restarted", monitor_.latest());
-  if (now + kTimeBack < monitor_.latest())
-    return end("aborted", "time_went_back", monitor_.latest());
-  if (readiness_.silence(wall()) > kSimulatorLost) {
-    return end("aborted", "simulator_lost", monitor_.latest());
-  }
-  if (readiness_.guidance_silence(wall()) > kGuidanceLost) {
-    return end("aborted", "guidance_lost", monitor_.latest());
-  }
-  const auto limit = static_cast<std::int64_t>(config_.limit * 1e9);
-  if (limit > 0 && now - start_stamp_ >= limit) {
-    return end("timeout", "limit", start_stamp_ + limit);
-  }
-  // A guidance that was started anew knows no goal: it is asked again, with all tries.
-  if (goal_stood_ && !monitor_.goal_taken()) goal_sent_ = 0;
-  goal_stood_ = monitor_.goal_taken();
+  Signs signs;
+  signs.now = sim_ns();
+  signs.latest = monitor_.latest();
+  signs.disk_full = journal_->reserve_used();
+  signs.world_restarted = monitor_.world_restarted();
+  signs.odometry_silence = readiness_.silence(wall());
+  signs.guidance_silence = readiness_.guidance_silence(wall());
+  if (config_.operator_kind == "simulated") signs.operator_silence = wall() - operator_seen_;
+  if (const auto ending = flow_.watch(signs)) return end(*ending);
   ask_for_goal();
 }
 
 void TrialNode::watch_bag() {
-  if (!recorder_ || bag_bad_) return;
-  const auto size = recorder_->size();
-  if (size > bag_size_) {
-    bag_size_ = size;
-    bag_grew_ = wall();
-  }
-  if (recorder_->running() && wall() - bag_grew_ < kBagStill) return;
-  bag_bad_ = true;
+  if (bag_lost_ || bag_.growing(wall())) return;
+  bag_lost_ = true;
   ROS_ERROR("The bag does not grow. The trial goes on; its summary says bag=bad.");
   record({"BAG_LOST", Fields(), monitor_.latest()});
 }
 
-void TrialNode::end(const std::string& result, const std::string& reason, std::int64_t stamp) {
+void TrialNode::end(const Ending& ending) {
   if (!active()) return;
-  monitor_.end(stamp);
-  result_ = result;
-  reason_ = reason;
-  end_stamp_ = *monitor_.ended();
+  monitor_.end(ending.stamp);
+  ending_ = ending;
+  ending_.stamp = *monitor_.ended();
   phase_ = Phase::draining;
   phase_since_ = wall();
 }
 
 void TrialNode::write_end() {
   // The goal may have been reached just before the end that was called first.
-  if (monitor_.reached() && result_ != "invalid") {
-    result_ = "reached";
-    reason_ = "goal_reached";
-  }
-  if (journal_->reserve_used()) result_ = "invalid";
+  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), journal_->reserve_used());
   Fields fields = monitor_.tally_fields();
-  fields.set("result", result_).set("reason", reason_);
+  fields.set("result", ending_.result).set("reason", ending_.reason);
   phase_ = Phase::closing;
   phase_since_ = wall();
-  record({"TRIAL_END", fields, end_stamp_});
+  record({"TRIAL_END", fields, ending_.stamp});
   write_summary();
 }
 
@@ -425,23 +370,15 @@ void TrialNode::write_summary() {
 }
 
 void TrialNode::close() {
-  const double age = wall() - phase_since_;
-  if (recorder_ && recorder_->running()) {
-    const double tail = shutting_down_ ? kDrain : std::max(kDrain, config_.tail);
-    if (age < tail) return;
-    recorder_->stop();
-    if (age > tail + kBagClose) recorder_->kill();
-    return;
-  }
-  finish();
+  const double tail = shutting_down_ ? kDrain : std::max(kDrain, config_.tail);
+  if (bag_.close(wall() - phase_since_, tail)) finish();
 }
 
 void TrialNode::finish() {
-  std::string bag = "none";
-  if (recorder_) bag = recorder_->closed_well() && !bag_bad_ ? "ok" : "bad";
-  recorder_.reset();
+  const std::string bag = bag_.verdict();
+  bag_ = BagWatch();
   if (!journal_->broken()) {
-    record({"BAG_CLOSED", Fields().set("state", bag), end_stamp_});
+    record({"BAG_CLOSED", Fields().set("state", bag), ending_.stamp});
     write_summary();
   }
   std::string screen = "Trial ended: " + folder_.string();
@@ -463,20 +400,20 @@ void TrialNode::leave(int exit_code) {
 void TrialNode::shut_down() {
   shutting_down_ = true;
   if (phase_ == Phase::armed) {
-    recorder_.reset();
+    bag_ = BagWatch();
     journal_.reset();
     std::error_code error;
     fs::remove_all(folder_, error);  // no trial has begun: nothing is lost
     return leave(0);
   }
-  if (phase_ == Phase::running) end("aborted", "stopped_by_signal", monitor_.latest());
+  if (phase_ == Phase::running) end({"aborted", "stopped_by_signal", monitor_.latest()});
   const double begun = wall();
   while (phase_ == Phase::draining && wall() - begun < kDrain) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
   }
   if (phase_ == Phase::draining) write_end();
   while (phase_ == Phase::closing) {
-    if (recorder_ && wall() - begun > 1.5) recorder_->kill();
+    if (wall() - begun > 1.5) bag_.kill();
     close();
     ros::WallDuration(0.02).sleep();
   }

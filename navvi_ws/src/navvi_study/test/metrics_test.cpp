@@ -102,6 +102,18 @@ TEST(Events, of_nothing_are_a_header) {
   EXPECT_EQ(text.find('\n'), text.size() - 1);
 }
 
+TEST(Summary, wheels_that_were_held_before_they_turned_are_no_safe_stop) {
+  auto rows = example().rows;
+  const auto before = std::stoi(columns(rows)["safe_stop_count"]);
+  Row stop = rows.back();
+  stop.type = "SAFE_STOP";
+  stop.fields = Fields().set("reason", "command_lost").set("moved", "no");
+  rows.push_back(stop);
+  EXPECT_EQ(std::stoi(columns(rows)["safe_stop_count"]), before);
+  rows.back().fields = Fields().set("reason", "command_lost").set("moved", "yes");
+  EXPECT_EQ(std::stoi(columns(rows)["safe_stop_count"]), before + 1);
+}
+
 }  // namespace
 }  // namespace navvi_study
 

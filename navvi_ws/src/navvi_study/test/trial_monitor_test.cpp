@@ -216,6 +216,18 @@ TEST_F(Monitor, counts_being_stuck_once_a_cue) {
   EXPECT_EQ(monitor_.tally().cues_spoken, 1u);
 }
 
+TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) {
+  const auto early = monitor_.observe(DriveReport{11 * kSecond, true, "command_lost"});
+  ASSERT_EQ(early.size(), 1u);
+  EXPECT_EQ(early[0].fields.get("moved"), "no");
+  (void)monitor_.observe(DriveReport{12 * kSecond, false, "none"});
+  (void)monitor_.observe(OdometryReport{12 * kSecond, {0.0, 0.0}});
+  (void)monitor_.observe(OdometryReport{13 * kSecond, {0.2, 0.0}});
+  EXPECT_EQ(
+      monitor_.observe(DriveReport{14 * kSecond, true, "command_lost"})[0].fields.get("moved"),
+      "yes");
+}
+
 TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
   EXPECT_EQ(types(monitor_.observe(DriveReport{11 * kSecond, true, "command_lost"})),
             Names{"SAFE_STOP"});

@@ -23,6 +23,7 @@ class Readiness {
   /// For the record: "works", "missing" (or switched off), or "unknown" before its first report.
   /// \param device  pad, audio or speech
   [[nodiscard]] std::string state_of(const std::string& device) const;
+  [[nodiscard]] bool saw_any_odometry() const { return odometry_ > kNever; }
   /// s since the last odometry
   [[nodiscard]] double silence(double time) const { return time - odometry_; }
   /// s since the last guidance.
@@ -30,8 +31,10 @@ class Readiness {
 
  private:
   std::vector<std::string> modalities_;
-  double odometry_ = -1e9;
-  double guidance_ = -1e9;
+  static constexpr double kNever = -1e9;
+
+  double odometry_ = kNever;
+  double guidance_ = kNever;
   bool has_map_ = false;
   std::map<std::string, bool> devices_;
 };

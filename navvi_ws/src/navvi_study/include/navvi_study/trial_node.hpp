@@ -10,6 +10,7 @@
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/Scenario.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
 
 #include <filesystem>
 #include <memory>
@@ -17,9 +18,10 @@
 #include <string>
 #include <vector>
 
-#include "navvi_study/bag_recorder.hpp"
+#include "navvi_study/bag_watch.hpp"
 #include "navvi_study/journal.hpp"
 #include "navvi_study/readiness.hpp"
+#include "navvi_study/trial_flow.hpp"
 #include "navvi_study/trial_monitor.hpp"
 #include "navvi_study/trial_node_config.hpp"
 
@@ -58,7 +60,7 @@ class TrialNode {
   void start(const Point2& goal);
   void watch();
   void ask_for_goal();
-  void end(const std::string& result, const std::string& reason, std::int64_t stamp);
+  void end(const Ending& ending);
   void write_end();
   void close();
   void finish();
@@ -90,20 +92,15 @@ class TrialNode {
 
   std::filesystem::path folder_;
   std::unique_ptr<Journal> journal_;
-  std::unique_ptr<BagRecorder> recorder_;
+  BagWatch bag_;
+  bool bag_lost_ = false;  ///< and journalled
   std::string recorder_name_;
-  bool recorder_listens_ = false;
-  bool bag_bad_ = false;
-  std::uintmax_t bag_size_ = 0;
-  double bag_grew_ = 0.0;
   Point2 goal_;
+  GoalTries goal_tries_;
+  TrialFlow flow_;
+  double operator_seen_ = 0.0;  ///< when a simulated one last moved its hands
   std::int64_t start_stamp_ = 0;
-  int goal_sent_ = 0;
-  bool goal_stood_ = false;
-  double goal_sent_at_ = 0.0;
-  std::string result_;
-  std::string reason_;
-  std::int64_t end_stamp_ = 0;
+  Ending ending_;
   bool shutting_down_ = false;
   int exit_code_ = 0;
 };

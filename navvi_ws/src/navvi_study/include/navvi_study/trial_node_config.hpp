@@ -11,6 +11,7 @@ namespace navvi_study {
 struct TrialNodeConfig {
   std::string out = "trials";
   double limit = 0.0;
+  double patience = 60.0;
   std::string operator_kind = "unknown";
   std::string participant = "n/a";
   std::string profile = "default";
@@ -22,5 +23,8 @@ struct TrialNodeConfig {
 
   void describe(navvi_config::Visitor& visit);
 };
+
+/// \throws std::runtime_error with a sentence for a text that must not stand in the record
+void check(const TrialNodeConfig& config);
 
 }  // namespace navvi_study
