@@ -32,40 +32,38 @@ double now() {  // s
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-Path shortest(const Mesh& mesh, const Mesh::Place& from, const Mesh::Place& to) {
-  const Corridor corridor = centroid_astar(mesh, from, to, 1.0);
-  return corridor.found ? funnel(from.point, to.point, corridor.portals) : Path{};
-}
-
 /// One of the searches that are compared: `find` works on what `locate` left in it.
-struct Search {
+struct Contestant {
   std::string name;
   std::function<bool(const Query&)> locate;
   std::function<Path()> find;
 };
 
-std::vector<Search> searches(Course& c) {
-  const auto on = [](const std::string& name, const Mesh& mesh, auto search) {
+std::vector<Contestant> searches(Course& c) {
+  const auto on = [](const std::string& name, const Mesh& mesh, SearchMethod method) {
+    const auto search = std::make_shared<Search>(method);
     const auto ends = std::make_shared<std::pair<Mesh::Place, Mesh::Place>>();
-    return Search{name,
-                  [&mesh, ends](const Query& query) {
-                    const auto from = mesh.locate(query.start, Course::kNear);
-                    const auto to = mesh.locate(query.goal, Course::kNear);
-                    if (from && to) *ends = {*from, *to};
-                    return from && to;
-                  },
-                  [&mesh, ends, search] { return search(mesh, ends->first, ends->second); }};
+    return Contestant{
+        name,
+        [&mesh, ends](const Query& query) {
+          const auto from = mesh.locate(query.start, Course::kNear);
+          const auto to = mesh.locate(query.goal, Course::kNear);
+          if (from && to) *ends = {*from, *to};
+          return from && to;
+        },
+        [&mesh, ends, search] { return search->find(mesh, ends->first, ends->second).path; }};
   };
   return {
-      on("centroids and funnel, our mesh", c.ours.nav_mesh().mesh(), shortest),
-      on("centroids and funnel, Detour's mesh", c.detours_mesh, shortest),
+      on("exact, our mesh", c.ours.nav_mesh().mesh(), SearchMethod::exact),
+      on("exact, Detour's mesh", c.detours_mesh, SearchMethod::exact),
+      on("centroids and funnel, Detour's mesh", c.detours_mesh, SearchMethod::centroid_astar),
       {"Detour", [&c](const Query& q) { return c.detour_query.locate(q.start, q.goal); },
        [&c] { return c.detour_query.search(); }},
   };
 }
 
 /// Times each search alone, once a query.
-void ask_all(State& state, const Course& course, const Search& search) {
+void ask_all(State& state, const Course& course, const Contestant& search) {
   std::vector<double> times;
   for (auto _ : state) {
     const Query& query = course.queries[times.size() % course.queries.size()];
@@ -123,12 +121,12 @@ void declare_bakes(Course& c) {
 
 void declare(Course& c) {
   declare_bakes(c);
-  for (const Search& search : searches(c))
+  for (const Contestant& search : searches(c))
     benchmark::RegisterBenchmark((search.name + c.name).c_str(),
                                  [&c, search](State& state) { ask_all(state, c, search); })
         ->Iterations(Course::kQueries)
         ->UseManualTime();
-  const Search ours = searches(c).front();
+  const Contestant ours = searches(c).front();
   for (const int count : kDiscs) {
     const auto add = [&](const std::string& who, const auto& replan) {
       benchmark::RegisterBenchmark(
@@ -136,12 +134,13 @@ void declare(Course& c) {
           [&c, count, replan](State& state) { move_discs(state, c, count, replan); })
           ->Unit(benchmark::kMillisecond);
     };
-    add("our replan ", [&c](const std::vector<Cylinder>& discs, const Query& query) {
+    const auto search = std::make_shared<Search>(SearchMethod::exact);
+    add("our replan ", [&c, search](const std::vector<Cylinder>& discs, const Query& query) {
       c.carved.carve(discs);
       const Mesh& mesh = c.carved.nav_mesh().mesh();
       const auto from = mesh.locate(query.start, Course::kNear);
       const auto to = mesh.locate(query.goal, Course::kNear);
-      if (from && to) benchmark::DoNotOptimize(shortest(mesh, *from, *to));
+      if (from && to) benchmark::DoNotOptimize(search->find(mesh, *from, *to));
     });
     add("TileCache replan ", [&c](const std::vector<Cylinder>& discs, const Query& query) {
       c.tile_cache.place(discs);
@@ -168,7 +167,7 @@ struct Answers {
 
 void compare(Course& c) {
   constexpr double kSlack = 1e-3;  // m, for Detour's single precision
-  const std::vector<Search> all = searches(c);
+  const std::vector<Contestant> all = searches(c);
   std::vector<Answers> answers(all.size());
   for (const Query& query : c.queries) {
     std::vector<double> lengths;
@@ -210,7 +209,7 @@ void print(const Medians& medians, Course& c) {
     row(what, {took}, took / cached);
   }
   std::printf("\n%-44s %11s %11s %11s\n", "search, us", "p50", "p99", "max");
-  for (const Search& search : searches(c)) {
+  for (const Contestant& search : searches(c)) {
     const auto get = [&](const char* value) { return medians.get(search.name + c.name, value); };
     row(search.name, {get("p50"), get("p99"), get("max")},
         get("p50") / medians.get("Detour" + c.name, "p50"));

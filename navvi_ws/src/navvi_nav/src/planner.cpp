@@ -1,8 +1,5 @@
 #include "navvi_nav/planner.hpp"
 
-#include "navvi_nav/funnel.hpp"
-#include "navvi_nav/search.hpp"
-
 namespace navvi_nav {
 namespace {
 
@@ -44,10 +41,19 @@ void PlannerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit.group("mesh", mesh);
   visit.group("smoothing", smoothing);
-  visit({"alpha", Range{0.0, 1.0}, "", "weight of A*'s heuristic (R-NAV-6)"}, alpha);
+  visit({"search", navvi_config::OneOf{{"exact", "centroid_astar"}}, "",
+         "the shortest path, or the paper's (R-NAV-6, R-NAV-7)"},
+        search);
+  visit({"alpha", Range{0.0, 1.0}, "", "weight of centroid_astar's heuristic (R-NAV-6)"}, alpha);
   visit({"start_snap", Range{0.0, 2.0}, "m", "how far off the mesh the robot may stand"},
         start_snap);
 }
+
+Planner::Planner(const PlannerConfig& config)
+    : config_(config),
+      nav_mesh_(config.mesh),
+      search_(config.search == "exact" ? SearchMethod::exact : SearchMethod::centroid_astar,
+              config.alpha) {}
 
 Plan Planner::plan(Point start, Point goal) const {
   if (nav_mesh_.empty()) return failure(PlanStatus::no_map, Refusal::none, "there is no map yet");
@@ -71,12 +77,12 @@ Plan Planner::plan(Point start, Point goal) const {
   if (!from.place)
     return failure(PlanStatus::no_route, Refusal::none,
                    "nothing joins the robot with the goal now");
-  const Corridor corridor = centroid_astar(nav_mesh_.mesh(), *from.place, *to.place, config_.alpha);
+  const Found& found = search_.find(nav_mesh_.mesh(), *from.place, *to.place);
   Plan plan;
-  plan.nodes_expanded = corridor.nodes_expanded;
-  plan.status = corridor.found ? PlanStatus::found : PlanStatus::no_route;
-  if (!corridor.found) return plan;
-  Path shortest = funnel(from.place->point, to.place->point, corridor.portals);
+  plan.nodes_expanded = found.nodes_expanded;
+  plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
+  if (!found.found) return plan;
+  Path shortest = found.path;
   if (from.joined && !(shortest.front() == start)) shortest.insert(shortest.begin(), start);
   if (!(shortest.back() == goal)) shortest.push_back(goal);
   plan.shortest = length_of(shortest);

@@ -1,77 +1,23 @@
 #include "navvi_nav/search.hpp"
 
-#include <limits>
-#include <queue>
-#include <tuple>
+#include "navvi_nav/centroid_astar.hpp"
+#include "navvi_nav/funnel.hpp"
 
 namespace navvi_nav {
-namespace {
 
-struct Node {
-  double cost = std::numeric_limits<double>::infinity();  // m, from the start
-  int parent = -1;
-  int link = -1;  // of the parent
-  bool closed = false;
-};
-
-struct Open {
-  double f = 0.0;
-  int polygon = 0;
-};
-
-bool operator>(const Open& a, const Open& b) {
-  return std::tie(a.f, a.polygon) > std::tie(b.f, b.polygon);
-}
-
-}  // namespace
-
-Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
-                        double alpha) {
-  Corridor out;
-  std::vector<Node> nodes(mesh.polygons.size());
-  const auto at = [&nodes](int polygon) -> Node& {
-    return nodes[static_cast<std::size_t>(polygon)];
-  };
-  const auto position = [&](int index) {
-    if (index == start.polygon) return start.point;
-    return index == goal.polygon ? goal.point : mesh.centroid(index);
-  };
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  at(start.polygon).cost = 0.0;
-  open.push({alpha * distance(start.point, goal.point), start.polygon});
-  while (!open.empty()) {
-    const int current = open.top().polygon;
-    open.pop();
-    Node& node = at(current);
-    if (node.closed) continue;
-    node.closed = true;
-    ++out.nodes_expanded;
-    if (current == goal.polygon) {
-      out.found = true;
-      break;
-    }
-    const Point here = position(current);
-    const auto& links = mesh.polygon(current).links;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      Node& next = at(links[i].to);
-      if (next.closed) continue;
-      const Point there = position(links[i].to);
-      const double cost = node.cost + distance(here, there);
-      if (cost >= next.cost) continue;
-      next.cost = cost;
-      next.parent = current;
-      next.link = static_cast<int>(i);
-      open.push({cost + alpha * distance(there, goal.point), links[i].to});
-    }
+const Found& Search::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
+  found_.path.clear();
+  if (method_ == SearchMethod::exact) {
+    found_.found = any_angle_.find(mesh, start, goal, found_.path);
+    found_.nodes_expanded = any_angle_.nodes_expanded();
+  } else {
+    const Corridor corridor = centroid_astar(mesh, start, goal, alpha_);
+    found_.found = corridor.found;
+    found_.nodes_expanded = corridor.nodes_expanded;
+    if (corridor.found) found_.path = funnel(start.point, goal.point, corridor.portals);
   }
-  if (!out.found) return out;
-  for (int index = goal.polygon; index != start.polygon; index = at(index).parent) {
-    const Node& node = at(index);
-    const Link& link = mesh.polygon(node.parent).links[static_cast<std::size_t>(node.link)];
-    out.portals.push_back({mesh.at(link.right), mesh.at(link.left)});
-  }
-  std::reverse(out.portals.begin(), out.portals.end());
-  return out;
+  found_.length = length_of(found_.path);
+  return found_;
 }
 
 }  // namespace navvi_nav

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "navvi_nav/centroid_astar.hpp"
 #include "navvi_nav/funnel.hpp"
 #include "navvi_nav/search.hpp"
 
@@ -28,8 +29,8 @@ Path path_between(const Mesh& mesh, Point start, Point goal) {
   const auto from = mesh.locate(start, 0.0);
   const auto to = mesh.locate(goal, 0.0);
   if (!from || !to) return {};
-  const Corridor corridor = centroid_astar(mesh, *from, *to, 1.0);
-  return corridor.found ? funnel(start, goal, corridor.portals) : Path{};
+  Search search(SearchMethod::centroid_astar);
+  return search.find(mesh, *from, *to).path;
 }
 
 TEST(Mesh, of_no_triangles_locates_nothing) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "navvi_nav/nav_mesh.hpp"
+#include "navvi_nav/search.hpp"
 #include "navvi_nav/smoothing.hpp"
 
 namespace navvi_nav {
@@ -12,6 +13,7 @@ namespace navvi_nav {
 struct PlannerConfig {
   NavMeshConfig mesh;
   SmoothingConfig smoothing;
+  std::string search = "exact";
   double alpha = 1.0;
   double start_snap = 0.5;
 
@@ -34,7 +36,7 @@ struct Plan {
   PlanStatus status = PlanStatus::no_map;
   Refusal refusal = Refusal::none;
   Path path;              ///< from the robot (or the mesh next to it) to the goal
-  double shortest = 0.0;  ///< m, of the funnel's path
+  double shortest = 0.0;  ///< m, of the path before smoothing
   std::size_t nodes_expanded = 0;
   std::string detail;  ///< a sentence
 };
@@ -42,7 +44,7 @@ struct Plan {
 /// From a map and obstacles to a path: the package in one function, plan().
 class Planner {
  public:
-  explicit Planner(const PlannerConfig& config) : config_(config), nav_mesh_(config.mesh) {}
+  explicit Planner(const PlannerConfig& config);
 
   /// \param map  anything that NavMesh::set_map takes
   template <typename Map>
@@ -63,6 +65,7 @@ class Planner {
 
   PlannerConfig config_;
   NavMesh nav_mesh_;
+  mutable Search search_;  ///< its memory
 };
 
 }  // namespace navvi_nav

@@ -1,23 +1,39 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
-#include "navvi_nav/funnel.hpp"
+#include "navvi_nav/any_angle.hpp"
 #include "navvi_nav/mesh.hpp"
 
 namespace navvi_nav {
 
-/// The way from start to goal through the polygons, or none.
-struct Corridor {
+enum class SearchMethod {
+  exact,           ///< the shortest path there is
+  centroid_astar,  ///< the paper's: A* on centroids, then the funnel (R-NAV-6, R-NAV-7)
+};
+
+struct Found {
   bool found = false;
-  std::vector<Portal> portals;  ///< that are crossed; none if one polygon holds both
+  Path path;            ///< from start to goal; one point if they are the same
+  double length = 0.0;  ///< m
   std::size_t nodes_expanded = 0;
 };
 
-/// A* on graph G (R-NAV-6): nodes are polygon centroids, edges join neighbours, and
-/// f = g + alpha * Euclidean distance to the goal. With alpha <= 1 the heuristic is admissible and
-/// consistent on G. Ties go to the smaller index, so repeats are equal.
-[[nodiscard]] Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start,
-                                      const Mesh::Place& goal, double alpha);
+/// From a place on a mesh to another. Keeps its memory: the exact method allocates nothing once it
+/// has answered queries as hard. Not for two threads at once.
+class Search {
+ public:
+  /// \param alpha  0 to 1, weight of the heuristic of centroid_astar
+  explicit Search(SearchMethod method, double alpha = 1.0) : method_(method), alpha_(alpha) {}
+
+  /// The mesh may have changed since the last query. \returns what the next query overwrites
+  const Found& find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
+
+ private:
+  SearchMethod method_;
+  double alpha_;
+  AnyAngle any_angle_;
+  Found found_;
+};
 
 }  // namespace navvi_nav

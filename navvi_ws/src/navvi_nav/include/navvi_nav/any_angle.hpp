@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "navvi_nav/mesh.hpp"
+
+namespace navvi_nav {
+
+/// The shortest path on a mesh, exact: Polyanya (Cui, Harabor, Grastien, "Compromise-free
+/// Pathfinding on a Navigation Mesh", IJCAI 2017), with another rule for routes of equal length.
+/// Keeps its memory from query to query.
+class AnyAngle {
+ public:
+  /// \param path  gets the path, without points where it goes straight on; empty if there is none
+  /// \returns true if there is a path
+  bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, Path& path);
+  [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
+
+ private:
+  /// What `root` sees through a link: a cone of straight ways into `polygon`.
+  struct Node {
+    double cost;  ///< m, from the start to the root
+    Point right;  ///< border of the cone, from the root
+    Point left;
+    int root;        ///< vertex, or start_
+    int polygon;     ///< that is entered; -1: the goal is seen
+    int link_right;  ///< ends of the link, as seen on the way
+    int link_left;
+    bool right_end;  ///< the border runs through the link's end
+    bool left_end;
+  };
+  /// The shortest way known to a vertex.
+  struct Reached {
+    double cost = 0.0;
+    int parent = -1;  ///< the root from which it was seen
+    std::uint32_t query = 0;
+  };
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t node;
+  };
+
+  void begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
+  void surround(std::vector<int>& polygons, const Mesh::Place& place) const;
+  void leave_start();
+  void expand(const Node& node);
+  void see_goal(const Node& node);
+  void slip_into(const Link& link, int root, double cost);
+  void turn(const Node& node, const Link& link, bool to_right, bool whole);
+  bool reach(int vertex, int parent, double cost);
+  void add(const Node& node, const Point& link_right, const Point& link_left);
+  void push(const Node& node, double estimate);
+  bool pop(Node& node);
+  [[nodiscard]] Point at(int vertex) const { return vertex == start_ ? from_ : mesh_->at(vertex); }
+  void trace(int root, Path& path) const;
+
+  const Mesh* mesh_ = nullptr;
+  Point from_;
+  Point to_;
+  int start_ = 0;  ///< the root that is no vertex
+  std::uint32_t query_ = 0;
+  std::vector<Reached> reached_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> unused_;
+  std::vector<Entry> heap_;
+  std::vector<int> start_polygons_;
+  std::vector<int> goal_polygons_;
+  std::size_t nodes_expanded_ = 0;
+};
+
+}  // namespace navvi_nav

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "navvi_nav/funnel.hpp"
+#include "navvi_nav/mesh.hpp"
+
+namespace navvi_nav {
+
+/// The way from start to goal through the polygons, or none.
+struct Corridor {
+  bool found = false;
+  std::vector<Portal> portals;  ///< that are crossed; none if one polygon holds both
+  std::size_t nodes_expanded = 0;
+};
+
+/// A* on graph G (R-NAV-6): nodes are polygon centroids, edges join neighbours, and
+/// f = g + alpha * Euclidean distance to the goal. With alpha <= 1 the heuristic is admissible and
+/// consistent on G. Ties go to the smaller index, so repeats are equal.
+[[nodiscard]] Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start,
+                                      const Mesh::Place& goal, double alpha);
+
+}  // namespace navvi_nav

@@ -1,0 +1,356 @@
+#include "navvi_nav/any_angle.hpp"
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kTie = 2e-12;     // of a length
+constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line that runs through it
+constexpr double kTouch = 1e-10;   // m, from a point to an edge that it lies on
+constexpr double kQuantum = 1.0 / (1LL << 36);  // m
+constexpr int kGBits = 11;
+
+double extent(Point a) { return std::abs(a.x) + std::abs(a.y); }
+
+/// 1 where `b` lies left of the ray `a`, -1 right of it, 0 on its line.
+int side(Point a, double a_extent, Point b, double b_extent) {
+  const double value = cross(a, b);
+  const double slack = kOnLine * (a_extent + b_extent);
+  return value > slack ? 1 : value < -slack ? -1 : 0;
+}
+
+}  // namespace
+
+bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
+                    Path& path) {
+  path.clear();
+  begin(mesh, start, goal);
+  if (mesh.polygon(start.polygon).part != mesh.polygon(goal.polygon).part) return false;
+  for (const int polygon : start_polygons_) {
+    if (std::find(goal_polygons_.begin(), goal_polygons_.end(), polygon) != goal_polygons_.end()) {
+      reach(start_, -1, 0.0);
+      trace(start_, path);
+      return true;
+    }
+  }
+  leave_start();
+  Node node;
+  while (pop(node)) {
+    if (node.cost > reached_[static_cast<std::size_t>(node.root)].cost * (1.0 + kTie)) continue;
+    if (node.polygon < 0) {
+      trace(node.root, path);
+      return true;
+    }
+    ++nodes_expanded_;
+    expand(node);
+  }
+  return false;
+}
+
+void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
+  mesh_ = &mesh;
+  from_ = start.point;
+  to_ = goal.point;
+  start_ = static_cast<int>(mesh.vertices.size());
+  if (reached_.size() < mesh.vertices.size() + 1) reached_.resize(mesh.vertices.size() + 1);
+  if (++query_ == 0) {
+    for (Reached& reached : reached_) reached.query = 0;
+    query_ = 1;
+  }
+  nodes_.clear();
+  unused_.clear();
+  heap_.clear();
+  nodes_expanded_ = 0;
+  surround(start_polygons_, start);
+  surround(goal_polygons_, goal);
+}
+
+/// The polygons that hold the place: more than one if it lies on a link or a vertex.
+void AnyAngle::surround(std::vector<int>& polygons, const Mesh::Place& place) const {
+  polygons.assign(1, place.polygon);
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    for (const Link& link : mesh_->polygon(polygons[i]).links) {
+      const Point near =
+          nearest_on_segment(place.point, mesh_->at(link.right), mesh_->at(link.left));
+      if (distance(near, place.point) > kTouch) continue;
+      if (std::find(polygons.begin(), polygons.end(), link.to) == polygons.end())
+        polygons.push_back(link.to);
+    }
+  }
+}
+
+void AnyAngle::leave_start() {
+  reach(start_, -1, 0.0);
+  for (const int polygon : start_polygons_) {
+    for (const Link& link : mesh_->polygon(polygon).links) {
+      if (std::find(start_polygons_.begin(), start_polygons_.end(), link.to) !=
+          start_polygons_.end())
+        continue;
+      const Point c = mesh_->at(link.right);
+      const Point d = mesh_->at(link.left);
+      if (side(c - from_, extent(c - from_), d - from_, extent(d - from_)) <= 0) {
+        slip_into(link, start_, 0.0);
+        continue;
+      }
+      Node node{0.0, c - from_, d - from_, start_, link.to, link.right, link.left, true, true};
+      add(node, c, d);
+    }
+  }
+}
+
+void AnyAngle::expand(const Node& node) {
+  if (std::find(goal_polygons_.begin(), goal_polygons_.end(), node.polygon) !=
+      goal_polygons_.end()) {
+    see_goal(node);
+    return;
+  }
+  const Point root = at(node.root);
+  const double right_extent = extent(node.right);
+  const double left_extent = extent(node.left);
+  for (const Link& link : mesh_->polygon(node.polygon).links) {
+    if (link.right == node.link_left && link.left == node.link_right) continue;
+    const Point right = mesh_->at(link.right);
+    const Point left = mesh_->at(link.left);
+    const Point c = right - root;
+    const Point d = left - root;
+    const double c_extent = extent(c);
+    const double d_extent = extent(d);
+    // In a cone of 180 degrees both borders lie on one line.
+    if (link.left != node.root) {
+      const int inside = side(node.right, right_extent, d, d_extent);
+      if (inside < 0 || (inside == 0 && dot(node.right, d) > 0.0)) {
+        if (node.right_end) turn(node, link, true, true);
+        continue;
+      }
+    }
+    if (link.right != node.root) {
+      const int inside = side(node.left, left_extent, c, c_extent);
+      if (inside > 0 || (inside == 0 && dot(node.left, c) > 0.0)) {
+        if (node.left_end) turn(node, link, false, true);
+        continue;
+      }
+    }
+    const bool right_in =
+        link.right == node.root || side(node.right, right_extent, c, c_extent) >= 0;
+    const bool left_in = link.left == node.root || side(node.left, left_extent, d, d_extent) <= 0;
+    Node next = node;
+    next.polygon = link.to;
+    next.link_right = link.right;
+    next.link_left = link.left;
+    next.right_end = right_in && link.right != node.root;
+    next.left_end = left_in && link.left != node.root;
+    if (next.right_end) next.right = c;
+    if (next.left_end) next.left = d;
+    if (next.right_end && next.left_end && side(c, c_extent, d, d_extent) <= 0) {
+      slip_into(link, node.root, node.cost);
+      continue;
+    }
+    add(next, right, left);
+    if (!right_in && node.right_end) turn(node, link, true, false);
+    if (!left_in && node.left_end) turn(node, link, false, false);
+  }
+}
+
+/// Into a link that runs along the line of sight only a turn at its near end leads.
+void AnyAngle::slip_into(const Link& link, int root, double cost) {
+  const Point c = mesh_->at(link.right) - at(root);
+  const Point d = mesh_->at(link.left) - at(root);
+  const bool to_right = dot(c, c) < dot(d, d);
+  const int vertex = to_right ? link.right : link.left;
+  const Point ahead = to_right ? c : d;
+  if (!mesh_->vertices[static_cast<std::size_t>(vertex)].corner) return;
+  Node next{cost + norm(ahead),
+            to_right ? -1.0 * ahead : ahead,
+            to_right ? ahead : -1.0 * ahead,
+            vertex,
+            link.to,
+            link.right,
+            link.left,
+            false,
+            false};
+  if (reach(vertex, root, next.cost)) add(next, mesh_->at(link.right), mesh_->at(link.left));
+}
+
+/// Bends round an end of the link through which the polygon was entered, into `link`.
+/// \param whole  false: only the part of the link that the root does not see
+void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whole) {
+  const Point root = at(node.root);
+  int vertex = to_right ? node.link_right : node.link_left;
+  const int near = to_right ? link.right : link.left;
+  const int far = to_right ? link.left : link.right;
+  if (near != vertex && whole) {
+    const Point border = to_right ? node.right : node.left;
+    const Point ahead = at(near) - root;
+    if (side(border, extent(border), ahead, extent(ahead)) == 0) vertex = near;
+  }
+  if (!mesh_->vertices[static_cast<std::size_t>(vertex)].corner) return;
+  Point here = at(vertex);
+  Point ahead = here - root;
+  Node next;
+  next.cost = node.cost + norm(ahead);
+  if (!reach(vertex, node.root, next.cost)) return;
+  next.root = vertex;
+  next.polygon = link.to;
+  next.link_right = link.right;
+  next.link_left = link.left;
+  Point near_border = -1.0 * ahead;
+  Point far_border = ahead;
+  bool near_end = false;
+  bool far_end = false;
+  if (near != vertex) {
+    near_border = at(near) - here;
+    near_end = true;
+    const Point end = at(far) - here;
+    // A link in line with the vertex: another turn, at its near end, leads through.
+    if (side(near_border, extent(near_border), end, extent(end)) == 0) {
+      if (!mesh_->vertices[static_cast<std::size_t>(near)].corner) return;
+      ahead = near_border;
+      next.cost += norm(ahead);
+      if (!reach(near, vertex, next.cost)) return;
+      next.root = near;
+      near_border = -1.0 * ahead;
+      far_border = ahead;
+      near_end = false;
+      whole = false;
+      here = at(near);
+    }
+  }
+  if (whole) {
+    const Point end = at(far) - here;
+    const int beyond = side(ahead, extent(ahead), end, extent(end));
+    if (to_right ? beyond < 0 : beyond > 0) {
+      far_border = end;
+      far_end = true;
+    }
+  }
+  next.right = to_right ? near_border : far_border;
+  next.left = to_right ? far_border : near_border;
+  next.right_end = to_right ? near_end : far_end;
+  next.left_end = to_right ? far_end : near_end;
+  add(next, mesh_->at(link.right), mesh_->at(link.left));
+}
+
+void AnyAngle::see_goal(const Node& node) {
+  const Point root = at(node.root);
+  const Point ahead = to_ - root;
+  Node last = node;
+  last.polygon = -1;
+  const bool over_right = side(node.right, extent(node.right), ahead, extent(ahead)) < 0;
+  const bool over_left = side(node.left, extent(node.left), ahead, extent(ahead)) > 0;
+  if (!over_right && !over_left) {
+    push(last, node.cost + norm(ahead));
+    return;
+  }
+  if (over_right ? !node.right_end : !node.left_end) return;
+  last.root = over_right ? node.link_right : node.link_left;
+  const Point corner = at(last.root);
+  last.cost += distance(root, corner);
+  if (reach(last.root, node.root, last.cost)) push(last, last.cost + distance(corner, to_));
+}
+
+/// \returns false if the way to the vertex need not be followed
+bool AnyAngle::reach(int vertex, int parent, double cost) {
+  Reached& known = reached_[static_cast<std::size_t>(vertex)];
+  if (known.query != query_ || cost < known.cost * (1.0 - kTie)) {
+    known = {cost, parent, query_};
+    return true;
+  }
+  return known.parent == parent && cost <= known.cost * (1.0 + kTie);
+}
+
+void AnyAngle::add(const Node& node, const Point& link_right, const Point& link_left) {
+  // The goal is taken to lie beyond the link: the way there and its mirror image are as long.
+  const Point root = at(node.root);
+  const Point edge = link_left - link_right;
+  Point target = to_ - link_right;
+  const double inside = cross(edge, target);
+  if (inside > 0.0) {
+    const double k = 2.0 * inside / dot(edge, edge);
+    target = target + Point{k * edge.y, -k * edge.x};
+  }
+  target = target + (link_right - root);
+  double rest;
+  const auto through = [&](Point border) {  // where the border crosses the link, from the root
+    const double across = cross(border, edge);
+    const Point to_link = link_right - root;
+    if (std::abs(across) < 1e-9 * extent(border) * extent(edge)) return Point{0, 0};
+    return (cross(to_link, edge) / across) * border;
+  };
+  if (node.root == node.link_right || node.root == node.link_left) {
+    rest = norm(target);
+  } else if (cross(node.right, target) < 0.0) {
+    const Point x = node.right_end ? node.right : through(node.right);
+    rest = norm(x) + distance(x, target);
+  } else if (cross(node.left, target) > 0.0) {
+    const Point x = node.left_end ? node.left : through(node.left);
+    rest = norm(x) + distance(x, target);
+  } else {
+    rest = norm(target);
+  }
+  push(node, node.cost + rest);
+}
+
+void AnyAngle::push(const Node& node, double estimate) {
+  std::uint32_t slot;
+  if (unused_.empty()) {
+    slot = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(node);
+  } else {
+    slot = unused_.back();
+    unused_.pop_back();
+    nodes_[slot] = node;
+  }
+  const auto f = static_cast<std::uint64_t>(estimate * (1.0 / kQuantum));
+  const auto rest = static_cast<std::uint64_t>((1.0 - node.cost / std::max(estimate, 1e-12)) *
+                                               ((1 << kGBits) - 1));
+  heap_.push_back({(f << kGBits) | rest, slot});
+  std::size_t i = heap_.size() - 1;
+  const Entry entry = heap_[i];
+  while (i > 0) {
+    const std::size_t up = (i - 1) / 4;
+    if (heap_[up].key <= entry.key) break;
+    heap_[i] = heap_[up];
+    i = up;
+  }
+  heap_[i] = entry;
+}
+
+bool AnyAngle::pop(Node& node) {
+  if (heap_.empty()) return false;
+  node = nodes_[heap_[0].node];
+  unused_.push_back(heap_[0].node);
+  const Entry entry = heap_.back();
+  heap_.pop_back();
+  const std::size_t n = heap_.size();
+  if (n == 0) return true;
+  std::size_t i = 0;
+  for (;;) {
+    const std::size_t first = 4 * i + 1;
+    if (first >= n) break;
+    std::size_t least = first;
+    const std::size_t end = std::min(first + 4, n);
+    for (std::size_t k = first + 1; k < end; ++k)
+      if (heap_[k].key < heap_[least].key) least = k;
+    if (heap_[least].key >= entry.key) break;
+    heap_[i] = heap_[least];
+    i = least;
+  }
+  heap_[i] = entry;
+  return true;
+}
+
+void AnyAngle::trace(int root, Path& path) const {
+  path.push_back(to_);
+  for (; root >= 0; root = reached_[static_cast<std::size_t>(root)].parent) {
+    const Point next = at(root);
+    if (next == path.back()) continue;
+    if (path.size() > 1) {
+      const Point a = path[path.size() - 2] - path.back();
+      const Point b = next - path.back();
+      if (side(a, extent(a), b, extent(b)) == 0 && dot(a, b) < 0.0) path.pop_back();
+    }
+    path.push_back(next);
+  }
+  std::reverse(path.begin(), path.end());
+}
+
+}  // namespace navvi_nav
