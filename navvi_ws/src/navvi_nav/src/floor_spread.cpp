@@ -18,7 +18,7 @@ class Spread {
       : ground_(ground),
         columns_(columns),
         climbing_(climbing),
-        window_(std::max(2, climbing.step)),
+        window_(std::max(3, climbing.step)),
         height_(ground.size(), kUnknown) {}
 
   void flood() {
