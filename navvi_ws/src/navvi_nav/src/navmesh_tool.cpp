@@ -164,6 +164,11 @@ int run(const Options& options) {
   NavigatorConfig config;
   if (!options.config.empty())
     navvi_config::read(config, navvi_config::load_yaml(options.config), options.config);
+  std::ofstream file;
+  if (!options.picture.empty()) {
+    file.open(options.picture);
+    if (!file) throw UsageError(options.picture + ": the picture cannot be written");
+  }
   Stopwatch watch;
   const MapSurvey survey = survey_file(options.map, survey_config(config.planner.mesh));
   if (!survey.error.empty()) throw UsageError(survey.error);
@@ -195,7 +200,6 @@ int run(const Options& options) {
     }
   }
   if (!options.picture.empty()) {
-    std::ofstream file(options.picture);
     file << svg_of(picture);
     if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");
   }
