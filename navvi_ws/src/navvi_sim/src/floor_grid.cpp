@@ -11,7 +11,7 @@
 namespace navvi_sim {
 namespace {
 
-constexpr std::size_t kMaxCells = 25'000'000;
+constexpr std::size_t kMaxCells = 200'000'000;
 constexpr double kFar = 1e12;  // cells squared
 
 /// Squared distance transform of a row of samples (Felzenszwalb and Huttenlocher, 2012).
@@ -66,6 +66,8 @@ FloorGrid::FloorGrid(const octomap::OcTree& map, double floor_height, double rob
   height_ = static_cast<std::size_t>(cells_y);
   const double floor = std::round(floor_height / cell_size_) * cell_size_;
   mark(map, floor, robot_height);
+  const double excess = static_cast<double>(open_.size()) / static_cast<double>(kFineCells);
+  if (excess > 1.0) coarsen(static_cast<std::size_t>(std::ceil(std::sqrt(excess))));
   measure_clearance();
 }
 
@@ -93,6 +95,24 @@ void FloorGrid::mark(const octomap::OcTree& map, double floor, double headroom) 
   }
   for (std::size_t i = 0; i < open_.size(); ++i)
     if (blocked[i]) open_[i] = false;
+}
+
+void FloorGrid::coarsen(std::size_t factor) {
+  const std::size_t width = (width_ + factor - 1) / factor;
+  const std::size_t height = (height_ + factor - 1) / factor;
+  // What lies beyond the map is closed, and so are the cells that reach there.
+  std::vector<bool> open(width * height, false);
+  for (std::size_t y = 0; y < height_ / factor; ++y)
+    for (std::size_t x = 0; x < width_ / factor; ++x) {
+      bool all = true;
+      for (std::size_t i = 0; i < factor * factor && all; ++i)
+        all = open_[(y * factor + i / factor) * width_ + x * factor + i % factor];
+      open[y * width + x] = all;
+    }
+  open_ = std::move(open);
+  width_ = width;
+  height_ = height;
+  cell_size_ *= static_cast<double>(factor);
 }
 
 void FloorGrid::measure_clearance() {
@@ -170,6 +190,21 @@ FloorGrid::Ways FloorGrid::ways_from(std::size_t start, double least) const {
       }
   }
   return ways;
+}
+
+bool FloorGrid::sees(std::size_t from, std::size_t to, double least) const {
+  const Eigen::Vector2d start(static_cast<double>(from % width_),
+                              static_cast<double>(from / width_));
+  const Eigen::Vector2d end(static_cast<double>(to % width_), static_cast<double>(to / width_));
+  const Eigen::Vector2d way = end - start;
+  const auto steps = static_cast<int>(std::ceil(2.0 * way.cwiseAbs().maxCoeff()));
+  for (int i = 1; i < steps; ++i) {
+    const Eigen::Vector2d at = start + way * (static_cast<double>(i) / steps);
+    const std::size_t cell = static_cast<std::size_t>(std::lround(at.y())) * width_ +
+                             static_cast<std::size_t>(std::lround(at.x()));
+    if (clearance_[cell] < least) return false;
+  }
+  return true;
 }
 
 }  // namespace navvi_sim

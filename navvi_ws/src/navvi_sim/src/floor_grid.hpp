@@ -15,8 +15,12 @@ class FloorGrid {
  public:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
+  static constexpr std::size_t kFineCells = 2'000'000;
+
   /// \param floor_height  m; taken to the nearest border of voxels
   /// \param robot_height  m, headroom
+  /// Where the map has more than kFineCells voxels of ground, a cell is several voxels wide, and
+  /// open only where all of them are.
   FloorGrid(const octomap::OcTree& map, double floor_height, double robot_height);
 
   [[nodiscard]] std::size_t size() const { return clearance_.size(); }
@@ -36,8 +40,12 @@ class FloorGrid {
   };
   [[nodiscard]] Ways ways_from(std::size_t start, double least) const;
 
+  /// Whether the straight line between the centres of two cells keeps a clearance of `least`.
+  [[nodiscard]] bool sees(std::size_t from, std::size_t to, double least) const;
+
  private:
   void mark(const octomap::OcTree& map, double floor, double headroom);
+  void coarsen(std::size_t factor);
   void measure_clearance();
 
   double cell_size_;

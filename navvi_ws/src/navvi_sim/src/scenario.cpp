@@ -11,6 +11,10 @@ namespace navvi_sim {
 namespace {
 
 constexpr int kAttempts = 20;
+constexpr int kDraws = 50;            // of one end of a route, the other fixed, until its turns fit
+constexpr double kUsualRoute = 10.0;  // m
+constexpr double kLeg = 1.0;          // m, least length of a leg that counts for turns
+constexpr double kTurn = 30.0 * M_PI / 180.0;
 constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
 
 std::string text(double value) {
@@ -39,9 +43,15 @@ class Drawing {
                                     const std::optional<Eigen::Vector2d>& goal) {
     const std::size_t root = checked(start);
     const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
-    if (goal) return {start, *goal, reached(ways, *goal)};
-    const std::size_t end = draw(ways, free_, "goal");
-    return {start, grid_.centre(end), static_cast<double>(ways.length[end])};
+    if (goal) {
+      const std::size_t end = goal->allFinite() ? grid_.cell_at(*goal) : FloorGrid::kNone;
+      if (end == FloorGrid::kNone || !std::isfinite(ways.length[end]))
+        return {start, *goal, 0.0, {}};
+      return {start, *goal, length(ways, end), reversed(way_back(ways, end, passable(root)))};
+    }
+    const std::size_t end = draw(ways, free_, "goal", passable(root));
+    return {start, grid_.centre(end), length(ways, end),
+            reversed(way_back(ways, end, passable(root)))};
   }
 
   [[nodiscard]] Scenario with_goal(const Eigen::Vector2d& goal) {
@@ -50,29 +60,30 @@ class Drawing {
     if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
       // Navigation refuses such a goal; the start may then be anywhere.
       const Eigen::Vector2d place = grid_.centre(starts[random_.below(starts.size())]);
-      return {{place.x(), place.y(), 0.0}, goal, 0.0};
+      return {{place.x(), place.y(), 0.0}, goal, 0.0, {}};
     }
     const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
-    const std::size_t start = draw(ways, starts, "start");
-    return {looking_back(ways, start), goal, static_cast<double>(ways.length[start])};
+    const std::size_t start = draw(ways, starts, "start", passable(root));
+    return {looking_back(ways, start), goal, length(ways, start),
+            way_back(ways, start, passable(root))};
   }
 
   [[nodiscard]] Scenario with_nothing() {
     const std::vector<std::size_t> starts = free_of_movers();
-    Scenario best{{}, {}, -1.0};
-    for (int attempt = 0; attempt < kAttempts && best.route_length < config_.min_route; ++attempt) {
+    Scenario best{{}, {}, -1.0, {}};
+    const double enough = asks_for_route() ? 0.0 : kUsualRoute;
+    for (int attempt = 0; attempt < kAttempts && best.route_length < enough; ++attempt) {
       const std::size_t root = free_[random_.below(free_.size())];
       const FloorGrid::Ways ways = grid_.ways_from(root, clear());
-      const std::vector<std::size_t> ends = far_enough(ways, starts);
-      if (ends.empty()) continue;
-      const std::size_t start = ends[random_.below(ends.size())];
-      const auto length = static_cast<double>(ways.length[start]);
-      if (length > best.route_length)
-        best = {looking_back(ways, start), grid_.centre(root), length};
+      const std::size_t start = drawn(ways, starts, clear());
+      if (start == FloorGrid::kNone || length(ways, start) <= best.route_length) continue;
+      best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
+              way_back(ways, start, clear())};
     }
     if (best.route_length < 0.0)
       throw WorldError("world '" + world_.name +
-                       "' has no place for a start that is connected to one for a goal");
+                       "' has no place for a start that is connected to one for a goal" +
+                       asked_for());
     return best;
   }
 
@@ -114,29 +125,95 @@ class Drawing {
     return places.empty() ? free_ : places;
   }
 
-  /// Those of `places` at the end of a way long enough, which in a small world is 0.8 of the
-  /// longest.
-  [[nodiscard]] std::vector<std::size_t> far_enough(const FloorGrid::Ways& ways,
-                                                    const std::vector<std::size_t>& places) const {
+  [[nodiscard]] bool asks_for_turns() const {
+    return config_.min_turns > 0 || config_.max_turns < ScenarioConfig::kAnyTurns;
+  }
+  [[nodiscard]] bool asks_for_route() const {
+    return config_.min_route > 0.0 || config_.max_route > 0.0 || asks_for_turns();
+  }
+  [[nodiscard]] std::string asked_for() const {
+    if (!asks_for_route()) return "";
+    std::string words = " by a route of " + text(config_.min_route) + " m or more";
+    if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
+    if (asks_for_turns())
+      words += " with " + std::to_string(config_.min_turns) + " to " +
+               std::to_string(config_.max_turns) + " turns";
+    return words + " (the longest that was found has " + text(std::round(longest_)) +
+           " m, and routes had up to " + std::to_string(most_turns_) + " turns)";
+  }
+
+  [[nodiscard]] static double length(const FloorGrid::Ways& ways, std::size_t cell) {
+    return static_cast<double>(ways.length[cell]);
+  }
+
+  /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
+  /// is asked for, a small world has some at 0.8 of its longest way.
+  [[nodiscard]] std::vector<std::size_t> ends_of(const FloorGrid::Ways& ways,
+                                                 const std::vector<std::size_t>& places) {
     double longest = 0.0;
     for (const std::size_t place : places)
-      if (std::isfinite(ways.length[place]))
-        longest = std::max(longest, static_cast<double>(ways.length[place]));
-    const double least = std::min(config_.min_route, 0.8 * longest);
+      if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
+    longest_ = std::max(longest_, longest);
+    const double least =
+        asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
+    const double most = config_.max_route > 0.0 ? config_.max_route : longest;
     std::vector<std::size_t> ends;
     for (const std::size_t place : places)
-      if (std::isfinite(ways.length[place]) && static_cast<double>(ways.length[place]) >= least)
+      if (std::isfinite(ways.length[place]) && length(ways, place) >= least &&
+          length(ways, place) <= most)
         ends.push_back(place);
     return ends;
   }
 
+  /// One of `places` to which a way leads as asked for; kNone if none was found.
+  [[nodiscard]] std::size_t drawn(const FloorGrid::Ways& ways,
+                                  const std::vector<std::size_t>& places, double least) {
+    const std::vector<std::size_t> ends = ends_of(ways, places);
+    if (ends.empty()) return FloorGrid::kNone;
+    if (!asks_for_turns()) return ends[random_.below(ends.size())];
+    for (int i = 0; i < kDraws; ++i) {
+      const std::size_t end = ends[random_.below(ends.size())];
+      const int count = turns(way_back(ways, end, least));
+      most_turns_ = std::max(most_turns_, count);
+      if (count >= config_.min_turns && count <= config_.max_turns) return end;
+    }
+    return FloorGrid::kNone;
+  }
+
   [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways,
-                                 const std::vector<std::size_t>& places, const std::string& what) {
-    const std::vector<std::size_t> ends = far_enough(ways, places);
-    if (ends.empty())
+                                 const std::vector<std::size_t>& places, const std::string& what,
+                                 double least) {
+    const std::size_t end = drawn(ways, places, least);
+    if (end == FloorGrid::kNone)
       throw WorldError("world '" + world_.name + "' has no free place for a " + what +
-                       " that is connected to what was given");
-    return ends[random_.below(ends.size())];
+                       " that is connected to what was given" + asked_for());
+    return end;
+  }
+
+  /// From `cell` to where the ways begin, pulled taut: each line goes as far as it sees.
+  [[nodiscard]] std::vector<Eigen::Vector2d> way_back(const FloorGrid::Ways& ways, std::size_t cell,
+                                                      double least) const {
+    std::vector<std::size_t> cells;
+    for (; cell != FloorGrid::kNone; cell = ways.before[cell]) cells.push_back(cell);
+    std::vector<Eigen::Vector2d> way{grid_.centre(cells.front())};
+    for (std::size_t at = 0; at + 1 < cells.size();) {
+      std::size_t stride = 1;
+      std::size_t next = at + 1;  // the next cell of the way is always seen
+      while (next + stride < cells.size() && grid_.sees(cells[at], cells[next + stride], least)) {
+        next += stride;
+        stride *= 2;
+      }
+      for (; stride > 0; stride /= 2)
+        while (next + stride < cells.size() && grid_.sees(cells[at], cells[next + stride], least))
+          next += stride;
+      at = next;
+      way.push_back(grid_.centre(cells[at]));
+    }
+    return way;
+  }
+  [[nodiscard]] static std::vector<Eigen::Vector2d> reversed(std::vector<Eigen::Vector2d> way) {
+    std::reverse(way.begin(), way.end());
+    return way;
   }
 
   /// The pose in `cell` that looks along the way back to where the ways begin.
@@ -150,25 +227,54 @@ class Drawing {
     return {place.x(), place.y(), std::atan2(view.y(), view.x())};
   }
 
-  [[nodiscard]] double reached(const FloorGrid::Ways& ways, const Eigen::Vector2d& goal) const {
-    const std::size_t cell = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
-    if (cell == FloorGrid::kNone || !std::isfinite(ways.length[cell])) return 0.0;
-    return static_cast<double>(ways.length[cell]);
-  }
-
   const WorldDescription& world_;
   const ScenarioConfig& config_;
   FloorGrid grid_;
   Random random_;
   std::vector<std::size_t> free_;  ///< clear of everything that stands still
+  double longest_ = 0.0;           ///< m, of the ways seen so far
+  int most_turns_ = 0;             ///< of the ways seen so far
 };
 
 }  // namespace
+
+void ScenarioConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"min_route", Range{0.0, 10000.0}, "m",
+         "least length of the way from start to goal where one of them is drawn; 0: 10 where the "
+         "world permits"},
+        min_route);
+  visit({"max_route", Range{0.0, 10000.0}, "m", "its greatest length; 0: any"}, max_route);
+  visit({"min_turns", Range{0, kAnyTurns}, "", "least number of its turns, of 30 degrees or more"},
+        min_turns);
+  visit({"max_turns", Range{0, kAnyTurns}, "", "most of its turns; 100: any"}, max_turns);
+}
+
+int turns(const std::vector<Eigen::Vector2d>& polyline) {
+  int count = 0;
+  std::optional<double> course;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Eigen::Vector2d leg = polyline[i] - polyline[i - 1];
+    if (leg.norm() < kLeg) continue;
+    const double next = std::atan2(leg.y(), leg.x());
+    if (course && std::abs(std::remainder(next - *course, 2.0 * M_PI)) >= kTurn) ++count;
+    course = next;
+  }
+  return count;
+}
 
 Scenario draw_scenario(const WorldDescription& world, const octomap::OcTree& map,
                        const ScenarioConfig& config, std::uint64_t seed,
                        const std::optional<FloorPose>& start,
                        const std::optional<Eigen::Vector2d>& goal) {
+  if (config.max_route > 0.0 && config.max_route < config.min_route)
+    throw WorldError("max_route is " + text(config.max_route) +
+                     " m, less than min_route; allowed are " + text(config.min_route) +
+                     " m or more, or 0 for any");
+  if (config.max_turns < config.min_turns)
+    throw WorldError("max_turns is " + std::to_string(config.max_turns) +
+                     ", less than min_turns; allowed are " + std::to_string(config.min_turns) +
+                     " or more");
   Drawing drawing(world, map, config, seed);
   if (start) return drawing.with_start(*start, goal);
   if (goal) return drawing.with_goal(*goal);

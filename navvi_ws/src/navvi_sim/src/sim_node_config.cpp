@@ -50,7 +50,10 @@ std::string exact(const std::vector<double>& values) {
 void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::Range;
-  visit({"world", Any{}, "", "warehouse, or the path of a .yaml, .sdf or .world file"}, world);
+  visit({"world", Any{}, "",
+         "warehouse, training, easy, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
+         "file"},
+        world);
   visit({"models", Any{}, "",
          "folders for SDF's model://, separated by colons; those beside the world are always "
          "searched"},
@@ -71,6 +74,7 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
         detection_radius);
   life.describe(visit);
   warehouse.describe(visit);
+  visit.group("scenario", scenario);
   visit.group("octomap", octomap);
   visit.group("gate", gate);
 }
@@ -94,7 +98,7 @@ LoadedWorld load_world(const SimNodeConfig& config) {
 
 Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
                      const octomap::OcTree& map) {
-  ScenarioConfig drawing;
+  ScenarioConfig drawing = config.scenario;
   drawing.robot_radius = config.life.robot.radius;
   return draw_scenario(world, map, drawing, static_cast<std::uint64_t>(config.seed),
                        config.start_pose(), config.goal_point());

@@ -140,6 +140,7 @@ void validate(const WorldDescription& world) {
   std::unordered_set<std::string> names;
   MeshBudget budget;
   bool has_floor = false;
+  std::size_t shapes = 0;
   for (std::size_t i = 0; i < world.things.size(); ++i) {
     const Thing& thing = world.things[i];
     if (thing.name.empty())
@@ -147,6 +148,9 @@ void validate(const WorldDescription& world) {
                       "; each needs one of its own");
     if (!names.insert(thing.name).second)
       refuse(who, "has two things named '" + thing.name + "'; each needs a name of its own");
+    shapes += thing.shapes.size();
+    if (shapes > Limits::shapes)
+      refuse(who, "has more than " + std::to_string(Limits::shapes) + " shapes, the most allowed");
     check_thing(thing, budget);
     has_floor = has_floor || thing.thing_class == ThingClass::floor;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "furniture.hpp"
 #include "random.hpp"
 
 namespace navvi_sim {
@@ -13,18 +14,9 @@ namespace {
 // between columns cross aisles, and a wider lane runs round all of them along the walls.
 constexpr double kLength = 50.0;
 constexpr double kWidth = 30.0;
-constexpr double kWallHeight = 2.5;
-constexpr double kWallThickness = 0.2;
 constexpr std::array<double, 6> kRows{-10.0, -6.0, -2.0, 2.0, 6.0, 10.0};
 constexpr std::array<double, 4> kColumns{-16.5, -5.5, 5.5, 16.5};
-constexpr double kShelfLength = 8.0;
-constexpr double kShelfDepth = 1.0;
-constexpr double kShelfHeight = 2.2;
-constexpr double kDeckThickness = 0.05;
-constexpr double kBaseHeight = 0.15;
-constexpr std::array<double, 4> kDecks{kBaseHeight, 0.85, 1.55, kShelfHeight};  // their tops
-constexpr double kUpright = 0.08;
-constexpr double kBoxPlace = 1.0;  // along the shelf
+constexpr int kBays = 4;
 constexpr double kAisle = 3.0;
 constexpr double kPedestalHeight = 0.10;
 
@@ -35,31 +27,12 @@ Stretch stretch(std::size_t aisle, std::size_t column) {
   return {kColumns[column], (kRows[aisle] + kRows[aisle + 1]) / 2.0};
 }
 
-Eigen::Isometry3d at(double x, double y, double z, double yaw = 0.0) {
-  Eigen::Isometry3d pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
-
-Shape box(double x, double y, double z, double length, double width, double height) {
-  return {Box{{length, width, height}}, at(x, y, z)};
-}
-
-/// A box by the height it stands at.
-Shape box_on(double x, double y, double bottom, double length, double width, double height) {
-  return box(x, y, bottom + height / 2.0, length, width, height);
-}
-
-std::string numbered(const std::string& word, std::size_t number) {
-  return word + (number < 10 ? "_0" : "_") + std::to_string(number);
-}
-
 Thing floor() {
   const double margin = 2.0 * kWallThickness;
   return {"floor",
           ThingClass::floor,
           at(0.0, 0.0, 0.0),
-          {box(0.0, 0.0, -0.05, kLength + margin, kWidth + margin, 0.1)},
+          {box_on(0.0, 0.0, -0.1, kLength + margin, kWidth + margin, 0.1)},
           std::nullopt};
 }
 
@@ -80,48 +53,12 @@ void add_walls(std::vector<Thing>& things) {
   add("wall_west", -x, 0.0, kWallThickness, kWidth);
 }
 
-/// A rack: a base that goes down to the floor, three decks above it, and uprights in pairs.
-std::vector<Shape> rack() {
-  std::vector<Shape> shapes{
-      box_on(0.0, 0.0, 0.0, kShelfLength, kShelfDepth, kBaseHeight),
-  };
-  for (std::size_t deck = 1; deck < kDecks.size(); ++deck)
-    shapes.push_back(
-        box_on(0.0, 0.0, kDecks[deck] - kDeckThickness, kShelfLength, kShelfDepth, kDeckThickness));
-  const double y = (kShelfDepth - kUpright) / 2.0;
-  const double reach = (kShelfLength - kUpright) / 2.0;
-  for (int i = 0; i <= 4; ++i)
-    for (const double side : {-y, y})
-      shapes.push_back(
-          box_on(-reach + reach * i / 2.0, side, 0.0, kUpright, kUpright, kShelfHeight));
-  return shapes;
-}
-
-/// A rack and the boxes on it, which stay clear of the uprights and of each other. To who drives
-/// they are one shelf, so that it is felt and said once.
-std::vector<Shape> loaded_rack(Random& random, double fill) {
-  std::vector<Shape> shapes = rack();
-  for (std::size_t deck = 0; deck + 1 < kDecks.size(); ++deck) {
-    const double room = kDecks[deck + 1] - kDeckThickness - kDecks[deck];
-    for (int place = 0; place < static_cast<int>(kShelfLength / kBoxPlace); ++place) {
-      const double length = random.uniform(0.45, 0.75);
-      const double width = random.uniform(0.45, 0.70);
-      const double height = random.uniform(0.5, 0.85) * room;
-      const double x = -kShelfLength / 2.0 + kBoxPlace * (place + 0.5);
-      if (!random.chance(fill)) continue;
-      shapes.push_back(box_on(x, 0.0, kDecks[deck], length, width, height));
-      shapes.back().look = ThingClass::box;
-    }
-  }
-  return shapes;
-}
-
 void add_shelves(std::vector<Thing>& things, Random& random, double fill) {
   std::size_t number = 0;
   for (const double y : kRows) {
     for (const double x : kColumns) {
       things.push_back({numbered("shelf", ++number), ThingClass::shelf, at(x, y, 0.0),
-                        loaded_rack(random, fill), std::nullopt});
+                        loaded_rack(random, kBays, fill), std::nullopt});
     }
   }
 }
@@ -180,59 +117,23 @@ Route round(const std::vector<Eigen::Vector2d>& corners, double speed, double pa
   return route;
 }
 
-double heading(const Route& route) {
-  const Eigen::Vector2d way = route.waypoints[1].at - route.waypoints[0].at;
-  return std::atan2(way.y(), way.x());
-}
-
-Thing mover(std::string name, ThingClass thing_class, std::vector<Shape> shapes, Route route) {
-  const Eigen::Vector2d start = route.waypoints[0].at;
-  return {std::move(name), thing_class, at(start.x(), start.y(), 0.0, heading(route)),
-          std::move(shapes), std::move(route)};
-}
-
-/// 2.5 m long, forks ahead; the frame is in the middle.
-std::vector<Shape> forklift_shapes() {
-  return {
-      box_on(-0.45, 0.0, 0.05, 1.6, 1.0, 0.85),    // body
-      box_on(-0.75, 0.0, 0.90, 0.9, 0.9, 1.10),    // cabin
-      box_on(0.42, 0.0, 0.05, 0.14, 0.9, 2.05),    // mast
-      box_on(0.87, 0.28, 0.05, 0.76, 0.14, 0.08),  // forks
-      box_on(0.87, -0.28, 0.05, 0.76, 0.14, 0.08),
-  };
-}
-
-std::vector<Shape> pallet_robot_shapes() {
-  return {
-      box_on(0.0, 0.0, 0.03, 0.9, 0.7, 0.25), box_on(0.0, 0.0, 0.28, 0.8, 0.6, 0.12),  // pallet
-      box_on(-0.05, 0.0, 0.40, 0.6, 0.5, 0.5),                                         // load
-  };
-}
-
-std::vector<Shape> worker_shapes() {
-  return {
-      {Cylinder{0.24, 1.45}, at(0.0, 0.0, 0.725)},
-      {Sphere{0.15}, at(0.0, 0.0, 1.60)},
-  };
-}
-
 /// Forklifts circle the western and the eastern half along the walls and through a cross aisle;
 /// pallet robots circle in the middle. No two of their loops share ground.
 void add_vehicles(std::vector<Thing>& things, const WarehouseConfig& config) {
   const double y = 13.3;
   const double wall_x = 23.3;
   const double cross_x = 11.0;
-  things.push_back(mover("forklift_01", ThingClass::forklift, forklift_shapes(),
+  things.push_back(mover(1, forklift(),
                          round({{-wall_x, -y}, {-wall_x, y}, {-cross_x, y}, {-cross_x, -y}},
                                config.forklift_speed, 1.0)));
   things.push_back(mover(
-      "forklift_02", ThingClass::forklift, forklift_shapes(),
+      2, forklift(),
       round({{wall_x, y}, {wall_x, -y}, {cross_x, -y}, {cross_x, y}}, config.forklift_speed, 1.0)));
-  things.push_back(mover("pallet_robot_01", ThingClass::pallet_robot, pallet_robot_shapes(),
+  things.push_back(mover(1, pallet_robot(),
                          round({{0.8, -11.5}, {0.8, 11.5}, {-0.8, 11.5}, {-0.8, -11.5}},
                                config.pallet_robot_speed, 1.0)));
   things.push_back(mover(
-      "pallet_robot_02", ThingClass::pallet_robot, pallet_robot_shapes(),
+      2, pallet_robot(),
       round({{2.6, -0.8}, {8.6, -0.8}, {8.6, 0.8}, {2.6, 0.8}}, config.pallet_robot_speed, 2.0)));
 }
 
@@ -245,13 +146,12 @@ void add_workers(std::vector<Thing>& things, Random& random, const WarehouseConf
     const double from = places[i].x() - random.uniform(1.5, 3.3);
     const double to = places[i].x() + random.uniform(1.5, 3.3);
     const bool walks = config.workers == "walking" || (config.workers == "both" && i % 2 == 0);
-    const std::string name = numbered("worker", i + 1);
     const Route route = round({{from, y}, {to, y}}, config.worker_speed, 2.0);
     if (walks)
-      things.push_back(mover(name, ThingClass::worker, worker_shapes(), route));
+      things.push_back(mover(i + 1, worker(), route));
     else
-      things.push_back(
-          {name, ThingClass::worker, at((from + to) / 2.0, y, 0.0), worker_shapes(), std::nullopt});
+      things.push_back(standing(numbered("worker", i + 1), ThingClass::worker,
+                                at((from + to) / 2.0, y, 0.0), worker().shapes));
   }
 }
 
@@ -260,14 +160,19 @@ void add_workers(std::vector<Thing>& things, Random& random, const WarehouseConf
 void WarehouseConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit({"workers", navvi_config::OneOf{{"standing", "walking", "both"}}, "",
-         "whether the workers of the built-in warehouse stand, walk a route, or half of them each"},
+         "whether the workers of the warehouse stand, walk a route, or half of them each; standing "
+         "holds for layouts as well"},
         workers);
-  visit({"box_fill", Range{0.0, 1.0}, "", "share of shelf places that hold a box"}, box_fill);
-  visit({"forklift_speed", Range{0.05, 5.0}, "m/s", "speed of forklifts on their routes"},
+  visit({"box_fill", Range{0.0, 1.0}, "", "share of the warehouse's shelf places that hold a box"},
+        box_fill);
+  visit({"forklift_speed", Range{0.05, 5.0}, "m/s",
+         "speed of the warehouse's forklifts on their routes"},
         forklift_speed);
-  visit({"pallet_robot_speed", Range{0.05, 5.0}, "m/s", "speed of pallet robots on their routes"},
+  visit({"pallet_robot_speed", Range{0.05, 5.0}, "m/s",
+         "speed of the warehouse's pallet robots on their routes"},
         pallet_robot_speed);
-  visit({"worker_speed", Range{0.05, 5.0}, "m/s", "speed of workers who walk"}, worker_speed);
+  visit({"worker_speed", Range{0.05, 5.0}, "m/s", "speed of the warehouse's workers who walk"},
+        worker_speed);
 }
 
 WorldDescription warehouse(std::uint64_t seed, const WarehouseConfig& config) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "navvi_sim/layout_source.hpp"
 #include "navvi_sim/sdf_world.hpp"
 #include "navvi_sim/validate.hpp"
 #include "navvi_sim/yaml_world.hpp"
@@ -11,28 +12,54 @@
 namespace navvi_sim {
 namespace {
 
-constexpr const char* kAllowed =
-    "; allowed are 'warehouse' and files that end in .yaml, .yml, .sdf or .world";
+std::string allowed() {
+  std::string words = "; allowed are warehouse, ";
+  for (const Preset& known : presets()) words += known.name + ", ";
+  return words + "and files that end in .yaml, .yml, .sdf or .world";
+}
+
+enum class Kind { yaml, sdf };
+
+/// \throws WorldError if `spec` is no file that may hold a world
+Kind kind_of(const std::string& spec) {
+  std::string ending = std::filesystem::path(spec).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool is_yaml = ending == ".yaml" || ending == ".yml";
+  if (!is_yaml && ending != ".sdf" && ending != ".world")
+    throw WorldError("'" + spec + "' is no world" + allowed());
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(spec, error))
+    throw WorldError("the world file '" + spec + "' does not exist or is no file" + allowed());
+  return is_yaml ? Kind::yaml : Kind::sdf;
+}
+
+/// Those who walk stand where their routes begin.
+void stop_workers(WorldDescription& world) {
+  for (Thing& thing : world.things)
+    if (thing.thing_class == ThingClass::worker) thing.route.reset();
+}
 
 LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
                  const WarehouseConfig& config, const std::string& classes) {
   if (spec == "warehouse") return {warehouse(seed, config), {}};
-  const std::filesystem::path file(spec);
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool is_yaml = ending == ".yaml" || ending == ".yml";
-  const bool is_sdf = ending == ".sdf" || ending == ".world";
-  if (!is_yaml && !is_sdf) throw WorldError("'" + spec + "' is no world" + kAllowed);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw WorldError("the world file '" + spec + "' does not exist or is no file" + kAllowed);
-  if (is_yaml) return {read_yaml_world(file), {}};
-  return read_sdf_world(file, folders(models),
+  if (const auto source = layout_source(spec)) {
+    LoadedWorld loaded{source->build(seed), {}};
+    if (config.workers == "standing") stop_workers(loaded.world);
+    return loaded;
+  }
+  if (kind_of(spec) == Kind::yaml) return {read_yaml_world(spec), {}};
+  return read_sdf_world(spec, folders(models),
                         classes.empty() ? ClassRules::standard() : ClassRules::read(classes));
 }
 
 }  // namespace
+
+std::optional<LayoutSource> layout_source(const std::string& spec) {
+  if (const auto config = preset(spec)) return LayoutSource{spec, *config, spec, {}};
+  if (spec == "warehouse" || kind_of(spec) != Kind::yaml) return std::nullopt;
+  return read_layout(spec);
+}
 
 std::vector<std::filesystem::path> folders(const std::string& colon_separated) {
   std::vector<std::filesystem::path> result;

@@ -6,16 +6,19 @@
 #include <set>
 #include <sstream>
 
+#include "navvi_sim/validate.hpp"
+
 namespace navvi_sim {
 namespace {
 
+constexpr std::size_t kMostItems = 50'000;
 constexpr double kCoordinateLimit = 1e6;  // m or rad; worlds are held to less when validated
 
 class Reader {
  public:
   explicit Reader(std::filesystem::path file) : file_(std::move(file)) {}
 
-  [[nodiscard]] WorldDescription world(const YAML::Node& node) const {
+  [[nodiscard]] WorldDescription world(const YAML::Node& node) {
     check_keys(node, {"name", "floor_height", "things"}, "the world");
     WorldDescription world;
     world.name = text(required(node, "name"), "the name of the world");
@@ -24,6 +27,7 @@ class Reader {
     const YAML::Node things = required(node, "things");
     if (!things.IsSequence() || things.size() == 0)
       refuse(things, "things must be a list of one or more");
+    count(things, WorldLimits::things, "things");
     for (const YAML::Node& item : things) world.things.push_back(thing(item));
     return world;
   }
@@ -47,6 +51,20 @@ class Reader {
       if (!known) refuse(entry.first, what + " has the key '" + key + "'; allowed are: " + words);
       if (!seen.insert(key).second) refuse(entry.first, what + " has the key '" + key + "' twice");
     }
+  }
+
+  /// An alias costs a file few bytes and the world all that it stands for: what is too much is
+  /// refused before it is read.
+  void count(const YAML::Node& list, std::size_t most, const std::string& what) {
+    if (list.size() > most)
+      refuse(list, "there are " + std::to_string(list.size()) + " " + what +
+                       " in a list; allowed are " + std::to_string(most));
+    items_ += list.size();
+    if (items_ > kMostItems)
+      refuse(list,
+             "the lists of things, shapes and way-points, with what aliases repeat, come to "
+             "more than " +
+                 std::to_string(kMostItems) + " items, the most allowed");
   }
 
   [[nodiscard]] YAML::Node required(const YAML::Node& node, const std::string& key) const {
@@ -137,7 +155,7 @@ class Reader {
     return result;
   }
 
-  [[nodiscard]] Route route(const YAML::Node& node) const {
+  [[nodiscard]] Route route(const YAML::Node& node) {
     check_keys(node, {"waypoints", "speed", "pause", "loop", "delay", "yields"}, "a route");
     Route result;
     if (const YAML::Node speed = node["speed"]) result.speed = number(speed, "speed");
@@ -148,12 +166,13 @@ class Reader {
     const double usual_pause = pause ? number(pause, "pause") : 0.0;
     const YAML::Node waypoints = required(node, "waypoints");
     if (!waypoints.IsSequence()) refuse(waypoints, "waypoints must be a list of [x, y]");
+    count(waypoints, WorldLimits::waypoints, "way-points");
     for (const YAML::Node& item : waypoints)
       result.waypoints.push_back(waypoint(item, usual_pause));
     return result;
   }
 
-  [[nodiscard]] Thing thing(const YAML::Node& node) const {
+  [[nodiscard]] Thing thing(const YAML::Node& node) {
     check_keys(node, {"name", "class", "pose", "shapes", "route"}, "a thing");
     Thing result;
     result.name = text(required(node, "name"), "the name of a thing");
@@ -168,12 +187,14 @@ class Reader {
     const YAML::Node shapes = required(node, "shapes");
     if (!shapes.IsSequence() || shapes.size() == 0)
       refuse(shapes, "shapes must be a list of one or more");
+    count(shapes, WorldLimits::shapes_per_thing, "shapes");
     for (const YAML::Node& item : shapes) result.shapes.push_back(shape(item));
     if (const YAML::Node way = node["route"]) result.route = route(way);
     return result;
   }
 
   std::filesystem::path file_;
+  std::size_t items_ = 0;  ///< of all lists so far
 };
 
 }  // namespace

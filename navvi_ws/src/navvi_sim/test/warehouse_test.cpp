@@ -115,6 +115,11 @@ TEST(Warehouse, is_the_same_for_the_same_seed_and_another_for_another) {
   EXPECT_NE(world_hash(warehouse(5, {})), world_hash(warehouse(6, {})));
 }
 
+TEST(Warehouse, is_the_one_that_earlier_trials_were_recorded_in) {
+  EXPECT_EQ(world_hash(warehouse(1, {})), "1eb85fee3bbd0124");
+  EXPECT_EQ(world_hash(warehouse(123456789, {})), "01409d5bd09a06f2");
+}
+
 TEST(Warehouse, lets_workers_stand_or_walk_as_asked) {
   for (const auto& [word, walking] :
        std::map<std::string, int>{{"standing", 0}, {"walking", 6}, {"both", 3}}) {

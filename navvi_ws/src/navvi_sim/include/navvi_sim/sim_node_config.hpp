@@ -26,6 +26,7 @@ struct SimNodeConfig {
   double detection_radius = 5.0;  ///< m
   WorldConfig life;
   WarehouseConfig warehouse;
+  ScenarioConfig scenario;
   OccupancyConfig octomap;
   navvi_safety::CommandGateConfig gate;
 

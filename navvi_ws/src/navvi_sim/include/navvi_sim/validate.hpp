@@ -9,6 +9,7 @@ namespace navvi_sim {
 struct WorldLimits {
   static constexpr std::size_t things = 20'000;
   static constexpr std::size_t shapes_per_thing = 2'000;
+  static constexpr std::size_t shapes = 500'000;       ///< of all things together
   static constexpr std::size_t vertices = 5'000'000;   ///< of all meshes together
   static constexpr std::size_t triangles = 5'000'000;  ///< of all meshes together
   static constexpr std::size_t waypoints = 1'000;      ///< of one route

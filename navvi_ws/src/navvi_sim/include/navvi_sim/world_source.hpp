@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "navvi_sim/layout_source.hpp"
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world_description.hpp"
 #include "navvi_sim/world_error.hpp"
@@ -19,18 +21,24 @@ struct LoadedWorld {
   std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
 };
 
-/// Loads and validates the world that `spec` names: the built-in "warehouse", or a file by its
-/// ending, .yaml / .yml (yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is
-/// taken from the working directory.
+/// Loads and validates the world that `spec` names: the built-in "warehouse", a layout by the name
+/// of a preset (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
+/// yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is taken from the working
+/// directory.
 /// \param models  folders for model://, separated by colons; may be empty. The world's folder and
 ///                its `models` subfolder are always tried, after these.
-/// \param seed    of the built-in warehouse; files do not depend on it
+/// \param seed    of the built-in warehouse and of layouts; other files do not depend on it
+/// \param warehouse  its `workers`, if "standing", holds for layouts as well
 /// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
 ///                standard ones
 /// \throws WorldError naming the file or thing, what is wrong and what is allowed
 [[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
                                      std::uint64_t seed, const WarehouseConfig& warehouse,
                                      const std::string& classes = "");
+
+/// The layout that `spec` names, not built yet; nullopt if it names another kind of world.
+/// \throws WorldError as load_world does
+[[nodiscard]] std::optional<LayoutSource> layout_source(const std::string& spec);
 
 /// The folders of a colon separated list; empty items are left out.
 [[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& colon_separated);

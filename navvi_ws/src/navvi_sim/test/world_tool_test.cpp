@@ -1,0 +1,116 @@
+// `./navvi world`, run as a person runs it.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Answer {
+  int code;
+  std::string text;
+};
+
+class WorldTool : public testing::Test {
+ protected:
+  WorldTool() {
+    std::string pattern = (fs::temp_directory_path() / "navvi_tool_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~WorldTool() override { fs::remove_all(folder_); }
+
+  Answer run(const std::string& words) const {
+    const std::string command =
+        "cd " + folder_.string() + " && " + WORLD_TOOL + " " + words + " 2>&1";
+    Answer answer{-1, ""};
+    FILE* pipe = popen(command.c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
+      answer.text.append(buffer.data(), count);
+    answer.code = WEXITSTATUS(pclose(pipe));
+    return answer;
+  }
+  std::string content(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(WorldTool, lists_the_worlds_that_have_a_name) {
+  const Answer answer = run("list");
+  EXPECT_EQ(answer.code, 0);
+  for (const char* name : {"warehouse", "training", "easy", "busy", "narrow", "maze"})
+    EXPECT_NE(answer.text.find(name), std::string::npos) << name;
+}
+
+TEST_F(WorldTool, shows_a_world_as_a_picture_and_says_what_is_in_it) {
+  const Answer answer = run("show easy seed:=3 forklifts:=2 scenario/min_route:=20");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_NE(answer.text.find("2 forklift on routes"), std::string::npos) << answer.text;
+  EXPECT_NE(content("easy.svg").find("forklift (2, 2 moving)"), std::string::npos);
+  EXPECT_NE(content("easy.svg").find("seed 3"), std::string::npos);
+}
+
+TEST_F(WorldTool, writes_a_png_where_the_tool_for_it_is_there) {
+  if (std::system("command -v rsvg-convert >/dev/null") != 0) GTEST_SKIP() << "no rsvg-convert";
+  EXPECT_EQ(run("show training -o a.png").code, 0);
+  EXPECT_EQ(content("a.png").substr(1, 3), "PNG");
+}
+
+TEST_F(WorldTool, writes_a_world_as_sdf_that_it_can_show) {
+  const Answer answer = run("write easy a.sdf seed:=2");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_EQ(run("show a.sdf -o b.svg").code, 0);
+  EXPECT_NE(content("b.svg").find("shelf ("), std::string::npos);
+}
+
+TEST_F(WorldTool, refuses_what_is_wrong_in_a_sentence_and_writes_nothing) {
+  std::ofstream(folder_ / "bad.yaml") << "layout:\n  rows: 90\n";
+  for (const char* words : {"",
+                            "draw easy",
+                            "show",
+                            "show office",
+                            "show easy -o",
+                            "show easy -o a.gif",
+                            "show bad.yaml",
+                            "show easy seed",
+                            "show easy seed:=x",
+                            "show easy seed:=1 seed:=2",
+                            "show easy rows:=90",
+                            "show easy sede:=1",
+                            "show easy octomap:=1",
+                            "show easy octomap/resolution:=0",
+                            "show warehouse rows:=3",
+                            "show easy start:=0,0",
+                            "show easy scenario/min_route:=900",
+                            "write easy",
+                            "write easy a.txt",
+                            "write easy /nowhere/a.sdf",
+                            "list easy"}) {
+    const Answer answer = run(words);
+    EXPECT_EQ(answer.code, 2) << words << ": " << answer.text;
+    EXPECT_EQ(answer.text.rfind("navvi: ", 0), 0u) << words << ": " << answer.text;
+  }
+  EXPECT_NE(run("show bad.yaml").text.find("bad.yaml, line 2"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().filename(), "bad.yaml");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
