@@ -17,7 +17,8 @@ class BareBullet {
  public:
   enum class Settings {
     as_they_come,  ///< all bounds are renewed in each step, also of what stands still
-    as_ours,       ///< they are not, and bodies are filtered as in Physics
+    tuned,         ///< they are not, and things meet the robot only
+    sweep,         ///< likewise, and pairs are found by sweeping an axis, not by a tree
   };
 
   /// Boxes, cylinders and spheres only; floors have no body.
@@ -48,10 +49,10 @@ class BareBullet {
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
+  std::unique_ptr<btBroadphaseInterface> broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  btDiscreteDynamicsWorld world_{&dispatcher_, broadphase_.get(), &solver_, &configuration_};
   std::vector<Mover> movers_;
   btRigidBody* robot_ = nullptr;
 };

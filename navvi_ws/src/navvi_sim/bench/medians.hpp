@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ class Medians : public benchmark::ConsoleReporter {
       shown.push_back(run);
     }
     if (!shown.empty()) ConsoleReporter::ReportRuns(shown);
+  }
+
+  /// s; nothing if it was filtered out.
+  [[nodiscard]] std::optional<double> time(const std::string& name) const {
+    const auto found = times_.find(name);
+    return found == times_.end() ? std::nullopt : std::make_optional(found->second);
   }
 
   /// One line of the table: how many times the time of `plain` is the time of `ours`. Nothing if

@@ -1,33 +1,54 @@
-// A step of the built-in warehouse, alone and with all that a session makes of it, beside Bullet.
+// A step of a world, alone and with all that a session makes of it, beside Bullet on the same
+// bodies; the gaps to what is near; the memory a thing takes.
 
+#include <malloc.h>
 #include <ros/serialization.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
 
 #include "bare_bullet.hpp"
+#include "hall.hpp"
 #include "medians.hpp"
 #include "navvi_sim/scene.hpp"
 #include "navvi_sim/state_conversion.hpp"
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
+#include "navvi_sim/world_source.hpp"
 
 namespace {
 
 using namespace navvi_sim;
+using benchmark::RegisterBenchmark;
 
-// Round and round in the southern lane, between shelves and wall, where it meets nothing: both
-// robots then do the same.
-const FloorPose kStart{6.0, -12.8, 1.57};
-constexpr navvi_safety::Velocity kCommand{0.45, 0.3};
 constexpr double kDetectionRadius = 5.0;     // m
 constexpr std::uint64_t kProximityEach = 2;  // steps: 50 Hz
 constexpr std::uint64_t kObstaclesEach = 5;  // steps: 20 Hz
 constexpr int kWarmUp = 200;                 // steps, until all that moves is under way
+constexpr auto kUnit = benchmark::kMicrosecond;
 
-const WorldDescription& description() {
-  static const WorldDescription world = warehouse(1, {});
-  return world;
+/// A world, and a robot that goes round and round where it meets nothing: ours and Bullet's then do
+/// the same.
+struct Scenery {
+  WorldDescription world;
+  FloorPose start;
+  navvi_safety::Velocity command;
+};
+
+const Scenery& built_in() {
+  static const Scenery scenery{warehouse(1, {}), {6.0, -12.8, 1.57}, {0.45, 0.3}};
+  return scenery;
+}
+
+const Scenery& crowded(int cells, std::size_t shelves, std::size_t movers) {
+  static std::map<std::tuple<int, std::size_t, std::size_t>, Scenery> made;
+  Scenery& scenery = made[{cells, shelves, movers}];
+  if (scenery.world.things.empty())
+    scenery = {hall(cells, shelves, movers), {0.5, 4.5, 1.57}, {0.3, 0.6}};
+  return scenery;
 }
 
 /// Simulated seconds a second: how many times faster than life.
@@ -43,63 +64,146 @@ std::size_t bytes_of(const Message& message) {
 }
 
 /// Everything that sim_node publishes after a step, made and serialized but not sent.
-std::size_t state_bytes(const World& world, Scene& looks, std::uint64_t steps) {
+std::size_t state_bytes(const WorldDescription& description, const World& world, Scene& looks,
+                        std::uint64_t steps) {
   const Snapshot& now = world.now();
-  const double floor = description().floor_height;
+  const double floor = description.floor_height;
   const ros::Time stamp(now.time);
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
   std::size_t bytes = bytes_of(clock) + bytes_of(base_link_msg(now.robot, floor, stamp)) +
                       bytes_of(odometry_msg(now.robot, floor, stamp));
   for (const ContactEvent& contact : now.contacts)
-    bytes += bytes_of(contact_msg(description(), now.robot, contact, stamp));
+    bytes += bytes_of(contact_msg(description, now.robot, contact, stamp));
   if (steps % kProximityEach == 0)
-    bytes += bytes_of(proximity_msg(description(), now.robot, world.proximity(kDetectionRadius),
+    bytes += bytes_of(proximity_msg(description, now.robot, world.proximity(kDetectionRadius),
                                     kDetectionRadius, stamp));
   if (steps % kObstaclesEach == 0) {
-    bytes += bytes_of(obstacles_msg(description(), now, stamp));
+    bytes += bytes_of(obstacles_msg(description, now, stamp));
     bytes += bytes_of(looks.moving(now, stamp));
   }
   return bytes;
 }
 
-void run_world(benchmark::State& state, bool publishing) {
+void run_world(benchmark::State& state, const Scenery& scenery, bool publishing) {
   const WorldConfig config;
-  World world(description(), config, kStart, 1);
-  for (int i = 0; i < kWarmUp; ++i) (void)world.step(kCommand);
-  Scene looks(description(), config.robot);
+  World world(scenery.world, config, scenery.start, 1);
+  for (int i = 0; i < kWarmUp; ++i) (void)world.step(scenery.command);
+  Scene looks(scenery.world, config.robot);
   std::uint64_t steps = 0;
   std::size_t bytes = 0;
   for (auto _ : state) {
-    if (world.step(kCommand) != World::Status::running) state.SkipWithError("the world stopped");
-    if (publishing) bytes += state_bytes(world, looks, ++steps);
+    if (world.step(scenery.command) != World::Status::running)
+      state.SkipWithError("the world stopped");
+    if (publishing) bytes += state_bytes(scenery.world, world, looks, ++steps);
   }
   count_steps(state, config.step);
   if (publishing) state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
 }
 
-void run_bullet(benchmark::State& state, BareBullet::Settings settings) {
+void run_bullet(benchmark::State& state, const Scenery& scenery, BareBullet::Settings settings) {
   const WorldConfig config;
-  BareBullet bullet(description(), config.robot, kStart, settings);
-  for (int i = 0; i < kWarmUp; ++i) bullet.step(kCommand.linear, kCommand.angular, config.step);
-  for (auto _ : state) bullet.step(kCommand.linear, kCommand.angular, config.step);
+  BareBullet bullet(scenery.world, config.robot, scenery.start, settings);
+  const auto step = [&] {
+    bullet.step(scenery.command.linear, scenery.command.angular, config.step);
+  };
+  for (int i = 0; i < kWarmUp; ++i) step();
+  for (auto _ : state) step();
   count_steps(state, config.step);
+}
+
+void run_proximity(benchmark::State& state, const WorldDescription& description,
+                   const FloorPose& at) {
+  const World world(description, {}, at, 1);
+  std::size_t near = 0;
+  for (auto _ : state) near = world.proximity(kDetectionRadius).size();
+  state.counters["near"] = static_cast<double>(near);
+}
+
+/// kB of memory that a world of these takes, once made and stepped.
+double kilobytes_of(const WorldDescription& description, const FloorPose& start) {
+  const std::size_t before = mallinfo2().uordblks;
+  World world(description, {}, start, 1);
+  for (int i = 0; i < kWarmUp; ++i) (void)world.step({});
+  return static_cast<double>(mallinfo2().uordblks - before) / 1024.0;
+}
+
+void print_memory() {
+  std::puts("\nmemory of a world, kB a thing (a shelf of 18 boxes, or a mover)");
+  for (const int cells : {8, 16, 33}) {
+    const auto count = static_cast<std::size_t>(cells * cells);
+    const Scenery& empty = crowded(cells, 0, 0);
+    const Scenery& shelves = crowded(cells, count, 0);
+    const Scenery& both = crowded(cells, count, count);
+    const double of_none = kilobytes_of(empty.world, empty.start);
+    const double of_shelves = kilobytes_of(shelves.world, shelves.start);
+    const double of_both = kilobytes_of(both.world, both.start);
+    const auto things = static_cast<double>(count);
+    std::printf("%7.2f a shelf, %7.2f a mover, of %zu each\n", (of_shelves - of_none) / things,
+                (of_both - of_shelves) / things, count);
+  }
+}
+
+struct Row {
+  std::string name;
+  const Scenery& scenery;
+};
+
+void print_table(const Medians& medians, const std::vector<Row>& rows, double step) {
+  std::puts("\n                                   us a step        / bare Bullet      times life");
+  std::puts("scene                          Bullet   ours  +msgs   ours  +msgs     ours   +msgs");
+  for (const Row& row : rows) {
+    const auto bare = medians.time("Bullet, " + row.name);
+    const auto ours = medians.time("World::step, " + row.name);
+    const auto all = medians.time("and messages, " + row.name);
+    if (!bare || !ours || !all) continue;
+    std::printf("%-29s %7.1f%7.1f%7.1f%7.2f%7.2f%9.0f%8.0f\n", row.name.c_str(), 1e6 * *bare,
+                1e6 * *ours, 1e6 * *all, *ours / *bare, *all / *bare, step / *ours, step / *all);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using benchmark::RegisterBenchmark;
-  const std::string step = "World::step", session = "World::step and messages";
-  const std::string plain = "Bullet as it comes", lean = "Bullet set as ours";
-  const auto unit = benchmark::kMicrosecond;
-  RegisterBenchmark(step.c_str(), run_world, false)->Unit(unit);
-  RegisterBenchmark(session.c_str(), run_world, true)->Unit(unit);
-  RegisterBenchmark(plain.c_str(), run_bullet, BareBullet::Settings::as_they_come)->Unit(unit);
-  RegisterBenchmark(lean.c_str(), run_bullet, BareBullet::Settings::as_ours)->Unit(unit);
+  std::vector<Row> rows{{"built-in warehouse", built_in()}};
+  for (const std::size_t movers : {10, 50, 200, 1000})
+    rows.push_back(
+        {"500 shelves, " + std::to_string(movers) + " movers", crowded(33, 500, movers)});
+  rows.push_back({"300 x 300 m, 1000 movers", crowded(33, 33 * 33, 1000)});
+  for (const Row& row : rows) {
+    RegisterBenchmark(("World::step, " + row.name).c_str(), run_world, row.scenery, false)
+        ->Unit(kUnit);
+    RegisterBenchmark(("and messages, " + row.name).c_str(), run_world, row.scenery, true)
+        ->Unit(kUnit);
+    RegisterBenchmark(("Bullet, " + row.name).c_str(), run_bullet, row.scenery,
+                      BareBullet::Settings::tuned)
+        ->Unit(kUnit);
+  }
+  for (const auto& [name, settings] :
+       {std::pair("Bullet as it comes", BareBullet::Settings::as_they_come),
+        std::pair("Bullet with a sweep", BareBullet::Settings::sweep)})
+    RegisterBenchmark((std::string(name) + ", " + rows[0].name).c_str(), run_bullet, built_in(),
+                      settings)
+        ->Unit(kUnit);
+  for (const int cells : {6, 12, 24, 33}) {
+    const auto count = static_cast<std::size_t>(cells * cells);
+    const Scenery& scenery = crowded(cells, count, count);
+    RegisterBenchmark(("proximity among " + std::to_string(2 * count) + " things").c_str(),
+                      run_proximity, scenery.world, scenery.start)
+        ->Unit(kUnit);
+  }
+  RegisterBenchmark("proximity in the built-in warehouse", run_proximity, built_in().world,
+                    built_in().start)
+      ->Unit(kUnit);
+  const std::filesystem::path meshes = NAVVI_AWS_WORLD;
+  if (std::filesystem::exists(meshes)) {
+    static const WorldDescription aws = load_world(meshes.string(), "", 1, {}).world;
+    RegisterBenchmark("proximity among the meshes of AWS", run_proximity, aws,
+                      FloorPose{1.0, -9.0, 0.0})
+        ->Unit(kUnit);
+  }
   const Medians medians(argc, argv);
-  std::puts("\nours / bare Bullet, the same bodies at the same time step");
-  for (const std::string& ours : {step, session})
-    for (const std::string& bare : {plain, lean}) medians.ratio(ours, bare);
+  print_table(medians, rows, WorldConfig{}.step);
+  print_memory();
   return 0;
 }

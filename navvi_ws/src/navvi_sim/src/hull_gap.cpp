@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::max();
 constexpr double kUpright = 1.0 - 1e-12;  // of an axis's z
+constexpr double kNoNearer = 1e-7;        // m, not worth a search
 constexpr int kAlternations = 2000;
 constexpr int kSections = 44;  // of a golden section search, which shrinks by 0.62 each time
 
@@ -139,18 +140,35 @@ std::pair<double, double> least(Function value) {
   return best;
 }
 
-/// For a slice above or below the hull: the distance to a convex body is convex, so that a search
-/// within a search finds its least.
-Gap searched_gap(const Hull& hull, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                 const Eigen::Vector3d& c) {
-  const auto point = [&](double u, double v) -> Eigen::Vector3d {
-    return a + u * ((1.0 - v) * (b - a) + v * (c - a));
+/// To a triangle of which no point within the hull's heights is nearest: that point is on an edge,
+/// along which the distance is convex; or it is the foot, within the triangle, of the point of the
+/// hull's end that lies farthest towards the triangle's plane.
+Gap gap_to_slanted(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle, bool above) {
+  Gap best{kFar, Eigen::Vector3d::Zero()};
+  const auto take = [&](const Eigen::Vector3d& point) {
+    const double distance = hull.distance(point);
+    if (distance < best.gap) best = {distance, point};
   };
-  const auto best_along = [&](double u) {
-    return least([&](double v) { return hull.distance(point(u, v)); });
-  };
-  const auto [gap, u] = least([&](double at) { return best_along(at).first; });
-  return {gap, point(u, best_along(u).second)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& from = triangle[i];
+    const Eigen::Vector3d along = triangle[(i + 1) % 3] - from;
+    take(from +
+         least([&](double share) { return hull.distance(from + share * along); }).second * along);
+  }
+  const Eigen::Vector3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
+  const Eigen::Vector3d across = ab.cross(ac);
+  const double area = across.norm();
+  if (area < 1e-12) return best;
+  const Eigen::Vector3d normal = across / area;
+  Eigen::Vector3d end(hull.centre.x(), hull.centre.y(), above ? hull.top : hull.bottom);
+  const double side = normal.dot(end - triangle[0]) > 0.0 ? -1.0 : 1.0;
+  const double level = normal.head<2>().norm();
+  if (level > 1e-9) end.head<2>() += side * hull.radius / level * normal.head<2>();
+  const Eigen::Vector3d foot = end - normal.dot(end - triangle[0]) * normal;
+  const double u = normal.dot((foot - triangle[0]).cross(ac)) / area;
+  const double v = normal.dot(ab.cross(foot - triangle[0])) / area;
+  if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) take(foot);
+  return best;
 }
 
 }  // namespace
@@ -271,10 +289,9 @@ Gap gap_to(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle, dou
     if (part.count == 0) continue;
     const double height = above ? std::max(0.0, low - hull.top) : std::max(0.0, hull.bottom - high);
     const double aside = std::max(0.0, part.from_above(hull.centre).first - hull.radius);
-    if (std::hypot(aside, height) >= std::min(best.gap, limit)) continue;
-    const Gap found = searched_gap(hull, triangle[0], triangle[1], triangle[2]);
+    if (std::hypot(aside, height) >= std::min(best.gap, limit) - kNoNearer) continue;
+    const Gap found = gap_to_slanted(hull, triangle, above);
     if (found.gap < best.gap) best = found;
-    break;
   }
   return best;
 }

@@ -266,6 +266,28 @@ TEST(World, repeats_bit_for_bit_though_other_worlds_lived_between) {
   EXPECT_NE(first, history(8)) << "the seed draws the pauses";
 }
 
+TEST(World, is_the_same_to_the_robot_whatever_is_far_away) {
+  WorldDescription near = floor_only();
+  near.things.push_back(box_thing("wall", ThingClass::wall, {4.0, 0, 1}, {0.1, 6, 2}));
+  near.things.push_back(mover_thing({-4, 1}, {3, 1}, 1.0));
+  WorldDescription crowded = near;
+  for (int i = 0; i < 200; ++i)
+    crowded.things.push_back(box_thing("shelf " + std::to_string(i), ThingClass::shelf,
+                                       {i % 20 - 10.0, 90.0 + i / 20 * 2.0, 0.5}, {0.5, 0.7, 1.0}));
+  crowded.things.push_back(mover_thing({-9, -90}, {9, -90}, 1.0));
+  crowded.things.back().name = "far mover";
+  World one = make(near), other = make(crowded);
+  std::size_t contacts = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const navvi_safety::Velocity command{0.9, 0.1 * std::sin(0.004 * i)};
+    ASSERT_EQ(one.step(command), World::Status::running);
+    ASSERT_EQ(other.step(command), World::Status::running);
+    ASSERT_EQ(one.now().robot.position, other.now().robot.position) << i;
+    contacts += one.now().contacts.size();
+  }
+  EXPECT_GT(contacts, 0u);
+}
+
 TEST(World, refuses_a_command_that_is_no_number_and_lives_on) {
   World world = make(floor_only());
   const std::uint64_t before = world.state_hash();
