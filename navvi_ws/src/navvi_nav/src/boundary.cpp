@@ -25,6 +25,7 @@ double along(const Side& side, Point at) {
 
 void Matcher::clear() {
   entries_.clear();
+  keys_.clear();
   crossings_.clear();
 }
 
@@ -36,7 +37,6 @@ void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool 
   Entry entry;
   entry.ahead = leads_ahead(sides[k].line);
   entry.line = entry.ahead ? sides[k].line : sides[k].line.opposite();
-  entry.hash = hash_of(entry.line);
   entry.low_vertex = entry.ahead ? begin : end;
   entry.high_vertex = entry.ahead ? end : begin;
   const Side canonical{entry.line, 0, 0};
@@ -45,18 +45,19 @@ void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool 
   entry.polygon = polygon;
   entry.side = number;
   entry.fresh = fresh;
+  keys_.push_back({hash_of(entry.line), entry.low, entries_.size()});
   entries_.push_back(entry);
 }
 
 const std::vector<Crossing>& Matcher::match() {
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.hash != b.hash ? a.hash < b.hash : a.low < b.low;
+  std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
+    return a.line != b.line ? a.line < b.line : a.low < b.low;
   });
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const Entry& a = entries_[i];
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    const Entry& a = entries_[keys_[i].entry];
     for (std::size_t j = i + 1;
-         j < entries_.size() && entries_[j].hash == a.hash && entries_[j].low < a.high; ++j) {
-      const Entry& b = entries_[j];
+         j < keys_.size() && keys_[j].line == keys_[i].line && keys_[j].low < a.high; ++j) {
+      const Entry& b = entries_[keys_[j].entry];
       if (a.ahead != b.ahead && (a.fresh || b.fresh) && a.line == b.line) cross_over(a, b);
     }
   }
@@ -75,8 +76,10 @@ void Matcher::cross_over(const Entry& a, const Entry& b) {
       {back.polygon, back.side, -std::min(a.high, b.high), {ahead.polygon, high, low}});
 }
 
-void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
-           const Crossing* last) {
+void bound(Polygon& polygon, const std::vector<Side>& sides,
+           const std::vector<Crossing>& crossings) {
+  const Crossing* first = crossings.data();
+  const Crossing* const last = first + crossings.size();
   polygon.corners.clear();
   polygon.links.clear();
   for (std::size_t k = 0; k < sides.size(); ++k) {

@@ -26,10 +26,12 @@ bool same_hole(const Cylinder& a, const Cylinder& b) {
 
 }  // namespace
 
-int Carving::carve(CutMesh& mesh, std::vector<Cylinder> cylinders, const CarvingRules& rules) {
-  next_ = std::move(cylinders);
-  std::stable_sort(next_.begin(), next_.end(),
-                   [](const Cylinder& a, const Cylinder& b) { return a.id < b.id; });
+int Carving::carve(CutMesh& mesh, const std::vector<Cylinder>& cylinders,
+                   const CarvingRules& rules) {
+  const auto by_id = [](const Cylinder& a, const Cylinder& b) { return a.id < b.id; };
+  next_ = cylinders;
+  if (!std::is_sorted(next_.begin(), next_.end(), by_id))
+    std::stable_sort(next_.begin(), next_.end(), by_id);
   pair_up();
   bool any = false;
   for (const Pair& pair : pairs_) {

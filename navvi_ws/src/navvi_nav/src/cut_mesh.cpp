@@ -20,6 +20,18 @@ double angle_at(Point before, Point corner, Point after) {
   return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
 }
 
+int root(std::vector<int>& forest, int node) {
+  while (forest[slot(node)] != node) {
+    forest[slot(node)] = forest[slot(forest[slot(node)])];
+    node = forest[slot(node)];
+  }
+  return node;
+}
+
+void unite(std::vector<int>& forest, int a, int b) {
+  forest[slot(root(forest, a))] = root(forest, b);
+}
+
 void widen(Point& low, Point& high, Point at) {
   low = {std::min(low.x, at.x), std::min(low.y, at.y)};
   high = {std::max(high.x, at.x), std::max(high.y, at.y)};
@@ -67,7 +79,7 @@ CutMesh::CutMesh(const std::vector<GridPolygon>& floor, double unit) : unit_(uni
   pinches_.split(mesh_, pool_, changed_);
   pinches_.keep_all();
   own_vertices_ = pool_.in_use();
-  number_parts(mesh_);
+  next_part_ = number_parts(mesh_);
 }
 
 /// Which vertices are corners without holes: holes can add their own corners to these, no others.
@@ -118,7 +130,7 @@ int CutMesh::add(Point center, double radius, int sides) {
   Opening& opening = openings_[slot(number)];
   opening.center = (steps_ / unit_) * center;
   opening.radius = steps_ / unit_ * radius;
-  opening.hole = hole_about(opening.center, opening.radius, sides);
+  opening.hole.place(opening.center, opening.radius, sides);
   const ExactPolygon& shape = opening.hole.shape;
   if (shape.edges.empty()) return number;
   ground_grid_.visit((unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high, [&](int ground) {
@@ -159,7 +171,6 @@ int CutMesh::update() {
   recut();
   pinches_.split(mesh_, pool_, changed_);
   shrink();
-  number_parts(mesh_);
   return count;
 }
 
@@ -171,6 +182,7 @@ void CutMesh::recut() {
   for (const int ground : borders_) keep_links(ground);
   for (const int ground : touched_) cut(ground);
   link();
+  if (!keep_parts()) next_part_ = number_parts(mesh_);
   for (const int ground : touched_) marks_[slot(ground)] = kNone;
   for (const int ground : borders_) marks_[slot(ground)] = kNone;
   touched_.clear();
@@ -296,23 +308,86 @@ void CutMesh::add_piece(int ground, const ExactPolygon& shape) {
 void CutMesh::link() {
   const std::vector<Crossing>& fresh = matcher_.match();
   crossings_.insert(crossings_.end(), fresh.begin(), fresh.end());
-  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
-    return std::tie(a.polygon, a.side, a.along) < std::tie(b.polygon, b.side, b.along);
-  });
   std::sort(changed_.begin(), changed_.end());
-  const Crossing* first = crossings_.data();
-  const Crossing* const end = first + crossings_.size();
-  for (const int index : changed_) {
-    const Crossing* last = first;
-    while (last != end && last->polygon == index) ++last;
-    Piece& piece = pieces_[slot(index)];
-    piece.link_sides.clear();
-    for (const Crossing* crossing = first; crossing != last; ++crossing)
-      piece.link_sides.push_back(crossing->side);
-    bound(mesh_.polygons[slot(index)], piece.sides, first, last);
-    pinches_.learn(pool_, mesh_.polygons[slot(index)]);
-    first = last;
+  first_crossing_.resize(pieces_.size(), -1);
+  next_crossing_.resize(crossings_.size());
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    int& first = first_crossing_[slot(crossings_[i].polygon)];
+    next_crossing_[i] = std::exchange(first, static_cast<int>(i));
   }
+  for (const int index : changed_) {
+    Piece& piece = pieces_[slot(index)];
+    around_.clear();
+    for (int i = std::exchange(first_crossing_[slot(index)], -1); i >= 0;
+         i = next_crossing_[slot(i)])
+      around_.push_back(crossings_[slot(i)]);
+    std::sort(around_.begin(), around_.end(), [](const Crossing& a, const Crossing& b) {
+      return a.side != b.side ? a.side < b.side : a.along < b.along;
+    });
+    piece.link_sides.clear();
+    for (const Crossing& crossing : around_) piece.link_sides.push_back(crossing.side);
+    bound(mesh_.polygons[slot(index)], piece.sides, around_);
+    pinches_.learn(pool_, mesh_.polygons[slot(index)]);
+  }
+}
+
+/// Parts as before where it can be told from what changed alone that none was split or joined:
+/// around each cluster of touched grounds, the pieces of a part are still joined by what is new.
+/// \returns false if all must be numbered again
+bool CutMesh::keep_parts() {
+  if (next_part_ == 0 || 3 * changed_.size() > pieces_.size()) return false;
+  groups_.resize(pieces_.size(), -1);
+  clusters_.resize(grounds_.size(), -1);
+  for (const int index : changed_) groups_[slot(index)] = index;
+  for (const int index : changed_) {
+    for (const Link& link : mesh_.polygon(index).links) {
+      if (groups_[slot(link.to)] >= 0) unite(groups_, index, link.to);
+    }
+  }
+  for (const int ground : touched_) clusters_[slot(ground)] = ground;
+  for (const int ground : borders_) clusters_[slot(ground)] = ground;
+  for (const int ground : touched_) {
+    for (const Ground::Neighbour& next : grounds_[slot(ground)].neighbours)
+      unite(clusters_, ground, next.ground);
+  }
+  const bool kept = label_pieces();
+  for (const int index : changed_) groups_[slot(index)] = -1;
+  for (const int ground : touched_) clusters_[slot(ground)] = -1;
+  for (const int ground : borders_) clusters_[slot(ground)] = -1;
+  return kept;
+}
+
+bool CutMesh::label_pieces() {
+  const auto is_fresh = [this](int index) {
+    return marks_[slot(pieces_[slot(index)].ground)] == kTouched;
+  };
+  witnesses_.clear();
+  for (const int index : changed_) {
+    if (is_fresh(index)) continue;
+    witnesses_.push_back({root(clusters_, pieces_[slot(index)].ground), mesh_.polygon(index).part,
+                          root(groups_, index)});
+  }
+  std::sort(witnesses_.begin(), witnesses_.end(), [](const Witness& a, const Witness& b) {
+    return a.cluster != b.cluster ? a.cluster < b.cluster : a.part < b.part;
+  });
+  labels_.resize(pieces_.size());
+  for (const int index : changed_) labels_[slot(index)] = -1;
+  for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+    const Witness& here = witnesses_[i];
+    if (i > 0 && witnesses_[i - 1].cluster == here.cluster && witnesses_[i - 1].part == here.part &&
+        witnesses_[i - 1].group != here.group)
+      return false;  // perhaps split
+    int& label = labels_[slot(here.group)];
+    if (label >= 0 && label != here.part) return false;  // joined
+    label = here.part;
+  }
+  for (const int index : changed_) {
+    if (!is_fresh(index)) continue;
+    int& label = labels_[slot(root(groups_, index))];
+    if (label < 0) label = next_part_++;
+    mesh_.polygons[slot(index)].part = label;
+  }
+  return true;
 }
 
 /// Without holes the mesh is as it was at first.
@@ -322,7 +397,9 @@ void CutMesh::shrink() {
     mesh_.polygons.resize(grounds_.size());
     free_pieces_.clear();
   }
-  if (pool_.in_use() == own_vertices_) pool_.shrink(mesh_.vertices, own_vertices_);
+  if (pool_.in_use() != own_vertices_) return;
+  pool_.shrink(mesh_.vertices, own_vertices_);
+  next_part_ = number_parts(mesh_);
 }
 
 Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {

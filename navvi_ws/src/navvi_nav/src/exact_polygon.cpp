@@ -105,47 +105,71 @@ ExactPolygon exact_polygon(const std::vector<Step>& corners) {
   return out;
 }
 
-Hole hole_about(Point center, double radius, int sides) {
-  Hole out;
+void Hole::place(Point center, double radius, int sides) {
   const auto far = static_cast<double>(kFarthestStep);
   const double reach = radius + kSlack;
-  if (!(std::abs(center.x) + reach < far && std::abs(center.y) + reach < far)) {
-    const bool touches = std::abs(center.x) - reach < far && std::abs(center.y) - reach < far;
-    if (!touches) return out;
+  const double nearest = std::max(std::abs(center.x), std::abs(center.y)) - reach;
+  const bool inside = nearest + 2 * reach < far;
+  if (!inside || 2.0 * reach >= static_cast<double>(kLongestEdge)) {
+    sides_ = 0;
+    shape.edges.clear();
+    order.clear();
+    if (nearest < far) build_square(center, reach);
+    return;
   }
+  const Step middle{std::llround(center.x), std::llround(center.y)};
+  if (sides != sides_ || radius != radius_) build({0, 0}, reach, sides);
+  const std::int64_t dx = middle.x - middle_.x;
+  const std::int64_t dy = middle.y - middle_.y;
+  for (ExactPolygon::Edge& edge : shape.edges) {
+    edge.line.c -= edge.line.a * dx + edge.line.b * dy;
+    edge.begin.x += dx;
+    edge.begin.y += dy;
+  }
+  measure(shape);
+  middle_ = middle;
+  radius_ = radius;
+  sides_ = sides;
+}
+
+void Hole::build(Step middle, double reach, int sides) {
+  const double outer = reach / std::cos(M_PI / sides);
   std::vector<Step> corners;
-  int count = sides;
-  if (2.0 * reach >= static_cast<double>(kLongestEdge)) {
-    count = 4;
-    const auto bounded = [far](double value) {
-      return static_cast<std::int64_t>(std::clamp(value, -far, far));
-    };
-    const std::int64_t x0 = bounded(center.x - reach), x1 = bounded(center.x + reach);
-    const std::int64_t y0 = bounded(center.y - reach), y1 = bounded(center.y + reach);
-    corners = {{x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}};
-  } else {
-    const Step middle{std::llround(center.x), std::llround(center.y)};
-    const double outer = reach / std::cos(M_PI / count);
-    for (int k = 0; k < count; ++k) {
-      const double angle = (2 * k - 1) * M_PI / count;
-      corners.push_back({middle.x + std::llround(outer * std::cos(angle)),
-                         middle.y + std::llround(outer * std::sin(angle))});
-    }
+  for (int k = 0; k < sides; ++k) {
+    const double angle = (2 * k - 1) * M_PI / sides;
+    corners.push_back({middle.x + std::llround(outer * std::cos(angle)),
+                       middle.y + std::llround(outer * std::sin(angle))});
   }
-  out.shape = exact_polygon(corners);
-  // Edge k faces 2 pi k / count. The four along the axes come first, then those between, the ones
-  // in the middle of a quarter before those at its ends.
+  shape = exact_polygon(corners);
+  middle_ = middle;
+  find_order(sides);
+}
+
+void Hole::build_square(Point center, double reach) {
+  const auto bounded = [](double value) {
+    const auto far = static_cast<double>(kFarthestStep);
+    return static_cast<std::int64_t>(std::clamp(value, -far, far));
+  };
+  const std::int64_t x0 = bounded(center.x - reach), x1 = bounded(center.x + reach);
+  const std::int64_t y0 = bounded(center.y - reach), y1 = bounded(center.y + reach);
+  shape = exact_polygon({{x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}});
+  find_order(4);
+}
+
+/// Edge k faces 2 pi k / sides. The four along the axes come first, then those between, the ones in
+/// the middle of a quarter before those at its ends.
+void Hole::find_order(int sides) {
   std::vector<double> late;
-  for (std::size_t k = 0; k < out.shape.edges.size(); ++k) {
-    const double quarter = 4.0 * out.shape.edges[k].number / count;
+  order.clear();
+  for (std::size_t k = 0; k < shape.edges.size(); ++k) {
+    const double quarter = 4.0 * shape.edges[k].number / sides;
     const double aside = std::abs(quarter - std::round(quarter));
-    late.push_back(aside < 2.0 / count * (1.0 - 1e-9) ? 0.0 : 1.0 - aside);
-    out.order.push_back(static_cast<int>(k));
+    late.push_back(aside < 2.0 / sides * (1.0 - 1e-9) ? 0.0 : 1.0 - aside);
+    order.push_back(static_cast<int>(k));
   }
-  std::stable_sort(out.order.begin(), out.order.end(), [&late](int i, int j) {
+  std::stable_sort(order.begin(), order.end(), [&late](int i, int j) {
     return late[static_cast<std::size_t>(i)] < late[static_cast<std::size_t>(j)];
   });
-  return out;
 }
 
 bool overlap(const ExactPolygon& a, const ExactPolygon& b) {

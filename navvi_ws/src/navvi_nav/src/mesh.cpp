@@ -73,7 +73,7 @@ std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optiona
   return best;
 }
 
-void number_parts(Mesh& mesh) {
+int number_parts(Mesh& mesh) {
   std::vector<int> waiting;
   int count = 0;
   for (Polygon& polygon : mesh.polygons) polygon.part = -1;
@@ -93,6 +93,7 @@ void number_parts(Mesh& mesh) {
     }
     ++count;
   }
+  return count;
 }
 
 }  // namespace navvi_nav

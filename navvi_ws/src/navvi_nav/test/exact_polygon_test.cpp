@@ -62,6 +62,12 @@ ExactPolygon box(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t
   return exact_polygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
 }
 
+Hole hole_about(Point center, double radius, int sides) {
+  Hole out;
+  out.place(center, radius, sides);
+  return out;
+}
+
 Hole hole_of(const std::vector<Step>& corners) {
   Hole out;
   out.shape = exact_polygon(corners);
@@ -149,6 +155,22 @@ TEST(Hole, keeps_the_radius_and_loses_little) {
         EXPECT_GE(gap, radius);
         EXPECT_LE(gap, radius + 3.0);
         EXPECT_LE(distance(center, corners[i]), (radius + 4.0) / std::cos(M_PI / sides));
+      }
+    }
+  }
+}
+
+TEST(Hole, is_the_same_wherever_it_was_before) {
+  Hole moved;
+  for (const Point center : {Point{0.4, 0.6}, {-12345.6, 99999.4}, {1e12, 0}, {7.5, -7.5}}) {
+    for (const double radius : {5000.0, 5000.0, 1e9, 7000.0}) {
+      moved.place(center, radius, 12);
+      const Hole fresh = hole_about(center, radius, 12);
+      ASSERT_EQ(moved.shape.edges.size(), fresh.shape.edges.size());
+      EXPECT_EQ(moved.order, fresh.order);
+      for (std::size_t k = 0; k < fresh.shape.edges.size(); ++k) {
+        EXPECT_TRUE(moved.shape.edges[k].line == fresh.shape.edges[k].line);
+        EXPECT_TRUE(place_of(moved.shape.edges[k].begin) == place_of(fresh.shape.edges[k].begin));
       }
     }
   }

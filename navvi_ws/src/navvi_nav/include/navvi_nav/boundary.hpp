@@ -35,8 +35,7 @@ class Matcher {
 
  private:
   struct Entry {
-    std::uint64_t hash = 0;  // of the line
-    double low = 0.0;        // m, along the line
+    double low = 0.0;  // m, along the line
     double high = 0.0;
     HalfPlane line;  // the same from both sides
     int low_vertex = 0;
@@ -46,9 +45,15 @@ class Matcher {
     bool ahead = true;  // the polygon is on the left of the line
     bool fresh = false;
   };
+  struct Key {
+    std::uint64_t line = 0;  // hashed
+    double low = 0.0;
+    std::size_t entry = 0;
+  };
   void cross_over(const Entry& a, const Entry& b);
 
   std::vector<Entry> entries_;
+  std::vector<Key> keys_;
   std::vector<Crossing> crossings_;
 };
 
@@ -56,8 +61,8 @@ class Matcher {
 [[nodiscard]] double along(const Side& side, Point at);
 
 /// Gives the polygon its corners and links.
-/// \param first, last  its links, in order of side and place
-void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
-           const Crossing* last);
+/// \param crossings  its links, in order of side and place
+void bound(Polygon& polygon, const std::vector<Side>& sides,
+           const std::vector<Crossing>& crossings);
 
 }  // namespace navvi_nav

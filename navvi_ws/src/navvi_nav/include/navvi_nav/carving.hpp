@@ -19,7 +19,7 @@ struct CarvingRules {
 class Carving {
  public:
   /// Makes the holes those of `cylinders`. \returns polygons of the floor that were cut anew
-  int carve(CutMesh& mesh, std::vector<Cylinder> cylinders, const CarvingRules& rules);
+  int carve(CutMesh& mesh, const std::vector<Cylinder>& cylinders, const CarvingRules& rules);
   /// Makes the same holes in a new mesh.
   void repeat(CutMesh& mesh, const CarvingRules& rules);
   /// As carved, by id.

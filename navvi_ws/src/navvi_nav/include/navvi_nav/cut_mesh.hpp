@@ -24,7 +24,8 @@ class CutMesh {
   CutMesh(const std::vector<GridPolygon>& floor, double unit);
 
   /// Changes what the next update() makes of the mesh.
-  /// \param center, radius  m \param sides  as hole_about() \returns a number for remove()
+  /// \param center, radius  m \param sides  of the hole, as Hole::place() \returns a number for
+  /// remove()
   int add(Point center, double radius, int sides);
   void remove(int hole);
   /// \returns polygons of the floor that were cut anew
@@ -72,6 +73,8 @@ class CutMesh {
   void recut();
   void link();
   void mark_corners();
+  [[nodiscard]] bool keep_parts();
+  [[nodiscard]] bool label_pieces();
   void shrink();
 
   double unit_ = 1.0;   // m
@@ -86,6 +89,7 @@ class CutMesh {
   VertexPool pool_;
   Pinches pinches_;
   std::size_t own_vertices_ = 0;  // of the floor
+  int next_part_ = 0;
   BoxGrid ground_grid_;
 
   // Kept for their memory, and valid during one update only.
@@ -97,6 +101,19 @@ class CutMesh {
   std::vector<int> near_edges_;
   std::vector<const Hole*> holes_;
   std::vector<Crossing> crossings_;
+  std::vector<int> first_crossing_;  // of each polygon of the mesh; -1: none
+  std::vector<int> next_crossing_;   // of the same polygon
+  std::vector<Crossing> around_;     // one polygon
+  /// A piece beside the touched grounds, that kept its part.
+  struct Witness {
+    int cluster = 0;  // of touched grounds and their neighbours
+    int part = 0;
+    int group = 0;  // of changed pieces that links among them join
+  };
+  std::vector<Witness> witnesses_;
+  std::vector<int> groups_;    // of pieces, as a forest; -1: not changed
+  std::vector<int> clusters_;  // of grounds, as a forest; -1: neither touched nor a neighbour
+  std::vector<int> labels_;    // part of each group
   Matcher matcher_;
   Cutter cutter_;
 };

@@ -71,19 +71,28 @@ struct ExactPolygon {
 ///                 the number of the last corner where it may be said to begin.
 [[nodiscard]] ExactPolygon exact_polygon(const std::vector<Step>& corners);
 
-/// A convex hole, and the order in which its edges cut what is around it.
+/// A convex hole about a circle.
 struct Hole {
-  ExactPolygon shape;
-  std::vector<int> order;  ///< of shape's edges
-};
+  ExactPolygon shape;      ///< no edges before place(), and for a circle beyond the farthest step
+  std::vector<int> order;  ///< in which the shape's edges cut what is around
 
-/// A hole about a circle: no point outside it is nearer than `radius` to `center`. Where an edge
-/// faces along an axis nothing more is lost than a step or two, elsewhere up to 1 / cos(pi / sides)
-/// of the radius. Those four edges cut first: they box the hole in, and the others only bevel the
-/// box, so that few cuts run far.
-/// \param center, radius  steps \param sides  at least 4. A circle too large for exact cutting gets
-/// a square hole. \returns an empty hole for a circle beyond the farthest step
-[[nodiscard]] Hole hole_about(Point center, double radius, int sides);
+  /// Puts the hole about a circle: no point outside the shape is nearer than `radius` to `center`.
+  /// Where an edge faces along an axis nothing more is lost than a step or two, elsewhere up to
+  /// 1 / cos(pi / sides) of the radius. Those four edges cut first: they box the hole in, and the
+  /// others only bevel the box, so that few cuts run far. A circle too large for exact cutting gets
+  /// a square hole. Moving a hole of the same size costs little.
+  /// \param center, radius  steps \param sides  at least 4
+  void place(Point center, double radius, int sides);
+
+ private:
+  void build(Step middle, double reach, int sides);
+  void build_square(Point center, double reach);
+  void find_order(int sides);
+
+  Step middle_;
+  double radius_ = -1.0;
+  int sides_ = 0;  // 0: what stands here can not be moved
+};
 
 /// True if the two share more than their borders.
 [[nodiscard]] bool overlap(const ExactPolygon& a, const ExactPolygon& b);
