@@ -8,8 +8,15 @@ namespace navvi_sim {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kRound = 16;  // corners of a circle
-constexpr int kRings = 6;   // of a sphere
+constexpr int kRound = 16;     // corners of a circle
+constexpr int kRings = 6;      // of a sphere
+constexpr double kThin = 0.6;  // m
+
+/// The smallest height of a triangle.
+double width(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return (b - a).cross(c - a).norm() / longest;
+}
 
 std::vector<Eigen::Vector3d> circle(const Eigen::Isometry3d& pose, double radius, double z) {
   std::vector<Eigen::Vector3d> points;
@@ -68,7 +75,11 @@ void Painter::triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
   const double shade = 0.74 + 0.26 * std::max(0.0, normal.z()) + 0.12 * std::abs(normal.x());
   const std_msgs::ColorRGBA color = color_msg(color_, static_cast<float>(std::min(1.0, shade)));
-  const std::vector<Eigen::Vector3d> corners = below_cut({a, b, c});
+  std::vector<Eigen::Vector3d> corners = below_cut({a, b, c});
+  if (corners.empty() && normal.z() > 0.9 && width(a, b, c) < kThin) {
+    corners = {a, b, c};
+    for (Eigen::Vector3d& corner : corners) corner.z() = cut_;
+  }
   for (std::size_t i = 2; i < corners.size(); ++i) {
     for (const Eigen::Vector3d& corner : {corners[0], corners[i - 1], corners[i]})
       msg_.points.push_back(point_msg(corner));

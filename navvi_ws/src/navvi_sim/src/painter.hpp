@@ -26,7 +26,8 @@ struct Color {
 /// colour is what it says from every side; a little shading by direction tells the faces apart.
 class Painter {
  public:
-  /// \param cut  m, z above which nothing is drawn
+  /// \param cut  m, z above which nothing is drawn; the tops of what is thin, such as walls, are
+  ///             put back on the cut, so that they are seen from above
   Painter(visualization_msgs::Marker& msg, const Color& color, double cut)
       : msg_(msg), color_(color), cut_(cut) {}
 

@@ -209,10 +209,10 @@ class StillLife {
            const Eigen::Isometry3d& pose, bool coarse = false) {
     const std::string ns = to_string(look);
     const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
+    if (bounds_of(geometry, pose).min().z() >= cut) return;
     // Lists of blocks darken towards the ends of what is long.
     const bool is_long = look == ThingClass::wall || look == ThingClass::floor;
     if (auto block = is_long ? std::nullopt : block_of(geometry, pose)) {
-      if (block->min().z() >= cut) return;
       block->max().z() = std::min(block->max().z(), cut);
       if (coarse) *block = on_grid(*block);
       return blocks_.add(ns, color, *block);

@@ -140,6 +140,22 @@ TEST(Scene, is_cut_open_above_walls_and_heads_however_things_are_turned) {
   }
 }
 
+TEST(Scene, a_wall_that_is_cut_has_a_top_again_and_a_roof_is_gone) {
+  WorldDescription world;
+  world.things = {thing_of(ThingClass::wall, Box{{10.0, 0.2, 3.0}}, {0.0, 0.0, 1.5}),
+                  thing_of(ThingClass::wall, Box{{10.0, 10.0, 0.2}}, {0.0, 5.0, 3.1})};
+  const MarkerArray array = standing(world);
+  ASSERT_EQ(array.markers.size(), 1U);
+  const auto& points = array.markers[0].points;
+  double top = 0.0;  // m^2, at the cut
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    if (points[i].z < 1.0 || points[i + 1].z < 1.0 || points[i + 2].z < 1.0) continue;
+    top += 0.5 * std::abs((points[i + 1].x - points[i].x) * (points[i + 2].y - points[i].y) -
+                          (points[i + 2].x - points[i].x) * (points[i + 1].y - points[i].y));
+  }
+  EXPECT_NEAR(top, 2.0, 1e-9);
+}
+
 TEST(Scene, a_shelf_that_is_a_block_is_drawn_as_a_rack_of_its_size) {
   WorldDescription world;
   world.things = {thing_of(ThingClass::shelf, Box{{1.0, 6.0, 2.0}}, {3.0, 4.0, 1.0})};
