@@ -108,6 +108,21 @@ std::vector<DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg) 
   return reports;
 }
 
+std::vector<Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good) {
+  std::vector<Correction> corrections;
+  for (const auto& entry : msg.transforms) {
+    if (entry.header.frame_id != "map" || entry.child_frame_id != "odom") continue;
+    const auto& at = entry.transform.translation;
+    const auto& turn = entry.transform.rotation;
+    if (!finite(at.x, at.y, turn.x, turn.y, turn.z, turn.w)) continue;
+    const double yaw = std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y),
+                                  1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z));
+    corrections.push_back(
+        {for_good ? Correction::kForGood : ns(entry.header.stamp), {at.x, at.y}, yaw});
+  }
+  return corrections;
+}
+
 std::optional<Point2> from_msg(const geometry_msgs::PoseStamped& msg) {
   if (!finite(msg.pose.position.x, msg.pose.position.y)) return std::nullopt;
   return Point2{msg.pose.position.x, msg.pose.position.y};

@@ -74,6 +74,7 @@ class Recount {
         push({"TRIAL_START", start_.fields, start_.sim_ns});
         change_goals_until(start_.sim_ns);
       }
+      places_ = OdometryInMap();
       for (const auto& item : rosbag::View(bag)) see(item, before);
     }
     Fields fields = monitor_.tally_fields();
@@ -122,14 +123,28 @@ class Recount {
   }
 
   void see(const rosbag::MessageInstance& item, bool before) {
+    const bool for_good = ends_with(item.getTopic(), "/tf_static");
+    if (for_good || ends_with(item.getTopic(), "/tf")) {
+      const auto msg = item.instantiate<tf2_msgs::TFMessage>();
+      if (!msg) return;
+      for (const auto& correction : from_msg(*msg, for_good))
+        for (const auto& place : places_.take(correction)) observe(place, before);
+      return;
+    }
+    if (ends_with(item.getTopic(), "/odom")) {
+      const auto msg = item.instantiate<nav_msgs::Odometry>();
+      const auto report = msg ? from_msg(*msg) : std::nullopt;
+      if (!report) return;
+      for (const auto& place : places_.take(*report)) observe(place, before);
+      return;
+    }
     if (ends_with(item.getTopic(), "/diagnostics")) {
       const auto msg = item.instantiate<diagnostic_msgs::DiagnosticArray>();
       if (!msg) return;
       for (const auto& report : from_msg(*msg)) observe(report, before);
       return;
     }
-    (void)(as<nav_msgs::Odometry>(item, "/odom", before) ||
-           as<navvi_msgs::Contact>(item, "/navvi/contacts", before) ||
+    (void)(as<navvi_msgs::Contact>(item, "/navvi/contacts", before) ||
            as<navvi_msgs::Proximity>(item, "/navvi/proximity", before) ||
            as<navvi_msgs::Guidance>(item, "/navvi/guidance", before) ||
            as<navvi_msgs::Cue>(item, "/navvi/cues", before) ||
@@ -138,6 +153,7 @@ class Recount {
   }
 
   TrialMonitor monitor_{TrialMonitorConfig()};
+  OdometryInMap places_;
   Row start_;
   Row end_;
   std::vector<Row> goals_;

@@ -101,6 +101,13 @@ void TrialNode::subscribe() {
   listen<navvi_msgs::StateHash>("navvi/state_hash");
   const auto hints = ros::TransportHints().tcpNoDelay();
   subscribers_.push_back(node_.subscribe("odom", kQueue, &TrialNode::on_odometry, this, hints));
+  for (const bool for_good : {false, true})
+    subscribers_.push_back(node_.subscribe<tf2_msgs::TFMessage>(
+        for_good ? "/tf_static" : "/tf", kQueue,
+        [this, for_good](const tf2_msgs::TFMessage::ConstPtr& msg) {
+          on_transforms(*msg, for_good);
+        },
+        ros::VoidConstPtr(), hints));
   subscribers_.push_back(
       node_.subscribe("navvi/guidance", kQueue, &TrialNode::on_guidance, this, hints));
   subscribers_.push_back(
@@ -133,7 +140,12 @@ void TrialNode::on_odometry(const nav_msgs::Odometry::ConstPtr& msg) {
     return;
   }
   readiness_.saw_odometry(wall());
-  take(*report);
+  for (const auto& place : places_.take(*report)) take(place);
+}
+
+void TrialNode::on_transforms(const tf2_msgs::TFMessage& msg, bool for_good) {
+  for (const auto& correction : from_msg(msg, for_good))
+    for (const auto& place : places_.take(correction)) take(place);
 }
 
 void TrialNode::on_guidance(const navvi_msgs::Guidance::ConstPtr& msg) {

@@ -12,9 +12,11 @@
 #include <navvi_msgs/StateHash.h>
 #include <navvi_msgs/TrialEvent.h>
 #include <sensor_msgs/Joy.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <optional>
 
+#include "navvi_study/odometry_in_map.hpp"
 #include "navvi_study/simulated_operator.hpp"
 #include "navvi_study/trial_monitor.hpp"
 
@@ -31,6 +33,8 @@ namespace navvi_study {
 [[nodiscard]] std::optional<StateReport> from_msg(const navvi_msgs::StateHash& msg);
 /// Only the devices of feedback_node.
 [[nodiscard]] std::vector<DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg);
+/// Only map -> odom. \param for_good  the message is one of /tf_static
+[[nodiscard]] std::vector<Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good);
 [[nodiscard]] std::optional<Point2> from_msg(const geometry_msgs::PoseStamped& msg);
 
 [[nodiscard]] geometry_msgs::PoseStamped goal_msg(const Point2& goal, const ros::Time& stamp);

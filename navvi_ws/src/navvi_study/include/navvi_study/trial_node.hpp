@@ -11,6 +11,7 @@
 #include <navvi_msgs/Scenario.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
 #include <memory>
@@ -20,6 +21,7 @@
 
 #include "navvi_study/bag_watch.hpp"
 #include "navvi_study/journal.hpp"
+#include "navvi_study/odometry_in_map.hpp"
 #include "navvi_study/readiness.hpp"
 #include "navvi_study/trial_flow.hpp"
 #include "navvi_study/trial_monitor.hpp"
@@ -48,6 +50,7 @@ class TrialNode {
   template <typename Report>
   void take(const Report& report);
   void on_odometry(const nav_msgs::Odometry::ConstPtr& msg);
+  void on_transforms(const tf2_msgs::TFMessage& msg, bool for_good);
   void on_guidance(const navvi_msgs::Guidance::ConstPtr& msg);
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& msg);
   void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event);
@@ -90,6 +93,7 @@ class TrialNode {
   std::optional<navvi_msgs::Scenario> scenario_;
   bool scenario_played_ = false;
 
+  OdometryInMap places_;
   std::filesystem::path folder_;
   std::unique_ptr<Journal> journal_;
   BagWatch bag_;
