@@ -8,6 +8,7 @@ namespace {
 constexpr double kMaxSpeed = 100.0;  // m/s
 constexpr double kMaxSize = 20.0;    // m
 constexpr std::size_t kMaxObstacles = 10000;
+constexpr std::uint32_t kMaxGridSide = 1000000;  // cells
 constexpr float kMeshAlpha = 0.35F;
 constexpr double kAboveFloor = 0.02;  // m
 
@@ -82,6 +83,22 @@ MapMessage from_msg(const octomap_msgs::Octomap& map) {
   return out;
 }
 
+std::optional<OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map) {
+  const auto& q = map.info.origin.orientation;
+  const bool flat = std::abs(q.x) < 1e-3 && std::abs(q.y) < 1e-3;
+  if (!within_each(map.info.origin.position, kFarthest) || !rotation(q) || !flat ||
+      map.info.width > kMaxGridSide || map.info.height > kMaxGridSide)
+    return std::nullopt;
+  OccupancyGrid out;
+  out.width = static_cast<int>(map.info.width);
+  out.height = static_cast<int>(map.info.height);
+  out.resolution = static_cast<double>(map.info.resolution);
+  out.origin = {map.info.origin.position.x, map.info.origin.position.y};
+  out.yaw = 2.0 * std::atan2(q.z, q.w);
+  out.cells.assign(map.data.begin(), map.data.end());
+  return out;
+}
+
 nav_msgs::Path to_msg(const Path& path, double z, const std::string& frame,
                       const ros::Time& stamp) {
   nav_msgs::Path out;
@@ -112,6 +129,15 @@ navvi_msgs::Guidance to_msg(const Status& status, double z, const std::string& f
   out.plans = status.plans;
   out.plan_time = status.plan_time;
   out.nodes_expanded = static_cast<std::uint32_t>(status.nodes_expanded);
+  out.reroutes = status.reroutes;
+  out.reroute_reason = static_cast<std::uint8_t>(status.reroute_reason);
+  out.path_churn = status.churn;
+  out.mesh_age = status.mesh_age.value_or(-1.0);
+  out.map_age = status.map_age.value_or(-1.0);
+  if (status.blocked) {
+    out.blocked_distance = status.blocked->at;
+    out.blocked_for = status.blocked->clears_in;
+  }
   out.goal = point_msg(status.goal, z);
   out.waypoint = point_msg(status.heading.waypoint, z);
   out.waypoint_is_goal = status.heading.waypoint_is_goal;
@@ -119,6 +145,9 @@ navvi_msgs::Guidance to_msg(const Status& status, double z, const std::string& f
   out.waypoint_angle = status.heading.waypoint_angle;
   out.turn_angle = status.heading.turn_angle;
   out.goal_distance = status.heading.goal_distance;
+  out.eta = status.eta;
+  out.shortest_length = status.shortest_length;
+  out.smoothing_price = status.smoothing_price;
   out.path_offset = status.heading.path_offset;
   out.detail = status.detail;
   return out;

@@ -1,8 +1,10 @@
 // OctoMap, obstacles, pose and goal in; path, guidance and mesh out.
 
+#include <nav_msgs/GetPlan.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <map>
 #include <navvi_config/ros_parameters.hpp>
 
 #include "navvi_nav/msg_conversion.hpp"
@@ -10,6 +12,8 @@
 
 namespace navvi_nav {
 namespace {
+
+constexpr double kServicePatience = 1.0;  // s
 
 struct NodeConfig {
   NavigatorConfig navigator;
@@ -36,9 +40,11 @@ class NavNode {
     guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
     subscribers_ = {node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
+                    node.subscribe("map", 1, &NavNode::on_grid, this),
                     node.subscribe("navvi/obstacles", 1, &NavNode::on_obstacles, this),
                     node.subscribe("odom", 1, &NavNode::on_odometry, this),
                     node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
+    make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(0.05), &NavNode::on_timer, this);
     publish_path();
   }
@@ -57,6 +63,16 @@ class NavNode {
     navigator_.set_map(std::make_shared<const MapMessage>(from_msg(*msg)));
   }
 
+  void on_grid(const nav_msgs::OccupancyGrid::ConstPtr& msg) {
+    std::optional<OccupancyGrid> grid = from_msg(*msg);
+    if (!grid || msg->header.frame_id != config_.map_frame) {
+      ROS_ERROR("The occupancy grid is refused: it is not a flat grid in frame '%s'.",
+                config_.map_frame.c_str());
+    } else if (!navigator_.set_map(std::make_shared<const OccupancyGrid>(std::move(*grid)))) {
+      ROS_WARN("The occupancy grid is ignored: an OctoMap came before.");
+    }
+  }
+
   void on_obstacles(const navvi_msgs::Obstacles::ConstPtr& msg) {
     std::optional<std::vector<Cylinder>> obstacles = from_msg(*msg);
     if (!obstacles || msg->header.frame_id != config_.map_frame) {
@@ -65,6 +81,8 @@ class NavNode {
                         bad_messages_);
       return;
     }
+    classes_.clear();
+    for (const auto& obstacle : msg->obstacles) classes_[obstacle.id] = obstacle.thing_class;
     navigator_.set_obstacles(std::move(*obstacles), ros::Time::now().toSec());
   }
 
@@ -96,6 +114,36 @@ class NavNode {
     const bool stands = navigator_.drop_bad_goal(refusal, what);
     ROS_WARN("A goal message is dropped: %s%s (%u bad messages).", what,
              stands ? "; the goal before it stands" : "", bad_messages_);
+  }
+
+  /// As move_base: without a frame the plan starts at the robot; where nothing leads to the goal or
+  /// within the tolerance of it, the plan is empty; false means that nothing could be planned.
+  bool on_make_plan(nav_msgs::GetPlan::Request& request, nav_msgs::GetPlan::Response& response) {
+    const ros::Time now = ros::Time::now();
+    const std::optional<Pose> robot = navigator_.pose(now.toSec());
+    const bool from_robot = request.start.header.frame_id.empty();
+    if (!navigator_.has_map() || (from_robot && !robot)) {
+      ROS_ERROR("No plan can be made: there is no %s.", robot ? "map yet" : "map or pose");
+      return false;
+    }
+    response.plan.header.frame_id = config_.map_frame;
+    response.plan.header.stamp = now;
+    const auto place = [this](const geometry_msgs::PoseStamped& pose) {
+      const std::optional<Point> point = from_msg(pose);
+      return point ? in_map_frame(*point, pose.header) : std::nullopt;
+    };
+    const std::optional<Point> start = from_robot ? robot->position : place(request.start);
+    const std::optional<Point> goal = place(request.goal);
+    if (!start || !goal) return true;
+    const std::optional<Plan> plan =
+        worker_.ask(*start, *goal, static_cast<double>(request.tolerance), kServicePatience);
+    if (!plan) {
+      ROS_ERROR("No plan can be made: the planner is busy with a map.");
+      return false;
+    }
+    ROS_DEBUG("make_plan: %s", plan->detail.c_str());
+    response.plan = to_msg(plan->path, navigator_.floor_height(), config_.map_frame, now);
+    return true;
   }
 
   std::optional<Point> in_map_frame(Point point, const std_msgs::Header& header) const {
@@ -172,6 +220,7 @@ class NavNode {
     navvi_msgs::Guidance msg =
         to_msg(status, navigator_.floor_height(), config_.map_frame, ros::Time::now());
     msg.seq = ++seq_;
+    if (status.blocked) msg.blocked_by = classes_[status.blocked->by];
     guidance_.publish(msg);
   }
 
@@ -199,7 +248,9 @@ class NavNode {
   ros::Publisher guidance_;
   ros::Publisher mesh_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::ServiceServer make_plan_;
   ros::WallTimer timer_;
+  std::map<std::uint32_t, std::string> classes_;  // of the obstacles, by id
   std::optional<Path> shown_path_;
   std::shared_ptr<const Mesh> shown_mesh_;
   Status last_status_;

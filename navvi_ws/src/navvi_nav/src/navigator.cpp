@@ -1,14 +1,20 @@
 #include "navvi_nav/navigator.hpp"
 
-#include <exception>
 #include <limits>
 
 namespace navvi_nav {
 namespace {
 
+constexpr double kElsewhere = 2.0;  // m moved of a path: it leads elsewhere
+
+std::optional<double> age_of(std::optional<double> then, double now) {
+  if (!then) return std::nullopt;
+  return std::max(0.0, now - *then);
+}
+
 ReplanPolicyConfig policy_of(const NavigatorConfig& config) {
   ReplanPolicyConfig out = config.replan;
-  out.robot_radius = config.planner.mesh.robot_radius;
+  out.way.robot_radius = config.planner.mesh.robot_radius;
   return out;
 }
 
@@ -32,37 +38,25 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   visit({"off_path", Range{0.1, 10.0}, "m",
          "a robot farther off its path gets a new one at the next plan"},
         off_path);
-}
-
-Outcome work(Planner& planner, const Job& job) {
-  Outcome out;
-  out.reason = job.reason;
-  out.goal_number = job.goal_number;
-  try {
-    if (job.map) {
-      out.mesh = planner.set_map(MapBytes{job.map->data.data(), job.map->data.size(),
-                                          job.map->binary, job.map->id, job.map->resolution});
-      out.map_error = out.mesh.error;
-      out.map_taken = out.mesh.error.empty();
-    }
-    out.carved = planner.carve(job.obstacles);
-    if (job.goal) out.plan = planner.plan(job.start, *job.goal);
-  } catch (const std::exception& error) {
-    if (job.map) out.map_error = error.what();
-    if (job.goal) {
-      out.plan = Plan{};
-      out.plan->status = PlanStatus::no_route;
-      out.plan->detail = error.what();
-    }
-  }
-  out.polygons = planner.nav_mesh().mesh().polygons.size();
-  if (job.show_mesh) out.navmesh = planner.nav_mesh().shared_mesh();
-  out.floor = planner.nav_mesh().shared_floor();
-  return out;
+  visit({"map_timeout", Range{0.0, 3600.0}, "s",
+         "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age"},
+        map_timeout);
 }
 
 Navigator::Navigator(const NavigatorConfig& config)
     : config_(config), policy_(policy_of(config)), guidance_(config.guidance) {}
+
+void Navigator::set_map(std::shared_ptr<const MapMessage> map) {
+  new_map_ = std::move(map);
+  new_grid_.reset();
+  octomap_came_ = true;
+}
+
+bool Navigator::set_map(std::shared_ptr<const OccupancyGrid> grid) {
+  if (octomap_came_) return false;
+  new_grid_ = std::move(grid);
+  return true;
+}
 
 void Navigator::set_obstacles(std::vector<Cylinder> obstacles, double time) {
   obstacles_ = std::move(obstacles);
@@ -99,6 +93,9 @@ void Navigator::drop_goal(State state) {
   goal_planned_ = false;
   guidance_.follow({});
   policy_.reset();
+  churn_.reset();
+  reroutes_ = 0;
+  reroute_reason_ = Reason::none;
   state_ = state;
   refusal_ = Refusal::none;
   detail_.clear();
@@ -106,6 +103,7 @@ void Navigator::drop_goal(State state) {
 
 void Navigator::reset_times() {
   policy_.reset();
+  churn_.reset();
   pose_.reset();
   obstacles_.clear();
   obstacles_time_.reset();
@@ -116,6 +114,12 @@ void Navigator::reset_times() {
 
 bool Navigator::pose_fresh(double time) const {
   return pose_ && time - pose_time_ <= config_.pose_timeout;
+}
+
+/// An arrival or a refusal is still true when the map is old.
+bool Navigator::map_stale(double time) const {
+  return config_.map_timeout > 0.0 && map_time_ && time - *map_time_ > config_.map_timeout &&
+         (goal_ || state_ == State::no_goal);
 }
 
 bool Navigator::obstacles_fresh(double time) const {
@@ -132,6 +136,7 @@ std::optional<Job> Navigator::update(double time) {
     obstacles_.clear();
     obstacles_lost_ = true;
   }
+  pace_.update(time, speed_);
   follow_progress(time);
   return job_since_ ? std::nullopt : next_job(time);
 }
@@ -157,8 +162,9 @@ std::optional<Job> Navigator::next_job(double time) {
   Job job;
   job.obstacles = obstacles_;
   job.goal_number = goal_number_;
-  if (new_map_) {
+  if (new_map_ || new_grid_) {
     job.map = std::exchange(new_map_, nullptr);
+    job.grid = std::exchange(new_grid_, nullptr);
     job.reason = Reason::map_changed;
   } else if (floor_ && goal_ && pose_fresh(time)) {
     ReplanInput input;
@@ -167,18 +173,21 @@ std::optional<Job> Navigator::next_job(double time) {
     input.new_goal = !goal_planned_;
     input.map_changed = map_changed_;
     input.speed = speed_;
+    input.pace = pace_.value();
     input.robot = *pose_;
     input.remaining = guidance_.remaining(pose_->position);
+    if (guidance_.following()) input.path_offset = guidance_.heading(*pose_).path_offset;
     input.obstacles = obstacles_;
     if (const std::optional<Reason> reason = policy_.update(input)) {
       job.goal = goal_;
+      job.foreseen = policy_.foreseen(input.remaining, obstacles_, input.pace);
       job.start = pose_->position;
       job.reason = *reason;
       map_changed_ = false;
     }
   }
   const bool carve = floor_ && (!carved_at_ || time - *carved_at_ >= config_.carve_period);
-  if (!job.map && !job.goal && !carve) return std::nullopt;
+  if (!job.map && !job.grid && !job.goal && !carve) return std::nullopt;
   carved_at_ = time;
   job_since_ = time;
   job_reason_ = job.reason;
@@ -186,9 +195,15 @@ std::optional<Job> Navigator::next_job(double time) {
 }
 
 void Navigator::deliver(const Outcome& outcome, double time) {
-  job_since_.reset();
-  if (outcome.map_taken) map_changed_ = goal_planned_;
-  if (outcome.floor && !outcome.floor->empty()) floor_ = outcome.floor;
+  const std::optional<double> as_of = std::exchange(job_since_, std::nullopt);
+  if (outcome.map_taken) {
+    map_changed_ = goal_planned_;
+    map_time_ = as_of;
+  }
+  if (outcome.floor && !outcome.floor->empty()) {
+    floor_ = outcome.floor;
+    mesh_time_ = as_of;
+  }
   if (!outcome.plan || outcome.goal_number != goal_number_) return;
   ++plans_;
   plan_time_ = outcome.seconds;
@@ -201,7 +216,7 @@ void Navigator::deliver(const Outcome& outcome, double time) {
 void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   switch (plan.status) {
     case PlanStatus::found:
-      if (!keeps_path(plan, reason, time)) guidance_.follow(plan.path);
+      if (!keeps_path(plan, reason, time)) change_path(plan, reason, time);
       state_ = State::following;
       detail_.clear();
       follow_progress(time);
@@ -227,6 +242,20 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   detail_ = plan.detail;
 }
 
+void Navigator::change_path(const Plan& plan, Reason reason, double time) {
+  if (guidance_.following() && pose_) {
+    const double moved = Churn::moved(guidance_.remaining(pose_->position), plan.path);
+    churn_.add(time, moved);
+    if (moved > kElsewhere) {
+      ++reroutes_;
+      reroute_reason_ = reason;
+    }
+  }
+  guidance_.follow(plan.path);
+  shortest_length_ = plan.shortest;
+  smoothing_price_ = length_of(plan.path) - plan.shortest;
+}
+
 /// Hysteresis: a path that still serves stays, so that a person is not sent here and there. It
 /// serves, too, while only something far ahead closes the way, or something that moves on and would
 /// make the person turn back or go a long way round: that may have moved off by then.
@@ -234,7 +263,8 @@ bool Navigator::keeps_path(const Plan& plan, Reason reason, double time) {
   if (!guidance_.following() || !pose_) return false;
   const Path remaining = guidance_.remaining(pose_->position);
   const bool found = plan.status == PlanStatus::found;
-  const bool held = policy_.holds(time, remaining, found ? plan.path : Path{}, obstacles_);
+  const bool held =
+      policy_.holds(time, remaining, found ? plan.path : Path{}, obstacles_, pace_.value());
   if (reason == Reason::new_goal || reason == Reason::map_changed ||
       guidance_.heading(*pose_).path_offset > config_.off_path)
     return false;
@@ -255,17 +285,30 @@ Status Navigator::status(double time) const {
   out.plans = plans_;
   out.plan_time = plan_time_;
   out.nodes_expanded = nodes_expanded_;
+  out.reroutes = reroutes_;
+  out.reroute_reason = reroute_reason_;
+  out.churn = churn_.per_minute(time);
+  out.mesh_age = age_of(mesh_time_, time);
+  out.map_age = age_of(map_time_, time);
   out.goal = last_goal_;
   out.detail = detail_;
   if (!floor_) {
     out.state = State::no_map;
     out.detail = "no usable map came yet";
+  } else if (map_stale(time)) {
+    out.state = State::map_stale;
+    out.detail = "no fresh map came";
   } else if (goal_ && !pose_fresh(time)) {
     out.state = State::pose_stale;
     out.detail = "no fresh pose of the robot";
   } else if (state_ == State::following) {
     if (guidance_.following() && pose_) {
       out.heading = guidance_.heading(*pose_);
+      out.eta = out.heading.goal_distance / pace_.value();
+      out.shortest_length = shortest_length_;
+      out.smoothing_price = smoothing_price_;
+      out.blocked = policy_.waits_for();
+      if (out.blocked) out.state = State::blocked;
     } else {
       out.state = State::no_route;
     }

@@ -92,6 +92,30 @@ Plan Planner::plan(Point start, Point goal) const {
   return plan;
 }
 
+Plan Planner::plan_near(Point start, Point goal, double tolerance) const {
+  Plan exact = plan(start, goal);
+  const bool about_the_goal =
+      exact.status == PlanStatus::no_route || (exact.status == PlanStatus::refused && finite(goal));
+  if (!about_the_goal || !(tolerance > 0.0)) return exact;
+  constexpr int kMost = 10;
+  const double step =
+      std::min(tolerance, std::max(tolerance / kMost, 3.0 * nav_mesh_.shared_floor()->cell_size()));
+  const int steps = std::min(kMost, static_cast<int>(tolerance / step + 1e-6));
+  std::vector<Point> places;
+  for (int y = -steps; y <= steps; ++y) {
+    for (int x = -steps; x <= steps; ++x) {
+      if (x != 0 || y != 0) places.push_back(goal + Point{x * step, y * step});
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [goal](Point a, Point b) { return distance(a, goal) < distance(b, goal); });
+  for (const Point place : places) {
+    Plan near = plan(start, place);
+    if (near.status == PlanStatus::found) return near;
+  }
+  return exact;
+}
+
 Refusal Planner::refusal_of(Point goal) const {
   if (!finite(goal)) return Refusal::not_finite;
   const Floor& floor = *nav_mesh_.shared_floor();

@@ -3,33 +3,8 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kMoving = 0.2;               // m/s, what is slower stands
-constexpr double kDetour = 1.5;               // times the length of the path that is followed
-constexpr double kDetourLength = 5.0;         // m longer
-constexpr double kBack = 120.0 / 180 * M_PI;  // rad, from the course that is followed
-constexpr double kCourse = 1.0;               // m, how much of a path makes its course
-
-/// From the path's start to the point kCourse along it.
-Point course_of(const Path& path) {
-  double left = kCourse;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const double length = distance(path[i - 1], path[i]);
-    if (length >= left)
-      return path[i - 1] + (left / length) * (path[i] - path[i - 1]) - path.front();
-    left -= length;
-  }
-  return path.back() - path.front();
-}
-
-bool is_detour(const Path& followed, const Path& fresh) {
-  if (fresh.size() < 2) return true;
-  const double length = length_of(followed);
-  const double fresh_length = length_of(fresh);
-  if (fresh_length > kDetour * length || fresh_length > length + kDetourLength) return true;
-  const Point a = course_of(followed);
-  const Point b = course_of(fresh);
-  return std::abs(std::atan2(cross(a, b), dot(a, b))) > kBack;
-}
+constexpr double kMoved = 0.1;  // m, what moved less has not left its place
+constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robot on its rim
 
 }  // namespace
 
@@ -44,79 +19,44 @@ void ReplanPolicyConfig::describe(navvi_config::Visitor& visit) {
         near_range);
   visit({"min_interval", Range{0.0, 10.0}, "s", "least time between plans because of obstacles"},
         min_interval);
-  visit({"tolerance", Range{0.0, 0.5}, "m", "how far an obstacle may reach into the path's room"},
-        tolerance);
-  visit({"look_ahead", Range{0.5, 1e6}, "m",
-         "obstacles on the path farther ahead than this are left to move away"},
-        look_ahead);
+  visit({"only_if_it_matters", navvi_config::Any{}, "",
+         "search for a path that is still free only if something left a place through which a "
+         "better one could lead, or the robot strayed"},
+        only_if_it_matters);
+  visit({"stray", Range{0.0, 10.0}, "m", "a robot so far off its path strayed"}, stray);
   visit({"gain", Range{0.0, 1.0}, "",
          "share by which a new path must be shorter to replace one that is still free"},
         gain);
   visit({"gain_length", Range{0.0, 10.0}, "m", "length by which it must be shorter besides"},
         gain_length);
-  visit({"hold_time", Range{0.0, 60.0}, "s",
-         "a path cut by moving things is kept so long before a detour is taken; 0: never kept"},
-        hold_time);
-  visit({"hold_distance", Range{0.0, 100.0}, "m",
-         "a path cut within this distance of the robot is not kept"},
-        hold_distance);
+  way.describe(visit);
+  hold.describe(visit);
 }
 
 void ReplanPolicy::reset() {
   last_plan_.reset();
   last_slow_.reset();
   slow_since_.reset();
-  held_since_.reset();
+  hold_.reset();
+  way_ = {};
   near_.clear();
   near_pending_ = false;
 }
 
-std::optional<double> ReplanPolicy::cut_at(const Path& path, const Cylinder& obstacle) const {
-  const double room = obstacle.radius + config_.robot_radius - config_.tolerance;
-  double before = 0.0;
-  for (std::size_t i = 1; i < path.size() && before < config_.look_ahead; ++i) {
-    const double left = config_.look_ahead - before;
-    const double length = distance(path[i - 1], path[i]);
-    const double share = length > left ? left / length : 1.0;
-    const Point end = path[i - 1] + share * (path[i] - path[i - 1]);
-    const Point nearest = nearest_on_segment(obstacle.center, path[i - 1], end);
-    const double gap = distance(obstacle.center, nearest);
-    if (gap < room) {
-      const double chord = std::sqrt(room * room - gap * gap);
-      return before + std::max(0.0, distance(path[i - 1], nearest) - chord);
-    }
-    before += length;
-  }
-  return std::nullopt;
-}
-
-bool ReplanPolicy::blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
-  return std::any_of(obstacles.begin(), obstacles.end(),
-                     [&](const Cylinder& obstacle) { return cut_at(path, obstacle).has_value(); });
-}
-
-/// True if something cuts the path, and all that does is moving and far enough, and leaves the
-/// next way-point free.
-bool ReplanPolicy::may_clear(const Path& path, const std::vector<Cylinder>& obstacles) const {
-  if (path.size() < 2 || blocked({path[1], path[1]}, obstacles)) return false;
-  bool cut = false;
-  for (const Cylinder& obstacle : obstacles) {
-    const std::optional<double> at = cut_at(path, obstacle);
-    if (!at) continue;
-    if (*at <= config_.hold_distance || norm(obstacle.velocity) <= kMoving) return false;
-    cut = true;
-  }
-  return cut;
-}
-
 bool ReplanPolicy::holds(double time, const Path& followed, const Path& fresh,
-                         const std::vector<Cylinder>& obstacles) {
-  if (may_clear(followed, obstacles) && is_detour(followed, fresh)) {
-    if (!held_since_) held_since_ = time;
-    if (time - *held_since_ < config_.hold_time) return true;
-  }
-  held_since_.reset();
-  return false;
+                         const std::vector<Cylinder>& obstacles, double pace) {
+  return hold_.keeps(time, ahead_.judge(followed, obstacles, pace), followed, fresh);
+}
+
+std::optional<Way::Wait> ReplanPolicy::waits_for() const {
+  return hold_.must_wait(way_) ? way_.wait : std::nullopt;
+}
+
+std::vector<Cylinder> ReplanPolicy::foreseen(const Path& path,
+                                             const std::vector<Cylinder>& obstacles,
+                                             double pace) const {
+  if (config_.hold.hold_time <= 0.0) return {};
+  return ahead_.foreseen(path, obstacles, pace);
 }
 
 std::optional<Reason> ReplanPolicy::update(const ReplanInput& input) {
@@ -131,38 +71,61 @@ std::optional<Reason> ReplanPolicy::update(const ReplanInput& input) {
   }
   const bool slow = slow_since_ && input.time - *slow_since_ > config_.slow_time &&
                     (!last_slow_ || input.time - *last_slow_ >= config_.period);
-
-  std::set<std::uint32_t> near;
-  for (const Cylinder& obstacle : input.obstacles) {
-    if (distance(obstacle.center, input.robot.position) > config_.near_range + obstacle.radius)
-      continue;
-    near.insert(obstacle.id);
-    near_pending_ = near_pending_ || near_.count(obstacle.id) == 0;
-  }
-  near_ = std::move(near);
-
-  const std::optional<Reason> reason = choose(input, slow, near_pending_);
+  near_pending_ = note_near(input) || near_pending_;
+  way_ = ahead_.judge(input.remaining, input.obstacles, input.pace);
+  const std::optional<Reason> reason = choose(input, slow, hold_.waits(input.time, way_));
   if (!reason) return reason;
   last_plan_ = input.time;
   near_pending_ = false;
   if (slow) last_slow_ = input.time;
+  interest_.searched(input.obstacles);
   return reason;
 }
 
-std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow,
-                                           bool fresh_near) const {
+/// True if something is near that was not at the last update.
+bool ReplanPolicy::note_near(const ReplanInput& input) {
+  std::set<std::uint32_t> near;
+  bool fresh = false;
+  for (const Cylinder& obstacle : input.obstacles) {
+    if (distance(obstacle.center, input.robot.position) > config_.near_range + obstacle.radius)
+      continue;
+    near.insert(obstacle.id);
+    fresh = fresh || near_.count(obstacle.id) == 0;
+  }
+  near_ = std::move(near);
+  return fresh;
+}
+
+/// False if a search could only find the path that is followed, or none that is worth changing to.
+bool ReplanPolicy::matters(const ReplanInput& input) const {
+  if (!config_.only_if_it_matters || input.remaining.size() < 2 ||
+      input.path_offset > config_.stray)
+    return true;
+  return interest_.better_way(input.robot.position, input.remaining.back(),
+                              worthwhile(length_of(input.remaining)), input.obstacles, kMoved,
+                              config_.way.robot_radius + kHole);
+}
+
+std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow, bool waits) {
   if (input.new_goal || !last_plan_) return Reason::new_goal;
   if (input.map_changed) return Reason::map_changed;
   const double since = input.time - *last_plan_;
-  if (since >= config_.min_interval) {
-    if (input.remaining.size() >= 2) {
-      const Point next = input.remaining[1];
-      if (blocked({next, next}, input.obstacles)) return Reason::waypoint_blocked;
-      if (blocked(input.remaining, input.obstacles)) return Reason::path_carved;
-    }
-    if (fresh_near) return Reason::obstacle_near;
-    if (slow) return Reason::too_slow;
+  if (since < std::min(config_.min_interval, config_.period)) return std::nullopt;
+  if (since >= config_.min_interval && !waits && input.remaining.size() >= 2) {
+    const Point next = input.remaining[1];
+    if (distance(input.robot.position, next) <= config_.way.look_ahead &&
+        ahead_.blocked({next, next}, input.obstacles))
+      return Reason::waypoint_blocked;
+    const bool avoids = config_.hold.hold_time > 0.0 && way_.state == Way::State::comes;
+    if (avoids || ahead_.blocked(input.remaining, input.obstacles)) return Reason::path_carved;
   }
+  if (!near_pending_ && !slow && since < config_.period) return std::nullopt;
+  if (!matters(input)) {
+    near_pending_ = false;
+    return std::nullopt;
+  }
+  if (since >= config_.min_interval && near_pending_) return Reason::obstacle_near;
+  if (since >= config_.min_interval && slow) return Reason::too_slow;
   if (since >= config_.period) return Reason::period;
   return std::nullopt;
 }
@@ -170,7 +133,7 @@ std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow,
 bool ReplanPolicy::worth_changing(Reason reason, double followed, double fresh) const {
   if (reason != Reason::period && reason != Reason::too_slow && reason != Reason::obstacle_near)
     return true;
-  return fresh < followed * (1.0 - config_.gain) - config_.gain_length;
+  return fresh < worthwhile(followed);
 }
 
 }  // namespace navvi_nav

@@ -28,6 +28,12 @@ std::optional<Outcome> Worker::take() {
   return std::exchange(outcome_, std::nullopt);
 }
 
+std::optional<Plan> Worker::ask(Point start, Point goal, double tolerance, double patience) {
+  const std::unique_lock<std::timed_mutex> lock(busy_, std::chrono::duration<double>(patience));
+  if (!lock) return std::nullopt;
+  return planner_.plan_near(start, goal, tolerance);
+}
+
 void Worker::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
@@ -36,7 +42,10 @@ void Worker::run() {
     const Job job = *std::exchange(job_, std::nullopt);
     lock.unlock();
     const auto begin = std::chrono::steady_clock::now();
-    Outcome outcome = work(planner_, job);
+    Outcome outcome = [&] {
+      const std::lock_guard<std::timed_mutex> busy(busy_);
+      return work(planner_, job);
+    }();
     outcome.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     lock.lock();

@@ -30,7 +30,8 @@ TEST(ConfigFiles, paper_holds_the_printed_constants) {
   EXPECT_DOUBLE_EQ(paper.replan.period, 2.0);                // R-NAV-9
   EXPECT_DOUBLE_EQ(paper.replan.slow_speed, 0.1);            // R-NAV-9
   EXPECT_DOUBLE_EQ(paper.guidance.goal_reached, 1.0);        // R-NAV-11
-  EXPECT_DOUBLE_EQ(paper.replan.hold_time, 0.0);             // every plan is taken
+  EXPECT_FALSE(paper.replan.only_if_it_matters);             // R-NAV-9, every trigger
+  EXPECT_DOUBLE_EQ(paper.replan.hold.hold_time, 0.0);        // every plan is taken
 }
 
 /// Coarser cells than the voxels, and an aisle that begins on the border of neither.

@@ -64,6 +64,33 @@ TEST(MsgConversion, drops_a_goal_with_any_number_that_is_not_finite) {
   EXPECT_FALSE(from_msg(goal));
 }
 
+TEST(MsgConversion, reads_an_occupancy_grid_that_lies_flat) {
+  nav_msgs::OccupancyGrid msg;
+  EXPECT_FALSE(from_msg(msg));  // a rotation of no length
+  msg.info.origin.orientation.w = 1.0;
+  EXPECT_TRUE(from_msg(msg));
+  msg.info.width = 2;
+  msg.info.height = 1;
+  msg.info.resolution = 0.05F;
+  msg.info.origin.position.x = -3.0;
+  msg.data = {-1, 100};
+  ASSERT_TRUE(from_msg(msg));
+  EXPECT_EQ(from_msg(msg)->width, 2);
+  EXPECT_DOUBLE_EQ(from_msg(msg)->origin.x, -3.0);
+  EXPECT_EQ(from_msg(msg)->cells, (std::vector<std::int8_t>{-1, 100}));
+  msg.info.origin.orientation.z = std::sin(0.5);
+  msg.info.origin.orientation.w = std::cos(0.5);
+  EXPECT_NEAR(from_msg(msg)->yaw, 1.0, 1e-9);
+  msg.info.origin.orientation.x = 0.2;
+  EXPECT_FALSE(from_msg(msg));
+  msg.info.origin.orientation.x = 0.0;
+  msg.info.origin.position.y = kNan;
+  EXPECT_FALSE(from_msg(msg));
+  msg.info.origin.position.y = 0.0;
+  msg.info.width = 4000000000U;
+  EXPECT_FALSE(from_msg(msg));
+}
+
 TEST(MsgConversion, writes_an_empty_path_as_an_empty_message) {
   EXPECT_TRUE(to_msg(Path{}, 0.0, "map", ros::Time(1)).poses.empty());
   EXPECT_EQ(to_msg(Path{{1, 1}}, 0.0, "map", ros::Time(1)).poses.size(), 1U);
@@ -79,7 +106,12 @@ TEST(MsgConversion, agrees_with_the_message_on_every_state_refusal_and_reason) {
   EXPECT_EQ(msg.state, Guidance::POSE_STALE);
   EXPECT_EQ(msg.refusal, Guidance::UNREACHABLE);
   EXPECT_EQ(msg.replan_reason, Guidance::MAP_CHANGED);
+  EXPECT_EQ(msg.mesh_age, -1.0);
+  EXPECT_EQ(msg.map_age, -1.0);
+  EXPECT_EQ(msg.blocked_for, 0.0);
   EXPECT_EQ(static_cast<int>(State::off_mesh), Guidance::OFF_MESH);
+  EXPECT_EQ(static_cast<int>(State::map_stale), Guidance::MAP_STALE);
+  EXPECT_EQ(static_cast<int>(State::blocked), Guidance::BLOCKED);
   EXPECT_EQ(static_cast<int>(Refusal::inside_obstacle), Guidance::INSIDE_OBSTACLE);
   EXPECT_EQ(static_cast<int>(Reason::waypoint_blocked), Guidance::WAYPOINT_BLOCKED);
 }

@@ -2,6 +2,8 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/GetPlan.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <navvi_msgs/Guidance.h>
@@ -57,6 +59,7 @@ class NavNodeTest : public testing::Test {
     odometry.header = transform.header;
     odometry.twist.twist.linear.x = 0.5;
     odometry_.publish(odometry);
+    if (moves_) moves_();
     obstacles_.publish(played_);
   }
 
@@ -101,6 +104,7 @@ class NavNodeTest : public testing::Test {
   ros::WallTimer heartbeat_;
   tf2_ros::TransformBroadcaster broadcaster_;
   navvi_msgs::Obstacles played_;
+  std::function<void()> moves_;  ///< brings played_ up to date
   navvi_msgs::Guidance guidance_;
   nav_msgs::Path path_;
   visualization_msgs::MarkerArray mesh_;
@@ -158,6 +162,129 @@ TEST_F(NavNodeTest, guides_refuses_and_replans) {
 
   send_goal(2.5, 5.2);
   EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::ARRIVED; }));
+}
+
+TEST_F(NavNodeTest, tells_to_wait_for_a_forklift_that_passes_and_keeps_the_path) {
+  played_.header.frame_id = "map";
+  send_map();
+  send_goal(14, 5);
+  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  ASSERT_TRUE(until([this] { return path_.poses.size() >= 3; }));
+  const nav_msgs::Path before = path_;
+  const unsigned reroutes = guidance_.reroutes;
+  const Point a{before.poses[0].pose.position.x, before.poses[0].pose.position.y};
+  const Point b{before.poses[1].pose.position.x, before.poses[1].pose.position.y};
+  const Point along = (1.0 / distance(a, b)) * (b - a);
+  const Point across{-along.y, along.x};
+  const ros::WallTime start = ros::WallTime::now();
+  moves_ = [&] {
+    const double away = 3.5 - (ros::WallTime::now() - start).toSec();
+    navvi_msgs::Obstacle forklift;
+    forklift.id = 9;
+    forklift.thing_class = "forklift";
+    forklift.pose.position.x = (a + 1.6 * along + away * across).x;
+    forklift.pose.position.y = (a + 1.6 * along + away * across).y;
+    forklift.pose.orientation.w = 1.0;
+    forklift.velocity.x = -across.x;
+    forklift.velocity.y = -across.y;
+    forklift.radius = 0.4;
+    forklift.height = 2.0;
+    played_.obstacles = {forklift};
+  };
+  EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::BLOCKED; }));
+  EXPECT_EQ(guidance_.blocked_by, "forklift");
+  EXPECT_GT(guidance_.blocked_for, 0.0);
+  EXPECT_LT(guidance_.blocked_distance, 3.0);
+  EXPECT_TRUE(until([&] { return (ros::WallTime::now() - start).toSec() > 6.5; }));
+  moves_ = nullptr;
+  EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
+  EXPECT_EQ(guidance_.blocked_by, "");
+  EXPECT_EQ(guidance_.reroutes, reroutes);
+  EXPECT_EQ(path_.poses.size(), before.poses.size());
+  EXPECT_LE(guidance_.mesh_age, 1.0);
+  EXPECT_GT(guidance_.map_age, 0.0);
+  EXPECT_GT(guidance_.eta, 1.0);
+}
+
+/// As clients of move_base expect it.
+class MakePlanTest : public NavNodeTest {
+ protected:
+  MakePlanTest() {
+    played_.header.frame_id = "map";
+    send_map();
+    EXPECT_TRUE(until([this] { return !mesh_.markers.empty(); }));
+    EXPECT_TRUE(until([this] { return guidance_.state != navvi_msgs::Guidance::NO_MAP; }));
+    client_ = node_.serviceClient<nav_msgs::GetPlan>("move_base/make_plan");
+    EXPECT_TRUE(client_.waitForExistence(ros::Duration(5.0)));
+  }
+  static geometry_msgs::PoseStamped pose(double x, double y, const std::string& frame = "map") {
+    geometry_msgs::PoseStamped out;
+    out.header.frame_id = frame;
+    out.pose.position.x = x;
+    out.pose.position.y = y;
+    out.pose.orientation.w = 1.0;
+    return out;
+  }
+  nav_msgs::Path plan(const geometry_msgs::PoseStamped& start,
+                      const geometry_msgs::PoseStamped& goal, float tolerance = 0.0F) {
+    nav_msgs::GetPlan service;
+    service.request.start = start;
+    service.request.goal = goal;
+    service.request.tolerance = tolerance;
+    EXPECT_TRUE(client_.call(service));
+    return service.response.plan;
+  }
+  ros::ServiceClient client_;
+};
+
+TEST_F(MakePlanTest, plans_from_the_start_given_or_from_the_robot) {
+  const nav_msgs::Path given = plan(pose(2, 2), pose(14, 5));
+  ASSERT_GE(given.poses.size(), 2U);
+  EXPECT_EQ(given.header.frame_id, "map");
+  EXPECT_DOUBLE_EQ(given.poses.front().pose.position.y, 2.0);
+  EXPECT_DOUBLE_EQ(given.poses.back().pose.position.x, 14.0);
+  const nav_msgs::Path robots = plan(pose(0, 0, ""), pose(14, 5));
+  ASSERT_GE(robots.poses.size(), 2U);
+  EXPECT_DOUBLE_EQ(robots.poses.front().pose.position.x, 2.0);
+  EXPECT_DOUBLE_EQ(robots.poses.front().pose.position.y, 5.0);
+}
+
+TEST_F(MakePlanTest, gives_an_empty_plan_where_nothing_leads_and_heeds_the_tolerance) {
+  EXPECT_TRUE(plan(pose(2, 2), pose(7, 5)).poses.empty());
+  EXPECT_TRUE(plan(pose(2, 2), pose(7, 5), 0.5F).poses.empty());
+  EXPECT_TRUE(plan(pose(2, 2), pose(std::numeric_limits<double>::quiet_NaN(), 5)).poses.empty());
+  EXPECT_TRUE(plan(pose(2, 2, "nowhere"), pose(14, 5)).poses.empty());
+  const nav_msgs::Path near = plan(pose(2, 5), pose(6.3, 5), 1.0F);  // 0.3 m inside the block
+  ASSERT_GE(near.poses.size(), 2U);
+  EXPECT_NEAR(near.poses.back().pose.position.x, 5.5, 0.2);
+  EXPECT_NEAR(near.poses.back().pose.position.y, 5.0, 0.2);
+}
+
+/// Another nav_node, which never gets an OctoMap.
+TEST(NavNodeWithoutOctoMap, takes_an_occupancy_grid) {
+  ros::NodeHandle node("grid");
+  nav_msgs::OccupancyGrid map;
+  map.header.frame_id = "map";
+  map.info.width = 200;
+  map.info.height = 120;
+  map.info.resolution = 0.1F;
+  map.info.origin.position.x = -5.0;
+  map.info.origin.orientation.w = 1.0;
+  map.data.assign(200 * 120, 0);
+  for (std::size_t y = 30; y < 90; ++y) map.data[y * 200 + 100] = 100;  // a wall at x = 5
+  ros::Publisher maps = node.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+  ros::ServiceClient client = node.serviceClient<nav_msgs::GetPlan>("move_base/make_plan");
+  ASSERT_TRUE(client.waitForExistence(ros::Duration(10.0)));
+  nav_msgs::GetPlan service;
+  service.request.start.header.frame_id = service.request.goal.header.frame_id = "map";
+  service.request.start.pose.position.x = 1.0;
+  service.request.goal.pose.position.x = 9.0;
+  service.request.start.pose.position.y = service.request.goal.pose.position.y = 6.0;
+  EXPECT_FALSE(client.call(service)) << "there is no map yet";
+  maps.publish(map);
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+  while (!client.call(service) && ros::WallTime::now() < end) ros::WallDuration(0.1).sleep();
+  EXPECT_GE(service.response.plan.poses.size(), 3U);
 }
 
 TEST_F(NavNodeTest, lives_on_after_garbage) {

@@ -2,70 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
-#include "small_world.hpp"
+#include "lockstep.hpp"
 
 namespace navvi_nav {
 namespace {
-
-constexpr double kTick = 0.05;  // s
-
-std::shared_ptr<const MapMessage> message_of(SmallWorld& world) {
-  std::ostringstream out;
-  octomap::OcTree tree = world.tree();
-  tree.writeBinaryData(out);
-  const std::string text = out.str();
-  MapMessage message;
-  message.data.assign(text.begin(), text.end());
-  message.id = "OcTree";
-  message.resolution = tree.getResolution();
-  return std::make_shared<const MapMessage>(message);
-}
-
-/// Navigator and planner in lockstep: each job is done within the tick.
-class Lockstep : public testing::Test {
- protected:
-  Lockstep() { world_.room(16, 10).box(6, 3, 0, 9, 7, 1.0); }
-
-  void load() {
-    navigator_.set_map(message_of(world_));
-    tick();
-  }
-  void tick(int times = 1) {
-    for (int i = 0; i < times; ++i) {
-      time_ += kTick;
-      if (has_pose_) navigator_.set_pose(robot_, time_);
-      navigator_.set_speed(speed_);
-      if (has_obstacles_) navigator_.set_obstacles(obstacles_, time_);
-      if (const auto job = navigator_.update(time_)) {
-        last_ = work(planner_, *job);
-        navigator_.deliver(*last_, time_);
-      }
-    }
-  }
-  /// Moves the robot straight at the next way-point.
-  void drive(double step) {
-    const Heading heading = status().heading;
-    robot_.yaw -= heading.waypoint_angle;
-    const double length = std::min(step, heading.waypoint_distance);
-    robot_.position = to_parent(robot_, {length, 0.0});
-    tick();
-  }
-  [[nodiscard]] Status status() const { return navigator_.status(time_); }
-
-  SmallWorld world_;
-  NavigatorConfig config_;
-  Navigator navigator_{config_};
-  Planner planner_{config_.planner};
-  std::optional<Outcome> last_;
-  std::vector<Cylinder> obstacles_;
-  Pose robot_{{2, 5}, 0.0};
-  bool has_pose_ = true;
-  bool has_obstacles_ = true;
-  double speed_ = 0.5;
-  double time_ = 100.0;
-};
 
 TEST_F(Lockstep, says_no_map_before_one_came) {
   navigator_.set_goal({14, 5});
@@ -187,8 +127,83 @@ TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
   const Path before = navigator_.path();
   robot_.position = robot_.position + Point{0.1, 0.05};
   tick(200);
-  EXPECT_GT(status().plans, 4U);
+  EXPECT_EQ(status().plans, 1U);  // nothing could have changed it
   EXPECT_EQ(navigator_.path(), before);
+  config_.replan.only_if_it_matters = false;
+  navigator_ = Navigator(config_);
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  const Path again = navigator_.path();
+  robot_.position = robot_.position + Point{0.1, 0.05};
+  tick(200);
+  EXPECT_GT(status().plans, 4U);
+  EXPECT_EQ(navigator_.path(), again);
+  EXPECT_EQ(status().churn, 0.0);
+}
+
+TEST_F(Lockstep, tells_the_age_of_map_and_mesh) {
+  tick();
+  EXPECT_FALSE(status().map_age);
+  EXPECT_FALSE(status().mesh_age);
+  load();
+  tick(100);
+  EXPECT_NEAR(*status().map_age, 100 * kTick, kTick + 1e-9);
+  EXPECT_LE(*status().mesh_age, config_.carve_period + kTick);
+}
+
+TEST_F(Lockstep, calls_the_map_stale_only_if_maps_may_age_and_recovers) {
+  load();
+  navigator_.set_goal({14, 5});
+  tick(100);
+  EXPECT_EQ(status().state, State::following);
+  config_.map_timeout = 3.0;
+  navigator_ = Navigator(config_);
+  load();
+  navigator_.set_goal({14, 5});
+  tick(40);
+  EXPECT_EQ(status().state, State::following);
+  tick(40);
+  EXPECT_EQ(status().state, State::map_stale);
+  load();
+  tick(2);
+  EXPECT_EQ(status().state, State::following);
+}
+
+TEST_F(Lockstep, tells_what_smoothing_cost_and_how_long_the_rest_takes) {
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  const Status now = status();
+  EXPECT_NEAR(now.smoothing_price, length_of(navigator_.path()) - now.shortest_length, 1e-9);
+  EXPECT_GT(now.smoothing_price, 0.0);
+  EXPECT_GT(now.eta, now.heading.goal_distance / 0.75);  // at 0.7 m/s as long as nobody drove
+  speed_ = 0.3;
+  tick(1000);
+  EXPECT_NEAR(status().eta, status().heading.goal_distance / 0.3, 2.0);
+  speed_ = 0.0;
+  tick(1000);
+  EXPECT_NEAR(status().eta, status().heading.goal_distance / 0.3, 2.0);
+}
+
+TEST_F(Lockstep, takes_an_occupancy_grid_until_an_octomap_came) {
+  OccupancyGrid grid;
+  grid.width = 160;
+  grid.height = 100;
+  grid.resolution = 0.1;
+  grid.cells.assign(16000, 0);
+  ASSERT_TRUE(navigator_.set_map(std::make_shared<const OccupancyGrid>(grid)));
+  tick();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  EXPECT_EQ(status().state, State::following);
+  EXPECT_EQ(navigator_.path().size(), 2U);
+  load();
+  tick(2);
+  EXPECT_GT(navigator_.path().size(), 2U);
+  EXPECT_FALSE(navigator_.set_map(std::make_shared<const OccupancyGrid>(grid)));
+  tick(2);
+  EXPECT_GT(navigator_.path().size(), 2U);
 }
 
 TEST_F(Lockstep, says_no_route_while_the_way_is_blocked_and_finds_it_again) {
@@ -205,45 +220,17 @@ TEST_F(Lockstep, says_no_route_while_the_way_is_blocked_and_finds_it_again) {
 }
 
 TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
-  config_.replan.look_ahead = 2.0;
+  config_.replan.way.look_ahead = 2.0;
   navigator_ = Navigator(config_);
   load();
   navigator_.set_goal({14, 5});
   tick(2);
   obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
   tick(100);
-  EXPECT_GT(status().plans, 1U);
   EXPECT_EQ(status().state, State::following);
   robot_.position = navigator_.path()[1];
   tick(100);
   EXPECT_EQ(status().state, State::no_route);
-}
-
-TEST_F(Lockstep, waits_for_a_forklift_that_crosses_before_it_goes_round_by_the_other_aisle) {
-  world_.box(6, 1.5, 0, 13, 8.5, 1.0);
-  robot_.position = {2, 1.5};
-  load();
-  navigator_.set_goal({14.5, 1.2});
-  tick(2);
-  const Path before = navigator_.path();
-  ASSERT_LT(length_of(before), 13.5);
-  obstacles_ = {{1, {9.5, 0.8}, 0.6, {0.0, 1.0}}};
-  tick(70);
-  EXPECT_EQ(navigator_.path(), before);
-  EXPECT_EQ(status().state, State::following);
-  tick(30);
-  EXPECT_GT(length_of(navigator_.path()), 18.0);
-}
-
-TEST_F(Lockstep, goes_round_at_once_when_what_cuts_the_path_stands) {
-  world_.box(6, 1.5, 0, 13, 8.5, 1.0);
-  robot_.position = {2, 1.5};
-  load();
-  navigator_.set_goal({14.5, 1.2});
-  tick(2);
-  obstacles_ = {{1, {9.5, 0.8}, 0.6, {}}};
-  tick(15);
-  EXPECT_GT(length_of(navigator_.path()), 18.0);
 }
 
 TEST_F(Lockstep, plans_again_when_the_map_changed) {

@@ -20,7 +20,12 @@ Cylinder obstacle(std::uint32_t id, Point center) { return {id, center, 0.3, {}}
 class Policy : public testing::Test {
  protected:
   void SetUp() override { ASSERT_EQ(policy_.update(driving(0.0)), Reason::new_goal); }
-  ReplanPolicy policy_{ReplanPolicyConfig{}};
+  static ReplanPolicyConfig always() {
+    ReplanPolicyConfig config;
+    config.only_if_it_matters = false;
+    return config;
+  }
+  ReplanPolicy policy_{always()};
 };
 
 TEST_F(Policy, without_a_goal_never_plans) {
@@ -87,6 +92,7 @@ TEST_F(Policy, remembers_an_obstacle_that_came_near_just_after_a_plan) {
 
 TEST(ReplanPolicy, plans_when_the_robot_is_too_slow_for_too_long) {
   ReplanPolicyConfig config;
+  config.only_if_it_matters = false;
   config.period = 3.0;
   ReplanPolicy policy(config);
   ReplanInput input = driving(0.0);
@@ -115,59 +121,50 @@ TEST(ReplanPolicy, keeps_a_path_that_is_hardly_longer) {
   EXPECT_TRUE(policy.worth_changing(Reason::new_goal, 10.0, 12.0));
 }
 
-/// A path of 13 m that something cuts 10 m ahead, and two ways around it.
-class Hold : public testing::Test {
- protected:
-  [[nodiscard]] static Cylinder forklift(Point center, double speed = 1.0) {
-    return {1, center, 0.5, {0.0, speed}};
+TEST(ReplanPolicy, searches_for_a_free_path_only_if_something_left_a_place_that_matters) {
+  ReplanPolicy policy{ReplanPolicyConfig{}};
+  ReplanInput input = driving(0.0);
+  const Cylinder gone = obstacle(1, {2.5, 4});     // on the straight way from end to end
+  const Cylinder far = obstacle(2, {-6.0, 10.0});  // no way through there is short enough
+  input.obstacles = {gone, far};
+  ASSERT_EQ(policy.update(input), Reason::new_goal);
+  input.time = 10.0;
+  EXPECT_FALSE(policy.update(input));
+  input.obstacles = {gone};
+  EXPECT_FALSE(policy.update(input));
+  input.obstacles = {};
+  EXPECT_EQ(policy.update(input), Reason::period);
+  input.time = 20.0;
+  EXPECT_FALSE(policy.update(input));
+  input.path_offset = 0.8;
+  EXPECT_EQ(policy.update(input), Reason::period);
+}
+
+TEST(ReplanPolicy, does_not_search_for_what_comes_near_beside_the_path) {
+  ReplanPolicy policy{ReplanPolicyConfig{}};
+  ASSERT_EQ(policy.update(driving(0.0)), Reason::new_goal);
+  ReplanInput input = driving(0.6);
+  input.obstacles = {obstacle(1, {-1, 2})};
+  EXPECT_FALSE(policy.update(input));
+  input.speed = 0.0;
+  for (double time = 1.0; time < 10.0; time += 0.5) {
+    input.time = time;
+    EXPECT_FALSE(policy.update(input));
   }
-  /// Asks every 0.5 s. \returns s for which the path is held
-  double held(const Path& fresh, const std::vector<Cylinder>& obstacles) {
-    double time = 10.0;
-    while (time < 30.0 && policy_.holds(time, followed_, fresh, obstacles)) time += 0.5;
-    return time - 10.0;
-  }
-  Path followed_ = {{0, 0}, {5, 0}, {5, 8}};
-  Path longer_ = {{0, 0}, {5, -6}, {12, 0}, {5, 8}};
-  Path slight_ = {{0, 0}, {5, 0}, {6, 4}, {5, 8}};
-  ReplanPolicyConfig config_;
-  ReplanPolicy policy_{config_};
-};
-
-TEST_F(Hold, waits_for_what_moves_far_ahead_before_a_long_way_round) {
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 5})}), 4.0);
-  EXPECT_DOUBLE_EQ(held({}, {forklift({5, 5})}), 4.0);  // no other route
 }
 
-TEST_F(Hold, waits_before_it_turns_the_person_round) {
-  EXPECT_DOUBLE_EQ(held({{0, 0}, {-1.5, 0.5}, {5, 8}}, {forklift({5, 5})}), 4.0);
-}
-
-TEST_F(Hold, takes_a_slightly_longer_path_at_once) {
-  EXPECT_DOUBLE_EQ(held(slight_, {forklift({5, 5})}), 0.0);
-}
-
-TEST_F(Hold, does_not_wait_for_what_stands_is_near_or_is_on_the_waypoint) {
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 5}, 0.1)}), 0.0);
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({3.5, 0})}), 0.0);
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 0.5})}), 0.0);
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({5, 5}), {2, {5, 7}, 0.3, {}}}), 0.0);
-}
-
-TEST_F(Hold, waits_anew_once_the_path_was_free) {
-  ASSERT_TRUE(policy_.holds(0.0, followed_, longer_, {forklift({5, 5})}));
-  ASSERT_FALSE(policy_.holds(2.0, followed_, longer_, {}));
-  EXPECT_TRUE(policy_.holds(5.0, followed_, longer_, {forklift({5, 5})}));
-}
-
-TEST_F(Hold, follows_its_distance_and_its_time) {
-  config_.hold_distance = 1.0;
-  config_.hold_time = 2.0;
-  policy_ = ReplanPolicy(config_);
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({2.5, 0})}), 2.0);
-  config_.hold_time = 0.0;
-  policy_ = ReplanPolicy(config_);
-  EXPECT_DOUBLE_EQ(held(longer_, {forklift({2.5, 0})}), 0.0);
+TEST(ReplanPolicy, does_not_search_while_what_cuts_the_path_only_crosses_it) {
+  ReplanPolicy policy{ReplanPolicyConfig{}};
+  ASSERT_EQ(policy.update(driving(0.0)), Reason::new_goal);
+  ReplanInput input = driving(0.6);
+  Cylinder forklift = obstacle(1, {2.5, 0.3});
+  forklift.velocity = {0.0, 1.0};
+  input.obstacles = {forklift};
+  EXPECT_FALSE(policy.update(input));
+  forklift.velocity = {};
+  input.time = 0.7;
+  input.obstacles = {forklift};
+  EXPECT_EQ(policy.update(input), Reason::path_carved);
 }
 
 }  // namespace

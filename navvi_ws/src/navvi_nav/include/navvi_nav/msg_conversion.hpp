@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <navvi_msgs/Guidance.h>
@@ -32,10 +33,13 @@ inline constexpr double kFarthest = 1e5;
 /// direction need not be a rotation: a goal is a place.
 [[nodiscard]] std::optional<Point> from_msg(const geometry_msgs::PoseStamped& goal);
 [[nodiscard]] MapMessage from_msg(const octomap_msgs::Octomap& map);
+/// nullopt if the origin is not finite, absurd or no rotation about z, or the size beyond all
+/// bounds; read_grid() judges the rest.
+[[nodiscard]] std::optional<OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map);
 
 [[nodiscard]] nav_msgs::Path to_msg(const Path& path, double z, const std::string& frame,
                                     const ros::Time& stamp);
-/// All but `seq`.
+/// All but `seq` and `blocked_by`.
 [[nodiscard]] navvi_msgs::Guidance to_msg(const Status& status, double z, const std::string& frame,
                                           const ros::Time& stamp);
 /// The mesh as cyan triangles a little above the floor (R-VIS-3); holes are where there are none.

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "navvi_nav/guidance.hpp"
-#include "navvi_nav/octomap_reader.hpp"
-#include "navvi_nav/planner.hpp"
-#include "navvi_nav/replan_policy.hpp"
+#include "navvi_nav/churn.hpp"
+#include "navvi_nav/job.hpp"
+#include "navvi_nav/pace.hpp"
+#include "navvi_nav/status.hpp"
 
 namespace navvi_nav {
 
@@ -20,70 +20,9 @@ struct NavigatorConfig {
   double obstacle_timeout = 1.0;
   double plan_timeout = 1.0;
   double off_path = 1.0;
+  double map_timeout = 0.0;
 
   void describe(navvi_config::Visitor& visit);
-};
-
-/// A map as it came.
-struct MapMessage {
-  std::vector<std::int8_t> data;
-  bool binary = true;
-  std::string id;
-  double resolution = 0.0;  ///< m
-};
-
-/// Work for whoever owns the Planner.
-struct Job {
-  std::shared_ptr<const MapMessage> map;  ///< null: keep the map
-  std::vector<Cylinder> obstacles;
-  std::optional<Point> goal;  ///< nullopt: no plan is wanted
-  Point start;
-  Reason reason = Reason::none;
-  unsigned goal_number = 0;
-  bool show_mesh = false;  ///< a picture of the mesh is wanted, too
-};
-
-/// A finished job.
-struct Outcome {
-  Reason reason = Reason::none;
-  unsigned goal_number = 0;
-  std::optional<Plan> plan;
-  MeshUpdate mesh;    ///< by the new map, if one came
-  MeshUpdate carved;  ///< by the obstacles
-  bool map_taken = false;
-  std::string map_error;                ///< a sentence if a map came and was refused
-  std::size_t polygons = 0;             ///< of the mesh, empty slots included
-  std::shared_ptr<const Mesh> navmesh;  ///< if it was to be shown
-  std::shared_ptr<const Floor> floor;
-  double seconds = 0.0;  ///< wall clock, filled in by the caller of work()
-};
-
-/// Does one job. No exception leaves it.
-[[nodiscard]] Outcome work(Planner& planner, const Job& job);
-
-/// Values as in navvi_msgs/Guidance.
-enum class State {
-  no_goal,
-  following,
-  arrived,
-  goal_refused,
-  no_route,
-  off_mesh,
-  no_map,
-  pose_stale,
-};
-
-/// navvi_msgs/Guidance without ROS.
-struct Status {
-  State state = State::no_map;
-  Refusal refusal = Refusal::none;
-  Reason reason = Reason::none;
-  unsigned plans = 0;
-  double plan_time = 0.0;  ///< s
-  std::size_t nodes_expanded = 0;
-  Point goal;
-  Heading heading;  ///< valid while following
-  std::string detail;
 };
 
 /// What nav_node decides: which job comes next, which path is followed, what the person is told.
@@ -92,7 +31,9 @@ class Navigator {
  public:
   explicit Navigator(const NavigatorConfig& config);
 
-  void set_map(std::shared_ptr<const MapMessage> map) { new_map_ = std::move(map); }
+  void set_map(std::shared_ptr<const MapMessage> map);
+  /// A map for who has no OctoMap. \returns false if it is ignored because an OctoMap came before
+  bool set_map(std::shared_ptr<const OccupancyGrid> grid);
   void set_obstacles(std::vector<Cylinder> obstacles, double time);
   void set_pose(const Pose& pose, double time);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
@@ -112,6 +53,11 @@ class Navigator {
   [[nodiscard]] const Path& path() const { return guidance_.path(); }
   /// True while a first plan for a goal is on its way: nothing new can be said yet.
   [[nodiscard]] bool undecided(double time) const;
+  /// Where the robot is; nullopt without a fresh pose.
+  [[nodiscard]] std::optional<Pose> pose(double time) const {
+    return pose_fresh(time) ? pose_ : std::nullopt;
+  }
+  [[nodiscard]] bool has_map() const { return floor_ != nullptr; }
   /// True if the obstacles were given up as too old; cleared by the next ones.
   [[nodiscard]] bool obstacles_lost() const { return obstacles_lost_; }
   /// m, z of the floor in map; 0 before there is a map.
@@ -119,11 +65,13 @@ class Navigator {
 
  private:
   [[nodiscard]] bool pose_fresh(double time) const;
+  [[nodiscard]] bool map_stale(double time) const;
   [[nodiscard]] bool obstacles_fresh(double time) const;
   [[nodiscard]] Space space() const { return {floor_.get(), &obstacles_}; }
   [[nodiscard]] std::optional<Job> next_job(double time);
   void follow_progress(double time);
   void take_plan(const Plan& plan, Reason reason, double time);
+  void change_path(const Plan& plan, Reason reason, double time);
   [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason, double time);
   void drop_goal(State state);
   void refuse_goal(Refusal refusal, const std::string& detail);
@@ -133,6 +81,10 @@ class Navigator {
   Guidance guidance_;
   std::shared_ptr<const Floor> floor_;
   std::shared_ptr<const MapMessage> new_map_;
+  std::shared_ptr<const OccupancyGrid> new_grid_;
+  bool octomap_came_ = false;
+  std::optional<double> map_time_;   ///< s, when the map in use came
+  std::optional<double> mesh_time_;  ///< s, as of which the mesh shows what moves
   std::vector<Cylinder> obstacles_;
   std::optional<double> obstacles_time_;  ///< nullopt: none came yet
   bool obstacles_lost_ = false;
@@ -153,6 +105,12 @@ class Navigator {
   unsigned plans_ = 0;
   double plan_time_ = 0.0;
   std::size_t nodes_expanded_ = 0;
+  unsigned reroutes_ = 0;
+  Reason reroute_reason_ = Reason::none;
+  double shortest_length_ = 0.0;
+  double smoothing_price_ = 0.0;
+  Churn churn_;
+  Pace pace_;
   std::string detail_;
 };
 

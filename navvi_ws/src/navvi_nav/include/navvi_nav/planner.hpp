@@ -55,6 +55,10 @@ class Planner {
   /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
   /// off the mesh is taken to the nearest point of it, at most `start_snap` away.
   [[nodiscard]] Plan plan(Point start, Point goal) const;
+  /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
+  /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
+  /// 10 steps of that grid) along x and y. For who says that this will do.
+  [[nodiscard]] Plan plan_near(Point start, Point goal, double tolerance) const;
   [[nodiscard]] const NavMesh& nav_mesh() const { return nav_mesh_; }
 
  private:

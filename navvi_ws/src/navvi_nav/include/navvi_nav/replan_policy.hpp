@@ -5,7 +5,9 @@
 #include <set>
 #include <vector>
 
-#include "navvi_nav/geometry.hpp"
+#include "navvi_nav/hold.hpp"
+#include "navvi_nav/interest.hpp"
+#include "navvi_nav/way.hpp"
 
 namespace navvi_nav {
 
@@ -27,13 +29,12 @@ struct ReplanPolicyConfig {
   double slow_time = 1.0;
   double near_range = 3.0;
   double min_interval = 0.5;
-  double robot_radius = 0.35;  ///< m, set from the mesh's
-  double tolerance = 0.05;
-  double look_ahead = 12.0;
+  bool only_if_it_matters = true;
+  double stray = 0.5;
   double gain = 0.1;
   double gain_length = 0.5;
-  double hold_time = 4.0;
-  double hold_distance = 3.0;
+  WayConfig way;
+  HoldConfig hold;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -45,15 +46,18 @@ struct ReplanInput {
   bool new_goal = false;     ///< not planned for yet
   bool map_changed = false;  ///< since the last plan
   double speed = 0.0;        ///< m/s, forward
+  double pace = 0.7;         ///< m/s, at which the robot follows when it does, > 0
   Pose robot;
-  Path remaining;  ///< from the robot over the next way-point to the goal; may be empty
+  Path remaining;            ///< from the robot over the next way-point to the goal; may be empty
+  double path_offset = 0.0;  ///< m, from the robot to its path
   std::vector<Cylinder> obstacles;
 };
 
 /// Says when to plan again, and why (R-NAV-9).
 class ReplanPolicy {
  public:
-  explicit ReplanPolicy(const ReplanPolicyConfig& config) : config_(config) {}
+  explicit ReplanPolicy(const ReplanPolicyConfig& config)
+      : config_(config), ahead_(config.way), hold_(config.hold) {}
 
   /// The most telling reason to plan now, or none. A reason that is returned counts as acted on.
   [[nodiscard]] std::optional<Reason> update(const ReplanInput& input);
@@ -61,27 +65,36 @@ class ReplanPolicy {
   void reset();
   /// False if the path that is being followed should stay: the new one is not shorter by enough.
   [[nodiscard]] bool worth_changing(Reason reason, double followed, double fresh) const;
-  /// True if the path that is followed should stay although moving things cut it: they do so only
-  /// beyond hold_distance, `fresh` (empty: no route) is a detour or leads back, and that has not
-  /// gone on for hold_time. Ask for every plan: it remembers since when.
+  /// True if the path that is followed should stay although moving things cut it: see Hold::keeps.
   [[nodiscard]] bool holds(double time, const Path& followed, const Path& fresh,
-                           const std::vector<Cylinder>& obstacles);
+                           const std::vector<Cylinder>& obstacles, double pace);
   /// True if a robot on some point of the first `look_ahead` m would touch a cylinder.
-  [[nodiscard]] bool blocked(const Path& path, const std::vector<Cylinder>& obstacles) const;
+  [[nodiscard]] bool blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
+    return ahead_.blocked(path, obstacles);
+  }
+  /// What crosses right before the robot and is waited for. As of the last update.
+  [[nodiscard]] std::optional<Way::Wait> waits_for() const;
+  /// See WayAhead::foreseen; none where nothing is held.
+  [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
+                                               const std::vector<Cylinder>& obstacles,
+                                               double pace) const;
 
  private:
-  [[nodiscard]] std::optional<Reason> choose(const ReplanInput& input, bool slow,
-                                             bool fresh_near) const;
-
-  /// m along the path to where a robot on it would touch, within look_ahead; nullopt: nowhere.
-  [[nodiscard]] std::optional<double> cut_at(const Path& path, const Cylinder& obstacle) const;
-  [[nodiscard]] bool may_clear(const Path& path, const std::vector<Cylinder>& obstacles) const;
+  [[nodiscard]] std::optional<Reason> choose(const ReplanInput& input, bool slow, bool waits);
+  [[nodiscard]] bool note_near(const ReplanInput& input);
+  [[nodiscard]] bool matters(const ReplanInput& input) const;
+  [[nodiscard]] double worthwhile(double followed) const {
+    return followed * (1.0 - config_.gain) - config_.gain_length;
+  }
 
   ReplanPolicyConfig config_;
+  WayAhead ahead_;
+  Hold hold_;
+  Interest interest_;
+  Way way_;
   std::optional<double> last_plan_;
   std::optional<double> last_slow_;
   std::optional<double> slow_since_;
-  std::optional<double> held_since_;
   std::set<std::uint32_t> near_;
   bool near_pending_ = false;
 };

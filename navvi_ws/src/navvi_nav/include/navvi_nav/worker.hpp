@@ -21,10 +21,14 @@ class Worker {
   void start(Job job);
   /// The finished job, once.
   [[nodiscard]] std::optional<Outcome> take();
+  /// Plans in the caller's thread, as Planner::plan_near. \returns nullopt if a job kept the
+  /// planner busy for longer than `patience` (s)
+  [[nodiscard]] std::optional<Plan> ask(Point start, Point goal, double tolerance, double patience);
 
  private:
   void run();
 
+  std::timed_mutex busy_;  // guards planner_
   Planner planner_;
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "navvi_nav/guidance.hpp"
+#include "navvi_nav/planner.hpp"
+#include "navvi_nav/replan_policy.hpp"
+
+namespace navvi_nav {
+
+/// Values as in navvi_msgs/Guidance.
+enum class State {
+  no_goal,
+  following,
+  arrived,
+  goal_refused,
+  no_route,
+  off_mesh,
+  no_map,
+  pose_stale,
+  map_stale,
+  blocked,
+};
+
+/// navvi_msgs/Guidance without ROS.
+struct Status {
+  State state = State::no_map;
+  Refusal refusal = Refusal::none;
+  Reason reason = Reason::none;  ///< of the last plan
+  unsigned plans = 0;
+  double plan_time = 0.0;  ///< s
+  std::size_t nodes_expanded = 0;
+  unsigned reroutes = 0;                 ///< of this goal
+  Reason reroute_reason = Reason::none;  ///< of the last of them
+  double churn = 0.0;                    ///< m/min
+  std::optional<double> mesh_age;        ///< s
+  std::optional<double> map_age;         ///< s
+  std::optional<Way::Wait> blocked;      ///< what is waited for, while blocked
+  Point goal;
+  Heading heading;               ///< valid while following or blocked, like all below
+  double eta = 0.0;              ///< s
+  double shortest_length = 0.0;  ///< m
+  double smoothing_price = 0.0;  ///< m
+  std::string detail;
+};
+
+}  // namespace navvi_nav

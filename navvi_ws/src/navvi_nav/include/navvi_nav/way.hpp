@@ -1,0 +1,69 @@
+#pragma once
+
+#include <navvi_config/field.hpp>
+#include <optional>
+#include <vector>
+
+#include "navvi_nav/geometry.hpp"
+
+namespace navvi_nav {
+
+struct WayConfig {
+  double robot_radius = 0.35;  ///< m, set from the mesh's
+  double tolerance = 0.05;
+  double look_ahead = 12.0;
+  double standing_speed = 0.2;
+  double foresight = 6.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// How moving things leave a path, told by their velocities.
+struct Way {
+  enum class State {
+    free,    ///< nothing cuts it
+    clears,  ///< all that cuts it crosses it or goes on ahead, and has left it soon
+    comes,   ///< something that moves keeps cutting it, such as what comes along it, or would run
+             ///< into the robot whether that goes on or waits
+    stands,  ///< something that stands cuts it
+  };
+  State state = State::free;
+  double at = 0.0;        ///< m, along the path to the first cut; 0 if free
+  double meets_in = 0.0;  ///< s, until the robot and what comes meet at the earliest
+  /// Who goes on at the pace runs into something that crosses; who waits here does not.
+  struct Wait {
+    std::uint32_t by = 0;
+    double at = 0.0;         ///< m, along the path to where
+    double clears_in = 0.0;  ///< s, until it has left the path
+  };
+  std::optional<Wait> wait;
+};
+
+/// Looks along a path that begins at the robot. Things are taken to keep their velocity for
+/// `foresight`, which for a few seconds is hard to beat (Schoeller, Aravantinos, Lay and Knoll,
+/// "What the Constant Velocity Model Can Teach Us About Pedestrian Motion Prediction", 2020).
+class WayAhead {
+ public:
+  explicit WayAhead(const WayConfig& config) : config_(config) {}
+
+  /// \param pace  m/s, at which the robot follows, > 0
+  [[nodiscard]] Way judge(const Path& path, const std::vector<Cylinder>& obstacles,
+                          double pace) const;
+  /// Where what comes along the path will be until it meets the robot, as more cylinders with ids
+  /// of their own: a new path must not lead there either.
+  [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
+                                               const std::vector<Cylinder>& obstacles,
+                                               double pace) const;
+  /// True if a robot on some point of the first look_ahead m would touch a cylinder now.
+  [[nodiscard]] bool blocked(const Path& path, const std::vector<Cylinder>& obstacles) const;
+  /// m along the path to where a robot on it would touch; nullopt: nowhere within look_ahead.
+  [[nodiscard]] std::optional<double> cut_at(const Path& path, const Cylinder& obstacle) const;
+
+ private:
+  struct Meeting;
+  [[nodiscard]] Meeting meet(const Path& path, const Cylinder& obstacle, double pace) const;
+
+  WayConfig config_;
+};
+
+}  // namespace navvi_nav

@@ -1,0 +1,167 @@
+#include "navvi_nav/way.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kTick = 0.25;      // s, of looking ahead
+constexpr double kStopRoom = 0.1;   // m, from who waits to what passes
+constexpr double kNotice = 1.0;     // s, what will cut the path so soon cuts it
+constexpr double kElbowRoom = 0.3;  // m, between hulls that pass each other
+constexpr double kHeadway = 1.5;    // m, that what goes on ahead must keep before the robot
+constexpr double kGained = 0.5;     // m, that what goes on ahead must have gained
+
+Cylinder later(const Cylinder& obstacle, double seconds) {
+  Cylinder out = obstacle;
+  out.center = out.center + seconds * out.velocity;
+  return out;
+}
+
+/// The point `along` m down the path, or its end.
+Point point_at(const Path& path, double along) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double length = distance(path[i - 1], path[i]);
+    if (along < length) return path[i - 1] + (along / length) * (path[i] - path[i - 1]);
+    along -= length;
+  }
+  return path.back();
+}
+
+}  // namespace
+
+/// What one thing does to a path.
+struct WayAhead::Meeting {
+  Way::State state = Way::State::free;
+  double at = 0.0;         ///< m, along the path to the first cut
+  double meets_in = 0.0;   ///< s
+  double clears_in = 0.0;  ///< s, until it has left the path
+  bool hits_going = false;
+  bool hits_waiting = false;
+};
+
+void WayConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"tolerance", Range{0.0, 0.5}, "m", "how far an obstacle may reach into the path's room"},
+        tolerance);
+  visit({"look_ahead", Range{0.5, 1e6}, "m",
+         "obstacles on the path farther ahead than this are left to move away"},
+        look_ahead);
+  visit({"standing_speed", Range{0.0, 2.0}, "m/s", "what is slower stands"}, standing_speed);
+  visit({"foresight", Range{0.0, 20.0}, "s",
+         "what will have left the path within this time, keeping its velocity, only crosses"},
+        foresight);
+}
+
+std::optional<double> WayAhead::cut_at(const Path& path, const Cylinder& obstacle) const {
+  const double room = obstacle.radius + config_.robot_radius - config_.tolerance;
+  double before = 0.0;
+  for (std::size_t i = 1; i < path.size() && before < config_.look_ahead; ++i) {
+    const double left = config_.look_ahead - before;
+    const double length = distance(path[i - 1], path[i]);
+    const double share = length > left ? left / length : 1.0;
+    const Point end = path[i - 1] + share * (path[i] - path[i - 1]);
+    const Point nearest = nearest_on_segment(obstacle.center, path[i - 1], end);
+    const double gap = distance(obstacle.center, nearest);
+    if (gap < room) {
+      const double chord = std::sqrt(room * room - gap * gap);
+      return before + std::max(0.0, distance(path[i - 1], nearest) - chord);
+    }
+    before += length;
+  }
+  return std::nullopt;
+}
+
+bool WayAhead::blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const Cylinder& obstacle) { return cut_at(path, obstacle).has_value(); });
+}
+
+WayAhead::Meeting WayAhead::meet(const Path& path, const Cylinder& obstacle, double pace) const {
+  Meeting out;
+  const std::optional<double> now = cut_at(path, obstacle);
+  if (norm(obstacle.velocity) <= config_.standing_speed) {
+    if (now) out = {Way::State::stands, *now, 0.0, 0.0, false, false};
+    return out;
+  }
+  const double touch = obstacle.radius + config_.robot_radius;
+  std::optional<double> first = now;
+  std::optional<double> last = now;
+  double last_time = 0.0;
+  double noticed = now ? 0.0 : config_.foresight;  // s, when it first cuts the path
+  bool keeps_ahead = now.has_value();
+  for (double t = kTick; t <= config_.foresight + 1e-9; t += kTick) {
+    const Cylinder then = later(obstacle, t);
+    out.hits_waiting = out.hits_waiting || distance(path.front(), then.center) < touch + kStopRoom;
+    const std::optional<double> cut = cut_at(path, then);
+    if (!cut) continue;
+    out.hits_going =
+        out.hits_going || distance(point_at(path, pace * t), then.center) < touch + kElbowRoom;
+    if (!first) {
+      first = cut;
+      noticed = t;
+    }
+    last = cut;
+    last_time = t;
+    keeps_ahead = keeps_ahead && *cut >= pace * t + kHeadway;
+  }
+  if (!first) return out;
+  out.at = *first;
+  out.clears_in = last_time + kTick;
+  out.meets_in = *first / (pace + norm(obstacle.velocity));
+  if (out.clears_in <= config_.foresight + 1e-9 || (keeps_ahead && *last >= *first + kGained)) {
+    if (noticed <= kNotice + 1e-9) out.state = Way::State::clears;
+    if (out.hits_going && out.hits_waiting) out.state = Way::State::comes;
+  } else {
+    out.hits_going = false;  // there is no end to wait for
+    if (now) out.state = Way::State::comes;
+  }
+  return out;
+}
+
+Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, double pace) const {
+  Way out;
+  bool may_wait = true;
+  if (path.size() < 2) return out;
+  for (const Cylinder& obstacle : obstacles) {
+    const Meeting one = meet(path, obstacle, pace);
+    may_wait = may_wait && !one.hits_waiting;
+    if (one.hits_going && (!out.wait || one.at < out.wait->at))
+      out.wait = Way::Wait{obstacle.id, one.at, one.clears_in};
+    if (one.state == Way::State::free) continue;
+    if (out.state == Way::State::free || one.at < out.at) out.at = one.at;
+    if (one.state == Way::State::comes && (out.meets_in <= 0.0 || one.meets_in < out.meets_in))
+      out.meets_in = one.meets_in;
+    out.state = std::max(out.state, one.state);
+  }
+  if (!may_wait) out.wait.reset();
+  return out;
+}
+
+std::vector<Cylinder> WayAhead::foreseen(const Path& path, const std::vector<Cylinder>& obstacles,
+                                         double pace) const {
+  std::vector<Cylinder> out;
+  if (path.size() < 2) return out;
+  std::set<std::uint32_t> taken;
+  for (const Cylinder& obstacle : obstacles) taken.insert(obstacle.id);
+  std::uint32_t id = std::numeric_limits<std::uint32_t>::max();
+  for (const Cylinder& obstacle : obstacles) {
+    const Meeting one = meet(path, obstacle, pace);
+    if (one.state != Way::State::comes) continue;
+    const double step = obstacle.radius / norm(obstacle.velocity);  // s
+    const double end = one.meets_in;
+    const double spare = obstacle.radius + 2.0 * config_.robot_radius + kElbowRoom;
+    for (double t = std::min(step, end); t <= end + 1e-9; t += step) {
+      Cylinder then = later(obstacle, t);
+      if (distance(then.center, path.front()) < spare) break;
+      while (taken.count(id) > 0) --id;
+      then.id = id--;
+      out.push_back(then);
+    }
+  }
+  return out;
+}
+
+}  // namespace navvi_nav

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "navvi_nav/navigator.hpp"
+#include "small_world.hpp"
+
+namespace navvi_nav {
+
+inline constexpr double kTick = 0.05;  // s
+
+inline std::shared_ptr<const MapMessage> message_of(SmallWorld& world) {
+  std::ostringstream out;
+  octomap::OcTree tree = world.tree();
+  tree.writeBinaryData(out);
+  const std::string text = out.str();
+  MapMessage message;
+  message.data.assign(text.begin(), text.end());
+  message.id = "OcTree";
+  message.resolution = tree.getResolution();
+  return std::make_shared<const MapMessage>(message);
+}
+
+/// Navigator and planner in lockstep: each job is done within the tick.
+class Lockstep : public testing::Test {
+ protected:
+  Lockstep() : Lockstep(16, 10) { world_.box(6, 3, 0, 9, 7, 1.0); }
+  Lockstep(double width, double depth) { world_.room(width, depth); }
+
+  void load() {
+    navigator_.set_map(message_of(world_));
+    tick();
+  }
+  void tick(int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      time_ += kTick;
+      if (has_pose_) navigator_.set_pose(robot_, time_);
+      navigator_.set_speed(speed_);
+      if (has_obstacles_) navigator_.set_obstacles(obstacles_, time_);
+      if (const auto job = navigator_.update(time_)) {
+        last_ = work(planner_, *job);
+        navigator_.deliver(*last_, time_);
+      }
+    }
+  }
+  /// Moves the robot straight at the next way-point.
+  void drive(double step) {
+    const Heading heading = status().heading;
+    robot_.yaw -= heading.waypoint_angle;
+    const double length = std::min(step, heading.waypoint_distance);
+    robot_.position = to_parent(robot_, {length, 0.0});
+    tick();
+  }
+  [[nodiscard]] Status status() const { return navigator_.status(time_); }
+
+  SmallWorld world_;
+  NavigatorConfig config_;
+  Navigator navigator_{config_};
+  Planner planner_{config_.planner};
+  std::optional<Outcome> last_;
+  std::vector<Cylinder> obstacles_;
+  Pose robot_{{2, 5}, 0.0};
+  bool has_pose_ = true;
+  bool has_obstacles_ = true;
+  double speed_ = 0.5;
+  double time_ = 100.0;
+};
+
+}  // namespace navvi_nav

@@ -1,0 +1,181 @@
+// A person with a robot meets moving things: planner and navigator in lockstep.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "lockstep.hpp"
+
+namespace navvi_nav {
+namespace {
+
+constexpr double kPace = 0.7;  // m/s
+
+/// Four blocks of shelves with an aisle of 3 m from left to right and one of 3 m across. The robot
+/// drives through the first one; a way round leads along each wall.
+class MovingThings : public Lockstep {
+ protected:
+  MovingThings() : Lockstep(24, 16) {
+    for (const double x : {3.0, 13.5}) {
+      world_.box(x, 3.5, 0, x + 7.5, 6.5, 1.5);
+      world_.box(x, 9.5, 0, x + 7.5, 12.5, 1.5);
+    }
+    robot_.position = {1.5, 8};
+    load();
+    navigator_.set_goal({22.5, 8});
+    tick(2);
+    EXPECT_NEAR(length_of(navigator_.path()), 21.0, 0.1);
+  }
+
+  static Cylinder thing(Point at, Point velocity, double radius) {
+    return {1, at, radius, velocity};
+  }
+  struct Drive {
+    double waited = 0.0;     ///< s, told to wait
+    double lost = 0.0;       ///< s, without a route
+    double least = 1e9;      ///< m, between the hulls
+    double rerouted = -1.0;  ///< m, from the thing's hull to the robot's when first rerouted
+    unsigned reroutes = 0;
+    double backwards = 0.0;  ///< m, driven to the left
+  };
+  /// A person follows until they arrive, and stands while told to wait or without a path. \param
+  /// thing  where it is after so many s
+  Drive drive_among(const std::function<Cylinder(double)>& thing, double longest) {
+    Drive out;
+    double elapsed = 0.0;
+    while (status().state != State::arrived && elapsed < longest) {
+      elapsed += kTick;
+      obstacles_ = {thing(elapsed)};
+      const Status now = status();
+      const bool drives = now.state == State::following;
+      speed_ = drives ? kPace : 0.0;
+      const double x = robot_.position.x;
+      if (drives)
+        drive(kPace * kTick);
+      else
+        tick();
+      out.backwards += std::max(0.0, x - robot_.position.x);
+      out.waited += now.state == State::blocked ? kTick : 0.0;
+      out.lost += now.state == State::no_route ? kTick : 0.0;
+      const double gap =
+          distance(robot_.position, obstacles_[0].center) - obstacles_[0].radius - 0.35;
+      out.least = std::min(out.least, gap);
+      if (status().reroutes > out.reroutes && out.reroutes == 0) out.rerouted = gap;
+      out.reroutes = std::max(out.reroutes, status().reroutes);
+    }
+    EXPECT_EQ(status().state, State::arrived);
+    return out;
+  }
+};
+
+TEST_F(MovingThings, a_forklift_that_crosses_is_waited_for_and_nothing_is_rerouted) {
+  double waited = 0.0;
+  for (const double delay : {4.0, 6.0, 6.5, 8.0, 10.0}) {
+    robot_.position = {1.5, 8};
+    navigator_.set_goal({22.5, 8});
+    tick(2);
+    const unsigned before = status().plans;
+    const Drive drive = drive_among(
+        [&](double time) {
+          return thing({12.0, 15.0 - (time - delay)}, {0, -1}, 0.8);
+        },
+        60.0);
+    EXPECT_EQ(drive.reroutes, 0U) << delay;
+    EXPECT_EQ(drive.lost, 0.0) << delay;
+    EXPECT_LT(drive.waited, 5.0) << delay;
+    EXPECT_GT(drive.least, 0.0) << delay;
+    EXPECT_LE(status().plans - before, 3U) << delay;
+    EXPECT_EQ(status().churn, 0.0) << delay;
+    waited = std::max(waited, drive.waited);
+  }
+  EXPECT_GT(waited, 0.5);
+}
+
+TEST_F(MovingThings, a_forklift_that_stands_is_led_around_once_and_in_time) {
+  const Drive drive = drive_among([&](double) { return thing({17.0, 8.0}, {0, 0}, 0.9); }, 120.0);
+  EXPECT_EQ(drive.reroutes, 1U);
+  EXPECT_GT(drive.rerouted, 5.0);
+  EXPECT_EQ(drive.lost, 0.0);
+  EXPECT_EQ(drive.waited, 0.0);
+  EXPECT_GT(drive.least, 0.3);
+}
+
+TEST_F(MovingThings, a_forklift_that_stops_on_its_way_across_is_led_around_once) {
+  const Drive drive = drive_among(
+      [&](double time) {
+        const bool stopped = time >= 9.0;
+        return thing({12.0, 17.0 - std::min(time, 9.0)}, {0, stopped ? 0.0 : -1.0}, 1.0);
+      },
+      120.0);
+  EXPECT_EQ(drive.reroutes, 1U);
+  EXPECT_EQ(drive.lost, 0.0);
+  EXPECT_GT(drive.least, 0.0);
+}
+
+TEST_F(MovingThings, a_forklift_that_comes_along_a_wide_aisle_is_passed_without_turning_back) {
+  const Drive drive = drive_among(
+      [&](double time) {
+        return thing({22.0 - time, 8.0}, {-1, 0}, 0.4);
+      },
+      120.0);
+  EXPECT_LE(drive.reroutes, 2U);
+  EXPECT_EQ(drive.lost, 0.0);
+  EXPECT_EQ(drive.backwards, 0.0);
+  EXPECT_GT(drive.least, 0.0);
+}
+
+TEST_F(MovingThings, a_forklift_that_comes_and_fills_the_aisle_is_evaded_by_another_way) {
+  const Drive drive = drive_among(
+      [&](double time) {
+        return thing({34.0 - time, 8.0}, {-1, 0}, 1.0);
+      },
+      120.0);
+  EXPECT_GE(drive.reroutes, 1U);
+  EXPECT_LE(drive.reroutes, 2U);
+  EXPECT_GT(drive.rerouted, 3.0);
+  EXPECT_EQ(drive.lost, 0.0);
+  EXPECT_GT(drive.least, 0.0);
+}
+
+TEST_F(MovingThings, a_thing_that_overtakes_changes_nothing) {
+  const Drive drive = drive_among(
+      [&](double time) {
+        return thing({-4.0 + 1.4 * time, 8.0 + 1.2}, {1.4, 0}, 0.4);
+      },
+      60.0);
+  EXPECT_EQ(drive.reroutes, 0U);
+  EXPECT_EQ(drive.waited, 0.0);
+  EXPECT_EQ(drive.backwards, 0.0);
+}
+
+TEST_F(MovingThings, a_way_that_is_closed_for_good_is_told_and_found_again) {
+  obstacles_ = {{1, {10, 1.7}, 1.6, {}}, {2, {10, 8}, 1.4, {}}, {3, {10, 14.3}, 1.6, {}}};
+  tick(20);
+  EXPECT_EQ(status().state, State::no_route);
+  tick(200);
+  EXPECT_EQ(status().state, State::no_route);
+  EXPECT_TRUE(navigator_.path().empty());
+  obstacles_.pop_back();
+  tick(60);
+  EXPECT_EQ(status().state, State::following);
+}
+
+TEST_F(MovingThings, the_old_way_is_taken_again_once_it_is_much_shorter_and_free) {
+  obstacles_ = {thing({12.0, 8.0}, {0, 0}, 1.4)};
+  tick(20);
+  ASSERT_GT(length_of(navigator_.path()), 22.0);
+  const unsigned plans = status().plans;
+  tick(200);
+  EXPECT_EQ(status().plans, plans);  // nothing moved
+  obstacles_.clear();
+  tick(60);
+  EXPECT_NEAR(length_of(navigator_.path()), 21.0, 0.1);
+}
+
+}  // namespace
+}  // namespace navvi_nav
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
