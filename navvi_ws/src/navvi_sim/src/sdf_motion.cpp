@@ -233,11 +233,12 @@ std::optional<SdfMotion> plugin_motion(const XmlElement& plugin, const Eigen::Is
     notes.add(plugin, "the plugin gives no way to follow; what it moves stands still");
     return motion;
   }
-  if (is("obstaclePath")) {
-    motion.start.translation().head<2>() = route.waypoints.front().at;
-  } else if (!is("PedestrianSFM")) {
+  if (is("TrajectoryFollower") || is("trajectory-follower"))
     notes.add(plugin, "what the plugin pushes by a force moves here at 1 m/s");
-  }
+  const Eigen::Vector2d begin = route.waypoints.front().at;
+  if ((begin - start).norm() >= kSamePlace)
+    notes.add(plugin, "what the plugin moves begins here at its first way-point");
+  motion.start.translation().head<2>() = begin;
   motion.route = std::move(route);
   return motion;
 }

@@ -76,7 +76,8 @@ Eigen::Vector3d vector3(const XmlElement& element) {
 
 const XmlElement& required(const XmlElement& element, const std::string& child) {
   const XmlElement* found = element.child(child);
-  if (found == nullptr) refuse(element, "<" + element.name + "> has no <" + child + ">; it needs one");
+  if (found == nullptr)
+    refuse(element, "<" + element.name + "> has no <" + child + ">; it needs one");
   return *found;
 }
 

@@ -11,6 +11,7 @@
 #include "sdf_frames.hpp"
 #include "sdf_geometry.hpp"
 #include "sdf_motion.hpp"
+#include "sdf_traffic.hpp"
 #include "sdf_value.hpp"
 
 namespace navvi_sim {
@@ -106,6 +107,7 @@ class WorldReader {
     for (const XmlElement* actor : world.children_named("actor")) read_actor(world, *actor);
     add_planes();
     find_floor();
+    keep_routes_that_can_be_driven(loaded_.world, places_, notes_);
     loaded_.notes = notes_.sentences();
     return std::move(loaded_);
   }
@@ -312,14 +314,18 @@ class WorldReader {
     loaded_.world.floor_height = *height;
     for (const std::size_t walker : on_floor_) things[walker].pose.translation().z() = *height;
     std::vector<Thing> kept;
+    std::vector<std::string> kept_places;
     for (std::size_t i = 0; i < things.size(); ++i) {
-      if (things[i].thing_class != ThingClass::floor && top_of(things[i]) < *height)
+      if (things[i].thing_class != ThingClass::floor && top_of(things[i]) < *height) {
         notes_.add(places_[i],
                    "'" + things[i].name + "' is not taken over: all of it lies under the floor");
-      else
-        kept.push_back(std::move(things[i]));
+        continue;
+      }
+      kept.push_back(std::move(things[i]));
+      kept_places.push_back(std::move(places_[i]));
     }
     things = std::move(kept);
+    places_ = std::move(kept_places);
   }
 
   const fs::path& file_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "navvi_sim/lanes.hpp"
 #include "navvi_sim/validate.hpp"
 #include "sdf_folder.hpp"
 
@@ -132,7 +133,7 @@ TEST_F(SdfMotionTest, of_plugins_with_way_points_is_taken_over) {
                        "<loop>true</loop><waypoints>" + two + "</waypoints>");
   EXPECT_EQ(thing.route.value().waypoints.size(), 2U);
   EXPECT_TRUE(thing.route->loop);
-  EXPECT_NEAR(thing.pose.translation().x(), 1.0, 1e-9);
+  EXPECT_NEAR(thing.pose.translation().x(), 4.0, 1e-9);
   thing = plugin("gz-sim-trajectory-follower-system", "<waypoints>" + two + "</waypoints>");
   EXPECT_EQ(thing.route.value().waypoints.size(), 3U) << "from where it stands";
   EXPECT_FALSE(thing.route->loop);
@@ -160,6 +161,26 @@ TEST_F(SdfMotionTest, of_plugins_with_way_points_is_taken_over) {
 
   EXPECT_FALSE(plugin("libSomethingElse.so", "<waypoints>" + two + "</waypoints>").route);
   EXPECT_FALSE(plugin("gz-sim-trajectory-follower-system", "").route);
+}
+
+TEST_F(SdfMotionTest, through_what_stands_is_none_and_is_told) {
+  const auto walker = [](const std::string& name, const std::string& y) {
+    return "\n<actor name='" + name +
+           "'><script><trajectory id='0' type='w'><waypoint><time>0</time>"
+           "<pose>-5 " +
+           y + " 1 0 0 0</pose></waypoint><waypoint><time>10</time><pose>5 " + y +
+           " 1 0 0 0</pose></waypoint></trajectory></script></actor>";
+  };
+  const LoadedWorld loaded =
+      load(ground_ + model("crate", "<box><size>1 1 1</size></box>", "0 0 0.5 0 0 0") +
+           walker("ghost", "0") + walker("ann", "3") + walker("bob", "-3"));
+  const Thing* ghost = thing_named(loaded.world, "ghost");
+  EXPECT_FALSE(ghost->route.has_value());
+  EXPECT_NEAR(ghost->pose.translation().x(), -5.0, 1e-9);
+  EXPECT_TRUE(has_note(loaded, {"line 2", "ghost", "crate"}));
+  EXPECT_TRUE(thing_named(loaded.world, "ann")->route.has_value());
+  EXPECT_TRUE(thing_named(loaded.world, "bob")->route.has_value());
+  EXPECT_NO_THROW(static_cast<void>(lay_lanes(loaded.world, {})));
 }
 
 TEST_F(SdfMotionTest, with_odd_numbers_is_refused) {
