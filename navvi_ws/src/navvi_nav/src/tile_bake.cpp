@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "merge_convex.hpp"
 #include "outline.hpp"
 
 namespace navvi_nav {
@@ -199,11 +200,10 @@ GridPolygon placed(const Corners& clockwise, const TileCells& cells) {
 
 /// \returns nothing unless the two sums in the header hold
 std::optional<std::vector<GridPolygon>> try_contours(rcContext& context, const TileCells& cells,
-                                                     const rcContourSet& set, std::int64_t drawn,
-                                                     int max_corners) {
+                                                     const rcContourSet& set, std::int64_t drawn) {
   const PolyMesh mesh(rcAllocPolyMesh());
   require(mesh != nullptr, "rcAllocPolyMesh");
-  if (!rcBuildPolyMesh(&context, const_cast<rcContourSet&>(set), max_corners, *mesh)) return {};
+  if (!rcBuildPolyMesh(&context, const_cast<rcContourSet&>(set), 3, *mesh)) return {};
   std::vector<GridPolygon> out;
   out.reserve(static_cast<std::size_t>(mesh->npolys));
   for (int i = 0; i < mesh->npolys; ++i) {
@@ -235,7 +235,7 @@ std::optional<std::vector<GridPolygon>> try_bake(rcContext& context, const TileC
     put_back(outline, set->conts[i]);
   }
   if (outlined != 2 * open) return {};
-  return try_contours(context, cells, *set, drawn, config.max_corners);
+  return try_contours(context, cells, *set, drawn);
 }
 
 /// Rows of open cells, each as tall as it stays the same.
@@ -324,7 +324,8 @@ std::vector<GridPolygon> bake_tile(const TileCells& cells, const BakeConfig& con
   if (count_open(rest) == 0) return out;
   std::vector<GridPolygon> polygons = bake_regions(cells, rest, config);
   polygons.insert(polygons.end(), out.begin(), out.end());
-  return polygons;
+  if (config.max_corners <= 3) return polygons;
+  return merge_convex(std::move(polygons), config.max_corners);
 }
 
 }  // namespace navvi_nav
