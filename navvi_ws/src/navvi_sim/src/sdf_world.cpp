@@ -11,6 +11,7 @@
 #include "sdf_frames.hpp"
 #include "sdf_geometry.hpp"
 #include "sdf_motion.hpp"
+#include "sdf_own.hpp"
 #include "sdf_traffic.hpp"
 #include "sdf_value.hpp"
 
@@ -151,6 +152,7 @@ class WorldReader {
     classify(model, thing);
     const std::size_t planes = planes_.size();
     read_links(model, Eigen::Isometry3d::Identity(), thing);
+    thing.route = own_route(model);
     read_plugins(model, thing);
     if (!thing.shapes.empty()) {
       add(std::move(thing), model);
@@ -209,6 +211,11 @@ class WorldReader {
   }
 
   void classify(const XmlElement& model, Thing& thing) {
+    if (const auto own = own_class(model, "class")) {
+      thing.thing_class = *own;
+      loaded_.rules[thing.name] = "navvi:class";
+      return;
+    }
     std::vector<std::string> names{thing.name};
     for (const char* kind : {"model", "link"})
       for (const XmlElement* inner : model.children_named(kind)) names.push_back(name_of(*inner));
@@ -248,7 +255,11 @@ class WorldReader {
       return;
     }
     SdfGeometry read = shapes_.read(*geometry, pose);
-    for (Shape& shape : read.shapes) thing.shapes.push_back(std::move(shape));
+    const std::optional<ThingClass> look = own_class(collision, "look");
+    for (Shape& shape : read.shapes) {
+      shape.look = look;
+      thing.shapes.push_back(std::move(shape));
+    }
     if (thing.shapes.size() > WorldLimits::shapes_per_thing)
       refuse(collision, "'" + thing.name + "' has more than " +
                             std::to_string(WorldLimits::shapes_per_thing) +
@@ -271,7 +282,7 @@ class WorldReader {
         if (child.attribute("type") != "fixed") notes_.add_harmless(child);
       } else if (child.name == "plugin" && element.name == "world") {
         note_plugin(child, "");
-      } else if (child.name != "plugin" && kUnderstood.count(child.name) == 0) {
+      } else if (child.name != "plugin" && kUnderstood.count(child.name) == 0 && !is_own(child)) {
         notes_.add(child, "<" + child.name + "> is not known here, and is not taken over");
       }
     }

@@ -111,6 +111,8 @@ class GeometryWriter {
 
 class SdfWriter {
  public:
+  explicit SdfWriter(bool visuals) : visuals_(visuals) {}
+
   [[nodiscard]] std::string write(const WorldDescription& world) {
     out_ =
         "<?xml version=\"1.0\"?>\n"
@@ -140,8 +142,9 @@ class SdfWriter {
         element("geometry", std::visit(GeometryWriter(thing.name), shape.geometry));
     const std::string color = color_of(look_of(thing, shape));
     out_ += "<collision name=\"c" + std::to_string(number) + "\">" + pose + geometry +
-            (shape.look ? element("navvi:look", to_string(*shape.look)) : "") + "</collision>\n" +
-            "<visual name=\"v" + std::to_string(number) + "\">" + pose + geometry +
+            (shape.look ? element("navvi:look", to_string(*shape.look)) : "") + "</collision>\n";
+    if (!visuals_) return;
+    out_ += "<visual name=\"v" + std::to_string(number) + "\">" + pose + geometry +
             element("material", element("ambient", color) + element("diffuse", color)) +
             "</visual>\n";
   }
@@ -157,11 +160,14 @@ class SdfWriter {
     out_ += "</navvi:route>\n";
   }
 
+  bool visuals_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string to_sdf(const WorldDescription& world) { return SdfWriter().write(world); }
+std::string to_sdf(const WorldDescription& world, bool visuals) {
+  return SdfWriter(visuals).write(world);
+}
 
 }  // namespace navvi_sim

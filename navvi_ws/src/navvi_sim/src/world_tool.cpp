@@ -18,6 +18,7 @@
 #include "navvi_sim/validate.hpp"
 #include "navvi_sim/world_hash.hpp"
 #include "navvi_sim/world_picture.hpp"
+#include "xml_element.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -164,7 +165,12 @@ int write(const std::string& spec, const fs::path& path, const std::vector<std::
   if (path.extension() != ".sdf" && path.extension() != ".world")
     throw UsageError("'" + path.string() + "' is no SDF file; allowed are .sdf and .world");
   const Request request = load(spec, words);
-  write_file(path, to_sdf(request.loaded.world));
+  std::string text = to_sdf(request.loaded.world);
+  if (text.size() > kMaxXmlBytes) {
+    text = to_sdf(request.loaded.world, false);
+    std::cout << "without visuals, with which the file would be too large to be read back\n";
+  }
+  write_file(path, text);
   for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
   std::cout << request.loaded.world.things.size() << " things in " << path.string() << '\n';
   return 0;

@@ -10,7 +10,6 @@
 namespace navvi_sim {
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = 20'000'000;
 
 std::string trimmed(const std::string& text) {
   const char* space = " \t\r\n";
@@ -24,7 +23,7 @@ std::string content_of(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error))
     throw WorldError(file.string() + " does not exist or is no file; allowed are XML files");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (size > kMaxBytes)
+  if (size > kMaxXmlBytes)
     throw WorldError(file.string() + " is larger than 20 MB; allowed is up to 20 MB");
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -7,6 +8,8 @@
 #include <vector>
 
 namespace navvi_sim {
+
+constexpr std::uintmax_t kMaxXmlBytes = 20'000'000;  ///< of a file that is read
 
 /// An element of an XML file, with all that is in it.
 struct XmlElement {

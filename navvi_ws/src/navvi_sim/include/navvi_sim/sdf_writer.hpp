@@ -17,7 +17,8 @@ namespace navvi_sim {
 ///     </navvi:route>
 ///     <navvi:look>box</navvi:look>                        in a collision
 ///
+/// \param visuals  whether Gazebo is to show what is there; without, the text is half as long
 /// \throws WorldError for a world with a mesh, which SDF keeps in a file of its own
-[[nodiscard]] std::string to_sdf(const WorldDescription& world);
+[[nodiscard]] std::string to_sdf(const WorldDescription& world, bool visuals = true);
 
 }  // namespace navvi_sim
