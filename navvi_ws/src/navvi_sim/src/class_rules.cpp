@@ -68,7 +68,8 @@ class RuleReader {
 
  private:
   [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
-    throw WorldError(source_ + ", line " + std::to_string(std::max(0, node.Mark().line) + 1) + ": " + what);
+    throw WorldError(source_ + ", line " + std::to_string(std::max(0, node.Mark().line) + 1) +
+                     ": " + what);
   }
 
   void add(const YAML::Node& item, ClassRules& result) const {

@@ -104,12 +104,20 @@ Footprint footprint_of(const Thing& thing, const Eigen::Quaterniond& tilt) {
     // A tilted sphere is a sphere.
     const Eigen::Isometry3d placed =
         sphere ? Eigen::Isometry3d(Eigen::Translation3d(pose.translation())) : pose;
+    const auto* cylinder = std::get_if<Cylinder>(&shape.geometry);
+    const bool upright = cylinder && std::abs(pose.linear()(2, 2)) > 1.0 - 1e-9;
+    // What is round seen from above reaches as far as its radius, not as the corners around it.
+    const double round = sphere ? sphere->radius : upright ? cylinder->radius : 0.0;
+    const auto reach = [&](const Eigen::Vector2d& at, double more) {
+      print.front = std::max(print.front, at.x() + more);
+      print.back = std::max(print.back, -at.x() + more);
+      print.side = std::max(print.side, std::abs(at.y()) + more);
+      print.radius = std::max(print.radius, at.norm() + more);
+    };
+    if (round > 0.0) reach(placed.translation().head<2>(), round);
     for (const Eigen::Vector3d& local : hull_points(shape.geometry)) {
       const Eigen::Vector3d point = placed * local;
-      print.front = std::max(print.front, point.x());
-      print.back = std::max(print.back, -point.x());
-      print.side = std::max(print.side, std::abs(point.y()));
-      print.radius = std::max(print.radius, std::hypot(point.x(), point.y()));
+      if (round == 0.0) reach(point.head<2>(), 0.0);
       print.bottom = std::min(print.bottom, point.z());
       print.top = std::max(print.top, point.z());
       points.emplace_back(point.x(), point.y());

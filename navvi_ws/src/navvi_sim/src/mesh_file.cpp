@@ -78,7 +78,8 @@ class Gatherer {
       const Eigen::Vector4d at(static_cast<double>(v.x), static_cast<double>(v.y),
                                static_cast<double>(v.z), 1.0);
       mesh_.vertices.push_back((pose * at).head<3>().cwiseProduct(part_.scale).cast<float>());
-      if (!mesh_.vertices.back().allFinite()) refuse(file_, "has a vertex that is not finite; allowed are finite numbers");
+      if (!mesh_.vertices.back().allFinite())
+        refuse(file_, "has a vertex that is not finite; allowed are finite numbers");
     }
     for (unsigned i = 0; i < piece.mNumFaces; ++i) {
       const aiFace& face = piece.mFaces[i];

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kSideMargin = 0.10;  // m, left beside what is passed
 constexpr double kLook = 0.1;         // m, between the places looked at ahead
+constexpr int kHalvings = 4;          // of the stretch in which it would touch
 constexpr double kThere = 1e-9;       // m, nearer is there
 
 /// [0, 1), the same anywhere (splitmix64: Steele, Lea and Flood, 2014).
@@ -125,7 +126,15 @@ double Mover::room_before(const Disc& disc, double clearance) const {
     }
     const double gap = gap_to(disc, track.elements()[ahead].place(s), print);
     // What is beside or behind it comes no nearer.
-    if (gap < kSideMargin && gap < gap_now - kThere) return std::max(0.0, distance - clearance);
+    if (gap >= kSideMargin || gap >= gap_now - kThere) continue;
+    double free = distance - kLook, taken = distance;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (free + taken);
+      double at = s_ + middle;
+      if (track.closed() && at > track.length()) at -= track.length();
+      (gap_to(disc, track.place(at), print) < kSideMargin ? taken : free) = middle;
+    }
+    return std::max(0.0, free - clearance);
   }
   return kFree;
 }

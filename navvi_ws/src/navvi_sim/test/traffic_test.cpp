@@ -136,17 +136,18 @@ TEST(Traffic, crosses_one_after_the_other) {
   street.run(600.0, 30.0);
 }
 
-TEST(Traffic, of_many_on_a_grid_of_ways_keeps_going_for_half_an_hour) {
+TEST(Traffic, of_hundreds_on_a_grid_of_ways_keeps_going_for_half_an_hour) {
   std::vector<Thing> things;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const double at = 4.0 * i;
+    const double from = 4.0 * (i * 37 % 88) - 2.0, to = from + 46.0;
     things.push_back(pallet_robot("east " + std::to_string(i),
-                                  through({{-3, at}, {47, at}}, 0.8 + 0.05 * i, i % 3)));
+                                  through({{from, at}, {to, at}}, 0.8 + 0.01 * i, i % 3)));
     things.push_back(pallet_robot("north " + std::to_string(i),
-                                  through({{at, -3}, {at, 47}}, 1.2 - 0.04 * i, i % 2)));
+                                  through({{at, from}, {at, to}}, 1.2 - 0.005 * i, i % 2)));
   }
   Street street(world_of(things));
-  street.run(1800.0, 200.0);
+  street.run(1800.0, 300.0);
 }
 
 /// Routes drawn at random; what cannot be made safe is refused and left out.
@@ -180,7 +181,7 @@ WorldDescription drawn_world(std::uint64_t seed, std::size_t count, double side)
 
 TEST(Traffic, drawn_at_random_never_meets_and_never_stops_for_good) {
   std::size_t movers = 0, crossings = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const WorldDescription world = drawn_world(seed, 14, 24.0);
     for (const Lane& lane : lay_lanes(world, {}).lanes)
       for (const Leg& leg : lane.legs) crossings += leg.crossings.size();
