@@ -8,6 +8,7 @@ constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line tha
 constexpr double kTouch = 1e-10;   // m, from a point to an edge that it lies on
 constexpr double kQuantum = 1.0 / (1LL << 36);  // m
 constexpr int kGBits = 11;
+constexpr int kMostAround = 64;  // polygons at a vertex
 
 double extent(Point a) { return std::abs(a.x) + std::abs(a.y); }
 
@@ -165,9 +166,10 @@ void AnyAngle::slip_into(const Link& link, int root, double cost) {
             link.to,
             link.right,
             link.left,
-            false,
-            false};
-  if (reach(vertex, root, next.cost)) add(next, mesh_->at(link.right), mesh_->at(link.left));
+            !to_right,
+            to_right};
+  if (reach(vertex, origin_of(root, ahead), next.cost))
+    add(next, mesh_->at(link.right), mesh_->at(link.left));
 }
 
 /// Bends round an end of the link through which the polygon was entered, into `link`.
@@ -185,9 +187,11 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
   if (!mesh_->vertices[static_cast<std::size_t>(vertex)].corner) return;
   Point here = at(vertex);
   Point ahead = here - root;
+  const int origin = origin_of(node.root, ahead);
+  if (origin != node.root && !touches(vertex, node.polygon, ahead, to_right)) return;
   Node next;
   next.cost = node.cost + norm(ahead);
-  if (!reach(vertex, node.root, next.cost)) return;
+  if (!reach(vertex, origin, next.cost)) return;
   next.root = vertex;
   next.polygon = link.to;
   next.link_right = link.right;
@@ -210,17 +214,15 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
       near_border = -1.0 * ahead;
       far_border = ahead;
       near_end = false;
+      far_end = true;
       whole = false;
       here = at(near);
     }
   }
   if (whole) {
     const Point end = at(far) - here;
-    const int beyond = side(ahead, extent(ahead), end, extent(end));
-    if (to_right ? beyond < 0 : beyond > 0) {
-      far_border = end;
-      far_end = true;
-    }
+    far_border = end;
+    far_end = true;
   }
   next.right = to_right ? near_border : far_border;
   next.left = to_right ? far_border : near_border;
@@ -244,7 +246,39 @@ void AnyAngle::see_goal(const Node& node) {
   last.root = over_right ? node.link_right : node.link_left;
   const Point corner = at(last.root);
   last.cost += distance(root, corner);
-  if (reach(last.root, node.root, last.cost)) push(last, last.cost + distance(corner, to_));
+  if (reach(last.root, origin_of(node.root, corner - root), last.cost))
+    push(last, last.cost + distance(corner, to_));
+}
+
+/// Where the straight way begins that runs through the root in this direction: a root at which the
+/// way does not turn is none.
+int AnyAngle::origin_of(int root, Point ahead) const {
+  const int parent = reached_[static_cast<std::size_t>(root)].parent;
+  if (parent < 0) return root;
+  const Point before = at(root) - at(parent);
+  return side(before, extent(before), ahead, extent(ahead)) == 0 ? parent : root;
+}
+
+/// True if there is a wall at the vertex on that side of a way that comes into the polygon.
+bool AnyAngle::touches(int vertex, int polygon, Point ahead, bool on_right) const {
+  const Point here = at(vertex);
+  for (int steps = 0; steps < kMostAround; ++steps) {
+    const std::vector<int>& corners = mesh_->polygon(polygon).corners;
+    const auto found = std::find(corners.begin(), corners.end(), vertex);
+    if (found == corners.end()) return true;
+    const int next = on_right ? (found + 1 == corners.end() ? corners.front() : found[1])
+                              : (found == corners.begin() ? corners.back() : found[-1]);
+    const Point edge = at(next) - here;
+    const int where = side(ahead, extent(ahead), edge, extent(edge));
+    if (on_right ? where > 0 : where < 0) return false;
+    const auto& links = mesh_->polygon(polygon).links;
+    const auto link = std::find_if(links.begin(), links.end(), [&](const Link& candidate) {
+      return (on_right ? candidate.right : candidate.left) == vertex;
+    });
+    if (link == links.end()) return true;
+    polygon = link->to;
+  }
+  return true;
 }
 
 /// \returns false if the way to the vertex need not be followed

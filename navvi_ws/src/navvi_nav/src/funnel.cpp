@@ -3,8 +3,14 @@
 namespace navvi_nav {
 namespace {
 
+constexpr double kTouch = 1e-10;  // m
+
 /// Positive where `c` lies left of the ray from `a` through `b`.
 double side(Point a, Point b, Point c) { return cross(b - a, c - a); }
+
+bool on_portal(Point point, const Portal& portal) {
+  return distance(nearest_on_segment(point, portal.right, portal.left), point) < kTouch;
+}
 
 }  // namespace
 
@@ -22,7 +28,10 @@ Path funnel(Point start, Point goal, const std::vector<Portal>& portals) {
   Point right = start;
   std::size_t left_at = 0;
   std::size_t right_at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  // A portal that the start lies on is behind it; as a funnel it would be open to both sides.
+  std::size_t first = 0;
+  while (first < portals.size() && on_portal(start, portals[first])) ++first;
+  for (std::size_t i = first; i < count; ++i) {
     const Point next_right = right_of(i);
     if (side(apex, right, next_right) >= 0.0) {
       if (apex == right || side(apex, left, next_right) < 0.0) {

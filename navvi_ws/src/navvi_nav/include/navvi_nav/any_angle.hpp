@@ -48,6 +48,8 @@ class AnyAngle {
   void see_goal(const Node& node);
   void slip_into(const Link& link, int root, double cost);
   void turn(const Node& node, const Link& link, bool to_right, bool whole);
+  [[nodiscard]] int origin_of(int root, Point ahead) const;
+  [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
   void add(const Node& node, const Point& link_right, const Point& link_left);
   void push(const Node& node, double estimate);

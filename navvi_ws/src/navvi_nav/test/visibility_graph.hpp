@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "navvi_nav/mesh.hpp"
+
+namespace navvi_nav {
+
+/// Shortest paths by brute force, to judge searches by: every pair of wall ends is tried against
+/// every wall. Of a mesh it takes only its polygons' outlines and which of their edges are links.
+class VisibilityGraph {
+ public:
+  explicit VisibilityGraph(const Mesh& mesh);
+
+  /// m; none if there is no way. \param start, goal  points of the mesh
+  [[nodiscard]] std::optional<double> distance(const Mesh::Place& start, const Mesh::Place& goal);
+  /// True if nothing stands between two points of the mesh. Along a wall is free, between two walls
+  /// that touch is not.
+  [[nodiscard]] bool visible(Point a, Point b) const;
+
+ private:
+  struct Wall {
+    Point from;  ///< the floor lies on the left
+    Point to;
+  };
+  struct Node {
+    Point at;
+    int vertex = 0;
+    std::vector<std::pair<int, double>> seen;
+  };
+  [[nodiscard]] bool inside(Point point) const;
+  /// True if a path that begins at the vertex in this direction begins on its side of a pinch.
+  [[nodiscard]] bool leaves(int vertex, Point direction) const;
+  [[nodiscard]] bool sees(const Node& a, const Node& b) const;
+  [[nodiscard]] std::vector<double> reach(Point from) const;
+
+  const Mesh& mesh_;
+  std::vector<Wall> walls_;
+  std::vector<std::vector<int>> around_;  ///< of each vertex, polygons
+  std::vector<Node> nodes_;
+};
+
+}  // namespace navvi_nav
