@@ -36,7 +36,8 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   visit({"carve_changed", Range{0.0, 1.0}, "",
          "fraction of the carved area that must have changed before holes follow (R-NAV-5)"},
         carve_changed);
-  visit({"hole_sides", Range{6, 64}, "", "sides of a hole; more follow the circle closer"},
+  visit({"hole_sides", Range{4.0, 64.0}, "",
+         "sides of a hole; 8 lose nothing along axes and diagonals and 8 % at most between"},
         hole_sides);
 }
 

@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include "navvi_nav/search.hpp"
+
 namespace navvi_nav {
 namespace {
 
@@ -324,6 +326,55 @@ TEST(CutMesh, does_not_remember_how_it_came_to_be) {
     fresh.update();
     EXPECT_EQ(content(mesh.mesh()), content(fresh.mesh()));
     if (HasFailure()) FAIL() << seed;
+  }
+}
+
+TEST(CutMesh, makes_no_path_shorter_by_another_hole) {
+  int longer = 0, lost = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    CutMesh mesh(random_floor(random), kUnit);
+    Search search(SearchMethod::exact);
+    std::uniform_real_distribution<double> draw(0.0, 16.0);
+    const Point start{draw(random), draw(random)};
+    const Point goal{draw(random), draw(random)};
+    double before = 0.0;
+    for (int k = 0; k < 40; ++k) {
+      const auto from = mesh.mesh().locate(start, 1e-9);
+      const auto to = mesh.mesh().locate(goal, 1e-9);
+      if (!from || !to) break;
+      const Found& found = search.find(mesh.mesh(), *from, *to);
+      lost += !found.found && before > 0.0 ? 1 : 0;
+      if (!found.found) break;
+      ASSERT_GE(found.length, before - 1e-9) << seed;
+      longer += k > 0 && found.length > before + 1e-3 ? 1 : 0;
+      before = found.length;
+      const Disc disc = random_disc(random);
+      mesh.add(disc.center, disc.radius, kSides);
+      mesh.update();
+    }
+  }
+  EXPECT_GT(longer, 50);
+  EXPECT_GT(lost, 0);
+}
+
+TEST(CutMesh, stands_a_crowd_in_one_place_and_heals) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    std::mt19937 random(seed);
+    CutMesh mesh(random_floor(random), kUnit);
+    const Mesh before = mesh.mesh();
+    std::vector<int> holes;
+    for (int k = 0; k < 40; ++k) {
+      const double angle = 0.3 * k;
+      const Point at{8.0 + 0.05 * k * std::cos(angle), 8.0 + 0.05 * k * std::sin(angle)};
+      holes.push_back(mesh.add(at, 0.3 + 0.01 * (k % 7), 4 + k % 13));
+      if (k % 5 == 0) mesh.update();
+    }
+    mesh.update();
+    expect_sound(mesh.mesh());
+    for (const int hole : holes) mesh.remove(hole);
+    mesh.update();
+    ASSERT_TRUE(same(before, mesh.mesh())) << seed;
   }
 }
 

@@ -27,9 +27,9 @@ struct NavMeshConfig {
   int polygon_corners = 12;
   int threads = 2;
   double preferred_clearance = 0.6;
-  double carve_moved = 0.1;
+  double carve_moved = 0.05;
   double carve_changed = 0.0;
-  int hole_sides = 16;
+  int hole_sides = 8;
 
   void describe(navvi_config::Visitor& visit);
 };
