@@ -13,6 +13,7 @@
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/validate.hpp"
+#include "navvi_sim/world.hpp"
 #include "navvi_sim/world_hash.hpp"
 
 namespace navvi_sim {
@@ -288,6 +289,42 @@ TEST(Layouts, of_every_preset_cut_no_place_off_where_the_robot_has_room) {
       for (const std::size_t cell : free)
         ASSERT_TRUE(std::isfinite(ways.length[cell]))
             << grid.centre(cell).transpose() << " in " << known.name << ' ' << seed;
+    }
+}
+
+TEST(Layouts, live_for_two_minutes_in_which_all_that_moves_gets_on_and_enters_nothing) {
+  for (const Preset& known : presets())
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const WorldDescription description = layout(known.name, known.config, seed);
+      std::vector<Body> standing;
+      for (const Body& one : bodies(description))
+        if (!description.things[one.thing].route) standing.push_back(one);
+      const Scenario scenario =
+          draw_scenario(description, occupancy_of(description, OccupancyConfig{0.1}), {}, seed);
+      World world(description, {}, scenario.start, seed);
+      std::vector<double> way(world.now().movers.size(), 0.0);
+      for (int step = 0; step < 12000; ++step) {
+        ASSERT_EQ(world.step({}), World::Status::running);
+        for (std::size_t i = 0; i < way.size(); ++i)
+          way[i] += 0.01 * world.now().movers[i].velocity.norm();
+        if (step % 100 != 0) continue;
+        for (const MoverState& mover : world.now().movers) {
+          Thing thing = description.things[mover.thing];
+          thing.pose = mover.pose;
+          for (const Shape& shape : thing.shapes) {
+            const Body part = body(mover.thing, thing, shape);
+            const Eigen::AlignedBox2d bounds = part.bounds();
+            for (const Body& other : standing)
+              ASSERT_FALSE(bounds.intersects(other.bounds()) && overlap(part, other))
+                  << thing.name << " in " << description.things[other.thing].name << " at "
+                  << world.now().time << " s in " << known.name << ' ' << seed;
+          }
+        }
+      }
+      // The robot, which stands where it starts, may be in the way of one.
+      EXPECT_LE(std::count_if(way.begin(), way.end(), [](double length) { return length < 10.0; }),
+                1)
+          << known.name << ' ' << seed;
     }
 }
 
