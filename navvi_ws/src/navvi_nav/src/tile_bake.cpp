@@ -89,25 +89,27 @@ void measure_distances(rcCompactHeightfield& field, const TileCells& cells) {
   constexpr int kStraight = 2, kDiagonal = 3, kFarthest = 30;  // half cells
   const int side = field.width;
   const int stride = side + 2;  // a frame of zeros
-  std::vector<std::uint16_t> near(static_cast<std::size_t>(stride * stride), 0);
-  const auto pass = [&](int begin, int end, int step) {
-    for (int y = begin; y != end; y += step) {
-      std::uint16_t* row = near.data() + (y + 1) * stride + 1;
-      const std::uint16_t* beside = row - step * stride;
-      for (int x = begin; x != end; x += step) {
-        const int least = std::min({beside[x - step] + kDiagonal, beside[x] + kStraight,
-                                    beside[x + step] + kDiagonal, row[x - step] + kStraight});
-        row[x] = static_cast<std::uint16_t>(std::min<int>(row[x], least));
-      }
+  std::vector<std::uint8_t> near(static_cast<std::size_t>(stride * stride), 0);
+  const auto row_of = [&near, stride](int y) { return near.data() + (y + 1) * stride + 1; };
+  const auto nearer = [](int a, int b) { return static_cast<std::uint8_t>(std::min(a, b)); };
+  const auto sweep = [&](int y, int step) {
+    std::uint8_t* row = row_of(y);
+    const std::uint8_t* beside = row_of(y - step);
+    for (int x = 0; x < side; ++x) {
+      const int least =
+          nearer(nearer(beside[x - 1], beside[x + 1]) + kDiagonal, beside[x] + kStraight);
+      row[x] = nearer(row[x], least);
     }
+    const int first = step > 0 ? 0 : side - 1;
+    for (int x = first; x >= 0 && x < side; x += step)
+      row[x] = nearer(row[x], row[x - step] + kStraight);
   };
   for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x)
-      near[static_cast<std::size_t>((y + 1) * stride + x + 1)] = static_cast<std::uint16_t>(
-          cells.open[static_cast<std::size_t>(y * side + x)] * kFarthest);
+    const std::uint8_t* open = cells.open.data() + static_cast<std::size_t>(y * side);
+    for (int x = 0; x < side; ++x) row_of(y)[x] = static_cast<std::uint8_t>(open[x] * kFarthest);
+    sweep(y, 1);
   }
-  pass(0, side, 1);
-  pass(side - 1, -1, -1);
+  for (int y = side - 1; y >= 0; --y) sweep(y, -1);
   field.dist = allocate<unsigned short>(field.spanCount);
   field.maxDistance = 0;
   unsigned short* out = field.dist;
