@@ -1,6 +1,9 @@
 #include "navvi_nav/columns.hpp"
 
 #include <algorithm>
+#include <tuple>
+
+#include "parallel.hpp"
 
 namespace navvi_nav {
 namespace {
@@ -10,13 +13,39 @@ constexpr unsigned kLowSide[3] = {0x55U, 0x33U, 0x0fU};
 
 }  // namespace
 
-Columns::Columns(const Voxels& voxels) {
+Columns::Columns(const Voxels& voxels, int threads) {
   measure(voxels);
   if (!error_.empty()) return;
-  highest_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]), 0);
-  spans_.reserve(highest_.size() + highest_.size() / 8 + 1);
-  spans_.emplace_back();  // index 0 means none
-  for (const Octet& octet : voxels.octets) add(octet);
+  highest_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]));
+  const int bands = std::min(std::max(1, threads), size_[1]);
+  std::vector<std::vector<Lower>> lower(static_cast<std::size_t>(bands));
+  in_parallel(bands, bands, [&](int band) {
+    std::vector<Lower>& mine = lower[static_cast<std::size_t>(band)];
+    const auto row = [&](int end) {
+      return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);
+    };
+    for (const Octet& octet : voxels.octets) add(octet, row(band), row(band + 1), mine);
+    settle(mine);
+  });
+  for (const std::vector<Lower>& part : lower)
+    lower_.insert(lower_.end(), part.begin(), part.end());
+  const auto width = static_cast<std::size_t>(size_[0]);
+  std::size_t at = 0;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(size_[1]); ++row) {
+    while (at < lower_.size() && lower_[at].column < row * width) ++at;
+    row_begin_.push_back(at);
+  }
+  row_begin_.push_back(lower_.size());
+  lower_.push_back({highest_.size(), {}});
+}
+
+const Columns::Lower* Columns::below(std::size_t column) const {
+  const std::size_t row = column / static_cast<std::size_t>(size_[0]);
+  const auto from = lower_.begin() + static_cast<std::ptrdiff_t>(row_begin_[row]);
+  const auto to = lower_.begin() + static_cast<std::ptrdiff_t>(row_begin_[row + 1]);
+  return &*std::lower_bound(from, to, column, [](const Lower& lower, std::size_t wanted) {
+    return lower.column < wanted;
+  });
 }
 
 void Columns::measure(const Voxels& voxels) {
@@ -49,48 +78,70 @@ void Columns::measure(const Voxels& voxels) {
              " million columns of voxels; 25 million are allowed";
 }
 
-void Columns::add(const Octet& octet) {
+/// \param first_row, last_row  rows of columns to fill, the last excluded
+void Columns::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
   const int side = 1 << octet.level;
+  const int z = octet.z - kMapCenter - low_[2];
   for (int quarter = 0; quarter < 4; ++quarter) {
-    const bool lower = ((octet.mask >> quarter) & 1) != 0;
-    const bool upper = ((octet.mask >> (quarter + 4)) & 1) != 0;
-    if (!lower && !upper) continue;
+    const bool in_low = ((octet.mask >> quarter) & 1) != 0;
+    const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
+    if (!in_low && !in_high) continue;
     const int x = octet.x - kMapCenter - low_[0] + ((quarter & 1) != 0 ? side : 0);
     const int y = octet.y - kMapCenter - low_[1] + ((quarter & 2) != 0 ? side : 0);
-    const int z = octet.z - kMapCenter - low_[2];
-    const int bottom = z + (lower ? 0 : side);
-    const int top = z + (upper ? 2 * side : side);
-    for (int row = y; row < y + side; ++row) {
+    const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
+                      static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
+    for (int row = std::max(y, first_row); row < std::min(y + side, last_row); ++row) {
       const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(size_[0]) +
                                 static_cast<std::size_t>(x);
       for (std::size_t column = first; column < first + static_cast<std::size_t>(side); ++column)
-        add(column, bottom, top);
+        add(column, span, lower);
     }
   }
 }
 
-/// Spans that touch become one. A stream runs upwards within a column, so that this is most often
-/// one look at the highest span, but any order will do.
-void Columns::add(std::size_t column, int bottom, int top) {
-  std::uint32_t above = 0;
-  std::uint32_t at = highest_[column];
-  while (at != 0 && spans_[at].bottom > top) {
-    above = at;
-    at = spans_[at].below;
+/// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
+/// do, for settle() puts in order what is apart here.
+void Columns::add(std::size_t column, Packed span, std::vector<Lower>& lower) {
+  Packed& high = highest_[column];
+  const std::uint16_t more = high.bottom & kMore;
+  const auto bottom = static_cast<std::uint16_t>(high.bottom & ~kMore);
+  if (high.top == 0) {
+    high = span;
+  } else if (span.bottom <= high.top && span.top >= bottom) {
+    high.bottom = std::min(bottom, span.bottom) | more;
+    high.top = std::max(high.top, span.top);
+  } else {
+    const bool above = span.bottom > high.top;
+    lower.push_back({column, above ? Packed{bottom, high.top} : span});
+    if (above) high = span;
+    high.bottom |= kMore;
   }
-  if (at == 0 || spans_[at].top < bottom) {
-    const auto index = static_cast<std::uint32_t>(spans_.size());
-    spans_.push_back({static_cast<std::uint16_t>(bottom), static_cast<std::uint16_t>(top), at});
-    (above == 0 ? highest_[column] : spans_[above].below) = index;
-    return;
+}
+
+/// Sorts what lies below the highest spans and joins spans that touch.
+void Columns::settle(std::vector<Lower>& lower) {
+  std::sort(lower.begin(), lower.end(), [](const Lower& a, const Lower& b) {
+    return std::tie(a.column, b.span.top, b.span.bottom) <
+           std::tie(b.column, a.span.top, a.span.bottom);
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < lower.size();) {
+    const std::size_t column = lower[i].column;
+    Packed* above = &highest_[column];
+    above->bottom &= static_cast<std::uint16_t>(~kMore);
+    const std::size_t first = kept;
+    for (; i < lower.size() && lower[i].column == column; ++i) {
+      const Packed span = lower[i].span;
+      if (span.top >= above->bottom) {
+        above->bottom = std::min(above->bottom, span.bottom);
+      } else {
+        lower[kept] = {column, span};
+        above = &lower[kept++].span;
+      }
+    }
+    if (kept > first) highest_[column].bottom |= kMore;
   }
-  Span& span = spans_[at];
-  span.bottom = static_cast<std::uint16_t>(std::min<int>(span.bottom, bottom));
-  span.top = static_cast<std::uint16_t>(std::max<int>(span.top, top));
-  while (span.below != 0 && spans_[span.below].top >= span.bottom) {
-    span.bottom = std::min(span.bottom, spans_[span.below].bottom);
-    span.below = spans_[span.below].below;
-  }
+  lower.resize(kept);
 }
 
 }  // namespace navvi_nav

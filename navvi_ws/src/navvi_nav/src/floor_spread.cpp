@@ -80,25 +80,24 @@ class Spread {
   int place_near(int column, int from) const {
     int best = kUnknown;
     int ceiling = std::numeric_limits<int>::max();
-    for (std::uint32_t at = columns_.highest(static_cast<std::size_t>(column)); at != 0;
-         at = columns_.span(at).below) {
-      const Span& span = columns_.span(at);
+    columns_.downwards(static_cast<std::size_t>(column), [&](Span span) {
       const int away = std::abs(span.top - from);
       if (away <= climbing_.step && ceiling - span.top >= climbing_.headroom &&
           (best == kUnknown || away < std::abs(best - from)))
         best = span.top;
       ceiling = span.bottom;
-    }
+      return true;
+    });
     return best;
   }
 
   bool blocked(int column, int from) const {
-    for (std::uint32_t at = columns_.highest(static_cast<std::size_t>(column)); at != 0;
-         at = columns_.span(at).below) {
-      const Span& span = columns_.span(at);
-      if (span.top > from && span.bottom < from + climbing_.headroom) return true;
-    }
-    return false;
+    bool found = false;
+    columns_.downwards(static_cast<std::size_t>(column), [&](Span span) {
+      found = span.top > from && span.bottom < from + climbing_.headroom;
+      return !found;
+    });
+    return found;
   }
 
   /// Fits a plane to the floor around, as far as it is joined to the cell rather than a storey

@@ -47,7 +47,7 @@ double NavMesh::margin(double cell) const {
 }
 
 SurveyConfig survey_config(const NavMeshConfig& config) {
-  return {config.cell_size, config.robot_height, config.climb, config.floor_height};
+  return {config.cell_size, config.robot_height, config.climb, config.floor_height, config.threads};
 }
 
 MeshUpdate NavMesh::set_map(MapSurvey survey) {

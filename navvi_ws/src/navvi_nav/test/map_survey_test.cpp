@@ -139,7 +139,7 @@ TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
   EXPECT_EQ(survey_map(wide, {}).error,
             "the map spreads over 4225 million columns of voxels; 25 million are allowed");
   Voxels tall{"", 0.05, {{32768, 32768, 0, 0, 1}, {32768, 32768, 65000, 0, 1}}};
-  EXPECT_EQ(survey_map(tall, {}).error, "the map is 65001 voxels tall; 60000 are allowed");
+  EXPECT_EQ(survey_map(tall, {}).error, "the map is 65001 voxels tall; 30000 are allowed");
   Voxels full{"", 0.05, {{0, 0, 0, 15, 255}}};
   EXPECT_FALSE(survey_map(full, {}).error.empty());
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <set>
@@ -161,13 +162,19 @@ TEST(OctomapReader, takes_the_leaves_that_octomap_takes) {
   }
 }
 
-TEST(OctomapReader, leads_to_the_same_survey_whichever_way_a_map_came) {
+TEST(OctomapReader,
+     leads_to_the_same_survey_whichever_way_a_map_came_and_on_any_number_of_threads) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const octomap::OcTree tree = random_tree(seed);
     SurveyConfig config;
     config.climb = seed % 2 == 0 ? 0.0 : 0.1;
     config.cell_size = seed % 3 == 0 ? 0.1 : 0.0;
-    const MapSurvey expected = survey_map(voxels_of(tree), config);
+    config.threads = 1;
+    Voxels voxels = voxels_of(tree);
+    const MapSurvey expected = survey_map(voxels, config);
+    config.threads = 2 + static_cast<int>(seed % 3);
+    std::shuffle(voxels.octets.begin(), voxels.octets.end(), std::mt19937(seed));
+    EXPECT_EQ(survey_map(voxels, config).ground, expected.ground) << seed;
     for (const bool binary : {true, false}) {
       const Bytes data = stream_of(tree, binary);
       const MapSurvey read = survey_map(read_voxels(bytes_of(data, binary)), config);

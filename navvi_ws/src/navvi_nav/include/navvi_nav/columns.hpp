@@ -11,19 +11,20 @@ namespace navvi_nav {
 
 /// A run of occupied voxels in a column, in levels above the map's lowest occupied voxel.
 struct Span {
-  std::uint16_t bottom = 0;
-  std::uint16_t top = 0;    ///< one beyond its last level
-  std::uint32_t below = 0;  ///< the next span down; 0: none
+  int bottom = 0;
+  int top = 0;  ///< one beyond its last level
 };
 
 /// A map's occupied voxels as columns of spans: what Recast calls a height field, but written whole
-/// leaves at a time and with one entry a run.
+/// leaves at a time and with one entry a run. Most columns are one run, so the highest span of each
+/// stands in a grid, and the few below in a list.
 class Columns {
  public:
   static constexpr double kMaxColumns = 25.0e6;
-  static constexpr int kMaxLevels = 60000;
+  static constexpr int kMaxLevels = 30000;
 
-  explicit Columns(const Voxels& voxels);
+  /// \param threads  that may share the work
+  explicit Columns(const Voxels& voxels, int threads = 1);
 
   [[nodiscard]] const std::string& error() const { return error_; }  ///< a sentence, or empty
   [[nodiscard]] int low_x() const { return low_[0]; }    ///< voxels from the map's origin
@@ -31,21 +32,44 @@ class Columns {
   [[nodiscard]] int low_z() const { return low_[2]; }    ///< voxels from the map's origin: level 0
   [[nodiscard]] int width() const { return size_[0]; }   ///< columns along x
   [[nodiscard]] int height() const { return size_[1]; }  ///< columns along y
+  [[nodiscard]] int levels() const { return size_[2]; }
 
-  /// The columns lie row by row. \returns the highest span; 0: none
-  [[nodiscard]] std::uint32_t highest(std::size_t column) const { return highest_[column]; }
-  [[nodiscard]] const Span& span(std::uint32_t index) const { return spans_[index]; }
+  /// Calls visit(span) for each span of a column, the highest first, while it returns true. No two
+  /// spans of a column touch. Columns lie row by row.
+  template <typename Visit>
+  void downwards(std::size_t column, const Visit& visit) const {
+    const Packed& high = highest_[column];
+    if (high.top == 0 || !visit(unpacked(high)) || (high.bottom & kMore) == 0) return;
+    for (const Lower* lower = below(column);
+         lower->column == column && visit(unpacked(lower->span));)
+      ++lower;
+  }
 
  private:
+  static constexpr std::uint16_t kMore = 0x8000;  // in a bottom: the list has more of this column
+
+  struct Packed {
+    std::uint16_t bottom = 0;
+    std::uint16_t top = 0;  // 0: no span
+  };
+  struct Lower {
+    std::size_t column = 0;
+    Packed span;
+  };
+
+  static Span unpacked(Packed span) { return {span.bottom & ~kMore, span.top}; }
+  [[nodiscard]] const Lower* below(std::size_t column) const;
   void measure(const Voxels& voxels);
-  void add(std::size_t column, int bottom, int top);
-  void add(const Octet& octet);
+  void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
+  void add(std::size_t column, Packed span, std::vector<Lower>& lower);
+  void settle(std::vector<Lower>& lower);
 
   std::string error_;
   int low_[3] = {0, 0, 0};
   int size_[3] = {0, 0, 0};
-  std::vector<std::uint32_t> highest_;
-  std::vector<Span> spans_;
+  std::vector<Packed> highest_;
+  std::vector<Lower> lower_;            // by column, then downwards; ends with one of no column
+  std::vector<std::size_t> row_begin_;  // in lower_
 };
 
 }  // namespace navvi_nav

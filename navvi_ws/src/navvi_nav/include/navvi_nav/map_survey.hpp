@@ -18,6 +18,7 @@ struct SurveyConfig {
   double robot_height = 0.8;        ///< m, what hangs higher over the floor does not block
   double climb = 0.04;              ///< m, the highest step that is driven over
   double floor_height = kAnyFloor;  ///< m, z of the floor to take
+  int threads = 2;                  ///< that may share the work; the result is the same
 };
 
 /// What a map shows, seen from above: which squares are floor, row by row.
