@@ -141,7 +141,8 @@ void Planner::find_spacing(std::size_t lane, std::vector<std::set<int>> touched)
 std::string Planner::others_on(std::size_t lane) const {
   std::map<std::size_t, std::size_t> shared;  // blocks, by lane
   for (int i = 0; i < lanes_.lanes[lane].blocks; ++i)
-    for (const Block& other : touching_[number(lane, i)]) ++shared[other.lane];
+    for (const Block& other : touching_[number(lane, i)])
+      if (other.lane != lane) ++shared[other.lane];
   std::vector<std::pair<std::size_t, std::size_t>> order;
   for (const auto& [other, count] : shared) order.emplace_back(count, other);
   std::sort(order.rbegin(), order.rend());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 
+#include "navvi_sim/layout.hpp"
 #include "navvi_sim/warehouse.hpp"
 
 namespace navvi_sim {
@@ -252,6 +253,15 @@ TEST(Traffic, gives_way_to_who_has_waited_long) {
   things.push_back(pallet_robot("crossing", through({{33, -8}, {33, 6}}, 0.5)));
   Street street(world_of(things));
   street.run(1200.0, 90.0);
+}
+
+TEST(Traffic, of_every_preset_keeps_going) {
+  for (const Preset& preset : presets())
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      Street street(layout(preset.name, preset.config, seed), seed);
+      street.run(900.0, 240.0);
+      ASSERT_FALSE(HasFailure()) << preset.name << ", seed " << seed;
+    }
 }
 
 TEST(Traffic, repeats_bit_for_bit) {

@@ -206,6 +206,20 @@ TEST(World, a_yielding_mover_stops_before_the_robot) {
   EXPECT_LT(world.now().robot.position.norm(), 1e-6);
 }
 
+TEST(World, a_yielding_mover_touches_no_robot_that_stands_anywhere_on_its_way) {
+  Thing mover = box_thing("mover", ThingClass::forklift, {-4, -3, 1.0}, {2.4, 1.0, 2.0});
+  mover.route = Route{{{{-4, -3}}, {{4, -3}, 1.0}, {{4, 3}}, {{-4, 3}}}, 1.5};
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2.0 * kPi * i / 40.0;
+    WorldDescription description = floor_only();
+    description.things.push_back(mover);
+    const FloorPose start{4.2 * std::cos(angle), 3.2 * std::sin(angle), 0.0};
+    if (Eigen::Vector2d(start.x + 4, start.y + 3).norm() < 2.5) continue;
+    World world = make(description, start);
+    EXPECT_TRUE(drive(world, 60.0, {}).empty()) << "robot at " << start.x << ", " << start.y;
+  }
+}
+
 TEST(World, a_mover_that_does_not_yield_pushes_the_robot_and_is_counted) {
   WorldDescription description = floor_only();
   description.things.push_back(mover_thing({-4, 0}, {4, 0}, 1.0));
