@@ -49,6 +49,8 @@ class Planner {
   void find_crossings(Leg& leg, std::size_t lane) const;
   void check_spacing() const;
   void check_start() const;
+  /// The leg that a user on shared ground starts on.
+  [[nodiscard]] const Leg& first_leg(std::size_t user) const;
   [[nodiscard]] bool starts_in_way(std::size_t user, std::size_t other) const;
   [[nodiscard]] int start_block(std::size_t user) const {
     return lanes_.lanes[lanes_.users[user].lane].block_at(lanes_.users[user].start);
@@ -228,7 +230,8 @@ void Planner::find_crossings(Leg& leg, std::size_t lane) const {
   }
 }
 
-/// Who shares a track starts on private ground, with room to the next.
+/// Who shares a track starts with room to the one ahead, and on ground that other lanes touch with
+/// room to drive out of their way.
 void Planner::check_spacing() const {
   for (const Lane& lane : lanes_.lanes) {
     if (!is_shared(lane)) continue;
@@ -240,28 +243,36 @@ void Planner::check_spacing() const {
         refuse("things " + quoted(thing_of(user)) + " and " + quoted(thing_of(next)) +
                " start too close to each other on the track they share; allowed are " +
                std::to_string(lane.spacing * lane.block_length).substr(0, 4) + " m or more");
-      if (!lane.is_private[static_cast<std::size_t>(block)])
+      if (lane.is_private[static_cast<std::size_t>(block)]) continue;
+      const int way = (first_leg(user).end - block + lane.blocks) % lane.blocks;
+      if (gap < way + lane.spacing)
         refuse("thing " + quoted(thing_of(user)) + " starts in the way of " +
-               others_on(lanes_.users[user].lane) +
-               "; what shares its track with others must start where it is out of the way");
+               others_on(lanes_.users[user].lane) + ", and " + quoted(thing_of(next)) +
+               " is too near ahead for it to leave; allowed are " +
+               std::to_string((way + lane.spacing) * lane.block_length).substr(0, 4) +
+               " m or more");
     }
   }
 }
 
+const Leg& Planner::first_leg(std::size_t user) const {
+  const std::vector<Leg>& legs = lanes_.lanes[lanes_.users[user].lane].legs;
+  const auto found = std::find_if(legs.begin(), legs.end(),
+                                  [&](const Leg& leg) { return leg.end >= start_block(user); });
+  return found == legs.end() ? legs.front() : *found;
+}
+
 /// True if the first leg of one touches the ground that the other starts on.
 bool Planner::starts_in_way(std::size_t user, std::size_t other) const {
-  const std::vector<Leg>& legs = lanes_.lanes[lanes_.users[user].lane].legs;
-  const int block = start_block(user), taken = start_block(other);
-  const auto found =
-      std::find_if(legs.begin(), legs.end(), [&](const Leg& leg) { return leg.end >= block; });
-  const Leg& first = found == legs.end() ? legs.front() : *found;
+  const int taken = start_block(other);
+  const Leg& first = first_leg(user);
   return std::any_of(first.crossings.begin(), first.crossings.end(), [&](const Crossing& crossing) {
     return crossing.lane == lanes_.users[other].lane && crossing.first <= taken &&
            taken <= crossing.last;
   });
 }
 
-/// Lone users may start on shared ground if they can leave it one after another.
+/// Users may start on shared ground if they can leave it one after another.
 void Planner::check_start() const {
   std::vector<std::size_t> waiting;
   for (std::size_t user = 0; user < lanes_.users.size(); ++user) {

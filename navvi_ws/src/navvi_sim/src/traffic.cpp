@@ -95,12 +95,11 @@ void Traffic::drive(Driver& driver, const Disc& robot, double dt) {
   driver.kept = driver.in_robots_way && driver.mover.speed() == 0.0 ? driver.kept + dt : 0.0;
 }
 
-/// Keeps only the block it stands in. On a shared track legs are short and the order is fixed:
-/// there is nothing to win.
+/// Keeps only the block it stands in.
 void Traffic::strand(Driver& driver, std::size_t user) {
   const Lane& lane = *driver.lane;
   driver.kept = 0.0;
-  if (lane.legs.empty() || lane.users.size() > 1 || driver.stranded) return;
+  if (lane.legs.empty() || driver.stranded) return;
   const int block = lane.block_at(driver.mover.s());
   if (lane.block_at(std::min(driver.mover.allowed(), lane.track.length())) == block &&
       driver.mover.allowed() <= lane.track.length())
@@ -179,7 +178,7 @@ bool Traffic::clear_of_one_ahead(std::size_t user) const {
   const int there = lane.block_at(drivers_[driver.ahead].mover.s());
   const int target = lane.legs[driver.next].end;
   const auto from_here = [&](int block) { return (block - here + lane.blocks) % lane.blocks; };
-  return from_here(target) > 0 && from_here(there) >= from_here(target) + lane.spacing;
+  return from_here(there) >= from_here(target) + lane.spacing;
 }
 
 bool Traffic::holds(const Driver& driver, const Crossing& crossing) const {

@@ -241,6 +241,36 @@ TEST(Traffic, follows_on_a_shared_loop) {
   street.run(600.0, 120.0);
 }
 
+TEST(Traffic, on_shared_loops_that_cross_goes_on_after_a_robot) {
+  std::vector<Thing> things;
+  for (int loop = 0; loop < 3; ++loop)
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector2d at(9.0 * loop, 5.0 * (loop % 2));
+      Thing thing =
+          pallet_robot("loop " + std::to_string(loop) + " " + std::to_string(i),
+                       through({at, at + Eigen::Vector2d(16, 0), at + Eigen::Vector2d(16, 12),
+                                at + Eigen::Vector2d(0, 12)}));
+      thing.pose.translation() = Eigen::Vector3d(at.x() + 1.0 + 6.0 * (i % 2), at.y(), 0.25);
+      if (i >= 2) {
+        thing.pose.translation() += Eigen::Vector3d(5.0, 12, 0);
+        thing.pose.linear() =
+            Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      }
+      things.push_back(thing);
+    }
+  Street street(world_of(things));
+  std::mt19937_64 random(1);
+  for (int visit = 0; visit < 60; ++visit) {
+    const Place place = street.traffic().mover(random() % things.size()).place();
+    const double ahead = 1.0 + 0.1 * static_cast<double>(random() % 20);
+    const Eigen::Rotation2Dd turned(place.yaw);
+    street.run(25.0, std::nullopt, {place.at + turned * Eigen::Vector2d(ahead, 0.1), 0.35});
+    if (visit % 3 != 0) continue;
+    street.forgive();
+    street.run(240.0, 120.0);
+  }
+}
+
 TEST(Traffic, gives_way_to_who_has_waited_long) {
   // A stream of eight on a loop, and one that has to cross it twice a round.
   const std::vector<Eigen::Vector2d> corners{{0, 0}, {40, 0}, {40, 12}, {0, 12}};

@@ -35,8 +35,9 @@ namespace navvi_sim {
 /// while and asks anew when the robot is gone, so that a robot that stands still blocks those only
 /// whose way leads over the bodies it stops. Of the movers that stand on shared ground so, the leg
 /// of the one that was given its leg last touched none of the others when it was given, so it can
-/// be given again; likewise, when it is gone, of those that remain. Things that start on shared
-/// ground are such movers, in an order that lay_lanes has found.
+/// be given again; likewise, when it is gone, of those that remain. On a shared track the one ahead
+/// was clear of its refuge then, and can only have gone further. Things that start on shared ground
+/// are such movers, in an order that lay_lanes has found.
 class Traffic {
  public:
   /// \throws WorldError as lay_lanes
