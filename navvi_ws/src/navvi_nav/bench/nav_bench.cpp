@@ -10,13 +10,16 @@
 #include <cstring>
 #include <ctime>
 #include <functional>
+#include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "course.hpp"
+#include "contestant.hpp"
 #include "medians.hpp"
 #include "navvi_nav/octomap_reader.hpp"
 #include "navvi_nav/search.hpp"
+#include "visibility_graph.hpp"
 
 namespace {
 
@@ -25,41 +28,15 @@ using benchmark::State;
 
 constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
+constexpr int kJudged = 100;  // queries, by brute force
+const std::string kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
+                  kToTree = "bytes to tree, octomap", kWatershed = "spans to mesh, watershed",
+                  kTileCache = "spans to mesh, TileCache";
 
 double now() {  // s
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// One of the searches that are compared: `find` works on what `locate` left in it.
-struct Contestant {
-  std::string name;
-  std::function<bool(const Query&)> locate;
-  std::function<Path()> find;
-};
-
-std::vector<Contestant> searches(Course& c) {
-  const auto on = [](const std::string& name, const Mesh& mesh, SearchMethod method) {
-    const auto search = std::make_shared<Search>(method);
-    const auto ends = std::make_shared<std::pair<Mesh::Place, Mesh::Place>>();
-    return Contestant{
-        name,
-        [&mesh, ends](const Query& query) {
-          const auto from = mesh.locate(query.start, Course::kNear);
-          const auto to = mesh.locate(query.goal, Course::kNear);
-          if (from && to) *ends = {*from, *to};
-          return from && to;
-        },
-        [&mesh, ends, search] { return search->find(mesh, ends->first, ends->second).path; }};
-  };
-  return {
-      on("exact, our mesh", c.ours.nav_mesh().mesh(), SearchMethod::exact),
-      on("exact, Detour's mesh", c.detours_mesh, SearchMethod::exact),
-      on("centroids and funnel, Detour's mesh", c.detours_mesh, SearchMethod::centroid_astar),
-      {"Detour", [&c](const Query& q) { return c.detour_query.locate(q.start, q.goal); },
-       [&c] { return c.detour_query.search(); }},
-  };
 }
 
 /// Times each search alone, once a query.
@@ -107,26 +84,30 @@ void declare_bakes(Course& c) {
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
   };
-  add("bytes to mesh, ours", [&c] {
-    Planner planner(c.config);
-    planner.set_map(
-        MapBytes{c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()});
+  const auto bytes = [&c] {
+    return MapBytes{c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()};
+  };
+  add(kToFloor, [&mesh, bytes] {
+    benchmark::DoNotOptimize(survey_map(read_voxels(bytes()), survey_config(mesh)));
   });
-  add("spans to mesh, watershed",
-      [&c, &mesh] { plain::Detour(c.columns, mesh.robot_radius, mesh.robot_height); });
-  add("spans to mesh, TileCache", [&c, &mesh] {
+  add(kToMesh, [&c, bytes] { Planner(c.config).set_map(bytes()); });
+  add(kToTree, [&c] {
+    std::istringstream stream(std::string(c.bytes.begin(), c.bytes.end()));
+    octomap::OcTree(c.tree.getResolution()).readBinaryData(stream);
+  });
+  add(kWatershed, [&c, &mesh] { plain::Detour(c.columns, mesh.robot_radius, mesh.robot_height); });
+  add(kTileCache, [&c, &mesh] {
     plain::TileCache(c.columns, mesh.robot_radius, mesh.robot_height, Course::kTile);
   });
 }
 
 void declare(Course& c) {
   declare_bakes(c);
-  for (const Contestant& search : searches(c))
+  for (const Contestant& search : contestants(c))
     benchmark::RegisterBenchmark((search.name + c.name).c_str(),
                                  [&c, search](State& state) { ask_all(state, c, search); })
         ->Iterations(Course::kQueries)
         ->UseManualTime();
-  const Contestant ours = searches(c).front();
   for (const int count : kDiscs) {
     const auto add = [&](const std::string& who, const auto& replan) {
       benchmark::RegisterBenchmark(
@@ -150,76 +131,108 @@ void declare(Course& c) {
   }
 }
 
-void row(const std::string& what, const std::vector<double>& values, double ratio) {
-  std::printf("%-44s", what.c_str());
-  for (const double value : values) std::printf(" %11.2f", value);
-  if (ratio > 0.0) std::printf("   ratio %.2f", ratio);
+void row(const std::string& what, const std::vector<double>& values) {
+  std::printf("%-40s", what.c_str());
+  for (const double value : values) std::printf(" %10.2f", value);
   std::puts("");
 }
 
-/// The paths themselves, which need no clock.
+void heading(const std::string& what, const std::vector<std::string>& columns) {
+  std::printf("\n%-40s", what.c_str());
+  for (const std::string& column : columns) std::printf(" %10s", column.c_str());
+  std::puts("");
+}
+
+/// What a search made of all queries.
 struct Answers {
   int failures = 0;
-  int too_near = 0;     ///< paths that come nearer than the robot's radius to something
-  double length = 0.0;  ///< m
-  double worst = 1.0;   ///< longest against the first search of the same mesh
+  int too_near = 0;      ///< paths that come nearer than the robot's radius to something
+  double length = 0.0;   ///< m, of all
+  double longest = 1.0;  ///< times the exact path on Detour's polygons
 };
 
+/// The paths themselves, which need no clock.
 void compare(Course& c) {
   constexpr double kSlack = 1e-3;  // m, for Detour's single precision
-  const std::vector<Contestant> all = searches(c);
+  const std::vector<Contestant> all = contestants(c);
   std::vector<Answers> answers(all.size());
+  const Space space = c.ours.nav_mesh().space();
+  const auto near = [&](const Path& path) {
+    for (std::size_t k = 1; k < path.size(); ++k)
+      if (!space.segment_clear(path[k - 1], path[k], c.config.mesh.robot_radius - kSlack))
+        return true;
+    return false;
+  };
   for (const Query& query : c.queries) {
     std::vector<double> lengths;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Path path = all[i].locate(query) ? all[i].find() : Path{};
       lengths.push_back(length_of(path));
       answers[i].length += lengths.back();
-      if (path.empty()) ++answers[i].failures;
-      const auto legs = [&path](const auto& fits) {
-        for (std::size_t k = 1; k < path.size(); ++k)
-          if (!fits(path[k - 1], path[k])) return false;
-        return true;
-      };
-      if (!legs([&c](Point a, Point b) {
-            return c.ours.nav_mesh().space().segment_clear(a, b,
-                                                           c.config.mesh.robot_radius - kSlack);
-          }))
-        ++answers[i].too_near;
-      if (i >= 2 && lengths[1] > 0.0)
-        answers[i].worst = std::max(answers[i].worst, lengths[i] / lengths[1]);
+      answers[i].failures += path.empty() ? 1 : 0;
+      answers[i].too_near += near(path) ? 1 : 0;
     }
+    for (std::size_t i = kOursOnDetours; i < all.size(); ++i)
+      answers[i].longest = std::max(answers[i].longest, lengths[i] / lengths[kOursOnDetours]);
   }
-  std::printf("\n%-44s %11s %11s %11s %11s\n", "paths", "none", "too near", "mean m", "worst x");
-  for (std::size_t i = 0; i < all.size(); ++i)
+  heading("paths", {"none", "too near", "mean, m", "/ exact", "longest /"});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Answers& exact = answers[i < kOursOnDetours ? 0 : kOursOnDetours];
     row(all[i].name,
         {static_cast<double>(answers[i].failures), static_cast<double>(answers[i].too_near),
-         answers[i].length / Course::kQueries, answers[i].worst},
-        i >= 2 ? answers[i].length / answers[1].length : 0.0);
+         answers[i].length / Course::kQueries, answers[i].length / exact.length,
+         answers[i].longest});
+  }
+}
+
+/// Largest difference from brute force, relative, without holes and with some.
+void judge(Course& c) {
+  Search search(SearchMethod::exact);
+  for (const int count : {0, 10}) {
+    c.carved.carve(c.discs(count));
+    const Mesh& mesh = c.carved.nav_mesh().mesh();
+    VisibilityGraph truth(mesh);
+    double gap = 0.0;
+    int differ = 0;
+    for (int i = 0; i < kJudged; ++i) {
+      const Query& query = c.queries[static_cast<std::size_t>(i)];
+      const auto from = mesh.locate(query.start, Course::kNear);
+      const auto to = mesh.locate(query.goal, Course::kNear);
+      if (!from || !to) continue;
+      const Found& found = search.find(mesh, *from, *to);
+      const std::optional<double> shortest = truth.distance(*from, *to);
+      if (found.found != shortest.has_value()) ++differ;
+      if (found.found && shortest)
+        gap = std::max(gap, std::abs(found.length - *shortest) / *shortest);
+    }
+    std::printf("exact against a visibility graph, %d holes, %d queries: gap %.1e, %d failed\n",
+                count, kJudged, gap, differ);
+  }
+  c.carved.carve({});
 }
 
 void print(const Medians& medians, Course& c) {
-  std::printf("\n== %s, 0.1 m voxels, seed %u: %zu polygons ours, %zu Detour's\n", c.name.c_str(),
+  const std::string& name = c.name;
+  std::printf("\n== %s, 0.1 m voxels, seed %u: %zu polygons ours, %zu Detour's\n", name.c_str(),
               c.seed, c.ours.nav_mesh().mesh().polygons.size(), c.detour.polygons().size());
-  std::printf("%-44s %11s\n", "bake", "ms");
-  const double cached = medians.get("spans to mesh, TileCache" + c.name, "real_ms");
-  for (const std::string what :
-       {"bytes to mesh, ours", "spans to mesh, watershed", "spans to mesh, TileCache"}) {
-    const double took = medians.get(what + c.name, "real_ms");
-    row(what, {took}, took / cached);
+  heading("map, ms on the wall", {"", "/ TileCache"});
+  for (const std::string& what : {kToFloor, kToMesh, kToTree, kWatershed, kTileCache}) {
+    const double took = medians.get(what + name, "real_ms");
+    row(what, {took, took / medians.get(kTileCache + name, "real_ms")});
   }
-  std::printf("\n%-44s %11s %11s %11s\n", "search, us", "p50", "p99", "max");
-  for (const Contestant& search : searches(c)) {
-    const auto get = [&](const char* value) { return medians.get(search.name + c.name, value); };
-    row(search.name, {get("p50"), get("p99"), get("max")},
-        get("p50") / medians.get("Detour" + c.name, "p50"));
+  heading("search, us", {"p50", "p99", "max", "/ Detour", "p99 /"});
+  for (const Contestant& search : contestants(c)) {
+    const auto get = [&](const char* value) { return medians.get(search.name + name, value); };
+    row(search.name,
+        {get("p50"), get("p99"), get("max"), get("p50") / medians.get("Detour" + name, "p50"),
+         get("p99") / medians.get("Detour" + name, "p99")});
   }
-  std::printf("\n%-44s %11s %11s\n", "discs moved, path out, ms", "ours", "TileCache");
+  heading("discs moved, exact path out, ms", {"ours", "TileCache", "ratio"});
   for (const int count : kDiscs) {
-    const std::string which = std::to_string(count) + c.name;
+    const std::string which = std::to_string(count) + name;
     const double ours = medians.get("our replan " + which, "ms");
     const double theirs = medians.get("TileCache replan " + which, "ms");
-    row(std::to_string(count), {ours, theirs}, ours / theirs);
+    row(std::to_string(count), {ours, theirs, ours / theirs});
   }
   compare(c);
 }
@@ -242,5 +255,6 @@ int main(int argc, char** argv) {
   for (Course* course : courses) declare(*course);
   const Medians medians(argc, argv);
   for (Course* course : courses) print(medians, *course);
+  judge(small);
   return 0;
 }

@@ -1,0 +1,44 @@
+#include "contestant.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "navvi_nav/search.hpp"
+
+namespace navvi_nav {
+namespace {
+
+Contestant on(const std::string& name, const Mesh& mesh, SearchMethod method) {
+  struct State {
+    Search search;
+    Mesh::Place from, to;
+  };
+  const auto state = std::make_shared<State>(State{Search(method), {}, {}});
+  return {name,
+          [&mesh, state](const Query& query) {
+            const auto from = mesh.locate(query.start, Course::kNear);
+            const auto to = mesh.locate(query.goal, Course::kNear);
+            if (!from || !to) return false;
+            state->from = *from;
+            state->to = *to;
+            return true;
+          },
+          [&mesh, state] { return state->search.find(mesh, state->from, state->to).path; }};
+}
+
+}  // namespace
+
+std::vector<Contestant> contestants(Course& course) {
+  const Mesh& ours = course.ours.nav_mesh().mesh();
+  const Mesh& detours = course.detours_mesh;
+  return {
+      on("exact, our mesh", ours, SearchMethod::exact),
+      on("centroids and funnel, our mesh", ours, SearchMethod::centroid_astar),
+      on("exact, Detour's polygons", detours, SearchMethod::exact),
+      on("centroids and funnel, Detour's polygons", detours, SearchMethod::centroid_astar),
+      {"Detour", [&course](const Query& q) { return course.detour_query.locate(q.start, q.goal); },
+       [&course] { return course.detour_query.search(); }},
+  };
+}
+
+}  // namespace navvi_nav
