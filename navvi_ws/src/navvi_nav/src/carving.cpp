@@ -64,6 +64,11 @@ int Carving::carve(CutMesh& mesh, const std::vector<Cylinder>& cylinders,
   return mesh.update();
 }
 
+void Carving::lift(CutMesh& mesh) {
+  for (const int hole : holes_) mesh.remove(hole);
+  mesh.update();
+}
+
 void Carving::repeat(CutMesh& mesh, const CarvingRules& rules) {
   for (std::size_t i = 0; i < carved_.size(); ++i)
     holes_[i] = mesh.add(carved_[i].center, carved_[i].radius + rules.room, rules.sides);

@@ -41,71 +41,137 @@ void widen(Point& low, Point& high, Point at) {
 
 CutMesh::CutMesh(const std::vector<GridPolygon>& floor, double unit) : unit_(unit) {
   while (unit / steps_ > kFinest) steps_ *= 2.0;
-  const auto steps = static_cast<std::int64_t>(steps_);
   Point low, high;
   bool first = true;
   for (const GridPolygon& polygon : floor) {
-    std::vector<Step> corners;
     for (const auto& corner : polygon.corners) {
-      corners.push_back({corner[0] * steps, corner[1] * steps});
       const Point at{corner[0] * unit, corner[1] * unit};
       if (std::exchange(first, false)) low = high = at;
       widen(low, high, at);
     }
-    grounds_.emplace_back();
-    grounds_.back().shape = exact_polygon(corners);
   }
   ground_grid_ = BoxGrid(low, high, kSquare);
   mesh_.grid = BoxGrid(low, high, kSquare);
-  mesh_.polygons.resize(grounds_.size());
-  pieces_.resize(grounds_.size());
-  marks_.assign(grounds_.size(), kNone);
-  for (std::size_t i = 0; i < grounds_.size(); ++i) {
-    const ExactPolygon& shape = grounds_[i].shape;
-    ground_grid_.add(static_cast<int>(i), (unit_ / steps_) * shape.low,
-                     (unit_ / steps_) * shape.high);
-    for (const ExactPolygon::Edge& edge : shape.edges)
-      pool_.take(mesh_.vertices, position(edge.begin));
-    touch(static_cast<int>(i));
-  }
-  recut();
-  for (std::size_t i = 0; i < grounds_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    for (std::size_t k = 0; k < piece.link_sides.size(); ++k)
-      grounds_[i].neighbours.push_back(
-          {mesh_.polygons[i].links[k].to, piece.sides[slot(piece.link_sides[k])].number});
-  }
-  mark_corners();
-  pinches_.split(mesh_, pool_, changed_);
-  pinches_.keep_all();
-  own_vertices_ = pool_.in_use();
-  next_part_ = number_parts(mesh_);
+  change_floor({}, floor);
 }
 
-/// Which vertices are corners without holes: holes can add their own corners to these, no others.
-/// The groups at a pinch are told apart later.
-void CutMesh::mark_corners() {
-  std::vector<double> free(mesh_.vertices.size(), 0.0);
-  std::vector<char> walled(mesh_.vertices.size(), 0);
-  for (const Polygon& polygon : mesh_.polygons) {
+std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
+                                       const std::vector<GridPolygon>& come) {
+  std::vector<ExactPolygon> shapes;
+  for (const GridPolygon& polygon : come) shapes.push_back(shape_of(polygon));
+  begin();
+  pinches_.keep_none();
+  for (const int ground : gone) touch(ground);
+  find_borders();
+  for (const ExactPolygon& shape : shapes) find_borders(shape);
+  for (const int ground : borders_) keep_links(ground, true);
+  std::vector<int> doubtful;
+  for (const int ground : gone) {
+    for (const int corner : mesh_.polygon(ground).corners)
+      doubtful.push_back(pool_.place_of(corner));
+  }
+  for (const int vertex : doubtful) {
+    if (std::exchange(corners_[slot(vertex)], 0) != 0) pool_.unmark(mesh_.vertices, vertex);
+  }
+  for (const int ground : gone) remove_ground(ground);
+  std::vector<int> numbers;
+  for (const ExactPolygon& shape : shapes) numbers.push_back(add_ground(shape));
+  link();
+  for (const int ground : touched_) find_neighbours(ground);
+  for (const int ground : borders_) find_neighbours(ground);
+  for (const int index : changed_) {
+    for (const int corner : mesh_.polygon(index).corners)
+      doubtful.push_back(pool_.place_of(corner));
+  }
+  std::sort(doubtful.begin(), doubtful.end());
+  doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
+  corners_.resize(mesh_.vertices.size(), 0);
+  for (const int vertex : doubtful) mark_corner(vertex);
+  pinches_.split(mesh_, pool_, changed_);
+  pinches_.keep_all();
+  end();
+  corners_.resize(mesh_.vertices.size(), 0);
+  own_vertices_ = pool_.in_use();
+  vertices_end_ = mesh_.vertices.size();
+  next_part_ = number_parts(mesh_);
+  return numbers;
+}
+
+ExactPolygon CutMesh::shape_of(const GridPolygon& polygon) const {
+  const auto steps = static_cast<std::int64_t>(steps_);
+  std::vector<Step> corners;
+  for (const auto& corner : polygon.corners)
+    corners.push_back({corner[0] * steps, corner[1] * steps});
+  return exact_polygon(corners);
+}
+
+void CutMesh::remove_ground(int number) {
+  clear_pieces(number);
+  Ground& ground = grounds_[slot(number)];
+  ground_grid_.remove(number, (unit_ / steps_) * ground.shape.low,
+                      (unit_ / steps_) * ground.shape.high);
+  for (const ExactPolygon::Edge& edge : ground.shape.edges) {
+    const int vertex = pool_.take(mesh_.vertices, position(edge.begin));
+    pool_.drop(mesh_.vertices, vertex);
+    pool_.drop(mesh_.vertices, vertex);
+  }
+  ground = {};
+  free_grounds_.push_back(number);
+}
+
+int CutMesh::add_ground(const ExactPolygon& shape) {
+  int number = static_cast<int>(grounds_.size());
+  if (free_grounds_.empty()) {
+    grounds_.emplace_back();
+    marks_.push_back(kNone);
+    pieces_.emplace_back();
+    mesh_.polygons.emplace_back();
+  } else {
+    number = free_grounds_.back();
+    free_grounds_.pop_back();
+  }
+  ground_grid_.add(number, (unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high);
+  for (const ExactPolygon::Edge& edge : shape.edges)
+    pool_.take(mesh_.vertices, position(edge.begin));
+  grounds_[slot(number)].shape = shape;
+  touch(number);
+  cut(number);
+  return number;
+}
+
+void CutMesh::find_neighbours(int number) {
+  std::vector<Ground::Neighbour>& neighbours = grounds_[slot(number)].neighbours;
+  const Piece& piece = pieces_[slot(number)];
+  const Polygon& polygon = mesh_.polygon(number);
+  neighbours.clear();
+  for (std::size_t k = 0; k < polygon.links.size(); ++k)
+    neighbours.push_back({polygon.links[k].to, piece.sides[slot(piece.link_sides[k])].number});
+}
+
+/// A corner without holes: holes can add their own corners to these, no others. The groups at a
+/// pinch are told apart later.
+void CutMesh::mark_corner(int vertex) {
+  double free = 0.0;
+  bool walled = false;
+  const Point here = mesh_.at(vertex);
+  mesh_.grid.visit(here, here, [&](int index) {
+    const Polygon& polygon = mesh_.polygon(index);
     const std::size_t count = polygon.corners.size();
-    std::size_t link = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      const int before = polygon.corners[(k + count - 1) % count];
-      const int here = polygon.corners[k];
-      const int after = polygon.corners[(k + 1) % count];
-      free[slot(here)] += angle_at(mesh_.at(before), mesh_.at(here), mesh_.at(after));
-      if (link < polygon.links.size() && polygon.links[link].right == here) {
-        ++link;
-      } else {
-        walled[slot(here)] = walled[slot(after)] = 1;
-      }
+      const int corner = polygon.corners[k];
+      if (pool_.place_of(corner) != vertex) continue;
+      free += angle_at(mesh_.at(polygon.corners[(k + count - 1) % count]), here,
+                       mesh_.at(polygon.corners[(k + 1) % count]));
+      int links = 0;
+      for (const Link& link : polygon.links)
+        links += (link.right == corner ? 1 : 0) + (link.left == corner ? 1 : 0);
+      walled = walled || links < 2;
     }
-  }
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    if (walled[i] != 0 && free[i] > M_PI + kStraight)
-      pool_.mark(mesh_.vertices, static_cast<int>(i));
-  }
+  });
+  const bool corner = walled && free > M_PI + kStraight;
+  if (corner && corners_[slot(vertex)] == 0) pool_.mark(mesh_.vertices, vertex);
+  if (!corner && corners_[slot(vertex)] != 0) pool_.unmark(mesh_.vertices, vertex);
+  corners_[slot(vertex)] = corner ? 1 : 0;
 }
 
 Point CutMesh::position(const Meeting& at) const {
@@ -170,26 +236,34 @@ int CutMesh::update() {
   if (count == 0) return 0;
   recut();
   pinches_.split(mesh_, pool_, changed_);
+  end();
   shrink();
   return count;
 }
 
 void CutMesh::recut() {
-  matcher_.clear();
-  crossings_.clear();
-  changed_.clear();
+  begin();
   find_borders();
-  for (const int ground : borders_) keep_links(ground);
+  for (const int ground : borders_) keep_links(ground, false);
   for (const int ground : touched_) cut(ground);
   link();
   if (!keep_parts()) next_part_ = number_parts(mesh_);
+}
+
+void CutMesh::begin() {
+  matcher_.clear();
+  crossings_.clear();
+  changed_.clear();
+  borders_.clear();
+}
+
+void CutMesh::end() {
   for (const int ground : touched_) marks_[slot(ground)] = kNone;
   for (const int ground : borders_) marks_[slot(ground)] = kNone;
   touched_.clear();
 }
 
 void CutMesh::find_borders() {
-  borders_.clear();
   for (const int ground : touched_) {
     for (const Ground::Neighbour& next : grounds_[slot(ground)].neighbours) {
       if (marks_[slot(next.ground)] != kNone) continue;
@@ -199,8 +273,18 @@ void CutMesh::find_borders() {
   }
 }
 
+/// Grounds that the shape may touch.
+void CutMesh::find_borders(const ExactPolygon& shape) {
+  ground_grid_.visit((unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high,
+                     [this](int ground) {
+                       if (marks_[slot(ground)] != kNone) return;
+                       marks_[slot(ground)] = kBorder;
+                       borders_.push_back(ground);
+                     });
+}
+
 /// Of a neighbour's pieces along a touched ground: the links that stay, and the sides to be linked.
-void CutMesh::keep_links(int number) {
+void CutMesh::keep_links(int number, bool all_sides) {
   const Ground& ground = grounds_[slot(number)];
   near_edges_.clear();
   for (const Ground::Neighbour& next : ground.neighbours) {
@@ -210,8 +294,9 @@ void CutMesh::keep_links(int number) {
     const Piece& piece = pieces_[slot(index)];
     bool changes = false;
     for (std::size_t k = 0; k < piece.sides.size(); ++k) {
-      if (std::find(near_edges_.begin(), near_edges_.end(), piece.sides[k].number) ==
-          near_edges_.end())
+      const int edge = piece.sides[k].number;
+      if (!all_sides &&
+          std::find(near_edges_.begin(), near_edges_.end(), edge) == near_edges_.end())
         continue;
       matcher_.add(piece.sides, static_cast<int>(k), index, false, mesh_.vertices);
       changes = true;
@@ -398,7 +483,7 @@ void CutMesh::shrink() {
     free_pieces_.clear();
   }
   if (pool_.in_use() != own_vertices_) return;
-  pool_.shrink(mesh_.vertices, own_vertices_);
+  pool_.shrink(mesh_.vertices, vertices_end_);
   next_part_ = number_parts(mesh_);
 }
 

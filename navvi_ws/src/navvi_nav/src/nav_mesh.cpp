@@ -3,6 +3,14 @@
 #include <utility>
 
 namespace navvi_nav {
+namespace {
+
+bool same_frame(const Floor& a, const Floor& b) {
+  return a.cell_size() == b.cell_size() && a.origin().x == b.origin().x &&
+         a.origin().y == b.origin().y && a.columns() == b.columns() && a.rows() == b.rows();
+}
+
+}  // namespace
 
 void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -61,9 +69,14 @@ MeshUpdate NavMesh::set_map(MapSurvey survey) {
   how.threads = config_.threads;
   BakedMap baked = bake_map(std::move(survey), how, &baked_);
   if (!baked.error.empty()) return {baked.error, 0, 0, 0};
+  const std::shared_ptr<const Floor> before = std::exchange(floor_, baked.floor);
   baked_ = std::move(baked);
-  floor_ = baked_.floor;
-  join_tiles();
+  const bool few = 2 * baked_.rebuilt.size() <= baked_.tiles.size();
+  if (few && same_frame(*before, *floor_)) {
+    change_tiles();
+  } else {
+    join_tiles();
+  }
   return {{}, static_cast<int>(baked_.tiles.size()), static_cast<int>(baked_.rebuilt.size()), 0};
 }
 
@@ -86,9 +99,39 @@ std::shared_ptr<const Mesh> NavMesh::shared_mesh() const {
 
 void NavMesh::join_tiles() {
   std::vector<GridPolygon> all;
-  for (const auto& entry : baked_.tiles)
-    all.insert(all.end(), entry.second.begin(), entry.second.end());
+  tile_polygons_.clear();
+  for (const auto& [tile, polygons] : baked_.tiles) {
+    std::vector<int>& numbers = tile_polygons_[tile];
+    for (const GridPolygon& polygon : polygons) {
+      numbers.push_back(static_cast<int>(all.size()));
+      all.push_back(polygon);
+    }
+  }
   mesh_ = CutMesh(all, floor_->cell_size() / kStepsPerCellSide);
+  carving_.repeat(mesh_, rules());
+  shown_.reset();
+}
+
+void NavMesh::change_tiles() {
+  if (baked_.rebuilt.empty()) return;
+  carving_.lift(mesh_);
+  std::vector<int> gone;
+  std::vector<GridPolygon> come;
+  for (const TileIndex& tile : baked_.rebuilt) {
+    const std::vector<int>& numbers = tile_polygons_[tile];
+    gone.insert(gone.end(), numbers.begin(), numbers.end());
+    const auto polygons = baked_.tiles.find(tile);
+    if (polygons != baked_.tiles.end())
+      come.insert(come.end(), polygons->second.begin(), polygons->second.end());
+  }
+  const std::vector<int> numbers = mesh_.change_floor(gone, come);
+  auto next = numbers.begin();
+  for (const TileIndex& tile : baked_.rebuilt) {
+    const auto polygons = baked_.tiles.find(tile);
+    const auto count = polygons == baked_.tiles.end() ? 0 : polygons->second.size();
+    tile_polygons_[tile].assign(next, next + static_cast<std::ptrdiff_t>(count));
+    next += static_cast<std::ptrdiff_t>(count);
+  }
   carving_.repeat(mesh_, rules());
   shown_.reset();
 }

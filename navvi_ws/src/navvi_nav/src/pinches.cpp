@@ -65,6 +65,10 @@ void Pinches::keep_all() {
   for (auto& entry : twins_) entry.second.kept = entry.second.vertices.size();
 }
 
+void Pinches::keep_none() {
+  for (auto& entry : twins_) entry.second.kept = 0;
+}
+
 /// Polygons with a corner at the place, by number; the corner is made the place's first vertex.
 void Pinches::find_wedges(Mesh& mesh, const VertexPool& pool, int vertex) {
   wedges_.clear();

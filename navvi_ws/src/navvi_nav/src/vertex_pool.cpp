@@ -1,5 +1,6 @@
 #include "navvi_nav/vertex_pool.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace navvi_nav {
@@ -102,7 +103,9 @@ void VertexPool::grow(const std::vector<Vertex>& vertices) {
 void VertexPool::shrink(std::vector<Vertex>& vertices, std::size_t count) {
   vertices.resize(count);
   entries_.resize(count);
-  free_.clear();
+  free_.erase(std::remove_if(free_.begin(), free_.end(),
+                             [count](int vertex) { return slot(vertex) >= count; }),
+              free_.end());
 }
 
 }  // namespace navvi_nav

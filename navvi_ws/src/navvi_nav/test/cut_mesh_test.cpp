@@ -329,6 +329,60 @@ TEST(CutMesh, does_not_remember_how_it_came_to_be) {
   }
 }
 
+TEST(CutMesh, takes_a_part_of_another_floor) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    const std::vector<GridPolygon> floor = random_floor(random);
+    const std::vector<GridPolygon> other = random_floor(random);
+    CutMesh mesh(floor, kUnit);
+    std::vector<int> numbers(floor.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<int>(i);
+    // Within a box that wanders, the other floor takes the first one's place, or gives it back.
+    std::vector<GridPolygon> now = floor;
+    for (int step = 0; step < 6; ++step) {
+      const int x = kSquare * static_cast<int>(random() % kSquares);
+      const int y = kSquare * static_cast<int>(random() % kSquares);
+      const int side = kSquare * static_cast<int>(1 + random() % 4);
+      const auto inside = [&](const GridPolygon& polygon) {
+        for (const auto& corner : polygon.corners) {
+          if (corner[0] < x || corner[0] > x + side || corner[1] < y || corner[1] > y + side)
+            return false;
+        }
+        return true;
+      };
+      std::vector<int> gone, kept;
+      std::vector<GridPolygon> come, next;
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        (inside(now[i]) ? gone : kept).push_back(numbers[i]);
+        if (!inside(now[i])) next.push_back(now[i]);
+      }
+      for (const GridPolygon& polygon : step % 2 == 0 ? other : floor) {
+        if (inside(polygon)) come.push_back(polygon);
+      }
+      const std::vector<int> fresh = mesh.change_floor(gone, come);
+      ASSERT_EQ(fresh.size(), come.size());
+      now = next;
+      now.insert(now.end(), come.begin(), come.end());
+      numbers = kept;
+      numbers.insert(numbers.end(), fresh.begin(), fresh.end());
+      expect_sound(mesh.mesh());
+      const auto before = content(mesh.mesh());
+      ASSERT_EQ(before, content(CutMesh(now, kUnit).mesh())) << seed;
+      std::vector<int> holes;
+      for (int k = 0; k < 3; ++k) {
+        const Disc disc = random_disc(random);
+        holes.push_back(mesh.add(disc.center, disc.radius, kSides));
+      }
+      mesh.update();
+      expect_sound(mesh.mesh());
+      for (const int hole : holes) mesh.remove(hole);
+      mesh.update();
+      EXPECT_EQ(before, content(mesh.mesh()));
+      if (HasFailure()) FAIL() << seed;
+    }
+  }
+}
+
 TEST(CutMesh, makes_no_path_shorter_by_another_hole) {
   int longer = 0, lost = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {

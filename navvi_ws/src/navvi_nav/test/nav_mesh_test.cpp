@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "small_world.hpp"
 
 namespace navvi_nav {
@@ -35,6 +37,17 @@ double area_of(const Mesh& mesh) {
              2;
   }
   return sum;
+}
+
+/// All polygons, whatever their numbers.
+std::set<std::vector<std::pair<double, double>>> outlines(const Mesh& mesh) {
+  std::set<std::vector<std::pair<double, double>>> out;
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    std::vector<std::pair<double, double>> outline;
+    for (const Point at : mesh.outline(static_cast<int>(i))) outline.emplace_back(at.x, at.y);
+    if (!outline.empty()) out.insert(outline);
+  }
+  return out;
 }
 
 bool equal(const Mesh& a, const Mesh& b) {
@@ -194,11 +207,34 @@ TEST(NavMesh, waits_until_enough_of_the_carved_area_changed) {
 TEST(NavMesh, rebuilds_only_the_tiles_that_a_new_map_changes) {
   SmallWorld world;
   world.room(32, 24);
-  NavMesh mesh = mesh_of(world);
+  NavMeshConfig config;
+  config.tile_size = 8.0;
+  NavMesh mesh = mesh_of(world, config);
   EXPECT_EQ(mesh.set_map(world.tree()).tiles_rebuilt, 0);
   world.box(4, 4, 0, 4.5, 4.5, 0.5);
   EXPECT_EQ(mesh.set_map(world.tree()).tiles_rebuilt, 1);
   EXPECT_FALSE(walkable(mesh, {4.2, 4.2}));
+}
+
+TEST(NavMesh, does_not_remember_earlier_maps) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    RandomWorld world(seed);
+    NavMeshConfig config;
+    config.tile_size = 4.0;
+    NavMesh mesh = mesh_of(world.map, config);
+    mesh.carve(world.cylinders);
+    for (int step = 0; step < 4; ++step) {
+      const double x = 1.0 + 0.05 * (37 * step + 11 * seed);
+      world.map.box(x, 3 + 2 * step, 0, x + 1, 4 + 2 * step, 0.5);
+      const MeshUpdate update = mesh.set_map(world.map.tree());
+      EXPECT_LT(2 * update.tiles_rebuilt, update.tiles);
+      world.cylinders[0].center.x += 0.3;
+      mesh.carve(world.cylinders);
+      NavMesh fresh = mesh_of(world.map, config);
+      fresh.carve(world.cylinders);
+      EXPECT_EQ(outlines(mesh.mesh()), outlines(fresh.mesh())) << seed;
+    }
+  }
 }
 
 TEST(NavMesh, erodes_by_whole_cells_in_the_papers_profile) {

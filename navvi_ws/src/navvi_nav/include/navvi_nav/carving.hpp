@@ -20,7 +20,9 @@ class Carving {
  public:
   /// Makes the holes those of `cylinders`. \returns polygons of the floor that were cut anew
   int carve(CutMesh& mesh, const std::vector<Cylinder>& cylinders, const CarvingRules& rules);
-  /// Makes the same holes in a new mesh.
+  /// Takes all holes out of the mesh, until repeat().
+  void lift(CutMesh& mesh);
+  /// Makes the same holes in a mesh without any.
   void repeat(CutMesh& mesh, const CarvingRules& rules);
   /// As carved, by id.
   [[nodiscard]] const std::vector<Cylinder>& carved() const { return carved_; }

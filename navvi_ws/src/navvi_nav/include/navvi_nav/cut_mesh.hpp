@@ -20,8 +20,11 @@ namespace navvi_nav {
 class CutMesh {
  public:
   CutMesh() = default;
-  /// \param floor  polygons that do not overlap \param unit  m, of their numbers
+  /// \param floor  polygons that do not overlap; they are numbered from 0 \param unit  m, of theirs
   CutMesh(const std::vector<GridPolygon>& floor, double unit);
+  /// Takes polygons out of the floor and puts others in. There must be no holes: take them out
+  /// before. \param gone  numbers of polygons \returns the numbers of those that came
+  std::vector<int> change_floor(const std::vector<int>& gone, const std::vector<GridPolygon>& come);
 
   /// Changes what the next update() makes of the mesh.
   /// \param center, radius  m \param sides  of the hole, as Hole::place() \returns a number for
@@ -62,17 +65,24 @@ class CutMesh {
   };
 
   [[nodiscard]] Point position(const Meeting& at) const;
+  [[nodiscard]] ExactPolygon shape_of(const GridPolygon& polygon) const;
+  void begin();
+  void end();
+  void find_borders(const ExactPolygon& shape);
+  void remove_ground(int ground);
+  int add_ground(const ExactPolygon& shape);
+  void find_neighbours(int ground);
+  void mark_corner(int vertex);
   [[nodiscard]] bool cut_before(int a, int b) const;
   void touch(int ground);
   void find_borders();
-  void keep_links(int ground);
+  void keep_links(int ground, bool all_sides);
   void cut(int ground);
   void clear_pieces(int ground);
   void add_piece(int ground, const ExactPolygon& shape);
   int free_slot(int ground);
   void recut();
   void link();
-  void mark_corners();
   [[nodiscard]] bool keep_parts();
   [[nodiscard]] bool label_pieces();
   void shrink();
@@ -81,14 +91,17 @@ class CutMesh {
   double steps_ = 1.0;  // in a unit
   Mesh mesh_;
   std::vector<Ground> grounds_;
-  std::vector<Piece>
-      pieces_;  // as mesh_.polygons; the first ones belong to the ground of their number
+  /// As mesh_.polygons; the first ones belong to the ground of their number.
+  std::vector<Piece> pieces_;
   std::vector<int> free_pieces_;
+  std::vector<int> free_grounds_;
   std::vector<Opening> openings_;
   std::vector<int> free_openings_;
   VertexPool pool_;
   Pinches pinches_;
-  std::size_t own_vertices_ = 0;  // of the floor
+  std::vector<char> corners_;     // of vertices: 1 if the floor makes them corners
+  std::size_t own_vertices_ = 0;  // that the floor uses
+  std::size_t vertices_end_ = 0;  // one beyond the last of these
   int next_part_ = 0;
   BoxGrid ground_grid_;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
 #include <string>
@@ -22,7 +23,7 @@ struct NavMeshConfig {
   double floor_height = kAnyFloor;
   bool whole_cell_erosion = false;
   double contour_error = 1.0;
-  double tile_size = 16.0;
+  double tile_size = 32.0;
   double max_edge = 0.0;
   int polygon_corners = 12;
   int threads = 2;
@@ -84,10 +85,12 @@ class NavMesh {
   [[nodiscard]] double margin(double cell) const;
   [[nodiscard]] CarvingRules rules() const;
   void join_tiles();
+  void change_tiles();
 
   NavMeshConfig config_;
   BakedMap baked_;
   std::shared_ptr<const Floor> floor_ = std::make_shared<Floor>();
+  std::map<TileIndex, std::vector<int>> tile_polygons_;  // numbers in the mesh's floor
   CutMesh mesh_;
   Carving carving_;
   mutable std::shared_ptr<const Mesh> shown_;  // a copy of the mesh as it is; null: none yet

@@ -22,6 +22,8 @@ class Pinches {
   void split(Mesh& mesh, VertexPool& pool, const std::vector<int>& changed);
   /// The vertices given so far are kept for their places for good.
   void keep_all();
+  /// No longer, if split() finds no use for them.
+  void keep_none();
 
  private:
   struct Twins {
