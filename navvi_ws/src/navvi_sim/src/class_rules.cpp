@@ -43,15 +43,6 @@ bool fits(const std::string& pattern, const std::string& text) {
   return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
-std::string class_words() {
-  std::string words;
-  for (const ThingClass one : {ThingClass::floor, ThingClass::shelf, ThingClass::wall,
-                               ThingClass::box, ThingClass::pedestal, ThingClass::worker,
-                               ThingClass::forklift, ThingClass::pallet_robot, ThingClass::other})
-    words += (words.empty() ? "" : ", ") + std::string(to_string(one));
-  return words;
-}
-
 }  // namespace
 
 class RuleReader {
@@ -79,7 +70,7 @@ class RuleReader {
     const auto thing_class = thing_class_from(word.IsScalar() ? word.Scalar() : "");
     if (!thing_class)
       refuse(word, "'" + (word.IsScalar() ? word.Scalar() : "") + "' is no class; allowed are " +
-                       class_words());
+                       thing_class_words());
     const YAML::Node names = item["names"];
     if (!names.IsSequence() || names.size() == 0)
       refuse(names,

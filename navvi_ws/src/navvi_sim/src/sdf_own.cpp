@@ -38,9 +38,8 @@ std::optional<ThingClass> own_class(const XmlElement& element, const std::string
   if (word == nullptr) return std::nullopt;
   const auto thing_class = thing_class_from(word->text);
   if (!thing_class)
-    refuse(*word, "'" + word->text.substr(0, 40) +
-                      "' is no class; allowed are floor, shelf, wall, box, pedestal, worker, "
-                      "forklift, pallet_robot, other");
+    refuse(*word,
+           "'" + word->text.substr(0, 40) + "' is no class; allowed are " + thing_class_words());
   return thing_class;
 }
 

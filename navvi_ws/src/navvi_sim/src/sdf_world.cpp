@@ -108,7 +108,7 @@ class WorldReader {
     for (const XmlElement* actor : world.children_named("actor")) read_actor(world, *actor);
     add_planes();
     find_floor();
-    keep_routes_that_can_be_driven(loaded_.world, places_, notes_);
+    if (has_foreign_routes_) keep_routes_that_can_be_driven(loaded_.world, places_, notes_);
     loaded_.notes = notes_.sentences();
     return std::move(loaded_);
   }
@@ -174,6 +174,7 @@ class WorldReader {
     const SdfMotion motion = actor_motion(actor, pose_in(world, actor), notes_);
     thing.pose = motion.start;
     thing.route = motion.route;
+    has_foreign_routes_ = true;
     read_plugins(actor, thing);
     if (thing.shapes.empty()) {
       thing.shapes = person();
@@ -188,6 +189,7 @@ class WorldReader {
       if (auto motion = plugin_motion(*plugin, thing.pose, notes_)) {
         thing.pose = motion->start;
         thing.route = std::move(motion->route);
+        has_foreign_routes_ = true;
       } else {
         note_plugin(*plugin, "of '" + thing.name + "' ");
       }
@@ -348,6 +350,7 @@ class WorldReader {
   std::vector<std::string> places_;  ///< of the things
   std::set<std::string> names_;
   std::vector<Plane> planes_;
+  bool has_foreign_routes_ = false;    ///< given by an actor or a plugin
   std::vector<std::size_t> on_floor_;  ///< things that stand on the floor, wherever it is
   std::map<std::string, Eigen::Isometry3d> saved_poses_;
 };

@@ -32,4 +32,10 @@ std::optional<ThingClass> thing_class_from(const std::string& word) {
   return std::nullopt;
 }
 
+std::string thing_class_words() {
+  std::string words;
+  for (const auto& [value, name] : kNames) words += (words.empty() ? "" : ", ") + std::string(name);
+  return words;
+}
+
 }  // namespace navvi_sim

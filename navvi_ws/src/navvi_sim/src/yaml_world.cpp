@@ -179,9 +179,7 @@ class Reader {
     const YAML::Node word = required(node, "class");
     const auto thing_class = thing_class_from(text(word, "a class"));
     if (!thing_class)
-      refuse(word, "'" + word.Scalar() +
-                       "' is no class; allowed are floor, shelf, wall, box, pedestal, worker, "
-                       "forklift, pallet_robot, other");
+      refuse(word, "'" + word.Scalar() + "' is no class; allowed are " + thing_class_words());
     result.thing_class = *thing_class;
     if (const YAML::Node where = node["pose"]) result.pose = pose(where);
     const YAML::Node shapes = required(node, "shapes");

@@ -19,6 +19,8 @@ enum class ThingClass { floor, shelf, wall, box, pedestal, worker, forklift, pal
 [[nodiscard]] const char* to_string(ThingClass thing_class);
 /// nullopt for a word that is no class.
 [[nodiscard]] std::optional<ThingClass> thing_class_from(const std::string& word);
+/// All of them, with commas between, for sentences.
+[[nodiscard]] std::string thing_class_words();
 
 struct Box {
   Eigen::Vector3d size;  ///< m, full extents, > 0
