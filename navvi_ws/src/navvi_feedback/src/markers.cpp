@@ -95,7 +95,7 @@ std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& 
 }
 
 std::string turn_text(const Guidance& guidance) {
-  const int hour = clock_hour(guidance.waypoint_angle, Rounding::nearest).value_or(12);
+  const int hour = clock_hour(guidance.steer_angle, Rounding::nearest).value_or(12);
   char text[64];
   const int decimals = guidance.waypoint_distance < 2.0 ? 1 : 0;
   std::snprintf(text, sizeof text, "%d o'clock, %.*f m", hour, decimals,

@@ -74,7 +74,7 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
                         msg.replan_reason <= navvi_msgs::Guidance::MAP_CHANGED &&
                         msg.reroute_reason <= navvi_msgs::Guidance::MAP_CHANGED;
   if (!in_range || !valid(msg.goal) || !valid(msg.waypoint) ||
-      !all_within(kAngle, {msg.waypoint_angle, msg.turn_angle}) ||
+      !all_within(kAngle, {msg.waypoint_angle, msg.steer_angle, msg.turn_angle}) ||
       !all_within(kFarthest, {msg.waypoint_distance, msg.goal_distance, msg.path_offset}) ||
       msg.waypoint_distance < 0.0 || msg.goal_distance < 0.0 || msg.path_offset < 0.0) {
     return std::nullopt;
@@ -93,6 +93,7 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
   guidance.waypoint_is_goal = msg.waypoint_is_goal != 0;
   guidance.waypoint_distance = msg.waypoint_distance;
   guidance.waypoint_angle = msg.waypoint_angle;
+  guidance.steer_angle = msg.steer_angle;
   guidance.turn_angle = msg.turn_angle;
   guidance.goal_distance = msg.goal_distance;
   guidance.path_offset = msg.path_offset;

@@ -117,7 +117,7 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
 
 std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
   // The held hour, so that what is asked for agrees with what was said; a fresh one where none is.
-  const auto hour = hour_ ? hour_ : clock_hour(guidance.waypoint_angle, rounding_);
+  const auto hour = hour_ ? hour_ : clock_hour(guidance.steer_angle, rounding_);
   if (!hour || !std::isfinite(guidance.waypoint_distance)) return std::nullopt;
   Utterance utterance;
   utterance.kind = *hour == 12 ? "straight" : "direction";
@@ -169,7 +169,7 @@ RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
 }
 
 void RouteCues::observe(const Situation& now, double time) {
-  hour_ = steady_.update(now.guidance->waypoint_angle);
+  hour_ = steady_.update(now.guidance->steer_angle);
   const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
   if (beyond(now.commanded.linear, 0.02) || beyond(now.commanded.angular, 0.05))
     last_commanded_ = time;
@@ -181,12 +181,15 @@ void RouteCues::observe(const Situation& now, double time) {
 
 bool RouteCues::about_to_face(const Situation& now) const {
   if (said_hour_ == 12 || !now.measured) return false;
-  const double angle = now.guidance->waypoint_angle;
+  // A turn by one hour is made in one go: there is nothing to stop it by.
+  if (said_hour_ == 1 || said_hour_ == 11) return false;
+  const double angle = now.guidance->steer_angle;
   // Turning left makes what lies ahead wander clockwise.
   const double soon = angle + now.measured->angular * config_.straight_lead;
   const bool faces = std::abs(std::remainder(soon, 2.0 * kPi)) <= kHalfHour;
-  const bool crosses = std::abs(angle) < kPi / 2.0 && angle * soon < 0.0;
-  return faces || crosses;
+  const bool crosses = angle * soon < 0.0;
+  // Who is told more than an hour too early stops short of it, and has to be told again.
+  return std::abs(angle) <= 2.0 * kHalfHour && (faces || crosses);
 }
 
 bool RouteCues::passes_within_reach(const Guidance& guidance) const {

@@ -242,7 +242,7 @@ TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenI
   under_way();
   now_.commanded = {};
   now_.measured = Situation::Motion{};
-  now_.guidance->waypoint_angle = 1.6;
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
   now_.pad_link = Link::lost;
   EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
   now_.pad_link = Link::alive;
@@ -289,7 +289,7 @@ TEST_F(CuePolicyTest, WordsDirectionsByLeftAndRightWhereThatIsWanted) {
   CuePolicyConfig config;
   config.direction_words = "left_right";
   policy_ = CuePolicy(config, Phrases(kEnglish, config.words()));
-  now_.guidance->waypoint_angle = -1.6;
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = -1.6;
   EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters", "left, 20 meters"}));
 }
 
@@ -315,7 +315,7 @@ TEST_F(CuePolicyTest, SpeaksOnlyKnownKindsInAnySituation) {
       now_.guidance->goal = {number(20), number(20)};
       now_.guidance->waypoint = {number(20), number(20)};
     }
-    now_.guidance->waypoint_angle = number(3.2);
+    now_.guidance->waypoint_angle = now_.guidance->steer_angle = number(3.2);
     now_.guidance->turn_angle = number(3.2);
     now_.guidance->waypoint_distance = std::abs(number(20));
     now_.commanded = {number(1), number(1)};

@@ -196,7 +196,7 @@ TEST_F(FeedbackNode, SaysTheDirectionShowsThePathAndTakesBothBackWhenTheGuideIsL
   guidance_msg_.goal.y = guidance_msg_.waypoint.y = -5.0;
   guidance_msg_.waypoint_is_goal = true;
   guidance_msg_.waypoint_distance = guidance_msg_.goal_distance = 5.0;
-  guidance_msg_.waypoint_angle = 1.5708;
+  guidance_msg_.waypoint_angle = guidance_msg_.steer_angle = 1.5708;
   guidance_on_ = true;
   const auto direction = [this] {
     for (const auto& cue : heard_) {

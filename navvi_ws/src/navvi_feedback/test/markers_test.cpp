@@ -20,7 +20,7 @@ Guidance following() {
   guidance.goal = {4.0, -6.0};
   guidance.waypoint = {4.0, 0.0};
   guidance.waypoint_distance = 4.0;
-  guidance.waypoint_angle = M_PI / 2.0;
+  guidance.waypoint_angle = guidance.steer_angle = M_PI / 2.0;
   return guidance;
 }
 

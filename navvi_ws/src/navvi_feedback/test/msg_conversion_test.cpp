@@ -46,7 +46,7 @@ navvi_msgs::Guidance guidance() {
   msg.goal.x = 6.0;
   msg.waypoint.y = 2.0;
   msg.waypoint_distance = 2.0;
-  msg.waypoint_angle = -1.5;
+  msg.waypoint_angle = msg.steer_angle = -1.5;
   msg.turn_angle = 1.0;
   msg.goal_distance = 8.0;
   msg.path_offset = 0.1;
@@ -134,7 +134,7 @@ TEST(FromMsg, BadNumbersMakeGuidanceNothing) {
   unknown.state = 99;
   EXPECT_FALSE(from_msg(unknown).has_value());
   Msg beyond = guidance();
-  beyond.waypoint_angle = 4.0;
+  beyond.waypoint_angle = beyond.steer_angle = 4.0;
   EXPECT_FALSE(from_msg(beyond).has_value());
   Msg negative = guidance();
   negative.goal_distance = -1.0;

@@ -19,7 +19,7 @@ Guidance following(double degrees, double distance) {
   guidance.state = Guidance::State::following;
   guidance.goal = {20.0, 5.0};
   guidance.waypoint = {10.0, 0.0};
-  guidance.waypoint_angle = rad(degrees);
+  guidance.waypoint_angle = guidance.steer_angle = rad(degrees);
   guidance.waypoint_distance = distance;
   guidance.turn_angle = rad(90.0);
   guidance.goal_distance = 25.0;
@@ -112,9 +112,9 @@ TEST(RouteCues, RepeatStraightAheadSeldom) {
 TEST(RouteCues, CorrectOnlyBeyondTheHysteresis) {
   Drive drive;
   drive.settle(0.0, 30.0);
-  drive.now.guidance->waypoint_angle = rad(18.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(18.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
-  drive.now.guidance->waypoint_angle = rad(21.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(21.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
   EXPECT_EQ(drive.last.fillings.hour, 1);
 }
@@ -128,7 +128,7 @@ TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
   double angle_when_told = 0.0;
   while (degrees > 0.0) {
     degrees -= kTick / kPi * 180.0;
-    drive.now.guidance->waypoint_angle = rad(degrees);
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
     for (const std::string& kind : drive.pass(kTick)) {
       said.push_back(kind);
       angle_when_told = degrees;
@@ -144,9 +144,9 @@ TEST(RouteCues, TellARobotThatTurnedTooFarOnceItHasSettled) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.measured = Situation::Motion{0.0, -1.0};
-  drive.now.guidance->waypoint_angle = rad(10.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(10.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
-  drive.now.guidance->waypoint_angle = rad(-30.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
   drive.now.measured = Situation::Motion{};
   EXPECT_EQ(drive.pass(1.0), Kinds{"direction"});
@@ -198,7 +198,7 @@ TEST(RouteCues, SayANewRouteIfTheNextManoeuvreChanged) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.now.guidance->waypoint = {0.0, -12.0};
-  drive.now.guidance->waypoint_angle = rad(150.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(150.0);
   drive.now.guidance->waypoint_distance = 12.0;
   EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted"});
   EXPECT_EQ(drive.last.fillings.hour, 5);
@@ -209,7 +209,7 @@ TEST(RouteCues, SayThatTheOldWayIsBlockedOnceForEachReroute) {
   drive.settle(0.0, 30.0);
   const auto lead_to = [&drive](double x, double degrees) {
     drive.now.guidance->waypoint = {x, -12.0};
-    drive.now.guidance->waypoint_angle = rad(degrees);
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
   };
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->reroute_reason = Guidance::Replan::path_carved;
@@ -219,11 +219,42 @@ TEST(RouteCues, SayThatTheOldWayIsBlockedOnceForEachReroute) {
   EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
 }
 
+TEST(RouteCues, SayStraightAheadInATurnNotMoreThanAnHourTooEarly) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.commanded = {0.0, -1.2};
+  drive.now.measured->linear = 0.0;
+  drive.now.measured->angular = -1.2;
+  const auto face = [&drive](double degrees) {
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
+    return drive.pass(kTick);
+  };
+  EXPECT_EQ(face(60.0), Kinds{});
+  EXPECT_EQ(face(45.0), Kinds{});  // half a second later it would face it
+  EXPECT_EQ(face(29.0), Kinds{"straight"});
+  EXPECT_EQ(face(10.0), Kinds{});
+}
+
+TEST(RouteCues, LetATurnByOneHourEndByItself) {
+  for (const double side : {1.0, -1.0}) {
+    Drive drive;
+    drive.settle(side * 30.0, 8.0);
+    drive.now.measured->linear = 0.0;
+    drive.now.measured->angular = -side * 1.2;
+    for (const double degrees : {30.0, 25.0, 15.0, 5.0, -5.0, -10.0}) {
+      drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(side * degrees);
+      EXPECT_EQ(drive.pass(kTick), Kinds{}) << degrees;
+    }
+    drive.now.measured->angular = 0.0;
+    EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
+  }
+}
+
 TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
   Drive drive;
   drive.settle(0.0, 8.0);
   drive.now.guidance->waypoint_distance = 1.4;
-  drive.now.guidance->waypoint_angle = rad(28.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(28.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{});
 }
 
@@ -234,12 +265,13 @@ TEST(RouteCues, DoNotWaverBetweenTheHoursAheadJustBeforeTheWayPoint) {
   drive.now.guidance->waypoint_distance = 0.95;
   Kinds said;
   for (int i = 0; i < 10; ++i) {
-    drive.now.guidance->waypoint_angle = rad(i % 2 == 0 ? -40.0 : 0.0);
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle =
+        rad(i % 2 == 0 ? -40.0 : 0.0);
     for (const std::string& kind : drive.pass(2.0)) said.push_back(kind);
   }
   EXPECT_EQ(said, Kinds{});
   EXPECT_TRUE(drive.cues.direction(*drive.now.guidance)) << "who asks is told";
-  drive.now.guidance->waypoint_angle = rad(100.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(100.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{"direction"}) << "who missed it is told";
 }
 
@@ -327,7 +359,8 @@ void lead(const RouteConfig& config, double error) {
     now.guidance->waypoint = path[next];
     now.guidance->goal = path.back();
     now.guidance->waypoint_is_goal = next + 1 == path.size();
-    now.guidance->waypoint_angle = -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
+    now.guidance->waypoint_angle = now.guidance->steer_angle =
+        -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
     now.voice_busy = person.listens(time);
     for (const Utterance& utterance : cues.update(now, time))
       if (utterance.fillings.hour) person.hear(utterance, time);

@@ -3,7 +3,8 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kOnPath = 0.5;  // m, who is nearer to a later leg has passed its start
+constexpr double kNearPath = 1.5;  // m, who is farther off heads for the way-point itself
+constexpr double kOnPath = 0.5;    // m, who is nearer to a later leg has passed its start
 
 }  // namespace
 
@@ -19,6 +20,10 @@ void GuidanceConfig::describe(navvi_config::Visitor& visit) {
   visit({"easy_radius", Range{0.0, 2.0}, "m", "the same while the robot is not yet close"},
         easy_radius);
   visit({"close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close"}, close);
+  visit(
+      {"steer_ahead", Range{0.5, 1e6}, "m",
+       "directions are to the path so far ahead of the robot, or to the way-point if it is nearer"},
+      steer_ahead);
 }
 
 double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
@@ -72,6 +77,17 @@ bool Guidance::arrived(const Pose& robot, const Space& space) const {
   return space.floor->segment_clear(robot.position, path_.back(), 0.0);
 }
 
+/// Who heads for a far way-point notices too late that they drift off the path; a nearer point
+/// turns the same drift into a larger angle.
+Point Guidance::steer_point(Point robot) const {
+  const Point start = path_[next_ - 1];
+  const Point leg = path_[next_] - start;
+  const Point nearest = nearest_on_segment(robot, start, path_[next_]);
+  const double left = distance(nearest, path_[next_]);
+  if (left <= config_.steer_ahead || distance(robot, nearest) > kNearPath) return path_[next_];
+  return nearest + (config_.steer_ahead / norm(leg)) * leg;
+}
+
 Heading Guidance::heading(const Pose& robot) const {
   Heading out;
   const Point at = robot.position;
@@ -81,6 +97,7 @@ Heading Guidance::heading(const Pose& robot) const {
   out.waypoint_is_goal = next_ + 1 == path_.size();
   out.waypoint_distance = norm(leg);
   out.waypoint_angle = clockwise(ahead, leg);
+  out.steer_angle = clockwise(ahead, steer_point(at) - at);
   if (!out.waypoint_is_goal) out.turn_angle = clockwise(leg, path_[next_ + 1] - path_[next_]);
   out.goal_distance = length_of(remaining(at));
   out.path_offset = distance(at, nearest_on_segment(at, path_[0], path_[1]));

@@ -143,6 +143,7 @@ navvi_msgs::Guidance to_msg(const Status& status, double z, const std::string& f
   out.waypoint_is_goal = status.heading.waypoint_is_goal;
   out.waypoint_distance = status.heading.waypoint_distance;
   out.waypoint_angle = status.heading.waypoint_angle;
+  out.steer_angle = status.heading.steer_angle;
   out.turn_angle = status.heading.turn_angle;
   out.goal_distance = status.heading.goal_distance;
   out.eta = status.eta;

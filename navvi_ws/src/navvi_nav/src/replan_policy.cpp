@@ -116,7 +116,8 @@ std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow, 
     if (distance(input.robot.position, next) <= config_.way.look_ahead &&
         ahead_.blocked({next, next}, input.obstacles))
       return Reason::waypoint_blocked;
-    const bool avoids = config_.hold.hold_time > 0.0 && way_.state == Way::State::comes;
+    const bool avoids =
+        config_.hold.hold_time > 0.0 && way_.state == Way::State::comes && since >= config_.period;
     if (avoids || ahead_.blocked(input.remaining, input.obstacles)) return Reason::path_carved;
   }
   if (!near_pending_ && !slow && since < config_.period) return std::nullopt;

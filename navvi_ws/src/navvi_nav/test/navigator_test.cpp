@@ -268,6 +268,17 @@ TEST(Guidance, measures_angles_clockwise_from_the_nose) {
   EXPECT_NEAR(heading.goal_distance, std::hypot(4, 1) + 4, 1e-12);
 }
 
+TEST(Guidance, steers_to_the_path_ahead_so_that_a_drift_shows_early) {
+  Guidance guidance{GuidanceConfig{}};
+  guidance.follow({{0, 0}, {20, 0}, {20, 5}});
+  const auto steer = [&](Point at) { return guidance.heading({at, 0.0}).steer_angle; };
+  EXPECT_NEAR(steer({5, 0}), 0.0, 1e-12);
+  EXPECT_NEAR(steer({5, 0.5}), std::atan2(0.5, 3.0), 1e-12);
+  EXPECT_NEAR(guidance.heading({{5, 0.5}, 0.0}).waypoint_angle, std::atan2(0.5, 15.0), 1e-12);
+  EXPECT_NEAR(steer({18, 0.5}), std::atan2(0.5, 2.0), 1e-12);  // not past the way-point
+  EXPECT_NEAR(steer({5, 4}), std::atan2(4, 15.0), 1e-12);      // far off: to the way-point
+}
+
 TEST(Guidance, keeps_a_corner_that_would_be_cut_through_a_shelf) {
   SmallWorld world;
   world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);

@@ -54,6 +54,7 @@ struct Guidance {
   bool waypoint_is_goal = false;
   double waypoint_distance = 0.0;  ///< m, straight line
   double waypoint_angle = 0.0;     ///< from the robot's heading to the way-point
+  double steer_angle = 0.0;        ///< where to steer: likewise, to the path a little ahead
   double floor = 0.0;              ///< m, height of the floor in map
   double turn_angle = 0.0;         ///< change of course at the way-point; 0 at the goal
   double goal_distance = 0.0;      ///< m, along the path

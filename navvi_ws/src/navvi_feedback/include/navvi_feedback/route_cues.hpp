@@ -32,9 +32,9 @@ struct RouteConfig {
 };
 
 /// Says where to drive while there is a path (R-AUD-1, R-AUD-2), so that a person who only hears
-/// can follow it. All hours are seen from the robot's nose to the next way-point. While the robot
-/// turns nothing is said but "straight ahead", early enough to stop the turn by; once it has
-/// settled, the hour that is left.
+/// can follow it. All hours are seen from the robot's nose to where to steer. While the robot
+/// turns nothing is said but "straight ahead", early enough to stop a turn of more than one hour
+/// by; once it has settled, the hour that is left.
 class RouteCues {
  public:
   explicit RouteCues(const RouteConfig& config);

@@ -12,6 +12,7 @@ struct GuidanceConfig {
   double sight_radius = 0.3;
   double easy_radius = 0.6;
   double close = 0.4;
+  double steer_ahead = 3.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -22,6 +23,7 @@ struct Heading {
   bool waypoint_is_goal = false;
   double waypoint_distance = 0.0;  ///< m, straight
   double waypoint_angle = 0.0;     ///< from the robot's heading to the way-point
+  double steer_angle = 0.0;        ///< the same to the path steer_ahead m on, if that is nearer
   double turn_angle = 0.0;         ///< change of course at the way-point; 0 at the goal
   double goal_distance = 0.0;      ///< m, along the path
   double path_offset = 0.0;        ///< m, to the nearest point of the path
@@ -54,6 +56,7 @@ class Guidance {
 
  private:
   [[nodiscard]] bool sees(Point robot, Point target, const Space& space) const;
+  [[nodiscard]] Point steer_point(Point robot) const;
   [[nodiscard]] bool reached(Point robot, const Space& space) const;
 
   GuidanceConfig config_;
