@@ -100,7 +100,8 @@ TEST(MapBake, keeps_exactly_the_margin_from_straight_walls) {
 TEST(MapBake, takes_over_tiles_in_which_nothing_changed) {
   SmallWorld world;
   world.room(32, 24);
-  const MapBakeConfig config;
+  MapBakeConfig config;
+  config.tile_size = 8.0;
   const BakedMap first = bake_map(survey_of(world), config);
   const BakedMap same = bake_map(survey_of(world), config, &first);
   EXPECT_TRUE(same.rebuilt.empty());
