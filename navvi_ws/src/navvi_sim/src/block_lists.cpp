@@ -5,6 +5,13 @@
 #include <limits>
 
 namespace navvi_sim {
+namespace {
+
+constexpr std::size_t kVeryMany = 20000;  // blocks
+constexpr std::size_t kLongList = 2000;   // blocks
+constexpr double kTile = 50.0;            // m
+
+}  // namespace
 
 using visualization_msgs::Marker;
 
@@ -18,17 +25,38 @@ void BlockLists::add(const std::string& ns, const Color& color, const Eigen::Ali
   list.centres.push_back(block.center());
 }
 
+std::vector<BlockLists::List> BlockLists::tiled() const {
+  std::size_t blocks = 0;
+  for (const auto& entry : lists_) blocks += entry.second.centres.size();
+  std::vector<List> lists;
+  for (const auto& entry : lists_) {
+    const List& list = entry.second;
+    std::map<std::pair<long, long>, List> tiles;
+    const bool cut = blocks > kVeryMany && list.centres.size() > kLongList;
+    for (const Eigen::Vector3d& centre : list.centres) {
+      const std::pair<long, long> tile{std::lround(centre.x() / kTile),
+                                       std::lround(centre.y() / kTile)};
+      List& part = tiles
+                       .try_emplace(cut ? tile : std::pair<long, long>{},
+                                    List{list.ns, list.color, list.size, {}})
+                       .first->second;
+      part.centres.push_back(centre);
+    }
+    for (auto& part : tiles) lists.push_back(std::move(part.second));
+  }
+  return lists;
+}
+
 std::vector<Marker> BlockLists::markers(std::size_t most,
                                         std::map<std::string, int>& next_id) const {
-  std::vector<const List*> ordered;
-  for (const auto& entry : lists_) ordered.push_back(&entry.second);
-  std::stable_sort(ordered.begin(), ordered.end(), [](const List* a, const List* b) {
-    return a->centres.size() > b->centres.size();
+  std::vector<List> ordered = tiled();
+  std::stable_sort(ordered.begin(), ordered.end(), [](const List& a, const List& b) {
+    return a.centres.size() > b.centres.size();
   });
   std::vector<Marker> markers;
   std::map<std::string, Marker> rest;
   for (std::size_t i = 0; i < ordered.size(); ++i) {
-    const List& list = *ordered[i];
+    const List& list = ordered[i];
     if (i < most) {
       Marker msg = marker_msg(list.ns, next_id[list.ns]++, Marker::CUBE_LIST, list.color);
       msg.scale.x = list.size.x();

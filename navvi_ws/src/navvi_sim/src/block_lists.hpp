@@ -19,8 +19,9 @@ class BlockLists {
   /// \param block  m, in map; not empty
   void add(const std::string& ns, const Color& color, const Eigen::AlignedBox3d& block);
 
-  /// The lists, most blocks first. What does not fit into `most` of them is drawn as triangles, one
-  /// list a namespace. \param next_id  of each namespace; counted on
+  /// The lists, most blocks first. Where there are very many blocks, the largest lists are cut into
+  /// tiles, so that RViz can leave out what is not in view. What does not fit into `most` of them
+  /// is drawn as triangles, one list a namespace. \param next_id  of each namespace; counted on
   [[nodiscard]] std::vector<visualization_msgs::Marker> markers(
       std::size_t most, std::map<std::string, int>& next_id) const;
 
@@ -33,6 +34,8 @@ class BlockLists {
   };
   /// Namespace, colour in 1/1000, size in mm.
   using Key = std::pair<std::string, std::array<long, 6>>;
+
+  [[nodiscard]] std::vector<List> tiled() const;
 
   std::map<Key, List> lists_;
 };

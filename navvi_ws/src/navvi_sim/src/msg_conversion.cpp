@@ -23,7 +23,27 @@ octomap_msgs::Octomap to_msg(const octomap::OcTree& map, const ros::Time& stamp)
   return msg;
 }
 
-MarkerArray occupied_cells_msg(const octomap::OcTree& map, const ros::Time& stamp) {
+std::unique_ptr<octomap::OcTree> from_msg(const octomap_msgs::Octomap& msg) {
+  auto map = std::make_unique<octomap::OcTree>(msg.resolution);
+  std::istringstream stream(std::string(msg.data.begin(), msg.data.end()));
+  map->readBinaryData(stream);
+  return map;
+}
+
+namespace {
+
+std::size_t occupied(const octomap::OcTree& map, unsigned depth) {
+  std::size_t count = 0;
+  for (auto leaf = map.begin_leafs(static_cast<unsigned char>(depth)); leaf != map.end_leafs();
+       ++leaf)
+    count += map.isNodeOccupied(*leaf) ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+MarkerArray occupied_cells_msg(const octomap::OcTree& map, const ros::Time& stamp,
+                               std::size_t most) {
   constexpr Color kVoxel{0.35F, 0.38F, 0.42F};
   MarkerArray array;
   for (unsigned depth = 0; depth <= map.getTreeDepth(); ++depth) {
@@ -33,7 +53,10 @@ MarkerArray occupied_cells_msg(const octomap::OcTree& map, const ros::Time& stam
     msg.action = Marker::DELETE;
     array.markers.push_back(std::move(msg));
   }
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
+  unsigned depth = map.getTreeDepth();
+  while (depth > 1 && occupied(map, depth) > most) --depth;
+  for (auto leaf = map.begin_leafs(static_cast<unsigned char>(depth)); leaf != map.end_leafs();
+       ++leaf) {
     if (!map.isNodeOccupied(*leaf)) continue;
     Marker& msg = array.markers[leaf.getDepth()];
     msg.action = Marker::ADD;

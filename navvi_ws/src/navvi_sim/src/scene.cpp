@@ -18,10 +18,13 @@ using visualization_msgs::MarkerArray;
 constexpr double kWallCut = 1.0;  // m above the floor, to which walls are drawn
 constexpr double kCut = 2.7;      // m above the floor, to which everything else is drawn
 constexpr double kNoCut = std::numeric_limits<double>::max();
-constexpr std::size_t kMostLists = 150;  // of blocks
+constexpr std::size_t kMostLists = 500;  // of blocks
 constexpr double kBoxGrid = 0.1;         // m, of the sizes of boxes on shelves
+constexpr double kCoarseGrid = 0.2;      // m, likewise, in worlds of very many things
+constexpr std::size_t kVeryMany = 1000;  // things
 constexpr double kBeam = 0.08;           // m, of uprights and rims
 constexpr double kBoard = 0.05;          // m, thickness
+constexpr double kPlank = 1.25;          // m, longest block in a list
 constexpr double kFloorGrid = 5.0;       // m, between lines on the floor
 constexpr std::size_t kMany = 100;       // movers; beyond, far ones take turns
 constexpr double kFar = 30.0;            // m from the robot
@@ -158,10 +161,26 @@ std::vector<Part> parts_of(const Eigen::Vector3d& size, bool highest) {
   return {{Eigen::AlignedBox3d(whole.min() - out, whole.max() + out), kUpright}};
 }
 
+/// What is long in equal pieces along x or y: RViz leaves out a list of blocks of which it sees no
+/// centre, and darkens blocks towards their ends.
+std::vector<Eigen::AlignedBox3d> planks(const Eigen::AlignedBox3d& block) {
+  const int axis = block.sizes().x() >= block.sizes().y() ? 0 : 1;
+  const int count = std::max(1, static_cast<int>(std::ceil(block.sizes()[axis] / kPlank)));
+  std::vector<Eigen::AlignedBox3d> pieces(static_cast<std::size_t>(count), block);
+  for (int i = 0; i < count; ++i) {
+    Eigen::AlignedBox3d& piece = pieces[static_cast<std::size_t>(i)];
+    piece.min()[axis] = block.min()[axis] + block.sizes()[axis] * i / count;
+    piece.max()[axis] = block.min()[axis] + block.sizes()[axis] * (i + 1) / count;
+  }
+  return pieces;
+}
+
 /// Draws everything that stands still.
 class StillLife {
  public:
-  explicit StillLife(const WorldDescription& world) : floor_(world.floor_height) {}
+  explicit StillLife(const WorldDescription& world)
+      : floor_(world.floor_height),
+        grid_(world.things.size() > kVeryMany ? kCoarseGrid : kBoxGrid) {}
 
   void add(const Thing& thing) {
     if (thing.thing_class == ThingClass::shelf) return add_shelf(thing);
@@ -200,8 +219,8 @@ class StillLife {
       }
       const double top = shape.pose.translation().z() + 0.5 * box->size.z();
       for (const Part& part : parts_of(box->size, top > bounds.max().z() - 1e-6))
-        add(look, part.color, Box{part.block.sizes()},
-            pose * Eigen::Translation3d(part.block.center()));
+        for (const Eigen::AlignedBox3d& plank : planks(part.block))
+          add(look, part.color, Box{plank.sizes()}, pose * Eigen::Translation3d(plank.center()));
     }
   }
 
@@ -210,9 +229,8 @@ class StillLife {
     const std::string ns = to_string(look);
     const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
     if (bounds_of(geometry, pose).min().z() >= cut) return;
-    // Lists of blocks darken towards the ends of what is long.
-    const bool is_long = look == ThingClass::wall || look == ThingClass::floor;
-    if (auto block = is_long ? std::nullopt : block_of(geometry, pose)) {
+    auto block = block_of(geometry, pose);
+    if (block && block->sizes().head<2>().maxCoeff() <= kPlank + 1e-6) {
       block->max().z() = std::min(block->max().z(), cut);
       if (coarse) *block = on_grid(*block);
       return blocks_.add(ns, color, *block);
@@ -223,9 +241,9 @@ class StillLife {
   }
 
   /// Not larger, with its centre and underside where they were: so that many have one size.
-  static Eigen::AlignedBox3d on_grid(const Eigen::AlignedBox3d& block) {
-    const Eigen::Vector3d size = block.sizes().unaryExpr([](double side) {
-      return std::max(kBoxGrid, kBoxGrid * std::floor(side / kBoxGrid + 1e-6));
+  [[nodiscard]] Eigen::AlignedBox3d on_grid(const Eigen::AlignedBox3d& block) const {
+    const Eigen::Vector3d size = block.sizes().unaryExpr([this](double side) {
+      return std::max(std::min(side, grid_), grid_ * std::floor(side / grid_ + 1e-6));
     });
     Eigen::Vector3d centre = block.center();
     centre.z() = block.min().z() + 0.5 * size.z();
@@ -251,6 +269,7 @@ class StillLife {
   }
 
   double floor_;
+  double grid_;
   BlockLists blocks_;
   std::map<std::string, Marker> triangles_;
   Eigen::AlignedBox3d ground_;

@@ -42,7 +42,7 @@ class SimNode {
 
  private:
   void advertise();
-  void publish_what_stands(const octomap::OcTree& map, const Scenario& scenario);
+  void publish_what_stands(const Scenario& scenario);
   void tell_what_there_is(const std::vector<std::string>& notes, const Scenario& scenario) const;
   void receive(const geometry_msgs::Twist::ConstPtr& msg);
   void tick(const ros::WallTimerEvent& event);
@@ -61,6 +61,7 @@ class SimNode {
   ros::CallbackQueue commands_queue_;
   SimNodeConfig config_;
   WorldDescription description_;
+  octomap_msgs::Octomap map_;  ///< a hundredth of the tree's size
   std::optional<Session> session_;
   Scene looks_;
   navvi_safety::CommandGate gate_;
@@ -87,12 +88,13 @@ SimNode::SimNode(const SimNodeConfig& config, LoadedWorld loaded)
       pacer_(config.life.step, config.rate, config.max_catch_up) {
   const octomap::OcTree map = occupancy_of(description_, config_.octomap);
   const Scenario scenario = scenario_of(config_, description_, map);
+  map_ = to_msg(map, ros::Time());
   session_.emplace(description_, config_.life, scenario.start,
                    static_cast<std::uint64_t>(config_.seed));
 
   advertise();
   tell_what_there_is(loaded.notes, scenario);
-  publish_what_stands(map, scenario);
+  publish_what_stands(scenario);
   publish_drive_state();
   publish_record();
 
@@ -108,7 +110,11 @@ void SimNode::advertise() {
   clock_ = node_.advertise<rosgraph_msgs::Clock>("clock", 10);
   odom_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
   octomap_ = node_.advertise<octomap_msgs::Octomap>("octomap_binary", 1, true);
-  cells_ = node_.advertise<visualization_msgs::MarkerArray>("occupied_cells_vis_array", 1, true);
+  // Large, and seldom looked at: made for whoever asks.
+  cells_ = node_.advertise<visualization_msgs::MarkerArray>(
+      "occupied_cells_vis_array", 1, [this](const ros::SingleSubscriberPublisher& listener) {
+        listener.publish(occupied_cells_msg(*from_msg(map_), stamp()));
+      });
   scene_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene", 1, true);
   moving_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene_moving", 1);
   obstacles_ = node_.advertise<navvi_msgs::Obstacles>("navvi/obstacles", 2);
@@ -124,12 +130,11 @@ void SimNode::advertise() {
   hash_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
 }
 
-void SimNode::publish_what_stands(const octomap::OcTree& map, const Scenario& scenario) {
+void SimNode::publish_what_stands(const Scenario& scenario) {
   if (!config_.life.robot.imperfections.odometry_drifts())
     static_transforms_.sendTransform(
         odom_msg(world().now().robot, world().now().odometry, stamp()));
-  octomap_.publish(to_msg(map, stamp()));
-  cells_.publish(occupied_cells_msg(map, stamp()));
+  octomap_.publish(map_);
   scene_.publish(looks_.standing(stamp()));
   navvi_msgs::Scenario played =
       scenario_msg(description_, world_hash(description_), static_cast<std::uint64_t>(config_.seed),

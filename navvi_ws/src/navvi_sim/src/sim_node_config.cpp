@@ -45,6 +45,13 @@ std::string exact(const std::vector<double>& values) {
   return list;
 }
 
+/// Where there is such a file, or folder; else the word itself.
+std::string absolute(const std::string& path, std::filesystem::file_type type) {
+  std::error_code error;
+  if (path.empty() || std::filesystem::status(path, error).type() != type) return path;
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
 }  // namespace
 
 void SimNodeConfig::describe(navvi_config::Visitor& visit) {
@@ -107,9 +114,13 @@ Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
 std::string recipe(SimNodeConfig config, const Scenario& scenario) {
   config.start = exact({scenario.start.x, scenario.start.y, scenario.start.yaw});
   config.goal = exact({scenario.goal.x(), scenario.goal.y()});
-  std::error_code error;
-  if (std::filesystem::is_regular_file(config.world, error))
-    config.world = std::filesystem::absolute(config.world).lexically_normal().string();
+  for (std::string* path : {&config.world, &config.classes})
+    *path = absolute(*path, std::filesystem::file_type::regular);
+  std::string models;
+  for (const std::filesystem::path& folder : folders(config.models))
+    models += (models.empty() ? "" : ":") +
+              absolute(folder.string(), std::filesystem::file_type::directory);
+  config.models = models;
   return navvi_config::write(config);
 }
 

@@ -22,14 +22,12 @@ TEST(OctomapMessage, carries_the_map_bit_by_bit) {
   EXPECT_EQ(msg.id, "OcTree");
   EXPECT_TRUE(msg.binary);
   EXPECT_EQ(msg.header.frame_id, "map");
-  octomap::OcTree read(msg.resolution);
-  std::istringstream stream(std::string(msg.data.begin(), msg.data.end()));
-  read.readBinaryData(stream);
-  EXPECT_EQ(read.size(), map.size());
+  const auto read = from_msg(msg);
+  EXPECT_EQ(read->size(), map.size());
   for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
-    const auto* node = read.search(leaf.getKey(), leaf.getDepth());
+    const auto* node = read->search(leaf.getKey(), leaf.getDepth());
     ASSERT_NE(node, nullptr);
-    ASSERT_EQ(read.isNodeOccupied(node), map.isNodeOccupied(*leaf));
+    ASSERT_EQ(read->isNodeOccupied(node), map.isNodeOccupied(*leaf));
   }
 }
 
@@ -46,6 +44,22 @@ TEST(OccupiedCells, have_a_marker_for_each_depth_of_the_tree) {
   }
   EXPECT_EQ(points, 1U);
   EXPECT_NEAR(array.markers[16].points[0].x, 0.025, 1e-9);
+}
+
+TEST(OccupiedCells, of_a_large_map_are_drawn_coarser_and_cover_the_same) {
+  octomap::OcTree map(0.05);
+  for (int i = 0; i < 400; ++i) {
+    const auto at = static_cast<float>(0.1 * i);
+    map.updateNode(octomap::point3d(at, 0.02F, 0.02F), true);
+  }
+  const MarkerArray array = occupied_cells_msg(map, kStamp, 100);
+  std::size_t points = 0;
+  for (const Marker& marker : array.markers) {
+    points += marker.points.size();
+    for (const auto& point : marker.points) EXPECT_NEAR(point.y, 0.5 * marker.scale.y, 0.03);
+  }
+  EXPECT_LE(points, 100U);
+  EXPECT_GE(points, 50U);
 }
 
 }  // namespace

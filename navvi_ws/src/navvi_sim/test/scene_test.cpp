@@ -225,11 +225,27 @@ TEST(Scene, the_number_of_markers_does_not_grow_with_the_world) {
     world.things.push_back(thing_of(ThingClass::other, Box{{0.5 + 0.01 * i, 0.5, 0.5}},
                                     {2.0 * (i % 50), 2.0 * (i / 50), 0.25}));
   const MarkerArray array = standing(world);
-  EXPECT_LE(array.markers.size(), 200U);
+  EXPECT_LE(array.markers.size(), 600U);
   std::size_t blocks = 0;
   for (const Marker& marker : array.markers)
     blocks += marker.points.size() / (marker.type == Marker::TRIANGLE_LIST ? 36 : 1);
   EXPECT_EQ(blocks, 2000U);
+}
+
+TEST(Scene, very_many_blocks_are_cut_into_tiles_and_none_is_lost) {
+  WorldDescription world;
+  for (int i = 0; i < 25000; ++i)
+    world.things.push_back(thing_of(ThingClass::other, Box{{0.5, 0.5, 0.5}},
+                                    {1.0 * (i % 200) - 100.0, 1.0 * (i / 200), 0.25}));
+  const MarkerArray array = standing(world);
+  EXPECT_GT(array.markers.size(), 8U);
+  EXPECT_LE(array.markers.size(), 25U);
+  std::size_t blocks = 0;
+  for (const Marker& marker : array.markers) {
+    blocks += marker.points.size();
+    EXPECT_LT(extent(marker).sizes().maxCoeff(), 51.0);
+  }
+  EXPECT_EQ(blocks, 25000U);
 }
 
 /// What moves in a world, where it begins.
