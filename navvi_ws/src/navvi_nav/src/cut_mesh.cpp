@@ -20,18 +20,6 @@ double angle_at(Point before, Point corner, Point after) {
   return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
 }
 
-int root(std::vector<int>& forest, int node) {
-  while (forest[slot(node)] != node) {
-    forest[slot(node)] = forest[slot(forest[slot(node)])];
-    node = forest[slot(node)];
-  }
-  return node;
-}
-
-void unite(std::vector<int>& forest, int a, int b) {
-  forest[slot(root(forest, a))] = root(forest, b);
-}
-
 void widen(Point& low, Point& high, Point at) {
   low = {std::min(low.x, at.x), std::min(low.y, at.y)};
   high = {std::max(high.x, at.x), std::max(high.y, at.y)};
@@ -93,7 +81,7 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   corners_.resize(mesh_.vertices.size(), 0);
   own_vertices_ = pool_.in_use();
   vertices_end_ = mesh_.vertices.size();
-  next_part_ = number_parts(mesh_);
+  parts_.number(mesh_);
   return numbers;
 }
 
@@ -247,7 +235,7 @@ void CutMesh::recut() {
   for (const int ground : borders_) keep_links(ground, false);
   for (const int ground : touched_) cut(ground);
   link();
-  if (!keep_parts()) next_part_ = number_parts(mesh_);
+  keep_parts();
 }
 
 void CutMesh::begin() {
@@ -416,63 +404,20 @@ void CutMesh::link() {
   }
 }
 
-/// Parts as before where it can be told from what changed alone that none was split or joined:
-/// around each cluster of touched grounds, the pieces of a part are still joined by what is new.
-/// \returns false if all must be numbered again
-bool CutMesh::keep_parts() {
-  if (next_part_ == 0 || 3 * changed_.size() > pieces_.size()) return false;
-  groups_.resize(pieces_.size(), -1);
-  clusters_.resize(grounds_.size(), -1);
-  for (const int index : changed_) groups_[slot(index)] = index;
-  for (const int index : changed_) {
-    for (const Link& link : mesh_.polygon(index).links) {
-      if (groups_[slot(link.to)] >= 0) unite(groups_, index, link.to);
-    }
-  }
-  for (const int ground : touched_) clusters_[slot(ground)] = ground;
-  for (const int ground : borders_) clusters_[slot(ground)] = ground;
+void CutMesh::keep_parts() {
+  regions_.grow(grounds_.size());
+  for (const int ground : touched_) regions_.add(ground);
+  for (const int ground : borders_) regions_.add(ground);
   for (const int ground : touched_) {
     for (const Ground::Neighbour& next : grounds_[slot(ground)].neighbours)
-      unite(clusters_, ground, next.ground);
+      regions_.unite(ground, next.ground);
   }
-  const bool kept = label_pieces();
-  for (const int index : changed_) groups_[slot(index)] = -1;
-  for (const int ground : touched_) clusters_[slot(ground)] = -1;
-  for (const int ground : borders_) clusters_[slot(ground)] = -1;
-  return kept;
-}
-
-bool CutMesh::label_pieces() {
-  const auto is_fresh = [this](int index) {
-    return marks_[slot(pieces_[slot(index)].ground)] == kTouched;
-  };
-  witnesses_.clear();
+  changed_parts_.clear();
   for (const int index : changed_) {
-    if (is_fresh(index)) continue;
-    witnesses_.push_back({root(clusters_, pieces_[slot(index)].ground), mesh_.polygon(index).part,
-                          root(groups_, index)});
+    const int ground = pieces_[slot(index)].ground;
+    changed_parts_.push_back({index, marks_[slot(ground)] == kTouched, regions_.root(ground)});
   }
-  std::sort(witnesses_.begin(), witnesses_.end(), [](const Witness& a, const Witness& b) {
-    return a.cluster != b.cluster ? a.cluster < b.cluster : a.part < b.part;
-  });
-  labels_.resize(pieces_.size());
-  for (const int index : changed_) labels_[slot(index)] = -1;
-  for (std::size_t i = 0; i < witnesses_.size(); ++i) {
-    const Witness& here = witnesses_[i];
-    if (i > 0 && witnesses_[i - 1].cluster == here.cluster && witnesses_[i - 1].part == here.part &&
-        witnesses_[i - 1].group != here.group)
-      return false;  // perhaps split
-    int& label = labels_[slot(here.group)];
-    if (label >= 0 && label != here.part) return false;  // joined
-    label = here.part;
-  }
-  for (const int index : changed_) {
-    if (!is_fresh(index)) continue;
-    int& label = labels_[slot(root(groups_, index))];
-    if (label < 0) label = next_part_++;
-    mesh_.polygons[slot(index)].part = label;
-  }
-  return true;
+  parts_.update(mesh_, changed_parts_);
 }
 
 /// Without holes the mesh is as it was at first.
@@ -484,7 +429,7 @@ void CutMesh::shrink() {
   }
   if (pool_.in_use() != own_vertices_) return;
   pool_.shrink(mesh_.vertices, vertices_end_);
-  next_part_ = number_parts(mesh_);
+  parts_.number(mesh_);
 }
 
 Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {

@@ -73,27 +73,4 @@ std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optiona
   return best;
 }
 
-int number_parts(Mesh& mesh) {
-  std::vector<int> waiting;
-  int count = 0;
-  for (Polygon& polygon : mesh.polygons) polygon.part = -1;
-  for (std::size_t seed = 0; seed < mesh.polygons.size(); ++seed) {
-    if (mesh.polygons[seed].part >= 0) continue;
-    mesh.polygons[seed].part = count;
-    waiting.push_back(static_cast<int>(seed));
-    while (!waiting.empty()) {
-      const auto at = static_cast<std::size_t>(waiting.back());
-      waiting.pop_back();
-      for (const Link& link : mesh.polygons[at].links) {
-        Polygon& next = mesh.polygons[static_cast<std::size_t>(link.to)];
-        if (next.part >= 0) continue;
-        next.part = count;
-        waiting.push_back(link.to);
-      }
-    }
-    ++count;
-  }
-  return count;
-}
-
 }  // namespace navvi_nav

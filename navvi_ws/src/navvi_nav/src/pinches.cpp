@@ -142,7 +142,6 @@ void Pinches::split_one(Mesh& mesh, VertexPool& pool, int vertex) {
     pool.drop_twin(mesh.vertices, twins.back());
     twins.pop_back();
   }
-  if (twins.empty()) twins_.erase(entry);
 }
 
 }  // namespace navvi_nav

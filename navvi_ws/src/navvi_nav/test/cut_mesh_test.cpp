@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include "allocations.hpp"
+#include "navvi_nav/carving.hpp"
 #include "navvi_nav/search.hpp"
 
 namespace navvi_nav {
@@ -136,7 +138,7 @@ bool in_floor(const std::vector<GridPolygon>& floor, Point at) {
 /// where a path may turn is marked, and the sides of a pinch have their own vertices.
 void expect_sound(const Mesh& mesh) {
   Mesh numbered = mesh;
-  number_parts(numbered);
+  Parts().number(numbered);
   std::map<int, int> part_of, part_is;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     if (mesh.polygons[i].corners.empty()) continue;
@@ -381,6 +383,24 @@ TEST(CutMesh, takes_a_part_of_another_floor) {
       if (HasFailure()) FAIL() << seed;
     }
   }
+}
+
+TEST(CutMesh, allocates_nothing_where_holes_were_before) {
+  std::mt19937 random(1);
+  CutMesh mesh(random_floor(random), kUnit);
+  Carving carving;
+  std::vector<Cylinder> here, there;
+  for (unsigned id = 0; id < 20; ++id) {
+    const Disc disc = random_disc(random);
+    here.push_back({id, disc.center, 0.3, {}});
+    there.push_back({id, disc.center + Point{0.3, 0.1}, 0.3, {}});
+  }
+  for (int k = 0; k < 300; ++k) carving.carve(mesh, k % 2 == 0 ? here : there, {});
+  const std::size_t before = allocations();
+  for (int k = 0; k < 10; ++k) EXPECT_GT(carving.carve(mesh, k % 2 == 0 ? here : there, {}), 0);
+  EXPECT_EQ(allocations(), before);
+  carving.carve(mesh, {{99, {8, 8}, 5.0, {}}}, {});
+  EXPECT_GT(allocations(), before);  // they are counted
 }
 
 TEST(CutMesh, makes_no_path_shorter_by_another_hole) {

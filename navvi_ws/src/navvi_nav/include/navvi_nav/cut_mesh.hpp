@@ -6,6 +6,7 @@
 #include "navvi_nav/box_grid.hpp"
 #include "navvi_nav/exact_polygon.hpp"
 #include "navvi_nav/mesh.hpp"
+#include "navvi_nav/parts.hpp"
 #include "navvi_nav/pinches.hpp"
 #include "navvi_nav/vertex_pool.hpp"
 
@@ -83,8 +84,7 @@ class CutMesh {
   int free_slot(int ground);
   void recut();
   void link();
-  [[nodiscard]] bool keep_parts();
-  [[nodiscard]] bool label_pieces();
+  void keep_parts();
   void shrink();
 
   double unit_ = 1.0;   // m
@@ -99,10 +99,10 @@ class CutMesh {
   std::vector<int> free_openings_;
   VertexPool pool_;
   Pinches pinches_;
+  Parts parts_;
   std::vector<char> corners_;     // of vertices: 1 if the floor makes them corners
   std::size_t own_vertices_ = 0;  // that the floor uses
   std::size_t vertices_end_ = 0;  // one beyond the last of these
-  int next_part_ = 0;
   BoxGrid ground_grid_;
 
   // Kept for their memory, and valid during one update only.
@@ -117,16 +117,8 @@ class CutMesh {
   std::vector<int> first_crossing_;  // of each polygon of the mesh; -1: none
   std::vector<int> next_crossing_;   // of the same polygon
   std::vector<Crossing> around_;     // one polygon
-  /// A piece beside the touched grounds, that kept its part.
-  struct Witness {
-    int cluster = 0;  // of touched grounds and their neighbours
-    int part = 0;
-    int group = 0;  // of changed pieces that links among them join
-  };
-  std::vector<Witness> witnesses_;
-  std::vector<int> groups_;    // of pieces, as a forest; -1: not changed
-  std::vector<int> clusters_;  // of grounds, as a forest; -1: neither touched nor a neighbour
-  std::vector<int> labels_;    // part of each group
+  Forest regions_;                   // of touched grounds and their neighbours
+  std::vector<Parts::Changed> changed_parts_;
   Matcher matcher_;
   Cutter cutter_;
 };

@@ -75,7 +75,4 @@ inline bool operator==(const GridPolygon& a, const GridPolygon& b) {
 /// of the polygon. So each edge between two following corners is a link or a wall, whole.
 [[nodiscard]] Mesh join(const std::vector<GridPolygon>& polygons, double cell_size);
 
-/// Gives connected polygons the same part. \returns one beyond the last
-int number_parts(Mesh& mesh);
-
 }  // namespace navvi_nav
