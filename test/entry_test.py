@@ -38,7 +38,7 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
 
 
 def test_help_names_each_sub_command():
-    assert all(word in navvi("help").stdout for word in ("setup", "build", "run", "replay", "test", "bench", "navmesh"))
+    assert all(word in navvi("help").stdout for word in ("setup", "build", "run", "replay", "test", "bench", "navmesh", "world"))
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "launch").glob("*.launch")), ids=lambda path: path.name)
