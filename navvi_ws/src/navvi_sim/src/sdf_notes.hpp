@@ -19,6 +19,13 @@ class SdfNotes {
   /// Something that changes nothing here, such as a light: named in one sentence for all.
   void add_harmless(const XmlElement& element);
 
+  /// What a <world>, <model> or <link> holds beside what is read of it: harmless or not. Plugins of
+  /// a model are left to who looks whether they move it.
+  void add_leftovers(const XmlElement& element);
+  /// A plugin that is not run.
+  /// \param whose  "of 'NAME' ", or empty for the world's
+  void add_plugin(const XmlElement& plugin, const std::string& whose);
+
   [[nodiscard]] std::vector<std::string> sentences() const;
 
  private:

@@ -23,47 +23,6 @@ namespace fs = std::filesystem;
 constexpr double kPlaneMargin = 2.0;     // m, of a plane beyond the other things
 constexpr double kPlaneThickness = 0.1;  // m
 
-/// Of a <world>, a <model> and a <link>: what means nothing for who drives.
-const std::set<std::string> kHarmless{"animation",
-                                      "atmosphere",
-                                      "audio",
-                                      "audio_sink",
-                                      "audio_source",
-                                      "battery",
-                                      "gripper",
-                                      "gui",
-                                      "joint",
-                                      "light",
-                                      "magnetic_field",
-                                      "material",
-                                      "particle_emitter",
-                                      "physics",
-                                      "projector",
-                                      "scene",
-                                      "sensor",
-                                      "skin",
-                                      "spherical_coordinates",
-                                      "wind"};
-/// What is read, and what says no more than how a body moves when it is pushed.
-const std::set<std::string> kUnderstood{"actor",
-                                        "allow_auto_disable",
-                                        "collision",
-                                        "enable_wind",
-                                        "frame",
-                                        "gravity",
-                                        "inertial",
-                                        "kinematic",
-                                        "link",
-                                        "model",
-                                        "must_be_base_link",
-                                        "pose",
-                                        "script",
-                                        "self_collide",
-                                        "state",
-                                        "static",
-                                        "velocity_decay",
-                                        "visual"};
-
 Eigen::Isometry3d placed(const Eigen::Vector3d& at) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = at;
@@ -102,7 +61,7 @@ class WorldReader {
     const XmlElement world = files_.world(notes_);
     loaded_.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
     read_saved_state(world);
-    note_leftovers(world);
+    notes_.add_leftovers(world);
     for (const XmlElement* model : world.children_named("model"))
       read_model(*model, name_of(*model), map_pose(world, *model));
     for (const XmlElement* actor : world.children_named("actor")) read_actor(world, *actor);
@@ -141,7 +100,7 @@ class WorldReader {
   void read_model(const XmlElement& model, const std::string& name, const Eigen::Isometry3d& pose) {
     const auto inner = model.children_named("model");
     if (inner.size() > 1 && !has_collision(model) && model.child("plugin") == nullptr) {
-      note_leftovers(model);
+      notes_.add_leftovers(model);
       for (const XmlElement* one : inner)
         read_model(*one, name + "::" + name_of(*one), pose * pose_in(model, *one));
       return;
@@ -191,7 +150,7 @@ class WorldReader {
         thing.route = std::move(motion->route);
         has_foreign_routes_ = true;
       } else {
-        note_plugin(*plugin, "of '" + thing.name + "' ");
+        notes_.add_plugin(*plugin, "of '" + thing.name + "' ");
       }
     }
   }
@@ -234,9 +193,9 @@ class WorldReader {
 
   /// \param pose  of `model` in the thing's frame
   void read_links(const XmlElement& model, const Eigen::Isometry3d& pose, Thing& thing) {
-    note_leftovers(model);
+    notes_.add_leftovers(model);
     for (const XmlElement* link : model.children_named("link")) {
-      note_leftovers(*link);
+      notes_.add_leftovers(*link);
       const Eigen::Isometry3d link_pose = pose * pose_in(model, *link);
       for (const XmlElement* collision : link->children_named("collision"))
         read_collision(*collision, link_pose * pose_in_link(model, *link, *collision), thing);
@@ -274,25 +233,6 @@ class WorldReader {
         notes_.add(*geometry,
                    "the plane of '" + thing.name + "' is not level, and is not taken over");
     }
-  }
-
-  // -- What is left over
-
-  void note_leftovers(const XmlElement& element) {
-    for (const XmlElement& child : element.children) {
-      if (kHarmless.count(child.name) > 0) {
-        if (child.attribute("type") != "fixed") notes_.add_harmless(child);
-      } else if (child.name == "plugin" && element.name == "world") {
-        note_plugin(child, "");
-      } else if (child.name != "plugin" && kUnderstood.count(child.name) == 0 && !is_own(child)) {
-        notes_.add(child, "<" + child.name + "> is not known here, and is not taken over");
-      }
-    }
-  }
-
-  void note_plugin(const XmlElement& plugin, const std::string& whose) {
-    notes_.add(plugin, "the plugin '" + name_of(plugin) + "' (" + plugin.attribute("filename") +
-                           ") " + whose + "is not run");
   }
 
   // -- The floor
