@@ -186,7 +186,8 @@ std::optional<LayoutTraffic::Track> LayoutTraffic::free_track(const Vehicle& veh
   }
   if (width / 2.0 < need || !is_free(0, lane, from, to) || !is_free(1, lane, from, to))
     return std::nullopt;
-  return Track{area.center().x(), kBoth};
+  // At one side, so that the robot finds the most room on the other.
+  return Track{random_.chance(0.5) ? area.min().x() + need : area.max().x() - need, kBoth};
 }
 
 bool LayoutTraffic::is_free(int side, int lane, int from, int to) const {

@@ -10,8 +10,8 @@
 namespace navvi_sim {
 
 /// Lays routes over a floor plan. An aisle has one track, or two side by side where it is wide
-/// enough, and each stretch of a track belongs to one route only: there its mover can wait.
-/// Cross-aisles belong to all.
+/// enough for what drives there, and each stretch of a track belongs to one route only: there its
+/// mover can wait. Cross-aisles belong to all.
 class LayoutTraffic {
  public:
   LayoutTraffic(const FloorPlan& plan, const LayoutConfig& config, Random random);
