@@ -44,7 +44,9 @@ Mover::Mover(const Lane& lane, double start, const MoversConfig& config, std::ui
       place_(lane.track.place(start)) {}
 
 Eigen::Vector2d Mover::velocity() const {
-  if (element().spin != 0.0) return Eigen::Vector2d::Zero();
+  const Track::Element& here = element();
+  if (speed_ == 0.0 || here.spin != 0.0) return Eigen::Vector2d::Zero();
+  if (here.curvature == 0.0) return speed_ * here.along;
   return speed_ * Eigen::Vector2d(std::cos(place_.yaw), std::sin(place_.yaw));
 }
 

@@ -280,7 +280,7 @@ bool is_moving(const Thing& thing) { return thing.route.has_value(); }
 }  // namespace
 
 Scene::Scene(const WorldDescription& world, const RobotConfig& robot)
-    : world_(world), robot_(robot) {
+    : world_(world), robot_(parts_of(robot)) {
   std::map<std::string, int> next_id;
   for (std::size_t id = 0; id < world.things.size(); ++id)
     if (is_moving(world.things[id])) movers_[id] = parts_of(world.things[id], next_id);
@@ -341,43 +341,44 @@ MarkerArray Scene::standing(const ros::Time& stamp) const {
   return array;
 }
 
-MarkerArray Scene::moving(const Snapshot& now, const ros::Time& stamp) {
-  MarkerArray array;
+const MarkerArray& Scene::moving(const Snapshot& now, const ros::Time& stamp) {
+  std::size_t told = 0;
+  // Into the markers of the last call: what they hold need not be made anew.
+  const auto tell = [&](const Parts& parts, const Eigen::Isometry3d& pose) {
+    for (const Part& part : parts) {
+      if (told == moving_.markers.size()) moving_.markers.emplace_back();
+      Marker& msg = moving_.markers[told++];
+      msg = part.marker;
+      msg.header.stamp = stamp;
+      msg.pose = pose_msg(pose * part.pose);
+    }
+  };
   ++turn_;
   for (std::size_t i = 0; i < now.movers.size(); ++i) {
     const MoverState& mover = now.movers[i];
     const Eigen::Vector2d away = mover.pose.translation().head<2>() - now.robot.position;
     const bool has_turn = now.movers.size() <= kMany || (turn_ + i) % kTurns == 0;
-    if (!has_turn && away.norm() > kFar) continue;
-    for (const Part& part : movers_.at(mover.thing)) {
-      array.markers.push_back(part.marker);
-      array.markers.back().pose = pose_msg(mover.pose * part.pose);
-    }
+    if (has_turn || away.norm() <= kFar) tell(movers_.at(mover.thing), mover.pose);
   }
-  append_robot(array, now.robot);
-  for (Marker& msg : array.markers) msg.header.stamp = stamp;
-  return array;
+  Eigen::Isometry3d base(Eigen::AngleAxisd(now.robot.yaw, Eigen::Vector3d::UnitZ()));
+  base.translation() << now.robot.position, world_.floor_height;
+  tell(robot_, base);
+  moving_.markers.resize(told);
+  return moving_;
 }
 
-void Scene::append_robot(MarkerArray& array, const RobotState& robot) const {
-  const auto above = [&](double z) {
-    return pose_msg(
-        Eigen::Translation3d(robot.position.x(), robot.position.y(), world_.floor_height + z) *
-        Eigen::Isometry3d(Eigen::AngleAxisd(robot.yaw, Eigen::Vector3d::UnitZ())));
-  };
+Scene::Parts Scene::parts_of(const RobotConfig& robot) {
   Marker body = marker_msg("robot", 0, Marker::CYLINDER, kRobot);
-  body.pose = above(robot_.height / 2.0);
-  body.scale.x = body.scale.y = 2.0 * robot_.radius;
-  body.scale.z = robot_.height;
-  array.markers.push_back(std::move(body));
+  body.scale.x = body.scale.y = 2.0 * robot.radius;
+  body.scale.z = robot.height;
 
   // A flat arrow head over the lid, its tip over the rim, says where ahead is.
   Marker nose = marker_msg("robot", 1, Marker::TRIANGLE_LIST, kNose);
-  nose.pose = above(robot_.height + 0.02);
-  const double r = robot_.radius;
+  const double r = robot.radius;
   Painter(nose, kNose, kNoCut)
       .triangle({1.5 * r, 0.0, 0.0}, {-0.6 * r, 0.75 * r, 0.0}, {-0.6 * r, -0.75 * r, 0.0});
-  array.markers.push_back(std::move(nose));
+  const auto above = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); };
+  return {{body, above(robot.height / 2.0)}, {nose, above(robot.height + 0.02)}};
 }
 
 }  // namespace navvi_sim

@@ -78,8 +78,9 @@ navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world, const Snapsho
                                     const ros::Time& stamp) {
   navvi_msgs::Obstacles msg;
   msg.header = header("map", stamp);
+  msg.obstacles.reserve(now.movers.size());
   for (const MoverState& mover : now.movers) {
-    navvi_msgs::Obstacle obstacle;
+    navvi_msgs::Obstacle& obstacle = msg.obstacles.emplace_back();
     obstacle.id = static_cast<std::uint32_t>(mover.thing);
     obstacle.thing_class = to_string(world.things[mover.thing].thing_class);
     obstacle.pose = pose_msg(mover.pose.translation().head<2>(), world.floor_height, mover.yaw);
@@ -87,7 +88,6 @@ navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world, const Snapsho
     obstacle.velocity.y = mover.velocity.y();
     obstacle.radius = mover.radius;
     obstacle.height = mover.height;
-    msg.obstacles.push_back(obstacle);
   }
   return msg;
 }

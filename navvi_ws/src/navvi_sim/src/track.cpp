@@ -22,10 +22,10 @@ Eigen::Vector2d direction(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
 }  // namespace
 
 Place Track::Element::place(double s) const {
-  const double along = s - begin;
-  if (spin != 0.0) return {from, wrap(yaw + spin * along)};
-  if (curvature == 0.0) return {from + along * direction(yaw), yaw};
-  const double turned = curvature * along;
+  const double distance = s - begin;
+  if (spin != 0.0) return {from, wrap(yaw + spin * distance)};
+  if (curvature == 0.0) return {from + distance * along, yaw};
+  const double turned = curvature * distance;
   const Eigen::Vector2d centre = from + Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)) / curvature;
   return {centre + Eigen::Vector2d(std::sin(yaw + turned), -std::cos(yaw + turned)) / curvature,
           wrap(yaw + turned)};
@@ -124,6 +124,7 @@ void Track::add(Element element) {
     return;
   }
   element.begin = length_;
+  element.along = direction(element.yaw);
   length_ += element.length;
   elements_.push_back(element);
 }

@@ -25,8 +25,10 @@ class Scene {
   [[nodiscard]] visualization_msgs::MarkerArray standing(const ros::Time& stamp) const;
 
   /// What moves, and the robot in the namespace `robot`. Ids stay the same from call to call. In
-  /// worlds with many movers, those far from the robot are told in turns.
-  [[nodiscard]] visualization_msgs::MarkerArray moving(const Snapshot& now, const ros::Time& stamp);
+  /// worlds with many movers, those far from the robot are told in turns. The next call writes over
+  /// what this one returns.
+  [[nodiscard]] const visualization_msgs::MarkerArray& moving(const Snapshot& now,
+                                                              const ros::Time& stamp);
 
  private:
   /// A marker, and where it is on its thing.
@@ -37,11 +39,12 @@ class Scene {
   using Parts = std::vector<Part>;
 
   [[nodiscard]] Parts parts_of(const Thing& thing, std::map<std::string, int>& next_id) const;
-  void append_robot(visualization_msgs::MarkerArray& array, const RobotState& robot) const;
+  [[nodiscard]] static Parts parts_of(const RobotConfig& robot);
 
   const WorldDescription& world_;
-  RobotConfig robot_;
+  Parts robot_;
   std::map<std::size_t, Parts> movers_;  ///< by thing
+  visualization_msgs::MarkerArray moving_;
   std::uint64_t turn_ = 0;
 };
 

@@ -34,13 +34,14 @@ class Track {
     double begin = 0.0;   ///< m, its s
     double length = 0.0;  ///< m, > 0
     Eigen::Vector2d from = Eigen::Vector2d::Zero();
-    double yaw = 0.0;        ///< rad, at its begin
-    double curvature = 0.0;  ///< 1/m, left is positive
-    double spin = 0.0;       ///< rad a metre of s, while standing
-    double speed = 0.0;      ///< m/s, the most within it
-    double end_speed = 0.0;  ///< m/s, the most at its end
-    double pause = 0.0;      ///< s, stands at its end
-    std::size_t corner = 0;  ///< way-point that it rounds or leads to
+    double yaw = 0.0;                                 ///< rad, at its begin
+    double curvature = 0.0;                           ///< 1/m, left is positive
+    double spin = 0.0;                                ///< rad a metre of s, while standing
+    double speed = 0.0;                               ///< m/s, the most within it
+    double end_speed = 0.0;                           ///< m/s, the most at its end
+    double pause = 0.0;                               ///< s, stands at its end
+    Eigen::Vector2d along = Eigen::Vector2d::Zero();  ///< unit vector of yaw, set by Track
+    std::size_t corner = 0;                           ///< way-point that it rounds or leads to
     [[nodiscard]] double end() const { return begin + length; }
     [[nodiscard]] Place place(double s) const;
   };
