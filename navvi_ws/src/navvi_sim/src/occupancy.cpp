@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closed_mesh.hpp"
 #include "solid.hpp"
 
 namespace navvi_sim {
@@ -10,7 +11,9 @@ namespace {
 
 constexpr double kReach = 0.05;  // share of a voxel's edge that a shape must reach into
 constexpr std::size_t kMaxNodes = 20'000'000;
-constexpr unsigned kDepth = 16;  // of octomap's trees
+constexpr std::size_t kMostFilled = 2'000;  // triangles of a mesh
+constexpr double kWidestFilled = 4.0;       // m, the lesser side: what is wider may be a building
+constexpr unsigned kDepth = 16;             // of octomap's trees
 
 /// What there is to put into a map.
 struct Bodies {
@@ -20,7 +23,12 @@ struct Bodies {
     double reach;  ///< m
   };
   std::vector<Filled> solids;
+  std::vector<ClosedMesh> closed;
   std::vector<Triangle> triangles;
+
+  [[nodiscard]] std::size_t count() const {
+    return solids.size() + closed.size() + triangles.size();
+  }
 };
 
 /// An octomap::OcTree that begins with a root; octomap's own begins with the path to one voxel.
@@ -39,8 +47,7 @@ class RootedTree : public octomap::OcTree {
 class TreeBuilder {
  public:
   TreeBuilder(const Bodies& bodies, double resolution) : bodies_(bodies), tree_(resolution) {
-    for (std::size_t i = 0; i < bodies.solids.size() + bodies.triangles.size(); ++i)
-      candidates_.push_back({i, 0});
+    for (std::size_t i = 0; i < bodies.count(); ++i) candidates_.push_back({i, 0});
   }
 
   void build_into(octomap::OcTree& tree) {
@@ -82,9 +89,11 @@ class TreeBuilder {
 
   /// What reaches by its way into the voxels of an eighth, reaches so into the eighth.
   [[nodiscard]] Octants octants_in(std::size_t body, const Cell& cell) const {
-    if (body >= bodies_.solids.size())
-      return octants(bodies_.triangles[body - bodies_.solids.size()], cell);
-    return octants(bodies_.solids[body].solid, cell, bodies_.solids[body].reach);
+    if (body < bodies_.solids.size())
+      return octants(bodies_.solids[body].solid, cell, bodies_.solids[body].reach);
+    body -= bodies_.solids.size();
+    if (body < bodies_.closed.size()) return bodies_.closed[body].octants(cell);
+    return octants(bodies_.triangles[body - bodies_.closed.size()], cell);
   }
 
   /// Fills a branch; what of it is occupied. If all of it is, no node was made in it.
@@ -129,8 +138,9 @@ class TreeBuilder {
 /// Adds a shape of any kind to the bodies.
 class BodyMaker {
  public:
-  BodyMaker(Bodies& bodies, const Eigen::Isometry3d& pose, double resolution)
-      : bodies_(bodies), pose_(pose), resolution_(resolution) {}
+  /// \param enclosing  the inside of a closed mesh is where one drives
+  BodyMaker(Bodies& bodies, const Eigen::Isometry3d& pose, double resolution, bool enclosing)
+      : bodies_(bodies), pose_(pose), resolution_(resolution), enclosing_(enclosing) {}
 
   void operator()(const Box& box) const { add(solid_box(box.size, pose_), box.size.minCoeff()); }
   void operator()(const Cylinder& cylinder) const {
@@ -142,12 +152,18 @@ class BodyMaker {
   void operator()(const std::shared_ptr<const Mesh>& mesh) const {
     // A surface has no inside to reach into: it counts a little below where it is instead.
     const Eigen::Vector3d down = -kReach * resolution_ * Eigen::Vector3d::UnitZ();
+    std::vector<Triangle> triangles;
     for (const auto& indices : mesh->triangles) {
       Triangle triangle;
       for (std::size_t i = 0; i < 3; ++i)
         triangle.corners[i] = pose_ * mesh->vertices[indices[i]].cast<double>() + down;
-      bodies_.triangles.push_back(triangle);
+      triangles.push_back(triangle);
     }
+    bodies_.triangles.insert(bodies_.triangles.end(), triangles.begin(), triangles.end());
+    if (enclosing_ || triangles.size() > kMostFilled) return;
+    for (ClosedMesh& part : closed_parts(triangles))
+      if (part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled)
+        bodies_.closed.push_back(std::move(part));
   }
 
  private:
@@ -159,6 +175,7 @@ class BodyMaker {
   Bodies& bodies_;
   Eigen::Isometry3d pose_;
   double resolution_;
+  bool enclosing_;
 };
 
 /// Half the length of a cube around the shape's frame that holds the shape.
@@ -203,7 +220,9 @@ octomap::OcTree occupancy_of(const WorldDescription& world, const OccupancyConfi
     for (const Shape& shape : thing.shapes) {
       check_reach(thing, shape, tree);
       const Eigen::Isometry3d pose = lift * (thing.pose * shape.pose);
-      std::visit(BodyMaker(bodies, pose, config.resolution), shape.geometry);
+      const bool enclosing =
+          thing.thing_class == ThingClass::floor || thing.thing_class == ThingClass::wall;
+      std::visit(BodyMaker(bodies, pose, config.resolution, enclosing), shape.geometry);
     }
   }
   TreeBuilder(bodies, config.resolution).build_into(tree);

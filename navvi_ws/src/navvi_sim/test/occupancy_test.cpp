@@ -110,6 +110,55 @@ TEST(Occupancy, has_the_surface_of_a_mesh_and_not_its_inside) {
   EXPECT_FALSE(occupied(map, 1.5, 1.5, 0.75));
 }
 
+/// The same voxels, put in one by one as octomap would have it.
+octomap::OcTree inserted(const octomap::OcTree& map) {
+  octomap::OcTree tree(map.getResolution());
+  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
+    const octomap::OcTreeKey low = leaf.getIndexKey();
+    const int side = 1 << (map.getTreeDepth() - leaf.getDepth());
+    for (int x = 0; x < side; ++x)
+      for (int y = 0; y < side; ++y)
+        for (int z = 0; z < side; ++z)
+          tree.setNodeValue(octomap::OcTreeKey(static_cast<octomap::key_type>(low[0] + x),
+                                               static_cast<octomap::key_type>(low[1] + y),
+                                               static_cast<octomap::key_type>(low[2] + z)),
+                            map.getClampingThresMaxLog(), true);
+  }
+  tree.updateInnerOccupancy();
+  tree.prune();
+  return tree;
+}
+
+/// A box of 1 x 1 x 1 m as a mesh on the floor, without its lid if `open`.
+std::shared_ptr<const Mesh> crate(bool open) {
+  auto mesh = std::make_shared<Mesh>();
+  for (const float z : {0.0F, 1.0F})
+    for (const float y : {0.0F, 1.0F})
+      for (const float x : {0.0F, 1.0F}) mesh->vertices.emplace_back(x, y, z);
+  mesh->triangles = {{0, 1, 3}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 3, 7},
+                     {1, 7, 5}, {3, 2, 6}, {3, 6, 7}, {2, 0, 4}, {2, 4, 6}};
+  if (!open) mesh->triangles.insert(mesh->triangles.end(), {{4, 5, 7}, {4, 7, 6}});
+  return mesh;
+}
+
+TEST(Occupancy, fills_a_closed_mesh_and_no_open_one_and_no_wall) {
+  const Eigen::Isometry3d frame = pose(0.013, 0.021, 0.0, 0.0, 0.3);
+  const Eigen::Vector3d inside = frame * Eigen::Vector3d(0.5, 0.5, 0.5);
+  const Eigen::Vector3d beside = frame * Eigen::Vector3d(1.2, 0.5, 0.5);
+  const auto at = [](const octomap::OcTree& map, const Eigen::Vector3d& p) {
+    return occupied(map, p.x(), p.y(), p.z());
+  };
+  const auto full = map_of({standing(ThingClass::box, crate(false), frame)});
+  EXPECT_TRUE(at(full, inside));
+  EXPECT_FALSE(at(full, beside));
+  EXPECT_TRUE(full == inserted(full));
+  expect_matches(full, frame * Eigen::Translation3d(0.5, 0.5, 0.5), 0.8, [](const auto& point) {
+    return box_depth(Eigen::Vector3d::Ones(), point) - 0.01;  // it counts a little lower
+  });
+  EXPECT_FALSE(at(map_of({standing(ThingClass::box, crate(true), frame)}), inside));
+  EXPECT_FALSE(at(map_of({standing(ThingClass::wall, crate(false), frame)}), inside));
+}
+
 TEST(Occupancy, does_not_let_the_floor_creep_up) {
   const auto slab = standing(ThingClass::floor, Box{{4.0, 4.0, 0.1}}, pose(0, 0, -0.05));
   auto plane = std::make_shared<Mesh>();
@@ -139,25 +188,6 @@ TEST(Occupancy, shows_a_pedestal_of_5_cm_on_a_floor_at_any_height) {
       EXPECT_FALSE(occupied(map, 0.1, 0.1, border + 0.05 + resolution)) << floor;
     }
   }
-}
-
-/// The same voxels, put in one by one as octomap would have it.
-octomap::OcTree inserted(const octomap::OcTree& map) {
-  octomap::OcTree tree(map.getResolution());
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
-    const octomap::OcTreeKey low = leaf.getIndexKey();
-    const int side = 1 << (map.getTreeDepth() - leaf.getDepth());
-    for (int x = 0; x < side; ++x)
-      for (int y = 0; y < side; ++y)
-        for (int z = 0; z < side; ++z)
-          tree.setNodeValue(octomap::OcTreeKey(static_cast<octomap::key_type>(low[0] + x),
-                                               static_cast<octomap::key_type>(low[1] + y),
-                                               static_cast<octomap::key_type>(low[2] + z)),
-                            map.getClampingThresMaxLog(), true);
-  }
-  tree.updateInnerOccupancy();
-  tree.prune();
-  return tree;
 }
 
 TEST(Occupancy, is_the_tree_that_octomap_makes_of_the_same_voxels) {
