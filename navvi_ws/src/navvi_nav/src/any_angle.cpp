@@ -53,6 +53,11 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
   to_ = goal.point;
   start_ = static_cast<int>(mesh.vertices.size());
   if (reached_.size() < mesh.vertices.size() + 1) reached_.resize(mesh.vertices.size() + 1);
+  while ((views_.size() >> 1U) < mesh.polygons.size()) {
+    views_.assign(std::max(views_.size() * 2, std::size_t{256}), View{});
+    views_shift_ = 32;
+    for (std::size_t size = views_.size(); size > 1; size >>= 1U) --views_shift_;
+  }
   if (++query_ == 0) {
     for (Reached& reached : reached_) reached.query = 0;
     query_ = 1;
@@ -130,9 +135,11 @@ void AnyAngle::expand(const Node& node) {
         continue;
       }
     }
-    const bool right_in =
-        link.right == node.root || side(node.right, right_extent, c, c_extent) >= 0;
-    const bool left_in = link.left == node.root || side(node.left, left_extent, d, d_extent) <= 0;
+    const int right_side =
+        link.right == node.root ? 0 : side(node.right, right_extent, c, c_extent);
+    const int left_side = link.left == node.root ? 0 : side(node.left, left_extent, d, d_extent);
+    const bool right_in = right_side >= 0;
+    const bool left_in = left_side <= 0;
     Node next = node;
     next.polygon = link.to;
     next.link_right = link.right;
@@ -145,6 +152,10 @@ void AnyAngle::expand(const Node& node) {
       slip_into(link, node.root, node.cost);
       continue;
     }
+    if (next.right_end && is_corner(link.right))
+      reach(link.right, right_side == 0 ? origin_of(node.root, c) : node.root, node.cost + norm(c));
+    if (next.left_end && is_corner(link.left))
+      reach(link.left, left_side == 0 ? origin_of(node.root, d) : node.root, node.cost + norm(d));
     add(next, right, left);
     if (!right_in && node.right_end) turn(node, link, true, false);
     if (!left_in && node.left_end) turn(node, link, false, false);
@@ -158,7 +169,7 @@ void AnyAngle::slip_into(const Link& link, int root, double cost) {
   const bool to_right = dot(c, c) < dot(d, d);
   const int vertex = to_right ? link.right : link.left;
   const Point ahead = to_right ? c : d;
-  if (!mesh_->vertices[static_cast<std::size_t>(vertex)].corner) return;
+  if (!is_corner(vertex)) return;
   Node next{cost + norm(ahead),
             to_right ? -1.0 * ahead : ahead,
             to_right ? ahead : -1.0 * ahead,
@@ -184,7 +195,7 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
     const Point ahead = at(near) - root;
     if (side(border, extent(border), ahead, extent(ahead)) == 0) vertex = near;
   }
-  if (!mesh_->vertices[static_cast<std::size_t>(vertex)].corner) return;
+  if (!is_corner(vertex)) return;
   Point here = at(vertex);
   Point ahead = here - root;
   const int origin = origin_of(node.root, ahead);
@@ -206,7 +217,7 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
     const Point end = at(far) - here;
     // A link in line with the vertex: another turn, at its near end, leads through.
     if (side(near_border, extent(near_border), end, extent(end)) == 0) {
-      if (!mesh_->vertices[static_cast<std::size_t>(near)].corner) return;
+      if (!is_corner(near)) return;
       ahead = near_border;
       next.cost += norm(ahead);
       if (!reach(near, vertex, next.cost)) return;
@@ -295,6 +306,10 @@ void AnyAngle::add(const Node& node, const Point& link_right, const Point& link_
   // The goal is taken to lie beyond the link: the way there and its mirror image are as long.
   const Point root = at(node.root);
   const Point edge = link_left - link_right;
+  if (outdone(node)) return;
+  if (node.right_end && node.left_end)
+    view_of(node) = {query_,    node.polygon, node.link_right, node.link_left, node.root,
+                     node.cost, root};
   Point target = to_ - link_right;
   const double inside = cross(edge, target);
   if (inside > 0.0) {
@@ -321,6 +336,46 @@ void AnyAngle::add(const Node& node, const Point& link_right, const Point& link_
     rest = norm(target);
   }
   push(node, node.cost + rest);
+}
+
+AnyAngle::View& AnyAngle::view_of(const Node& node) {
+  const auto key = static_cast<std::uint32_t>(node.link_right) * 0x9E3779B1U +
+                   static_cast<std::uint32_t>(node.polygon) * 0x85EBCA6BU;
+  return views_[key >> views_shift_];
+}
+
+bool AnyAngle::outdone(const Node& node) {
+  const View& view = view_of(node);
+  if (view.query != query_ || view.polygon != node.polygon || view.link_right != node.link_right ||
+      view.link_left != node.link_left || view.root == node.root || node.root == node.link_right ||
+      node.root == node.link_left)
+    return false;
+  const auto owns = [&](int vertex) {
+    const Reached& known = reached_[static_cast<std::size_t>(vertex)];
+    return is_corner(vertex) && known.query == query_ && known.parent == node.root;
+  };
+  if ((node.right_end && owns(node.link_right)) || (node.left_end && owns(node.link_left)))
+    return false;
+  const Point root = at(node.root);
+  const Point link_right = at(node.link_right);
+  const Point link_left = at(node.link_left);
+  const Point edge = link_left - link_right;
+  const auto crossing = [&](Point border, Point end) {
+    const double across = cross(border, edge);
+    if (std::abs(across) < 1e-9 * extent(border) * extent(edge)) return end;
+    return root + (cross(link_right - root, edge) / across) * border;
+  };
+  const Point x = node.right_end ? link_right : crossing(node.right, link_right);
+  const Point y = node.left_end ? link_left : crossing(node.left, link_left);
+  const double slack = kTie * node.cost;
+  if (view.cost + distance(view.from, x) > node.cost + distance(root, x) + slack ||
+      view.cost + distance(view.from, y) > node.cost + distance(root, y) + slack)
+    return false;
+  if (view.cost >= node.cost) return true;
+  const Point to_root = root - view.from;
+  const double a = cross(x - view.from, to_root);
+  const double b = cross(y - view.from, to_root);
+  return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0) || view.cost + norm(to_root) <= node.cost;
 }
 
 void AnyAngle::push(const Node& node, double estimate) {

@@ -68,18 +68,25 @@ struct Judge {
   }
 };
 
-/// True if the point lies where polygons of the mesh meet in a point only.
+/// True if polygons meet in this point that no link through it joins: then it is not said on which
+/// side of the pinch a path begins.
 bool on_pinch(const Mesh& mesh, Point point) {
-  int there = 0;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (distance(mesh.vertices[i].at, point) > 1e-12) continue;
-    bool used = false;
-    for (const Polygon& polygon : mesh.polygons)
-      used = used || std::find(polygon.corners.begin(), polygon.corners.end(),
-                               static_cast<int>(i)) != polygon.corners.end();
-    there += used ? 1 : 0;
+  std::vector<int> there;
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    const auto outline = mesh.outline(static_cast<int>(i));
+    if (!outline.empty() && distance(nearest_in_convex(point, outline), point) < 1e-12)
+      there.push_back(static_cast<int>(i));
   }
-  return there > 1;
+  std::vector<int> joined(there.begin(), there.begin() + 1);
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    for (const Link& link : mesh.polygon(joined[i]).links) {
+      const Point near = nearest_on_segment(point, mesh.at(link.right), mesh.at(link.left));
+      if (distance(near, point) < 1e-12 &&
+          std::find(joined.begin(), joined.end(), link.to) == joined.end())
+        joined.push_back(link.to);
+    }
+  }
+  return joined.size() < there.size();
 }
 
 /// Turned, stretched and shifted, so that what was in line is so but for rounding.

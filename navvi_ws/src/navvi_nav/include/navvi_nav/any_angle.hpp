@@ -36,6 +36,16 @@ class AnyAngle {
     int parent = -1;  ///< the root from which it was seen
     std::uint32_t query = 0;
   };
+  /// A root that sees the whole of a link.
+  struct View {
+    std::uint32_t query = 0;
+    int polygon = 0;
+    int link_right = 0;
+    int link_left = 0;
+    int root = 0;
+    double cost = 0.0;
+    Point from;
+  };
   struct Entry {
     std::uint64_t key;
     std::uint32_t node;
@@ -52,8 +62,13 @@ class AnyAngle {
   [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
   void add(const Node& node, const Point& link_right, const Point& link_left);
+  [[nodiscard]] View& view_of(const Node& node);
+  [[nodiscard]] bool outdone(const Node& node);
   void push(const Node& node, double estimate);
   bool pop(Node& node);
+  [[nodiscard]] bool is_corner(int vertex) const {
+    return mesh_->vertices[static_cast<std::size_t>(vertex)].corner;
+  }
   [[nodiscard]] Point at(int vertex) const { return vertex == start_ ? from_ : mesh_->at(vertex); }
   void trace(int root, Path& path) const;
 
@@ -63,6 +78,8 @@ class AnyAngle {
   int start_ = 0;  ///< the root that is no vertex
   std::uint32_t query_ = 0;
   std::vector<Reached> reached_;
+  std::vector<View> views_;
+  unsigned views_shift_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> unused_;
   std::vector<Entry> heap_;
