@@ -1,28 +1,25 @@
 #include "navvi_nav/any_angle.hpp"
 
+#include "navvi_nav/sight.hpp"
+
 namespace navvi_nav {
 namespace {
 
-constexpr double kTie = 2e-12;     // of a length
-constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line that runs through it
-constexpr double kTouch = 1e-10;   // m, from a point to an edge that it lies on
+constexpr double kTie = 2e-12;                  // of a length
 constexpr double kQuantum = 1.0 / (1LL << 36);  // m
 constexpr int kGBits = 11;
 constexpr int kMostAround = 64;  // polygons at a vertex
 
 double extent(Point a) { return std::abs(a.x) + std::abs(a.y); }
 
-/// 1 where `b` lies left of the ray `a`, -1 right of it, 0 on its line.
 int side(Point a, double a_extent, Point b, double b_extent) {
-  const double value = cross(a, b);
-  const double slack = kOnLine * (a_extent + b_extent);
-  return value > slack ? 1 : value < -slack ? -1 : 0;
+  return side_of(a, a_extent, b, b_extent);
 }
 
 }  // namespace
 
 bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
-                    Path& path) {
+                    std::size_t most, Path& path) {
   path.clear();
   begin(mesh, start, goal);
   if (mesh.polygon(start.polygon).part != mesh.polygon(goal.polygon).part) return false;
@@ -40,6 +37,10 @@ bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Plac
     if (node.polygon < 0) {
       trace(node.root, path);
       return true;
+    }
+    if (nodes_expanded_ == most) {
+      gave_up_ = true;
+      return false;
     }
     ++nodes_expanded_;
     expand(node);
@@ -66,22 +67,9 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
   unused_.clear();
   heap_.clear();
   nodes_expanded_ = 0;
-  surround(start_polygons_, start);
-  surround(goal_polygons_, goal);
-}
-
-/// The polygons that hold the place: more than one if it lies on a link or a vertex.
-void AnyAngle::surround(std::vector<int>& polygons, const Mesh::Place& place) const {
-  polygons.assign(1, place.polygon);
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    for (const Link& link : mesh_->polygon(polygons[i]).links) {
-      const Point near =
-          nearest_on_segment(place.point, mesh_->at(link.right), mesh_->at(link.left));
-      if (distance(near, place.point) > kTouch) continue;
-      if (std::find(polygons.begin(), polygons.end(), link.to) == polygons.end())
-        polygons.push_back(link.to);
-    }
-  }
+  gave_up_ = false;
+  surround(mesh, start, start_polygons_);
+  surround(mesh, goal, goal_polygons_);
 }
 
 void AnyAngle::leave_start() {
@@ -152,10 +140,13 @@ void AnyAngle::expand(const Node& node) {
       slip_into(link, node.root, node.cost);
       continue;
     }
-    if (next.right_end && is_corner(link.right))
-      reach(link.right, right_side == 0 ? origin_of(node.root, c) : node.root, node.cost + norm(c));
-    if (next.left_end && is_corner(link.left))
-      reach(link.left, left_side == 0 ? origin_of(node.root, d) : node.root, node.cost + norm(d));
+    // Who sees a corner first answers for it; not a root at which the way there does not turn.
+    if (next.right_end && is_corner(link.right) &&
+        (right_side != 0 || origin_of(node.root, c) == node.root))
+      reach(link.right, node.root, node.cost + norm(c));
+    if (next.left_end && is_corner(link.left) &&
+        (left_side != 0 || origin_of(node.root, d) == node.root))
+      reach(link.left, node.root, node.cost + norm(d));
     add(next, right, left);
     if (!right_in && node.right_end) turn(node, link, true, false);
     if (!left_in && node.left_end) turn(node, link, false, false);
@@ -350,11 +341,14 @@ bool AnyAngle::outdone(const Node& node) {
       view.link_left != node.link_left || view.root == node.root || node.root == node.link_right ||
       node.root == node.link_left)
     return false;
-  const auto owns = [&](int vertex) {
+  // Who first came to a corner answers for all ways on from there.
+  const auto owns = [&](int vertex, Point ahead) {
     const Reached& known = reached_[static_cast<std::size_t>(vertex)];
-    return is_corner(vertex) && known.query == query_ && known.parent == node.root;
+    return is_corner(vertex) && known.query == query_ &&
+           (known.parent == node.root || known.parent == origin_of(node.root, ahead));
   };
-  if ((node.right_end && owns(node.link_right)) || (node.left_end && owns(node.link_left)))
+  if ((node.right_end && owns(node.link_right, node.right)) ||
+      (node.left_end && owns(node.link_left, node.left)))
     return false;
   const Point root = at(node.root);
   const Point link_right = at(node.link_right);

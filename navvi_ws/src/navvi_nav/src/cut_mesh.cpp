@@ -239,6 +239,7 @@ void CutMesh::recut() {
 }
 
 void CutMesh::begin() {
+  mesh_.version = next_mesh_version();
   matcher_.clear();
   crossings_.clear();
   changed_.clear();

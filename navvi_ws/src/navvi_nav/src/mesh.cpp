@@ -1,5 +1,6 @@
 #include "navvi_nav/mesh.hpp"
 
+#include <atomic>
 #include <limits>
 
 namespace navvi_nav {
@@ -71,6 +72,11 @@ std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optiona
     reach = std::min(within, std::max(2 * reach, grid.square() / 8));
   }
   return best;
+}
+
+std::uint64_t next_mesh_version() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 }  // namespace navvi_nav

@@ -13,8 +13,11 @@ namespace navvi_nav {
 class AnyAngle {
  public:
   /// \param path  gets the path, without points where it goes straight on; empty if there is none
-  /// \returns true if there is a path
-  bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, Path& path);
+  /// \param most  nodes to expand, then it gives up \returns true if there is a path
+  bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, std::size_t most,
+            Path& path);
+  /// True if the last query was left after `most` nodes.
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:
@@ -52,7 +55,6 @@ class AnyAngle {
   };
 
   void begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
-  void surround(std::vector<int>& polygons, const Mesh::Place& place) const;
   void leave_start();
   void expand(const Node& node);
   void see_goal(const Node& node);
@@ -86,6 +88,7 @@ class AnyAngle {
   std::vector<int> start_polygons_;
   std::vector<int> goal_polygons_;
   std::size_t nodes_expanded_ = 0;
+  bool gave_up_ = false;
 };
 
 }  // namespace navvi_nav

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<Polygon> polygons;
   BoxGrid grid;  ///< of polygons, by their corners
+  /// Another one after each change, and in each mesh: what is known of a mesh holds while it stays.
+  /// 0: not told.
+  std::uint64_t version = 0;
 
   struct Place {
     int polygon = 0;
@@ -74,5 +78,8 @@ inline bool operator==(const GridPolygon& a, const GridPolygon& b) {
 /// whether or not they share corners; where a link ends within an edge, its vertex is made a corner
 /// of the polygon. So each edge between two following corners is a link or a wall, whole.
 [[nodiscard]] Mesh join(const std::vector<GridPolygon>& polygons, double cell_size);
+
+/// A number that no mesh has had in this process.
+[[nodiscard]] std::uint64_t next_mesh_version();
 
 }  // namespace navvi_nav

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "navvi_nav/any_angle.hpp"
+#include "navvi_nav/corner_graph.hpp"
 #include "navvi_nav/mesh.hpp"
 
 namespace navvi_nav {
@@ -30,9 +31,13 @@ class Search {
   const Found& find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
 
  private:
+  void find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
+
   SearchMethod method_;
   double alpha_;
   AnyAngle any_angle_;
+  CornerGraph corner_graph_;
+  std::uint64_t version_ = 0;  ///< of the last query's mesh
   Found found_;
 };
 

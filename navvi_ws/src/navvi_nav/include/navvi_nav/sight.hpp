@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "navvi_nav/mesh.hpp"
+
+namespace navvi_nav {
+
+/// 1 where `b` lies left of the ray `a`, -1 right of it, 0 on its line. \param a_extent, b_extent
+/// sums of the absolute coordinates
+[[nodiscard]] int side_of(Point a, double a_extent, Point b, double b_extent);
+
+/// The polygons that hold a place: more than one if it lies on a link or a vertex.
+void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons);
+
+/// What can be seen of a mesh from one point: the corners round which a shortest path from there
+/// may turn next. Keeps its memory.
+class Sight {
+ public:
+  struct Corner {
+    Point ahead;        ///< from the point to the corner
+    double away = 0.0;  ///< m
+    int vertex = 0;
+    int polygon = 0;  ///< one that the vertex is a corner of
+    /// To which side a path may turn there: 1 left, -1 right, 0 not told.
+    std::int8_t turn = 0;
+    /// To which side a path may have turned in the corner from which is looked.
+    std::int8_t turned = 0;
+  };
+
+  /// From a place. Then `target`, if it can be seen, is told of by target_seen().
+  const std::vector<Corner>& look(const Mesh& mesh, const Mesh::Place& place,
+                                  const Mesh::Place* target = nullptr);
+  /// From a corner; only where a shortest path may go on that has turned there.
+  const std::vector<Corner>& look(const Mesh& mesh, int vertex, int polygon);
+  [[nodiscard]] bool target_seen() const { return target_seen_; }
+
+ private:
+  /// What is seen through a link.
+  struct Cone {
+    Point right;
+    Point left;
+    int polygon;
+    int link_right;
+    int link_left;
+    bool right_end;  ///< the border runs through the link's end
+    bool left_end;
+    bool right_met;  ///< the border runs through a corner that was met: what lies behind it in line
+    bool left_met;   ///< is found from there
+  };
+  void sweep();
+  void pass(Cone cone);
+  void look_along(const Link& link, Point c, Point d);
+  bool meet(int vertex, int polygon, Point ahead, std::int8_t turn);
+
+  const Mesh* mesh_ = nullptr;
+  Point from_;
+  Point target_;
+  const std::vector<int>* target_polygons_ = nullptr;
+  bool target_seen_ = false;
+  bool is_corner_ = false;
+  bool skips_ = false;
+  Point wall_in_;  ///< of the corner from which is looked
+  Point wall_out_;
+  std::uint32_t number_ = 0;
+  std::vector<std::uint32_t> met_;
+  std::vector<int> around_;
+  std::vector<int> around_target_;
+  std::vector<Cone> cones_;
+  std::vector<Corner> corners_;
+};
+
+}  // namespace navvi_nav
