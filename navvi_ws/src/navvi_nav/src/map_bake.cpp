@@ -9,7 +9,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr int kMinTileCells = 16;
+constexpr int kTileStep = 16;        // cells: tiles can be quartered
 constexpr int kMaxTileCells = 1024;  // Recast's corners have 16 bits, each cell 16 steps
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
@@ -70,8 +70,9 @@ BakedMap bake_map(MapSurvey survey, const MapBakeConfig& config, const BakedMap*
     out.error = "the map shows no walkable floor";
     return out;
   }
-  const int size = std::clamp(static_cast<int>(std::lround(config.tile_size / cell)), kMinTileCells,
-                              kMaxTileCells);
+  const int size =
+      std::clamp(kTileStep * static_cast<int>(std::lround(config.tile_size / cell / kTileStep)),
+                 kTileStep, kMaxTileCells);
   out.tile_cells = size;
   std::vector<Work> works;
   for (int y = floor_div(floor.origin().y, size); y * size < floor.origin().y + floor.rows(); ++y) {

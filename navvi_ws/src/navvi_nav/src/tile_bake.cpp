@@ -26,8 +26,10 @@ using CompactField =
 using ContourSet = std::unique_ptr<rcContourSet, Free<rcContourSet, rcFreeContourSet>>;
 using PolyMesh = std::unique_ptr<rcPolyMesh, Free<rcPolyMesh, rcFreePolyMesh>>;
 
-constexpr int kBorder = 1;    // cells
-constexpr int kColours = 62;  // areas that Recast leaves to the user
+constexpr int kBorder = 1;     // cells
+constexpr int kCrowded = 400;  // corners
+constexpr int kLeastPart = 8;  // cells
+constexpr int kColours = 62;   // areas that Recast leaves to the user
 
 void require(bool done, const char* step) {
   if (!done) throw std::runtime_error(std::string("Recast ran out of memory in ") + step);
@@ -318,16 +320,54 @@ std::vector<GridPolygon> bake_regions(const TileCells& cells, const TileCells& r
   return rectangles(rest);
 }
 
+/// Corners of the open cells' border.
+int count_corners(const TileCells& cells) {
+  const int side = cells.size + 2 * kBorder;
+  int count = 0;
+  for (int y = 1; y < side; ++y) {
+    const std::uint8_t* below = cells.open.data() + static_cast<std::size_t>((y - 1) * side);
+    const std::uint8_t* above = below + side;
+    for (int x = 1; x < side; ++x)
+      count += (below[x - 1] ^ below[x] ^ above[x - 1] ^ above[x]) |
+               (below[x - 1] & ~below[x] & ~above[x - 1] & above[x]) |
+               (~below[x - 1] & below[x] & above[x - 1] & ~above[x] & 1);
+  }
+  return count;
+}
+
+TileCells part_of(const TileCells& cells, Cell low, int size) {
+  TileCells out{{cells.origin.x + low.x, cells.origin.y + low.y}, size, {}};
+  const int side = cells.size + 2 * kBorder;
+  for (int y = 0; y < size + 2 * kBorder; ++y) {
+    const auto row = cells.open.begin() + (low.y + y) * side + low.x;
+    out.open.insert(out.open.end(), row, row + size + 2 * kBorder);
+  }
+  return out;
+}
+
+/// Recast's work on one region grows with the cube of its corners, so crowded tiles are quartered.
+void bake_part(const TileCells& cells, const BakeConfig& config, std::vector<GridPolygon>& out) {
+  const int half = cells.size / 2;
+  if (cells.size % 2 == 0 && half >= kLeastPart && count_corners(cells) > kCrowded) {
+    for (const Cell low : {Cell{0, 0}, Cell{half, 0}, Cell{0, half}, Cell{half, half}})
+      bake_part(part_of(cells, low, half), config, out);
+    return;
+  }
+  TileCells rest = cells;
+  std::vector<GridPolygon> polygons = take_lone_cells(rest, config.grow);
+  out.insert(out.end(), polygons.begin(), polygons.end());
+  if (count_open(rest) == 0) return;
+  polygons = bake_regions(cells, rest, config);
+  out.insert(out.end(), polygons.begin(), polygons.end());
+}
+
 }  // namespace
 
 std::vector<GridPolygon> bake_tile(const TileCells& cells, const BakeConfig& config) {
-  TileCells rest = cells;
-  std::vector<GridPolygon> out = take_lone_cells(rest, config.grow);
-  if (count_open(rest) == 0) return out;
-  std::vector<GridPolygon> polygons = bake_regions(cells, rest, config);
-  polygons.insert(polygons.end(), out.begin(), out.end());
-  if (config.max_corners <= 3) return polygons;
-  return merge_convex(std::move(polygons), config.max_corners);
+  std::vector<GridPolygon> out;
+  bake_part(cells, config, out);
+  if (config.max_corners <= 3) return out;
+  return merge_convex(std::move(out), config.max_corners);
 }
 
 }  // namespace navvi_nav

@@ -18,7 +18,7 @@ using TileIndex = std::pair<int, int>;
 struct MapBakeConfig {
   double margin = 0.35;        ///< m, that the mesh keeps from everything that blocks
   double reach = 1.0;          ///< m, beyond the margin, that distances are known
-  double tile_size = 32.0;     ///< m
+  double tile_size = 32.0;     ///< m, taken in steps of 16 cells up to 1024
   double contour_error = 1.0;  ///< cells, as BakeConfig's
   double max_edge = 0.0;       ///< m, longer walls are split; 0: never
   int max_corners = 12;        ///< of a polygon
