@@ -283,6 +283,12 @@ bool AnyAngle::touches(int vertex, int polygon, Point ahead, bool on_right) cons
   return true;
 }
 
+/// Of several ways to a vertex that are equally short, only those are followed that come from the
+/// parent which was first: let the shortest path to the goal run through the vertex after another
+/// parent. After this one its rest makes a path as short, hence a shortest and a taut one: so it
+/// lies in this parent's cones. A way that is straight at the vertex needs no turn there; it counts
+/// as its origin's (origin_of). "Equally" leaves room for rounding: each vertex of a path may cost
+/// it 2e-12 of its length.
 /// \returns false if the way to the vertex need not be followed
 bool AnyAngle::reach(int vertex, int parent, double cost) {
   Reached& known = reached_[static_cast<std::size_t>(vertex)];
@@ -335,6 +341,12 @@ AnyAngle::View& AnyAngle::view_of(const Node& node) {
   return views_[key >> views_shift_];
 }
 
+/// True if another root that sees the whole link has at least as short a way to all of the part
+/// that this one sees. Where both ends are not farther for a root that is dearer to reach, no point
+/// between is: it is a branch of a hyperbola, convex, within which that root is better. For a
+/// cheaper root the difference has its only minimum where its line through the other root meets the
+/// link. Who answers for a corner at an end of the part is never outdone, so that no way is lost
+/// where both are equal.
 bool AnyAngle::outdone(const Node& node) {
   const View& view = view_of(node);
   if (view.query != query_ || view.polygon != node.polygon || view.link_right != node.link_right ||
