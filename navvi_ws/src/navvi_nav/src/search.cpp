@@ -8,7 +8,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr std::size_t kEasy = 64;  // nodes
+constexpr std::size_t kEasy = 24;  // nodes
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
