@@ -9,7 +9,7 @@ namespace navvi_nav {
 struct GuidanceConfig {
   double waypoint_reached = 1.0;
   double goal_reached = 1.0;
-  double sight_radius = 0.3;
+  double sight_radius = 0.4;
   double easy_radius = 0.6;
   double close = 0.4;
   double steer_ahead = 3.0;

@@ -28,7 +28,7 @@ struct NavMeshConfig {
   int polygon_corners = 12;
   int threads = 2;
   double preferred_clearance = 0.6;
-  double carve_moved = 0.05;
+  double carve_moved = 0.0;
   double carve_changed = 0.0;
   int hole_sides = 8;
 
