@@ -140,13 +140,10 @@ void AnyAngle::expand(const Node& node) {
       slip_into(link, node.root, node.cost);
       continue;
     }
-    // Who sees a corner first answers for it; not a root at which the way there does not turn.
-    if (next.right_end && is_corner(link.right) &&
-        (right_side != 0 || origin_of(node.root, c) == node.root))
-      reach(link.right, node.root, node.cost + norm(c));
-    if (next.left_end && is_corner(link.left) &&
-        (left_side != 0 || origin_of(node.root, d) == node.root))
-      reach(link.left, node.root, node.cost + norm(d));
+    // Who sees a corner first answers for all ways on from there; so not one who sees it along a
+    // border, on one side only.
+    if (right_side > 0 && is_corner(link.right)) reach(link.right, node.root, node.cost + norm(c));
+    if (left_side < 0 && is_corner(link.left)) reach(link.left, node.root, node.cost + norm(d));
     add(next, right, left);
     if (!right_in && node.right_end) turn(node, link, true, false);
     if (!left_in && node.left_end) turn(node, link, false, false);
@@ -190,7 +187,7 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
   Point here = at(vertex);
   Point ahead = here - root;
   const int origin = origin_of(node.root, ahead);
-  if (origin != node.root && !touches(vertex, node.polygon, ahead, to_right)) return;
+  if (!touches(vertex, node.polygon, ahead, to_right)) return;
   Node next;
   next.cost = node.cost + norm(ahead);
   if (!reach(vertex, origin, next.cost)) return;

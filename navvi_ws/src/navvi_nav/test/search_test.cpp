@@ -175,6 +175,22 @@ TEST(Search, finds_the_shortest_path_between_carved_cylinders) {
   EXPECT_GT(judge.answered, 200);
 }
 
+TEST(Search, keeps_one_of_equal_routes_whose_turns_lie_in_line_with_another) {
+  struct Case {
+    WorldKind kind;
+    std::uint32_t seed;
+    Point start, goal;
+  };
+  Judge judge;
+  for (const Case& c : {Case{WorldKind::maze, 604, {15.75, 12}, {4.5, 1.75}},
+                        Case{WorldKind::clutter, 5520, {2, 1}, {14, 7}}}) {
+    const Mesh mesh = join(grid_world(c.kind, c.seed).polygons(c.seed), 1.0);
+    VisibilityGraph graph(mesh);
+    judge.judge(mesh, {*place_of(mesh, c.start), *place_of(mesh, c.goal)}, graph);
+  }
+  EXPECT_EQ(judge.answered, 2);
+}
+
 TEST(Search, gives_the_same_way_back) {
   Search search(SearchMethod::exact);
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
