@@ -3,7 +3,6 @@
 #include <limits>
 
 namespace navvi_nav {
-
 bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
                        Path& path) {
   path.clear();
@@ -18,7 +17,10 @@ bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::P
     for (Stop& each : stops_) each.query = 0;
     query_ = 1;
   }
-  for (const Sight::Corner& corner : sight_.look(mesh, goal, &start)) {
+  keep_landmarks(start);
+  const std::vector<Sight::Corner>& near_goal = sight_.look(mesh, goal, &start);
+  if (landmarks_.known()) landmarks_.aim(sight_, near_goal);
+  for (const Sight::Corner& corner : near_goal) {
     Stop& from = stop(corner.vertex);
     from.sees_goal = true;
     from.last = corner.away;
@@ -39,6 +41,7 @@ bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::P
     ++nodes_expanded_;
     expand(entry.vertex, here, start.point);
   }
+  expanded_here_ += nodes_expanded_;
   if (best_ == std::numeric_limits<double>::infinity()) return false;
   path.push_back(goal.point);
   for (int vertex = last_; vertex >= 0; vertex = stop(vertex).parent) {
@@ -47,6 +50,18 @@ bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::P
   if (!(start.point == path.back())) path.push_back(start.point);
   std::reverse(path.begin(), path.end());
   return true;
+}
+
+void CornerGraph::keep_landmarks(const Mesh::Place& start) {
+  if (mesh_->version != version_) {
+    version_ = mesh_->version;
+    expanded_here_ = 0;
+    landmarks_.forget();
+  }
+  if (!landmarks_.known() && expanded_here_ >= worth_ * mesh_->vertices.size())
+    landmarks_.measure(*mesh_, start, [this](int vertex, int polygon) -> decltype(auto) {
+      return seen_from(vertex, polygon);
+    });
 }
 
 /// A shortest path bends round a corner: it leaves on the side to which it turned.
@@ -70,6 +85,7 @@ CornerGraph::Stop& CornerGraph::stop(int vertex) {
     out.query = query_;
     out.cost = std::numeric_limits<double>::infinity();
     out.rest = distance(mesh_->at(vertex), goal_);
+    if (landmarks_.known()) out.rest = std::max(out.rest, landmarks_.at_least(vertex));
   }
   return out;
 }

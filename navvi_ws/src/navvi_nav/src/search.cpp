@@ -8,7 +8,11 @@
 namespace navvi_nav {
 namespace {
 
-constexpr std::size_t kEasy = 24;  // nodes
+// Nodes that Polyanya may expand before the graph of corners takes over, as measured: the larger
+// the mesh, the fewer queries are done with so few.
+constexpr std::size_t kEasy = 20;
+constexpr std::size_t kEasyInLarge = 8;
+constexpr std::size_t kLarge = 400;  // polygons
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
@@ -18,7 +22,8 @@ constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 void Search::find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
   const bool stays = mesh.version != 0 && mesh.version == version_;
   version_ = mesh.version;
-  found_.found = any_angle_.find(mesh, start, goal, stays ? kEasy : kAny, found_.path);
+  const std::size_t easy = mesh.polygons.size() < kLarge ? kEasy : kEasyInLarge;
+  found_.found = any_angle_.find(mesh, start, goal, stays ? easy : kAny, found_.path);
   found_.nodes_expanded = any_angle_.nodes_expanded();
   if (!any_angle_.gave_up()) return;
   found_.found = corner_graph_.find(mesh, start, goal, found_.path);

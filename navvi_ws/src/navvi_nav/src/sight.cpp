@@ -81,13 +81,16 @@ const std::vector<Sight::Corner>& Sight::look(const Mesh& mesh, int vertex, int 
 
 void Sight::sweep() {
   if (met_.size() < mesh_->vertices.size()) met_.resize(mesh_->vertices.size(), 0);
+  if (swept_.size() < mesh_->polygons.size()) swept_.resize(mesh_->polygons.size(), 0);
   if (++number_ == 0) {
     std::fill(met_.begin(), met_.end(), 0);
+    std::fill(swept_.begin(), swept_.end(), 0);
     number_ = 1;
   }
   corners_.clear();
   cones_.clear();
   for (const int polygon : around_) {
+    swept_[static_cast<std::size_t>(polygon)] = number_;
     for (const Link& link : mesh_->polygon(polygon).links) {
       const Point c = mesh_->at(link.right) - from_;
       const Point d = mesh_->at(link.left) - from_;
@@ -111,6 +114,7 @@ void Sight::sweep() {
 
 void Sight::pass(Cone cone) {
   const Polygon& polygon = mesh_->polygon(cone.polygon);
+  swept_[static_cast<std::size_t>(cone.polygon)] = number_;
   const double right_extent = extent(cone.right);
   const double left_extent = extent(cone.left);
   const auto right_side = [&](Point point) {

@@ -46,6 +46,7 @@ struct Judge {
   Search exact{SearchMethod::exact};
   Search centroids{SearchMethod::centroid_astar};
   CornerGraph by_corners;
+  CornerGraph by_landmarks{0};
   Path path;
   int answered = 0;
   int unreachable = 0;
@@ -59,6 +60,8 @@ struct Judge {
     ASSERT_EQ(found.found, shortest.has_value());
     ASSERT_EQ(found.found, rough.found);
     ASSERT_EQ(by_corners.find(mesh, query.start, query.goal, path), found.found);
+    EXPECT_NEAR(length_of(path), found.length, 1e-9 * found.length + 1e-12);
+    ASSERT_EQ(by_landmarks.find(mesh, query.start, query.goal, path), found.found);
     EXPECT_NEAR(length_of(path), found.length, 1e-9 * found.length + 1e-12);
     if (!shortest) {
       EXPECT_TRUE(found.path.empty());

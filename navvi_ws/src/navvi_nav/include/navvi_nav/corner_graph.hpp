@@ -3,14 +3,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "navvi_nav/sight.hpp"
+#include "navvi_nav/landmarks.hpp"
 
 namespace navvi_nav {
 
 /// The shortest path as A* on the visibility graph of a mesh's corners (tangents only). What a
-/// corner sees is found when a search first comes there and kept until the mesh changes.
+/// corner sees is found when a search first comes there and kept until the mesh changes; once
+/// searches have cost as much as landmarks would, landmarks are measured and bound them.
 class CornerGraph {
  public:
+  /// \param worth  nodes expanded on a mesh, for each of its vertices, after which landmarks pay
+  explicit CornerGraph(std::size_t worth = 2) : worth_(worth) {}
+
   /// \param path  gets the path; empty if there is none \returns true if there is a path
   bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, Path& path);
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
@@ -37,6 +41,7 @@ class CornerGraph {
     int vertex;
   };
 
+  void keep_landmarks(const Mesh::Place& start);
   void expand(int vertex, const Stop& here, Point start);
   Stop& stop(int vertex);
   void reach(const Sight::Corner& corner, int parent, double cost);
@@ -44,6 +49,7 @@ class CornerGraph {
   Entry pop();
   const std::vector<Sight::Corner>& seen_from(int vertex, int polygon);
 
+  std::size_t worth_;
   const Mesh* mesh_ = nullptr;
   Point goal_;
   std::uint32_t query_ = 0;
@@ -54,6 +60,9 @@ class CornerGraph {
   double best_ = 0.0;  ///< m, of the ways to the goal found so far
   int last_ = -1;      ///< their last corner, -1: the start
   std::size_t nodes_expanded_ = 0;
+  Landmarks landmarks_;
+  std::uint64_t version_ = 0;      ///< of the mesh in the last query
+  std::size_t expanded_here_ = 0;  ///< in all queries on that mesh
 };
 
 }  // namespace navvi_nav

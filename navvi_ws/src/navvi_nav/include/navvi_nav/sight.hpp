@@ -35,6 +35,10 @@ class Sight {
   /// From a corner; only where a shortest path may go on that has turned there.
   const std::vector<Corner>& look(const Mesh& mesh, int vertex, int polygon);
   [[nodiscard]] bool target_seen() const { return target_seen_; }
+  /// True if some of the polygon may have been seen in the last look.
+  [[nodiscard]] bool swept(int polygon) const {
+    return swept_[static_cast<std::size_t>(polygon)] == number_;
+  }
 
  private:
   /// What is seen through a link.
@@ -64,7 +68,8 @@ class Sight {
   Point wall_in_;  ///< of the corner from which is looked
   Point wall_out_;
   std::uint32_t number_ = 0;
-  std::vector<std::uint32_t> met_;
+  std::vector<std::uint32_t> met_;    // numbers of looks, by vertex
+  std::vector<std::uint32_t> swept_;  // likewise, by polygon
   std::vector<int> around_;
   std::vector<int> around_target_;
   std::vector<Cone> cones_;

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "navvi_nav/sight.hpp"
+
+namespace navvi_nav {
+
+/// Lower bounds of the way from a corner of a mesh to a goal, from the ways between both and a few
+/// landmarks: no way is shorter than its ends' ways to one place differ (Goldberg and Harrelson,
+/// "Computing the Shortest Path: A* Search Meets Graph Theory", SODA 2005). In a hall of shelves
+/// the straight line is far too short a bound.
+class Landmarks {
+ public:
+  using SeenFrom = std::function<const std::vector<Sight::Corner>&(int vertex, int polygon)>;
+
+  /// Measures the ways from landmarks far apart to all corners that a way from `somewhere` leads
+  /// to. \param seen_from  what corners a corner sees
+  void measure(const Mesh& mesh, const Mesh::Place& somewhere, const SeenFrom& seen_from);
+  void forget() { known_ = false; }
+  [[nodiscard]] bool known() const { return known_; }
+
+  /// Sets where at_least() leads. \param sight  that has just looked from there
+  void aim(const Sight& sight, const std::vector<Sight::Corner>& seen) {
+    goal_ = ways_from(sight, seen);
+  }
+  /// m
+  [[nodiscard]] double at_least(int vertex) const {
+    const Ways& ways = ways_[static_cast<std::size_t>(vertex)];
+    float out = 0.0F;
+    for (std::size_t k = 0; k < kCount; ++k) out = std::max(out, std::abs(ways[k] - goal_[k]));
+    return static_cast<double>(out) - kRounding;
+  }
+
+ private:
+  static constexpr std::size_t kCount = 16;
+  static constexpr double kRounding = 1e-3;  // m, more than single precision loses on a kilometre
+  using Ways = std::array<float, kCount>;    // m, to each landmark
+  struct Far {
+    Mesh::Place place;
+    double way = -1.0;
+  };
+  Far turn_everywhere(const Mesh& mesh, std::size_t landmark, const SeenFrom& seen_from);
+  [[nodiscard]] Ways ways_from(const Sight& sight, const std::vector<Sight::Corner>& seen) const;
+
+  bool known_ = false;
+  std::array<Mesh::Place, kCount> places_;
+  std::vector<Ways> turning_;  // of each vertex, if the way turns there and goes on; or infinity
+  std::vector<Ways> ways_;     // of each vertex, if the way ends there; or NaN
+  Ways goal_{};
+  Sight sight_;
+};
+
+}  // namespace navvi_nav

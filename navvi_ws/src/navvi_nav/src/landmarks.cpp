@@ -1,0 +1,97 @@
+#include "navvi_nav/landmarks.hpp"
+
+#include <limits>
+#include <queue>
+
+namespace navvi_nav {
+namespace {
+
+constexpr float kNoWay = std::numeric_limits<float>::infinity();
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();  // a difference from it: none
+
+}  // namespace
+
+void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, const SeenFrom& seen_from) {
+  Ways none;
+  none.fill(kNoWay);
+  // The first landmark is as far from anywhere as it gets, each further one from those before.
+  places_[0] = somewhere;
+  turning_.assign(mesh.vertices.size(), none);
+  places_[0] = turn_everywhere(mesh, 0, seen_from).place;
+  turning_.assign(mesh.vertices.size(), none);
+  for (std::size_t k = 0; k < kCount; ++k) {
+    const Far next = turn_everywhere(mesh, k, seen_from);
+    if (k + 1 < kCount) places_[k + 1] = next.place;
+  }
+  // A way may end at a corner that it could not turn round: each has to look about once more.
+  none.fill(kUnknown);
+  ways_.assign(mesh.vertices.size(), none);
+  std::vector<char> done(mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    for (const int corner : mesh.polygons[i].corners) {
+      const auto vertex = static_cast<std::size_t>(corner);
+      if (done[vertex] != 0 || !mesh.vertices[vertex].corner) continue;
+      done[vertex] = 1;
+      const auto& seen = sight_.look(mesh, {static_cast<int>(i), mesh.at(corner)});
+      ways_[vertex] = ways_from(sight_, seen);
+    }
+  }
+  known_ = true;
+}
+
+/// Dijkstra's search from one landmark. \returns the corner that is farthest from all landmarks up
+/// to this one
+Landmarks::Far Landmarks::turn_everywhere(const Mesh& mesh, std::size_t landmark,
+                                          const SeenFrom& seen_from) {
+  struct Entry {
+    double way;
+    int vertex;
+    int polygon;
+    bool operator<(const Entry& other) const { return way > other.way; }
+  };
+  std::priority_queue<Entry> open;
+  std::vector<double> ways(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  const auto reach = [&](const Sight::Corner& corner, double way) {
+    double& known = ways[static_cast<std::size_t>(corner.vertex)];
+    if (way >= known) return;
+    known = way;
+    open.push({way, corner.vertex, corner.polygon});
+  };
+  Far out;
+  out.place = places_[landmark];
+  for (const Sight::Corner& corner : sight_.look(mesh, places_[landmark]))
+    reach(corner, corner.away);
+  while (!open.empty()) {
+    const Entry entry = open.top();
+    open.pop();
+    const auto vertex = static_cast<std::size_t>(entry.vertex);
+    if (entry.way > ways[vertex]) continue;
+    Ways& turning = turning_[vertex];
+    turning[landmark] = static_cast<float>(entry.way);
+    const auto nearest = static_cast<double>(*std::min_element(turning.begin(), turning.end()));
+    // Inside a polygon, so that the landmark is seen only through that polygon.
+    if (nearest > out.way) out = {{entry.polygon, mesh.centroid(entry.polygon)}, nearest};
+    for (const Sight::Corner& corner : seen_from(entry.vertex, entry.polygon))
+      reach(corner, entry.way + corner.away);
+  }
+  return out;
+}
+
+/// Of the place that `sight` has just looked from. A landmark that it may see is left out: the way
+/// there need not turn.
+Landmarks::Ways Landmarks::ways_from(const Sight& sight,
+                                     const std::vector<Sight::Corner>& seen) const {
+  Ways out;
+  out.fill(kNoWay);
+  for (const Sight::Corner& corner : seen) {
+    const Ways& turning = turning_[static_cast<std::size_t>(corner.vertex)];
+    const auto away = static_cast<float>(corner.away);
+    for (std::size_t k = 0; k < kCount; ++k) out[k] = std::min(out[k], away + turning[k]);
+  }
+  for (std::size_t k = 0; k < kCount; ++k) {
+    if (out[k] == kNoWay || sight.swept(places_[k].polygon)) out[k] = kUnknown;
+  }
+  return out;
+}
+
+}  // namespace navvi_nav
