@@ -197,8 +197,8 @@ class NavNode {
   void report(const Outcome& outcome) const {
     if (outcome.reason != Reason::map_changed || outcome.plan) return;
     if (outcome.map_taken) {
-      ROS_INFO("Map taken in %.3f s: %zu polygons; %d of %d tiles built.", outcome.seconds,
-               outcome.polygons, outcome.mesh.tiles_rebuilt, outcome.mesh.tiles);
+      ROS_INFO("Map taken in %.3f s: %zu polygons in %d tiles, %d tiles changed.", outcome.seconds,
+               outcome.polygons, outcome.mesh.tiles, outcome.mesh.tiles_rebuilt);
     } else {
       ROS_ERROR("The map is refused: %s.", outcome.map_error.c_str());
     }

@@ -21,9 +21,9 @@ namespace {
 using namespace navvi_nav;
 
 constexpr const char* kUsage =
-    R"(navmesh MAP [--picture FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
+    R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
   MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
-  --picture   draw the map, its mesh, the cylinders and the path
+  -o          draw the map, its mesh, the cylinders and the path
   --from --to search a path, m in map
   --cylinder  cut a hole around something that moves, m in map
   --config    parameters that differ from the defaults, as in nav_node's config files
@@ -75,7 +75,7 @@ Options read_options(const std::vector<std::string>& words) {
     };
     if (word == "--help") {
       out.help = true;
-    } else if (word == "--picture") {
+    } else if (word == "--picture" || word == "-o") {
       out.picture = value();
     } else if (word == "--config") {
       out.config = value();

@@ -20,7 +20,7 @@ std::optional<double> number_before(const std::string& text, const char* pattern
 Instruction::Side side_in(const std::string& text) {
   if (says(text, "\\bleft\\b")) return Instruction::Side::left;
   if (says(text, "\\bright\\b")) return Instruction::Side::right;
-  if (says(text, "\\b(behind|back|rear)\\b")) return Instruction::Side::behind;
+  if (says(text, "\\b(behind|rear)\\b")) return Instruction::Side::behind;
   if (says(text, "\\b(ahead|front)\\b")) return Instruction::Side::ahead;
   return Instruction::Side::none;
 }

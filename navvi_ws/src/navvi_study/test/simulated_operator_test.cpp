@@ -227,6 +227,7 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
   EXPECT_EQ(understand("turn to 11 o'clock now").hour, 11);
   EXPECT_EQ(understand("2 o'clock, 15 meters").distance, 15.0);
   EXPECT_EQ(understand("hit a wall on the right").side, Instruction::Side::right);
+  EXPECT_EQ(understand("no path from here, back away").side, Instruction::Side::none);
 }
 
 }  // namespace
