@@ -8,19 +8,38 @@
 #include <vector>
 
 #include "medians.hpp"
-#include "navvi_sim/layout.hpp"
 #include "navvi_sim/occupancy.hpp"
+#include "navvi_sim/warehouse.hpp"
 
 namespace {
 
 using navvi_sim::occupancy_of;
 
+/// Two by three built-in warehouses side by side, 100 x 90 m, on a floor of 100 x 100 m.
+navvi_sim::WorldDescription hall() {
+  navvi_sim::WorldDescription hall;
+  hall.name = "hall";
+  for (int column = 0; column < 2; ++column)
+    for (int row = 0; row < 3; ++row)
+      for (navvi_sim::Thing thing :
+           navvi_sim::warehouse(static_cast<std::uint64_t>(2 * row + column + 1), {}).things) {
+        if (thing.thing_class == navvi_sim::ThingClass::floor) continue;
+        thing.name += "_" + std::to_string(column) + std::to_string(row);
+        thing.pose =
+            Eigen::Translation3d(50.0 * column - 25.0, 30.0 * row - 30.0, 0.0) * thing.pose;
+        hall.things.push_back(std::move(thing));
+      }
+  navvi_sim::Thing floor;
+  floor.name = "floor";
+  floor.thing_class = navvi_sim::ThingClass::floor;
+  floor.pose = Eigen::Translation3d(0.0, 0.0, -0.05) * Eigen::Isometry3d::Identity();
+  floor.shapes.push_back({navvi_sim::Box{{100.0, 100.0, 0.1}}, Eigen::Isometry3d::Identity()});
+  hall.things.push_back(std::move(floor));
+  return hall;
+}
+
 const navvi_sim::WorldDescription& world() {
-  static const navvi_sim::WorldDescription world = [] {
-    navvi_sim::LayoutConfig config;
-    config.length = config.width = 100.0;
-    return navvi_sim::layout("hall", config, 1);
-  }();
+  static const navvi_sim::WorldDescription world = hall();
   return world;
 }
 
