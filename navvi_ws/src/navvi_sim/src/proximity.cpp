@@ -99,7 +99,7 @@ std::vector<NearThing> things_near(const Hull& hull, double radius, double ceili
                          add(body, nearest);
                        });
   for (const MoverState& mover : movers) {
-    const double reach = radius + hull.radius + mover.radius;
+    const double reach = radius + hull.radius + mover.extent.radius;
     const Eigen::Vector2d away = mover.pose.translation().head<2>() - hull.centre;
     if (away.squaredNorm() > reach * reach) continue;
     const Body* body = bodies.of(mover.thing);

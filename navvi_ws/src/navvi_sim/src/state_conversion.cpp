@@ -86,8 +86,10 @@ navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world, const Snapsho
     obstacle.pose = pose_msg(mover.pose.translation().head<2>(), world.floor_height, mover.yaw);
     obstacle.velocity.x = mover.velocity.x();
     obstacle.velocity.y = mover.velocity.y();
-    obstacle.radius = mover.radius;
+    obstacle.radius = mover.extent.radius;
     obstacle.height = mover.height;
+    obstacle.length = mover.extent.length;
+    obstacle.width = mover.extent.width;
   }
   return msg;
 }

@@ -45,7 +45,7 @@ World::World(const WorldDescription& description, const WorldConfig& config, con
     stances_.push_back({tilt_of(thing.pose), z});
     const Footprint print = footprint_of(thing, stances_[i].tilt);
     now_.movers.push_back({traffic_.thing(i), Eigen::Isometry3d::Identity(), 0.0,
-                           Eigen::Vector2d::Zero(), 0.0, print.radius,
+                           Eigen::Vector2d::Zero(), 0.0, extent_of(print),
                            z + print.top - floor_height_});
   }
   place_movers(true);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "navvi_sim/traffic.hpp"
+#include "navvi_sim/warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -60,6 +61,50 @@ TEST(Footprint, is_measured_about_the_origin) {
   EXPECT_NEAR(print.bottom, 0.0, 1e-12);
   EXPECT_NEAR(print.top, 2.0, 1e-12);
   EXPECT_EQ(print.hull.size(), 4u);
+}
+
+TEST(Extent, holds_the_whole_footprint_in_a_rectangle_within_a_disc) {
+  const Eigen::Isometry3d ahead(Eigen::Translation3d(0.4, 0.3, 1.0));
+  const Eigen::Isometry3d askew(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  std::vector<Thing> things(3);
+  things[0].shapes = {{Box{{2.0, 0.5, 1.0}}, ahead}};
+  things[1].shapes = {{Box{{2.0, 0.5, 1.0}}, askew}};
+  things[2].shapes = {{Box{{3.0, 0.4, 1.0}}, askew}, {Cylinder{0.4, 1.0}, ahead}};
+  for (const Thing& thing : warehouse(1, {}).things)
+    if (thing.route && thing.thing_class != ThingClass::worker) things.push_back(thing);
+  ASSERT_GT(things.size(), 3u);
+  for (const Thing& thing : things) {
+    const Footprint print = footprint_of(thing, tilt_of(thing.pose));
+    const Extent extent = extent_of(print);
+    EXPECT_GT(extent.length, 0.0);
+    EXPECT_LE(std::hypot(extent.length, extent.width), 2.0 * extent.radius + 1e-9);
+    for (const Eigen::Vector2d& corner : print.hull) {
+      // The hull of what is round is drawn up to 2 % too wide.
+      EXPECT_LE(std::abs(corner.x()), 0.51 * extent.length);
+      EXPECT_LE(std::abs(corner.y()), 0.51 * extent.width);
+    }
+  }
+}
+
+TEST(Extent, of_a_forklift_has_the_width_of_the_forklift_and_the_length_with_its_forks) {
+  for (const Thing& thing : warehouse(1, {}).things) {
+    if (!thing.route || thing.thing_class != ThingClass::forklift) continue;
+    const Extent extent = extent_of(footprint_of(thing, tilt_of(thing.pose)));
+    EXPECT_NEAR(extent.length, 2.5, 1e-9);
+    EXPECT_NEAR(extent.width, 1.0, 1e-9);
+    EXPECT_LT(extent.radius, 1.4);
+    return;
+  }
+  FAIL() << "no forklift";
+}
+
+TEST(Extent, of_what_is_round_is_its_disc_alone) {
+  Thing worker;
+  worker.shapes = {{Cylinder{0.24, 1.45}, Eigen::Isometry3d::Identity()}};
+  const Extent extent = extent_of(footprint_of(worker, Eigen::Quaterniond::Identity()));
+  EXPECT_EQ(extent.radius, 0.24);
+  EXPECT_EQ(extent.length, 0.0);
+  EXPECT_EQ(extent.width, 0.0);
 }
 
 TEST(Mover, turns_brakes_and_speeds_up_no_faster_than_it_may) {

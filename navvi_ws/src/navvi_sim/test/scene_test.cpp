@@ -253,7 +253,8 @@ Snapshot snapshot_of(const WorldDescription& world) {
   Snapshot now;
   for (std::size_t id = 0; id < world.things.size(); ++id) {
     if (!world.things[id].route) continue;
-    now.movers.push_back({id, world.things[id].pose, 0.0, Eigen::Vector2d::Zero(), 0.0, 0.5, 1.0});
+    now.movers.push_back(
+        {id, world.things[id].pose, 0.0, Eigen::Vector2d::Zero(), 0.0, {0.5}, 1.0});
   }
   return now;
 }

@@ -92,7 +92,7 @@ TEST(StateConversion, nothing_near_is_an_empty_message) {
 
 TEST(StateConversion, obstacles_stand_on_the_floor) {
   Snapshot now;
-  MoverState mover{1, Eigen::Isometry3d::Identity(), 0.5, {0.3, 0.4}, 0.0, 1.2, 2.1};
+  MoverState mover{1, Eigen::Isometry3d::Identity(), 0.5, {0.3, 0.4}, 0.0, {1.2, 2.0, 0.9}, 2.1};
   mover.pose.translation() = Eigen::Vector3d(4.0, 5.0, 1.0);
   now.movers.push_back(mover);
   const auto msg = obstacles_msg(world_of_two(), now, ros::Time(3.0));
@@ -102,6 +102,8 @@ TEST(StateConversion, obstacles_stand_on_the_floor) {
   EXPECT_EQ(msg.obstacles[0].velocity.y, 0.4);
   EXPECT_EQ(msg.obstacles[0].radius, 1.2);
   EXPECT_EQ(msg.obstacles[0].height, 2.1);
+  EXPECT_EQ(msg.obstacles[0].length, 2.0);
+  EXPECT_EQ(msg.obstacles[0].width, 0.9);
 }
 
 TEST(StateConversion, contacts_carry_their_counts) {

@@ -191,7 +191,7 @@ TEST(World, a_mover_follows_its_route_for_ever) {
   }
   EXPECT_NEAR(low, -3.0, 1e-6);
   EXPECT_NEAR(high, 3.0, 1e-6);
-  EXPECT_NEAR(world.now().movers[0].radius, 0.5, 1e-6);
+  EXPECT_NEAR(world.now().movers[0].extent.radius, 0.5, 1e-6);
   EXPECT_NEAR(world.now().movers[0].height, 0.5, 1e-6);
 }
 

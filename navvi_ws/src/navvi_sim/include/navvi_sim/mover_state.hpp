@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 
+#include "navvi_sim/footprint.hpp"
+
 namespace navvi_sim {
 
 /// A moving thing at one instant. Frame: map.
@@ -12,7 +14,7 @@ struct MoverState {
   double yaw;                ///< rad, its heading
   Eigen::Vector2d velocity;  ///< m/s
   double turn_rate;          ///< rad/s, counter-clockwise
-  double radius;             ///< m, horizontal, about the origin, around all its shapes (R-NAV-4)
+  Extent extent;             ///< around all its shapes (R-NAV-4)
   double height;             ///< m, its top above the floor
 };
 

@@ -34,7 +34,8 @@ namespace navvi_sim {
                                                        const RobotState& odometry,
                                                        const ros::Time& stamp);
 
-/// Every moving thing as a cylinder on the floor, in map.
+/// Every moving thing as a cylinder on the floor, and as a rectangle where that says more (Extent),
+/// in map.
 [[nodiscard]] navvi_msgs::Obstacles obstacles_msg(const WorldDescription& world,
                                                   const Snapshot& now, const ros::Time& stamp);
 
