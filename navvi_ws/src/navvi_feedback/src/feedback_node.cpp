@@ -11,10 +11,8 @@
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
 
-#include "navvi_feedback/cue_policy.hpp"
 #include "navvi_feedback/diagnostics.hpp"
-#include "navvi_feedback/drive.hpp"
-#include "navvi_feedback/haptics.hpp"
+#include "navvi_feedback/feedback.hpp"
 #include "navvi_feedback/input_source.hpp"
 #include "navvi_feedback/markers.hpp"
 #include "navvi_feedback/msg_conversion.hpp"
@@ -30,17 +28,13 @@ struct NodeConfig {
   std::string input = "auto";
   bool speech = true;
   std::string phrases;
-  double stale = 1.0;  // s
-  DriveConfig drive;
-  HapticsConfig haptics;
-  CuePolicyConfig cues;
+  FeedbackConfig feedback;
   SpeakerConfig speaker;
   MarkersConfig markers;
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Any;
     using navvi_config::OneOf;
-    using navvi_config::Range;
     visit({"input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
            "where the stick comes from; topic: joy from another driver"},
           input);
@@ -48,12 +42,7 @@ struct NodeConfig {
           speech);
     visit({"phrases", Any{}, "", "file of the spoken phrases; empty for the English that ships"},
           phrases);
-    visit({"stale", Range{0.2, 10.0}, "s",
-           "guidance, proximity or odometry older than this (wall clock) is lost"},
-          stale);
-    visit.group("drive", drive);
-    visit.group("haptics", haptics);
-    visit.group("cues", cues);
+    feedback.describe(visit);
     visit.group("speaker", speaker);
     visit.group("markers", markers);
   }
@@ -67,23 +56,11 @@ std::string phrases_file(const NodeConfig& config) {
 /// The person lives in wall time: a simulation that stops must not stop what tells of it.
 double now() { return ros::SteadyTime::now().toSec(); }
 
-/// The latest message of a topic, and when it came.
-template <typename T>
-struct Latest {
-  std::optional<T> value;
-  std::optional<double> time;  // s, of now()
-
-  [[nodiscard]] Link link(double at, double stale) const { return link_state(time, at, stale); }
-  [[nodiscard]] bool fresh(double at, double stale) const { return link(at, stale) == Link::alive; }
-};
-
 class FeedbackNode {
  public:
   explicit FeedbackNode(const NodeConfig& config)
       : config_(config),
-        drive_(config.drive),
-        haptics_(config.haptics),
-        policy_(config.cues, Phrases(phrases_file(config), config.cues.words())),
+        feedback_(config.feedback, Phrases(phrases_file(config), config.feedback.cues.words())),
         speech_(config.speaker, config.speech ? Audio::on : Audio::off),
         source_(config.input) {
     ROS_INFO("The stick comes from the %s.", to_string(source_.kind()));
@@ -106,7 +83,7 @@ class FeedbackNode {
  private:
   void advertise() {
     cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
-    feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
+    motors_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
     cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
     markers_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
     diagnostics_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
@@ -120,13 +97,14 @@ class FeedbackNode {
       listen<sensor_msgs::Joy>("joy", 1,
                                [this](const InputState& joy) { source_.receive(joy, now()); });
     }
-    keep<navvi_msgs::Proximity>("navvi/proximity", nearby_);
-    keep<navvi_msgs::Guidance>("navvi/guidance", guidance_);
-    keep<navvi_msgs::DriveState>("navvi/drive_state", gate_);
-    keep<nav_msgs::Odometry>("odom", motion_);
-    keep<nav_msgs::Path>("navvi/path", path_);
+    keep<navvi_msgs::Proximity>("navvi/proximity");
+    keep<navvi_msgs::Guidance>("navvi/guidance");
+    keep<navvi_msgs::DriveState>("navvi/drive_state");
+    keep<nav_msgs::Odometry>("odom");
+    listen<nav_msgs::Path>("navvi/path", 1,
+                           [this](const std::vector<Eigen::Vector2d>& path) { path_ = path; });
     listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const Situation::Contact& contact) {
-      contacts_.push_back(contact);
+      feedback_.take(contact);
     });
   }
 
@@ -147,39 +125,27 @@ class FeedbackNode {
                                                 ros::TransportHints().tcpNoDelay()));
   }
 
-  template <typename Msg, typename T>
-  void keep(const std::string& topic, Latest<T>& latest) {
-    listen<Msg>(topic, 1, [&latest](const T& value) {
-      latest.value = value;
-      latest.time = now();
-    });
+  template <typename Msg>
+  void keep(const std::string& topic) {
+    listen<Msg>(topic, 1, [this](const auto& value) { feedback_.take(value, now()); });
   }
 
   void tick() {
     const double time = now();
-    const double dt = std::clamp(time - last_tick_.value_or(time), 0.0, 0.1);
-    last_tick_ = time;
-    const InputState input = source_.read(time);
-    drive(input, dt);
-    feel(time, dt);
-    say(input, time);
+    Feedback::Input input;
+    input.hands = source_.read(time);
+    input.audio = audio_link();
+    input.voice_busy = !speech_.idle();
+    input.goal_angle = goal_angle();
+    input.notices = notices();
+    const Feedback::Output output = feedback_.update(input, time);
+    if (output.command) cmd_vel_.publish(twist(*output.command));
+    if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
+    feel(output.rumble, time);
+    say(output.cues, time);
     show(time);
-    last_input_ = input;
+    last_hands_ = input.hands;
   }
-
-  void drive(const InputState& input, double dt) {
-    // A device that was opened anew between two ticks was lost between them.
-    const bool live = input.live && (!last_input_.live || input.session == last_input_.session);
-    const std::optional<Velocity> velocity =
-        drive_.update(live ? std::optional<Stick>(input.stick()) : std::nullopt, dt);
-    // The last word of a lost stick is zero; after it, silence.
-    if (velocity || last_input_.live) cmd_vel_.publish(twist(velocity.value_or(Velocity{})));
-    commanded_ = velocity.value_or(Velocity{});
-    held_unarmed_ = live && !drive_.armed() && deflected(drive_.shaped(input.stick()));
-    if (input.live && joy_out_) joy_out_.publish(to_msg(input, ros::Time::now()));
-  }
-
-  static bool deflected(const Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
   static geometry_msgs::Twist twist(const Velocity& velocity) {
     geometry_msgs::Twist msg;
@@ -188,10 +154,7 @@ class FeedbackNode {
     return msg;
   }
 
-  void feel(double time, double dt) {
-    const bool fresh =
-        nearby_.fresh(time, config_.stale) && motion_.link(time, config_.stale) != Link::lost;
-    Rumble rumble = haptics_.update(nearby_.value.value_or(std::vector<Nearby>{}), fresh, dt);
+  void feel(Rumble rumble, double time) {
     if (speech_.status().device == Speaker::Status::Device::open || !config_.speech) {
       alarm_since_.reset();
     } else if (!alarm_since_ && (!source_.pad() || source_.pad()->status().connected)) {
@@ -206,44 +169,14 @@ class FeedbackNode {
   void move_motors(const Rumble& rumble, double time) {
     if (Gamepad* pad = source_.pad()) pad->rumble(rumble);
     const RumbleOutput::Due due = rumble_output_.update(rumble, time);
-    if (due.feedback) feedback_.publish(feedback_msg(rumble));
+    if (due.feedback) motors_.publish(feedback_msg(rumble));
     if (due.changed) cues_.publish(rumble_msg(rumble, ++rumble_id_, ros::Time::now()));
   }
 
-  void say(const InputState& input, double time) {
-    const std::vector<CueEvent> events =
-        speech_.tick(policy_.update(situation(input, time), time), time);
-    policy_.note(events);
+  void say(const std::vector<Cue>& cues, double time) {
+    const std::vector<CueEvent> events = speech_.tick(cues, time);
+    feedback_.note(events);
     publish(events);
-    contacts_.clear();
-  }
-
-  [[nodiscard]] Situation situation(const InputState& input, double time) {
-    Situation result;
-    result.guidance = guidance_.value;
-    result.goal_angle = goal_angle();
-    result.guidance_link = guidance_.link(time, config_.stale);
-    result.proximity_link = nearby_.link(time, config_.stale);
-    result.simulator_link = motion_.link(time, config_.stale);
-    if (result.proximity_link == Link::alive) result.nearby = *nearby_.value;
-    if (result.simulator_link == Link::alive) result.measured = motion_.value;
-    result.contacts = contacts_;
-    result.commanded = {commanded_.linear, commanded_.angular};
-    result.stick_held_unarmed = held_unarmed_;
-    result.gate = gate_.value.value_or(Situation::Gate::unknown);
-    result.pad_link = pad_link(input);
-    result.audio_link = audio_link();
-    result.repeat_pressed = input.button(0) && !last_input_.button(0);
-    result.goal_pressed = input.button(1) && !last_input_.button(1);
-    result.voice_busy = !speech_.idle();
-    result.notices = notices();
-    return result;
-  }
-
-  [[nodiscard]] Link pad_link(const InputState& input) {
-    seen_input_ = seen_input_ || input.live;
-    if (input.live) return Link::alive;
-    return seen_input_ ? Link::lost : Link::never;
   }
 
   [[nodiscard]] Link audio_link() const {
@@ -270,10 +203,11 @@ class FeedbackNode {
 
   /// rad, clockwise from the nose to the goal.
   [[nodiscard]] std::optional<double> goal_angle() const {
-    if (!guidance_.value || !guidance_.value->leads()) return std::nullopt;
+    const std::optional<Guidance>& guidance = feedback_.guidance();
+    if (!guidance || !guidance->leads()) return std::nullopt;
     try {
       const auto transform = tf_.lookupTransform("map", "base_link", ros::Time(0)).transform;
-      return angle_to(transform, guidance_.value->goal);
+      return angle_to(transform, guidance->goal);
     } catch (const tf2::TransformException&) {
       return std::nullopt;
     }
@@ -282,10 +216,9 @@ class FeedbackNode {
   void show(double time) {
     if (markers_time_ && time - *markers_time_ < 0.1) return;
     markers_time_ = time;
-    const bool fresh = guidance_.fresh(time, config_.stale);
     visualization_msgs::MarkerArray markers =
-        guide_markers(config_.markers, fresh ? guidance_.value : std::nullopt,
-                      path_.value.value_or(std::vector<Eigen::Vector2d>{}));
+        guide_markers(config_.markers,
+                      feedback_.guidance_fresh(time) ? feedback_.guidance() : std::nullopt, path_);
     if (markers.markers == shown_.markers) return;
     shown_ = markers;
     stamp(markers, ros::Time::now());
@@ -305,16 +238,14 @@ class FeedbackNode {
     array.header.stamp = ros::Time::now();
     std::optional<Gamepad::Status> pad;
     if (source_.pad()) pad = source_.pad()->status();
-    array.status = {pad_status(pad, to_string(source_.kind()), last_input_.live),
+    array.status = {pad_status(pad, to_string(source_.kind()), last_hands_.live),
                     audio_status(speech_.status()), speech_status(speech_.status())};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }
 
   NodeConfig config_;
-  Drive drive_;
-  Haptics haptics_;
-  CuePolicy policy_;
+  Feedback feedback_;
   SpeechChannel speech_;
   InputSource source_;
   RumbleOutput rumble_output_;
@@ -322,25 +253,16 @@ class FeedbackNode {
   ros::NodeHandle node_;
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_{tf_};
-  ros::Publisher cmd_vel_, joy_out_, feedback_, cues_, markers_, diagnostics_;
+  ros::Publisher cmd_vel_, joy_out_, motors_, cues_, markers_, diagnostics_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
-  Latest<std::vector<Nearby>> nearby_;
-  Latest<Guidance> guidance_;
-  Latest<Situation::Gate> gate_;
-  Latest<Situation::Motion> motion_;
-  Latest<std::vector<Eigen::Vector2d>> path_;
-  std::vector<Situation::Contact> contacts_;
+  std::vector<Eigen::Vector2d> path_;  ///< m, in map
   std::map<std::string, unsigned> dropped_;
 
-  std::optional<double> last_tick_;     // s, of now()
-  std::optional<double> markers_time_;  // s
+  std::optional<double> markers_time_;  // s, of now()
   std::optional<double> alarm_since_;   // s
-  InputState last_input_;
-  bool seen_input_ = false;
-  Velocity commanded_;
-  bool held_unarmed_ = false;
+  InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
   visualization_msgs::MarkerArray shown_;
 };

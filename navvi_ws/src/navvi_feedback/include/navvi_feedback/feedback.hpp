@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/cue_policy.hpp"
+#include "navvi_feedback/drive.hpp"
+#include "navvi_feedback/haptics.hpp"
+#include "navvi_feedback/input_state.hpp"
+
+namespace navvi_feedback {
+
+struct FeedbackConfig {
+  double stale = 1.0;  ///< s
+  DriveConfig drive;
+  HapticsConfig haptics;
+  CuePolicyConfig cues;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What feedback_node decides, and nothing of how it is sent: what the stick asks of the wheels,
+/// what the motors do, and what is said. Times are s of one clock that does not run backwards.
+class Feedback {
+ public:
+  /// The hands, and what the devices tell of themselves.
+  struct Input {
+    InputState hands;
+    Link audio = Link::alive;
+    bool voice_busy = false;           ///< something is being spoken or waits for it
+    std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if known
+    std::vector<std::string> notices;  ///< as Situation::notices
+  };
+  struct Output {
+    std::optional<Velocity> command;  ///< nullopt: nothing is to be sent
+    Rumble rumble;
+    std::vector<Cue> cues;  ///< decided now, most urgent first
+  };
+
+  /// \throws navvi_config::ConfigError as Haptics does
+  Feedback(const FeedbackConfig& config, Phrases phrases);
+
+  void take(std::vector<Nearby> nearby, double time) { nearby_ = {std::move(nearby), time}; }
+  void take(const Guidance& guidance, double time) { guidance_ = {guidance, time}; }
+  void take(Situation::Gate gate, double time) { gate_ = {gate, time}; }
+  void take(const Situation::Motion& motion, double time) { motion_ = {motion, time}; }
+  void take(const Situation::Contact& contact) { contacts_.push_back(contact); }
+
+  /// Call it at 50 Hz.
+  [[nodiscard]] Output update(const Input& input, double time);
+  /// As CuePolicy::note().
+  void note(const std::vector<CueEvent>& events) { policy_.note(events); }
+
+  /// The latest guidance, however old.
+  [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
+  [[nodiscard]] bool guidance_fresh(double time) const {
+    return guidance_.link(time, config_.stale) == Link::alive;
+  }
+
+ private:
+  /// The latest message of a kind, and when it came.
+  template <typename T>
+  struct Latest {
+    std::optional<T> value;
+    std::optional<double> time;
+
+    [[nodiscard]] Link link(double at, double stale) const { return link_state(time, at, stale); }
+  };
+
+  [[nodiscard]] std::optional<Velocity> drive(const InputState& hands, double dt);
+  [[nodiscard]] Rumble feel(double time, double dt);
+  [[nodiscard]] Situation situation(const Input& input, double time) const;
+  [[nodiscard]] Link pad_link(const InputState& hands) const;
+
+  FeedbackConfig config_;
+  Drive drive_;
+  Haptics haptics_;
+  CuePolicy policy_;
+
+  Latest<std::vector<Nearby>> nearby_;
+  Latest<Guidance> guidance_;
+  Latest<Situation::Gate> gate_;
+  Latest<Situation::Motion> motion_;
+  std::vector<Situation::Contact> contacts_;  ///< since the last update
+
+  std::optional<double> last_update_;
+  InputState last_hands_;
+  bool seen_hands_ = false;
+  Velocity commanded_;
+  bool held_unarmed_ = false;
+};
+
+}  // namespace navvi_feedback
