@@ -24,6 +24,10 @@ bool rotation(const geometry_msgs::Quaternion& q) {
   return std::isfinite(length2) && std::abs(length2 - 1.0) < 0.1;
 }
 
+double yaw_of(const geometry_msgs::Quaternion& q) {
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+}
+
 geometry_msgs::Point point_msg(Point point, double z) {
   geometry_msgs::Point out;
   out.x = point.x;
@@ -35,10 +39,9 @@ geometry_msgs::Point point_msg(Point point, double z) {
 }  // namespace
 
 std::optional<Pose> from_msg(const geometry_msgs::Transform& transform) {
-  const auto& q = transform.rotation;
-  if (!within_each(transform.translation, kFarthest) || !rotation(q)) return std::nullopt;
-  const double yaw = std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
-  return Pose{{transform.translation.x, transform.translation.y}, yaw};
+  if (!within_each(transform.translation, kFarthest) || !rotation(transform.rotation))
+    return std::nullopt;
+  return Pose{{transform.translation.x, transform.translation.y}, yaw_of(transform.rotation)};
 }
 
 std::optional<double> speed_from_msg(const nav_msgs::Odometry& odometry) {
@@ -48,9 +51,9 @@ std::optional<double> speed_from_msg(const nav_msgs::Odometry& odometry) {
   return twist.linear.x;
 }
 
-std::optional<std::vector<Cylinder>> from_msg(const navvi_msgs::Obstacles& obstacles) {
+std::optional<std::vector<MovingThing>> from_msg(const navvi_msgs::Obstacles& obstacles) {
   if (obstacles.obstacles.size() > kMaxObstacles) return std::nullopt;
-  std::vector<Cylinder> out;
+  std::vector<MovingThing> out;
   std::set<std::uint32_t> ids;
   for (const navvi_msgs::Obstacle& obstacle : obstacles.obstacles) {
     const bool sound =
@@ -59,10 +62,13 @@ std::optional<std::vector<Cylinder>> from_msg(const navvi_msgs::Obstacles& obsta
         obstacle.radius > 0.0 && within(obstacle.height, kMaxSize) && obstacle.height > 0.0 &&
         ids.insert(obstacle.id).second;
     if (!sound) return std::nullopt;
-    out.push_back({obstacle.id,
-                   {obstacle.pose.position.x, obstacle.pose.position.y},
-                   obstacle.radius,
-                   {obstacle.velocity.x, obstacle.velocity.y}});
+    const Point at{obstacle.pose.position.x, obstacle.pose.position.y};
+    const Point velocity{obstacle.velocity.x, obstacle.velocity.y};
+    out.push_back({{obstacle.id, at, obstacle.radius, velocity},
+                   yaw_of(obstacle.pose.orientation),
+                   obstacle.length,
+                   obstacle.width});
+    if (!out.back().sound()) return std::nullopt;
   }
   return out;
 }

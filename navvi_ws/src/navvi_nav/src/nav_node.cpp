@@ -74,7 +74,7 @@ class NavNode {
   }
 
   void on_obstacles(const navvi_msgs::Obstacles::ConstPtr& msg) {
-    std::optional<std::vector<Cylinder>> obstacles = from_msg(*msg);
+    const std::optional<std::vector<MovingThing>> obstacles = from_msg(*msg);
     if (!obstacles || msg->header.frame_id != config_.map_frame) {
       ++bad_messages_;
       ROS_WARN_THROTTLE(5.0, "Obstacles with a bad number or frame are dropped (%u bad messages).",
@@ -83,7 +83,7 @@ class NavNode {
     }
     classes_.clear();
     for (const auto& obstacle : msg->obstacles) classes_[obstacle.id] = obstacle.thing_class;
-    navigator_.set_obstacles(std::move(*obstacles), ros::Time::now().toSec());
+    navigator_.set_obstacles(*obstacles, ros::Time::now().toSec());
   }
 
   void on_odometry(const nav_msgs::Odometry::ConstPtr& msg) {

@@ -25,6 +25,9 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   planner.describe(visit);
   visit.group("replan", replan);
   visit.group("guidance", guidance);
+  visit({"most_cylinders", Range{1.0, 4.0}, "",
+         "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)"},
+        most_cylinders);
   visit({"carve_period", Range{0.05, 60.0}, "s",
          "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)"},
         carve_period);
@@ -58,8 +61,8 @@ bool Navigator::set_map(std::shared_ptr<const OccupancyGrid> grid) {
   return true;
 }
 
-void Navigator::set_obstacles(std::vector<Cylinder> obstacles, double time) {
-  obstacles_ = std::move(obstacles);
+void Navigator::set_obstacles(const std::vector<MovingThing>& things, double time) {
+  obstacles_ = cylinders_of(things, config_.most_cylinders);
   obstacles_time_ = time;
   obstacles_lost_ = false;
 }

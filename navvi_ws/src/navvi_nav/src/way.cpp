@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 namespace navvi_nav {
 namespace {
@@ -13,12 +12,6 @@ constexpr double kNotice = 1.0;     // s, what will cut the path so soon cuts it
 constexpr double kElbowRoom = 0.3;  // m, between hulls that pass each other
 constexpr double kHeadway = 1.5;    // m, that what goes on ahead must keep before the robot
 constexpr double kGained = 0.5;     // m, that what goes on ahead must have gained
-
-Cylinder later(const Cylinder& obstacle, double seconds) {
-  Cylinder out = obstacle;
-  out.center = out.center + seconds * out.velocity;
-  return out;
-}
 
 /// The point `along` m down the path, or its end.
 Point point_at(const Path& path, double along) {
@@ -31,6 +24,33 @@ Point point_at(const Path& path, double along) {
 }
 
 }  // namespace
+
+/// The cylinders of one thing: they follow each other.
+struct WayAhead::Thing {
+  const Cylinder* first;
+  const Cylinder* last;  ///< one beyond
+
+  [[nodiscard]] const Cylinder* begin() const { return first; }
+  [[nodiscard]] const Cylinder* end() const { return last; }
+  [[nodiscard]] Point velocity() const { return first->velocity; }
+  /// m, from a point to its hull in so many s
+  [[nodiscard]] double gap(Point point, double later) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Cylinder& part : *this)
+      best = std::min(best, distance(point, part.center + later * velocity()) - part.radius);
+    return best;
+  }
+  template <typename Visit>
+  static void each(const std::vector<Cylinder>& cylinders, Visit visit) {
+    const Cylinder* const end = cylinders.data() + cylinders.size();
+    for (const Cylinder* first = cylinders.data(); first != end;) {
+      const Cylinder* last = first + 1;
+      while (last != end && last->id == first->id) ++last;
+      visit(Thing{first, last});
+      first = last;
+    }
+  }
+};
 
 /// What one thing does to a path.
 struct WayAhead::Meeting {
@@ -79,26 +99,35 @@ bool WayAhead::blocked(const Path& path, const std::vector<Cylinder>& obstacles)
                      [&](const Cylinder& obstacle) { return cut_at(path, obstacle).has_value(); });
 }
 
-WayAhead::Meeting WayAhead::meet(const Path& path, const Cylinder& obstacle, double pace) const {
+/// m along the path to where it cuts it in so many s.
+std::optional<double> WayAhead::cut_at(const Path& path, const Thing& thing, double later) const {
+  std::optional<double> first;
+  for (Cylinder part : thing) {
+    part.center = part.center + later * part.velocity;
+    const std::optional<double> cut = cut_at(path, part);
+    if (cut && (!first || *cut < *first)) first = cut;
+  }
+  return first;
+}
+
+WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pace) const {
   Meeting out;
-  const std::optional<double> now = cut_at(path, obstacle);
-  if (norm(obstacle.velocity) <= config_.standing_speed) {
+  const std::optional<double> now = cut_at(path, thing, 0.0);
+  if (norm(thing.velocity()) <= config_.standing_speed) {
     if (now) out = {Way::State::stands, *now, 0.0, 0.0, false, false};
     return out;
   }
-  const double touch = obstacle.radius + config_.robot_radius;
+  const double touch = config_.robot_radius;
   std::optional<double> first = now;
   std::optional<double> last = now;
   double last_time = 0.0;
   double noticed = now ? 0.0 : config_.foresight;  // s, when it first cuts the path
   bool keeps_ahead = now.has_value();
   for (double t = kTick; t <= config_.foresight + 1e-9; t += kTick) {
-    const Cylinder then = later(obstacle, t);
-    out.hits_waiting = out.hits_waiting || distance(path.front(), then.center) < touch + kStopRoom;
-    const std::optional<double> cut = cut_at(path, then);
+    out.hits_waiting = out.hits_waiting || thing.gap(path.front(), t) < touch + kStopRoom;
+    const std::optional<double> cut = cut_at(path, thing, t);
     if (!cut) continue;
-    out.hits_going =
-        out.hits_going || distance(point_at(path, pace * t), then.center) < touch + kElbowRoom;
+    out.hits_going = out.hits_going || thing.gap(point_at(path, pace * t), t) < touch + kElbowRoom;
     if (!first) {
       first = cut;
       noticed = t;
@@ -110,7 +139,7 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Cylinder& obstacle, dou
   if (!first) return out;
   out.at = *first;
   out.clears_in = last_time + kTick;
-  out.meets_in = *first / (pace + norm(obstacle.velocity));
+  out.meets_in = *first / (pace + norm(thing.velocity()));
   if (out.clears_in <= config_.foresight + 1e-9 || (keeps_ahead && *last >= *first + kGained)) {
     if (noticed <= kNotice + 1e-9) out.state = Way::State::clears;
     if (out.hits_going && out.hits_waiting) out.state = Way::State::comes;
@@ -125,17 +154,17 @@ Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, do
   Way out;
   bool may_wait = true;
   if (path.size() < 2) return out;
-  for (const Cylinder& obstacle : obstacles) {
-    const Meeting one = meet(path, obstacle, pace);
+  Thing::each(obstacles, [&](const Thing& thing) {
+    const Meeting one = meet(path, thing, pace);
     may_wait = may_wait && !one.hits_waiting;
     if (one.hits_going && (!out.wait || one.at < out.wait->at))
-      out.wait = Way::Wait{obstacle.id, one.at, one.clears_in};
-    if (one.state == Way::State::free) continue;
+      out.wait = Way::Wait{thing.first->id, one.at, one.clears_in};
+    if (one.state == Way::State::free) return;
     if (out.state == Way::State::free || one.at < out.at) out.at = one.at;
     if (one.state == Way::State::comes && (out.meets_in <= 0.0 || one.meets_in < out.meets_in))
       out.meets_in = one.meets_in;
     out.state = std::max(out.state, one.state);
-  }
+  });
   if (!may_wait) out.wait.reset();
   return out;
 }
@@ -144,23 +173,19 @@ std::vector<Cylinder> WayAhead::foreseen(const Path& path, const std::vector<Cyl
                                          double pace) const {
   std::vector<Cylinder> out;
   if (path.size() < 2) return out;
-  std::set<std::uint32_t> taken;
-  for (const Cylinder& obstacle : obstacles) taken.insert(obstacle.id);
-  std::uint32_t id = std::numeric_limits<std::uint32_t>::max();
-  for (const Cylinder& obstacle : obstacles) {
-    const Meeting one = meet(path, obstacle, pace);
-    if (one.state != Way::State::comes) continue;
-    const double step = obstacle.radius / norm(obstacle.velocity);  // s
-    const double end = one.meets_in;
-    const double spare = obstacle.radius + 2.0 * config_.robot_radius + kElbowRoom;
-    for (double t = std::min(step, end); t <= end + 1e-9; t += step) {
-      Cylinder then = later(obstacle, t);
-      if (distance(then.center, path.front()) < spare) break;
-      while (taken.count(id) > 0) --id;
-      then.id = id--;
-      out.push_back(then);
+  Thing::each(obstacles, [&](const Thing& thing) {
+    const Meeting one = meet(path, thing, pace);
+    if (one.state != Way::State::comes) return;
+    const double step = thing.first->radius / norm(thing.velocity());  // s
+    const double spare = 2.0 * config_.robot_radius + kElbowRoom;
+    for (double t = std::min(step, one.meets_in); t <= one.meets_in + 1e-9; t += step) {
+      if (thing.gap(path.front(), t) < spare) break;
+      for (Cylinder part : thing) {
+        part.center = part.center + t * part.velocity;
+        out.push_back(part);
+      }
     }
-  }
+  });
   return out;
 }
 

@@ -31,6 +31,7 @@ TEST(ConfigFiles, paper_holds_the_printed_constants) {
   EXPECT_DOUBLE_EQ(paper.replan.slow_speed, 0.1);            // R-NAV-9
   EXPECT_DOUBLE_EQ(paper.guidance.goal_reached, 1.0);        // R-NAV-11
   EXPECT_FALSE(paper.replan.only_if_it_matters);             // R-NAV-9, every trigger
+  EXPECT_EQ(paper.most_cylinders, 1);                        // R-NAV-4
   EXPECT_DOUBLE_EQ(paper.replan.hold.hold_time, 0.0);        // every plan is taken
 }
 

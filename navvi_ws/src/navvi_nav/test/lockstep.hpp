@@ -38,7 +38,11 @@ class Lockstep : public testing::Test {
       time_ += kTick;
       if (has_pose_) navigator_.set_pose(robot_, time_);
       navigator_.set_speed(speed_);
-      if (has_obstacles_) navigator_.set_obstacles(obstacles_, time_);
+      if (has_obstacles_) {
+        std::vector<MovingThing> things = things_;
+        for (const Cylinder& obstacle : obstacles_) things.push_back({obstacle});
+        navigator_.set_obstacles(things, time_);
+      }
       if (const auto job = navigator_.update(time_)) {
         last_ = work(planner_, *job);
         navigator_.deliver(*last_, time_);
@@ -61,6 +65,7 @@ class Lockstep : public testing::Test {
   Planner planner_{config_.planner};
   std::optional<Outcome> last_;
   std::vector<Cylinder> obstacles_;
+  std::vector<MovingThing> things_;  ///< besides
   Pose robot_{{2, 5}, 0.0};
   bool has_pose_ = true;
   bool has_obstacles_ = true;

@@ -43,7 +43,7 @@ TEST(MsgConversion, drops_all_obstacles_if_one_is_bad) {
   EXPECT_TRUE(from_msg(msg));
   msg.obstacles = {sound_obstacle()};
   ASSERT_TRUE(from_msg(msg));
-  EXPECT_DOUBLE_EQ(from_msg(msg)->front().radius, 0.5);
+  EXPECT_DOUBLE_EQ(from_msg(msg)->front().cylinder.radius, 0.5);
   for (const double bad : {0.0, -1.0, 1e9, kNan}) {
     msg.obstacles = {sound_obstacle()};
     msg.obstacles[0].radius = bad;
@@ -51,6 +51,25 @@ TEST(MsgConversion, drops_all_obstacles_if_one_is_bad) {
   }
   msg.obstacles = {sound_obstacle(), sound_obstacle()};  // one id twice
   EXPECT_FALSE(from_msg(msg));
+}
+
+TEST(MsgConversion, takes_the_rectangle_of_an_obstacle_along_its_heading_or_drops_all) {
+  navvi_msgs::Obstacles msg;
+  msg.obstacles = {sound_obstacle()};
+  navvi_msgs::Obstacle& obstacle = msg.obstacles[0];
+  obstacle.length = 0.8;
+  obstacle.width = 0.4;
+  obstacle.pose.orientation.z = std::sin(0.6);
+  obstacle.pose.orientation.w = std::cos(0.6);
+  const auto things = from_msg(msg);
+  ASSERT_TRUE(things);
+  EXPECT_NEAR(things->front().yaw, 1.2, 1e-12);
+  EXPECT_EQ(things->front().length, 0.8);
+  EXPECT_EQ(things->front().width, 0.4);
+  for (const double bad : {0.0, -0.4, 2.0, kNan}) {
+    obstacle.width = bad;
+    EXPECT_FALSE(from_msg(msg)) << bad;
+  }
 }
 
 TEST(MsgConversion, drops_a_goal_with_any_number_that_is_not_finite) {

@@ -69,9 +69,9 @@ inline Point to_parent(const Pose& frame, Point point) {
   return frame.position + Point{c * point.x - s * point.y, s * point.x + c * point.y};
 }
 
-/// A moving thing as a vertical cylinder on the floor (R-NAV-4).
+/// A moving thing, or a part of a long one, as a vertical cylinder on the floor (R-NAV-4).
 struct Cylinder {
-  std::uint32_t id = 0;
+  std::uint32_t id = 0;  ///< of the thing: several cylinders may be one thing
   Point center;
   double radius = 0.0;  ///< m, > 0
   Point velocity;       ///< m/s

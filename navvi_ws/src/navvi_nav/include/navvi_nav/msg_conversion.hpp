@@ -27,8 +27,10 @@ inline constexpr double kFarthest = 1e5;
 /// Forward speed, m/s; nullopt if the twist is not finite or absurd.
 [[nodiscard]] std::optional<double> speed_from_msg(const nav_msgs::Odometry& odometry);
 /// nullopt if any number of any obstacle is not finite or out of range (radius and height: above
-/// 0 and up to 20 m), an id repeats, or there are more than 10000. The frame is not looked at.
-[[nodiscard]] std::optional<std::vector<Cylinder>> from_msg(const navvi_msgs::Obstacles& obstacles);
+/// 0 and up to 20 m), a rectangle is none or does not lie within its cylinder, an id repeats, or
+/// there are more than 10000. The frame is not looked at.
+[[nodiscard]] std::optional<std::vector<MovingThing>> from_msg(
+    const navvi_msgs::Obstacles& obstacles);
 /// nullopt if a number is not finite or the position absurd. The frame is not looked at, and the
 /// direction need not be a rotation: a goal is a place.
 [[nodiscard]] std::optional<Point> from_msg(const geometry_msgs::PoseStamped& goal);

@@ -6,6 +6,7 @@
 
 #include "navvi_nav/churn.hpp"
 #include "navvi_nav/job.hpp"
+#include "navvi_nav/moving_thing.hpp"
 #include "navvi_nav/pace.hpp"
 #include "navvi_nav/status.hpp"
 
@@ -15,6 +16,7 @@ struct NavigatorConfig {
   PlannerConfig planner;
   ReplanPolicyConfig replan;
   GuidanceConfig guidance;
+  int most_cylinders = 4;
   double carve_period = 0.5;
   double pose_timeout = 1.0;
   double obstacle_timeout = 1.0;
@@ -34,7 +36,7 @@ class Navigator {
   void set_map(std::shared_ptr<const MapMessage> map);
   /// A map for who has no OctoMap. \returns false if it is ignored because an OctoMap came before
   bool set_map(std::shared_ptr<const OccupancyGrid> grid);
-  void set_obstacles(std::vector<Cylinder> obstacles, double time);
+  void set_obstacles(const std::vector<MovingThing>& things, double time);
   void set_pose(const Pose& pose, double time);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.

@@ -49,8 +49,8 @@ class WayAhead {
   /// \param pace  m/s, at which the robot follows, > 0
   [[nodiscard]] Way judge(const Path& path, const std::vector<Cylinder>& obstacles,
                           double pace) const;
-  /// Where what comes along the path will be until it meets the robot, as more cylinders with ids
-  /// of their own: a new path must not lead there either.
+  /// Where what comes along the path will be until it meets the robot, as more cylinders of it: a
+  /// new path must not lead there either.
   [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
                                                const std::vector<Cylinder>& obstacles,
                                                double pace) const;
@@ -61,7 +61,10 @@ class WayAhead {
 
  private:
   struct Meeting;
-  [[nodiscard]] Meeting meet(const Path& path, const Cylinder& obstacle, double pace) const;
+  struct Thing;
+  [[nodiscard]] std::optional<double> cut_at(const Path& path, const Thing& thing,
+                                             double later) const;
+  [[nodiscard]] Meeting meet(const Path& path, const Thing& thing, double pace) const;
 
   WayConfig config_;
 };
