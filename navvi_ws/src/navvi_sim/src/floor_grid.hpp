@@ -2,7 +2,9 @@
 
 #include <octomap/OcTree.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -31,6 +33,22 @@ class FloorGrid {
   /// m, from the cell's centre to the nearest edge of a cell that is blocked or has no floor; 0 for
   /// such a cell.
   [[nodiscard]] double clearance(std::size_t cell) const { return clearance_[cell]; }
+
+  /// Calls `visit` with each cell whose centre lies in `box`.
+  template <typename Visit>
+  void for_each_in(const Eigen::AlignedBox2d& box, Visit visit) const {
+    const auto from = [&](double low, double corner) {
+      return static_cast<std::size_t>(std::max(0.0, std::ceil((low - corner) / cell_size_ - 0.5)));
+    };
+    const auto to = [&](double high, double corner, std::size_t count) {
+      const double last = std::floor((high - corner) / cell_size_ - 0.5) + 1.0;
+      return static_cast<std::size_t>(std::clamp(last, 0.0, static_cast<double>(count)));
+    };
+    const std::size_t end_x = to(box.max().x(), corner_.x(), width_);
+    const std::size_t end_y = to(box.max().y(), corner_.y(), height_);
+    for (std::size_t y = from(box.min().y(), corner_.y()); y < end_y; ++y)
+      for (std::size_t x = from(box.min().x(), corner_.x()); x < end_x; ++x) visit(y * width_ + x);
+  }
 
   /// Shortest ways over cells with a clearance of `least` or more (and `start` itself), in steps
   /// to the 8 neighbours.

@@ -96,6 +96,7 @@ class Surveyor {
       : world_(world), config_(config) {}
 
   Lanes survey();
+  std::vector<Polygon> ground();
 
  private:
   struct Plan {
@@ -126,6 +127,12 @@ Lanes Surveyor::survey() {
   place_users();
   find_refuges(world_, std::move(ground_), lanes_);
   return std::move(lanes_);
+}
+
+std::vector<Polygon> Surveyor::ground() {
+  gather();
+  if (!plans_.empty()) avoid_what_stands();
+  return std::move(ground_);
 }
 
 void Surveyor::gather() {
@@ -258,6 +265,10 @@ void MoversConfig::describe(navvi_config::Visitor& visit) {
 
 Lanes lay_lanes(const WorldDescription& world, const MoversConfig& config) {
   return Surveyor(world, config).survey();
+}
+
+std::vector<Polygon> swept_ground(const WorldDescription& world, const MoversConfig& config) {
+  return Surveyor(world, config).ground();
 }
 
 }  // namespace navvi_sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include "floor_grid.hpp"
@@ -37,6 +38,7 @@ class Drawing {
       throw WorldError("world '" + world.name + "' has no place where a robot of radius " +
                        text(config.robot_radius) + " m stands " + text(config.clearance) +
                        " m clear of things; a start needs one");
+    find_quiet();
   }
 
   [[nodiscard]] Scenario with_start(const FloorPose& start,
@@ -49,13 +51,13 @@ class Drawing {
         return {start, *goal, 0.0, {}};
       return {start, *goal, length(ways, end), reversed(way_back(ways, end, passable(root)))};
     }
-    const std::size_t end = draw(ways, free_, "goal", passable(root));
+    const std::size_t end = draw(ways, {quiet_, free_}, "goal", passable(root));
     return {start, grid_.centre(end), length(ways, end),
             reversed(way_back(ways, end, passable(root)))};
   }
 
   [[nodiscard]] Scenario with_goal(const Eigen::Vector2d& goal) {
-    const std::vector<std::size_t> starts = free_of_movers();
+    const Places starts = free_of_movers(free_);
     const std::size_t root = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
     if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
       // Navigation refuses such a goal; the start may then be anywhere.
@@ -63,31 +65,43 @@ class Drawing {
       return {{place.x(), place.y(), 0.0}, goal, 0.0, {}};
     }
     const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
-    const std::size_t start = draw(ways, starts, "start", passable(root));
+    const std::size_t start = draw(ways, {free_of_movers(quiet_), starts}, "start", passable(root));
     return {looking_back(ways, start), goal, length(ways, start),
             way_back(ways, start, passable(root))};
   }
 
   [[nodiscard]] Scenario with_nothing() {
-    const std::vector<std::size_t> starts = free_of_movers();
-    Scenario best{{}, {}, -1.0, {}};
-    const double enough = asks_for_route() ? 0.0 : kUsualRoute;
-    for (int attempt = 0; attempt < kAttempts && best.route_length < enough; ++attempt) {
-      const std::size_t root = free_[random_.below(free_.size())];
-      const FloorGrid::Ways ways = grid_.ways_from(root, clear());
-      const std::size_t start = drawn(ways, starts, clear());
-      if (start == FloorGrid::kNone || length(ways, start) <= best.route_length) continue;
-      best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
-              way_back(ways, start, clear())};
-    }
-    if (best.route_length < 0.0)
+    std::optional<Scenario> scenario = between(quiet_);
+    if (!scenario && quiet_.size() < free_.size()) scenario = between(free_);
+    if (!scenario)
       throw WorldError("world '" + world_.name +
                        "' has no place for a start that is connected to one for a goal" +
                        asked_for());
-    return best;
+    return *scenario;
   }
 
  private:
+  using Places = std::vector<std::size_t>;  ///< cells
+
+  /// Both ends drawn from `places`; nullopt if no route leads between any that were tried.
+  [[nodiscard]] std::optional<Scenario> between(const Places& places) {
+    if (places.empty()) return std::nullopt;
+    const Places starts = free_of_movers(places);
+    std::optional<Scenario> best;
+    const double enough = asks_for_route() ? 0.0 : kUsualRoute;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const std::size_t root = places[random_.below(places.size())];
+      const FloorGrid::Ways ways = grid_.ways_from(root, clear());
+      const std::size_t start = drawn(ways, starts, clear());
+      if (start == FloorGrid::kNone || (best && length(ways, start) <= best->route_length))
+        continue;
+      best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
+              way_back(ways, start, clear())};
+      if (best->route_length >= enough) break;
+    }
+    return best;
+  }
+
   [[nodiscard]] double clear() const { return config_.robot_radius + config_.clearance; }
   /// A way may leave from nearer to things than it may pass by.
   [[nodiscard]] double passable(std::size_t root) const {
@@ -110,10 +124,29 @@ class Drawing {
     return cell;
   }
 
-  /// Free places that keep their distance from where movers begin; all free places if none does.
-  [[nodiscard]] std::vector<std::size_t> free_of_movers() const {
-    std::vector<std::size_t> places;
-    for (const std::size_t cell : free_) {
+  /// Looks for the free places that no mover's body comes near.
+  void find_quiet() {
+    const double gap = config_.robot_radius + config_.off_lanes;
+    std::vector<bool> swept(grid_.size(), false);
+    Polygon place(1);
+    for (const Polygon& ground : swept_ground(world_, config_.movers)) {
+      Eigen::AlignedBox2d bounds;
+      for (const Eigen::Vector2d& corner : ground) bounds.extend(corner);
+      const Eigen::Vector2d reach = Eigen::Vector2d::Constant(gap);
+      grid_.for_each_in({bounds.min() - reach, bounds.max() + reach}, [&](std::size_t cell) {
+        if (swept[cell]) return;
+        place[0] = grid_.centre(cell);
+        swept[cell] = overlap(ground, place, gap);
+      });
+    }
+    std::copy_if(free_.begin(), free_.end(), std::back_inserter(quiet_),
+                 [&](std::size_t cell) { return !swept[cell]; });
+  }
+
+  /// Those of `places` that keep their distance from where movers begin; all of them if none does.
+  [[nodiscard]] Places free_of_movers(const Places& all) const {
+    Places places;
+    for (const std::size_t cell : all) {
       const Eigen::Vector2d place = grid_.centre(cell);
       const bool near =
           std::any_of(world_.things.begin(), world_.things.end(), [&](const Thing& thing) {
@@ -122,7 +155,7 @@ class Drawing {
           });
       if (!near) places.push_back(cell);
     }
-    return places.empty() ? free_ : places;
+    return places.empty() ? all : places;
   }
 
   [[nodiscard]] bool asks_for_turns() const {
@@ -147,17 +180,16 @@ class Drawing {
   }
 
   /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
-  /// is asked for, a small world has some at 0.8 of its longest way.
-  [[nodiscard]] std::vector<std::size_t> ends_of(const FloorGrid::Ways& ways,
-                                                 const std::vector<std::size_t>& places) {
+  /// is asked for, a small world has some at 0.8 of the longest way to a free place.
+  [[nodiscard]] Places ends_of(const FloorGrid::Ways& ways, const Places& places) {
     double longest = 0.0;
-    for (const std::size_t place : places)
+    for (const std::size_t place : free_)
       if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
     longest_ = std::max(longest_, longest);
     const double least =
         asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
     const double most = config_.max_route > 0.0 ? config_.max_route : longest;
-    std::vector<std::size_t> ends;
+    Places ends;
     for (const std::size_t place : places)
       if (std::isfinite(ways.length[place]) && length(ways, place) >= least &&
           length(ways, place) <= most)
@@ -166,9 +198,8 @@ class Drawing {
   }
 
   /// One of `places` to which a way leads as asked for; kNone if none was found.
-  [[nodiscard]] std::size_t drawn(const FloorGrid::Ways& ways,
-                                  const std::vector<std::size_t>& places, double least) {
-    const std::vector<std::size_t> ends = ends_of(ways, places);
+  [[nodiscard]] std::size_t drawn(const FloorGrid::Ways& ways, const Places& places, double least) {
+    const Places ends = ends_of(ways, places);
     if (ends.empty()) return FloorGrid::kNone;
     if (!asks_for_turns()) return ends[random_.below(ends.size())];
     for (int i = 0; i < kDraws; ++i) {
@@ -180,14 +211,15 @@ class Drawing {
     return FloorGrid::kNone;
   }
 
-  [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways,
-                                 const std::vector<std::size_t>& places, const std::string& what,
-                                 double least) {
-    const std::size_t end = drawn(ways, places, least);
-    if (end == FloorGrid::kNone)
-      throw WorldError("world '" + world_.name + "' has no free place for a " + what +
-                       " that is connected to what was given" + asked_for());
-    return end;
+  /// \param choices  of places, the better ones first
+  [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+                                 const std::string& what, double least) {
+    for (const Places& places : choices) {
+      const std::size_t end = drawn(ways, places, least);
+      if (end != FloorGrid::kNone) return end;
+    }
+    throw WorldError("world '" + world_.name + "' has no free place for a " + what +
+                     " that is connected to what was given" + asked_for());
   }
 
   /// From `cell` to where the ways begin, pulled taut: each line goes as far as it sees.
@@ -231,9 +263,10 @@ class Drawing {
   const ScenarioConfig& config_;
   FloorGrid grid_;
   Random random_;
-  std::vector<std::size_t> free_;  ///< clear of everything that stands still
-  double longest_ = 0.0;           ///< m, of the ways seen so far
-  int most_turns_ = 0;             ///< of the ways seen so far
+  Places free_;           ///< clear of everything that stands still
+  Places quiet_;          ///< those of them off the ground that movers sweep
+  double longest_ = 0.0;  ///< m, of the ways seen so far
+  int most_turns_ = 0;    ///< of the ways seen so far
 };
 
 }  // namespace

@@ -107,6 +107,7 @@ Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
                      const octomap::OcTree& map) {
   ScenarioConfig drawing = config.scenario;
   drawing.robot_radius = config.life.robot.radius;
+  drawing.movers = config.life.movers;
   return draw_scenario(world, map, drawing, static_cast<std::uint64_t>(config.seed),
                        config.start_pose(), config.goal_point());
 }

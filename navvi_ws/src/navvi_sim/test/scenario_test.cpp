@@ -112,6 +112,45 @@ TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
   EXPECT_LT(std::abs(to_east.start.yaw), M_PI);
 }
 
+Thing shuttle(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  Thing mover =
+      thing("shuttle", ThingClass::pallet_robot, {from.x(), from.y(), 0.25}, {1.0, 0.8, 0.5});
+  mover.route = Route{{{from}, {to}}};
+  return mover;
+}
+
+TEST_F(ScenarioIn, is_drawn_off_the_lanes_of_what_moves_and_given_anywhere) {
+  WorldDescription world = two_rooms(2.0);
+  world.things.push_back(shuttle({-7.0, 2.0}, {-1.0, 2.0}));
+  enter(world);
+  const Eigen::Vector2d on_lane(-4.0, 2.0);
+  // Seen from above the shuttle sweeps 0.4 m to each side, 0.64 m where it turns.
+  const auto off_lane = [](const Eigen::Vector2d& place) {
+    return place.x() > 0.0 || std::abs(place.y() - 2.0) > 0.4 + 0.35 + 0.25;
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_TRUE(off_lane({scenario.start.x, scenario.start.y})) << seed;
+    EXPECT_TRUE(off_lane(scenario.goal)) << seed;
+    EXPECT_GE(scenario.route_length, 10.0);
+    EXPECT_TRUE(off_lane(draw(seed, FloorPose{-4.0, 2.0, 0.0}).goal)) << seed;
+    const FloorPose start = draw(seed, std::nullopt, on_lane).start;
+    EXPECT_TRUE(off_lane({start.x, start.y})) << seed;
+  }
+  EXPECT_EQ(draw(1, FloorPose{-4.0, 2.0, 0.0}, on_lane).goal, on_lane);
+}
+
+TEST_F(ScenarioIn, is_drawn_on_the_lanes_where_there_is_nothing_else) {
+  WorldDescription world;
+  world.name = "alley";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {20.0, 2.2, 0.1}));
+  world.things.push_back(shuttle({-8.0, 0.0}, {8.0, 0.0}));
+  enter(world);
+  const Scenario scenario = draw(1);
+  EXPECT_GE(scenario.route_length, 10.0);
+  EXPECT_GE(std::hypot(scenario.start.x + 8.0, scenario.start.y), 2.0);
+}
+
 TEST_F(ScenarioIn, is_refused_where_nothing_is_free) {
   WorldDescription world;
   world.name = "full";

@@ -81,4 +81,9 @@ struct Lanes {
 ///         route, or has no place to wait out of the way of the others
 [[nodiscard]] Lanes lay_lanes(const WorldDescription& world, const MoversConfig& config);
 
+/// The ground that everything with a route sweeps on its way, in convex pieces; m, in map.
+/// \throws WorldError as lay_lanes, but for waiting places
+[[nodiscard]] std::vector<Polygon> swept_ground(const WorldDescription& world,
+                                                const MoversConfig& config);
+
 }  // namespace navvi_sim

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "navvi_sim/lanes.hpp"
 #include "navvi_sim/world_description.hpp"
 #include "navvi_sim/world_error.hpp"
 
@@ -24,11 +25,14 @@ struct ScenarioConfig {
   double robot_radius = 0.35;   ///< m
   double robot_height = 1.2;    ///< m, headroom that the robot needs
   double clearance = 0.15;      ///< m, more than the radius, to anything that stands still
+  double off_lanes = 0.3;       ///< m, more than the radius, to ground that movers sweep
   double mover_distance = 2.0;  ///< m, at least, from the start to a mover at time zero
   double min_route = 0.0;       ///< m, along the floor; 0: 10 where the world permits
   double max_route = 0.0;       ///< m; 0: as long as may be
   int min_turns = 0;            ///< of the route, as turns() counts them
   int max_turns = kAnyTurns;    ///< kAnyTurns: as many as may be
+
+  MoversConfig movers;  ///< by which they lay their tracks
 
   static constexpr int kAnyTurns = 100;
 
@@ -49,12 +53,13 @@ struct Scenario {
 [[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
 
 /// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
-/// and connected over the floor. A goal that is given is passed on as it is, free or not: refusing
-/// it is navigation's task. A drawn start looks along its route. Length and turns that are asked
-/// for hold for every route of which an end is drawn.
-/// \param map  of `world` (occupancy.hpp)
-/// \throws WorldError if a given start is not finite, in an obstacle or off the floor, or if the
-/// world has no free place, or none for a route as long and with as many turns as asked for
+/// connected over the floor, and, where the world has such places, off the ground that movers
+/// sweep: a robot that stood there would keep them from going on. A goal that is given is passed on
+/// as it is, free or not: refusing it is navigation's task. A drawn start looks along its route.
+/// Length and turns that are asked for hold for every route of which an end is drawn. \param map of
+/// `world` (occupancy.hpp) \throws WorldError as swept_ground, or if a given start is not finite,
+/// in an obstacle or off the floor, or if the world has no free place, or none for a route as long
+/// and with as many turns as asked for
 [[nodiscard]] Scenario draw_scenario(const WorldDescription& world, const octomap::OcTree& map,
                                      const ScenarioConfig& config, std::uint64_t seed,
                                      const std::optional<FloorPose>& start = std::nullopt,
