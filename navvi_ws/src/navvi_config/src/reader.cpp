@@ -1,5 +1,7 @@
 #include "navvi_config/reader.hpp"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -52,12 +54,13 @@ class YamlReader : public Visitor {
   void operator()(const Field& field, int& value) override {
     const YAML::Node node = find(field.name);
     if (!node) return;
-    const std::string text = scalar(field, node, "a whole number");
+    std::string whole = "a whole number";
+    if (std::holds_alternative<Range>(field.allowed)) whole += ", " + allowed_text(field);
+    const std::string text = scalar(field, node, whole);
     const bool octal = text.size() > 1 && text.find_first_not_of("+-0") != std::string::npos &&
                        text[text.find_first_not_of("+-")] == '0';
     int number = 0;
-    if (octal || !YAML::convert<int>::decode(node, number))
-      refuse(field, node, text, "a whole number");
+    if (octal || !YAML::convert<int>::decode(node, number)) refuse(field, node, text, whole);
     check(field, node, number, text);
     value = number;
   }
@@ -232,11 +235,24 @@ YAML::Node load_yaml(const std::filesystem::path& path) {
   if (size > kLargestFile)
     throw ConfigError("\"" + path.string() + "\" is larger than 1 MiB, the most allowed.");
   std::ifstream file(path);
+  if (!file || file.peek() == std::ifstream::traits_type::eof()) {
+    if (size == 0) return YAML::Node();
+    throw ConfigError("\"" + path.string() + "\" cannot be read.");
+  }
+  const auto not_yaml = [&](const YAML::Exception& problem, const std::string& why) {
+    return ConfigError(path.string() + ", line " + std::to_string(problem.mark.line + 1) +
+                       ": this is not YAML: " + why + ".");
+  };
   try {
-    return YAML::Load(file);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(file);
+    if (documents.size() > 1)
+      throw ConfigError(path.string() + ", line " + std::to_string(documents[1].Mark().line + 1) +
+                        ": a second document begins; allowed is one in a file.");
+    return documents.empty() ? YAML::Node() : documents.front();
+  } catch (const YAML::DeepRecursion& problem) {
+    throw not_yaml(problem, "it is nested too deep");
   } catch (const YAML::Exception& problem) {
-    throw ConfigError("\"" + path.string() + "\", line " + std::to_string(problem.mark.line + 1) +
-                      ", is not YAML: " + problem.msg + ".");
+    throw not_yaml(problem, problem.msg);
   }
 }
 

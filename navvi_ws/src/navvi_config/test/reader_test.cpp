@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 namespace navvi_config {
 namespace {
 
@@ -38,6 +40,22 @@ std::string refusal(const std::string& yaml) {
   return "";
 }
 
+/// What load_yaml says of a file with that content, from "line" on; empty if it takes it.
+std::string refusal_of_file(const std::string& content) {
+  const std::filesystem::path path = testing::TempDir() + "navvi_reader_test.yaml";
+  std::ofstream(path) << content;
+  std::string said;
+  try {
+    (void)load_yaml(path);
+  } catch (const ConfigError& error) {
+    said = error.what();
+    EXPECT_EQ(said.rfind(path.string() + ", line ", 0), 0U) << said;
+    said.erase(0, said.find("line "));
+  }
+  std::filesystem::remove(path);
+  return said;
+}
+
 TEST(Reader, an_empty_document_keeps_every_default) {
   Config config;
   read(config, YAML::Load(""), "test.yaml");
@@ -59,6 +77,11 @@ TEST(Reader, a_number_out_of_range_is_refused_with_line_key_and_range) {
             "test.yaml, line 2: \"speed\" is -4; allowed is 0.1 to 3 m/s.");
 }
 
+TEST(Reader, a_whole_number_that_is_none_is_refused_with_its_range) {
+  EXPECT_EQ(refusal("count: 99999999999"),
+            "test.yaml, line 1: \"count\" is 99999999999; allowed is a whole number, 0 to 10.");
+}
+
 TEST(Reader, every_bad_document_is_refused) {
   for (const char* yaml :
        {"speed: .nan", "speed: .inf", "speed: fast", "speed: [1]", "speed:", "count: 1.5",
@@ -77,6 +100,20 @@ TEST(Reader, an_unknown_key_is_named_with_the_known_ones) {
 
 TEST(Reader, a_missing_file_and_a_broken_file_are_told_apart) {
   EXPECT_THROW((void)load_yaml("/nonexistent.yaml"), ConfigError);
+  EXPECT_EQ(refusal_of_file("a: 1\n  b: 2\n"), "line 2: this is not YAML: illegal map value.");
+  EXPECT_EQ(refusal_of_file(std::string(5000, '[')),
+            "line 1: this is not YAML: it is nested too deep.");
+}
+
+TEST(Reader, what_stands_behind_the_first_document_of_a_file_is_not_passed_over) {
+  EXPECT_EQ(refusal_of_file("a: 1\n---\na: 2\n"),
+            "line 3: a second document begins; allowed is one in a file.");
+  EXPECT_EQ(refusal_of_file("---\na: 1\n...\n"), "");
+}
+
+TEST(Reader, an_empty_file_is_an_empty_document) {
+  EXPECT_EQ(refusal_of_file(""), "");
+  EXPECT_EQ(refusal_of_file("# nothing\n"), "");
 }
 
 TEST(Table, lists_each_field_with_its_group_default_and_range) {

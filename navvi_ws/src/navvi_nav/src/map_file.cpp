@@ -24,7 +24,9 @@ struct FileBytes {
 FileBytes load(const std::string& path, std::size_t most) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed))
-    return {path + ": there is no such file", {}};
+    return {path + (std::filesystem::exists(path, failed) ? ": this is no file"
+                                                          : ": there is no such file"),
+            {}};
   const auto size = std::filesystem::file_size(path, failed);
   if (failed || size > most)
     return {path + ": the file is larger than " + std::to_string(most >> 20U) + " MiB", {}};

@@ -10,7 +10,6 @@
 namespace navvi_sim {
 namespace {
 
-
 std::string trimmed(const std::string& text) {
   const char* space = " \t\r\n";
   const std::size_t first = text.find_first_not_of(space);
@@ -54,7 +53,7 @@ XmlElement copy_of(const tinyxml2::XMLElement& source,
 std::string fault(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "it is empty";
+      return "it is empty, or begins with a zero";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "its elements are nested too deep";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:

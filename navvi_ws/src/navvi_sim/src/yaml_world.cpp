@@ -19,6 +19,7 @@ class Reader {
   explicit Reader(std::filesystem::path file) : file_(std::move(file)) {}
 
   [[nodiscard]] WorldDescription world(const YAML::Node& node) {
+    check_kind(node);
     check_keys(node, {"name", "floor_height", "things"}, "the world");
     WorldDescription world;
     world.name = text(required(node, "name"), "the name of the world");
@@ -34,8 +35,18 @@ class Reader {
 
  private:
   [[noreturn]] void refuse(const YAML::Node& node, const std::string& what) const {
-    throw WorldError(file_.string() + ", line " + std::to_string(node.Mark().line + 1) + ": " +
+    const YAML::Mark mark = node.Mark();
+    throw WorldError(file_.string() +
+                     (mark.is_null() ? "" : ", line " + std::to_string(mark.line + 1)) + ": " +
                      what);
+  }
+
+  /// A file in which nothing tells which of the two kinds it was meant to be.
+  void check_kind(const YAML::Node& node) const {
+    if (node.IsMap() && (node["things"] || node["floor_height"])) return;
+    refuse(node,
+           "this is neither a layout nor a world; allowed are the keys name, preset and layout for "
+           "a layout, or name, floor_height and things for a world");
   }
 
   void check_keys(const YAML::Node& node, std::initializer_list<const char*> allowed,

@@ -132,6 +132,14 @@ TEST_F(LayoutFile, is_refused_in_one_sentence_with_file_line_and_what_is_allowed
   }
 }
 
+TEST_F(LayoutFile, is_told_which_keys_there_are_when_it_has_none_that_is_known) {
+  for (const char* text : {"", "# nothing\n", "~", "[1, 2]", "hall", "colour: red"}) {
+    const std::string sentence = sentence_of(text);
+    EXPECT_NE(sentence.find("name, preset and layout for a layout"), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find("line 0"), std::string::npos) << sentence;
+  }
+}
+
 TEST_F(LayoutFile, is_refused_when_it_is_too_large_before_it_is_read) {
   std::string text = "layout:\n  length: 40\n";
   text += "#" + std::string(10'000'000, 'x') + "\n";
