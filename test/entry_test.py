@@ -9,6 +9,9 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
+SIMULATED = ["operator:=simulated", "rviz:=false"]
+
+
 def navvi(*words, **environment):
     import os
     env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -28,6 +31,10 @@ def test_shell_scripts_are_clean():
     (["run", "profile:=mine"], "allowed are: default paper"),
     (["run", "operator:=simulated", "rviz:=true"], "needs a display"),
     (["run", "operator:=keyboard"], "needs a display"),
+    (["run", *SIMULATED, "view:=wide"], "known are: default"),
+    (["run", *SIMULATED, "once:=maybe"], "allowed are: true false"),
+    (["run", *SIMULATED, "world:=office"], "'office' is no world; allowed are"),
+    (["run", *SIMULATED, "world:=training", "start:=here"], "not of the form x,y,yaw"),
     (["replay"], "which trial?"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
 ])
@@ -35,6 +42,29 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     result = navvi(*words)
     assert result.returncode == 2
     assert sentence in result.stderr
+    assert len(result.stderr.splitlines()) == 1 or words == ["fly"]
+    assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
+
+
+@pytest.fixture
+def map_file(tmp_path):
+    """A room as map_server stores it."""
+    (tmp_path / "room.pgm").write_bytes(b"P5 60 60 255\n" + bytes(254 if 5 < i % 60 < 55 and 5 < i // 60 < 55 else 0 for i in range(3600)))
+    (tmp_path / "room.yaml").write_text("image: room.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
+    return str(tmp_path / "room.yaml")
+
+
+@pytest.mark.parametrize("command", [["world", "show", "training"], ["navmesh", None]], ids=lambda words: words[0])
+def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
+    command = [word or map_file for word in command]
+    result = navvi(*command, "-o", str(tmp_path / "a.png"))
+    assert result.returncode == 0, result.stderr
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    for name, sentence in [("a.gif", ".svg and .png are allowed"), ("none/a.png", "cannot be written")]:
+        result = navvi(*command, "-o", str(tmp_path / name))
+        assert result.returncode == 2
+        assert sentence in result.stderr and len(result.stderr.splitlines()) == 1
 
 
 def test_help_names_each_sub_command():

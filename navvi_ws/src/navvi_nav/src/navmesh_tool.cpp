@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <navvi_config/reader.hpp>
@@ -77,6 +78,9 @@ Options read_options(const std::vector<std::string>& words) {
       out.help = true;
     } else if (word == "--picture" || word == "-o") {
       out.picture = value();
+      if (std::filesystem::path(out.picture).extension() != ".svg")
+        throw UsageError("\"" + out.picture +
+                         "\" is no picture that can be drawn; allowed is .svg");
     } else if (word == "--config") {
       out.config = value();
     } else if (word == "--from") {
@@ -160,6 +164,12 @@ void print_plan(const Plan& plan, double milliseconds) {
   std::puts("");
 }
 
+/// Each library ends its sentences in its own way.
+void tell(std::string sentence) {
+  if (sentence.back() != '.') sentence += '.';
+  std::cerr << "navmesh: " << sentence << '\n';
+}
+
 int run(const Options& options) {
   NavigatorConfig config;
   if (!options.config.empty())
@@ -204,7 +214,7 @@ int run(const Options& options) {
     if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");
   }
   if (refusal.empty()) return 0;
-  std::cerr << "navmesh: " << refusal << ".\n";
+  tell(refusal);
   return 1;
 }
 
@@ -218,10 +228,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     return run(options);
-  } catch (const UsageError& error) {
-    std::cerr << "navmesh: " << error.what() << ".\n";
   } catch (const std::exception& error) {
-    std::cerr << "navmesh: " << error.what() << '\n';
+    tell(error.what());
   }
   return 2;
 }

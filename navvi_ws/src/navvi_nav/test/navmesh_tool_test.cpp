@@ -69,17 +69,19 @@ TEST_F(NavmeshTool, answers_a_query_and_says_why_it_cannot) {
 }
 
 TEST_F(NavmeshTool, refuses_what_it_cannot_do_in_a_sentence) {
+  std::ofstream(path("bad.yaml")) << "colour: red\n";
   for (const std::string& words :
        {std::string(), path("none.bt"), path("map.svg"), path("map.bt") + " --from 1,2",
         path("map.bt") + " --from 1 --to 2,3", path("map.bt") + " --cylinder 1,2,-1",
         path("map.bt") + " --from 1,x --to 2,3", path("map.bt") + " --colour",
-        path("map.bt") + " more", path("map.bt") + " --picture",
-        path("map.bt") + " --picture /nowhere/map.svg",
+        path("map.bt") + " more", path("bad.yaml"), path("."), path("map.bt") + " --picture",
+        path("map.bt") + " --picture /nowhere/map.svg", path("map.bt") + " -o " + path("map.png"),
         path("map.bt") + " --config " + path("none.yaml")}) {
     const Answer answer = ask(words);
     EXPECT_EQ(answer.code, 2) << words;
     EXPECT_EQ(answer.text.rfind("navmesh: ", 0), 0U) << answer.text;
     EXPECT_EQ(answer.text.substr(answer.text.size() - 2), ".\n") << answer.text;
+    EXPECT_EQ(answer.text.find(".."), std::string::npos) << answer.text;
   }
 }
 

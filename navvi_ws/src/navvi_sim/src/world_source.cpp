@@ -40,14 +40,26 @@ void stop_workers(WorldDescription& world) {
     if (thing.thing_class == ThingClass::worker) thing.route.reset();
 }
 
+LoadedWorld build(const LayoutSource& source, std::uint64_t seed, const WarehouseConfig& config) {
+  LoadedWorld loaded{source.build(seed), {}};
+  if (config.workers == "standing") stop_workers(loaded.world);
+  return loaded;
+}
+
+/// \throws WorldError that begins with where the world comes from
+LoadedWorld validated(LoadedWorld loaded, const std::string& where) {
+  try {
+    validate(loaded.world);
+  } catch (const WorldError& error) {
+    throw WorldError(where + ": " + error.what());
+  }
+  return loaded;
+}
+
 LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
                  const WarehouseConfig& config, const std::string& classes) {
   if (spec == "warehouse") return {warehouse(seed, config), {}};
-  if (const auto source = layout_source(spec)) {
-    LoadedWorld loaded{source->build(seed), {}};
-    if (config.workers == "standing") stop_workers(loaded.world);
-    return loaded;
-  }
+  if (const auto source = layout_source(spec)) return build(*source, seed, config);
   if (kind_of(spec) == Kind::yaml) return {read_yaml_world(spec), {}};
   return read_sdf_world(spec, folders(models),
                         classes.empty() ? ClassRules::standard() : ClassRules::read(classes));
@@ -71,13 +83,12 @@ std::vector<std::filesystem::path> folders(const std::string& colon_separated) {
 
 LoadedWorld load_world(const std::string& spec, const std::string& models, std::uint64_t seed,
                        const WarehouseConfig& warehouse, const std::string& classes) {
-  LoadedWorld loaded = load(spec, models, seed, warehouse, classes);
-  try {
-    validate(loaded.world);
-  } catch (const WorldError& error) {
-    throw WorldError(spec + ": " + error.what());
-  }
-  return loaded;
+  return validated(load(spec, models, seed, warehouse, classes), spec);
+}
+
+LoadedWorld load_world(const LayoutSource& source, std::uint64_t seed,
+                       const WarehouseConfig& warehouse) {
+  return validated(build(source, seed, warehouse), source.where);
 }
 
 }  // namespace navvi_sim

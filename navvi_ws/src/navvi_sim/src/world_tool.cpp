@@ -1,11 +1,5 @@
-// Shows, writes and lists worlds, without ROS: `./navvi world`.
+// Lists, checks, shows and writes worlds, without ROS: `./navvi world`.
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -26,12 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kUsage =
-    "world list                                        the worlds that have a name\n"
-    "world show NAME|FILE [-o FILE.svg|FILE.png] [name:=value ...]   a picture from above\n"
-    "world write NAME|FILE FILE.sdf [name:=value ...]  the world as SDF\n"
+    "world list                                   the worlds that have a name\n"
+    "world check NAME|FILE [--config FILE.yaml] [name:=value ...]   what a session makes of it\n"
+    "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture\n"
+    "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"
-    "such as length:=80; `./navvi parameters` tells them all.\n";
+    "such as length:=80; `./navvi parameters` tells them all. --config takes a file like those of "
+    "sim_node.\n";
 
 /// Sentences for who typed the command.
 class UsageError : public std::runtime_error {
@@ -50,17 +46,40 @@ struct ToolConfig {
   }
 };
 
+/// What the command line asks for.
+struct Words {
+  std::vector<std::string> plain;       ///< the sub-command and what it is about
+  std::vector<std::string> parameters;  ///< name:=value
+  std::optional<std::string> out, config;
+};
+
 struct Request {
   ToolConfig config;
   LoadedWorld loaded;
 };
+
+Words sort_out(const std::vector<std::string>& words) {
+  Words sorted;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "-o" || word == "--config") {
+      if (++i == words.size()) throw UsageError(word + " needs a file after it");
+      (word == "-o" ? sorted.out : sorted.config) = words[i];
+    } else if (word.find(":=") != std::string::npos) {
+      sorted.parameters.push_back(word);
+    } else {
+      sorted.plain.push_back(word);
+    }
+  }
+  return sorted;
+}
 
 /// "octomap/resolution:=0.1" is the key `resolution` in the map `octomap`.
 YAML::Node read_words(const std::vector<std::string>& words) {
   YAML::Node all(YAML::NodeType::Map);
   for (const std::string& word : words) {
     const std::size_t split = word.find(":=");
-    if (split == std::string::npos || split == 0)
+    if (split == 0)
       throw UsageError("\"" + word + "\" is no parameter; parameters look like name:=value");
     YAML::Node map = all;
     std::istringstream keys(word.substr(0, split));
@@ -78,22 +97,31 @@ YAML::Node read_words(const std::vector<std::string>& words) {
   return all;
 }
 
-Request load(const std::string& spec, const std::vector<std::string>& words) {
+Request load(const Words& words) {
   Request request;
+  SimNodeConfig& session = request.config.session;
+  const std::string& spec = words.plain[1];
+  if (words.config)
+    navvi_config::read(session, navvi_config::load_yaml(*words.config), *words.config);
   auto source = layout_source(spec);
   if (source) request.config.layout = source->config;
-  const YAML::Node given = read_words(words);
+  const YAML::Node given = read_words(words.parameters);
   navvi_config::read(request.config, given, "the command line");
-  request.config.session.world = spec;
+  session.world = spec;
   if (!source) {
-    request.loaded = load_world(request.config.session);
+    request.loaded = load_world(session);
     return request;
   }
   source->config = *request.config.layout;
   for (const auto& entry : given) source->places[entry.first.Scalar()] = "the command line";
-  request.loaded.world = source->build(static_cast<std::uint64_t>(request.config.session.seed));
-  validate(request.loaded.world);
+  request.loaded = load_world(*source, static_cast<std::uint64_t>(session.seed), session.warehouse);
   return request;
+}
+
+Scenario scenario_of(const Request& request) {
+  const SimNodeConfig& session = request.config.session;
+  const WorldDescription& world = request.loaded.world;
+  return scenario_of(session, world, occupancy_of(world, session.octomap));
 }
 
 void write_file(const fs::path& path, const std::string& content) {
@@ -103,25 +131,6 @@ void write_file(const fs::path& path, const std::string& content) {
   if (!file) throw WorldError("the file '" + path.string() + "' cannot be written");
 }
 
-/// Turned into a PNG by librsvg's own tool.
-void write_png(const fs::path& path, const std::string& svg) {
-  std::string pattern = (fs::temp_directory_path() / "navvi_world_XXXXXX").string();
-  const int descriptor = mkstemp(pattern.data());
-  if (descriptor < 0) throw WorldError("no temporary file can be made for the picture");
-  close(descriptor);
-  write_file(pattern, svg);
-  std::string program = "rsvg-convert", option = "-o", target = path.string();
-  char* arguments[] = {program.data(), option.data(), target.data(), pattern.data(), nullptr};
-  pid_t child = 0;
-  int status = -1;
-  if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) == 0)
-    waitpid(child, &status, 0);
-  fs::remove(pattern);
-  if (status != 0)
-    throw WorldError("the picture cannot be written to '" + target +
-                     "' by rsvg-convert (package librsvg2-bin); .svg needs no such tool");
-}
-
 std::string rounded(double value, int digits) {
   std::ostringstream text;
   text.precision(digits);
@@ -129,42 +138,49 @@ std::string rounded(double value, int digits) {
   return text.str();
 }
 
-int show(const std::string& spec, const std::optional<std::string>& out,
-         const std::vector<std::string>& words) {
-  const fs::path path = out.value_or(fs::path(spec).stem().string() + ".svg");
-  if (path.extension() != ".svg" && path.extension() != ".png")
-    throw UsageError("'" + path.string() + "' is no picture; allowed are .svg and .png");
-  const Request request = load(spec, words);
-  const WorldDescription& world = request.loaded.world;
-  const SimNodeConfig& config = request.config.session;
-  const Scenario scenario = scenario_of(config, world, occupancy_of(world, config.octomap));
+std::string caption_of(const Request& request, const Scenario& scenario) {
   const int count = turns(scenario.route);
-  const std::string caption =
-      "seed " + std::to_string(config.seed) + ", world " + world_hash(world) +
-      (scenario.route.empty() ? ", no way from start to goal"
-                              : ", way of " + rounded(scenario.route_length, 1) + " m with " +
-                                    std::to_string(count) + (count == 1 ? " turn" : " turns"));
-  const std::string svg = world_picture(world, scenario, caption);
-  if (path.extension() == ".png")
-    write_png(path, svg);
-  else
-    write_file(path, svg);
+  return "seed " + std::to_string(request.config.session.seed) + ", world " +
+         world_hash(request.loaded.world) +
+         (scenario.route.empty() ? ", no way from start to goal"
+                                 : ", way of " + rounded(scenario.route_length, 1) + " m with " +
+                                       std::to_string(count) + (count == 1 ? " turn" : " turns"));
+}
+
+void tell(const Request& request, const Scenario& scenario) {
+  const WorldDescription& world = request.loaded.world;
   for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
   std::map<std::string, int> counts;
   for (const Thing& thing : world.things)
     ++counts[std::string(to_string(thing.thing_class)) + (thing.route ? " on routes" : "")];
   for (const auto& [what, number] : counts) std::cout << number << ' ' << what << '\n';
-  std::cout << world.name << ", " << caption << "\nstart " << rounded(scenario.start.x, 2) << ","
-            << rounded(scenario.start.y, 2) << "," << rounded(scenario.start.yaw, 3) << " goal "
-            << rounded(scenario.goal.x(), 2) << "," << rounded(scenario.goal.y(), 2) << '\n'
-            << path.string() << '\n';
-  return 0;
+  std::cout << world.name << ", " << caption_of(request, scenario) << "\nstart "
+            << rounded(scenario.start.x, 2) << "," << rounded(scenario.start.y, 2) << ","
+            << rounded(scenario.start.yaw, 3) << " goal " << rounded(scenario.goal.x(), 2) << ","
+            << rounded(scenario.goal.y(), 2) << '\n';
 }
 
-int write(const std::string& spec, const fs::path& path, const std::vector<std::string>& words) {
+void check(const Words& words) {
+  const Request request = load(words);
+  tell(request, scenario_of(request));
+}
+
+void show(const Words& words) {
+  const fs::path path = words.out.value_or(fs::path(words.plain[1]).stem().string() + ".svg");
+  if (path.extension() != ".svg")
+    throw UsageError("'" + path.string() + "' is no picture that can be drawn; allowed is .svg");
+  const Request request = load(words);
+  const Scenario scenario = scenario_of(request);
+  write_file(path, world_picture(request.loaded.world, scenario, caption_of(request, scenario)));
+  tell(request, scenario);
+  if (!words.out) std::cout << path.string() << '\n';
+}
+
+void write(const Words& words) {
+  const fs::path path = words.plain[2];
   if (path.extension() != ".sdf" && path.extension() != ".world")
     throw UsageError("'" + path.string() + "' is no SDF file; allowed are .sdf and .world");
-  const Request request = load(spec, words);
+  const Request request = load(words);
   std::string text = to_sdf(request.loaded.world);
   if (text.size() > kMaxXmlBytes) {
     text = to_sdf(request.loaded.world, false);
@@ -173,33 +189,34 @@ int write(const std::string& spec, const fs::path& path, const std::vector<std::
   write_file(path, text);
   for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
   std::cout << request.loaded.world.things.size() << " things in " << path.string() << '\n';
-  return 0;
 }
 
-int list() {
+void list(const Words&) {
   std::cout << "warehouse   the usual one, 50 x 30 m\n";
   for (const Preset& known : presets())
     std::cout << known.name << std::string(12 - known.name.size(), ' ') << known.help << ", "
               << known.config.length << " x " << known.config.width << " m\n";
-  return 0;
 }
 
-int run(std::vector<std::string> words) {
-  const std::string command = words.empty() ? "" : words.front();
-  std::optional<std::string> out;
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    if (words[i] != "-o") continue;
-    if (command != "show" || i + 1 == words.size())
-      throw UsageError("-o belongs to world show, with a file after it");
-    out = words[i + 1];
-    words.erase(words.begin() + static_cast<long>(i), words.begin() + static_cast<long>(i) + 2);
+struct Command {
+  const char* name;
+  std::size_t words;  ///< with its name
+  void (*run)(const Words&);
+};
+
+constexpr Command kCommands[] = {
+    {"list", 1, list}, {"check", 2, check}, {"show", 2, show}, {"write", 3, write}};
+
+void run(const Words& words) {
+  const std::string name = words.plain.empty() ? "" : words.plain.front();
+  if (words.out && name != "show") throw UsageError("-o belongs to world show");
+  for (const Command& command : kCommands) {
+    if (name != command.name) continue;
+    if (words.plain.size() > command.words)
+      throw UsageError("\"" + words.plain[command.words] +
+                       "\" is too much; parameters look like name:=value");
+    if (words.plain.size() == command.words) return command.run(words);
   }
-  const auto after = [&](std::size_t count) {
-    return std::vector<std::string>(words.begin() + static_cast<long>(count), words.end());
-  };
-  if (command == "list" && words.size() == 1) return list();
-  if (command == "show" && words.size() >= 2) return show(words[1], out, after(2));
-  if (command == "write" && words.size() >= 3) return write(words[1], words[2], after(3));
   throw UsageError(std::string("allowed are:\n") + kUsage);
 }
 
@@ -209,7 +226,8 @@ int run(std::vector<std::string> words) {
 int main(int argc, char** argv) {
   if (navvi_config::tells_parameters<navvi_sim::LayoutConfig>(argc, argv)) return 0;
   try {
-    return navvi_sim::run({argv + 1, argv + argc});
+    navvi_sim::run(navvi_sim::sort_out({argv + 1, argv + argc}));
+    return 0;
   } catch (const std::exception& error) {
     std::cerr << "navvi: " << error.what() << '\n';
     return 2;

@@ -63,10 +63,14 @@ TEST_F(WorldTool, shows_a_world_as_a_picture_and_says_what_is_in_it) {
   EXPECT_NE(content("easy.svg").find("seed 3"), std::string::npos);
 }
 
-TEST_F(WorldTool, writes_a_png_where_the_tool_for_it_is_there) {
-  if (std::system("command -v rsvg-convert >/dev/null") != 0) GTEST_SKIP() << "no rsvg-convert";
-  EXPECT_EQ(run("show training -o a.png").code, 0);
-  EXPECT_EQ(content("a.png").substr(1, 3), "PNG");
+TEST_F(WorldTool, tells_what_a_session_would_make_of_a_world_and_draws_nothing) {
+  std::ofstream(folder_ / "still.yaml") << "workers: standing\n";
+  EXPECT_NE(run("check busy").text.find("worker on routes"), std::string::npos);
+  const Answer answer = run("check busy --config still.yaml seed:=2");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_EQ(answer.text.find("worker on routes"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("seed 2"), std::string::npos) << answer.text;
+  EXPECT_FALSE(fs::exists(folder_ / "busy.svg"));
 }
 
 TEST_F(WorldTool, writes_a_world_as_sdf_that_it_can_show) {
@@ -84,6 +88,14 @@ TEST_F(WorldTool, refuses_what_is_wrong_in_a_sentence_and_writes_nothing) {
                             "show office",
                             "show easy -o",
                             "show easy -o a.gif",
+                            "show easy -o a.png",
+                            "check easy -o a.svg",
+                            "check easy start:=foo",
+                            "check easy goal:=1",
+                            "check easy seed:=-1",
+                            "check easy --config",
+                            "check easy --config none.yaml",
+                            "check easy --colour",
                             "show bad.yaml",
                             "show easy seed",
                             "show easy seed:=x",

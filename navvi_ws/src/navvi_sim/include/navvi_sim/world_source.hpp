@@ -36,6 +36,10 @@ struct LoadedWorld {
                                      std::uint64_t seed, const WarehouseConfig& warehouse,
                                      const std::string& classes = "");
 
+/// The same of a layout that was read, and perhaps changed, before.
+[[nodiscard]] LoadedWorld load_world(const LayoutSource& source, std::uint64_t seed,
+                                     const WarehouseConfig& warehouse);
+
 /// The layout that `spec` names, not built yet; nullopt if it names another kind of world.
 /// \throws WorldError as load_world does
 [[nodiscard]] std::optional<LayoutSource> layout_source(const std::string& spec);
