@@ -28,6 +28,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"pose_stale", P::message, 5.0, 5.0},
       {"map_stale", P::message, 5.0, 5.0},
       {"blocked", P::message, 3.0, 1.5},
+      {"make_room", P::message, 5.0, 3.0},
       {"goal_refused_not_finite", P::message, 1.0, 10.0},
       {"goal_refused_unknown_frame", P::message, 1.0, 10.0},
       {"goal_refused_inside_obstacle", P::message, 1.0, 10.0},

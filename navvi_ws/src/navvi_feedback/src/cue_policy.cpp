@@ -39,6 +39,7 @@ std::string problem_of(const Guidance& guidance) {
     case Guidance::State::no_goal:
       return "welcome";
     case Guidance::State::following:
+    case Guidance::State::make_room:
       return "";
     case Guidance::State::arrived:
       return "arrived";
@@ -108,8 +109,8 @@ CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
 
 std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const Links links = judge(now, time);
-  follows_ = now.guidance && now.guidance->state == Guidance::State::following &&
-             links.guidance == Link::alive && links.simulator != Link::lost;
+  follows_ = now.guidance && now.guidance->is_followed() && links.guidance == Link::alive &&
+             links.simulator != Link::lost;
   Utterances utterances;
   const auto add = [&](Utterances more) {
     utterances.insert(utterances.end(), more.begin(), more.end());
@@ -279,7 +280,8 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
 CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) const {
   if (!now.repeat_pressed && !now.goal_pressed) return {};
   Utterance answer;
-  if (follows_ && now.goal_pressed) {
+  const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
+  if (to_goal && now.goal_pressed) {
     answer = route_.goal("goal_info", now);
   } else if (const auto way = follows_ ? route_.direction(*now.guidance) : std::nullopt) {
     answer = *way;

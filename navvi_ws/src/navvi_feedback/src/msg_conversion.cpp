@@ -69,7 +69,7 @@ std::optional<Situation::Contact> from_msg(const navvi_msgs::Contact& msg) {
 
 std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
   constexpr double kAngle = M_PI + 1e-6;
-  const bool in_range = msg.state <= navvi_msgs::Guidance::BLOCKED &&
+  const bool in_range = msg.state <= navvi_msgs::Guidance::MAKE_ROOM &&
                         msg.refusal <= navvi_msgs::Guidance::UNREACHABLE &&
                         msg.replan_reason <= navvi_msgs::Guidance::MAP_CHANGED &&
                         msg.reroute_reason <= navvi_msgs::Guidance::MAP_CHANGED;

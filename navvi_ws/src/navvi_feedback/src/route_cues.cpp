@@ -66,6 +66,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
   observe(now, time);
   if (!hour_ || !std::isfinite(guidance.waypoint_distance)) return {};
+  if (guidance.state != Guidance::State::make_room) made_room_ = false;
   const Change change = last_ ? compare(guidance) : Change::none;
   if (change != Change::none && pending_ != Change::next_corner) pending_ = change;
   const bool other_corner =
@@ -95,6 +96,13 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   Utterance way = *direction(guidance);
   if (pending_ == Change::next_corner && *hour_ != 12) {
     way.kind = "turn_now";
+    return {said(way, *hour_, time)};
+  }
+  if (guidance.state == Guidance::State::make_room && !made_room_) {
+    made_room_ = true;
+    way.kind = "make_room";
+    way.fillings.thing = guidance.blocked_by;
+    reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
   if (now.voice_busy) return {};

@@ -385,6 +385,26 @@ TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
   }
 }
 
+TEST(RouteCues, TellOnceForWhomToMakeRoomAndThenTheWay) {
+  Drive drive;
+  drive.settle(0.0, 12.0);
+  drive.now.guidance = following(170.0, 3.0);
+  drive.now.guidance->state = Guidance::State::make_room;
+  drive.now.guidance->blocked_by = ThingClass::forklift;
+  drive.now.voice_busy = true;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"make_room"});
+  EXPECT_EQ(drive.last.fillings.thing, ThingClass::forklift);
+  EXPECT_EQ(drive.last.fillings.hour, 6);
+  EXPECT_EQ(drive.pass(1.0), Kinds{});
+  drive.now.voice_busy = false;
+  EXPECT_EQ(drive.pass(6.0), Kinds{"direction"});
+  drive.now.guidance = following(0.0, 12.0);
+  drive.pass(6.0);
+  drive.now.guidance = following(90.0, 3.0);
+  drive.now.guidance->state = Guidance::State::make_room;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"make_room"});
+}
+
 }  // namespace
 }  // namespace navvi_feedback
 

@@ -36,7 +36,7 @@ void HoldConfig::describe(navvi_config::Visitor& visit) {
          "nobody is led back for what comes along the path until it is so close"},
         hold_meeting);
   visit({"wait_distance", Range{0.0, 100.0}, "m",
-         "nearer than this a person is told to wait for what crosses"},
+         "nearer than this a person is told to wait for what crosses, or closes the only way"},
         wait_distance);
 }
 
@@ -63,7 +63,7 @@ bool Hold::keeps(double time, const Way& way, const Path& followed, const Path& 
 
 bool Hold::must_wait(const Way& way) const {
   return config_.hold_time > 0.0 && way.state <= Way::State::clears && way.wait &&
-         way.wait->at <= config_.wait_distance;
+         is_near(way.wait->at);
 }
 
 }  // namespace navvi_nav

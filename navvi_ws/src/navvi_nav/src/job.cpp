@@ -21,12 +21,15 @@ Outcome work(Planner& planner, const Job& job) {
     std::vector<Cylinder> all = job.obstacles;
     all.insert(all.end(), job.foreseen.begin(), job.foreseen.end());
     out.carved = planner.carve(all);
-    if (job.goal) {
+    if (job.goal && !job.foreseen.empty()) {
       out.plan = planner.plan(job.start, *job.goal);
-      if (out.plan->status != PlanStatus::found && !job.foreseen.empty()) {
-        out.carved = planner.carve(job.obstacles);
-        out.plan = planner.plan(job.start, *job.goal);
-      }
+      if (out.plan->status != PlanStatus::found) out.carved = planner.carve(job.obstacles);
+    }
+    if (job.goal && (!out.plan || out.plan->status != PlanStatus::found))
+      out.plan = planner.plan_among(job.obstacles, job.start, *job.goal);
+    if (out.plan && out.plan->status == PlanStatus::closed && !job.ground.empty()) {
+      Plan aside = planner.plan_aside(job.ground, job.start);
+      if (aside.status == PlanStatus::aside) out.plan = std::move(aside);
     }
   } catch (const std::exception& error) {
     if (map_came) out.map_error = error.what();

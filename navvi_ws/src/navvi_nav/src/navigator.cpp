@@ -6,6 +6,7 @@ namespace navvi_nav {
 namespace {
 
 constexpr double kElsewhere = 2.0;  // m moved of a path: it leads elsewhere
+constexpr double kAside = 0.4;      // m, from where room was to be made
 
 std::optional<double> age_of(std::optional<double> then, double now) {
   if (!then) return std::nullopt;
@@ -25,6 +26,7 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   planner.describe(visit);
   visit.group("replan", replan);
   visit.group("guidance", guidance);
+  visit.group("stand_off", stand_off);
   visit({"most_cylinders", Range{1.0, 4.0}, "",
          "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)"},
         most_cylinders);
@@ -47,7 +49,10 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
 }
 
 Navigator::Navigator(const NavigatorConfig& config)
-    : config_(config), policy_(policy_of(config)), guidance_(config.guidance) {}
+    : config_(config),
+      policy_(policy_of(config)),
+      guidance_(config.guidance),
+      stand_off_(config.stand_off) {}
 
 void Navigator::set_map(std::shared_ptr<const MapMessage> map) {
   new_map_ = std::move(map);
@@ -62,6 +67,7 @@ bool Navigator::set_map(std::shared_ptr<const OccupancyGrid> grid) {
 }
 
 void Navigator::set_obstacles(const std::vector<MovingThing>& things, double time) {
+  things_ = things;
   obstacles_ = cylinders_of(things, config_.most_cylinders);
   obstacles_time_ = time;
   obstacles_lost_ = false;
@@ -95,6 +101,10 @@ void Navigator::drop_goal(State state) {
   ++goal_number_;
   goal_planned_ = false;
   guidance_.follow({});
+  aim_ = Aim::goal;
+  stand_off_.forget();
+  blocker_.reset();
+  makes_room_.reset();
   policy_.reset();
   churn_.reset();
   reroutes_ = 0;
@@ -106,8 +116,10 @@ void Navigator::drop_goal(State state) {
 
 void Navigator::reset_times() {
   policy_.reset();
+  stand_off_.reset();
   churn_.reset();
   pose_.reset();
+  things_.clear();
   obstacles_.clear();
   obstacles_time_.reset();
   obstacles_lost_ = false;
@@ -136,18 +148,25 @@ bool Navigator::undecided(double time) const {
 
 std::optional<Job> Navigator::update(double time) {
   if (obstacles_time_ && !obstacles_fresh(time)) {
+    things_.clear();
     obstacles_.clear();
     obstacles_lost_ = true;
   }
   pace_.update(time, speed_);
   follow_progress(time);
+  watch_blocker(time);
   return job_since_ ? std::nullopt : next_job(time);
 }
 
 void Navigator::follow_progress(double time) {
   if (!guidance_.following() || !pose_fresh(time)) return;
   guidance_.advance(*pose_, space());
-  if (guidance_.arrived(*pose_, space())) {
+  if (aim_ == Aim::aside) {
+    if (distance(pose_->position, guidance_.path().back()) <= kAside) {
+      aim_ = Aim::waits;
+      stand_off_.went_aside(time, *makes_room_);
+    }
+  } else if (aim_ != Aim::waits && guidance_.arrived(*pose_, space())) {
     drop_goal(State::arrived);
     return;
   }
@@ -159,6 +178,25 @@ void Navigator::follow_progress(double time) {
     state_ = State::no_route;
     detail_ = "no plan came in time";
   }
+}
+
+const MovingThing* Navigator::thing(std::optional<std::uint32_t> id) const {
+  const auto found = std::find_if(things_.begin(), things_.end(), [id](const MovingThing& one) {
+    return id && one.cylinder.id == *id;
+  });
+  return found == things_.end() ? nullptr : &*found;
+}
+
+/// What closes the only way, and whether it and the robot wait for each other.
+void Navigator::watch_blocker(double time) {
+  blocker_.reset();
+  if (!guidance_.following() || !pose_fresh(time) || aim_ == Aim::aside) return;
+  if (aim_ == Aim::waits && stand_off_.aside_for(time)) return;
+  if (aim_ == Aim::waits) aim_ = Aim::closed;
+  if (aim_ == Aim::closed)
+    blocker_ = policy_.closed_by(guidance_.remaining(pose_->position), obstacles_);
+  const MovingThing* const by = blocker_ ? thing(blocker_->by) : nullptr;
+  stand_off_.update(time, pose_->position, by ? std::optional(*by) : std::nullopt);
 }
 
 std::optional<Job> Navigator::next_job(double time) {
@@ -181,9 +219,13 @@ std::optional<Job> Navigator::next_job(double time) {
     input.remaining = guidance_.remaining(pose_->position);
     if (guidance_.following()) input.path_offset = guidance_.heading(*pose_).path_offset;
     input.obstacles = obstacles_;
+    input.closed = aim_ == Aim::closed || aim_ == Aim::waits;
     if (const std::optional<Reason> reason = policy_.update(input)) {
       job.goal = goal_;
       job.foreseen = policy_.foreseen(input.remaining, obstacles_, input.pace);
+      const MovingThing* const rival = thing(aim_ == Aim::aside ? makes_room_ : stand_off_.due());
+      if (rival) job.ground = ground_needed(*rival);
+      if (rival) makes_room_ = rival->cylinder.id;
       job.start = pose_->position;
       job.reason = *reason;
       map_changed_ = false;
@@ -219,10 +261,9 @@ void Navigator::deliver(const Outcome& outcome, double time) {
 void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   switch (plan.status) {
     case PlanStatus::found:
-      if (!keeps_path(plan, reason, time)) change_path(plan, reason, time);
-      state_ = State::following;
-      detail_.clear();
-      follow_progress(time);
+    case PlanStatus::closed:
+    case PlanStatus::aside:
+      follow(plan, reason, time);
       return;
     case PlanStatus::refused:
       // A goal that was accepted is not refused later on because of where the robot strayed.
@@ -243,6 +284,21 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   }
   guidance_.follow({});
   detail_ = plan.detail;
+}
+
+void Navigator::follow(const Plan& plan, Reason reason, double time) {
+  if (!keeps_path(plan, reason, time)) {
+    change_path(plan, reason, time);
+    const bool waits = aim_ == Aim::waits && plan.status == PlanStatus::closed;
+    aim_ = plan.status == PlanStatus::found   ? Aim::goal
+           : plan.status == PlanStatus::aside ? Aim::aside
+           : waits                            ? Aim::waits
+                                              : Aim::closed;
+  }
+  state_ = State::following;
+  detail_ = plan.detail;
+  follow_progress(time);
+  watch_blocker(time);
 }
 
 void Navigator::change_path(const Plan& plan, Reason reason, double time) {
@@ -266,15 +322,20 @@ bool Navigator::keeps_path(const Plan& plan, Reason reason, double time) {
   if (!guidance_.following() || !pose_) return false;
   const Path remaining = guidance_.remaining(pose_->position);
   const bool found = plan.status == PlanStatus::found;
-  const bool held =
-      policy_.holds(time, remaining, found ? plan.path : Path{}, obstacles_, pace_.value());
+  const bool held = aim_ == Aim::goal && policy_.holds(time, remaining, found ? plan.path : Path{},
+                                                       obstacles_, pace_.value());
   if (reason == Reason::new_goal || reason == Reason::map_changed ||
       guidance_.heading(*pose_).path_offset > config_.off_path)
     return false;
-  if (held) {
-    const std::vector<Cylinder> none;
-    return guidance_.sees_next(pose_->position, {floor_.get(), &none});
-  }
+  const std::vector<Cylinder> none;
+  const bool sees_next = guidance_.sees_next(pose_->position, {floor_.get(), &none});
+  if (held) return sees_next;
+  if (plan.status == PlanStatus::aside)
+    return aim_ == Aim::aside && !policy_.blocked(remaining, obstacles_) && sees_next;
+  if (plan.status == PlanStatus::closed)
+    return aim_ == Aim::closed && sees_next &&
+           !policy_.worth_changing(Reason::period, length_of(remaining), length_of(plan.path));
+  if (aim_ != Aim::goal) return false;
   const double fresh = found ? length_of(plan.path) : std::numeric_limits<double>::infinity();
   return !policy_.worth_changing(reason, length_of(remaining), fresh) &&
          !policy_.blocked(remaining, obstacles_) && guidance_.sees_next(pose_->position, space());
@@ -310,8 +371,14 @@ Status Navigator::status(double time) const {
       out.eta = out.heading.goal_distance / pace_.value();
       out.shortest_length = shortest_length_;
       out.smoothing_price = smoothing_price_;
-      out.blocked = policy_.waits_for();
+      out.blocked = blocker_ ? blocker_ : aim_ == Aim::goal ? policy_.waits_for() : std::nullopt;
+      if (aim_ == Aim::waits) out.blocked = Way::Wait{*makes_room_, 0.0, -1.0};
       if (out.blocked) out.state = State::blocked;
+      if (aim_ == Aim::aside) {
+        out.state = State::make_room;
+        out.blocked = Way::Wait{*makes_room_, 0.0, 0.0};
+        out.heading.waypoint_is_goal = false;
+      }
     } else {
       out.state = State::no_route;
     }

@@ -1,7 +1,14 @@
 #include "navvi_nav/planner.hpp"
 
+#include "navvi_nav/way_out.hpp"
+
 namespace navvi_nav {
 namespace {
+
+constexpr double kAsideStep = 0.5;       // m
+constexpr double kAsideFarthest = 12.0;  // m, as the crow flies
+constexpr int kAsideDirections = 16;
+constexpr int kAsideSearches = 200;
 
 Plan failure(PlanStatus status, Refusal refusal, std::string detail) {
   Plan plan;
@@ -35,6 +42,7 @@ bool share(const std::set<int>& a, const std::set<int>& b) {
 struct Planner::Anchor {
   std::optional<Mesh::Place> place;
   bool joined = false;
+  bool leaves_hole = false;
 };
 
 void PlannerConfig::describe(navvi_config::Visitor& visit) {
@@ -66,29 +74,79 @@ Plan Planner::plan(Point start, Point goal) const {
   if (goal_parts.empty()) return refused(Refusal::inside_obstacle);
   if (!start_parts.empty() && !share(start_parts, goal_parts)) return refused(Refusal::unreachable);
 
-  const Anchor any = anchor(start, config_.start_snap, std::nullopt);
-  if (!any.place)
+  if (!begin(start, goal, std::nullopt).place)
     return failure(PlanStatus::off_mesh, Refusal::none, "the robot stands where no path can begin");
   const Anchor to = anchor(goal, near_goal, std::nullopt);
   if (!to.place || !to.joined)
     return failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal");
   const int part = nav_mesh_.mesh().polygon(to.place->polygon).part;
-  const Anchor from = anchor(start, config_.start_snap, part);
+  const Anchor from = begin(start, goal, part);
   if (!from.place)
     return failure(PlanStatus::no_route, Refusal::none,
                    "nothing joins the robot with the goal now");
-  const Found& found = search_.find(nav_mesh_.mesh(), *from.place, *to.place);
+  return finish(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
+}
+
+Plan Planner::finish(const Found& found, const Anchor& from, Point start, Point goal) const {
   Plan plan;
   plan.nodes_expanded = found.nodes_expanded;
   plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
   if (!found.found) return plan;
   Path shortest = found.path;
-  if (from.joined && !(shortest.front() == start)) shortest.insert(shortest.begin(), start);
+  const bool joined = from.joined && !(shortest.front() == start);
+  if (joined && !from.leaves_hole) shortest.insert(shortest.begin(), start);
   if (!(shortest.back() == goal)) shortest.push_back(goal);
-  plan.shortest = length_of(shortest);
   plan.path =
       smooth(shortest, nav_mesh_.space(),
              {config_.mesh.robot_radius, config_.mesh.preferred_clearance}, config_.smoothing);
+  plan.shortest = length_of(shortest);
+  if (joined && from.leaves_hole) {
+    plan.path.insert(plan.path.begin(), start);
+    plan.shortest += distance(start, shortest.front());
+  }
+  return plan;
+}
+
+Plan Planner::plan_among(const std::vector<Cylinder>& obstacles, Point start, Point goal) {
+  Plan plan = this->plan(start, goal);
+  if (plan.status != PlanStatus::no_route && plan.status != PlanStatus::off_mesh) return plan;
+  carve({});
+  Plan alone = this->plan(start, goal);
+  carve(obstacles);
+  if (alone.status != PlanStatus::found) return alone;
+  alone.status = PlanStatus::closed;
+  alone.detail = std::move(plan.detail);
+  return alone;
+}
+
+Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start) const {
+  const Mesh& mesh = nav_mesh_.mesh();
+  const double radius = config_.mesh.robot_radius;
+  const Space needed{nav_mesh_.shared_floor().get(), &ground};
+  Found best;
+  Anchor best_from;
+  int searches = 0;
+  for (double reach = kAsideStep; reach <= kAsideFarthest && searches < kAsideSearches;
+       reach += kAsideStep) {
+    if (best.found && reach >= best.length) break;
+    for (int i = 0; i < kAsideDirections; ++i) {
+      const double angle = 2.0 * M_PI * i / kAsideDirections;
+      const Point place = start + reach * Point{std::cos(angle), std::sin(angle)};
+      const std::optional<Mesh::Place> there = mesh.locate(place, 0.0);
+      if (!there || in_a_hole(place, needed, radius)) continue;
+      const Anchor from = begin(start, place, mesh.polygon(there->polygon).part);
+      if (!from.place) continue;
+      ++searches;
+      const Found& found = search_.find(mesh, *from.place, *there);
+      if (!found.found || (best.found && found.length >= best.length)) continue;
+      best = found;
+      best_from = from;
+    }
+  }
+  if (!best.found)
+    return failure(PlanStatus::no_route, Refusal::none, "there is no room to be made");
+  Plan plan = finish(best, best_from, start, best.path.back());
+  plan.status = PlanStatus::aside;
   return plan;
 }
 
@@ -130,6 +188,16 @@ Planner::Anchor Planner::anchor(Point point, double within, std::optional<int> p
   if (out.place)
     out.joined =
         nav_mesh_.space().segment_clear(point, out.place->point, config_.mesh.robot_radius);
+  return out;
+}
+
+/// Where a path from `start` begins.
+Planner::Anchor Planner::begin(Point start, Point goal, std::optional<int> part) const {
+  const double radius = config_.mesh.robot_radius;
+  if (!in_a_hole(start, nav_mesh_.space(), radius)) return anchor(start, config_.start_snap, part);
+  Anchor out;
+  out.place = way_out(nav_mesh_.mesh(), nav_mesh_.space(), start, radius, part, goal);
+  out.joined = out.leaves_hole = out.place.has_value();
   return out;
 }
 

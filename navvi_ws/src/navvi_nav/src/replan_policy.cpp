@@ -52,6 +52,13 @@ std::optional<Way::Wait> ReplanPolicy::waits_for() const {
   return hold_.must_wait(way_) ? way_.wait : std::nullopt;
 }
 
+std::optional<Way::Wait> ReplanPolicy::closed_by(const Path& path,
+                                                 const std::vector<Cylinder>& obstacles) const {
+  const std::optional<WayAhead::Cut> cut = ahead_.first_cut(path, obstacles);
+  const bool tells = cut && (way_.state == Way::State::comes || hold_.is_near(cut->at));
+  return tells ? std::optional(Way::Wait{cut->by, cut->at, -1.0}) : std::nullopt;
+}
+
 std::vector<Cylinder> ReplanPolicy::foreseen(const Path& path,
                                              const std::vector<Cylinder>& obstacles,
                                              double pace) const {
@@ -111,17 +118,17 @@ std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow, 
   if (input.map_changed) return Reason::map_changed;
   const double since = input.time - *last_plan_;
   if (since < std::min(config_.min_interval, config_.period)) return std::nullopt;
-  if (since >= config_.min_interval && !waits && input.remaining.size() >= 2) {
+  if (since >= config_.min_interval && !waits && !input.closed && input.remaining.size() >= 2) {
     const Point next = input.remaining[1];
     if (distance(input.robot.position, next) <= config_.way.look_ahead &&
-        ahead_.blocked({next, next}, input.obstacles))
+        ahead_.taken(next, input.obstacles))
       return Reason::waypoint_blocked;
     const bool avoids =
         config_.hold.hold_time > 0.0 && way_.state == Way::State::comes && since >= config_.period;
-    if (avoids || ahead_.blocked(input.remaining, input.obstacles)) return Reason::path_carved;
+    if (avoids || blocked(input.remaining, input.obstacles)) return Reason::path_carved;
   }
   if (!near_pending_ && !slow && since < config_.period) return std::nullopt;
-  if (!matters(input)) {
+  if (!input.closed && !matters(input)) {
     near_pending_ = false;
     return std::nullopt;
   }

@@ -11,6 +11,7 @@ constexpr double kStopRoom = 0.1;   // m, from who waits to what passes
 constexpr double kNotice = 1.0;     // s, what will cut the path so soon cuts it
 constexpr double kElbowRoom = 0.3;  // m, between hulls that pass each other
 constexpr double kHeadway = 1.5;    // m, that what goes on ahead must keep before the robot
+constexpr double kSame = 1e-6;      // m
 constexpr double kGained = 0.5;     // m, that what goes on ahead must have gained
 
 /// The point `along` m down the path, or its end.
@@ -75,16 +76,21 @@ void WayConfig::describe(navvi_config::Visitor& visit) {
         foresight);
 }
 
-std::optional<double> WayAhead::cut_at(const Path& path, const Cylinder& obstacle) const {
-  const double room = obstacle.radius + config_.robot_radius - config_.tolerance;
+/// m, from a cylinder's centre, nearer than which a robot's touches it
+double WayAhead::room(const Cylinder& obstacle) const {
+  return obstacle.radius + config_.robot_radius - config_.tolerance;
+}
+
+/// m along the path to where it comes nearer to `center` than `room`.
+std::optional<double> WayAhead::cut_at(const Path& path, Point center, double room) const {
   double before = 0.0;
   for (std::size_t i = 1; i < path.size() && before < config_.look_ahead; ++i) {
     const double left = config_.look_ahead - before;
     const double length = distance(path[i - 1], path[i]);
     const double share = length > left ? left / length : 1.0;
     const Point end = path[i - 1] + share * (path[i] - path[i - 1]);
-    const Point nearest = nearest_on_segment(obstacle.center, path[i - 1], end);
-    const double gap = distance(obstacle.center, nearest);
+    const Point nearest = nearest_on_segment(center, path[i - 1], end);
+    const double gap = distance(center, nearest);
     if (gap < room) {
       const double chord = std::sqrt(room * room - gap * gap);
       return before + std::max(0.0, distance(path[i - 1], nearest) - chord);
@@ -94,20 +100,34 @@ std::optional<double> WayAhead::cut_at(const Path& path, const Cylinder& obstacl
   return std::nullopt;
 }
 
-bool WayAhead::blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
-  return std::any_of(obstacles.begin(), obstacles.end(),
-                     [&](const Cylinder& obstacle) { return cut_at(path, obstacle).has_value(); });
-}
-
-/// m along the path to where it cuts it in so many s.
+/// m along the path to where it cuts it in so many s. Who is nearer than that now is cut off by
+/// what comes nearer still.
 std::optional<double> WayAhead::cut_at(const Path& path, const Thing& thing, double later) const {
   std::optional<double> first;
-  for (Cylinder part : thing) {
-    part.center = part.center + later * part.velocity;
-    const std::optional<double> cut = cut_at(path, part);
+  for (const Cylinder& part : thing) {
+    const double now = distance(path.front(), part.center) - kSame;
+    const std::optional<double> cut =
+        cut_at(path, part.center + later * part.velocity, std::min(room(part), now));
     if (cut && (!first || *cut < *first)) first = cut;
   }
   return first;
+}
+
+std::optional<WayAhead::Cut> WayAhead::first_cut(const Path& path,
+                                                 const std::vector<Cylinder>& obstacles) const {
+  std::optional<Cut> first;
+  if (path.size() < 2) return first;
+  Thing::each(obstacles, [&](const Thing& thing) {
+    const std::optional<double> at = cut_at(path, thing, 0.0);
+    if (at && (!first || *at < first->at)) first = Cut{thing.first->id, *at};
+  });
+  return first;
+}
+
+bool WayAhead::taken(Point place, const std::vector<Cylinder>& obstacles) const {
+  return std::any_of(obstacles.begin(), obstacles.end(), [&](const Cylinder& obstacle) {
+    return distance(place, obstacle.center) < room(obstacle);
+  });
 }
 
 WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pace) const {

@@ -149,15 +149,16 @@ TEST_F(MovingThings, a_thing_that_overtakes_changes_nothing) {
 }
 
 TEST_F(MovingThings, a_way_that_is_closed_for_good_is_told_and_found_again) {
+  robot_.position = {5.9, 8};
   obstacles_ = {{1, {10, 1.7}, 1.6, {}}, {2, {10, 8}, 1.4, {}}, {3, {10, 14.3}, 1.6, {}}};
-  tick(20);
-  EXPECT_EQ(status().state, State::no_route);
   tick(200);
-  EXPECT_EQ(status().state, State::no_route);
-  EXPECT_TRUE(navigator_.path().empty());
+  EXPECT_EQ(status().state, State::blocked);
+  ASSERT_TRUE(status().blocked);
+  EXPECT_EQ(status().blocked->by, 2U);
   obstacles_.pop_back();
   tick(60);
   EXPECT_EQ(status().state, State::following);
+  EXPECT_GT(navigator_.path()[1].y, 8.0);
 }
 
 TEST_F(MovingThings, the_old_way_is_taken_again_once_it_is_much_shorter_and_free) {
@@ -170,6 +171,69 @@ TEST_F(MovingThings, the_old_way_is_taken_again_once_it_is_much_shorter_and_free
   obstacles_.clear();
   tick(60);
   EXPECT_NEAR(length_of(navigator_.path()), 21.0, 0.1);
+}
+
+/// A forklift with a yaw, as navvi_sim tells it.
+MovingThing forklift(Point at, double yaw, double speed = 0.0) {
+  return {{9, at, 1.35, speed * Point{std::cos(yaw), std::sin(yaw)}}, yaw, 2.4, 1.1};
+}
+
+/// An aisle of 2.4 m, too narrow for the robot and a forklift side by side, with halls at both
+/// ends.
+class NarrowAisle : public Lockstep {
+ protected:
+  NarrowAisle() : Lockstep(22, 8) {
+    world_.box(5, 0.1, 0, 17, 2.8, 1.5).box(5, 5.2, 0, 17, 7.9, 1.5);
+    robot_.position = {9, 4};
+    load();
+    navigator_.set_goal({20, 4});
+    tick(2);
+  }
+};
+
+TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_passes) {
+  double x = 12.0;
+  double away = 0.0;    // s, told to make room
+  double waited = 0.0;  // s, told to wait
+  double elapsed = 0.0;
+  bool named = true;
+  while (status().state != State::arrived && elapsed < 120.0) {
+    elapsed += kTick;
+    const Status now = status();
+    named = named && (!now.blocked || now.blocked->by == 9U);
+    away += now.state == State::make_room ? kTick : 0.0;
+    waited += now.state == State::blocked ? kTick : 0.0;
+    EXPECT_NE(now.state, State::no_route);
+    EXPECT_NE(now.state, State::off_mesh);
+    // It goes on while the robot is 0.4 m off its straight way, and leaves by the lower left.
+    const Point at = robot_.position;
+    const bool clear = std::abs(at.y - 4.0) > 0.55 + 0.35 || at.x > x || at.x < x - 1.2 - 0.75;
+    if (clear && x > -30.0) x -= 0.6 * kTick;
+    things_ = {forklift({x, 4.0}, M_PI, clear ? 0.6 : 0.0)};
+    if (x < 3.0) things_.clear();
+    const bool drives = now.state == State::following || now.state == State::make_room;
+    speed_ = drives ? kPace : 0.0;
+    if (drives) {
+      drive(kPace * kTick);
+    } else {
+      tick();
+    }
+  }
+  EXPECT_EQ(status().state, State::arrived);
+  EXPECT_TRUE(named);
+  EXPECT_GT(away, 2.0);
+  EXPECT_GT(waited, 10.0);
+}
+
+TEST_F(NarrowAisle, a_robot_within_the_circle_of_a_forklift_is_led_out_of_it) {
+  things_ = {forklift({3.2, 3.0}, M_PI / 2)};
+  robot_.position = {4.2, 3.4};  // within 1.35 m and the robot's radius of it
+  navigator_.set_goal({20, 4});
+  tick(20);
+  EXPECT_EQ(status().state, State::following);
+  robot_.position = {4.15, 3.2};  // beside it, within the hole of the row
+  tick(60);
+  EXPECT_EQ(status().state, State::following);
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ TEST(MsgConversion, agrees_with_the_message_on_every_state_refusal_and_reason) {
   EXPECT_EQ(static_cast<int>(State::off_mesh), Guidance::OFF_MESH);
   EXPECT_EQ(static_cast<int>(State::map_stale), Guidance::MAP_STALE);
   EXPECT_EQ(static_cast<int>(State::blocked), Guidance::BLOCKED);
+  EXPECT_EQ(static_cast<int>(State::make_room), Guidance::MAKE_ROOM);
   EXPECT_EQ(static_cast<int>(Refusal::inside_obstacle), Guidance::INSIDE_OBSTACLE);
   EXPECT_EQ(static_cast<int>(Reason::waypoint_blocked), Guidance::WAYPOINT_BLOCKED);
 }

@@ -206,17 +206,52 @@ TEST_F(Lockstep, takes_an_occupancy_grid_until_an_octomap_came) {
   EXPECT_GT(navigator_.path().size(), 2U);
 }
 
-TEST_F(Lockstep, says_no_route_while_the_way_is_blocked_and_finds_it_again) {
+TEST_F(Lockstep, leads_on_to_what_closes_the_only_way_and_waits_before_it) {
   load();
   navigator_.set_goal({14, 5});
   tick(2);
   obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
   tick(50);
-  EXPECT_EQ(status().state, State::no_route);
-  EXPECT_TRUE(navigator_.path().empty());
+  EXPECT_EQ(status().state, State::following);
+  EXPECT_FALSE(status().blocked);
+  for (int i = 0; i < 400 && status().state == State::following; ++i) drive(0.035);
+  ASSERT_EQ(status().state, State::blocked);
+  EXPECT_EQ(status().blocked->by, robot_.position.y < 5 ? 1U : 2U);
+  EXPECT_NEAR(status().blocked->at, 3.0, 0.3);
+  EXPECT_EQ(status().blocked->clears_in, -1.0);
+  EXPECT_GT(status().heading.goal_distance, 8.0);
+  const Path path = navigator_.path();
+  tick(100);
+  EXPECT_EQ(status().state, State::blocked);
+  EXPECT_TRUE(navigator_.path() == path);
   obstacles_.clear();
+  tick();
+  EXPECT_EQ(status().state, State::following);
   tick(50);
   EXPECT_EQ(status().state, State::following);
+}
+
+TEST_F(Lockstep, names_what_stands_on_the_goal) {
+  load();
+  obstacles_ = {{5, {14, 5}, 0.6, {}}};
+  robot_.position = {11.5, 5};
+  navigator_.set_goal({14, 5});
+  tick(2);
+  ASSERT_EQ(status().state, State::blocked);
+  EXPECT_EQ(status().blocked->by, 5U);
+  obstacles_[0].center = {14, 8};
+  tick(50);
+  EXPECT_EQ(status().state, State::following);
+}
+
+TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  ASSERT_EQ(status().state, State::following);
+  robot_.position = {7.5, 5};  // within the box
+  tick(100);
+  EXPECT_EQ(status().state, State::off_mesh);
 }
 
 TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
@@ -230,7 +265,7 @@ TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
   EXPECT_EQ(status().state, State::following);
   robot_.position = navigator_.path()[1];
   tick(100);
-  EXPECT_EQ(status().state, State::no_route);
+  EXPECT_EQ(status().state, State::blocked);
 }
 
 TEST_F(Lockstep, plans_again_when_the_map_changed) {

@@ -19,12 +19,18 @@ Planner planner_on(SmallWorld& world) {
   return planner;
 }
 
+/// A path that begins nearer to something than the radius must not lead nearer to it.
 void expect_clear(const Path& path, const SmallWorld& map, const std::vector<Cylinder>& cylinders) {
+  const Point start = path.front();
   for (const Point point : points_along(path, 0.01)) {
-    for (const auto& block : map.blocks())
-      ASSERT_GE(distance_to(block, point), kRadius - kTolerance) << point.x << " " << point.y;
-    for (const Cylinder& cylinder : cylinders)
-      ASSERT_GE(distance(cylinder.center, point), cylinder.radius + kRadius - kTolerance);
+    for (const auto& block : map.blocks()) {
+      const double least = std::min(kRadius, distance_to(block, start));
+      ASSERT_GE(distance_to(block, point), least - kTolerance) << point.x << " " << point.y;
+    }
+    for (const Cylinder& cylinder : cylinders) {
+      const double least = std::min(cylinder.radius + kRadius, distance(cylinder.center, start));
+      ASSERT_GE(distance(cylinder.center, point), least - kTolerance);
+    }
   }
 }
 
@@ -123,6 +129,59 @@ TEST(Planner, keeps_the_radius_from_everything_in_random_worlds) {
     EXPECT_TRUE(plan.path.back() == world.goal);
   }
   EXPECT_GE(found, 12);
+}
+
+/// A corridor 2 m wide and 12 m long, with a place to step aside at its left end.
+SmallWorld corridor() {
+  SmallWorld world;
+  world.room(14, 6).box(2.5, 0, 0, 13.9, 2, 1).box(2.5, 4, 0, 13.9, 6, 1);
+  return world;
+}
+
+TEST(Planner, leads_straight_out_of_the_hole_of_a_moving_thing) {
+  SmallWorld world;
+  world.room(12, 8);
+  Planner planner = planner_on(world);
+  const std::vector<Cylinder> forklift{{1, {5, 4}, 1.35, {}}};
+  planner.carve(forklift);
+  for (const Point start : {Point{6.2, 4.0}, Point{5.2, 3.1}, Point{4.5, 4.2}}) {
+    const Plan plan = planner.plan(start, {1, 4});
+    ASSERT_EQ(plan.status, PlanStatus::found) << start.x << ' ' << start.y;
+    EXPECT_TRUE(plan.path.front() == start);
+    EXPECT_GE(plan.shortest, distance(start, {1, 4}));
+    expect_clear(plan.path, world, forklift);
+  }
+}
+
+TEST(Planner, tells_a_way_that_only_moving_things_close_from_one_that_is_none) {
+  SmallWorld world = corridor();
+  Planner planner = planner_on(world);
+  for (const Point at : {Point{7, 3}, Point{12.8, 3}, Point{4.6, 3}}) {
+    const std::vector<Cylinder> obstacles{{1, at, 0.9, {}}};
+    planner.carve(obstacles);
+    const Plan plan = planner.plan_among(obstacles, {4.2, 3}, {12.8, 3});
+    EXPECT_EQ(plan.status, PlanStatus::closed) << at.x;
+    EXPECT_NEAR(length_of(plan.path), 8.6, 0.1);
+    EXPECT_EQ(planner.nav_mesh().carved().size(), 1U);
+  }
+  world.box(8, 2, 0, 8.1, 4, 1);
+  planner.set_map(world.tree());
+  EXPECT_EQ(planner.plan_among({}, {4.2, 3}, {12.8, 3}).refusal, Refusal::unreachable);
+}
+
+TEST(Planner, steps_aside_to_the_nearest_place_off_the_ground_that_is_needed) {
+  SmallWorld world = corridor();
+  Planner planner = planner_on(world);
+  std::vector<Cylinder> ground;
+  for (double x = 0.5; x < 6.5; x += 0.5) ground.push_back({1, {x, 3}, 0.75, {}});
+  const Plan plan = planner.plan_aside(ground, {4.5, 3});
+  ASSERT_EQ(plan.status, PlanStatus::aside);
+  EXPECT_LT(length_of(plan.path), 4.0);
+  for (const Cylinder& one : ground)
+    EXPECT_GE(distance(one.center, plan.path.back()), one.radius + kRadius - kTolerance);
+  for (double x = 6.5; x < 13.5; x += 0.5) ground.push_back({1, {x, 3}, 0.75, {}});
+  ground.push_back({1, {1.3, 3}, 3.0, {}});
+  EXPECT_EQ(planner.plan_aside(ground, {4.5, 3}).status, PlanStatus::no_route);
 }
 
 TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {

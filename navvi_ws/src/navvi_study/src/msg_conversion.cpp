@@ -58,7 +58,7 @@ std::optional<GuidanceReport> from_msg(const navvi_msgs::Guidance& msg) {
   static constexpr std::array<const char*, 8> kReasons = {
       "none",   "new_goal",         "path_carved",   "too_slow",
       "period", "waypoint_blocked", "obstacle_near", "map_changed"};
-  if (msg.state > navvi_msgs::Guidance::BLOCKED) return std::nullopt;
+  if (msg.state > navvi_msgs::Guidance::MAKE_ROOM) return std::nullopt;
   if (!finite(msg.goal.x, msg.goal.y, msg.goal_distance, msg.plan_time)) return std::nullopt;
   GuidanceReport report;
   report.stamp = ns(msg.header.stamp);

@@ -35,6 +35,8 @@ const char* name_of(GuidanceReport::State state) {
       return "map_stale";
     case GuidanceReport::State::blocked:
       return "blocked";
+    case GuidanceReport::State::make_room:
+      return "make_room";
   }
   return "unknown";
 }

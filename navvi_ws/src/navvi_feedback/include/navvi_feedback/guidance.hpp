@@ -20,7 +20,8 @@ struct Guidance {
     no_map = 6,
     pose_stale = 7,
     map_stale = 8,
-    blocked = 9,  ///< by something that is expected to move on; as following otherwise
+    blocked = 9,     ///< by something that moves; as following otherwise
+    make_room = 10,  ///< as following, but the path leads off the way of what waits for the robot
   };
   enum class Refusal : std::uint8_t {
     not_refused = 0,
@@ -47,7 +48,7 @@ struct Guidance {
   Replan replan_reason = Replan::none;        ///< of the last plan
   std::uint32_t reroutes = 0;                 ///< of this goal
   Replan reroute_reason = Replan::none;       ///< of the last of them
-  ThingClass blocked_by = ThingClass::other;  ///< while blocked
+  ThingClass blocked_by = ThingClass::other;  ///< while blocked or make_room
 
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();      ///< m, in map
   Eigen::Vector2d waypoint = Eigen::Vector2d::Zero();  ///< m, in map: the next corner, or the goal
@@ -61,7 +62,11 @@ struct Guidance {
   double path_offset = 0.0;        ///< m, from the robot to the nearest point of the path
 
   /// There is a path: the fields from `goal` on are valid.
-  [[nodiscard]] bool leads() const { return state == State::following || state == State::blocked; }
+  [[nodiscard]] bool leads() const { return is_followed() || state == State::blocked; }
+  /// There is one, and it is to be followed now.
+  [[nodiscard]] bool is_followed() const {
+    return state == State::following || state == State::make_room;
+  }
 };
 
 }  // namespace navvi_feedback

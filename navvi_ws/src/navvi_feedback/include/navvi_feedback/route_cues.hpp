@@ -78,6 +78,7 @@ class RouteCues {
   std::optional<int> said_hour_;         ///< what the person last heard
   Change pending_ = Change::none;        ///< still to be told
   std::uint32_t reroutes_ = 0;           ///< of this goal, those told or passed over
+  bool made_room_ = false;               ///< it was said for whom room is made
   bool ahead_told_ = false;              ///< this corner's turn_ahead was said
   std::optional<int> turn_said_;         ///< hour of the last turn_ahead
   double turn_said_time_ = 0.0;          ///< s

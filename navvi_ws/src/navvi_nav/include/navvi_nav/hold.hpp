@@ -26,6 +26,8 @@ class Hold {
   /// back, and that has not gone on for hold_time
   [[nodiscard]] bool keeps(double time, const Way& way, const Path& followed, const Path& fresh);
   void reset() { since_.reset(); }
+  /// \param at  m along the path
+  [[nodiscard]] bool is_near(double at) const { return at <= config_.wait_distance; }
   /// True if a person should wait for what crosses right before them.
   [[nodiscard]] bool must_wait(const Way& way) const;
 

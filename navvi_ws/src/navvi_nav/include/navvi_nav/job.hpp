@@ -23,6 +23,7 @@ struct Job {
   std::shared_ptr<const OccupancyGrid> grid;  ///< likewise; not both
   std::vector<Cylinder> obstacles;
   std::vector<Cylinder> foreseen;  ///< to be avoided as well, if there is a way
+  std::vector<Cylinder> ground;    ///< to be left free if there is no way to the goal; may be empty
   std::optional<Point> goal;       ///< nullopt: no plan is wanted
   Point start;
   Reason reason = Reason::none;

@@ -8,6 +8,7 @@
 #include "navvi_nav/job.hpp"
 #include "navvi_nav/moving_thing.hpp"
 #include "navvi_nav/pace.hpp"
+#include "navvi_nav/stand_off.hpp"
 #include "navvi_nav/status.hpp"
 
 namespace navvi_nav {
@@ -16,6 +17,7 @@ struct NavigatorConfig {
   PlannerConfig planner;
   ReplanPolicyConfig replan;
   GuidanceConfig guidance;
+  StandOffConfig stand_off;
   int most_cylinders = 4;
   double carve_period = 0.5;
   double pose_timeout = 1.0;
@@ -66,13 +68,23 @@ class Navigator {
   [[nodiscard]] double floor_height() const { return floor_ ? floor_->height() : 0.0; }
 
  private:
+  /// What the path that is followed is.
+  enum class Aim {
+    goal,    ///< free, as far as is known
+    closed,  ///< only moving things close it, and there is no other
+    aside,   ///< away from the ground that a thing needs
+    waits,   ///< as closed, while the robot waits aside
+  };
   [[nodiscard]] bool pose_fresh(double time) const;
   [[nodiscard]] bool map_stale(double time) const;
   [[nodiscard]] bool obstacles_fresh(double time) const;
   [[nodiscard]] Space space() const { return {floor_.get(), &obstacles_}; }
   [[nodiscard]] std::optional<Job> next_job(double time);
   void follow_progress(double time);
+  void watch_blocker(double time);
+  [[nodiscard]] const MovingThing* thing(std::optional<std::uint32_t> id) const;
   void take_plan(const Plan& plan, Reason reason, double time);
+  void follow(const Plan& plan, Reason reason, double time);
   void change_path(const Plan& plan, Reason reason, double time);
   [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason, double time);
   void drop_goal(State state);
@@ -87,7 +99,8 @@ class Navigator {
   bool octomap_came_ = false;
   std::optional<double> map_time_;   ///< s, when the map in use came
   std::optional<double> mesh_time_;  ///< s, as of which the mesh shows what moves
-  std::vector<Cylinder> obstacles_;
+  std::vector<MovingThing> things_;
+  std::vector<Cylinder> obstacles_;       ///< the same
   std::optional<double> obstacles_time_;  ///< nullopt: none came yet
   bool obstacles_lost_ = false;
   std::optional<Pose> pose_;
@@ -102,6 +115,10 @@ class Navigator {
   Reason job_reason_ = Reason::none;
   std::optional<double> carved_at_;
   State state_ = State::no_goal;
+  Aim aim_ = Aim::goal;
+  StandOff stand_off_;
+  std::optional<Way::Wait> blocker_;         ///< of the only way, if near
+  std::optional<std::uint32_t> makes_room_;  ///< for which thing
   Refusal refusal_ = Refusal::none;
   Reason reason_ = Reason::none;
   unsigned plans_ = 0;

@@ -20,7 +20,15 @@ struct PlannerConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-enum class PlanStatus { found, no_map, off_mesh, refused, no_route };
+enum class PlanStatus {
+  found,
+  no_map,
+  off_mesh,
+  refused,
+  no_route,
+  closed,  ///< only moving things are in the way: the path is that without them
+  aside,   ///< likewise, and the path leads off the ground that one of them needs
+};
 
 /// Values as in navvi_msgs/Guidance.
 enum class Refusal {
@@ -53,8 +61,13 @@ class Planner {
   }
   MeshUpdate carve(const std::vector<Cylinder>& cylinders) { return nav_mesh_.carve(cylinders); }
   /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
-  /// off the mesh is taken to the nearest point of it, at most `start_snap` away.
+  /// off the mesh is taken to the nearest point of it, at most `start_snap` away, and from within a
+  /// moving thing's hole the path begins with a straight way out: see way_out().
   [[nodiscard]] Plan plan(Point start, Point goal) const;
+  /// plan() while `obstacles` are carved, or, if they alone are in the way, a plan that is closed.
+  [[nodiscard]] Plan plan_among(const std::vector<Cylinder>& obstacles, Point start, Point goal);
+  /// The shortest path to a place from which a robot leaves `ground` free, or no_route.
+  [[nodiscard]] Plan plan_aside(const std::vector<Cylinder>& ground, Point start) const;
   /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
   /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
   /// 10 steps of that grid) along x and y. For who says that this will do.
@@ -65,6 +78,8 @@ class Planner {
   struct Anchor;
   [[nodiscard]] Refusal refusal_of(Point goal) const;
   [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
+  [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;
+  [[nodiscard]] Plan finish(const Found& found, const Anchor& from, Point start, Point goal) const;
   [[nodiscard]] std::set<int> components_near(Point point, double within) const;
 
   PlannerConfig config_;

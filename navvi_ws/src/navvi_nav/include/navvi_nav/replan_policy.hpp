@@ -50,6 +50,7 @@ struct ReplanInput {
   Pose robot;
   Path remaining;            ///< from the robot over the next way-point to the goal; may be empty
   double path_offset = 0.0;  ///< m, from the robot to its path
+  bool closed = false;       ///< the path is known to be cut and there was no other
   std::vector<Cylinder> obstacles;
 };
 
@@ -70,8 +71,12 @@ class ReplanPolicy {
                            const std::vector<Cylinder>& obstacles, double pace);
   /// True if a robot on some point of the first `look_ahead` m would touch a cylinder.
   [[nodiscard]] bool blocked(const Path& path, const std::vector<Cylinder>& obstacles) const {
-    return ahead_.blocked(path, obstacles);
+    return ahead_.first_cut(path, obstacles).has_value();
   }
+  /// What closes `path`, where there is no other, if that is near or comes along it; clears_in is
+  /// -1: nobody knows.
+  [[nodiscard]] std::optional<Way::Wait> closed_by(const Path& path,
+                                                   const std::vector<Cylinder>& obstacles) const;
   /// What crosses right before the robot and is waited for. As of the last update.
   [[nodiscard]] std::optional<Way::Wait> waits_for() const;
   /// See WayAhead::foreseen; none where nothing is held.

@@ -21,6 +21,7 @@ enum class State {
   pose_stale,
   map_stale,
   blocked,
+  make_room,
 };
 
 /// navvi_msgs/Guidance without ROS.
@@ -36,9 +37,9 @@ struct Status {
   double churn = 0.0;                    ///< m/min
   std::optional<double> mesh_age;        ///< s
   std::optional<double> map_age;         ///< s
-  std::optional<Way::Wait> blocked;      ///< what is waited for, while blocked
+  std::optional<Way::Wait> blocked;      ///< what is waited for, or made room for
   Point goal;
-  Heading heading;               ///< valid while following or blocked, like all below
+  Heading heading;               ///< valid while following, blocked or make_room, like all below
   double eta = 0.0;              ///< s
   double shortest_length = 0.0;  ///< m
   double smoothing_price = 0.0;  ///< m

@@ -54,14 +54,22 @@ class WayAhead {
   [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
                                                const std::vector<Cylinder>& obstacles,
                                                double pace) const;
-  /// True if a robot on some point of the first look_ahead m would touch a cylinder now.
-  [[nodiscard]] bool blocked(const Path& path, const std::vector<Cylinder>& obstacles) const;
-  /// m along the path to where a robot on it would touch; nullopt: nowhere within look_ahead.
-  [[nodiscard]] std::optional<double> cut_at(const Path& path, const Cylinder& obstacle) const;
+  struct Cut {
+    std::uint32_t by = 0;
+    double at = 0.0;  ///< m, along the path
+  };
+  /// Where a robot on the first look_ahead m would first touch something as it stands now; what it
+  /// touches already is touched where the path leads nearer to it.
+  [[nodiscard]] std::optional<Cut> first_cut(const Path& path,
+                                             const std::vector<Cylinder>& obstacles) const;
+  /// True if a robot at `place` would touch a cylinder now.
+  [[nodiscard]] bool taken(Point place, const std::vector<Cylinder>& obstacles) const;
 
  private:
   struct Meeting;
   struct Thing;
+  [[nodiscard]] double room(const Cylinder& obstacle) const;
+  [[nodiscard]] std::optional<double> cut_at(const Path& path, Point center, double room) const;
   [[nodiscard]] std::optional<double> cut_at(const Path& path, const Thing& thing,
                                              double later) const;
   [[nodiscard]] Meeting meet(const Path& path, const Thing& thing, double pace) const;

@@ -61,6 +61,7 @@ struct GuidanceReport {
     pose_stale,
     map_stale,
     blocked,
+    make_room,
   };
   std::int64_t stamp = 0;
   std::uint32_t seq = 0;
@@ -72,7 +73,7 @@ struct GuidanceReport {
   Point2 goal;
   double goal_distance = 0.0;  ///< m, along the path; valid when there is one
 
-  /// There is a path.
+  /// There is a path to the goal.
   [[nodiscard]] bool leads() const { return state == State::following || state == State::blocked; }
 };
 

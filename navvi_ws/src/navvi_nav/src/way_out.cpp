@@ -1,0 +1,56 @@
+#include "navvi_nav/way_out.hpp"
+
+#include <limits>
+
+namespace navvi_nav {
+namespace {
+
+constexpr int kDirections = 32;
+constexpr double kStep = 0.1;       // m
+constexpr double kLongest = 4.0;    // m
+constexpr double kOnMesh = 0.02;    // m
+constexpr double kRounding = 1e-6;  // m
+constexpr double kDearer = 3.0;     // as a metre to `towards` is a metre of the way out
+
+bool comes_no_nearer(Point start, Point end, const Cylinder& cylinder, double radius) {
+  const double now = distance(start, cylinder.center);
+  const double least = distance(nearest_on_segment(cylinder.center, start, end), cylinder.center);
+  return least >= std::min(now, cylinder.radius + radius) - kRounding;
+}
+
+}  // namespace
+
+bool in_a_hole(Point place, const Space& space, double radius) {
+  return std::any_of(space.cylinders->begin(), space.cylinders->end(), [&](const Cylinder& one) {
+    return distance(place, one.center) < one.radius + radius - kRounding;
+  });
+}
+
+std::optional<Mesh::Place> way_out(const Mesh& mesh, const Space& space, Point start, double radius,
+                                   std::optional<int> part, Point towards) {
+  std::optional<Mesh::Place> best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  const double room = std::min(radius, space.floor->clearance(start) - kRounding);
+  if (!(room > 0.0)) return best;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * M_PI * i / kDirections;
+    const Point ahead{std::cos(angle), std::sin(angle)};
+    for (double length = kStep; length <= kLongest; length += kStep) {
+      const Point end = start + length * ahead;
+      const double cost = kDearer * length + distance(end, towards);
+      if (cost >= best_cost) break;
+      const bool never_nearer = std::all_of(
+          space.cylinders->begin(), space.cylinders->end(),
+          [&](const Cylinder& one) { return comes_no_nearer(start, end, one, radius); });
+      if (!never_nearer || !space.floor->segment_clear(start, end, room)) break;
+      const std::optional<Mesh::Place> place = mesh.locate(end, kOnMesh, part);
+      if (!place) continue;
+      best = place;
+      best_cost = cost;
+      break;
+    }
+  }
+  return best;
+}
+
+}  // namespace navvi_nav
