@@ -49,7 +49,7 @@ class Medians : public benchmark::ConsoleReporter {
     const auto a = times_.find(ours);
     const auto b = times_.find(plain);
     if (a == times_.end() || b == times_.end()) return;
-    std::printf("%7.2f x  %s / %s\n", a->second / b->second, ours.c_str(), plain.c_str());
+    std::printf("%7.3f x  %s / %s\n", a->second / b->second, ours.c_str(), plain.c_str());
   }
 
  private:

@@ -49,50 +49,46 @@ void transform(std::vector<double>& f, std::vector<double>& out, std::vector<std
 
 }  // namespace
 
-FloorGrid::FloorGrid(const octomap::OcTree& map, double floor_height, double robot_height)
-    : cell_size_(map.getResolution()) {
-  double min_x, min_y, min_z, max_x, max_y, max_z;
-  map.getMetricMin(min_x, min_y, min_z);
-  map.getMetricMax(max_x, max_y, max_z);
-  corner_ = {std::round(min_x / cell_size_) * cell_size_,
-             std::round(min_y / cell_size_) * cell_size_};
-  const double cells_x = std::round((max_x - corner_.x()) / cell_size_);
-  const double cells_y = std::round((max_y - corner_.y()) / cell_size_);
-  if (!(cells_x >= 1.0 && cells_y >= 1.0)) return;
-  if (cells_x * cells_y > static_cast<double>(kMaxCells))
+FloorGrid::FloorGrid(const OccupancyMap& map, double floor_height, double robot_height)
+    : cell_size_(map.resolution()) {
+  int min_x = OccupancyMap::kCenter;
+  int min_y = OccupancyMap::kCenter;
+  int max_x = -OccupancyMap::kCenter;
+  int max_y = -OccupancyMap::kCenter;
+  map.for_each_cube([&](const OccupiedCube& cube) {
+    min_x = std::min(min_x, cube.x);
+    min_y = std::min(min_y, cube.y);
+    max_x = std::max(max_x, cube.x + cube.side);
+    max_y = std::max(max_y, cube.y + cube.side);
+  });
+  if (min_x >= max_x) return;
+  width_ = static_cast<std::size_t>(max_x - min_x);
+  height_ = static_cast<std::size_t>(max_y - min_y);
+  if (width_ * height_ > kMaxCells)
     throw WorldError("the world covers more than " + std::to_string(kMaxCells) +
                      " voxels of ground; allowed is a smaller world or a coarser resolution");
-  width_ = static_cast<std::size_t>(cells_x);
-  height_ = static_cast<std::size_t>(cells_y);
-  const double floor = std::round(floor_height / cell_size_) * cell_size_;
-  mark(map, floor, robot_height);
+  corner_ = {min_x * cell_size_, min_y * cell_size_};
+  mark(map, min_x, min_y, static_cast<int>(std::lround(floor_height / cell_size_)), robot_height);
   const double excess = static_cast<double>(open_.size()) / static_cast<double>(kFineCells);
   if (excess > 1.0) coarsen(static_cast<std::size_t>(std::ceil(std::sqrt(excess))));
   measure_clearance();
 }
 
-void FloorGrid::mark(const octomap::OcTree& map, double floor, double headroom) {
-  const double slack = cell_size_ / 4.0;
+void FloorGrid::mark(const OccupancyMap& map, int low_x, int low_y, int floor, double headroom) {
   std::vector<bool> blocked(width_ * height_, false);
   open_.assign(width_ * height_, false);
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
-    if (!map.isNodeOccupied(*leaf)) continue;
-    const double half = leaf.getSize() / 2.0;
-    const double top = leaf.getZ() + half;
-    const double bottom = leaf.getZ() - half;
-    const bool is_floor = std::abs(top - floor) <= cell_size_ + slack && top < floor + slack;
-    const bool blocks = top > floor + slack && bottom < floor + headroom;
-    if (!is_floor && !blocks) continue;
-    const auto first = [&](double centre, double corner) {
-      return static_cast<std::size_t>(std::lround((centre - half - corner) / cell_size_));
-    };
-    const auto count = static_cast<std::size_t>(std::lround(leaf.getSize() / cell_size_));
-    const std::size_t x0 = first(leaf.getX(), corner_.x());
-    const std::size_t y0 = first(leaf.getY(), corner_.y());
-    for (std::size_t y = y0; y < std::min(y0 + count, height_); ++y)
-      for (std::size_t x = x0; x < std::min(x0 + count, width_); ++x)
+  map.for_each_cube([&](const OccupiedCube& cube) {
+    const int top = cube.z + cube.side;
+    const bool is_floor = top == floor || top == floor - 1;
+    const bool blocks = top > floor && (cube.z - floor) * cell_size_ < headroom;
+    if (!is_floor && !blocks) return;
+    const auto side = static_cast<std::size_t>(cube.side);
+    const auto x0 = static_cast<std::size_t>(cube.x - low_x);
+    const auto y0 = static_cast<std::size_t>(cube.y - low_y);
+    for (std::size_t y = y0; y < y0 + side; ++y)
+      for (std::size_t x = x0; x < x0 + side; ++x)
         (blocks ? blocked : open_)[y * width_ + x] = true;
-  }
+  });
   for (std::size_t i = 0; i < open_.size(); ++i)
     if (blocked[i]) open_[i] = false;
 }

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <octomap/OcTree.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
+
+#include "navvi_sim/occupancy_map.hpp"
 
 namespace navvi_sim {
 
@@ -23,7 +23,7 @@ class FloorGrid {
   /// \param robot_height  m, headroom
   /// Where the map has more than kFineCells voxels of ground, a cell is several voxels wide, and
   /// open only where all of them are.
-  FloorGrid(const octomap::OcTree& map, double floor_height, double robot_height);
+  FloorGrid(const OccupancyMap& map, double floor_height, double robot_height);
 
   [[nodiscard]] std::size_t size() const { return clearance_.size(); }
   [[nodiscard]] double cell_size() const { return cell_size_; }  ///< m
@@ -62,7 +62,9 @@ class FloorGrid {
   [[nodiscard]] bool sees(std::size_t from, std::size_t to, double least) const;
 
  private:
-  void mark(const octomap::OcTree& map, double floor, double headroom);
+  /// \param low_x, low_y  voxels, of the grid's corner
+  /// \param floor  voxels
+  void mark(const OccupancyMap& map, int low_x, int low_y, int floor, double headroom);
   void coarsen(std::size_t factor);
   void measure_clearance();
 

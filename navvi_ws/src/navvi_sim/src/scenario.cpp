@@ -26,7 +26,7 @@ std::string text(double value) {
 
 class Drawing {
  public:
-  Drawing(const WorldDescription& world, const octomap::OcTree& map, const ScenarioConfig& config,
+  Drawing(const WorldDescription& world, const OccupancyMap& map, const ScenarioConfig& config,
           std::uint64_t seed)
       : world_(world),
         config_(config),
@@ -145,14 +145,15 @@ class Drawing {
 
   /// Those of `places` that keep their distance from where movers begin; all of them if none does.
   [[nodiscard]] Places free_of_movers(const Places& all) const {
+    std::vector<Eigen::Vector2d> movers;
+    for (const Thing& thing : world_.things)
+      if (thing.route) movers.emplace_back(thing.pose.translation().head<2>());
     Places places;
     for (const std::size_t cell : all) {
       const Eigen::Vector2d place = grid_.centre(cell);
-      const bool near =
-          std::any_of(world_.things.begin(), world_.things.end(), [&](const Thing& thing) {
-            return thing.route &&
-                   (thing.pose.translation().head<2>() - place).norm() < config_.mover_distance;
-          });
+      const bool near = std::any_of(movers.begin(), movers.end(), [&](const Eigen::Vector2d& at) {
+        return (at - place).norm() < config_.mover_distance;
+      });
       if (!near) places.push_back(cell);
     }
     return places.empty() ? all : places;
@@ -296,7 +297,7 @@ int turns(const std::vector<Eigen::Vector2d>& polyline) {
   return count;
 }
 
-Scenario draw_scenario(const WorldDescription& world, const octomap::OcTree& map,
+Scenario draw_scenario(const WorldDescription& world, const OccupancyMap& map,
                        const ScenarioConfig& config, std::uint64_t seed,
                        const std::optional<FloorPose>& start,
                        const std::optional<Eigen::Vector2d>& goal) {

@@ -61,7 +61,7 @@ class SimNode {
   ros::CallbackQueue commands_queue_;
   SimNodeConfig config_;
   WorldDescription description_;
-  octomap_msgs::Octomap map_;  ///< a hundredth of the tree's size
+  OccupancyMap map_;
   std::optional<Session> session_;
   Scene looks_;
   navvi_safety::CommandGate gate_;
@@ -83,12 +83,11 @@ class SimNode {
 SimNode::SimNode(const SimNodeConfig& config, LoadedWorld loaded)
     : config_(config),
       description_(std::move(loaded.world)),
+      map_(occupancy_of(description_, config_.octomap)),
       looks_(description_, config.life.robot),
       gate_(config.gate),
       pacer_(config.life.step, config.rate, config.max_catch_up) {
-  const octomap::OcTree map = occupancy_of(description_, config_.octomap);
-  const Scenario scenario = scenario_of(config_, description_, map);
-  map_ = to_msg(map, ros::Time());
+  const Scenario scenario = scenario_of(config_, description_, map_);
   session_.emplace(description_, config_.life, scenario.start,
                    static_cast<std::uint64_t>(config_.seed));
 
@@ -113,7 +112,7 @@ void SimNode::advertise() {
   // Large, and seldom looked at: made for whoever asks.
   cells_ = node_.advertise<visualization_msgs::MarkerArray>(
       "occupied_cells_vis_array", 1, [this](const ros::SingleSubscriberPublisher& listener) {
-        listener.publish(occupied_cells_msg(*from_msg(map_), stamp()));
+        listener.publish(occupied_cells_msg(map_, stamp()));
       });
   scene_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene", 1, true);
   moving_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene_moving", 1);
@@ -134,7 +133,7 @@ void SimNode::publish_what_stands(const Scenario& scenario) {
   if (!config_.life.robot.imperfections.odometry_drifts())
     static_transforms_.sendTransform(
         odom_msg(world().now().robot, world().now().odometry, stamp()));
-  octomap_.publish(map_);
+  octomap_.publish(to_msg(map_, ros::Time()));
   scene_.publish(looks_.standing(stamp()));
   navvi_msgs::Scenario played =
       scenario_msg(description_, world_hash(description_), static_cast<std::uint64_t>(config_.seed),

@@ -104,7 +104,7 @@ LoadedWorld load_world(const SimNodeConfig& config) {
 }
 
 Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
-                     const octomap::OcTree& map) {
+                     const OccupancyMap& map) {
   ScenarioConfig drawing = config.scenario;
   drawing.robot_radius = config.life.robot.radius;
   drawing.movers = config.life.movers;

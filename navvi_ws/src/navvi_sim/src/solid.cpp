@@ -11,38 +11,7 @@ namespace {
 double nearest(double centre, double half) { return std::max(0.0, std::abs(centre) - half); }
 double farthest(double centre, double half) { return std::abs(centre) + half; }
 
-bool is_aligned(const Eigen::Isometry3d& pose) {
-  return (pose.linear().cwiseAbs().rowwise().maxCoeff().array() > 1.0 - 1e-9).all();
-}
-
 }  // namespace
-
-AlignedBox::AlignedBox(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d half = pose.linear().array().round().matrix().cwiseAbs() * size / 2.0;
-  min_ = pose.translation() - half;
-  max_ = pose.translation() + half;
-}
-
-Octants AlignedBox::octants(const Cell& cell, double shrink) const {
-  // Along each axis alone: the eighths below the cell's centre, and those above it.
-  constexpr std::array<unsigned, 3> kAbove{0b10101010U, 0b11001100U, 0b11110000U};
-  Octants all{0xFFU, 0xFFU};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double min = min_[axis];
-    const double max = max_[axis];
-    const double low = cell.centre[axis] - cell.half + shrink;
-    const double high = cell.centre[axis] + cell.half - shrink;
-    const double under = cell.centre[axis] - shrink;
-    const double over = cell.centre[axis] + shrink;
-    const unsigned above = kAbove[static_cast<std::size_t>(axis)];
-    const auto pick = [&](bool lower, bool upper) {
-      return (lower ? ~above : 0U) | (upper ? above : 0U);
-    };
-    all.touched &= pick(under >= min && low <= max, high >= min && over <= max);
-    all.full &= pick(low >= min && under <= max, over >= min && high <= max);
-  }
-  return all;
-}
 
 TurnedBox::TurnedBox(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
   for (int axis = 0; axis < 3; ++axis) add_axis(pose.linear().col(axis), size / 2.0, pose);
@@ -116,7 +85,6 @@ Octants one_by_one(const Body& body, const Cell& cell, double shrink) {
 }  // namespace
 
 Octants octants(const Solid& solid, const Cell& cell, double shrink) {
-  if (const auto* box = std::get_if<AlignedBox>(&solid)) return box->octants(cell, shrink);
   if (const auto* box = std::get_if<TurnedBox>(&solid)) return one_by_one(*box, cell, shrink);
   if (const auto* upright = std::get_if<SolidCylinder>(&solid))
     return one_by_one(*upright, cell, shrink);
@@ -125,11 +93,6 @@ Octants octants(const Solid& solid, const Cell& cell, double shrink) {
 
 Octants octants(const Triangle& triangle, const Cell& cell) {
   return one_by_one(triangle, cell, 0.0);
-}
-
-Solid solid_box(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
-  if (is_aligned(pose)) return AlignedBox(size, pose);
-  return TurnedBox(size, pose);
 }
 
 SolidCylinder::SolidCylinder(const Cylinder& cylinder, const Eigen::Isometry3d& pose)

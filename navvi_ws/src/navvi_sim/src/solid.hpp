@@ -33,19 +33,6 @@ struct Octants {
           half};
 }
 
-/// A box along the axes of map: exact.
-class AlignedBox {
- public:
-  AlignedBox(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose);
-
-  /// \param shrink  m, taken off each side of an eighth
-  [[nodiscard]] Octants octants(const Cell& cell, double shrink) const;
-
- private:
-  Eigen::Vector3d min_;
-  Eigen::Vector3d max_;
-};
-
 /// A box that lies as it likes, by its separating axes (Gottschalk et al., 1996): exact.
 class TurnedBox {
  public:
@@ -104,13 +91,10 @@ struct Triangle {
 };
 
 /// A body with an inside.
-using Solid = std::variant<AlignedBox, TurnedBox, SolidCylinder, SolidSphere>;
+using Solid = std::variant<TurnedBox, SolidCylinder, SolidSphere>;
 
 /// \param shrink  m, taken off each side of an eighth before it is looked at
 [[nodiscard]] Octants octants(const Solid& solid, const Cell& cell, double shrink);
 [[nodiscard]] Octants octants(const Triangle& triangle, const Cell& cell);
-
-/// A box, aligned where it can be.
-[[nodiscard]] Solid solid_box(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose);
 
 }  // namespace navvi_sim

@@ -47,7 +47,7 @@ TEST_F(AwsWarehouse, has_the_floor_where_its_ground_mesh_is_level) {
 }
 
 TEST_F(AwsWarehouse, lets_a_robot_go_from_the_south_to_the_north) {
-  const octomap::OcTree map = occupancy_of(loaded_.world, {});
+  const OccupancyMap map = occupancy_of(loaded_.world, {});
   const Scenario scenario = draw_scenario(loaded_.world, map, {}, 1, FloorPose{1.0, -9.0, 1.57},
                                           Eigen::Vector2d(1.0, 6.0));
   EXPECT_GE(scenario.route_length, 15.0 - 0.1);

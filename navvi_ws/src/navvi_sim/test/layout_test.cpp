@@ -277,7 +277,7 @@ TEST(Layouts, of_two_hundred_each_has_a_start_connected_to_a_goal) {
 TEST(Layouts, of_every_preset_cut_no_place_off_where_the_robot_has_room) {
   for (const Preset& known : presets())
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
-      const octomap::OcTree map =
+      const OccupancyMap map =
           occupancy_of(layout(known.name, known.config, seed), OccupancyConfig{0.1});
       const FloorGrid grid(map, 0.0, 1.2);
       constexpr double kRoom = 0.5;  // m: the robot's radius and a margin

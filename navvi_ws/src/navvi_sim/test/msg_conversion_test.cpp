@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/warehouse.hpp"
+#include "octomap_tree.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -15,27 +14,39 @@ using visualization_msgs::MarkerArray;
 
 const ros::Time kStamp(12.5);
 
-TEST(OctomapMessage, carries_the_map_bit_by_bit) {
-  const WorldDescription world = warehouse(1, {});
-  const octomap::OcTree map = occupancy_of(world, {});
+Thing box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  Thing thing;
+  thing.pose.translation() = (low + high) / 2.0;
+  thing.shapes.push_back({Box{high - low}, Eigen::Isometry3d::Identity()});
+  return thing;
+}
+
+TEST(OctomapMessage, is_read_by_octomap_as_the_same_cubes) {
+  const OccupancyMap map = occupancy_of(warehouse(1, {}), {});
   const octomap_msgs::Octomap msg = to_msg(map, kStamp);
   EXPECT_EQ(msg.id, "OcTree");
   EXPECT_TRUE(msg.binary);
   EXPECT_EQ(msg.header.frame_id, "map");
-  const auto read = from_msg(msg);
-  EXPECT_EQ(read->size(), map.size());
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
-    const auto* node = read->search(leaf.getKey(), leaf.getDepth());
-    ASSERT_NE(node, nullptr);
-    ASSERT_EQ(read->isNodeOccupied(node), map.isNodeOccupied(*leaf));
-  }
+  EXPECT_EQ(msg.resolution, 0.05);
+  const octomap::OcTree tree = tree_of({msg.resolution, msg.data});
+  auto leaf = tree.begin_leafs();
+  map.for_each_cube([&](const OccupiedCube& cube) {
+    ASSERT_NE(leaf, tree.end_leafs());
+    const octomap::OcTreeKey low = leaf.getIndexKey();
+    ASSERT_TRUE(tree.isNodeOccupied(*leaf));
+    ASSERT_EQ(1 << (tree.getTreeDepth() - leaf.getDepth()), cube.side);
+    ASSERT_EQ(low[0], cube.x + OccupancyMap::kCenter);
+    ASSERT_EQ(low[1], cube.y + OccupancyMap::kCenter);
+    ASSERT_EQ(low[2], cube.z + OccupancyMap::kCenter);
+    ++leaf;
+  });
+  EXPECT_EQ(leaf, tree.end_leafs());
 }
 
 TEST(OccupiedCells, have_a_marker_for_each_depth_of_the_tree) {
-  octomap::OcTree map(0.05);
-  map.updateNode(octomap::point3d(0.02F, 0.02F, 0.02F), true);
-  map.updateNode(octomap::point3d(1.02F, 0.02F, 0.02F), false);
-  const MarkerArray array = occupied_cells_msg(map, kStamp);
+  WorldDescription world;
+  world.things.push_back(box({0.0, 0.0, 0.0}, {0.05, 0.05, 0.05}));
+  const MarkerArray array = occupied_cells_msg(occupancy_of(world, {}), kStamp);
   ASSERT_EQ(array.markers.size(), 17U);
   std::size_t points = 0;
   for (const Marker& marker : array.markers) {
@@ -46,13 +57,16 @@ TEST(OccupiedCells, have_a_marker_for_each_depth_of_the_tree) {
   EXPECT_NEAR(array.markers[16].points[0].x, 0.025, 1e-9);
 }
 
+TEST(OccupiedCells, of_nothing_are_no_cubes) {
+  for (const Marker& marker : occupied_cells_msg(occupancy_of({}, {}), kStamp).markers)
+    EXPECT_EQ(marker.action, Marker::DELETE);
+}
+
 TEST(OccupiedCells, of_a_large_map_are_drawn_coarser_and_cover_the_same) {
-  octomap::OcTree map(0.05);
-  for (int i = 0; i < 400; ++i) {
-    const auto at = static_cast<float>(0.1 * i);
-    map.updateNode(octomap::point3d(at, 0.02F, 0.02F), true);
-  }
-  const MarkerArray array = occupied_cells_msg(map, kStamp, 100);
+  WorldDescription world;
+  for (int i = 0; i < 400; ++i)
+    world.things.push_back(box({0.1 * i, 0.0, 0.0}, {0.1 * i + 0.05, 0.05, 0.05}));
+  const MarkerArray array = occupied_cells_msg(occupancy_of(world, {}), kStamp, 100);
   std::size_t points = 0;
   for (const Marker& marker : array.markers) {
     points += marker.points.size();

@@ -13,6 +13,7 @@
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world_source.hpp"
+#include "octomap_tree.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -147,14 +148,15 @@ bool enclosed(const Surfaces& surfaces, const Eigen::Vector3d& at) {
 void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
   constexpr double kRange = 12.0;  // m
   const OccupancyConfig config;
-  const octomap::OcTree map = occupancy_of(world, config);
+  const OccupancyMap voxels = occupancy_of(world, config);
+  const octomap::OcTree map = tree_of(voxels);
   const Surfaces surfaces = surfaces_of(world);
   const double voxel = config.resolution;
   const double lift = std::round(world.floor_height / voxel) * voxel - world.floor_height;
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int hits = 0;
-  const FloorPose stand = draw_scenario(world, map, {}, seed).start;
+  const FloorPose stand = draw_scenario(world, voxels, {}, seed).start;
   for (int place = 0; place < 60;) {
     const Eigen::Vector3d eye(stand.x + 8.0 * unit(random), stand.y + 8.0 * unit(random),
                               world.floor_height + 0.3 + 0.2 * (1.0 + unit(random)));

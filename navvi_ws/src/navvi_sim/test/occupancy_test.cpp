@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "octomap_tree.hpp"
+
 namespace navvi_sim {
 namespace {
 
@@ -31,12 +33,7 @@ octomap::OcTree map_of(const std::vector<Thing>& things, double floor_height = 0
   WorldDescription world;
   world.floor_height = floor_height;
   world.things = things;
-  return occupancy_of(world, OccupancyConfig{resolution});
-}
-
-bool occupied(const octomap::OcTree& map, double x, double y, double z) {
-  const octomap::OcTreeNode* node = map.search(x, y, z);
-  return node != nullptr && map.isNodeOccupied(node);
+  return tree_of(occupancy_of(world, OccupancyConfig{resolution}));
 }
 
 /// Checks voxel by voxel: what `depth` says is inside must be occupied, what it says is more than
@@ -251,7 +248,7 @@ TEST(Occupancy, of_nothing_is_empty) {
 TEST(Occupancy, refuses_what_does_not_fit_into_a_tree) {
   EXPECT_THROW(map_of({standing(ThingClass::floor, Box{{10, 10, 0.1}}, pose(2000.0, 0, 0))}),
                WorldError);
-  EXPECT_THROW(map_of({standing(ThingClass::floor, Box{{990, 990, 0.1}}, pose(0, 0, -0.05))}),
+  EXPECT_THROW(map_of({standing(ThingClass::floor, Box{{990, 990, 0.05}}, pose(0, 0, -0.025))}),
                WorldError);
 }
 

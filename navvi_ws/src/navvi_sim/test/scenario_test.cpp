@@ -34,14 +34,14 @@ class ScenarioIn : public testing::Test {
  protected:
   void enter(WorldDescription world) {
     world_ = std::move(world);
-    map_ = std::make_unique<octomap::OcTree>(occupancy_of(world_, OccupancyConfig{}));
+    map_ = occupancy_of(world_, OccupancyConfig{});
   }
   Scenario draw(std::uint64_t seed, const std::optional<FloorPose>& start = std::nullopt,
                 const std::optional<Eigen::Vector2d>& goal = std::nullopt) {
-    return draw_scenario(world_, *map_, ScenarioConfig{}, seed, start, goal);
+    return draw_scenario(world_, map_, ScenarioConfig{}, seed, start, goal);
   }
   WorldDescription world_;
-  std::unique_ptr<octomap::OcTree> map_;
+  OccupancyMap map_{OccupancyConfig{}.resolution, {}};
 };
 
 TEST_F(ScenarioIn, is_the_same_for_the_same_seed_and_another_for_another) {
@@ -168,7 +168,7 @@ TEST_F(ScenarioIn, has_the_length_and_the_turns_that_were_asked_for) {
   config.min_turns = 1;
   config.max_turns = 2;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Scenario scenario = draw_scenario(world_, *map_, config, seed);
+    const Scenario scenario = draw_scenario(world_, map_, config, seed);
     EXPECT_GE(scenario.route_length, 12.0);
     EXPECT_LE(scenario.route_length, 14.0);
     EXPECT_GE(turns(scenario.route), 1);
@@ -194,7 +194,7 @@ TEST_F(ScenarioIn, is_refused_in_a_sentence_where_no_route_is_as_asked_for) {
   no_turns.max_turns = 2;
   for (const ScenarioConfig& config : {too_long, too_winding, contrary, no_turns}) {
     try {
-      static_cast<void>(draw_scenario(world_, *map_, config, 1));
+      static_cast<void>(draw_scenario(world_, map_, config, 1));
       ADD_FAILURE();
     } catch (const WorldError& error) {
       EXPECT_NE(std::string(error.what()), "");

@@ -28,7 +28,7 @@ TEST_F(SdfWorld, that_ships_is_a_room_with_a_shelf) {
   EXPECT_EQ(thing_named(loaded.world, "pedestal")->thing_class, ThingClass::pedestal);
   EXPECT_EQ(thing_named(loaded.world, "box_upper")->thing_class, ThingClass::box);
   EXPECT_EQ(thing_named(loaded.world, "worker")->thing_class, ThingClass::worker);
-  const octomap::OcTree map = occupancy_of(loaded.world, {});
+  const OccupancyMap map = occupancy_of(loaded.world, {});
   EXPECT_GT(draw_scenario(loaded.world, map, {}, 1).route_length, 5.0);
 }
 

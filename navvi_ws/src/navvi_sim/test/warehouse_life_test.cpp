@@ -11,6 +11,7 @@
 #include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
 #include "navvi_sim/world_source.hpp"
+#include "octomap_tree.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -21,6 +22,7 @@ struct Life {
   explicit Life(std::uint64_t seed, double off_routes = 0.0)
       : description(warehouse(seed, {})),
         map(occupancy_of(description, OccupancyConfig{0.10})),
+        tree(tree_of(map)),
         world(description, {}, start(seed, off_routes), seed) {}
 
   /// A drawn start that is farther than `distance` from every route.
@@ -46,7 +48,8 @@ struct Life {
   }
 
   WorldDescription description;
-  octomap::OcTree map;
+  OccupancyMap map;
+  octomap::OcTree tree;
   World world;
 };
 
@@ -83,8 +86,7 @@ TEST(WarehouseLife, its_movers_pass_through_nothing_that_stands) {
     if (step % 20 != 0) continue;
     for (const MoverState& mover : life.world.now().movers) {
       const Eigen::Vector3d at = mover.pose.translation();
-      const auto* voxel = life.map.search(at.x(), at.y(), life.description.floor_height + 0.35);
-      ASSERT_FALSE(voxel && life.map.isNodeOccupied(voxel))
+      ASSERT_FALSE(occupied(life.tree, at.x(), at.y(), life.description.floor_height + 0.35))
           << life.description.things[mover.thing].name << " at " << at.transpose();
     }
   }
@@ -99,8 +101,7 @@ TEST(WarehouseLife, a_robot_that_drives_blindly_goes_through_no_wall) {
       const Eigen::Vector2d at = life.world.now().robot.position;
       ASSERT_LT(std::abs(at.x()), 25.0 - 0.34);
       ASSERT_LT(std::abs(at.y()), 15.0 - 0.34);
-      const auto* voxel = life.map.search(at.x(), at.y(), 0.35);
-      ASSERT_FALSE(voxel && life.map.isNodeOccupied(voxel)) << at.transpose() << " seed " << seed;
+      ASSERT_FALSE(occupied(life.tree, at.x(), at.y(), 0.35)) << at.transpose() << " seed " << seed;
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "navvi_sim/scenario.hpp"
 #include "navvi_sim/validate.hpp"
 #include "navvi_sim/world_hash.hpp"
+#include "octomap_tree.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -135,34 +136,29 @@ TEST(Warehouse, lets_workers_stand_or_walk_as_asked) {
 TEST(Warehouse, gives_every_seed_a_free_and_connected_scenario) {
   for (std::uint64_t seed = 0; seed <= 20; ++seed) {
     const WorldDescription world = warehouse(seed, {});
-    const octomap::OcTree map = occupancy_of(world, {});
+    const OccupancyMap map = occupancy_of(world, {});
+    const octomap::OcTree tree = tree_of(map);
     const Scenario scenario = draw_scenario(world, map, {}, seed);
     EXPECT_GE(scenario.route_length, 10.0) << "seed " << seed;
     for (const Eigen::Vector2d& place :
          {Eigen::Vector2d(scenario.start.x, scenario.start.y), scenario.goal})
       for (double angle = 0.0; angle < 6.3; angle += 0.2)
-        for (const double z : {0.02, 0.07, 0.5, 1.1}) {
-          const auto* node =
-              map.search(place.x() + 0.45 * std::cos(angle), place.y() + 0.45 * std::sin(angle), z);
-          EXPECT_FALSE(node != nullptr && map.isNodeOccupied(node))
+        for (const double z : {0.02, 0.07, 0.5, 1.1})
+          EXPECT_FALSE(occupied(tree, place.x() + 0.45 * std::cos(angle),
+                                place.y() + 0.45 * std::sin(angle), z))
               << place.transpose() << ", seed " << seed;
-        }
   }
 }
 
 TEST(Warehouse, shows_a_pedestal_in_the_map_above_the_floor) {
   const WorldDescription world = warehouse(3, {});
-  const octomap::OcTree map = occupancy_of(world, {});
-  const auto occupied = [&](const Eigen::Vector3d& p) {
-    const auto* node = map.search(p.x(), p.y(), p.z());
-    return node != nullptr && map.isNodeOccupied(node);
-  };
+  const octomap::OcTree tree = tree_of(occupancy_of(world, {}));
   for (const Thing& thing : world.things) {
     if (thing.thing_class != ThingClass::pedestal) continue;
     const Eigen::Vector3d edge = thing.pose.translation() + Eigen::Vector3d(0.55, 0.45, 0.0);
     for (const double z : {-0.02, 0.02, 0.07})
-      EXPECT_TRUE(occupied(edge + z * Eigen::Vector3d::UnitZ())) << thing.name << " at " << z;
-    EXPECT_FALSE(occupied(edge + 0.12 * Eigen::Vector3d::UnitZ())) << thing.name;
+      EXPECT_TRUE(occupied(tree, edge.x(), edge.y(), z)) << thing.name << " at " << z;
+    EXPECT_FALSE(occupied(tree, edge.x(), edge.y(), 0.12)) << thing.name;
   }
 }
 

@@ -1,24 +1,21 @@
 #pragma once
 
-#include <octomap/OcTree.h>
 #include <octomap_msgs/Octomap.h>
 #include <ros/time.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cstddef>
-#include <memory>
+
+#include "navvi_sim/occupancy_map.hpp"
 
 namespace navvi_sim {
 
 /// `map` as a binary octomap_msgs/Octomap, in the frame map.
-[[nodiscard]] octomap_msgs::Octomap to_msg(const octomap::OcTree& map, const ros::Time& stamp);
+[[nodiscard]] octomap_msgs::Octomap to_msg(const OccupancyMap& map, const ros::Time& stamp);
 
-/// The tree in a message of to_msg().
-[[nodiscard]] std::unique_ptr<octomap::OcTree> from_msg(const octomap_msgs::Octomap& msg);
-
-/// The occupied voxels as cubes, one CUBE_LIST a depth of the tree, as octomap_server draws them; a
+/// What is occupied as cubes, one CUBE_LIST a depth of the tree, as octomap_server draws them; a
 /// map of more than `most` is drawn as coarse as it must be.
-[[nodiscard]] visualization_msgs::MarkerArray occupied_cells_msg(const octomap::OcTree& map,
+[[nodiscard]] visualization_msgs::MarkerArray occupied_cells_msg(const OccupancyMap& map,
                                                                  const ros::Time& stamp,
                                                                  std::size_t most = 1000000);
 

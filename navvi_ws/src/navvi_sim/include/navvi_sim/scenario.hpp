@@ -1,7 +1,5 @@
 #pragma once
 
-#include <octomap/OcTree.h>
-
 #include <Eigen/Core>
 #include <cstdint>
 #include <navvi_config/field.hpp>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "navvi_sim/lanes.hpp"
+#include "navvi_sim/occupancy_map.hpp"
 #include "navvi_sim/world_description.hpp"
 #include "navvi_sim/world_error.hpp"
 
@@ -56,11 +55,12 @@ struct Scenario {
 /// connected over the floor, and, where the world has such places, off the ground that movers
 /// sweep: a robot that stood there would keep them from going on. A goal that is given is passed on
 /// as it is, free or not: refusing it is navigation's task. A drawn start looks along its route.
-/// Length and turns that are asked for hold for every route of which an end is drawn. \param map of
-/// `world` (occupancy.hpp) \throws WorldError as swept_ground, or if a given start is not finite,
-/// in an obstacle or off the floor, or if the world has no free place, or none for a route as long
-/// and with as many turns as asked for
-[[nodiscard]] Scenario draw_scenario(const WorldDescription& world, const octomap::OcTree& map,
+/// Length and turns that are asked for hold for every route of which an end is drawn.
+/// \param map  of `world` (occupancy.hpp)
+/// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
+/// floor, or if the world has no free place, or none for a route as long and with as many turns as
+/// asked for
+[[nodiscard]] Scenario draw_scenario(const WorldDescription& world, const OccupancyMap& map,
                                      const ScenarioConfig& config, std::uint64_t seed,
                                      const std::optional<FloorPose>& start = std::nullopt,
                                      const std::optional<Eigen::Vector2d>& goal = std::nullopt);

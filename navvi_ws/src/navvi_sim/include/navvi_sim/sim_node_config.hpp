@@ -51,7 +51,7 @@ struct SimNodeConfig {
 /// \param map  of `world` (occupancy.hpp)
 /// \throws ConfigError or WorldError with a sentence
 [[nodiscard]] Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
-                                   const octomap::OcTree& map);
+                                   const OccupancyMap& map);
 
 /// Every parameter as YAML, with the scenario's start and goal written exactly and the world's path
 /// absolute: who reads this plays the same world again and needs to draw nothing.
