@@ -256,6 +256,28 @@ YAML::Node load_yaml(const std::filesystem::path& path) {
   }
 }
 
+YAML::Node read_words(const std::vector<std::string>& words) {
+  YAML::Node all(YAML::NodeType::Map);
+  for (const std::string& word : words) {
+    const std::size_t split = word.find(":=");
+    if (split == std::string::npos || split == 0)
+      throw ConfigError("\"" + word + "\" is no parameter; parameters look like name:=value.");
+    YAML::Node map = all;
+    std::istringstream keys(word.substr(0, split));
+    std::string key, last;
+    std::getline(keys, last, '/');
+    while (std::getline(keys, key, '/')) {
+      if (map[last] && !map[last].IsMap())
+        throw ConfigError("\"" + last + "\" is given both as a value and as a group.");
+      map.reset(map[last]);
+      last = key;
+    }
+    if (map[last]) throw ConfigError("\"" + word.substr(0, split) + "\" is given twice.");
+    map[last] = word.substr(split + 2);
+  }
+  return all;
+}
+
 void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source) {
   YamlReader reader(node, source);
   describe(reader);

@@ -127,6 +127,19 @@ TEST(Table, lists_each_field_with_its_group_default_and_range) {
             std::string::npos);
 }
 
+TEST(Words, become_keys_in_maps) {
+  const YAML::Node node = read_words({"speed:=2", "inner/curve:=linear", "inner/name:=a:=b"});
+  EXPECT_EQ(node["speed"].as<double>(), 2.0);
+  EXPECT_EQ(node["inner"]["curve"].as<std::string>(), "linear");
+  EXPECT_EQ(node["inner"]["name"].as<std::string>(), "a:=b");
+}
+
+TEST(Words, without_a_name_or_with_one_twice_are_refused) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"speed"}, {":=2"}, {"a:=1", "a:=2"}, {"a:=1", "a/b:=2"}, {"a/b:=2", "a:=1"}})
+    EXPECT_THROW(static_cast<void>(read_words(words)), ConfigError) << words.back();
+}
+
 }  // namespace
 }  // namespace navvi_config
 

@@ -8,6 +8,7 @@
 #include <navvi_config/ros_parameters.hpp>
 
 #include "navvi_nav/msg_conversion.hpp"
+#include "navvi_nav/telling.hpp"
 #include "navvi_nav/worker.hpp"
 
 namespace navvi_nav {
@@ -209,14 +210,7 @@ class NavNode {
     publish_path();
     if (navigator_.undecided(now)) return;
     const Status status = navigator_.status(now);
-    const bool changed = status.state != last_status_.state ||
-                         status.refusal != last_status_.refusal ||
-                         status.plans != last_status_.plans ||
-                         !(status.heading.waypoint == last_status_.heading.waypoint);
-    const ros::WallTime wall = ros::WallTime::now();
-    if (!changed && (wall - last_guidance_).toSec() < 0.09) return;
-    last_status_ = status;
-    last_guidance_ = wall;
+    if (!telling_.due(status, ros::SteadyTime::now().toSec())) return;
     navvi_msgs::Guidance msg =
         to_msg(status, navigator_.floor_height(), config_.map_frame, ros::Time::now());
     msg.seq = ++seq_;
@@ -253,8 +247,7 @@ class NavNode {
   std::map<std::uint32_t, std::string> classes_;  // of the obstacles, by id
   std::optional<Path> shown_path_;
   std::shared_ptr<const Mesh> shown_mesh_;
-  Status last_status_;
-  ros::WallTime last_guidance_;
+  Telling telling_;
   ros::WallTime last_mesh_;
   double last_time_ = 0.0;
   unsigned seq_ = 0;

@@ -1,5 +1,6 @@
 #include "navvi_sim/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -19,7 +20,7 @@ bool same(const AppliedCommand& last, const navvi_safety::Velocity& velocity, Br
 Session::Session(const WorldDescription& description, const WorldConfig& config,
                  const FloorPose& start, std::uint64_t seed)
     : world_(description, config, start, seed),
-      steps_per_second_(static_cast<std::uint64_t>(std::lround(1.0 / config.step))),
+      step_(config.step),
       hashes_{{0, world_.state_hash()}} {}
 
 World::Status Session::step(const navvi_safety::Velocity& command, Braking braking) {
@@ -28,8 +29,13 @@ World::Status Session::step(const navvi_safety::Velocity& command, Braking braki
   if (commands_.empty() || !same(commands_.back(), command, braking))
     commands_.push_back({steps_, command, braking});
   ++steps_;
-  if (steps_ % steps_per_second_ == 0) hashes_.push_back({steps_, world_.state_hash()});
+  if (due(1.0)) hashes_.push_back({steps_, world_.state_hash()});
   return status;
+}
+
+bool Session::due(double rate) const {
+  const auto every = static_cast<std::uint64_t>(std::max(1L, std::lround(1.0 / (rate * step_))));
+  return steps_ % every == 0;
 }
 
 World::Status replay(Session& session, const std::vector<AppliedCommand>& commands,

@@ -24,14 +24,6 @@ namespace navvi_sim {
 namespace {
 
 constexpr double kTick = 0.005;          // s, wall clock; shorter than a step, for an even pace
-constexpr double kProximityRate = 50.0;  // Hz, simulated
-constexpr double kObstaclesRate = 20.0;  // Hz, simulated
-
-/// True once every 1 / `rate` s, at a fixed step.
-bool is_due(std::uint64_t steps, double step, double rate) {
-  const auto every = static_cast<std::uint64_t>(std::max(1L, std::lround(1.0 / (rate * step))));
-  return steps % every == 0;
-}
 
 class SimNode {
  public:
@@ -204,7 +196,6 @@ bool SimNode::step() {
 void SimNode::publish_state() {
   const Snapshot& now = world().now();
   const double floor = description_.floor_height;
-  const double dt = config_.life.step;
   rosgraph_msgs::Clock clock;
   clock.clock = stamp();
   clock_.publish(clock);
@@ -215,12 +206,12 @@ void SimNode::publish_state() {
   odom_.publish(odometry_msg(now.odometry, floor, stamp()));
   for (const ContactEvent& contact : now.contacts)
     contacts_.publish(contact_msg(description_, now.robot, contact, stamp()));
-  if (is_due(session_->steps(), dt, kProximityRate)) {
+  if (session_->due(kProximityRate)) {
     proximity_.publish(proximity_msg(description_, now.robot,
                                      world().proximity(config_.detection_radius),
                                      config_.detection_radius, stamp()));
   }
-  if (is_due(session_->steps(), dt, kObstaclesRate)) {
+  if (session_->due(kObstaclesRate)) {
     obstacles_.publish(obstacles_msg(description_, now, stamp()));
     moving_.publish(looks_.moving(now, stamp()));
   }

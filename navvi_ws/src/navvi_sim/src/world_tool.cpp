@@ -74,29 +74,6 @@ Words sort_out(const std::vector<std::string>& words) {
   return sorted;
 }
 
-/// "octomap/resolution:=0.1" is the key `resolution` in the map `octomap`.
-YAML::Node read_words(const std::vector<std::string>& words) {
-  YAML::Node all(YAML::NodeType::Map);
-  for (const std::string& word : words) {
-    const std::size_t split = word.find(":=");
-    if (split == 0)
-      throw UsageError("\"" + word + "\" is no parameter; parameters look like name:=value");
-    YAML::Node map = all;
-    std::istringstream keys(word.substr(0, split));
-    std::string key, last;
-    std::getline(keys, last, '/');
-    while (std::getline(keys, key, '/')) {
-      if (map[last] && !map[last].IsMap())
-        throw UsageError("\"" + last + "\" is given both as a value and as a group");
-      map.reset(map[last]);
-      last = key;
-    }
-    if (map[last]) throw UsageError("\"" + word.substr(0, split) + "\" is given twice");
-    map[last] = word.substr(split + 2);
-  }
-  return all;
-}
-
 Request load(const Words& words) {
   Request request;
   SimNodeConfig& session = request.config.session;
@@ -105,7 +82,7 @@ Request load(const Words& words) {
     navvi_config::read(session, navvi_config::load_yaml(*words.config), *words.config);
   auto source = layout_source(spec);
   if (source) request.config.layout = source->config;
-  const YAML::Node given = read_words(words.parameters);
+  const YAML::Node given = navvi_config::read_words(words.parameters);
   navvi_config::read(request.config, given, "the command line");
   session.world = spec;
   if (!source) {

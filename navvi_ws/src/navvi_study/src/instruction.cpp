@@ -53,6 +53,7 @@ Instruction understand(const std::string& spoken) {
     heard.distance = number_before(text, "(\\d{1,4}(?:\\.\\d+)?) ?met");
     if (says(text, "^in \\d") && hour) {
       heard.kind = Kind::turn_ahead;
+      heard.hour = static_cast<int>(std::clamp(*hour, 1.0, 12.0));
     } else if (hour && *hour >= 1.0 && *hour <= 11.0) {
       heard.kind = Kind::turn;
       heard.hour = static_cast<int>(*hour);

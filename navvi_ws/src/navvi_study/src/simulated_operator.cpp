@@ -1,7 +1,9 @@
 #include "navvi_study/simulated_operator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace navvi_study {
 namespace {
@@ -227,6 +229,27 @@ void SimulatedOperator::ask_when_lost(double time) {
   if (mode_ == Mode::arrived || !hearing_.empty() || !understood_.empty()) return;
   const double patience = mode_ == Mode::waiting ? config_.idle_patience : config_.patience;
   if (time - last_news_ >= patience && time - asked_ >= patience + kPress) asked_ = time;
+}
+
+std::string SimulatedOperator::doing() const {
+  std::array<char, 64> text{};
+  const double turn = std::remainder(heading_ - target_, 2.0 * kPi) * 180.0 / kPi;
+  switch (mode_) {
+    case Mode::waiting:
+      return "waiting";
+    case Mode::turning:
+      std::snprintf(text.data(), text.size(), "turning %+.0f", turn);
+      return text.data();
+    case Mode::driving:
+      std::snprintf(text.data(), text.size(), "driving %.1f m more, %+.0f", stop_at_ - odometer_,
+                    turn);
+      return text.data();
+    case Mode::backing:
+      return "backing";
+    case Mode::arrived:
+      return "arrived";
+  }
+  return "";
 }
 
 StickAndButtons SimulatedOperator::update(double time, double dt) {

@@ -13,7 +13,11 @@ constexpr std::int64_t kOldNews =
 
 std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
-const char* name_of(GuidanceReport::State state) {
+bool same(const Point2& a, const Point2& b) { return std::hypot(a.x - b.x, a.y - b.y) < kSameGoal; }
+
+}  // namespace
+
+const char* to_string(GuidanceReport::State state) {
   switch (state) {
     case GuidanceReport::State::no_goal:
       return "no_goal";
@@ -40,10 +44,6 @@ const char* name_of(GuidanceReport::State state) {
   }
   return "unknown";
 }
-
-bool same(const Point2& a, const Point2& b) { return std::hypot(a.x - b.x, a.y - b.y) < kSameGoal; }
-
-}  // namespace
 
 void TrialMonitorConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -248,7 +248,8 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
   std::vector<Event> events;
   if (state_ != guidance.state) {
     state_ = guidance.state;
-    events.push_back({"GUIDANCE", Fields().set("state", name_of(guidance.state)), guidance.stamp});
+    events.push_back(
+        {"GUIDANCE", Fields().set("state", to_string(guidance.state)), guidance.stamp});
   }
   // Only a guidance that was started anew forgets a goal that it had taken.
   if (guidance.state == State::no_goal) goal_taken_ = false;

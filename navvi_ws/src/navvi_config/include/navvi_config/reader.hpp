@@ -25,6 +25,11 @@ using Describe = std::function<void(Visitor&)>;
 /// \throws ConfigError if it is missing, too large, or not YAML (with the line).
 [[nodiscard]] YAML::Node load_yaml(const std::filesystem::path& path);
 
+/// Words of a command line such as "octomap/resolution:=0.1", which is the key `resolution` in the
+/// map `octomap`.
+/// \throws ConfigError if a word has no name, or a name is given twice or as value and as map
+[[nodiscard]] YAML::Node read_words(const std::vector<std::string>& words);
+
 void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source);
 
 /// Overlays `config` with the keys of `node`; keys that are absent keep their value.

@@ -41,12 +41,14 @@ class Session {
 
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  /// True after one step in each 1 / `rate` s. \param rate  Hz
+  [[nodiscard]] bool due(double rate) const;
   [[nodiscard]] const std::vector<AppliedCommand>& commands() const { return commands_; }
   [[nodiscard]] const std::vector<StateHash>& hashes() const { return hashes_; }
 
  private:
   World world_;
-  std::uint64_t steps_per_second_;
+  double step_;  ///< s
   std::uint64_t steps_ = 0;
   std::vector<AppliedCommand> commands_;
   std::vector<StateHash> hashes_;

@@ -20,6 +20,9 @@
 
 namespace navvi_sim {
 
+constexpr double kProximityRate = 50.0;  ///< Hz, simulated
+constexpr double kObstaclesRate = 20.0;  ///< Hz, simulated
+
 /// odom -> base_link, the pose at floor height, the twist in base_link.
 /// \param odometry  Snapshot::odometry
 [[nodiscard]] nav_msgs::Odometry odometry_msg(const RobotState& odometry, double floor_height,

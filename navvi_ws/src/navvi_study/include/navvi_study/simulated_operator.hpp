@@ -58,6 +58,8 @@ class SimulatedOperator {
   [[nodiscard]] StickAndButtons update(double time, double dt);
 
   [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
+  /// What the hands are at, in words, for a trace.
+  [[nodiscard]] std::string doing() const;
 
  private:
   enum class Mode { waiting, turning, driving, backing, arrived };

@@ -77,6 +77,9 @@ struct GuidanceReport {
   [[nodiscard]] bool leads() const { return state == State::following || state == State::blocked; }
 };
 
+/// As in navvi_msgs/Guidance, in lower case.
+[[nodiscard]] const char* to_string(GuidanceReport::State state);
+
 struct CueReport {
   enum class Stage { queued, started, ended, cut, dropped };
   std::int64_t stamp = 0;

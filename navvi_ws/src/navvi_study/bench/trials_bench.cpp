@@ -1,0 +1,296 @@
+// Hundreds of seeded trials with the simulated operator, faster than they could be lived:
+// `./navvi bench trials --world=busy --seeds=1-20`.
+
+#include <ros/package.h>
+
+#include <cstdio>
+#include <future>
+#include <iostream>
+#include <navvi_config/reader.hpp>
+#include <queue>
+#include <stdexcept>
+
+#include "navvi_study/child_process.hpp"
+#include "navvi_study/closed_loop.hpp"
+#include "navvi_study/loop_figures.hpp"
+#include "navvi_study/loop_trace.hpp"
+
+namespace navvi_study {
+namespace {
+
+constexpr const char* kUsage =
+    "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
+    "             [--jobs=1] [--trace[=FROM-TO]] [part/name:=value ...]\n"
+    "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
+    "A part is sim, nav, feedback or operator, with the names of its node's parameters, such as\n"
+    "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
+
+/// A sentence for who typed the command.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Span {
+  int from = 1;
+  int to = 3;
+};
+
+struct Options {
+  std::vector<std::string> worlds = {"training", "easy"};
+  Span seeds;
+  double limit = 300.0;
+  std::string profile = "default";
+  int jobs = 1;
+  std::optional<Span> trace;  ///< s
+  std::vector<std::string> parameters;
+  bool help = false;
+};
+
+int number(const std::string& option, const std::string& text, int least) {
+  std::size_t used = 0;
+  int value = least - 1;
+  try {
+    value = std::stoi(text, &used);
+  } catch (const std::exception&) {
+  }
+  if (used != text.size() || value < least)
+    throw UsageError(option + " has \"" + text + "\"; allowed are whole numbers from " +
+                     std::to_string(least) + " on.");
+  return value;
+}
+
+/// "3" or "3-8".
+Span span(const std::string& option, const std::string& text) {
+  const std::size_t dash = text.find('-');
+  Span out;
+  out.from = number(option, text.substr(0, dash), 0);
+  out.to = dash == std::string::npos ? out.from : number(option, text.substr(dash + 1), out.from);
+  return out;
+}
+
+std::vector<std::string> list(const std::string& text) {
+  std::vector<std::string> items;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) items.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return items;
+}
+
+Options read_options(const std::vector<std::string>& words) {
+  Options out;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const std::string option = word.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (word.rfind("--", 0) != 0) {
+      out.parameters.push_back(word);
+    } else if (option == "--world") {
+      out.worlds = list(value);
+    } else if (option == "--seeds") {
+      out.seeds = span(option, value);
+    } else if (option == "--limit") {
+      out.limit = number(option, value, 1);
+    } else if (option == "--profile") {
+      out.profile = value;
+    } else if (option == "--jobs") {
+      out.jobs = number(option, value, 1);
+    } else if (option == "--trace") {
+      out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
+    } else if (option == "--help") {
+      out.help = true;
+    } else {
+      throw UsageError("\"" + word + "\" is no option; allowed are:\n" + kUsage);
+    }
+  }
+  return out;
+}
+
+std::string share(const std::string& package) {
+  const std::string path = ros::package::getPath(package);
+  if (path.empty())
+    throw UsageError("the package " + package + " is not found; source devel/setup.bash first.");
+  return path;
+}
+
+ClosedLoopConfig configured(const Options& options) {
+  ClosedLoopConfig config;
+  const auto overlay = [&](auto& part, const std::string& package) {
+    const std::string file = share(package) + "/config/" + options.profile + ".yaml";
+    navvi_config::read(part, navvi_config::load_yaml(file), file);
+  };
+  overlay(config.sim, "navvi_sim");
+  overlay(config.nav, "navvi_nav");
+  overlay(config.feedback, "navvi_feedback");
+  navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
+  return config;
+}
+
+struct Task {
+  std::string world;
+  int seed = 1;
+};
+
+Fields run_trial(const Options& options, ClosedLoopConfig config, const Task& task) {
+  config.sim.world = task.world;
+  config.sim.seed = task.seed;
+  ClosedLoop loop(config, share("navvi_feedback") + "/config/phrases/en.yaml");
+  LoopFigures figures(options.limit);
+  std::optional<LoopTrace> trace;
+  if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
+  bool goes_on = true;
+  while (goes_on) {
+    if (!loop.step()) throw std::runtime_error("a number in the world is not finite");
+    goes_on = figures.watch(loop);
+    if (trace) trace->watch(loop);
+  }
+  return figures.row(loop);
+}
+
+/// What a column shows: its title, its width, and the fields in it.
+struct Column {
+  const char* title;
+  int width;
+  std::vector<const char*> fields;
+};
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all = {
+      {"result", -8, {"result"}},
+      {"time", 6, {"time"}},
+      {"driven/short", 12, {"driven", "shortest"}},
+      {"reroutes", 8, {"reroutes"}},
+      {"churn mean/max", 14, {"churn_mean", "churn_max"}},
+      {"turns/min", 9, {"turns"}},
+      {"flips/misled", 12, {"flips", "misled"}},
+      {"follow/block/room/noroute/offmesh/other",
+       39,
+       {"following", "blocked", "make_room", "no_route", "off_mesh", "other"}},
+      {"still@", 12, {"still", "still_at"}},
+      {"hits", -20, {"hits"}},
+      {"at the end of the standstill", -1, {"why"}},
+  };
+  return all;
+}
+
+void print_row(const Task& task, const Fields& row) {
+  std::printf("%-10s %4d ", task.world.c_str(), task.seed);
+  for (const Column& column : columns()) {
+    std::string cell;
+    for (const char* field : column.fields) cell += (cell.empty() ? "" : "/") + row.get(field);
+    std::printf(" %*s", column.width, cell.c_str());
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void print_titles() {
+  std::printf("%-10s %4s ", "world", "seed");
+  for (const Column& column : columns()) std::printf(" %*s", column.width, column.title);
+  std::printf("\n");
+  std::fflush(stdout);  // or each child would print it again
+}
+
+/// All trials in one line.
+class Total {
+ public:
+  void add(const Fields& row) {
+    ++trials_;
+    const bool reached = row.get("result") == "reached";
+    reached_ += reached ? 1 : 0;
+    for (const char* name : {"time", "driven", "shortest"})
+      if (reached) sums_[name] += row.number(name).value_or(0.0);
+    for (const char* name : {"reroutes", "churn_mean", "turns", "flips", "misled", "still"})
+      sums_[name] += row.number(name).value_or(0.0);
+    for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh", "other"})
+      states_ += row.number(name).value_or(0.0);
+    for (const char* name : {"blocked", "make_room", "no_route", "off_mesh"})
+      sums_[name] += row.number(name).value_or(0.0);
+    clean_ += row.get("hits") == "-" ? 1 : 0;
+  }
+
+  void print() const {
+    if (trials_ == 0) return;
+    const auto mean = [&](const char* name) { return get(name) / trials_; };
+    const auto share = [&](const char* name) { return 100.0 * get(name) / std::max(1.0, states_); };
+    std::printf(
+        "%d of %d reached in %.0f s on the mean, %.2f x the shortest way; %d without a contact; "
+        "on the mean %.1f reroutes, churn %.1f m/min, %.1f turns/min, %.1f flips, %.1f misled, "
+        "longest standstill %.0f s; blocked %.1f %%, make room %.1f %%, no route %.1f %%, off mesh "
+        "%.1f %% of the "
+        "time\n",
+        reached_, trials_, reached_ > 0 ? get("time") / reached_ : 0.0,
+        get("shortest") > 0.0 ? get("driven") / get("shortest") : 0.0, clean_, mean("reroutes"),
+        mean("churn_mean"), mean("turns"), mean("flips"), mean("misled"), mean("still"),
+        share("blocked"), share("make_room"), share("no_route"), share("off_mesh"));
+  }
+
+ private:
+  [[nodiscard]] double get(const char* name) const {
+    const auto found = sums_.find(name);
+    return found == sums_.end() ? 0.0 : found->second;
+  }
+
+  int trials_ = 0;
+  int reached_ = 0;
+  int clean_ = 0;
+  double states_ = 0.0;
+  std::map<std::string, double> sums_;
+};
+
+int run(const Options& options) {
+  const ClosedLoopConfig config = configured(options);
+  std::queue<Task> tasks;
+  for (const std::string& world : options.worlds)
+    for (int seed = options.seeds.from; seed <= options.seeds.to; ++seed) tasks.push({world, seed});
+  Total total;
+  int failed = 0;
+  const auto finish = [&](const Task& task, const Answer& answer) {
+    const auto row = answer.good ? Fields::parse(answer.text) : std::nullopt;
+    if (row) {
+      print_row(task, *row);
+      total.add(*row);
+    } else {
+      std::printf("%-10s %4d  %s\n", task.world.c_str(), task.seed, answer.text.c_str());
+      ++failed;
+    }
+  };
+  print_titles();
+  // A child a trial: a crash takes only its own trial away.
+  std::queue<std::pair<Task, std::future<Answer>>> running;
+  while (!tasks.empty() || !running.empty()) {
+    while (!tasks.empty() && running.size() < static_cast<std::size_t>(options.jobs)) {
+      const Task task = tasks.front();
+      tasks.pop();
+      const auto trial = [&options, &config, task] {
+        const std::string text = run_trial(options, config, task).format();
+        std::cout.flush();
+        return text;
+      };
+      running.emplace(task, std::async(std::launch::async, [trial] { return ask_child(trial); }));
+    }
+    finish(running.front().first, running.front().second.get());
+    running.pop();
+  }
+  total.print();
+  return failed == 0 ? 0 : 2;
+}
+
+}  // namespace
+}  // namespace navvi_study
+
+int main(int argc, char** argv) {
+  try {
+    const navvi_study::Options options = navvi_study::read_options({argv + 1, argv + argc});
+    if (options.help) {
+      std::cout << navvi_study::kUsage;
+      return 0;
+    }
+    return navvi_study::run(options);
+  } catch (const std::exception& error) {
+    std::cerr << "navvi: " << error.what() << '\n';
+    return 2;
+  }
+}

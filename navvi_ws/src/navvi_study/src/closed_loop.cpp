@@ -1,0 +1,158 @@
+#include "navvi_study/closed_loop.hpp"
+
+#include <navvi_feedback/msg_conversion.hpp>
+#include <navvi_nav/msg_conversion.hpp>
+#include <navvi_safety/msg_conversion.hpp>
+#include <navvi_sim/msg_conversion.hpp>
+#include <navvi_sim/state_conversion.hpp>
+#include <utility>
+
+#include "navvi_study/msg_conversion.hpp"
+
+namespace navvi_study {
+namespace {
+
+constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer
+constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
+constexpr double kGoalAt = 1.0;           // s; trial_node sets the goal when every part is there
+// espeak-ng at 220 words a minute, measured over NavVI's phrases.
+constexpr double kVoiceStarts = 0.15;  // s
+constexpr double kCharactersPerSecond = 18.0;
+
+}  // namespace
+
+void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
+  visit.group("sim", sim);
+  visit.group("nav", nav);
+  visit.group("feedback", feedback);
+  visit.group("operator", person);
+}
+
+ClosedLoop::Setting::Setting(const navvi_sim::SimNodeConfig& config)
+    : world(navvi_sim::load_world(config).world) {
+  const navvi_sim::OccupancyMap occupancy = navvi_sim::occupancy_of(world, config.octomap);
+  scenario = navvi_sim::scenario_of(config, world, occupancy);
+  map = navvi_nav::from_msg(navvi_sim::to_msg(occupancy, ros::Time()));
+}
+
+ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases)
+    : config_(config),
+      setting_(config.sim),
+      session_(setting_.world, config.sim.life, setting_.scenario.start,
+               static_cast<std::uint64_t>(config.sim.seed)),
+      gate_(config.sim.gate),
+      navigator_(config.nav),
+      planner_(config.nav.planner),
+      feedback_(config.feedback, navvi_feedback::Phrases(phrases, config.feedback.cues.words())),
+      person_(config.person, static_cast<std::uint64_t>(config.sim.seed)) {
+  navigator_.set_map(std::make_shared<const navvi_nav::MapMessage>(std::move(setting_.map)));
+}
+
+bool ClosedLoop::step() {
+  told_ = {};
+  if (!turn_wheels()) return false;
+  sense();
+  if (session_.due(kNavigationRate)) navigate();
+  if (session_.due(kFeedbackRate)) {
+    feed_back();
+    operate();
+  }
+  return true;
+}
+
+bool ClosedLoop::turn_wheels() {
+  using navvi_safety::CommandGate;
+  const navvi_safety::Velocity wheels = gate_.update(instant());
+  const bool running = gate_.state() == CommandGate::State::running;
+  return session_.step(wheels,
+                       running ? navvi_sim::Braking::normal : navvi_sim::Braking::emergency) ==
+         navvi_sim::World::Status::running;
+}
+
+void ClosedLoop::sense() {
+  const navvi_sim::Snapshot& now = session_.world().now();
+  told_.odometry = navvi_sim::odometry_msg(now.odometry, setting_.world.floor_height, stamp());
+  if (const auto motion = navvi_feedback::from_msg(told_.odometry)) feedback_.take(*motion, time());
+  if (const auto speed = navvi_nav::speed_from_msg(told_.odometry)) navigator_.set_speed(*speed);
+  if (const auto gate = navvi_feedback::from_msg(navvi_safety::state_msg(gate_, stamp())))
+    feedback_.take(*gate, time());
+  for (const navvi_sim::ContactEvent& contact : now.contacts) {
+    told_.contacts.push_back(navvi_sim::contact_msg(setting_.world, now.robot, contact, stamp()));
+    if (const auto felt = navvi_feedback::from_msg(told_.contacts.back())) feedback_.take(*felt);
+  }
+  if (session_.due(navvi_sim::kProximityRate)) {
+    const double radius = config_.sim.detection_radius;
+    told_.proximity = navvi_sim::proximity_msg(setting_.world, now.robot,
+                                               session_.world().proximity(radius), radius, stamp());
+    if (auto nearby = navvi_feedback::from_msg(*told_.proximity))
+      feedback_.take(std::move(*nearby), time());
+  }
+  if (session_.due(navvi_sim::kObstaclesRate)) {
+    told_.obstacles = navvi_sim::obstacles_msg(setting_.world, now, stamp());
+    classes_.clear();
+    for (const auto& obstacle : told_.obstacles->obstacles)
+      classes_[obstacle.id] = obstacle.thing_class;
+    if (auto obstacles = navvi_nav::from_msg(*told_.obstacles))
+      navigator_.set_obstacles(std::move(*obstacles), time());
+  }
+}
+
+geometry_msgs::Transform ClosedLoop::pose() const {
+  const navvi_sim::RobotState& robot = session_.world().now().robot;
+  return navvi_sim::base_link_msg(robot, setting_.world.floor_height, stamp()).transform;
+}
+
+void ClosedLoop::navigate() {
+  if (!begun_ && navigator_.has_map() && time() >= kGoalAt) {
+    begun_ = true;
+    navigator_.set_goal({setting_.scenario.goal.x(), setting_.scenario.goal.y()});
+  }
+  if (const auto at = navvi_nav::from_msg(pose())) navigator_.set_pose(*at, time());
+  if (const auto outcome = std::exchange(outcome_, std::nullopt))
+    navigator_.deliver(*outcome, time());
+  if (const auto job = navigator_.update(time())) outcome_ = navvi_nav::work(planner_, *job);
+  if (navigator_.undecided(time())) return;
+  const navvi_nav::Status status = navigator_.status(time());
+  if (!telling_.due(status, time())) return;
+  navvi_msgs::Guidance msg = navvi_nav::to_msg(status, navigator_.floor_height(), "map", stamp());
+  msg.seq = ++guidance_seq_;
+  if (status.blocked) msg.blocked_by = classes_[status.blocked->by];
+  if (const auto guidance = navvi_feedback::from_msg(msg)) feedback_.take(*guidance, time());
+  told_.guidance = std::move(msg);
+}
+
+void ClosedLoop::feed_back() {
+  navvi_feedback::Feedback::Input input;
+  if (const auto hands = navvi_feedback::from_msg(to_msg(hand_, stamp()))) input.hands = *hands;
+  input.voice_busy = !queue_.empty();
+  if (const auto& guidance = feedback_.guidance(); guidance && guidance->leads())
+    input.goal_angle = navvi_feedback::angle_to(pose(), guidance->goal);
+  const navvi_feedback::Feedback::Output output = feedback_.update(input, time());
+  if (output.command)
+    gate_.receive(navvi_safety::Velocity{output.command->linear, output.command->angular},
+                  instant());
+  if (rumble_output_.update(output.rumble, time()).feedback)
+    person_.feel(output.rumble.left, output.rumble.right);
+  const std::vector<navvi_feedback::CueEvent> events = speak(output.cues);
+  feedback_.note(events);
+  for (const auto& event : events) told_.cues.push_back(navvi_feedback::to_msg(event, stamp()));
+}
+
+std::vector<navvi_feedback::CueEvent> ClosedLoop::speak(
+    const std::vector<navvi_feedback::Cue>& cues) {
+  navvi_feedback::CueQueue::Step step = queue_.update(cues, time() < speaks_until_, time());
+  if (step.stop) speaks_until_ = time();
+  if (step.start) {
+    const auto length = static_cast<double>(step.start->size());
+    speaks_until_ = time() + kVoiceStarts + length / kCharactersPerSecond;
+  }
+  return std::move(step.events);
+}
+
+void ClosedLoop::operate() {
+  for (const navvi_msgs::Cue& cue : told_.cues)
+    if (const auto speech = heard(cue)) person_.hear(*speech, time());
+  hand_ = person_.update(time(), 1.0 / kFeedbackRate);
+}
+
+}  // namespace navvi_study
