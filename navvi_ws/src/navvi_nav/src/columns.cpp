@@ -1,49 +1,48 @@
 #include "navvi_nav/columns.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "parallel.hpp"
+#include "resample.hpp"
 
 namespace navvi_nav {
 namespace {
 
 /// Children on the low side of x, y and z; the others are a shift higher.
 constexpr unsigned kLowSide[3] = {0x55U, 0x33U, 0x0fU};
+constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // that are set
 
 }  // namespace
 
 Columns::Columns(const Voxels& voxels, int threads) {
   measure(voxels);
   if (!error_.empty()) return;
-  highest_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]));
+  const auto width = static_cast<std::size_t>(size_[0]);
+  highest_.resize(width * static_cast<std::size_t>(size_[1]));
+  rows_.resize(static_cast<std::size_t>(size_[1]));
   const int bands = std::min(std::max(1, threads), size_[1]);
-  std::vector<std::vector<Lower>> lower(static_cast<std::size_t>(bands));
+  lower_.resize(static_cast<std::size_t>(bands));
   in_parallel(bands, bands, [&](int band) {
-    std::vector<Lower>& mine = lower[static_cast<std::size_t>(band)];
-    const auto row = [&](int end) {
+    std::vector<Lower>& lower = lower_[static_cast<std::size_t>(band)];
+    const auto row_at = [&](int end) {
       return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);
     };
-    for (const Octet& octet : voxels.octets) add(octet, row(band), row(band + 1), mine);
-    settle(mine);
+    for (const Octet& octet : voxels.octets) add(octet, row_at(band), row_at(band + 1), lower);
+    settle(lower);
+    lower.push_back({static_cast<std::uint32_t>(highest_.size()), {}});
+    const Lower* at = lower.data();
+    for (int row = row_at(band); row < row_at(band + 1); ++row) {
+      const std::size_t end = (static_cast<std::size_t>(row) + 1) * width;
+      const Lower* const begin = at;
+      while (at->column < end) ++at;
+      rows_[static_cast<std::size_t>(row)] = {begin, at};
+    }
   });
-  for (const std::vector<Lower>& part : lower)
-    lower_.insert(lower_.end(), part.begin(), part.end());
-  const auto width = static_cast<std::size_t>(size_[0]);
-  std::size_t at = 0;
-  for (std::size_t row = 0; row < static_cast<std::size_t>(size_[1]); ++row) {
-    while (at < lower_.size() && lower_[at].column < row * width) ++at;
-    row_begin_.push_back(at);
-  }
-  row_begin_.push_back(lower_.size());
-  lower_.push_back({highest_.size(), {}});
 }
 
 const Columns::Lower* Columns::below(std::size_t column) const {
-  const std::size_t row = column / static_cast<std::size_t>(size_[0]);
-  const auto from = lower_.begin() + static_cast<std::ptrdiff_t>(row_begin_[row]);
-  const auto to = lower_.begin() + static_cast<std::ptrdiff_t>(row_begin_[row + 1]);
-  return &*std::lower_bound(from, to, column, [](const Lower& lower, std::size_t wanted) {
+  const Row& row = rows_[column / static_cast<std::size_t>(size_[0])];
+  return std::lower_bound(row.begin, row.end, column, [](const Lower& lower, std::size_t wanted) {
     return lower.column < wanted;
   });
 }
@@ -51,9 +50,12 @@ const Columns::Lower* Columns::below(std::size_t column) const {
 void Columns::measure(const Voxels& voxels) {
   int low[3] = {kMapSide, kMapSide, kMapSide};
   int high[3] = {0, 0, 0};
+  double runs = 0.0;
   for (const Octet& octet : voxels.octets) {
     const int at[3] = {octet.x, octet.y, octet.z};
     const int side = 1 << octet.level;
+    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
+    runs += static_cast<double>(kBits[quarters]) * side * side;
     for (int k = 0; k < 3; ++k) {
       const bool in_low = (octet.mask & kLowSide[k]) != 0;
       const bool in_high = (octet.mask & ~kLowSide[k]) != 0;
@@ -73,9 +75,12 @@ void Columns::measure(const Voxels& voxels) {
     error_ = "the map is " + std::to_string(size_[2]) + " voxels tall; " +
              std::to_string(kMaxLevels) + " are allowed";
   const double columns = static_cast<double>(size_[0]) * size_[1];
-  if (columns > kMaxColumns)
-    error_ = "the map spreads over " + std::to_string(static_cast<long long>(columns / 1e6)) +
-             " million columns of voxels; 25 million are allowed";
+  if (columns > kMaxCells)
+    error_ = "the map spreads over " + millions(columns) + " columns of voxels; " +
+             millions(kMaxCells) + " are allowed";
+  else if (runs > kMaxRuns)
+    error_ = "the map has " + millions(runs) + " runs of voxels in its columns; " +
+             millions(kMaxRuns) + " are allowed";
 }
 
 /// \param first_row, last_row  rows of columns to fill, the last excluded
@@ -91,9 +96,9 @@ void Columns::add(const Octet& octet, int first_row, int last_row, std::vector<L
     const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
                       static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
     for (int row = std::max(y, first_row); row < std::min(y + side, last_row); ++row) {
-      const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(size_[0]) +
-                                static_cast<std::size_t>(x);
-      for (std::size_t column = first; column < first + static_cast<std::size_t>(side); ++column)
+      const auto first = static_cast<std::uint32_t>(row * size_[0] + x);
+      for (std::uint32_t column = first; column < first + static_cast<std::uint32_t>(side);
+           ++column)
         add(column, span, lower);
     }
   }
@@ -101,7 +106,7 @@ void Columns::add(const Octet& octet, int first_row, int last_row, std::vector<L
 
 /// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
 /// do, for settle() puts in order what is apart here.
-void Columns::add(std::size_t column, Packed span, std::vector<Lower>& lower) {
+void Columns::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
   Packed& high = highest_[column];
   const std::uint16_t more = high.bottom & kMore;
   const auto bottom = static_cast<std::uint16_t>(high.bottom & ~kMore);
@@ -120,13 +125,15 @@ void Columns::add(std::size_t column, Packed span, std::vector<Lower>& lower) {
 
 /// Sorts what lies below the highest spans and joins spans that touch.
 void Columns::settle(std::vector<Lower>& lower) {
-  std::sort(lower.begin(), lower.end(), [](const Lower& a, const Lower& b) {
-    return std::tie(a.column, b.span.top, b.span.bottom) <
-           std::tie(b.column, a.span.top, a.span.bottom);
-  });
+  const auto key = [](const Lower& one) {
+    return std::uint64_t{one.column} << 32 |
+           (0xffffffffU - (std::uint32_t{one.span.top} << 16 | one.span.bottom));
+  };
+  std::sort(lower.begin(), lower.end(),
+            [&](const Lower& a, const Lower& b) { return key(a) < key(b); });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < lower.size();) {
-    const std::size_t column = lower[i].column;
+    const std::uint32_t column = lower[i].column;
     Packed* above = &highest_[column];
     above->bottom &= static_cast<std::uint16_t>(~kMore);
     const std::size_t first = kept;

@@ -15,7 +15,7 @@ std::string refusal_of(const OccupancyGrid& grid) {
       grid.resolution > kMaxResolution)
     return "the occupancy grid's resolution is not within 0.01 and 1 m";
   if (static_cast<double>(grid.width) * grid.height > kMaxCells)
-    return "the occupancy grid has more than 25 million cells";
+    return "the occupancy grid has more than " + millions(kMaxCells) + " cells";
   if (grid.cells.size() !=
       static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height))
     return "the occupancy grid holds " + std::to_string(grid.cells.size()) + " cells where " +

@@ -50,7 +50,8 @@ MapSurvey resample(Sheet sheet, double cell_size) {
   const double y = sheet.origin.y / cell_size;
   const double ratio = sheet.cell_size / cell_size;
   if (sheet.columns * ratio * sheet.rows * ratio > kMaxCells) {
-    out.error = "the map has more than 25 million cells of " + std::to_string(cell_size) + " m";
+    out.error = "the map has more than " + millions(kMaxCells) + " cells of " +
+                std::to_string(cell_size) + " m";
     return out;
   }
   out.low = {floor_cell(x), floor_cell(y)};

@@ -7,7 +7,14 @@
 
 namespace navvi_nav {
 
-inline constexpr double kMaxCells = 25.0e6;  ///< of a surveyed map
+/// Of a map seen from above, as columns of voxels or as squares of floor: the latter take 8 bytes
+/// each as long as the map is in use. 300 x 300 m at 0.05 m are 36 million.
+inline constexpr double kMaxCells = 50.0e6;
+
+/// "50 million"
+[[nodiscard]] inline std::string millions(double count) {
+  return std::to_string(static_cast<long long>(count / 1e6)) + " million";
+}
 
 /// Squares of ground that need not lie on the mesh's lattice.
 struct Sheet {

@@ -137,9 +137,16 @@ TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
             "the map has no occupied voxel");
   Voxels wide{"", 0.05, {{0, 0, 32768, 0, 1}, {65000, 65000, 32768, 0, 1}}};
   EXPECT_EQ(survey_map(wide, {}).error,
-            "the map spreads over 4225 million columns of voxels; 25 million are allowed");
+            "the map spreads over 4225 million columns of voxels; 50 million are allowed");
   Voxels tall{"", 0.05, {{32768, 32768, 0, 0, 1}, {32768, 32768, 65000, 0, 1}}};
   EXPECT_EQ(survey_map(tall, {}).error, "the map is 65001 voxels tall; 30000 are allowed");
+  Voxels layered{"", 0.05, {}};  // a few kB of a message
+  for (int i = 0; i < 27 * 27 * 5; ++i)
+    layered.octets.push_back({static_cast<std::uint16_t>(256 * (i % 27)),
+                              static_cast<std::uint16_t>(256 * (i / 27 % 27)),
+                              static_cast<std::uint16_t>(256 * (i / 27 / 27)), 7, 15});
+  EXPECT_EQ(survey_map(layered, {}).error,
+            "the map has 238 million runs of voxels in its columns; 200 million are allowed");
   Voxels full{"", 0.05, {{0, 0, 0, 15, 255}}};
   EXPECT_FALSE(survey_map(full, {}).error.empty());
 }

@@ -20,11 +20,16 @@ struct Span {
 /// stands in a grid, and the few below in a list.
 class Columns {
  public:
-  static constexpr double kMaxColumns = 25.0e6;
   static constexpr int kMaxLevels = 30000;
+  /// What a column's leaves come to, before those that touch are joined. A run below a column's
+  /// highest one costs 8 bytes, and few bytes of a map can ask for very many. The densest layout of
+  /// 300 x 300 m at 0.05 m has 142 million, which join to 77.
+  static constexpr double kMaxRuns = 200.0e6;
 
   /// \param threads  that may share the work
   explicit Columns(const Voxels& voxels, int threads = 1);
+  Columns(const Columns&) = delete;
+  Columns& operator=(const Columns&) = delete;
 
   [[nodiscard]] const std::string& error() const { return error_; }  ///< a sentence, or empty
   [[nodiscard]] int low_x() const { return low_[0]; }    ///< voxels from the map's origin
@@ -53,7 +58,7 @@ class Columns {
     std::uint16_t top = 0;  // 0: no span
   };
   struct Lower {
-    std::size_t column = 0;
+    std::uint32_t column = 0;
     Packed span;
   };
 
@@ -61,15 +66,20 @@ class Columns {
   [[nodiscard]] const Lower* below(std::size_t column) const;
   void measure(const Voxels& voxels);
   void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
-  void add(std::size_t column, Packed span, std::vector<Lower>& lower);
+  void add(std::uint32_t column, Packed span, std::vector<Lower>& lower);
   void settle(std::vector<Lower>& lower);
 
   std::string error_;
   int low_[3] = {0, 0, 0};
   int size_[3] = {0, 0, 0};
   std::vector<Packed> highest_;
-  std::vector<Lower> lower_;            // by column, then downwards; ends with one of no column
-  std::vector<std::size_t> row_begin_;  // in lower_
+  /// Of each band of rows, by column, then downwards; ends with one of no column.
+  std::vector<std::vector<Lower>> lower_;
+  struct Row {
+    const Lower* begin = nullptr;
+    const Lower* end = nullptr;
+  };
+  std::vector<Row> rows_;  // of lower_
 };
 
 }  // namespace navvi_nav

@@ -57,7 +57,10 @@ class NavMesh {
   /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
   /// changed keep their polygons.
   MeshUpdate set_map(MapSurvey survey);
-  MeshUpdate set_map(const MapBytes& bytes) { return set_map(read_voxels(bytes)); }
+  MeshUpdate set_map(const MapBytes& bytes) {
+    MapSurvey survey = survey_map(read_voxels(bytes), survey_config(config_));
+    return set_map(std::move(survey));  // when the voxels are gone: they are many
+  }
   MeshUpdate set_map(const octomap::OcTree& tree) { return set_map(voxels_of(tree)); }
   MeshUpdate set_map(const Voxels& voxels) {
     return set_map(survey_map(voxels, survey_config(config_)));
