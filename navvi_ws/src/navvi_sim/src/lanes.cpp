@@ -17,6 +17,7 @@ namespace {
 constexpr double kBlock = 0.5;        // m
 constexpr double kDrivenOver = 0.05;  // m above the floor; lower things stop nobody
 constexpr double kOffRoute = 0.1;     // m, farther from its way, corners cut, no thing may stand
+constexpr double kThere = 1e-9;       // m, nearer is there
 constexpr int kHalvings = 3;          // of a corner's radius, before it is turned on the spot
 
 [[noreturn]] void refuse(const std::string& sentence) { throw WorldError(sentence); }
@@ -166,7 +167,7 @@ void Surveyor::lay() {
     Track track(plan.route, plan.limits, plan.radii);
     const int blocks = std::max(3, static_cast<int>(std::ceil(track.length() / kBlock)));
     const double length = track.length() / blocks;
-    lanes_.lanes.push_back({std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}});
+    lanes_.lanes.push_back({std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}, {}});
     for (Polygon& polygon : ground_of(lanes_.lanes.back())) ground_.push_back(std::move(polygon));
   }
 }
@@ -258,9 +259,45 @@ void MoversConfig::describe(navvi_config::Visitor& visit) {
         corner_radius);
   visit({"clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot"},
         clearance);
+  visit({"patience", Range{4.0, 3600.0}, "s",
+         "after which a mover that the robot keeps from going on backs out, to let it pass"},
+        patience);
+  visit({"back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover that backs out"}, back_speed);
   visit({"pause_spread", Range{0.0, 1.0}, "",
          "share by which pauses at way-points vary either way, drawn from the seed"},
         pause_spread);
+}
+
+std::size_t Lane::leg_after(double s) const {
+  const auto leg = std::find_if(legs.begin(), legs.end(), [&](const Leg& candidate) {
+    return refuge(candidate.end) > s + kThere;
+  });
+  return leg == legs.end() ? 0 : static_cast<std::size_t>(leg - legs.begin());
+}
+
+std::vector<Crossing> Lane::crossings(int first, int last) const {
+  std::set<std::pair<std::size_t, int>> touched;
+  const auto gather = [&](int from, int to) {
+    auto meeting =
+        std::lower_bound(meetings.begin(), meetings.end(), from,
+                         [](const Meeting& entry, int block) { return entry.block < block; });
+    for (; meeting != meetings.end() && meeting->block <= to; ++meeting)
+      touched.emplace(meeting->lane, meeting->other);
+  };
+  if (first <= last) {
+    gather(first, last);
+  } else {
+    gather(first, blocks - 1);
+    gather(0, last);
+  }
+  std::vector<Crossing> found;
+  for (const auto& [lane, other] : touched) {
+    if (!found.empty() && found.back().lane == lane && found.back().last + 1 == other)
+      found.back().last = other;
+    else
+      found.push_back({lane, other, other});
+  }
+  return found;
 }
 
 Lanes lay_lanes(const WorldDescription& world, const MoversConfig& config) {

@@ -9,6 +9,8 @@ namespace {
 constexpr double kSideMargin = 0.10;  // m, left beside what is passed
 constexpr double kLook = 0.1;         // m, between the places looked at ahead
 constexpr int kHalvings = 4;          // of the stretch in which it would touch
+constexpr double kForesight = 0.5;    // s, that a disc is foreseen beyond the time to stop
+constexpr int kMostForeseen = 8;      // places of a disc
 constexpr double kThere = 1e-9;       // m, nearer is there
 
 /// [0, 1), the same anywhere (splitmix64: Steele, Lea and Flood, 2014).
@@ -36,10 +38,12 @@ double gap_to(const Disc& disc, const Place& place, const Footprint& print) {
 Mover::Mover(const Lane& lane, double start, const MoversConfig& config, std::uint64_t seed)
     : lane_(&lane),
       acceleration_(config.acceleration),
+      back_speed_(config.back_speed),
       pause_spread_(config.pause_spread),
       random_(seed),
       s_(start),
       allowed_(start),
+      rear_(start),
       element_(lane.track.element_at(start)),
       place_(lane.track.place(start)) {}
 
@@ -57,12 +61,23 @@ void Mover::stop_dead() {
   moved_ = false;
 }
 
+void Mover::back_out(double s) {
+  rear_ = s;
+  allowed_ = s_;
+}
+
 void Mover::step(double room, double dt) {
   moved_ = false;
-  if (pause_left_ > 0.0) {
+  if (pause_left_ > 0.0)
     pause_left_ -= dt;
-    return;
-  }
+  else if (backs_out())
+    drive_back(room, dt);
+  else
+    drive_on(room, dt);
+  if (moved_) place_ = element().place(s_);
+}
+
+void Mover::drive_on(double room, double dt) {
   const Track::Element& here = element();
   const double left = std::min(room, allowed_ - s_);
   if (speed_ == 0.0 && left < kThere) return;
@@ -85,7 +100,45 @@ void Mover::step(double room, double dt) {
     }
   }
   s_ += move;
-  if (moved_) place_ = element().place(s_);
+  rear_ = s_;
+}
+
+void Mover::drive_back(double room, double dt) {
+  const double left = std::min(room, s_ - rear_);
+  if (speed_ == 0.0 && left < kThere) return;
+  if (s_ - element().begin < kThere) pass_begin();
+  const std::size_t count = lane_->track.elements().size();
+  const double before_speed = lane_->track.elements()[(element_ + count - 1) % count].end_speed;
+  const double to_begin = s_ - element().begin;
+  const double for_begin = before_speed * before_speed + 2.0 * acceleration_ * to_begin;
+  const double for_room = left > 0.0 ? 2.0 * acceleration_ * left : 0.0;
+  const double most =
+      std::min({element().speed, back_speed_, std::sqrt(std::min(for_begin, for_room))});
+  const double speed = std::max(
+      0.0, std::clamp(most, -speed_ - 2.0 * acceleration_ * dt, -speed_ + acceleration_ * dt));
+  const double move = std::min({speed * dt, s_ - rear_, to_begin});
+  moved_ = move > 0.0;
+  speed_ = -speed;
+  s_ -= move;
+  if (s_ - element().begin < kThere && before_speed == 0.0) speed_ = 0.0;
+  if (s_ - rear_ < kThere) {
+    rear_ = s_;
+    speed_ = 0.0;
+  }
+  allowed_ = s_;
+}
+
+/// The element before begins where this one ends only if the track comes round.
+void Mover::pass_begin() {
+  if (element_ > 0) {
+    --element_;
+    return;
+  }
+  if (!lane_->track.closed()) return;
+  element_ = lane_->track.elements().size() - 1;
+  s_ += lane_->track.length();
+  allowed_ += lane_->track.length();
+  rear_ += lane_->track.length();
 }
 
 void Mover::pass_end() {
@@ -103,38 +156,55 @@ void Mover::pass_end() {
   }
 }
 
-double Mover::room_before(const Disc& disc, double clearance) const {
-  const Footprint& print = lane_->footprint;
+double Mover::gap_at(double s, const Disc& disc) const {
+  return gap_to(disc, lane_->track.place(s), lane_->footprint);
+}
+
+double Mover::room_before(const Disc& disc, double clearance, double further) const {
+  return room_foreseen(disc, clearance, further, 1.0);
+}
+
+double Mover::room_behind(const Disc& disc, double clearance) const {
+  return room_foreseen(disc, clearance, 0.0, -1.0);
+}
+
+/// The least room before the places where the disc will be.
+double Mover::room_foreseen(const Disc& disc, double clearance, double further, double way) const {
   const double stopping = speed_ * speed_ / (2.0 * acceleration_);
-  const double look = stopping + clearance + 2.0 * kLook;
-  const double reach = print.radius + disc.radius + kSideMargin + look;
+  const double look = stopping + clearance + 2.0 * kLook + further;
+  const double time = std::abs(speed_) / acceleration_ + kForesight;
+  const Eigen::Vector2d path = time * disc.velocity;
+  const double reach = lane_->footprint.radius + disc.radius + kSideMargin + look + path.norm();
   if ((disc.centre - place_.at).squaredNorm() > reach * reach) return kFree;
-  const double gap_now = gap_to(disc, place_, print);
+  const int places =
+      std::min(kMostForeseen, static_cast<int>(std::ceil(path.norm() / disc.radius)));
+  double least = room(disc, clearance, look, way);
+  for (int i = 1; i <= places; ++i) {
+    const Disc then{disc.centre + path * (static_cast<double>(i) / places), disc.radius};
+    least = std::min(least, room(then, clearance, look, way));
+  }
+  return least;
+}
+
+/// \param way  1 ahead, -1 back
+double Mover::room(const Disc& disc, double clearance, double look, double way) const {
   const Track& track = lane_->track;
-  std::size_t ahead = element_;
-  double base = 0.0;  // m, of s before this round
-  for (double distance = kLook; distance <= look; distance += kLook) {
-    double s = s_ + distance - base;
-    while (s > track.elements()[ahead].end()) {
-      if (ahead + 1 < track.elements().size()) {
-        ++ahead;
-      } else if (track.closed()) {
-        ahead = 0;
-        base += track.length();
-        s -= track.length();
-      } else {
-        return kFree;
-      }
-    }
-    const double gap = gap_to(disc, track.elements()[ahead].place(s), print);
+  const auto gap = [&](double distance) {
+    double s = s_ + way * distance;
+    if (s < 0.0) s += track.length();
+    if (s > track.length()) s -= track.length();
+    return gap_at(s, disc);
+  };
+  const double end = track.closed() ? look : (way > 0.0 ? track.length() - s_ : s_);
+  const double gap_now = gap_to(disc, place_, lane_->footprint);
+  for (double distance = kLook; distance <= std::min(look, end); distance += kLook) {
+    const double then = gap(distance);
     // What is beside or behind it comes no nearer.
-    if (gap >= kSideMargin || gap >= gap_now - kThere) continue;
+    if (then >= kSideMargin || then >= gap_now - kThere) continue;
     double free = distance - kLook, taken = distance;
     for (int halving = 0; halving < kHalvings; ++halving) {
       const double middle = 0.5 * (free + taken);
-      double at = s_ + middle;
-      if (track.closed() && at > track.length()) at -= track.length();
-      (gap_to(disc, track.place(at), print) < kSideMargin ? taken : free) = middle;
+      (gap(middle) < kSideMargin ? taken : free) = middle;
     }
     return std::max(0.0, free - clearance);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "block_index.hpp"
 
@@ -46,7 +47,6 @@ class Planner {
   void find_spacing(std::size_t lane, std::vector<std::set<int>> touched);
   void choose_refuges(std::size_t lane);
   [[nodiscard]] std::vector<int> refuges_of(std::size_t lane) const;
-  void find_crossings(Leg& leg, std::size_t lane) const;
   void check_spacing() const;
   void check_start() const;
   /// The leg that a user on shared ground starts on.
@@ -72,8 +72,7 @@ class Planner {
   const WorldDescription& world_;
   Lanes& lanes_;
   std::vector<Polygon> ground_;
-  std::vector<std::size_t> offsets_;          ///< of each lane's blocks in ground_
-  std::vector<std::vector<Block>> touching_;  ///< by block: of other lanes, or far along its own
+  std::vector<std::size_t> offsets_;  ///< of each lane's blocks in ground_
 };
 
 /// Who drives to an end and stays there never comes back to what lies behind where it starts.
@@ -87,7 +86,6 @@ void Planner::forget_ground_behind() {
 }
 
 void Planner::find_shared_ground() {
-  touching_.assign(ground_.size(), {});
   std::vector<std::size_t> lane_of(ground_.size());
   for (std::size_t i = 0; i < ground_.size(); ++i) lane_of[i] = block(i).lane;
   const auto wanted = [&](const BlockIndex::Pair& pair) {
@@ -101,8 +99,8 @@ void Planner::find_shared_ground() {
       own[first.lane][first.index].insert(second.index);
       own[first.lane][second.index].insert(first.index);
     } else {
-      touching_[a].push_back(second);
-      touching_[b].push_back(first);
+      lanes_.lanes[first.lane].meetings.push_back({first.index, second.lane, second.index});
+      lanes_.lanes[second.lane].meetings.push_back({second.index, first.lane, first.index});
     }
   }
   for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane) {
@@ -113,8 +111,12 @@ void Planner::find_shared_ground() {
         touched[static_cast<std::size_t>(index)] = std::move(others);
       find_spacing(lane, std::move(touched));
     }
-    for (int i = 0; i < here.blocks; ++i)
-      here.is_private.push_back(touching_[number(lane, i)].empty());
+    std::sort(here.meetings.begin(), here.meetings.end(), [](const Meeting& a, const Meeting& b) {
+      return std::tie(a.block, a.lane, a.other) < std::tie(b.block, b.lane, b.other);
+    });
+    here.is_private.assign(static_cast<std::size_t>(here.blocks), true);
+    for (const Meeting& meeting : here.meetings)
+      here.is_private[static_cast<std::size_t>(meeting.block)] = false;
   }
 }
 
@@ -136,15 +138,14 @@ void Planner::find_spacing(std::size_t lane, std::vector<std::set<int>> touched)
         here.spacing = std::max(here.spacing, k + 1);
       }
     for (const int other : others)
-      if (near.count(other) == 0) touching_[number(lane, i)].push_back({lane, other});
+      if (near.count(other) == 0) here.meetings.push_back({i, lane, other});
   }
 }
 
 std::string Planner::others_on(std::size_t lane) const {
   std::map<std::size_t, std::size_t> shared;  // blocks, by lane
-  for (int i = 0; i < lanes_.lanes[lane].blocks; ++i)
-    for (const Block& other : touching_[number(lane, i)])
-      if (other.lane != lane) ++shared[other.lane];
+  for (const Meeting& meeting : lanes_.lanes[lane].meetings)
+    if (meeting.lane != lane) ++shared[meeting.lane];
   std::vector<std::pair<std::size_t, std::size_t>> order;
   for (const auto& [other, count] : shared) order.emplace_back(count, other);
   std::sort(order.rbegin(), order.rend());
@@ -208,25 +209,8 @@ void Planner::choose_refuges(std::size_t lane) {
   }
   for (std::size_t i = 0; i < refuges.size(); ++i) {
     const int before = i > 0 ? refuges[i - 1] : (here.track.closed() ? refuges.back() : -1);
-    here.legs.push_back({(before + 1) % here.blocks, refuges[i], {}});
-    find_crossings(here.legs.back(), lane);
-  }
-}
-
-void Planner::find_crossings(Leg& leg, std::size_t lane) const {
-  const int count = lanes_.lanes[lane].blocks;
-  std::set<std::pair<std::size_t, int>> touched;
-  for (int i = leg.begin;; i = (i + 1) % count) {
-    for (const Block& other : touching_[number(lane, i)]) touched.emplace(other.lane, other.index);
-    if (i == leg.end) break;
-  }
-  for (const auto& [other, index] : touched) {
-    const bool joins = !leg.crossings.empty() && leg.crossings.back().lane == other &&
-                       leg.crossings.back().last + 1 == index;
-    if (joins)
-      leg.crossings.back().last = index;
-    else
-      leg.crossings.push_back({other, index, index});
+    const int begin = (before + 1) % here.blocks;
+    here.legs.push_back({begin, refuges[i], here.crossings(begin, refuges[i])});
   }
 }
 

@@ -81,7 +81,8 @@ std::vector<NearThing> World::proximity(double detection_radius) const {
 }
 
 void World::step_movers() {
-  traffic_.step({now_.robot.position, config_.robot.radius}, pressing(), config_.step);
+  traffic_.step({now_.robot.position, config_.robot.radius, now_.robot.velocity}, pressing(),
+                config_.step);
   place_movers(false);
 }
 

@@ -172,14 +172,77 @@ TEST(Mover, stands_still_before_each_round_for_as_long_as_the_delay) {
   EXPECT_EQ(left, 2);
 }
 
+TEST(Mover, backs_out_along_its_track_slowly_and_smoothly_and_tells_how_it_moves) {
+  Route route = through({{0, 0}, {6, 0}, {6, 5}, {0, 5}}, 1.5);
+  route.waypoints[2].pause = 1.0;  // it turns there on the spot
+  const MoversConfig config;
+  const Lanes lanes = lay_lanes(Alone::world({0, 0}, 0, route), config);
+  const Lane& lane = lanes.lanes.at(0);
+  const double length = lane.track.length();
+  for (double from = 0.3; from < length; from += 1.7) {
+    Mover mover(lane, from, config, 1);
+    const double to = from - 0.4 * length;  // often round the beginning of the track
+    mover.back_out(to);
+    double speed = 0.0;
+    for (int i = 0; i < 10000 && mover.backs_out(); ++i) {
+      const Place before = mover.place();
+      mover.step(Mover::kFree, 0.01);
+      const Eigen::Vector2d moved = mover.place().at - before.at;
+      ASSERT_LE(mover.speed(), 0.0);
+      ASSERT_GE(mover.speed(), -config.back_speed - 1e-9);
+      ASSERT_LE(std::abs(mover.speed() - speed), 2.0 * config.acceleration * 0.01 + 0.02);
+      speed = mover.speed();
+      // What it says is how it moves, and never forwards.
+      ASSERT_LE((moved - 0.01 * mover.velocity()).norm(), 0.006);
+      ASSERT_LE(moved.dot(Eigen::Vector2d(std::cos(before.yaw), std::sin(before.yaw))), 1e-9);
+      ASSERT_EQ(mover.allowed(), mover.s());
+    }
+    EXPECT_FALSE(mover.backs_out());
+    EXPECT_EQ(mover.speed(), 0.0);
+    const Place end = lane.track.place(to < 0.0 ? to + length : to);
+    EXPECT_NEAR((mover.place().at - end.at).norm(), 0.0, 1e-6) << from;
+    mover.allow(mover.s() + 0.3 * length);
+    for (int i = 0; i < 6000; ++i) mover.step(Mover::kFree, 0.01);
+    EXPECT_NEAR(mover.s(), mover.allowed(), 1e-6) << "it goes on again";
+  }
+}
+
+MoversConfig patient() {
+  MoversConfig config;
+  config.patience = 3600.0;
+  return config;
+}
+
 TEST(Mover, waits_for_the_robot_ahead_as_long_as_it_stands_there_and_no_longer) {
-  Alone alone({0, 0}, 0, through({{0, 0}, {10, 0}}));
+  Alone alone({0, 0}, 0, through({{0, 0}, {10, 0}}), patient());
   alone.run(60.0, {{6.0, 0.0}, 0.35});
   EXPECT_EQ(alone.mover().speed(), 0.0);
   EXPECT_LT(alone.at().x() + 1.5, 6.0 - 0.35 - 0.2);
   EXPECT_GT(alone.at().x() + 1.5, 6.0 - 0.35 - 0.7);
   alone.run(3.0);
   EXPECT_GT(alone.at().x(), 5.0);
+}
+
+TEST(Mover, foresees_the_robot_that_crosses_and_does_not_run_into_it) {
+  int stopped = 0;
+  for (double start = 0.0; start < 16.0; start += 0.25) {
+    Alone alone({start, 0}, 0, through({{0, 0}, {30, 0}}, 1.5));
+    Disc robot{{22.0, 4.5}, 0.35, {0.0, -0.6}};
+    bool beside = false;
+    for (int i = 0; i < 1500; ++i) {
+      alone.run(0.01, robot);
+      robot.centre += 0.01 * robot.velocity;
+      const Eigen::Vector2d away = robot.centre - alone.at();
+      // The robot may run into it, but it not into the robot. Its nose is 1.5 m ahead.
+      beside = beside || (std::abs(away.y()) < 1.1 && away.x() < 1.5);
+      if (!beside && alone.mover().speed() > 0.0) {
+        ASSERT_GT(std::hypot(away.x() - 1.5, std::max(0.0, std::abs(away.y()) - 0.5)), 0.35)
+            << "from " << start << " after " << 0.01 * i << " s";
+      }
+    }
+    stopped += beside ? 0 : 1;
+  }
+  EXPECT_GT(stopped, 20);
 }
 
 TEST(Mover, passes_the_robot_that_stands_beside_its_way_or_behind) {
@@ -194,7 +257,7 @@ TEST(Mover, does_not_swing_its_tail_into_the_robot) {
   // At (5, 0) it turns on the spot to the left, towards the robot beside its nose.
   Route route = through({{0, 0}, {5, 0}, {5, 5}});
   route.waypoints[1].pause = 0.1;
-  Alone alone({0, 0}, 0, route);
+  Alone alone({0, 0}, 0, route, patient());
   alone.run(20.0, {{5.9, 1.2}, 0.35});
   EXPECT_LT(alone.mover().place().yaw, 0.6);
   alone.run(5.0);
@@ -207,6 +270,22 @@ TEST(Mover, does_not_stop_for_the_robot_where_its_route_does_not_yield) {
   Alone alone({0, 0}, 0, route);
   alone.run(5.0, {{6.0, 0.0}, 0.35});
   EXPECT_GT(alone.mover().speed(), 0.9);
+}
+
+TEST(Mover, backs_out_from_a_robot_that_it_presses_even_if_it_does_not_yield) {
+  Route route = through({{0, 0}, {10, 0}});
+  route.yields = false;
+  Alone alone({0, 0}, 0, route);
+  alone.run(5.0);
+  const double pressed = alone.at().x();
+  const Disc robot{{pressed + 1.5 + 0.34, 0.0}, 0.35};
+  for (int i = 0; i < 3000 && alone.at().x() > pressed - 0.5; ++i)
+    alone.run(
+        0.01, robot,
+        alone.at().x() > pressed - 0.01 ? std::vector<std::size_t>{0} : std::vector<std::size_t>{});
+  EXPECT_LT(alone.at().x(), pressed - 0.49);
+  alone.run(60.0);
+  EXPECT_GT(alone.mover().s(), 0.0);
 }
 
 TEST(Mover, stops_dead_where_it_would_crush_the_robot) {

@@ -93,6 +93,7 @@ class Street {
   }
   [[nodiscard]] double stood_for(std::size_t i) const { return time_ - moved_at_[i]; }
   [[nodiscard]] const Traffic& traffic() const { return traffic_; }
+  [[nodiscard]] const Footprint& print(std::size_t i) const { return prints_[i]; }
 
  private:
   WorldDescription world_;
@@ -207,6 +208,10 @@ TEST(Traffic, goes_on_after_a_robot_that_stood_in_its_way) {
       const Disc robot{place.at + Eigen::Rotation2Dd(place.yaw) * Eigen::Vector2d(2.5, 0.2), 0.35};
       street.run(40.0, std::nullopt, robot);
       street.run(20.0, std::nullopt, {place.at, 0.35});
+      // Behind whoever backs out.
+      const Place now = street.traffic().mover(victim).place();
+      const Eigen::Vector2d behind = Eigen::Rotation2Dd(now.yaw) * Eigen::Vector2d(-2.2, 0.0);
+      street.run(20.0, std::nullopt, {now.at + behind, 0.35});
     }
     street.forgive();
     street.run(900.0, 400.0);
@@ -292,6 +297,91 @@ TEST(Traffic, of_every_preset_keeps_going) {
       street.run(900.0, 240.0);
       ASSERT_FALSE(HasFailure()) << preset.name << ", seed " << seed;
     }
+}
+
+/// m, from a thing's body to the robot's; less than 0 in contact.
+double gap(const Street& street, std::size_t i, const Disc& robot) {
+  const Place& place = street.traffic().mover(i).place();
+  const Eigen::Vector2d at = Eigen::Rotation2Dd(-place.yaw) * (robot.centre - place.at);
+  const Polygon& hull = street.print(i).hull;
+  if (overlap(hull, {at}, 0.0)) return -robot.radius;
+  double least = 1e9;
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Eigen::Vector2d along = hull[(k + 1) % hull.size()] - hull[k];
+    const double share = std::clamp(along.dot(at - hull[k]) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (hull[k] + share * along - at).norm());
+  }
+  return least - robot.radius;
+}
+
+/// A robot that stands on the floor ahead of a mover.
+Disc robot_before(const Street& street, std::size_t i) {
+  const Place& place = street.traffic().mover(i).place();
+  const Eigen::Vector2d ahead(street.print(i).front + 1.5, 0.1);
+  return {place.at + Eigen::Rotation2Dd(place.yaw) * ahead, 0.35};
+}
+
+TEST(Traffic, of_every_preset_makes_room_for_a_robot_that_stands_in_its_way_and_never_hits_it) {
+  std::size_t rounds = 0;
+  for (const Preset& preset : presets())
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      const WorldDescription world = layout(preset.name, preset.config, seed);
+      Street street(world, seed);
+      std::mt19937_64 random(seed);
+      for (int visit = 0; visit < 12 && street.traffic().size() > 0; ++visit) {
+        const std::size_t victim = random() % street.traffic().size();
+        const Disc robot = robot_before(street, victim);
+        bool has_room = true;
+        for (std::size_t i = 0; i < street.traffic().size(); ++i)
+          has_room = has_room && gap(street, i, robot) > 1.1;
+        if (!has_room) continue;
+        const auto stand = [&](int seconds, double until_near) {
+          for (int i = 0; i < seconds && gap(street, victim, robot) > until_near; ++i) {
+            street.run(1.0, std::nullopt, robot);
+            for (std::size_t other = 0; other < street.traffic().size(); ++other)
+              EXPECT_GT(gap(street, other, robot), 0.0) << street.name(other);
+          }
+        };
+        stand(60, 0.6);
+        const bool met = gap(street, victim, robot) <= 0.6;
+        stand(30, 0.0);
+        // To and fro in an aisle there is an end; round a row there is none.
+        const bool has_no_end =
+            world.things[street.traffic().thing(victim)].route->waypoints.size() > 2;
+        if (!has_no_end || !met) continue;
+        ++rounds;
+        EXPECT_GT(gap(street, victim, robot), 3.0)
+            << street.name(victim) << " in " << preset.name << " at "
+            << street.traffic().mover(victim).place().at.transpose();
+      }
+      street.forgive();
+      street.run(300.0, 200.0);
+      ASSERT_FALSE(HasFailure()) << preset.name << ", seed " << seed;
+    }
+  EXPECT_GT(rounds, 30u);
+}
+
+TEST(Traffic, lets_a_robot_out_of_an_aisle_too_narrow_for_both) {
+  // A loop whose southern side is an aisle of a mover's width, with the robot in the middle of it.
+  Street street(world_of({pallet_robot("loop", through({{0, 0}, {16, 0}, {16, 8}, {0, 8}}))}));
+  Disc robot{{9.0, 0.0}, 0.35};
+  double time = 0.0;
+  const auto run = [&](double seconds) {
+    street.run(seconds, std::nullopt, robot);
+    time += seconds;
+    ASSERT_GT(gap(street, 0, robot), 0.0) << time << " s";
+  };
+  // It drives west, through the mover's way, as soon as it has 2 m of room, and off it at the end.
+  while (robot.centre.x() > -3.0 && time < 180.0) {
+    run(0.1);
+    const bool goes = gap(street, 0, robot) > 2.0;
+    robot.velocity = {goes ? -0.5 : 0.0, 0.0};
+    robot.centre += 0.1 * robot.velocity;
+  }
+  EXPECT_LT(robot.centre.x(), -2.9) << "after " << time << " s";
+  robot.velocity.setZero();
+  street.forgive();
+  street.run(120.0, 30.0, robot);
 }
 
 TEST(Traffic, repeats_bit_for_bit) {

@@ -199,7 +199,7 @@ TEST(World, a_yielding_mover_stops_before_the_robot) {
   WorldDescription description = floor_only();
   description.things.push_back(mover_thing({-4, 0}, {4, 0}, 1.0));
   World world = make(description);
-  EXPECT_TRUE(drive(world, 20.0, {}).empty());
+  EXPECT_TRUE(drive(world, 9.0, {}).empty());
   const double gap = -world.now().movers.at(0).pose.translation().x() - 0.4 - 0.35;
   EXPECT_GT(gap, 0.2);
   EXPECT_LT(gap, 0.6);

@@ -22,8 +22,9 @@ using Polygon = std::vector<Eigen::Vector2d>;
 
 /// A vertical cylinder that may stand in a mover's way.
 struct Disc {
-  Eigen::Vector2d centre;  ///< m, in map
-  double radius;           ///< m
+  Eigen::Vector2d centre;                              ///< m, in map
+  double radius;                                       ///< m
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
 };
 
 /// The horizontal extent of a thing about its origin, in its own frame, and its top.

@@ -18,6 +18,8 @@ struct MoversConfig {
   double turn_rate = 1.0;      ///< rad/s
   double corner_radius = 1.2;  ///< m, at which forklifts round corners where there is room
   double clearance = 0.4;      ///< m, at which they stop before the robot
+  double patience = 8.0;       ///< s, after which one that the robot keeps from going on backs out
+  double back_speed = 0.5;     ///< m/s, at most, backing out
   double pause_spread = 0.3;   ///< share by which a pause varies either way, drawn from the seed
 
   void describe(navvi_config::Visitor& visit);
@@ -28,6 +30,13 @@ struct Crossing {
   std::size_t lane;
   int first;
   int last;
+};
+
+/// A block of a lane whose ground touches a block of another lane, or of its own far along it.
+struct Meeting {
+  int block;
+  std::size_t lane;
+  int other;
 };
 
 /// The way from one refuge to the next, in blocks.
@@ -47,6 +56,7 @@ struct Lane {
   int blocks;
   double block_length;             ///< m
   int spacing = 0;                 ///< blocks between two bodies that surely do not touch
+  std::vector<Meeting> meetings;   ///< ordered by block, lane and other
   std::vector<bool> is_private;    ///< by block
   std::vector<Leg> legs;           ///< in order of their ends; none if all ground is private
   std::vector<std::size_t> users;  ///< indices of Lanes::users, in the order they drive in
@@ -59,6 +69,11 @@ struct Lane {
   [[nodiscard]] double refuge(int block) const {
     return !track.closed() && block + 1 == blocks ? track.length() : (block + 0.5) * block_length;
   }
+  /// Number of the first leg that ends ahead of s.
+  [[nodiscard]] std::size_t leg_after(double s) const;
+  /// What the ground of its blocks from `first` to `last` touches; last may be less than first
+  /// where the track comes round.
+  [[nodiscard]] std::vector<Crossing> crossings(int first, int last) const;
 };
 
 /// A thing with a route, on its lane.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "navvi_sim/lanes.hpp"
@@ -33,11 +34,21 @@ namespace navvi_sim {
 ///
 /// The robot. A mover that the robot keeps from going on gives back what lies ahead of it after a
 /// while and asks anew when the robot is gone, so that a robot that stands still blocks those only
-/// whose way leads over the bodies it stops. Of the movers that stand on shared ground so, the leg
-/// of the one that was given its leg last touched none of the others when it was given, so it can
-/// be given again; likewise, when it is gone, of those that remain. On a shared track the one ahead
-/// was clear of its refuge then, and can only have gone further. Things that start on shared ground
-/// are such movers, in an order that lay_lanes has found.
+/// whose way leads over the bodies it stops. Who is kept for longer still backs out along its own
+/// track, to leave the robot room to pass: to a place that no other lane touches, and, on a shared
+/// track, to a refuge that the one behind was not given and does not need to leave shared ground.
+/// It takes the ground back to there at once, or none of it, by the same rule as a leg. There it
+/// waits until the robot is gone from the ground that it gave up; if the robot stays, it backs out
+/// further.
+///
+/// Movers may so be left standing on shared ground: going on, or backing out with the robot behind.
+/// Each of them keeps asking for the rest of the way it was given last, and who was backing out for
+/// the way on, too. That of the one that was given its way last touched none of the others when it
+/// was given, so it can be given again; likewise, when it is gone, of those that remain. On a
+/// shared track the one ahead was clear of that way then; it can only have gone further, or backed
+/// out to where it is clear of it still, and nobody comes on into ground that the one ahead means
+/// to back out over. Things that start on shared ground are such movers, in an order that lay_lanes
+/// has found. Who backed out stands where those stand who wait, in nobody's way.
 class Traffic {
  public:
   /// \throws WorldError as lay_lanes
@@ -57,31 +68,49 @@ class Traffic {
   [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 
  private:
+  /// Blocks of a track, from first to last, which may run on past its end.
+  struct Way {
+    int first;
+    int last;
+  };
   struct Driver {
     Mover mover;
     const Lane* lane;
-    std::size_t ahead;     ///< user before it on a shared track; itself if there is none
-    std::size_t next = 0;  ///< leg to be asked for
-    double ask_at = 0.0;   ///< m before the end of what it was given, at which it asks for more
-    double kept = 0.0;     ///< s that the robot has kept it from going on
+    double start;            ///< m along the track
+    std::size_t ahead = 0;   ///< user before it on a shared track; itself if there is none
+    std::size_t behind = 0;  ///< user after it, likewise
+    std::size_t next = 0;    ///< leg to be asked for
+    double ask_at = 0.0;     ///< m before the end of what it was given, at which it asks for more
+    double kept = 0.0;       ///< s that the robot has kept it from going on
     bool yields = true;
-    bool asking = false;    ///< is in the line
-    bool claims = false;    ///< asks, and only who drives is in its way
-    bool stranded = false;  ///< stands on shared ground, or did when it last asked
-    bool in_robots_way = false;
+    bool asking = false;     ///< is in the line
+    bool stranded = false;   ///< stands on shared ground, or did when it last asked
+    bool goes_back = false;  ///< was given the way back, and is not there yet
+    bool robot_ahead = false;
+    bool robot_behind = false;
+    std::optional<Way> claim{};       ///< what it asks for, where only who drives is in its way
+    std::optional<double> back_to{};  ///< m along the track, where it means to back out to
+    std::optional<double> gave_up{};  ///< m along the track, where it stood before it backed out
+    double free_since = 0.0;          ///< s that the robot has been gone from there
   };
-  /// What keeps a mover from a leg.
+  /// What keeps a mover from a way.
   enum class Obstacle { none, driving, waiting };
 
   void drive(Driver& driver, const Disc& robot, double dt);
+  [[nodiscard]] double room(Driver& driver, const Disc& robot, double dt);
   void strand(Driver& driver, std::size_t user);
   void ask(std::size_t user);
+  void leave_line(std::size_t user);
   void serve_line();
   void give(std::size_t user);
-  [[nodiscard]] Obstacle obstacle(std::size_t user) const;
+  void give_back(std::size_t user);
+  [[nodiscard]] std::optional<double> place_behind(std::size_t user, const Disc& robot) const;
+  [[nodiscard]] Way way_on(const Driver& driver) const;
+  [[nodiscard]] Way way_back(const Driver& driver) const;
+  [[nodiscard]] Way held(const Driver& driver) const;
+  [[nodiscard]] Obstacle obstacle(std::size_t user, const std::vector<Crossing>& crossings) const;
   [[nodiscard]] bool clear_of_one_ahead(std::size_t user) const;
-  [[nodiscard]] bool holds(const Driver& driver, const Crossing& crossing) const;
-  [[nodiscard]] bool wants(const Driver& driver, const Crossing& crossing) const;
+  [[nodiscard]] bool clear_of_one_behind(std::size_t user, int block) const;
 
   MoversConfig config_;
   Lanes lanes_;
