@@ -148,6 +148,8 @@ def summary(trial):
 def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert session.process.returncode == 0, session.text()[-3000:]
     assert summary(trial)["result"] == "reached"
+    assert "trial_node has ended, and the session with it." in session.text()
+    assert not re.search("died|cleanly|={20}", session.text())
     assert summary(trial)["participant"] == "sub-01"
 
 
