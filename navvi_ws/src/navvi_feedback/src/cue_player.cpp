@@ -85,22 +85,12 @@ class CuePlayer {
 }  // namespace navvi_feedback
 
 int main(int argc, char** argv) {
-  if (navvi_config::tells_parameters<navvi_feedback::PlayerConfig>(argc, argv)) return 0;
+  using navvi_feedback::PlayerConfig;
+  if (navvi_config::tells_parameters<PlayerConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "cue_player");
-  try {
-    ros::NodeHandle keep_alive;
-    navvi_feedback::CuePlayer player(
-        navvi_config::load<navvi_feedback::PlayerConfig>(ros::NodeHandle("~")));
+  return navvi_config::run_node<PlayerConfig>([](const PlayerConfig& config) {
+    const navvi_feedback::CuePlayer player(config);
     ros::spin();
-  } catch (const navvi_config::ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  } catch (const navvi_feedback::DeviceError& error) {
-    ROS_FATAL("%s", error.what());
-    return 3;
-  } catch (const navvi_feedback::SpeakerError& error) {
-    ROS_FATAL("%s", error.what());
-    return 3;
-  }
-  return 0;
+    return 0;
+  });
 }

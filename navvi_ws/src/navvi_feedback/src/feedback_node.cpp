@@ -289,26 +289,16 @@ void spin(FeedbackNode& node) {
 }  // namespace navvi_feedback
 
 int main(int argc, char** argv) {
-  if (navvi_config::tells_parameters<navvi_feedback::NodeConfig>(argc, argv)) return 0;
+  using navvi_feedback::NodeConfig;
+  if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
   // roscpp's own handler would close the topics before the last zero is out.
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { navvi_feedback::g_stop = 1; });
   if (!navvi_feedback::await_master()) return 0;
-  const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is told
-  try {
-    navvi_feedback::FeedbackNode node(
-        navvi_config::load<navvi_feedback::NodeConfig>(ros::NodeHandle("~")));
+  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
+    navvi_feedback::FeedbackNode node(config);
     navvi_feedback::spin(node);
-  } catch (const navvi_config::ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  } catch (const navvi_feedback::DeviceError& error) {
-    ROS_FATAL("%s", error.what());
-    return 3;
-  } catch (const navvi_feedback::SpeakerError& error) {
-    ROS_FATAL("%s", error.what());
-    return 3;
-  }
-  return 0;
+    return 0;
+  });
 }

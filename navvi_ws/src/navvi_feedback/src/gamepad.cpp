@@ -3,12 +3,12 @@
 #include <SDL.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <future>
 #include <mutex>
-#include <thread>
+
+#include "navvi_feedback/device_error.hpp"
+#include "navvi_feedback/device_thread.hpp"
 
 namespace navvi_feedback {
 namespace {
@@ -20,7 +20,6 @@ constexpr auto kPeriod = 8ms;
 constexpr auto kScanPeriod = 100ms;
 constexpr auto kExpiry = 300ms;
 constexpr auto kResend = 100ms;
-constexpr auto kFrozen = 250ms;
 // The first command wakes the motors and, on some pads, jolts: a soft pulse takes it on itself.
 constexpr auto kPrime = 400ms;
 constexpr double kPrimeForce = 0.06;
@@ -126,27 +125,9 @@ class Pad {
 
 }  // namespace
 
-class Gamepad::Pump {
+class Gamepad::Pump final : private ThreadedDevice {
  public:
-  Pump() {
-    std::promise<std::string> started;
-    std::future<std::string> error = started.get_future();
-    thread_ = std::thread([this, &started] { run(started); });
-    const std::string sentence = error.get();
-    if (sentence.empty()) return;
-    thread_.join();
-    throw DeviceError(sentence);
-  }
-  ~Pump() {
-    quit_ = true;
-    thread_.join();
-  }
-
-  InputState input() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    // A pump that hangs has frozen values: they must not go on driving.
-    return Clock::now() - read_time_ <= kFrozen ? input_ : InputState{};
-  }
+  InputState input() const { return thread_.input(); }
   Status status() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return status_;
@@ -158,31 +139,20 @@ class Gamepad::Pump {
   }
 
  private:
-  void run(std::promise<std::string>& started) {
+  void open() override {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
     SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI_PS5_RUMBLE, "1");
-    if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0) {
-      started.set_value(std::string("SDL finds no game controllers: ") + SDL_GetError());
-      return;
-    }
-    step();
-    started.set_value("");
-    while (!quit_) {
-      std::this_thread::sleep_for(kPeriod);
-      step();
-    }
-    if (pad_) pad_->silence();
-    pad_.reset();
-    SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
+    if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
+      throw DeviceError(std::string("SDL finds no game controllers: ") + SDL_GetError());
   }
 
-  void step() {
+  std::optional<InputState> read() override {
     SDL_GameControllerUpdate();
     // State is polled; what piles up in the queue is for nobody.
     SDL_FlushEvents(SDL_JOYAXISMOTION, SDL_CONTROLLERSENSORUPDATE);
     const Clock::time_point now = Clock::now();
-    if (pad_ && !pad_->attached()) close();
+    if (pad_ && !pad_->attached()) forget_pad();
     if (now - scanned_ >= kScanPeriod) {
       scanned_ = now;
       scan();
@@ -191,22 +161,27 @@ class Gamepad::Pump {
     InputState input = pad_ ? pad_->input() : InputState{};
     const std::lock_guard<std::mutex> lock(mutex_);
     input.session = status_.connections;
-    input_ = input;
-    read_time_ = now;
+    return input;
+  }
+
+  void close() override {
+    if (pad_) pad_->silence();
+    pad_.reset();
+    SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
   }
 
   void scan() {
     unsigned others = 0;
     for (int index = 0; index < SDL_NumJoysticks(); ++index) {
       if (!SDL_IsGameController(index)) continue;
-      if (!pad_) open(index);
+      if (!pad_) take_pad(index);
       if (!pad_ || SDL_JoystickGetDeviceInstanceID(index) != pad_->instance()) ++others;
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     status_.others = others;
   }
 
-  void open(int index) {
+  void take_pad(int index) {
     SDL_GameController* controller = SDL_GameControllerOpen(index);
     if (!controller) return;
     pad_ = std::make_unique<Pad>(controller);
@@ -216,7 +191,7 @@ class Gamepad::Pump {
     ++status_.connections;
   }
 
-  void close() {
+  void forget_pad() {
     pad_.reset();
     scanned_ = Clock::now();  // so that the loss is seen before another pad takes over
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -238,17 +213,15 @@ class Gamepad::Pump {
     ++status_.rumble_errors;
   }
 
-  std::thread thread_;
-  std::atomic<bool> quit_{false};
   std::unique_ptr<Pad> pad_;     // the thread's own
   Clock::time_point scanned_{};  // the thread's own
 
   mutable std::mutex mutex_;
-  InputState input_;
-  Clock::time_point read_time_{};
   Status status_;
   Rumble wish_;
   Clock::time_point wish_time_{};
+
+  DeviceThread thread_{*this, kPeriod};  // the last, for it uses all the others
 };
 
 Gamepad::Gamepad() : pump_(std::make_unique<Pump>()) {}

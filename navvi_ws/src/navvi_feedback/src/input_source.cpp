@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 
+#include "navvi_feedback/device_error.hpp"
+
 namespace navvi_feedback {
 namespace {
 

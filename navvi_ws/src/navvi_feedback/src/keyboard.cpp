@@ -2,21 +2,18 @@
 
 #include <SDL.h>
 
-#include <atomic>
 #include <chrono>
-#include <future>
-#include <mutex>
 #include <string>
-#include <thread>
+
+#include "navvi_feedback/device_error.hpp"
+#include "navvi_feedback/device_thread.hpp"
 
 namespace navvi_feedback {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 10ms;
-constexpr auto kFrozen = 250ms;
 constexpr const char* kTitle = "NavVI - arrow keys drive, space repeats, G says where the goal is";
 
 /// SDL also has video drivers that nobody sees, and falls back on them.
@@ -41,86 +38,48 @@ InputState read_keys(bool focused) {
 
 }  // namespace
 
-class Keyboard::Window {
+class Keyboard::Window final : private ThreadedDevice {
  public:
-  Window() {
-    std::promise<std::string> started;
-    std::future<std::string> error = started.get_future();
-    thread_ = std::thread([this, &started] { run(started); });
-    const std::string sentence = error.get();
-    if (sentence.empty()) return;
-    thread_.join();
-    throw DeviceError(sentence);
-  }
-  ~Window() {
-    quit_ = true;
-    thread_.join();
-  }
-
-  InputState input() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return Clock::now() - read_time_ <= kFrozen ? input_ : InputState{};
-  }
+  InputState input() const { return thread_.input(); }
 
  private:
-  // SDL wants its window, its events and its end in one thread.
-  void run(std::promise<std::string>& started) {
+  void open() override {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     const std::string no_display = "The keyboard needs a display, and there is none. ";
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) {
-      started.set_value(no_display + SDL_GetError());
-      return;
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) throw DeviceError(no_display + SDL_GetError());
+    if (visible()) {
+      window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 640, 80,
+                                 SDL_WINDOW_SHOWN);
     }
-    if (!visible()) {
+    if (!window_) {
+      const std::string why =
+          visible() ? std::string("The keyboard's window does not open: ") + SDL_GetError()
+                    : no_display + "Is DISPLAY set?";
       SDL_QuitSubSystem(SDL_INIT_VIDEO);
-      started.set_value(no_display + "Is DISPLAY set?");
-      return;
+      throw DeviceError(why);
     }
-    SDL_Window* window = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                          640, 80, SDL_WINDOW_SHOWN);
-    if (!window) {
-      const std::string sentence =
-          std::string("The keyboard's window does not open: ") + SDL_GetError();
-      SDL_QuitSubSystem(SDL_INIT_VIDEO);
-      started.set_value(sentence);
-      return;
-    }
-    SDL_RaiseWindow(window);
-    started.set_value("");
-    bool open = true;
-    while (!quit_ && open) {
-      open = step(window);
-      std::this_thread::sleep_for(kPeriod);
-    }
-    store(InputState{});
-    SDL_DestroyWindow(window);
-    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    SDL_RaiseWindow(window_);
   }
 
-  /// \return false once the window was closed
-  bool step(SDL_Window* window) {
+  /// Nothing once the window was closed.
+  std::optional<InputState> read() override {
     SDL_Event event;
     while (SDL_PollEvent(&event)) {
       const bool close =
           event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
-      if (close || event.type == SDL_QUIT) return false;
+      if (close || event.type == SDL_QUIT) return std::nullopt;
     }
-    store(read_keys((SDL_GetWindowFlags(window) & SDL_WINDOW_INPUT_FOCUS) != 0));
-    return true;
+    return read_keys((SDL_GetWindowFlags(window_) & SDL_WINDOW_INPUT_FOCUS) != 0);
   }
 
-  void store(const InputState& input) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    input_ = input;
-    read_time_ = Clock::now();
+  void close() override {
+    SDL_DestroyWindow(window_);
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
   }
 
-  std::thread thread_;
-  std::atomic<bool> quit_{false};
-  mutable std::mutex mutex_;
-  InputState input_;
-  Clock::time_point read_time_{};
+  SDL_Window* window_ = nullptr;         // the thread's own
+  DeviceThread thread_{*this, kPeriod};  // the last, for it uses the window
 };
 
 Keyboard::Keyboard() : window_(std::make_unique<Window>()) {}

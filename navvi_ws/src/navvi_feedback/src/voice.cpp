@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "navvi_feedback/speaker.hpp"
+#include "navvi_feedback/device_error.hpp"
 
 namespace navvi_feedback {
 namespace {
@@ -62,17 +62,17 @@ int initialize() {
 }  // namespace
 
 Voice::Voice(const std::string& name, int rate) {
-  if (in_use.exchange(true)) throw SpeakerError("There is a speaker already in this process.");
+  if (in_use.exchange(true)) throw DeviceError("There is a speaker already in this process.");
   sample_rate_ = initialize();
   if (sample_rate_ <= 0) {
     in_use = false;
-    throw SpeakerError("espeak-ng could not be started; is the package espeak-ng-data installed?");
+    throw DeviceError("espeak-ng could not be started; is the package espeak-ng-data installed?");
   }
   if (espeak_SetVoiceByName(name.c_str()) != EE_OK ||
       espeak_SetParameter(espeakRATE, rate, 0) != EE_OK) {
     in_use = false;
-    throw SpeakerError("espeak-ng has no voice \"" + name + "\" at " + std::to_string(rate) +
-                       " words a minute.");
+    throw DeviceError("espeak-ng has no voice \"" + name + "\" at " + std::to_string(rate) +
+                      " words a minute.");
   }
 }
 

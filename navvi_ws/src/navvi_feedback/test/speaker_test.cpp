@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "navvi_feedback/device_error.hpp"
 #include "navvi_feedback/speech_channel.hpp"
 
 namespace navvi_feedback {
@@ -91,12 +92,12 @@ TEST(SpeakerConfig, AllowsNoRateThatTheVoiceDoesNotKeep) {
 TEST(Speaker, RefusesAVoiceThatThereIsNot) {
   SpeakerConfig config;
   config.voice = "no-such-voice";
-  EXPECT_THROW(Speaker(config, Audio::off), SpeakerError);
+  EXPECT_THROW(Speaker(config, Audio::off), DeviceError);
 }
 
 TEST(Speaker, IsOneAtATime) {
   const Speaker speaker(SpeakerConfig{}, Audio::off);
-  EXPECT_THROW(Speaker(SpeakerConfig{}, Audio::off), SpeakerError);
+  EXPECT_THROW(Speaker(SpeakerConfig{}, Audio::off), DeviceError);
 }
 
 TEST(Speaker, KeepsQuietForAsLongAsSpeakingTakesWhenItHasNoDevice) {

@@ -258,15 +258,13 @@ class NavNode {
 }  // namespace navvi_nav
 
 int main(int argc, char** argv) {
-  if (navvi_config::tells_parameters<navvi_nav::NodeConfig>(argc, argv)) return 0;
+  using navvi_nav::NodeConfig;
+  if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "nav_node");
-  ros::NodeHandle node;
-  try {
-    navvi_nav::NavNode nav(node, navvi_config::load<navvi_nav::NodeConfig>(ros::NodeHandle("~")));
+  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
+    ros::NodeHandle node;
+    const navvi_nav::NavNode nav(node, config);
     ros::spin();
-  } catch (const navvi_config::ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -7,12 +7,12 @@
 #include <navvi_safety/msg_conversion.hpp>
 
 int main(int argc, char** argv) {
-  if (navvi_config::tells_parameters<navvi_safety::CommandGateConfig>(argc, argv)) return 0;
+  using navvi_safety::CommandGateConfig;
+  if (navvi_config::tells_parameters<CommandGateConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "relay_node");
-  ros::NodeHandle node;
-  try {
-    navvi_safety::CommandGate gate(
-        navvi_config::load<navvi_safety::CommandGateConfig>(ros::NodeHandle("~")));
+  return navvi_config::run_node<CommandGateConfig>([](const CommandGateConfig& config) {
+    ros::NodeHandle node;
+    navvi_safety::CommandGate gate(config);
     ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("robot/cmd_vel", 1);
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
     ros::Subscriber commands = node.subscribe<geometry_msgs::Twist>(
@@ -31,9 +31,6 @@ int main(int argc, char** argv) {
         });
     ros::spin();
     wheels.publish(geometry_msgs::Twist());
-  } catch (const navvi_config::ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -238,25 +238,25 @@ void SimNode::publish_record() {
   }
 }
 
+/// \throws ConfigError with a sentence for whoever chose the world
+int run(const SimNodeConfig& config) try {
+  LoadedWorld loaded = load_world(config);
+  if (!loaded.rules.empty())
+    ROS_INFO("what the models of the world are:\n%s", thing_table(loaded, 100).c_str());
+  const SimNode sim(config, std::move(loaded));
+  ros::spin();
+  return sim.exit_code();
+} catch (const WorldError& error) {
+  throw navvi_config::ConfigError(error.what());
+}
+
 }  // namespace
 }  // namespace navvi_sim
 
 int main(int argc, char** argv) {
-  if (navvi_config::tells_parameters<navvi_sim::SimNodeConfig>(argc, argv)) return 0;
+  using navvi_sim::SimNodeConfig;
+  if (navvi_config::tells_parameters<SimNodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "sim_node");
-  ros::NodeHandle node;
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
-  try {
-    const auto config = navvi_config::load<navvi_sim::SimNodeConfig>(ros::NodeHandle("~"));
-    navvi_sim::LoadedWorld loaded = navvi_sim::load_world(config);
-    if (!loaded.rules.empty())
-      ROS_INFO("what the models of the world are:\n%s", thing_table(loaded, 100).c_str());
-    navvi_sim::SimNode sim(config, std::move(loaded));
-    ros::spin();
-    return sim.exit_code();
-  } catch (const std::exception& error) {
-    // ConfigError and WorldError: sentences for whoever chose the world and the parameters.
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
+  return navvi_config::run_node<SimNodeConfig>(navvi_sim::run);
 }

@@ -34,9 +34,8 @@ double now() { return ros::Time::now().toSec(); }
 int main(int argc, char** argv) {
   if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "operator_node");
-  ros::NodeHandle node;
-  try {
-    const auto config = navvi_config::load<NodeConfig>(ros::NodeHandle("~"));
+  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
+    ros::NodeHandle node;
     navvi_study::SimulatedOperator person(config.hand, static_cast<std::uint64_t>(config.seed));
     double left = 0.0;
     double right = 0.0;
@@ -66,9 +65,6 @@ int main(int argc, char** argv) {
           joy.publish(navvi_study::to_msg(hand, ros::Time::now()));
         });
     ros::spin();
-  } catch (const navvi_config::ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -18,25 +18,18 @@ void ask_to_stop(int) { asked_to_stop = 1; }
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (navvi_config::tells_parameters<navvi_study::TrialNodeConfig>(argc, argv)) return 0;
+  using navvi_study::TrialNodeConfig;
+  if (navvi_config::tells_parameters<TrialNodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "trial_node", ros::init_options::NoSigintHandler);
-  ros::NodeHandle node;
   signal(SIGINT, ask_to_stop);
   signal(SIGTERM, ask_to_stop);
   signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error of write(), as any other
-  try {
-    navvi_study::TrialNode trials(
-        navvi_config::load<navvi_study::TrialNodeConfig>(ros::NodeHandle("~")));
+  return navvi_config::run_node<TrialNodeConfig>([](const TrialNodeConfig& config) {
+    navvi_study::TrialNode trials(config);
     while (ros::ok()) {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
       if (asked_to_stop) trials.shut_down();
     }
     return trials.exit_code();
-  } catch (const navvi_config::ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
-  } catch (const std::runtime_error& error) {
-    ROS_FATAL("%s", error.what());
-    return 3;
-  }
+  });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/console.h>
 #include <ros/node_handle.h>
 
 #include "navvi_config/reader.hpp"
@@ -17,6 +18,24 @@ template <typename Config>
   Config config;
   read(config, parameters(node), "the parameters of " + node.getNamespace());
   return config;
+}
+
+/// What is left of a node's main() once ros::init was called: runs `body` with the parameters. What
+/// is thrown is told as a fatal error.
+/// \param body  takes a Config, returns the exit code
+/// \return the exit code: 2 if a parameter is refused, 3 if something else cannot be used
+template <typename Config, typename Body>
+[[nodiscard]] int run_node(const Body& body) {
+  const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is told
+  try {
+    return body(load<Config>(ros::NodeHandle("~")));
+  } catch (const ConfigError& error) {
+    ROS_FATAL("%s", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 3;
+  }
 }
 
 }  // namespace navvi_config

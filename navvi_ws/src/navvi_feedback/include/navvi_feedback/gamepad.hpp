@@ -1,18 +1,12 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "navvi_feedback/haptics.hpp"
 #include "navvi_feedback/input_state.hpp"
 
 namespace navvi_feedback {
-
-class DeviceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The first game controller that is there, or comes (R-HAP-5). It keeps control until it is
 /// detached; others are counted and ignored. One thread of its own opens, reads and pumps it: a

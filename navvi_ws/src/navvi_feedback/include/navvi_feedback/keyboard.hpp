@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "navvi_feedback/gamepad.hpp"
 #include "navvi_feedback/input_state.hpp"
 
 namespace navvi_feedback {

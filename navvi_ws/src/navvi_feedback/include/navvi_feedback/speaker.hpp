@@ -24,11 +24,6 @@ enum class Audio {
   off  ///< silent by intent: no device is opened
 };
 
-class SpeakerError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// The voice: espeak-ng into OpenAL Soft. It owns the device, the library and one thread. Without a
 /// device it keeps quiet for as long as speaking would take, so that the times of the cues stay
 /// true, and tries again to open one. There is one Speaker in a process at a time.
@@ -48,7 +43,7 @@ class Speaker {
     unsigned failed = 0;  ///< texts that the synthesizer refused
   };
 
-  /// \throws SpeakerError with a sentence if the voice cannot be loaded
+  /// \throws DeviceError with a sentence if the voice cannot be loaded
   Speaker(const SpeakerConfig& config, Audio audio);
   ~Speaker();
   Speaker(const Speaker&) = delete;

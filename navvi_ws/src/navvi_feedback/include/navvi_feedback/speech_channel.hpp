@@ -10,7 +10,7 @@ namespace navvi_feedback {
 /// The queue and the voice together.
 class SpeechChannel {
  public:
-  /// \throws SpeakerError as Speaker does
+  /// \throws DeviceError as Speaker does
   SpeechChannel(const SpeakerConfig& config, Audio audio) : speaker_(config, audio) {}
 
   /// Call it at 50 Hz. Returns what happened to which cue, in order; each event is to be published.

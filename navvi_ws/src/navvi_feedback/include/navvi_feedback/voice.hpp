@@ -21,7 +21,7 @@ struct Sound {
 class Voice {
  public:
   /// \param name  of an espeak-ng voice, such as "en" \param rate  words a minute, 80..449
-  /// \throws SpeakerError if the library, its data or the voice cannot be loaded, or if another
+  /// \throws DeviceError if the library, its data or the voice cannot be loaded, or if another
   /// Voice lives
   Voice(const std::string& name, int rate);
   ~Voice();
