@@ -4,7 +4,19 @@ namespace navvi_nav {
 namespace {
 
 constexpr double kNearPath = 1.5;  // m, who is farther off heads for the way-point itself
+constexpr double kSlack = 0.02;    // m, of room that need not be kept
+constexpr double kCut = 0.2;       // m, a leg with less room is cut
+constexpr double kSample = 0.1;    // m
 constexpr double kOnPath = 0.5;    // m, who is nearer to a later leg has passed its start
+
+/// m, from the segment to the nearest thing, sampled.
+double least_room(Point a, Point b, const Space& space) {
+  const int samples = std::max(1, static_cast<int>(std::ceil(distance(a, b) / kSample)));
+  double least = space.clearance(a);
+  for (int i = 1; i <= samples; ++i)
+    least = std::min(least, space.clearance(a + (1.0 * i / samples) * (b - a)));
+  return least;
+}
 
 }  // namespace
 
@@ -43,7 +55,7 @@ Path Guidance::remaining(Point robot) const {
 
 bool Guidance::sees(Point robot, Point target, const Space& space) const {
   // A robot that already stands nearer to something must still be able to go on.
-  const double own = space.clearance(robot) - 0.02;
+  const double own = space.clearance(robot) - kSlack;
   return space.segment_clear(robot, target, std::max(0.0, std::min(config_.sight_radius, own)));
 }
 
@@ -51,8 +63,23 @@ bool Guidance::reached(Point robot, const Space& space) const {
   const double away = distance(robot, path_[next_]);
   if (away > config_.waypoint_reached) return false;
   const Point after = path_[next_ + 1];
-  return space.segment_clear(robot, after, config_.easy_radius) ||
-         (away <= config_.close && sees(robot, after, space));
+  if (space.segment_clear(robot, after, config_.easy_radius)) return true;
+  return away <= config_.close && leaves_corner(robot, space);
+}
+
+/// True if a robot close to the next way-point may turn to the one after. More room than the leg
+/// between them has is not asked for, and where something moving stands in that leg, whoever waits
+/// there waits at the corner as well as anywhere.
+bool Guidance::leaves_corner(Point robot, const Space& space) const {
+  const Point corner = path_[next_];
+  const Point after = path_[next_ + 1];
+  if (sees(robot, after, space)) return true;
+  const std::vector<Cylinder> none;
+  const Space still{space.floor, &none};
+  const bool cut = least_room(corner, after, space) < kCut;
+  const Space& known = cut ? still : space;
+  const double room = std::min(known.clearance(robot), least_room(corner, after, known)) - kSlack;
+  return room > 0.0 && known.segment_clear(robot, after, std::min(room, config_.sight_radius));
 }
 
 void Guidance::advance(const Pose& robot, const Space& space) {

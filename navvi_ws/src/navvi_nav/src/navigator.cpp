@@ -305,6 +305,8 @@ void Navigator::change_path(const Plan& plan, Reason reason, double time) {
   if (guidance_.following() && pose_) {
     const double moved = Churn::moved(guidance_.remaining(pose_->position), plan.path);
     churn_.add(time, moved);
+    if (moved > 0.0 && reason != Reason::new_goal && reason != Reason::map_changed)
+      policy_.chose(time);
     if (moved > kElsewhere) {
       ++reroutes_;
       reroute_reason_ = reason;

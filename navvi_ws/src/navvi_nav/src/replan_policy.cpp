@@ -4,6 +4,7 @@ namespace navvi_nav {
 namespace {
 
 constexpr double kMoved = 0.1;  // m, what moved less has not left its place
+constexpr double kLetGo = 0.5;  // s, who was told to wait goes on only after it was clear so long
 constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robot on its rim
 
 }  // namespace
@@ -39,17 +40,15 @@ void ReplanPolicy::reset() {
   slow_since_.reset();
   hold_.reset();
   way_ = {};
+  wait_.reset();
   near_.clear();
   near_pending_ = false;
 }
 
 bool ReplanPolicy::holds(double time, const Path& followed, const Path& fresh,
                          const std::vector<Cylinder>& obstacles, double pace) {
-  return hold_.keeps(time, ahead_.judge(followed, obstacles, pace), followed, fresh);
-}
-
-std::optional<Way::Wait> ReplanPolicy::waits_for() const {
-  return hold_.must_wait(way_) ? way_.wait : std::nullopt;
+  return hold_.keeps(time, {followed, ahead_.judge(followed, obstacles, pace)},
+                     {fresh, ahead_.judge(fresh, obstacles, pace)});
 }
 
 std::optional<Way::Wait> ReplanPolicy::closed_by(const Path& path,
@@ -80,6 +79,12 @@ std::optional<Reason> ReplanPolicy::update(const ReplanInput& input) {
                     (!last_slow_ || input.time - *last_slow_ >= config_.period);
   near_pending_ = note_near(input) || near_pending_;
   way_ = ahead_.judge(input.remaining, input.obstacles, input.pace);
+  if (hold_.must_wait(way_)) {
+    wait_ = way_.wait;
+    wait_time_ = input.time;
+  } else if (input.time - wait_time_ > kLetGo) {
+    wait_.reset();
+  }
   const std::optional<Reason> reason = choose(input, slow, hold_.waits(input.time, way_));
   if (!reason) return reason;
   last_plan_ = input.time;
@@ -123,8 +128,8 @@ std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow, 
     if (distance(input.robot.position, next) <= config_.way.look_ahead &&
         ahead_.taken(next, input.obstacles))
       return Reason::waypoint_blocked;
-    const bool avoids =
-        config_.hold.hold_time > 0.0 && way_.state == Way::State::comes && since >= config_.period;
+    const bool avoids = config_.hold.hold_time > 0.0 && since >= config_.period &&
+                        (way_.state == Way::State::comes || (way_.hits_waiting && std::isfinite(way_.hits_in)));
     if (avoids || blocked(input.remaining, input.obstacles)) return Reason::path_carved;
   }
   if (!near_pending_ && !slow && since < config_.period) return std::nullopt;

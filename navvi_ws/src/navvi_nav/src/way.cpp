@@ -9,10 +9,13 @@ namespace {
 constexpr double kTick = 0.25;      // s, of looking ahead
 constexpr double kStopRoom = 0.1;   // m, from who waits to what passes
 constexpr double kNotice = 1.0;     // s, what will cut the path so soon cuts it
-constexpr double kElbowRoom = 0.3;  // m, between hulls that pass each other
+constexpr double kElbowRoom = 0.2;  // m, between hulls that pass each other
 constexpr double kHeadway = 1.5;    // m, that what goes on ahead must keep before the robot
+constexpr double kSpare = 0.05;     // m, for paths that are not quite followed
+constexpr double kLate = 1.0;       // s, so much later a robot may be
 constexpr double kSame = 1e-6;      // m
 constexpr double kGained = 0.5;     // m, that what goes on ahead must have gained
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The point `along` m down the path, or its end.
 Point point_at(const Path& path, double along) {
@@ -36,7 +39,7 @@ struct WayAhead::Thing {
   [[nodiscard]] Point velocity() const { return first->velocity; }
   /// m, from a point to its hull in so many s
   [[nodiscard]] double gap(Point point, double later) const {
-    double best = std::numeric_limits<double>::infinity();
+    double best = kNever;
     for (const Cylinder& part : *this)
       best = std::min(best, distance(point, part.center + later * velocity()) - part.radius);
     return best;
@@ -56,10 +59,12 @@ struct WayAhead::Thing {
 /// What one thing does to a path.
 struct WayAhead::Meeting {
   Way::State state = Way::State::free;
-  double at = 0.0;         ///< m, along the path to the first cut
-  double meets_in = 0.0;   ///< s
-  double clears_in = 0.0;  ///< s, until it has left the path
-  bool hits_going = false;
+  double at = 0.0;          ///< m, along the path to the first cut
+  double meets_in = 0.0;    ///< s
+  double clears_in = 0.0;   ///< s, until it has left the path
+  double hits_in = kNever;  ///< s
+  bool touches = false;     ///< it does so with no room at all
+  bool ends = true;         ///< it leaves the path
   bool hits_waiting = false;
 };
 
@@ -134,7 +139,7 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
   Meeting out;
   const std::optional<double> now = cut_at(path, thing, 0.0);
   if (norm(thing.velocity()) <= config_.standing_speed) {
-    if (now) out = {Way::State::stands, *now, 0.0, 0.0, false, false};
+    if (now) out = {Way::State::stands, *now, 0.0, 0.0, *now / pace};
     return out;
   }
   const double touch = config_.robot_radius;
@@ -147,7 +152,11 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
     out.hits_waiting = out.hits_waiting || thing.gap(path.front(), t) < touch + kStopRoom;
     const std::optional<double> cut = cut_at(path, thing, t);
     if (!cut) continue;
-    out.hits_going = out.hits_going || thing.gap(point_at(path, pace * t), t) < touch + kElbowRoom;
+    const double near = touch + kElbowRoom;
+    const bool hits = thing.gap(point_at(path, pace * t), t) < near ||
+                      (t > kLate && thing.gap(point_at(path, pace * (t - kLate)), t) < near);
+    if (hits) out.hits_in = std::min(out.hits_in, t);
+    out.touches = out.touches || thing.gap(point_at(path, pace * t), t) < touch + kStopRoom;
     if (!first) {
       first = cut;
       noticed = t;
@@ -160,24 +169,24 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
   out.at = *first;
   out.clears_in = last_time + kTick;
   out.meets_in = *first / (pace + norm(thing.velocity()));
-  if (out.clears_in <= config_.foresight + 1e-9 || (keeps_ahead && *last >= *first + kGained)) {
-    if (noticed <= kNotice + 1e-9) out.state = Way::State::clears;
-    if (out.hits_going && out.hits_waiting) out.state = Way::State::comes;
-  } else {
-    out.hits_going = false;  // there is no end to wait for
-    if (now) out.state = Way::State::comes;
-  }
+  out.ends =
+      out.clears_in <= config_.foresight + 1e-9 || (keeps_ahead && *last >= *first + kGained);
+  if (out.ends && noticed <= kNotice + 1e-9) out.state = Way::State::clears;
+  if (!out.ends && now) out.state = Way::State::comes;
   return out;
 }
 
 Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, double pace) const {
   Way out;
-  bool may_wait = true;
+  bool touches = false;
   if (path.size() < 2) return out;
   Thing::each(obstacles, [&](const Thing& thing) {
     const Meeting one = meet(path, thing, pace);
-    may_wait = may_wait && !one.hits_waiting;
-    if (one.hits_going && (!out.wait || one.at < out.wait->at))
+    touches = touches || one.touches;
+    out.hits_in = std::min(out.hits_in, one.hits_in);
+    out.hits_waiting = out.hits_waiting || one.hits_waiting;
+    const bool crosses = one.ends && one.hits_in < kNever && one.state != Way::State::stands;
+    if (crosses && (!out.wait || one.at < out.wait->at))
       out.wait = Way::Wait{thing.first->id, one.at, one.clears_in};
     if (one.state == Way::State::free) return;
     if (out.state == Way::State::free || one.at < out.at) out.at = one.at;
@@ -185,7 +194,7 @@ Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, do
       out.meets_in = one.meets_in;
     out.state = std::max(out.state, one.state);
   });
-  if (!may_wait) out.wait.reset();
+  if (out.hits_waiting && !touches) out.wait.reset();
   return out;
 }
 
@@ -195,13 +204,16 @@ std::vector<Cylinder> WayAhead::foreseen(const Path& path, const std::vector<Cyl
   if (path.size() < 2) return out;
   Thing::each(obstacles, [&](const Thing& thing) {
     const Meeting one = meet(path, thing, pace);
-    if (one.state != Way::State::comes) return;
+    const bool evades = one.ends && one.hits_waiting && one.hits_in < kNever;
+    if (one.state != Way::State::comes && !evades) return;
+    const double end = evades ? one.clears_in : one.meets_in + kLate;
     const double step = thing.first->radius / norm(thing.velocity());  // s
     const double spare = 2.0 * config_.robot_radius + kElbowRoom;
-    for (double t = std::min(step, one.meets_in); t <= one.meets_in + 1e-9; t += step) {
+    for (double t = std::min(step, end); t <= end + 1e-9; t += step) {
       if (thing.gap(path.front(), t) < spare) break;
       for (Cylinder part : thing) {
         part.center = part.center + t * part.velocity;
+        part.radius += kElbowRoom + kSpare;
         out.push_back(part);
       }
     }

@@ -2,20 +2,29 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace navvi_nav {
 namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A path of 13 m, and ways around what cuts it.
 class Holding : public testing::Test {
  protected:
   static Way way(Way::State state, double meets_in = 10.0) {
-    return {state, 4.0, meets_in, std::nullopt};
+    Way way;
+    way.state = state;
+    way.at = 4.0;
+    way.meets_in = meets_in;
+    way.hits_in = state == Way::State::clears ? kNever : 1.0;
+    return way;
   }
   /// Asks every 0.5 s. \returns s for which a path is kept after a search
   double kept(const Path& fresh, const Way& way) {
     Hold hold(config_);
     double time = 10.0;
-    while (time < 30.0 && hold.keeps(time, way, followed_, fresh)) time += 0.5;
+    while (time < 30.0 && hold.keeps(time, {followed_, way}, {fresh, {}})) time += 0.5;
     return time - 10.0;
   }
   const Path followed_ = {{0, 0}, {5, 0}, {5, 8}};
@@ -30,12 +39,11 @@ TEST_F(Holding, waits_for_what_crosses_whatever_else_there_is) {
     EXPECT_DOUBLE_EQ(kept(fresh, way(Way::State::clears)), config_.hold_time);
 }
 
-TEST_F(Holding, leads_nobody_back_for_what_comes_from_afar_but_takes_another_way) {
-  EXPECT_DOUBLE_EQ(kept(back_, way(Way::State::comes, 10.0)), config_.hold_time);
-  EXPECT_DOUBLE_EQ(kept({}, way(Way::State::comes, 10.0)), config_.hold_time);
-  EXPECT_DOUBLE_EQ(kept(back_, way(Way::State::comes, 3.0)), 0.0);
-  EXPECT_DOUBLE_EQ(kept(slight_, way(Way::State::comes, 10.0)), 0.0);
-  EXPECT_DOUBLE_EQ(kept(longer_, way(Way::State::comes, 10.0)), 0.0);
+TEST_F(Holding, evades_what_comes_only_when_it_is_close) {
+  for (const Path& fresh : {longer_, back_, slight_, Path{}}) {
+    EXPECT_DOUBLE_EQ(kept(fresh, way(Way::State::comes, 10.0)), config_.hold_time);
+    EXPECT_DOUBLE_EQ(kept(fresh, way(Way::State::comes, 3.0)), 0.0);
+  }
 }
 
 TEST_F(Holding, does_not_wait_for_what_stands) {
@@ -63,8 +71,44 @@ TEST_F(Holding, makes_a_person_wait_only_for_what_crosses_right_before_them) {
   crossed.wait->at = 8.0;
   EXPECT_FALSE(hold.must_wait(crossed));
   crossed.wait->at = 2.0;
-  crossed.state = Way::State::stands;  // waiting for the one does not help with the other
-  EXPECT_FALSE(hold.must_wait(crossed));
+  crossed.state = Way::State::stands;  // what else there may be
+  EXPECT_TRUE(hold.must_wait(crossed));
+}
+
+TEST_F(Holding, evades_what_runs_into_who_waits_if_there_is_a_safer_way) {
+  Way crossed = way(Way::State::clears);
+  crossed.wait = Way::Wait{1, 2.0, 1.5};
+  crossed.hits_waiting = true;
+  crossed.hits_in = 2.0;
+  EXPECT_DOUBLE_EQ(kept(slight_, crossed), 0.0);
+  EXPECT_DOUBLE_EQ(kept({}, crossed), config_.hold_time);
+}
+
+TEST_F(Holding, keeps_what_was_just_chosen_unless_something_would_be_run_into) {
+  for (const double hits_in : {kNever, 4.0, 2.0}) {
+    Hold hold(config_);
+    Way cut = way(Way::State::stands);
+    cut.hits_in = hits_in;
+    const auto kept = [&](double time) {
+      return hold.keeps(time, {followed_, cut}, {longer_, {}});
+    };
+    EXPECT_FALSE(kept(10.0));
+    hold.chose(10.0);
+    EXPECT_EQ(kept(10.5), hits_in > config_.hold_choice);
+    EXPECT_EQ(kept(12.9), hits_in > config_.hold_choice);
+    EXPECT_FALSE(kept(13.1));
+  }
+}
+
+TEST_F(Holding, leads_nobody_before_something_that_moves) {
+  Hold hold(config_);
+  Way before;
+  before.hits_in = 2.0;
+  Way cut = way(Way::State::comes, 3.0);
+  cut.hits_in = 3.5;
+  EXPECT_TRUE(hold.keeps(10.0, {followed_, cut}, {slight_, before}));
+  cut.hits_in = 1.5;
+  EXPECT_FALSE(hold.keeps(10.0, {followed_, cut}, {slight_, before}));
 }
 
 TEST_F(Holding, never_waits_with_no_time_to) {

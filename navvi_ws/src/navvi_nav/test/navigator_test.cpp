@@ -327,6 +327,31 @@ TEST(Guidance, keeps_a_corner_that_would_be_cut_through_a_shelf) {
   EXPECT_EQ(guidance.next_waypoint(), (Point{4.6, 6.6}));
 }
 
+TEST(Guidance, passes_a_corner_whose_next_leg_has_no_more_room_than_the_robot_needs) {
+  SmallWorld world;
+  world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
+  NavMesh mesh(NavMeshConfig{});
+  ASSERT_EQ(mesh.set_map(world.tree()).error, "");
+  Guidance guidance{GuidanceConfig{}};
+  guidance.follow({{1.0, 1.0}, {1.0, 6.36}, {4.4, 6.36}, {4.4, 1.0}});
+  guidance.advance({{1.1, 6.4}, 0.0}, mesh.space());
+  EXPECT_EQ(guidance.next_waypoint(), (Point{4.4, 6.36}));
+}
+
+TEST(Guidance, passes_a_corner_though_something_moving_stands_in_the_next_leg) {
+  SmallWorld world;
+  world.room(8, 8);
+  NavMesh mesh(NavMeshConfig{});
+  ASSERT_EQ(mesh.set_map(world.tree()).error, "");
+  mesh.carve({{1, {4, 6}, 0.5, {}}});
+  Guidance guidance{GuidanceConfig{}};
+  guidance.follow({{1, 1}, {1, 6}, {7, 6}});
+  guidance.advance({{1.0, 5.2}, 0.0}, mesh.space());
+  EXPECT_EQ(guidance.next_waypoint(), (Point{1, 6}));
+  guidance.advance({{1.1, 5.8}, 0.0}, mesh.space());
+  EXPECT_EQ(guidance.next_waypoint(), (Point{7, 6}));
+}
+
 TEST(Guidance, does_not_arrive_through_a_wall) {
   SmallWorld world;
   world.room(8, 8).box(4, 0, 0, 4.05, 6, 1.0);

@@ -66,7 +66,8 @@ TEST_F(Ahead, tells_to_wait_for_what_would_be_run_into_and_not_where_it_would_ru
   EXPECT_FALSE(judge({forklift({9.0, -2.5}, {0, 1.0})}).wait);
   Cylinder other = forklift({0, 3}, {0, -1.0});
   other.id = 8;
-  EXPECT_FALSE(judge({forklift({2.5, -2.5}, {0, 1.0}), other}).wait);
+  EXPECT_FALSE(way.hits_waiting);
+  EXPECT_TRUE(judge({forklift({2.5, -2.5}, {0, 1.0}), other}).hits_waiting);
 }
 
 TEST_F(Ahead, foresees_where_what_comes_will_be_until_it_is_met) {

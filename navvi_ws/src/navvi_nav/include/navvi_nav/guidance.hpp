@@ -43,8 +43,8 @@ class Guidance {
   [[nodiscard]] Point next_waypoint() const { return path_[next_]; }
 
   /// Passes on to the next way-point where the robot is near enough and the straight way to the
-  /// one after has easy_radius of room, or sight_radius once it is `close`; a corner that it could
-  /// only cut through something stays. following() must hold.
+  /// one after has easy_radius of room, or sight_radius, or what the leg has, once it is `close`; a
+  /// corner that it could only cut through something stays. following() must hold.
   void advance(const Pose& robot, const Space& space);
   /// True if the robot is near enough to the goal and nothing stands in between.
   [[nodiscard]] bool arrived(const Pose& robot, const Space& space) const;
@@ -57,6 +57,7 @@ class Guidance {
  private:
   [[nodiscard]] bool sees(Point robot, Point target, const Space& space) const;
   [[nodiscard]] Point steer_point(Point robot) const;
+  [[nodiscard]] bool leaves_corner(Point robot, const Space& space) const;
   [[nodiscard]] bool reached(Point robot, const Space& space) const;
 
   GuidanceConfig config_;

@@ -77,8 +77,10 @@ class ReplanPolicy {
   /// -1: nobody knows.
   [[nodiscard]] std::optional<Way::Wait> closed_by(const Path& path,
                                                    const std::vector<Cylinder>& obstacles) const;
+  /// The path that is followed from now on was chosen because of what moves.
+  void chose(double time) { hold_.chose(time); }
   /// What crosses right before the robot and is waited for. As of the last update.
-  [[nodiscard]] std::optional<Way::Wait> waits_for() const;
+  [[nodiscard]] std::optional<Way::Wait> waits_for() const { return wait_; }
   /// See WayAhead::foreseen; none where nothing is held.
   [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
                                                const std::vector<Cylinder>& obstacles,
@@ -97,6 +99,8 @@ class ReplanPolicy {
   Hold hold_;
   Interest interest_;
   Way way_;
+  std::optional<Way::Wait> wait_;
+  double wait_time_ = 0.0;  // s, when it was last seen
   std::optional<double> last_plan_;
   std::optional<double> last_slow_;
   std::optional<double> slow_since_;

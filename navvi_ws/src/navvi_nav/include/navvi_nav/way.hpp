@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <navvi_config/field.hpp>
 #include <optional>
 #include <vector>
@@ -23,14 +24,17 @@ struct Way {
   enum class State {
     free,    ///< nothing cuts it
     clears,  ///< all that cuts it crosses it or goes on ahead, and has left it soon
-    comes,   ///< something that moves keeps cutting it, such as what comes along it, or would run
-             ///< into the robot whether that goes on or waits
+    comes,   ///< something that moves keeps cutting it, such as what comes along it
     stands,  ///< something that stands cuts it
   };
   State state = State::free;
   double at = 0.0;        ///< m, along the path to the first cut; 0 if free
   double meets_in = 0.0;  ///< s, until the robot and what comes meet at the earliest
-  /// Who goes on at the pace runs into something that crosses; who waits here does not.
+  /// s, until who goes on at the pace, or a little later, runs into something; infinite: into none
+  double hits_in = std::numeric_limits<double>::infinity();
+  bool hits_waiting = false;  ///< something that moves runs into who waits here
+  /// What crosses and is run into by who goes on. None if something runs into who waits here while
+  /// who goes on just comes by.
   struct Wait {
     std::uint32_t by = 0;
     double at = 0.0;         ///< m, along the path to where
@@ -49,8 +53,8 @@ class WayAhead {
   /// \param pace  m/s, at which the robot follows, > 0
   [[nodiscard]] Way judge(const Path& path, const std::vector<Cylinder>& obstacles,
                           double pace) const;
-  /// Where what comes along the path will be until it meets the robot, as more cylinders of it: a
-  /// new path must not lead there either.
+  /// Where what comes along the path, or runs into who waits here, will be until it meets the
+  /// robot, as more cylinders of it: a new path must not lead there either.
   [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
                                                const std::vector<Cylinder>& obstacles,
                                                double pace) const;
