@@ -151,6 +151,21 @@ TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
   EXPECT_FALSE(survey_map(full, {}).error.empty());
 }
 
+TEST(MapSurvey, takes_a_hall_of_300_m_in_voxels_of_5_cm) {
+  Voxels hall{"", 0.05, {}};
+  for (int i = 0; i < 188 * 188; ++i)  // of 1.6 m
+    hall.octets.push_back({static_cast<std::uint16_t>(29760 + 32 * (i % 188)),
+                           static_cast<std::uint16_t>(29760 + 32 * (i / 188)), 32736, 4, 255});
+  hall.octets.push_back({32768, 32768, 32768, 0, 1});
+  const MapSurvey survey = survey_map(hall, {});
+  ASSERT_EQ(survey.error, "");
+  EXPECT_EQ(survey.columns, 6016);
+  EXPECT_EQ(survey.rows, 6016);
+  EXPECT_EQ(ground_at(survey, 0.01, 0.01), Ground::obstacle);
+  EXPECT_EQ(ground_at(survey, 0.06, 0.01), Ground::floor);
+  EXPECT_EQ(ground_at(survey, 150.0, -150.0), Ground::floor);
+}
+
 TEST(MapSurvey, takes_a_coarse_cell_for_floor_only_if_all_of_it_is) {
   SmallWorld world;
   world.floor(0, 0, 4, 4).box(1.0, 1.0, 0, 1.05, 1.05, 0.5);

@@ -274,6 +274,17 @@ TEST(Layouts, of_two_hundred_each_has_a_start_connected_to_a_goal) {
   }
 }
 
+TEST(Layouts, of_the_greatest_size_have_a_map_that_navigation_takes_at_the_finest_that_it_needs) {
+  LayoutConfig config = *preset("narrow");
+  config.length = config.width = 300.0;
+  config.aisle = 1.4;
+  config.fill = 1.0;
+  const OccupancyMap map = occupancy_of(layout("full", config, 1), OccupancyConfig{});
+  EXPECT_EQ(map.resolution(), 0.05);
+  EXPECT_GT(map.stream().size(), 40'000'000U);
+  EXPECT_LT(map.stream().size(), 64U * 1024U * 1024U);
+}
+
 TEST(Layouts, of_every_preset_cut_no_place_off_where_the_robot_has_room) {
   for (const Preset& known : presets())
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
