@@ -65,7 +65,7 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
   }
   nodes_.clear();
   unused_.clear();
-  heap_.clear();
+  open_.clear();
   nodes_expanded_ = 0;
   gave_up_ = false;
   surround(mesh, start, start_polygons_);
@@ -394,39 +394,14 @@ void AnyAngle::push(const Node& node, double estimate) {
   const auto f = static_cast<std::uint64_t>(estimate * (1.0 / kQuantum));
   const auto rest = static_cast<std::uint64_t>((1.0 - node.cost / std::max(estimate, 1e-12)) *
                                                ((1 << kGBits) - 1));
-  heap_.push_back({(f << kGBits) | rest, slot});
-  std::size_t i = heap_.size() - 1;
-  const Entry entry = heap_[i];
-  while (i > 0) {
-    const std::size_t up = (i - 1) / 4;
-    if (heap_[up].key <= entry.key) break;
-    heap_[i] = heap_[up];
-    i = up;
-  }
-  heap_[i] = entry;
+  open_.push((f << kGBits) | rest, slot);
 }
 
 bool AnyAngle::pop(Node& node) {
-  if (heap_.empty()) return false;
-  node = nodes_[heap_[0].node];
-  unused_.push_back(heap_[0].node);
-  const Entry entry = heap_.back();
-  heap_.pop_back();
-  const std::size_t n = heap_.size();
-  if (n == 0) return true;
-  std::size_t i = 0;
-  for (;;) {
-    const std::size_t first = 4 * i + 1;
-    if (first >= n) break;
-    std::size_t least = first;
-    const std::size_t end = std::min(first + 4, n);
-    for (std::size_t k = first + 1; k < end; ++k)
-      if (heap_[k].key < heap_[least].key) least = k;
-    if (heap_[least].key >= entry.key) break;
-    heap_[i] = heap_[least];
-    i = least;
-  }
-  heap_[i] = entry;
+  if (open_.empty()) return false;
+  const std::uint32_t slot = open_.pop().item;
+  node = nodes_[slot];
+  unused_.push_back(slot);
   return true;
 }
 

@@ -11,16 +11,16 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();  // a differ
 
 }  // namespace
 
-void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, const SeenFrom& seen_from) {
+void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, Tangents& tangents) {
   Ways none;
   none.fill(kNoWay);
   // The first landmark is as far from anywhere as it gets, each further one from those before.
   places_[0] = somewhere;
   turning_.assign(mesh.vertices.size(), none);
-  places_[0] = turn_everywhere(mesh, 0, seen_from).place;
+  places_[0] = turn_everywhere(mesh, 0, tangents).place;
   turning_.assign(mesh.vertices.size(), none);
   for (std::size_t k = 0; k < kCount; ++k) {
-    const Far next = turn_everywhere(mesh, k, seen_from);
+    const Far next = turn_everywhere(mesh, k, tangents);
     if (k + 1 < kCount) places_[k + 1] = next.place;
   }
   // A way may end at a corner that it could not turn round: each has to look about once more.
@@ -42,25 +42,26 @@ void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, const Se
 /// Dijkstra's search from one landmark. \returns the corner that is farthest from all landmarks up
 /// to this one
 Landmarks::Far Landmarks::turn_everywhere(const Mesh& mesh, std::size_t landmark,
-                                          const SeenFrom& seen_from) {
+                                          Tangents& tangents) {
   struct Entry {
     double way;
     int vertex;
-    int polygon;
     bool operator<(const Entry& other) const { return way > other.way; }
   };
   std::priority_queue<Entry> open;
   std::vector<double> ways(mesh.vertices.size(), std::numeric_limits<double>::infinity());
-  const auto reach = [&](const Sight::Corner& corner, double way) {
-    double& known = ways[static_cast<std::size_t>(corner.vertex)];
+  const auto reach = [&](int vertex, double way) {
+    double& known = ways[static_cast<std::size_t>(vertex)];
     if (way >= known) return;
     known = way;
-    open.push({way, corner.vertex, corner.polygon});
+    open.push({way, vertex});
   };
   Far out;
   out.place = places_[landmark];
-  for (const Sight::Corner& corner : sight_.look(mesh, places_[landmark]))
-    reach(corner, corner.away);
+  for (const Sight::Corner& corner : sight_.look(mesh, places_[landmark])) {
+    tangents.meet(corner);
+    reach(corner.vertex, corner.away);
+  }
   while (!open.empty()) {
     const Entry entry = open.top();
     open.pop();
@@ -70,9 +71,12 @@ Landmarks::Far Landmarks::turn_everywhere(const Mesh& mesh, std::size_t landmark
     turning[landmark] = static_cast<float>(entry.way);
     const auto nearest = static_cast<double>(*std::min_element(turning.begin(), turning.end()));
     // Inside a polygon, so that the landmark is seen only through that polygon.
-    if (nearest > out.way) out = {{entry.polygon, mesh.centroid(entry.polygon)}, nearest};
-    for (const Sight::Corner& corner : seen_from(entry.vertex, entry.polygon))
-      reach(corner, entry.way + corner.away);
+    if (nearest > out.way) {
+      const int polygon = tangents.polygon_of(entry.vertex);
+      out = {{polygon, mesh.centroid(polygon)}, nearest};
+    }
+    for (const Tangents::Edge& edge : tangents.from(entry.vertex, 0))
+      reach(edge.vertex(), entry.way + distance(mesh.at(entry.vertex), mesh.at(edge.vertex())));
   }
   return out;
 }

@@ -3,8 +3,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line that runs through it
-constexpr double kTouch = 1e-10;   // m, from a point to an edge that it lies on
+constexpr double kTouch = 1e-10;  // m, from a point to an edge that it lies on
 
 double extent(Point a) { return std::abs(a.x) + std::abs(a.y); }
 int side(Point a, Point b) { return side_of(a, extent(a), b, extent(b)); }
@@ -14,12 +13,6 @@ bool has(const std::vector<int>& items, int item) {
 }
 
 }  // namespace
-
-int side_of(Point a, double a_extent, Point b, double b_extent) {
-  const double value = cross(a, b);
-  const double slack = kOnLine * (a_extent + b_extent);
-  return value > slack ? 1 : value < -slack ? -1 : 0;
-}
 
 void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons) {
   polygons.assign(1, place.polygon);
@@ -138,23 +131,32 @@ void Sight::pass(Cone cone) {
         left_side(mesh_->at(corners[k]) - from_) >= 0)
       cone.left_met = meet(cone.link_left, cone.polygon, cone.left, 1);
   }
+  // Most links begin where the one before ended.
+  struct End {
+    int vertex;
+    Point ahead;
+    int right;
+    int left;
+  };
+  const auto end = [&](int vertex) {
+    const Point ahead = mesh_->at(vertex) - from_;
+    return End{vertex, ahead, right_side(ahead), left_side(ahead)};
+  };
+  End d{-1, {}, 0, 0};
   for (const Link& link : polygon.links) {
     if (link.right == cone.link_left && link.left == cone.link_right) continue;
-    const Point c = mesh_->at(link.right) - from_;
-    const Point d = mesh_->at(link.left) - from_;
-    const int d_right = right_side(d);
-    const int c_left = left_side(c);
-    const int c_right = right_side(c);
-    const int d_left = left_side(d);
-    if (c_right >= 0 && c_left <= 0 && d_right >= 0 && d_left <= 0 && side(c, d) <= 0) {
-      look_along(link, c, d);
+    const End c = link.right == d.vertex ? d : end(link.right);
+    d = end(link.left);
+    if (d.right < 0 || c.left > 0) continue;
+    if (c.right >= 0 && d.left <= 0 && side(c.ahead, d.ahead) <= 0) {
+      look_along(link, c.ahead, d.ahead);
       continue;
     }
-    if (d_right <= 0 || c_left >= 0) continue;
-    cones_.push_back({c_right >= 0 ? c : cone.right, d_left <= 0 ? d : cone.left, link.to,
-                      link.right, link.left, c_right >= 0, d_left <= 0,
-                      skips_ && cone.right_met && c_right <= 0,
-                      skips_ && cone.left_met && d_left >= 0});
+    if (d.right == 0 || c.left == 0) continue;
+    cones_.push_back({c.right >= 0 ? c.ahead : cone.right, d.left <= 0 ? d.ahead : cone.left,
+                      link.to, link.right, link.left, c.right >= 0, d.left <= 0,
+                      skips_ && cone.right_met && c.right <= 0,
+                      skips_ && cone.left_met && d.left >= 0});
   }
 }
 

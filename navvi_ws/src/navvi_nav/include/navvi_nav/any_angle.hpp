@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "navvi_nav/mesh.hpp"
+#include "navvi_nav/open_list.hpp"
 
 namespace navvi_nav {
 
@@ -49,10 +50,6 @@ class AnyAngle {
     double cost = 0.0;
     Point from;
   };
-  struct Entry {
-    std::uint64_t key;
-    std::uint32_t node;
-  };
 
   void begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
   void leave_start();
@@ -84,7 +81,7 @@ class AnyAngle {
   unsigned views_shift_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> unused_;
-  std::vector<Entry> heap_;
+  OpenList<std::uint64_t, std::uint32_t> open_;  ///< indices into nodes_
   std::vector<int> start_polygons_;
   std::vector<int> goal_polygons_;
   std::size_t nodes_expanded_ = 0;

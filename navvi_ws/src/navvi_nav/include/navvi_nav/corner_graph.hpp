@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "navvi_nav/landmarks.hpp"
+#include "navvi_nav/open_list.hpp"
+#include "navvi_nav/tangents.hpp"
 
 namespace navvi_nav {
 
@@ -20,45 +22,34 @@ class CornerGraph {
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:
-  struct Edges {
-    std::uint64_t version = 0;  ///< of the mesh
-    std::vector<Sight::Corner> to;
-  };
   /// What one query knows of a corner.
   struct Stop {
-    double cost = 0.0;  ///< m, from the start
-    double rest = 0.0;  ///< m, at least, to the goal
-    double last = 0.0;  ///< m, to the goal if it can be seen from here
+    Point at;            ///< m
+    double cost = 0.0;   ///< m, from the start
+    double rest = -1.0;  ///< m, at least, to the goal; < 0: not asked for yet
+    double last = 0.0;   ///< m, to the goal if it can be seen from here
     int parent = -1;
-    int polygon = 0;
     std::uint32_t query = 0;
     std::int8_t turn = 0;  ///< as Sight::Corner
     bool open = false;
     bool sees_goal = false;
   };
-  struct Entry {
-    double estimate;
-    int vertex;
-  };
 
   void keep_landmarks(const Mesh::Place& start);
-  void expand(int vertex, const Stop& here, Point start);
+  void expand(int vertex, Point start);
   Stop& stop(int vertex);
-  void reach(const Sight::Corner& corner, int parent, double cost);
-  void push(double estimate, int vertex);
-  Entry pop();
-  const std::vector<Sight::Corner>& seen_from(int vertex, int polygon);
+  void reach(int vertex, int turn, int parent, double cost);
 
   std::size_t worth_;
   const Mesh* mesh_ = nullptr;
   Point goal_;
   std::uint32_t query_ = 0;
   Sight sight_;
-  std::vector<Edges> edges_;
+  Tangents tangents_;
   std::vector<Stop> stops_;
-  std::vector<Entry> heap_;
-  double best_ = 0.0;  ///< m, of the ways to the goal found so far
-  int last_ = -1;      ///< their last corner, -1: the start
+  OpenList<double, int> open_;  ///< vertices, by m from the start to the goal
+  double best_ = 0.0;           ///< m, of the ways to the goal found so far
+  int last_ = -1;               ///< their last corner, -1: the start
   std::size_t nodes_expanded_ = 0;
   Landmarks landmarks_;
   std::uint64_t version_ = 0;      ///< of the mesh in the last query

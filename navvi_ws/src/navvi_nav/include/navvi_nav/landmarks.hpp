@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <vector>
 
-#include "navvi_nav/sight.hpp"
+#include "navvi_nav/tangents.hpp"
 
 namespace navvi_nav {
 
@@ -16,11 +15,9 @@ namespace navvi_nav {
 /// the straight line is far too short a bound.
 class Landmarks {
  public:
-  using SeenFrom = std::function<const std::vector<Sight::Corner>&(int vertex, int polygon)>;
-
   /// Measures the ways from landmarks far apart to all corners that a way from `somewhere` leads
-  /// to. \param seen_from  what corners a corner sees
-  void measure(const Mesh& mesh, const Mesh::Place& somewhere, const SeenFrom& seen_from);
+  /// to. \param tangents  that watch the mesh
+  void measure(const Mesh& mesh, const Mesh::Place& somewhere, Tangents& tangents);
   void forget() { known_ = false; }
   [[nodiscard]] bool known() const { return known_; }
 
@@ -44,7 +41,7 @@ class Landmarks {
     Mesh::Place place;
     double way = -1.0;
   };
-  Far turn_everywhere(const Mesh& mesh, std::size_t landmark, const SeenFrom& seen_from);
+  Far turn_everywhere(const Mesh& mesh, std::size_t landmark, Tangents& tangents);
   [[nodiscard]] Ways ways_from(const Sight& sight, const std::vector<Sight::Corner>& seen) const;
 
   bool known_ = false;

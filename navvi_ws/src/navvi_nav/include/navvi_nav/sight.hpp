@@ -9,7 +9,12 @@ namespace navvi_nav {
 
 /// 1 where `b` lies left of the ray `a`, -1 right of it, 0 on its line. \param a_extent, b_extent
 /// sums of the absolute coordinates
-[[nodiscard]] int side_of(Point a, double a_extent, Point b, double b_extent);
+[[nodiscard]] inline int side_of(Point a, double a_extent, Point b, double b_extent) {
+  constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line that runs through it
+  const double value = cross(a, b);
+  const double slack = kOnLine * (a_extent + b_extent);
+  return (value > slack ? 1 : 0) - (value < -slack ? 1 : 0);
+}
 
 /// The polygons that hold a place: more than one if it lies on a link or a vertex.
 void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons);
