@@ -94,6 +94,11 @@ std::optional<StateReport> from_msg(const navvi_msgs::StateHash& msg) {
   return StateReport{ns(msg.header.stamp), msg.step, msg.hash};
 }
 
+std::optional<ScenarioReport> from_msg(const navvi_msgs::Scenario& msg) {
+  if (!finite(msg.goal.x, msg.goal.y)) return std::nullopt;
+  return ScenarioReport{msg.world, msg.world_hash, msg.seed, {msg.goal.x, msg.goal.y}};
+}
+
 std::vector<DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg) {
   std::vector<DeviceReport> reports;
   for (const auto& status : msg.status) {

@@ -31,6 +31,7 @@ namespace navvi_study {
 [[nodiscard]] std::optional<CueReport> from_msg(const navvi_msgs::Cue& msg);
 [[nodiscard]] std::optional<DriveReport> from_msg(const navvi_msgs::DriveState& msg);
 [[nodiscard]] std::optional<StateReport> from_msg(const navvi_msgs::StateHash& msg);
+[[nodiscard]] std::optional<ScenarioReport> from_msg(const navvi_msgs::Scenario& msg);
 /// Only the devices of feedback_node.
 [[nodiscard]] std::vector<DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg);
 /// Only map -> odom. \param for_good  the message is one of /tf_static

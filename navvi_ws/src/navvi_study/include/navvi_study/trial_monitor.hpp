@@ -108,6 +108,13 @@ struct StateReport {
   std::string hash;  ///< 16 hexadecimal digits
 };
 
+/// The world of a simulator, and the goal that it has drawn.
+struct ScenarioReport {
+  std::string world, world_hash;
+  std::uint64_t seed = 0;
+  Point2 goal;
+};
+
 /// Something that happened in a trial; the journal makes a row of it.
 struct Event {
   std::string type;
