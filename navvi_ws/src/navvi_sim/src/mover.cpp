@@ -45,7 +45,14 @@ Mover::Mover(const Lane& lane, double start, const MoversConfig& config, std::ui
       allowed_(start),
       rear_(start),
       element_(lane.track.element_at(start)),
-      place_(lane.track.place(start)) {}
+      place_(lane.track.place(start)) {
+  double fastest = back_speed_;
+  for (const Track::Element& element : lane.track.elements())
+    fastest = std::max(fastest, element.speed);
+  const double to_stop = fastest / acceleration_;
+  reach_ = lane.footprint.radius + kSideMargin + 2.0 * kLook + 0.5 * fastest * to_stop;
+  foresight_ = to_stop + kForesight;
+}
 
 Eigen::Vector2d Mover::velocity() const {
   const Track::Element& here = element();
@@ -161,21 +168,24 @@ double Mover::gap_at(double s, const Disc& disc) const {
 }
 
 double Mover::room_before(const Disc& disc, double clearance, double further) const {
-  return room_foreseen(disc, clearance, further, 1.0);
+  return may_meet(disc, clearance + further) ? room_foreseen(disc, clearance, further, 1.0) : kFree;
 }
 
 double Mover::room_behind(const Disc& disc, double clearance) const {
-  return room_foreseen(disc, clearance, 0.0, -1.0);
+  return may_meet(disc, clearance) ? room_foreseen(disc, clearance, 0.0, -1.0) : kFree;
+}
+
+/// Quick, for most movers are far from the robot at all times.
+bool Mover::may_meet(const Disc& disc, double look) const {
+  const double near = reach_ + disc.radius + look + foresight_ * disc.velocity.lpNorm<1>();
+  return (disc.centre - place_.at).squaredNorm() <= near * near;
 }
 
 /// The least room before the places where the disc will be.
 double Mover::room_foreseen(const Disc& disc, double clearance, double further, double way) const {
-  const double stopping = speed_ * speed_ / (2.0 * acceleration_);
-  const double look = stopping + clearance + 2.0 * kLook + further;
-  const double time = std::abs(speed_) / acceleration_ + kForesight;
-  const Eigen::Vector2d path = time * disc.velocity;
-  const double reach = lane_->footprint.radius + disc.radius + kSideMargin + look + path.norm();
-  if ((disc.centre - place_.at).squaredNorm() > reach * reach) return kFree;
+  const double to_stop = std::abs(speed_) / acceleration_;  // s
+  const double look = 0.5 * std::abs(speed_) * to_stop + clearance + 2.0 * kLook + further;
+  const Eigen::Vector2d path = (to_stop + kForesight) * disc.velocity;
   const int places =
       std::min(kMostForeseen, static_cast<int>(std::ceil(path.norm() / disc.radius)));
   double least = room(disc, clearance, look, way);

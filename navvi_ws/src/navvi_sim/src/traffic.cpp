@@ -189,27 +189,32 @@ void Traffic::leave_line(std::size_t user) {
 
 void Traffic::serve_line() {
   for (const std::size_t user : line_) drivers_[user].claim.reset();
-  const std::vector<std::size_t> line = line_;
-  for (const std::size_t user : line) {
-    Driver& driver = drivers_[user];
-    const bool is_kept = driver.robot_ahead && (driver.stranded || driver.gave_up);
-    const Obstacle ahead = is_kept || !clear_of_one_ahead(user)
-                               ? Obstacle::waiting
-                               : obstacle(user, driver.lane->legs[driver.next].crossings);
-    if (ahead == Obstacle::none) {
-      give(user);
-      continue;
-    }
-    if (ahead == Obstacle::driving) driver.claim = way_on(driver);
-    if (!driver.back_to || driver.robot_behind) continue;
-    const Way back = way_back(driver);
-    const Obstacle behind =
-        obstacle(user, driver.lane->crossings(back.first, back.last % driver.lane->blocks));
-    if (behind == Obstacle::none)
-      give_back(user);
-    else if (behind == Obstacle::driving && !driver.claim)
-      driver.claim = back;
+  for (std::size_t i = 0; i < line_.size();)
+    if (!serve(line_[i])) ++i;
+}
+
+/// Gives a user that is in the line the way on or the way back, if one is free. False if it stays.
+bool Traffic::serve(std::size_t user) {
+  Driver& driver = drivers_[user];
+  const bool is_kept = driver.robot_ahead && (driver.stranded || driver.gave_up);
+  const Obstacle ahead = is_kept || !clear_of_one_ahead(user)
+                             ? Obstacle::waiting
+                             : obstacle(user, driver.lane->legs[driver.next].crossings);
+  if (ahead == Obstacle::none) {
+    give(user);
+    return true;
   }
+  if (ahead == Obstacle::driving) driver.claim = way_on(driver);
+  if (!driver.back_to || driver.robot_behind) return false;
+  const Way back = way_back(driver);
+  const Obstacle behind =
+      obstacle(user, driver.lane->crossings(back.first, back.last % driver.lane->blocks));
+  if (behind == Obstacle::none) {
+    give_back(user);
+    return true;
+  }
+  if (behind == Obstacle::driving && !driver.claim) driver.claim = back;
+  return false;
 }
 
 void Traffic::give(std::size_t user) {

@@ -69,6 +69,7 @@ class Mover {
   void drive_back(double room, double dt);
   void pass_end();
   void pass_begin();
+  [[nodiscard]] bool may_meet(const Disc& disc, double look) const;
   [[nodiscard]] double room(const Disc& disc, double clearance, double look, double way) const;
   [[nodiscard]] double room_foreseen(const Disc& disc, double clearance, double further,
                                      double way) const;
@@ -76,6 +77,8 @@ class Mover {
   const Lane* lane_;
   double acceleration_;
   double back_speed_;
+  double reach_;      ///< m, from its place, of what it may touch before it stands
+  double foresight_;  ///< s, for which a disc is foreseen at most
   double pause_spread_;
   std::uint64_t random_;
   double s_;

@@ -102,6 +102,7 @@ class Traffic {
   void ask(std::size_t user);
   void leave_line(std::size_t user);
   void serve_line();
+  bool serve(std::size_t user);
   void give(std::size_t user);
   void give_back(std::size_t user);
   [[nodiscard]] std::optional<double> place_behind(std::size_t user, const Disc& robot) const;
