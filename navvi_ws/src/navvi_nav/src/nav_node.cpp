@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
 
@@ -14,7 +15,8 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kServicePatience = 1.0;  // s
+constexpr double kServicePatience = 1.0;       // s
+constexpr double kPolygonsPerSecond = 4000.0;  // of pictures of the mesh, some 200 bytes each
 
 struct NodeConfig {
   NavigatorConfig navigator;
@@ -28,7 +30,8 @@ struct NodeConfig {
     visit({"map_frame", navvi_config::Any{}, "", "frame of the map and of all that is published"},
           map_frame);
     visit({"base_frame", navvi_config::Any{}, "", "frame of the robot"}, base_frame);
-    visit({"mesh_period", Range{0.1, 60.0}, "s", "least time between two pictures of the mesh"},
+    visit({"mesh_period", Range{0.1, 60.0}, "s",
+           "least time between two pictures of the mesh; a large mesh waits longer"},
           mesh_period);
   }
 };
@@ -187,7 +190,7 @@ class NavNode {
     }
     const bool lost_before = navigator_.obstacles_lost();
     if (std::optional<Job> job = navigator_.update(now)) {
-      job->show_mesh = (ros::WallTime::now() - last_mesh_).toSec() >= config_.mesh_period;
+      job->show_mesh = (ros::WallTime::now() - last_mesh_).toSec() >= mesh_period();
       worker_.start(std::move(*job));
     }
     if (navigator_.obstacles_lost() && !lost_before)
@@ -223,6 +226,11 @@ class NavNode {
     shown_path_ = navigator_.path();
     path_.publish(
         to_msg(*shown_path_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
+  }
+
+  [[nodiscard]] double mesh_period() const {
+    const std::size_t polygons = shown_mesh_ ? shown_mesh_->polygons.size() : 0;
+    return std::max(config_.mesh_period, static_cast<double>(polygons) / kPolygonsPerSecond);
   }
 
   void publish_mesh(const Outcome& outcome) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "painter.hpp"
 
@@ -23,10 +24,20 @@ octomap_msgs::Octomap to_msg(const OccupancyMap& map, const ros::Time& stamp) {
 
 namespace {
 
-std::size_t count_cubes(const OccupancyMap& map, int finest) {
-  std::size_t count = 0;
-  map.for_each_cube([&](const OccupiedCube&) { ++count; }, finest);
-  return count;
+/// voxels, the least side of cubes of which for_each_cube visits `most` at most.
+int finest_of(const OccupancyMap& map, std::size_t most) {
+  // Nodes by their side.
+  std::vector<std::size_t> whole(OccupancyMap::kCenter + 1), partial(OccupancyMap::kCenter + 1);
+  map.for_each_node([&](const OccupiedCube& cube, bool is_whole) {
+    ++(is_whole ? whole : partial)[static_cast<std::size_t>(cube.side)];
+  });
+  std::size_t cubes = 0;
+  int finest = OccupancyMap::kCenter;
+  for (int side = OccupancyMap::kCenter; side > 0; side /= 2) {
+    cubes += whole[static_cast<std::size_t>(side)];
+    if (cubes + partial[static_cast<std::size_t>(side)] <= most) finest = side;
+  }
+  return finest;
 }
 
 }  // namespace
@@ -44,8 +55,6 @@ MarkerArray occupied_cells_msg(const OccupancyMap& map, const ros::Time& stamp, 
     msg.action = Marker::DELETE;
     array.markers.push_back(std::move(msg));
   }
-  int finest = 1;
-  while (finest < OccupancyMap::kCenter && count_cubes(map, finest) > most) finest *= 2;
   map.for_each_cube(
       [&](const OccupiedCube& cube) {
         Marker& msg = array.markers[depths.at(cube.side)];
@@ -53,7 +62,7 @@ MarkerArray occupied_cells_msg(const OccupancyMap& map, const ros::Time& stamp, 
         msg.action = Marker::ADD;
         msg.points.push_back(point_msg({centre(cube.x), centre(cube.y), centre(cube.z)}));
       },
-      finest);
+      finest_of(map, most));
   return array;
 }
 

@@ -33,22 +33,28 @@ class OccupancyMap {
   [[nodiscard]] double resolution() const { return resolution_; }  ///< m
   [[nodiscard]] const std::vector<std::int8_t>& stream() const { return stream_; }
 
+  /// Calls visit(OccupiedCube, whole) for each node below the root, a node before its children:
+  /// `whole` if all of the cube is occupied, and else a part.
+  template <typename Visit>
+  void for_each_node(const Visit& visit) const {
+    std::size_t at = 0;
+    if (!stream_.empty()) walk({-kCenter, -kCenter, -kCenter, 2 * kCenter}, at, visit);
+  }
+
   /// Calls visit(OccupiedCube) for all that is occupied, in octomap's order of leaves.
   /// \param finest  voxels, a power of two: a cube of this side that is occupied in part is visited
   ///                as a whole
   template <typename Visit>
   void for_each_cube(const Visit& visit, int finest = 1) const {
-    std::size_t at = 0;
-    if (!stream_.empty())
-      walk({-kCenter, -kCenter, -kCenter, 2 * kCenter}, at, visit, finest, true);
+    for_each_node([&](const OccupiedCube& cube, bool whole) {
+      if (cube.side == finest || (whole && cube.side > finest)) visit(cube);
+    });
   }
 
  private:
   /// \param at  where the cube's node stands in the stream; is moved to what follows its last one
-  /// \param shown  false: within a cube that was visited as a whole
   template <typename Visit>
-  void walk(const OccupiedCube& cube, std::size_t& at, const Visit& visit, int finest,
-            bool shown) const {
+  void walk(const OccupiedCube& cube, std::size_t& at, const Visit& visit) const {
     const unsigned bits = static_cast<std::uint8_t>(stream_[at]) |
                           static_cast<unsigned>(static_cast<std::uint8_t>(stream_[at + 1])) << 8;
     at += 2;
@@ -58,9 +64,8 @@ class OccupancyMap {
       if (kind == 0) continue;
       const OccupiedCube child{cube.x + ((i & 1U) ? half : 0), cube.y + ((i & 2U) ? half : 0),
                                cube.z + ((i & 4U) ? half : 0), half};
-      const bool whole = kind == 2 || half <= finest;
-      if (shown && whole) visit(child);
-      if (kind == 3) walk(child, at, visit, finest, shown && !whole);
+      visit(child, kind == 2);
+      if (kind == 3) walk(child, at, visit);
     }
   }
 
