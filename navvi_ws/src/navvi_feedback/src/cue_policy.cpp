@@ -262,7 +262,11 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
   const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
                                       std::abs(now.measured->angular) > kMoving);
   if (!follows_ && !moves) return {};
-  return near_.update(now, time);
+  const Utterances told = near_.update(now, time);
+  // Who hears of something ahead stops, and needs to hear where to go on.
+  for (const Utterance& utterance : told)
+    if (utterance.fillings.side == Side::ahead) route_.remind(time + kRecover);
+  return told;
 }
 
 CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
@@ -277,13 +281,13 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   return {};
 }
 
-CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) const {
+CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   if (!now.repeat_pressed && !now.goal_pressed) return {};
   Utterance answer;
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
   if (to_goal && now.goal_pressed) {
     answer = route_.goal("goal_info", now);
-  } else if (const auto way = follows_ ? route_.direction(*now.guidance) : std::nullopt) {
+  } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
     answer = *way;
   } else {
     answer = tell_problem(now);

@@ -1,5 +1,6 @@
 #include "navvi_feedback/route_cues.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvi_feedback {
@@ -10,6 +11,12 @@ constexpr double kDegree = kPi / 180.0;
 constexpr double kHalfHour = kHourDegrees / 2.0 * kDegree;
 /// m; a goal that moved less is the same goal.
 constexpr double kSameGoal = 0.5;
+/// rad; whoever is told to turn by less turns too far.
+constexpr double kWorthSaying = 7.0 * kDegree;
+/// m; what is farther ahead than this need not be passed yet.
+constexpr double kInTheWay = 1.0;
+/// m; half as wide as what the robot drives over, and a little.
+constexpr double kHalfLane = 0.45;
 /// m; a robot that turns with a smaller radius turns on the spot.
 constexpr double kSpotRadius = 0.5;
 
@@ -64,13 +71,15 @@ RouteCues::RouteCues(const RouteConfig& config)
 
 std::vector<Utterance> RouteCues::update(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
+  const bool other_corner =
+      last_ && (guidance.waypoint - last_->waypoint).norm() > config_.same_corner;
+  // What was held was the direction to another place.
+  if (other_corner) steady_.reset();
   observe(now, time);
   if (!hour_ || !std::isfinite(guidance.waypoint_distance)) return {};
   if (guidance.state != Guidance::State::make_room) made_room_ = false;
   const Change change = last_ ? compare(guidance) : Change::none;
   if (change != Change::none && pending_ != Change::next_corner) pending_ = change;
-  const bool other_corner =
-      last_ && (guidance.waypoint - last_->waypoint).norm() > config_.same_corner;
   if (!last_ || other_corner) ahead_told_ = false;
   last_ = guidance;
 
@@ -123,6 +132,13 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   return {};
 }
 
+std::optional<Utterance> RouteCues::ask(const Guidance& guidance, double time) {
+  const std::optional<Utterance> answer = direction(guidance);
+  // An answer need not be said again by itself.
+  if (answer) said(*answer, *answer->fillings.hour, time);
+  return answer;
+}
+
 std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
   // The held hour, so that what is asked for agrees with what was said; a fresh one where none is.
   const auto hour = hour_ ? hour_ : clock_hour(guidance.steer_angle, rounding_);
@@ -170,7 +186,8 @@ bool RouteCues::closed_way(const Guidance& guidance) const {
 
 RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
   if ((guidance.waypoint - last_->waypoint).norm() <= config_.same_corner) return Change::none;
-  if (last_->waypoint_distance <= config_.turn_now) return Change::next_corner;
+  const bool rerouted = guidance.reroutes != last_->reroutes;
+  if (last_->waypoint_distance <= config_.turn_now && !rerouted) return Change::next_corner;
   // Seen from one place at one instant: only the plan can have changed the hour.
   const double moved = std::remainder(guidance.waypoint_angle - last_->waypoint_angle, 2.0 * kPi);
   return std::abs(moved) > kHalfHour ? Change::reroute : Change::none;
@@ -178,6 +195,7 @@ RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
 
 void RouteCues::observe(const Situation& now, double time) {
   hour_ = steady_.update(now.guidance->steer_angle);
+  if (hour_ == 12 && rounding_ == Rounding::nearest) hour_ = round_what_is_ahead(now);
   const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
   if (beyond(now.commanded.linear, 0.02) || beyond(now.commanded.angular, 0.05))
     last_commanded_ = time;
@@ -185,6 +203,19 @@ void RouteCues::observe(const Situation& now, double time) {
                     !beyond(now.measured->linear, kSpotRadius * std::abs(now.measured->angular));
   if (spot) last_turning_ = time;
   turning_ = last_turning_ && time - *last_turning_ < config_.settle;
+}
+
+/// Who hears "straight ahead" drives on as they look. Where that is into something, the hour on
+/// the side where the way passes it is nearer to the truth, however small the angle.
+int RouteCues::round_what_is_ahead(const Situation& now) const {
+  const double angle = now.guidance->steer_angle;
+  if (std::abs(angle) < kWorthSaying) return 12;
+  const bool ahead = std::any_of(now.nearby.begin(), now.nearby.end(), [&](const Nearby& thing) {
+    return thing.gap < std::min(kInTheWay, now.guidance->waypoint_distance) &&
+           thing.nearest.x() > 0.0 && std::abs(thing.nearest.y()) < kHalfLane;
+  });
+  if (!ahead) return 12;
+  return angle > 0.0 ? 1 : 11;
 }
 
 bool RouteCues::about_to_face(const Situation& now) const {

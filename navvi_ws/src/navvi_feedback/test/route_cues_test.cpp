@@ -86,7 +86,47 @@ TEST(RouteCues, SayNothingOfAnAngleThatIsNoNumber) {
   EXPECT_EQ(drive.pass(10.0), Kinds{});
   drive.now.guidance = following(0.0, std::numeric_limits<double>::infinity());
   EXPECT_EQ(drive.pass(10.0), Kinds{});
-  EXPECT_FALSE(drive.cues.direction(*drive.now.guidance));
+  EXPECT_FALSE(drive.cues.ask(*drive.now.guidance, drive.time));
+}
+
+TEST(RouteCues, DoNotSayByThemselvesWhatWasJustAnswered) {
+  Drive drive;
+  drive.settle(0.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.pass(6.0);
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  EXPECT_EQ(drive.pass(7.0), Kinds{});
+  EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
+}
+
+TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
+  Drive drive;
+  drive.settle(10.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 1);
+  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "beside the robot it is in nobody's way";
+}
+
+TEST(RouteCues, JudgeANewLegAfresh) {
+  Drive drive;
+  drive.settle(0.0, 1.5);
+  drive.now.guidance = following(17.0, 8.0);
+  drive.now.guidance->waypoint = {10.0, 8.0};
+  EXPECT_EQ(drive.pass(2.0), Kinds{"turn_now"});
+  EXPECT_EQ(drive.last.fillings.hour, 1) << "17 degrees would still be held as 12 on the old leg";
+}
+
+TEST(RouteCues, CallANewRouteJustBeforeACornerByItsName) {
+  Drive drive;
+  drive.settle(0.0, 1.5);
+  drive.now.guidance = following(90.0, 8.0);
+  drive.now.guidance->waypoint = {10.0, 8.0};
+  drive.now.guidance->reroutes = 1;
+  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
 }
 
 TEST(RouteCues, RepeatTheDirectionWhileTheRobotFacesElsewhere) {
@@ -270,7 +310,8 @@ TEST(RouteCues, DoNotWaverBetweenTheHoursAheadJustBeforeTheWayPoint) {
     for (const std::string& kind : drive.pass(2.0)) said.push_back(kind);
   }
   EXPECT_EQ(said, Kinds{});
-  EXPECT_TRUE(drive.cues.direction(*drive.now.guidance)) << "who asks is told";
+  EXPECT_TRUE(drive.cues.ask(*drive.now.guidance, drive.time)) << "who asks is told";
+  drive.pass(2.0);
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(100.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{"direction"}) << "who missed it is told";
 }

@@ -27,6 +27,10 @@ Instruction::Side side_in(const std::string& text) {
 
 }  // namespace
 
+bool startles(const std::string& heard_so_far) {
+  return says(heard_so_far, "^(hit|stuck|wait)\\b");
+}
+
 Instruction understand(const std::string& spoken) {
   using Kind = Instruction::Kind;
   std::string text = spoken.substr(0, 200);
@@ -48,6 +52,7 @@ Instruction understand(const std::string& spoken) {
                   "\\b(shelf|wall|box|pedestal|worker|forklift|robot|thing)\\b.*\\b(on the|"
                   "left|right|ahead|behind|front)\\b")) {
     heard.kind = Kind::near;
+    heard.very_close = says(text, "very close");
   } else {
     const auto hour = number_before(text, "\\b(\\d{1,2}) ?o.?clock");
     heard.distance = number_before(text, "(\\d{1,4}(?:\\.\\d+)?) ?met");

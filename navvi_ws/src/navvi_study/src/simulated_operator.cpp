@@ -19,11 +19,12 @@ constexpr double kListenFirst = 2.5;         // m, likewise
 constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
 constexpr double kBlindTurn = 3.0;  // m one goes on after "turn now", which tells no distance
 
-/// rad, clockwise, to an hour on the clock face. A listener who hears 1 or 11 when it was 12 before
-/// knows that the edge has just been passed.
-double angle_of(int hour) {
-  if (hour == 1) return 0.35;
-  if (hour == 11) return -0.35;
+/// rad, clockwise, to an hour on the clock face.
+/// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
+/// passed
+double angle_of(int hour, bool from_straight) {
+  if (from_straight && hour == 1) return 0.35;
+  if (from_straight && hour == 11) return -0.35;
   const double angle = hour * kPi / 6.0;
   return angle > kPi + 1e-9 ? angle - 2.0 * kPi : angle;
 }
@@ -82,12 +83,16 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
   sentence.time = time + config_.min_reaction +
                   unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
   understood_.push_back(sentence);
-  last_news_ = time;
+  // What is near or comes later is no news to who waits for where to go now.
+  const Instruction::Kind kind = understand(sentence.text).kind;
+  if (mode_ != Mode::waiting ||
+      (kind != Instruction::Kind::near && kind != Instruction::Kind::turn_ahead))
+    last_news_ = time;
 }
 
 void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction) {
   const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
-  const double angle = angle_of(instruction.hour);
+  const double angle = angle_of(instruction.hour, straight_before_);
   target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;
   turn_speed_ = std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;
@@ -126,6 +131,24 @@ void SimulatedOperator::back_off(Instruction::Side side, double time) {
 
 void SimulatedOperator::ask_soon(double time) { last_news_ = time - config_.idle_patience + 0.4; }
 
+void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
+  if (!instruction.very_close) return veer(instruction.side, 0.1, time + 1.5);
+  veer(instruction.side, 0.3, time + 2.0);
+  // Whoever comes very near was heading there, and does not go back to that heading.
+  if (instruction.side == Instruction::Side::left) target_ -= 0.12;
+  if (instruction.side == Instruction::Side::right) target_ += 0.12;
+}
+
+/// Some first words are enough.
+void SimulatedOperator::be_startled(double time) {
+  for (const auto& [id, sentence] : hearing_) {
+    const double heard = (time - sentence.time - config_.min_reaction) * kCharactersPerSecond;
+    if (mode_ != Mode::arrived && heard > 0.0 &&
+        startles(sentence.text.substr(0, static_cast<std::size_t>(heard))))
+      mode_ = Mode::waiting;
+  }
+}
+
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
   const Instruction instruction = understand(sentence.text);
   switch (instruction.kind) {
@@ -133,12 +156,14 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
       break;
     case Instruction::Kind::turn:
       turn_to(sentence, instruction);
+      straight_before_ = false;
       break;
     case Instruction::Kind::straight:
       target_ = sentence.heading;
       turn_speed_ = 0.0;
       mode_ = std::abs(target_ - heading_) > 0.1 ? Mode::turning : Mode::driving;
       go_for(sentence, instruction);
+      straight_before_ = true;
       break;
     case Instruction::Kind::turn_ahead:
       if (mode_ == Mode::driving) {
@@ -152,7 +177,7 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
         ask_soon(time);
       }
       speed_ = std::min(speed_, config_.slow);
-      veer(instruction.side, 0.1, time + 1.5);
+      shy_away(instruction, time);
       break;
     case Instruction::Kind::bump:
       back_off(instruction.side, time);
@@ -270,6 +295,7 @@ StickAndButtons SimulatedOperator::update(double time, double dt) {
     follow(sentence, time);
   }
   if (time - start_ < kNeutralAtStart) return {};
+  be_startled(time);
   StickAndButtons hand = act(time, dt);
   ask_when_lost(time);
   hand.repeat = time - asked_ < kPress;

@@ -169,6 +169,38 @@ TEST(SimulatedOperator, backs_off_when_it_hears_that_it_hit_something) {
   EXPECT_LT(loop.x, -0.1);
 }
 
+TEST(SimulatedOperator, lets_go_at_the_word_that_something_was_hit) {
+  Loop loop(1, kAroundACorner);
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  loop.say("straight ahead, 8 meters");
+  loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+  for (int i = 0; i < 150; ++i) (void)loop.step();
+  loop.say("hit a pallet robot on the right");
+  for (int i = 0; i < 45; ++i) (void)loop.step();
+  EXPECT_EQ(loop.step().forward, 0.0) << "the sentence is not over yet";
+}
+
+TEST(SimulatedOperator, takes_one_o_clock_for_less_after_straight_ahead) {
+  const auto turned_by = [](std::uint64_t seed, const char* first) {
+    Loop loop(seed, kAroundACorner);
+    for (int i = 0; i < 100; ++i) (void)loop.step();
+    loop.say(first);
+    loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+    for (int i = 0; i < 150; ++i) (void)loop.step();
+    const double before = loop.yaw;
+    loop.say("1 o'clock, 8 meters");
+    loop.person.hear({2, HeardSpeech::Stage::ends, ""}, loop.time);
+    for (int i = 0; i < 150; ++i) (void)loop.step();
+    return before - loop.yaw;
+  };
+  double after_turn = 0.0, after_straight = 0.0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    after_turn += turned_by(seed, "1 o'clock, 8 meters") / 50.0;
+    after_straight += turned_by(seed, "straight ahead, 8 meters") / 50.0;
+  }
+  EXPECT_GT(after_turn, after_straight + 0.1);
+}
+
 TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
   Loop loop(1, kAroundACorner);
   const auto say = [&](std::uint32_t id, const char* text) {
@@ -225,6 +257,9 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"You have reached your destination", Kind::arrived}};
   for (const auto& [text, kind] : sentences) EXPECT_EQ(understand(text).kind, kind) << text;
   EXPECT_EQ(understand("turn to 11 o'clock now").hour, 11);
+  EXPECT_EQ(understand("in 6 meters, turn to 3 o'clock").hour, 3);
+  EXPECT_TRUE(understand("shelf very close, on the left").very_close);
+  EXPECT_FALSE(understand("shelf on the left").very_close);
   EXPECT_EQ(understand("2 o'clock, 15 meters").distance, 15.0);
   EXPECT_EQ(understand("hit a wall on the right").side, Instruction::Side::right);
   EXPECT_EQ(understand("no path from here, back away").side, Instruction::Side::none);

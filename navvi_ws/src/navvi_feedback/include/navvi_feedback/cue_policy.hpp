@@ -62,7 +62,7 @@ class CuePolicy {
   [[nodiscard]] Utterance tell_problem(const Situation& now) const;
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterances answers(const Situation& now, double time) const;
+  [[nodiscard]] Utterances answers(const Situation& now, double time);
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, double time);
 
   CuePolicyConfig config_;

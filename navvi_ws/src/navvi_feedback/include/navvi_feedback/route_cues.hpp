@@ -43,7 +43,7 @@ class RouteCues {
   [[nodiscard]] std::vector<Utterance> update(const Situation& now, double time);
 
   /// The direction as of now, for a person who asks.
-  [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
+  [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
   /// Distance and, if it is known, hour of the goal. \param kind  "start" or "goal_info"
   [[nodiscard]] Utterance goal(const std::string& kind, const Situation& now) const;
 
@@ -61,6 +61,8 @@ class RouteCues {
   [[nodiscard]] bool closed_way(const Guidance& guidance) const;
   [[nodiscard]] Change compare(const Guidance& guidance) const;
   void observe(const Situation& now, double time);
+  [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
+  [[nodiscard]] int round_what_is_ahead(const Situation& now) const;
   [[nodiscard]] bool about_to_face(const Situation& now) const;
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;

@@ -23,7 +23,11 @@ struct Instruction {
   int hour = 12;                   ///< 1 to 12
   std::optional<double> distance;  ///< m
   Side side = Side::none;
+  bool very_close = false;  ///< of what is near
 };
+
+/// Whether the words that were heard so far are enough to let go of the stick.
+[[nodiscard]] bool startles(const std::string& heard_so_far);
 
 /// Understands English sentences by their words alone.
 [[nodiscard]] Instruction understand(const std::string& text);

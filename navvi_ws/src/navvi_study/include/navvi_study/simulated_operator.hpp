@@ -79,6 +79,8 @@ class SimulatedOperator {
   [[nodiscard]] StickAndButtons act(double time, double dt);
   [[nodiscard]] StickAndButtons drive(double time) const;
   [[nodiscard]] double shaped(double stick) const;
+  void shy_away(const Instruction& instruction, double time);
+  void be_startled(double time);
   void back_off(Instruction::Side side, double time);
   void ask_soon(double time);
   void ask_when_lost(double time);
@@ -92,11 +94,12 @@ class SimulatedOperator {
   Mode mode_ = Mode::waiting;
   bool started_ = false;
   double start_ = 0.0;
-  double heading_ = 0.0;   ///< rad, believed, counter-clockwise
-  double odometer_ = 0.0;  ///< m, believed
-  double target_ = 0.0;    ///< rad, heading to hold
-  double stop_at_ = 0.0;   ///< m on the odometer: further is guessing
-  double speed_ = 0.0;     ///< stick
+  double heading_ = 0.0;          ///< rad, believed, counter-clockwise
+  double odometer_ = 0.0;         ///< m, believed
+  double target_ = 0.0;           ///< rad, heading to hold
+  double stop_at_ = 0.0;          ///< m on the odometer: further is guessing
+  bool straight_before_ = false;  ///< the last direction that was followed was 12
+  double speed_ = 0.0;            ///< stick
   double turn_speed_ = 0.0;
   double veer_ = 0.0;  ///< rad, added to the target
   double veer_until_ = 0.0;
