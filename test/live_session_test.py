@@ -176,6 +176,19 @@ def test_the_bag_holds_the_topics_and_agrees_with_the_summary(trial):
     subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(trial)], check=True, timeout=120)
 
 
+def test_a_bag_of_another_version_is_named_as_one(trial, tmp_path):
+    (tmp_path / "summary.csv").write_bytes((trial / "summary.csv").read_bytes())
+    with rosbag.Bag(str(trial / "trial.bag")) as bag, rosbag.Bag(str(tmp_path / "trial.bag"), "w") as other:
+        for topic, message, stamp, header in bag.read_messages(["/navvi/events", "/navvi/guidance"], raw=True, return_connection_header=True):
+            if topic == "/navvi/guidance":
+                header = dict(header, md5sum=32 * b"0")
+                message = (*message[:2], 32 * "0", *message[3:])
+            other.write(topic, message, stamp, raw=True, connection_header=header)
+    result = subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(tmp_path)], text=True, capture_output=True, timeout=60)
+    assert result.returncode == 2, result.stdout + result.stderr
+    assert "by a NavVI with another navvi_msgs/Guidance" in result.stderr
+
+
 def check(trial):
     return subprocess.run(["rosrun", "navvi_study", "check_trial", str(trial)], text=True, capture_output=True, timeout=120)
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "bag_message.hpp"
 #include "navvi_study/msg_conversion.hpp"
 
 namespace navvi_study {
@@ -44,7 +45,7 @@ TrialMonitorConfig config_of(const Row& row) {
 std::vector<Row> events_in(const rosbag::Bag& bag) {
   std::vector<Row> rows;
   for (const auto& item : rosbag::View(bag, rosbag::TypeQuery("navvi_msgs/TrialEvent"))) {
-    const auto msg = item.instantiate<navvi_msgs::TrialEvent>();
+    const auto msg = message_of<navvi_msgs::TrialEvent>(item);
     const auto row = msg ? from_msg(*msg) : std::nullopt;
     if (row) rows.push_back(*row);
   }
@@ -116,7 +117,7 @@ class Recount {
   template <typename Message>
   bool as(const rosbag::MessageInstance& item, const char* topic, bool before) {
     if (!ends_with(item.getTopic(), topic)) return false;
-    const auto msg = item.instantiate<Message>();
+    const auto msg = message_of<Message>(item);
     if (!msg) return false;
     if (const auto report = from_msg(*msg)) observe(*report, before);
     return true;
@@ -125,21 +126,21 @@ class Recount {
   void see(const rosbag::MessageInstance& item, bool before) {
     const bool for_good = ends_with(item.getTopic(), "/tf_static");
     if (for_good || ends_with(item.getTopic(), "/tf")) {
-      const auto msg = item.instantiate<tf2_msgs::TFMessage>();
+      const auto msg = message_of<tf2_msgs::TFMessage>(item);
       if (!msg) return;
       for (const auto& correction : from_msg(*msg, for_good))
         for (const auto& place : places_.take(correction)) observe(place, before);
       return;
     }
     if (ends_with(item.getTopic(), "/odom")) {
-      const auto msg = item.instantiate<nav_msgs::Odometry>();
+      const auto msg = message_of<nav_msgs::Odometry>(item);
       const auto report = msg ? from_msg(*msg) : std::nullopt;
       if (!report) return;
       for (const auto& place : places_.take(*report)) observe(place, before);
       return;
     }
     if (ends_with(item.getTopic(), "/diagnostics")) {
-      const auto msg = item.instantiate<diagnostic_msgs::DiagnosticArray>();
+      const auto msg = message_of<diagnostic_msgs::DiagnosticArray>(item);
       if (!msg) return;
       for (const auto& report : from_msg(*msg)) observe(report, before);
       return;

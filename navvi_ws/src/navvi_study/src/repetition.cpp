@@ -10,6 +10,8 @@
 #include <navvi_sim/world_hash.hpp>
 #include <stdexcept>
 
+#include "bag_message.hpp"
+
 namespace navvi_study {
 namespace {
 
@@ -17,7 +19,7 @@ template <typename Message, typename Take>
 void for_each(const rosbag::Bag& bag, const Take& take) {
   const std::string type = ros::message_traits::datatype<Message>();
   for (const auto& item : rosbag::View(bag, rosbag::TypeQuery(type))) {
-    if (const auto msg = item.instantiate<Message>()) take(*msg);
+    if (const auto msg = message_of<Message>(item)) take(*msg);
   }
 }
 
