@@ -6,7 +6,7 @@
 namespace navvi_sim {
 namespace {
 
-constexpr double kSideMargin = 0.10;  // m, left beside what is passed
+constexpr double kSideMargin = 0.20;  // m, left beside what is passed
 constexpr double kLook = 0.1;         // m, between the places looked at ahead
 constexpr int kHalvings = 4;          // of the stretch in which it would touch
 constexpr double kForesight = 0.5;    // s, that a disc is foreseen beyond the time to stop

@@ -246,7 +246,7 @@ TEST(Mover, foresees_the_robot_that_crosses_and_does_not_run_into_it) {
 }
 
 TEST(Mover, passes_the_robot_that_stands_beside_its_way_or_behind) {
-  for (const Eigen::Vector2d& robot : {Eigen::Vector2d(5.0, 1.0), Eigen::Vector2d(-1.0, 0.0)}) {
+  for (const Eigen::Vector2d& robot : {Eigen::Vector2d(5.0, 1.1), Eigen::Vector2d(-1.0, 0.0)}) {
     Alone alone({0, 0}, 0, through({{0, 0}, {10, 0}}, 1.0, 60.0));
     alone.run(14.0, {robot, 0.35});
     EXPECT_NEAR(alone.at().x(), 10.0, 1e-6);
@@ -260,7 +260,7 @@ TEST(Mover, does_not_swing_its_tail_into_the_robot) {
   Alone alone({0, 0}, 0, route, patient());
   alone.run(20.0, {{5.9, 1.2}, 0.35});
   EXPECT_LT(alone.mover().place().yaw, 0.6);
-  alone.run(5.0);
+  alone.run(8.0);
   EXPECT_GT(alone.at().y(), 1.0);
 }
 

@@ -342,8 +342,8 @@ TEST(Traffic, of_every_preset_makes_room_for_a_robot_that_stands_in_its_way_and_
               EXPECT_GT(gap(street, other, robot), 0.0) << street.name(other);
           }
         };
-        stand(60, 0.6);
-        const bool met = gap(street, victim, robot) <= 0.6;
+        stand(60, 0.8);
+        const bool met = gap(street, victim, robot) <= 0.8;
         stand(30, 0.0);
         // To and fro in an aisle there is an end; round a row there is none.
         const bool has_no_end =

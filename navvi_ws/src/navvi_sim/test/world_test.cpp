@@ -202,7 +202,7 @@ TEST(World, a_yielding_mover_stops_before_the_robot) {
   EXPECT_TRUE(drive(world, 9.0, {}).empty());
   const double gap = -world.now().movers.at(0).pose.translation().x() - 0.4 - 0.35;
   EXPECT_GT(gap, 0.2);
-  EXPECT_LT(gap, 0.6);
+  EXPECT_LT(gap, 0.7);
   EXPECT_LT(world.now().robot.position.norm(), 1e-6);
 }
 
