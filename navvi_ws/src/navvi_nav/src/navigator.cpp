@@ -1,7 +1,5 @@
 #include "navvi_nav/navigator.hpp"
 
-#include <limits>
-
 namespace navvi_nav {
 namespace {
 
@@ -67,8 +65,20 @@ bool Navigator::set_map(std::shared_ptr<const OccupancyGrid> grid) {
 }
 
 void Navigator::set_obstacles(const std::vector<MovingThing>& things, double time) {
+  std::map<std::uint32_t, double> moved;
   things_ = things;
-  obstacles_ = cylinders_of(things, config_.most_cylinders);
+  for (MovingThing& thing : things_) {
+    Cylinder& one = thing.cylinder;
+    const auto before = moved_.find(one.id);
+    if (norm(one.velocity) > config_.replan.way.standing_speed)
+      moved[one.id] = time;
+    else if (before != moved_.end())
+      moved[one.id] = before->second;
+    const auto last = moved.find(one.id);
+    if (last != moved.end()) one.stood = time - last->second;
+  }
+  moved_ = std::move(moved);
+  obstacles_ = cylinders_of(things_, config_.most_cylinders);
   obstacles_time_ = time;
   obstacles_lost_ = false;
 }
@@ -120,6 +130,7 @@ void Navigator::reset_times() {
   churn_.reset();
   pose_.reset();
   things_.clear();
+  moved_.clear();
   obstacles_.clear();
   obstacles_time_.reset();
   obstacles_lost_ = false;
@@ -336,10 +347,9 @@ bool Navigator::keeps_path(const Plan& plan, Reason reason, double time) {
     return aim_ == Aim::aside && !policy_.blocked(remaining, obstacles_) && sees_next;
   if (plan.status == PlanStatus::closed)
     return aim_ == Aim::closed && sees_next &&
-           !policy_.worth_changing(Reason::period, length_of(remaining), length_of(plan.path));
+           !policy_.worth_changing(Reason::period, remaining, plan.path);
   if (aim_ != Aim::goal) return false;
-  const double fresh = found ? length_of(plan.path) : std::numeric_limits<double>::infinity();
-  return !policy_.worth_changing(reason, length_of(remaining), fresh) &&
+  return !policy_.worth_changing(reason, remaining, found ? plan.path : Path{}) &&
          !policy_.blocked(remaining, obstacles_) && guidance_.sees_next(pose_->position, space());
 }
 

@@ -5,7 +5,27 @@ namespace {
 
 constexpr double kMoved = 0.1;  // m, what moved less has not left its place
 constexpr double kLetGo = 0.5;  // s, who was told to wait goes on only after it was clear so long
-constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robot on its rim
+constexpr double kBack = 120.0 / 180 * M_PI;  // rad, from the course that is followed
+constexpr double kCourse = 1.0;               // m, how much of a path makes its course
+constexpr double kHole = 0.2;  // m, of a hole beyond the obstacle and the robot on its rim
+
+/// From the path's start to the point kCourse along it.
+Point course_of(const Path& path) {
+  double left = kCourse;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double length = distance(path[i - 1], path[i]);
+    if (length >= left)
+      return path[i - 1] + (left / length) * (path[i] - path[i - 1]) - path.front();
+    left -= length;
+  }
+  return path.back() - path.front();
+}
+
+bool leads_back(const Path& followed, const Path& fresh) {
+  const Point a = course_of(followed);
+  const Point b = course_of(fresh);
+  return std::abs(std::atan2(cross(a, b), dot(a, b))) > kBack;
+}
 
 }  // namespace
 
@@ -30,6 +50,7 @@ void ReplanPolicyConfig::describe(navvi_config::Visitor& visit) {
         gain);
   visit({"gain_length", Range{0.0, 10.0}, "m", "length by which it must be shorter besides"},
         gain_length);
+  visit({"gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back"}, gain_back);
   way.describe(visit);
   hold.describe(visit);
 }
@@ -128,8 +149,9 @@ std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow, 
     if (distance(input.robot.position, next) <= config_.way.look_ahead &&
         ahead_.taken(next, input.obstacles))
       return Reason::waypoint_blocked;
-    const bool avoids = config_.hold.hold_time > 0.0 && since >= config_.period &&
-                        (way_.state == Way::State::comes || (way_.hits_waiting && std::isfinite(way_.hits_in)));
+    const bool avoids =
+        config_.hold.hold_time > 0.0 && since >= config_.period &&
+        (way_.state == Way::State::comes || (way_.hits_waiting && std::isfinite(way_.hits_in)));
     if (avoids || blocked(input.remaining, input.obstacles)) return Reason::path_carved;
   }
   if (!near_pending_ && !slow && since < config_.period) return std::nullopt;
@@ -143,10 +165,12 @@ std::optional<Reason> ReplanPolicy::choose(const ReplanInput& input, bool slow, 
   return std::nullopt;
 }
 
-bool ReplanPolicy::worth_changing(Reason reason, double followed, double fresh) const {
+bool ReplanPolicy::worth_changing(Reason reason, const Path& followed, const Path& fresh) const {
   if (reason != Reason::period && reason != Reason::too_slow && reason != Reason::obstacle_near)
     return true;
-  return fresh < worthwhile(followed);
+  if (fresh.size() < 2) return false;
+  const double back = leads_back(followed, fresh) ? config_.gain_back : 0.0;
+  return length_of(fresh) + back < worthwhile(length_of(followed));
 }
 
 }  // namespace navvi_nav

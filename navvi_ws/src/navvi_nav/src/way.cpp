@@ -76,6 +76,10 @@ void WayConfig::describe(navvi_config::Visitor& visit) {
          "obstacles on the path farther ahead than this are left to move away"},
         look_ahead);
   visit({"standing_speed", Range{0.0, 2.0}, "m/s", "what is slower stands"}, standing_speed);
+  visit({"pause", Range{0.0, 60.0}, "s",
+         "what moved, and has stood for less time than it takes to get there, is left to go on "
+         "while that is more than this"},
+        pause);
   visit({"foresight", Range{0.0, 20.0}, "s",
          "what will have left the path within this time, keeping its velocity, only crosses"},
         foresight);
@@ -139,7 +143,12 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
   Meeting out;
   const std::optional<double> now = cut_at(path, thing, 0.0);
   if (norm(thing.velocity()) <= config_.standing_speed) {
-    if (now) out = {Way::State::stands, *now, 0.0, 0.0, *now / pace};
+    if (!now) return out;
+    // What has stood for long will stand for long.
+    const double there = now.value() / pace;
+    const bool pauses = there > std::max(config_.pause, thing.first->stood);
+    out = {pauses ? Way::State::comes : Way::State::stands, *now, there, 0.0, there};
+    out.ends = false;
     return out;
   }
   const double touch = config_.robot_radius;
@@ -185,9 +194,9 @@ Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, do
     touches = touches || one.touches;
     out.hits_in = std::min(out.hits_in, one.hits_in);
     out.hits_waiting = out.hits_waiting || one.hits_waiting;
-    const bool crosses = one.ends && one.hits_in < kNever && one.state != Way::State::stands;
-    if (crosses && (!out.wait || one.at < out.wait->at))
-      out.wait = Way::Wait{thing.first->id, one.at, one.clears_in};
+    const bool moves = norm(thing.velocity()) > config_.standing_speed;
+    if (moves && one.hits_in < kNever && (!out.wait || one.at < out.wait->at))
+      out.wait = Way::Wait{thing.first->id, one.at, one.ends ? one.clears_in : -1.0};
     if (one.state == Way::State::free) return;
     if (out.state == Way::State::free || one.at < out.at) out.at = one.at;
     if (one.state == Way::State::comes && (out.meets_in <= 0.0 || one.meets_in < out.meets_in))
@@ -204,8 +213,9 @@ std::vector<Cylinder> WayAhead::foreseen(const Path& path, const std::vector<Cyl
   if (path.size() < 2) return out;
   Thing::each(obstacles, [&](const Thing& thing) {
     const Meeting one = meet(path, thing, pace);
-    const bool evades = one.ends && one.hits_waiting && one.hits_in < kNever;
+    const bool evades = one.hits_waiting && one.ends && one.hits_in < kNever;
     if (one.state != Way::State::comes && !evades) return;
+    if (norm(thing.velocity()) <= config_.standing_speed) return;
     const double end = evades ? one.clears_in : one.meets_in + kLate;
     const double step = thing.first->radius / norm(thing.velocity());  // s
     const double spare = 2.0 * config_.robot_radius + kElbowRoom;

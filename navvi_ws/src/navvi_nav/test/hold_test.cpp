@@ -40,10 +40,25 @@ TEST_F(Holding, waits_for_what_crosses_whatever_else_there_is) {
 }
 
 TEST_F(Holding, evades_what_comes_only_when_it_is_close) {
-  for (const Path& fresh : {longer_, back_, slight_, Path{}}) {
-    EXPECT_DOUBLE_EQ(kept(fresh, way(Way::State::comes, 10.0)), config_.hold_time);
+  for (const Path& fresh : {longer_, back_, slight_, Path{}})
+    EXPECT_DOUBLE_EQ(kept(fresh, way(Way::State::comes, 10.0)), 20.0);  // as long as it was asked
+  for (const Path& fresh : {back_, slight_, Path{}})
     EXPECT_DOUBLE_EQ(kept(fresh, way(Way::State::comes, 3.0)), 0.0);
-  }
+}
+
+TEST_F(Holding, leads_nobody_a_long_way_round_at_once_for_what_comes) {
+  EXPECT_DOUBLE_EQ(kept(longer_, way(Way::State::comes, 3.0)), config_.hold_time);
+  config_.hold_detour = 50.0;
+  EXPECT_DOUBLE_EQ(kept(longer_, way(Way::State::comes, 3.0)), 0.0);
+}
+
+TEST_F(Holding, changes_nothing_while_somebody_waits_in_safety) {
+  Way waited = way(Way::State::comes, 3.0);
+  waited.wait = Way::Wait{1, 2.0, -1.0};
+  EXPECT_DOUBLE_EQ(kept(slight_, waited), config_.hold_time);
+  waited.hits_waiting = true;
+  waited.hits_in = 2.0;
+  EXPECT_DOUBLE_EQ(kept(slight_, waited), 0.0);
 }
 
 TEST_F(Holding, does_not_wait_for_what_stands) {

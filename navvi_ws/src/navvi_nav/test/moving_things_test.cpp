@@ -178,6 +178,90 @@ MovingThing forklift(Point at, double yaw, double speed = 0.0) {
   return {{9, at, 1.35, speed * Point{std::cos(yaw), std::sin(yaw)}}, yaw, 2.4, 1.1};
 }
 
+/// A hall without shelves. A person drives along its middle, and stands while told to wait.
+class OpenHall : public Lockstep {
+ protected:
+  OpenHall() : Lockstep(30, 16) {
+    robot_.position = {1.5, 8};
+    load();
+    navigator_.set_goal({28, 8});
+    tick(2);
+    path_ = navigator_.path();
+  }
+  struct Drive {
+    double waited = 0.0;   ///< s
+    bool changed = false;  ///< the path
+    double least = 1e9;    ///< m, from the forklift's rectangle to the robot
+  };
+  template <typename Forklift>
+  Drive drive_beside(const Forklift& forklift_at, double seconds) {
+    Drive out;
+    for (double elapsed = 0.0; elapsed < seconds; elapsed += kTick) {
+      things_ = {forklift_at(elapsed)};
+      const Status now = status();
+      const bool drives = now.state == State::following;
+      out.waited += now.state == State::blocked ? kTick : 0.0;
+      speed_ = drives ? kPace : 0.0;
+      if (drives)
+        drive(kPace * kTick);
+      else
+        tick();
+      out.changed = out.changed || !(navigator_.path() == path_);
+      const MovingThing& one = things_[0];
+      const Point away = robot_.position - one.cylinder.center;
+      const Point ahead{std::cos(one.yaw), std::sin(one.yaw)};
+      const double x = std::max(0.0, std::abs(dot(away, ahead)) - one.length / 2);
+      const double y = std::max(0.0, std::abs(cross(ahead, away)) - one.width / 2);
+      out.least = std::min(out.least, std::hypot(x, y) - 0.35);
+    }
+    return out;
+  }
+  Path path_;
+};
+
+TEST_F(OpenHall, a_forklift_in_a_lane_beside_the_path_changes_nothing) {
+  const Drive drive = drive_beside(
+      [](double time) {
+        return forklift({22.0 - time, 9.2}, M_PI, 1.0);
+      },
+      25.0);
+  EXPECT_FALSE(drive.changed);
+  EXPECT_EQ(drive.waited, 0.0);
+  EXPECT_EQ(status().reroutes, 0U);
+}
+
+TEST_F(OpenHall, a_forklift_that_crosses_right_before_the_robot_is_waited_for) {
+  // As it was seen: 1 m/s, square to the path, less than 1.5 m before who goes on.
+  for (const double start : {3.0, 3.5, 4.0, 4.5}) {
+    robot_.position = {1.5, 8};
+    navigator_.set_goal({28, 8});
+    tick(2);
+    path_ = navigator_.path();
+    const Drive drive = drive_beside(
+        [start](double time) {
+          return forklift({5.0, start + time}, M_PI / 2, 1.0);
+        },
+        12.0);
+    EXPECT_FALSE(drive.changed) << start;
+    EXPECT_GT(drive.waited, 0.5) << start;
+    EXPECT_LT(drive.waited, 6.0) << start;
+    EXPECT_GT(drive.least, 0.1) << start;
+    EXPECT_EQ(status().state, State::following);
+  }
+}
+
+TEST_F(OpenHall, a_forklift_that_pauses_far_ahead_is_left_to_go_on) {
+  const Drive drive = drive_beside(
+      [](double time) {
+        const bool pauses = time > 2.0 && time < 6.0;
+        const double y = time < 2.0 ? 6.0 + time : std::max(8.0, 2.0 + time);
+        return forklift({12.0, y}, M_PI / 2, pauses ? 0.0 : 1.0);
+      },
+      14.0);
+  EXPECT_FALSE(drive.changed);
+  EXPECT_EQ(drive.waited, 0.0);
+}
+
 /// An aisle of 2.4 m, too narrow for the robot and a forklift side by side, with halls at both
 /// ends.
 class NarrowAisle : public Lockstep {

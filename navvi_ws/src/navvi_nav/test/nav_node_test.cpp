@@ -63,16 +63,22 @@ class NavNodeTest : public testing::Test {
     obstacles_.publish(played_);
   }
 
-  void send_map() {
+  /// \param full  as octomap_server's octomap_full, with a shelf more
+  void send_map(bool full = false) {
     SmallWorld world;
     world.room(16, 10).box(6, 3, 0, 9, 7, 1.0);
+    if (full) world.box(6, 7, 0, 9, 9.9, 1.0);
     octomap::OcTree tree = world.tree();
     std::ostringstream out;
-    tree.writeBinaryData(out);
+    if (full) {
+      tree.writeData(out);
+    } else {
+      tree.writeBinaryData(out);
+    }
     const std::string text = out.str();
     octomap_msgs::Octomap msg;
     msg.header.frame_id = "map";
-    msg.binary = 1;
+    msg.binary = full ? 0 : 1;
     msg.id = "OcTree";
     msg.resolution = tree.getResolution();
     msg.data.assign(text.begin(), text.end());
@@ -285,6 +291,22 @@ TEST(NavNodeWithoutOctoMap, takes_an_occupancy_grid) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
   while (!client.call(service) && ros::WallTime::now() < end) ros::WallDuration(0.1).sleep();
   EXPECT_GE(service.response.plan.poses.size(), 3U);
+}
+
+TEST_F(NavNodeTest, takes_a_full_map_on_the_same_topic) {
+  send_map();
+  send_goal(14, 6);
+  ASSERT_TRUE(until([this] {
+    return guidance_.state == navvi_msgs::Guidance::FOLLOWING && guidance_.goal.y == 6.0;
+  }));
+  send_map(true);
+  EXPECT_TRUE(
+      until([this] { return guidance_.replan_reason == navvi_msgs::Guidance::MAP_CHANGED; }));
+  EXPECT_TRUE(until([this] {
+    return !path_.poses.empty() &&
+           std::all_of(path_.poses.begin(), path_.poses.end(),
+                       [](const auto& pose) { return pose.pose.position.y < 6.5; });
+  }));
 }
 
 TEST_F(NavNodeTest, lives_on_after_garbage) {

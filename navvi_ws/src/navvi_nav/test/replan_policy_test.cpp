@@ -114,11 +114,15 @@ TEST(ReplanPolicy, plans_when_the_robot_is_too_slow_for_too_long) {
 
 TEST(ReplanPolicy, keeps_a_path_that_is_hardly_longer) {
   const ReplanPolicy policy{ReplanPolicyConfig{}};
-  EXPECT_FALSE(policy.worth_changing(Reason::period, 10.0, 9.5));
-  EXPECT_FALSE(policy.worth_changing(Reason::too_slow, 10.0, 11.0));
-  EXPECT_TRUE(policy.worth_changing(Reason::period, 10.0, 8.0));
-  EXPECT_TRUE(policy.worth_changing(Reason::path_carved, 10.0, 12.0));
-  EXPECT_TRUE(policy.worth_changing(Reason::new_goal, 10.0, 12.0));
+  const auto on = [](double length) { return Path{{0, 0}, {length, 0}}; };
+  EXPECT_FALSE(policy.worth_changing(Reason::period, on(10.0), on(9.5)));
+  EXPECT_FALSE(policy.worth_changing(Reason::too_slow, on(10.0), on(11.0)));
+  EXPECT_TRUE(policy.worth_changing(Reason::period, on(10.0), on(8.0)));
+  EXPECT_FALSE(policy.worth_changing(Reason::period, on(10.0), on(-8.0)));  // back
+  EXPECT_TRUE(policy.worth_changing(Reason::period, on(10.0), on(-4.0)));
+  EXPECT_FALSE(policy.worth_changing(Reason::period, on(10.0), {}));
+  EXPECT_TRUE(policy.worth_changing(Reason::path_carved, on(10.0), on(12.0)));
+  EXPECT_TRUE(policy.worth_changing(Reason::new_goal, on(10.0), on(12.0)));
 }
 
 TEST(ReplanPolicy, searches_for_a_free_path_only_if_something_left_a_place_that_matters) {

@@ -37,6 +37,24 @@ TEST_F(Ahead, foresees_what_is_about_to_cross) {
   EXPECT_EQ(judge({forklift({5, -1.5}, {0, -1.0})}).state, Way::State::free);
 }
 
+TEST_F(Ahead, takes_what_moved_for_what_will_move_on_until_it_has_stood_for_long) {
+  Cylinder pauses = forklift({8, 0}, {});
+  EXPECT_EQ(judge({pauses}).state, Way::State::stands);  // never seen to move
+  for (const double stood : {0.0, 4.0, 9.0}) {           // it is 7.2 m, 10 s, away
+    pauses.stood = stood;
+    const Way way = judge({pauses});
+    EXPECT_EQ(way.state, Way::State::comes) << stood;
+    EXPECT_NEAR(way.meets_in, 10.2, 0.1);
+    EXPECT_FALSE(way.wait);
+  }
+  pauses.stood = 11.0;
+  EXPECT_EQ(judge({pauses}).state, Way::State::stands);
+  pauses.stood = 1.0;
+  pauses.center.x = 4.0;  // nearer than 5 s
+  EXPECT_EQ(judge({pauses}).state, Way::State::stands);
+  EXPECT_TRUE(WayAhead(config_).foreseen({{0, 0}, {20, 0}}, {pauses}, 0.7).empty());
+}
+
 TEST_F(Ahead, takes_what_crosses_too_slowly_for_what_stays) {
   EXPECT_EQ(judge({forklift({5, -0.75}, {0, 0.25})}).state, Way::State::comes);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace navvi_nav {
@@ -75,6 +76,8 @@ struct Cylinder {
   Point center;
   double radius = 0.0;  ///< m, > 0
   Point velocity;       ///< m/s
+  /// s, that it has stood since it was seen to move; infinite: it never was
+  double stood = std::numeric_limits<double>::infinity();
 };
 
 using Path = std::vector<Point>;

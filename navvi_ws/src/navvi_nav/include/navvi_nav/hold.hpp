@@ -8,6 +8,7 @@ struct HoldConfig {
   double hold_time = 8.0;
   double hold_choice = 3.0;
   double hold_meeting = 4.0;
+  double hold_detour = 6.0;
   double wait_distance = 3.0;
 
   void describe(navvi_config::Visitor& visit);
@@ -20,7 +21,8 @@ class Hold {
   explicit Hold(const HoldConfig& config) : config_(config) {}
 
   /// Call it before each search. \returns true to stay, without a search: all that cuts the path
-  /// leaves it soon or is not met within hold_meeting, and that has not gone on for hold_time
+  /// leaves it soon, which has not gone on for hold_time, or comes but is not met within
+  /// hold_meeting
   [[nodiscard]] bool waits(double time, const Way& way);
   struct Choice {
     Path path;  ///< empty: no route
@@ -35,11 +37,12 @@ class Hold {
   void reset();
   /// \param at  m along the path
   [[nodiscard]] bool is_near(double at) const { return at <= config_.wait_distance; }
-  /// True if a person should wait for what crosses right before them.
+  /// True if a person should wait for what moves right before them.
   [[nodiscard]] bool must_wait(const Way& way) const;
 
  private:
-  [[nodiscard]] bool passes(const Way& way) const;
+  [[nodiscard]] bool rests(const Way& way) const;
+  [[nodiscard]] bool is_far(const Way& way) const;
   [[nodiscard]] bool goes_on(double time, bool held);
 
   HoldConfig config_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -100,8 +101,9 @@ class Navigator {
   std::optional<double> map_time_;   ///< s, when the map in use came
   std::optional<double> mesh_time_;  ///< s, as of which the mesh shows what moves
   std::vector<MovingThing> things_;
-  std::vector<Cylinder> obstacles_;       ///< the same
-  std::optional<double> obstacles_time_;  ///< nullopt: none came yet
+  std::map<std::uint32_t, double> moved_;  ///< s, when each was last seen to move
+  std::vector<Cylinder> obstacles_;        ///< the same things
+  std::optional<double> obstacles_time_;   ///< nullopt: none came yet
   bool obstacles_lost_ = false;
   std::optional<Pose> pose_;
   double pose_time_ = 0.0;

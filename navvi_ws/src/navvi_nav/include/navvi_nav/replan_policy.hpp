@@ -33,6 +33,7 @@ struct ReplanPolicyConfig {
   double stray = 0.5;
   double gain = 0.1;
   double gain_length = 0.5;
+  double gain_back = 4.0;
   WayConfig way;
   HoldConfig hold;
 
@@ -65,7 +66,7 @@ class ReplanPolicy {
   /// Forgets all times, after the clock jumped.
   void reset();
   /// False if the path that is being followed should stay: the new one is not shorter by enough.
-  [[nodiscard]] bool worth_changing(Reason reason, double followed, double fresh) const;
+  [[nodiscard]] bool worth_changing(Reason reason, const Path& followed, const Path& fresh) const;
   /// True if the path that is followed should stay although moving things cut it: see Hold::keeps.
   [[nodiscard]] bool holds(double time, const Path& followed, const Path& fresh,
                            const std::vector<Cylinder>& obstacles, double pace);

@@ -15,6 +15,7 @@ struct WayConfig {
   double look_ahead = 12.0;
   double standing_speed = 0.2;
   double foresight = 6.0;
+  double pause = 5.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -24,7 +25,7 @@ struct Way {
   enum class State {
     free,    ///< nothing cuts it
     clears,  ///< all that cuts it crosses it or goes on ahead, and has left it soon
-    comes,   ///< something that moves keeps cutting it, such as what comes along it
+    comes,  ///< something that moves, or only pauses, keeps cutting it, such as what comes along it
     stands,  ///< something that stands cuts it
   };
   State state = State::free;
@@ -33,12 +34,12 @@ struct Way {
   /// s, until who goes on at the pace, or a little later, runs into something; infinite: into none
   double hits_in = std::numeric_limits<double>::infinity();
   bool hits_waiting = false;  ///< something that moves runs into who waits here
-  /// What crosses and is run into by who goes on. None if something runs into who waits here while
+  /// What moves and is run into by who goes on. None if something runs into who waits here while
   /// who goes on just comes by.
   struct Wait {
     std::uint32_t by = 0;
     double at = 0.0;         ///< m, along the path to where
-    double clears_in = 0.0;  ///< s, until it has left the path
+    double clears_in = 0.0;  ///< s, until it has left the path; -1: nobody knows
   };
   std::optional<Wait> wait;
 };
