@@ -41,4 +41,16 @@ std::vector<Contestant> contestants(Course& course) {
   };
 }
 
+std::vector<Contestant> among_discs(Course& course) {
+  Contestant ours = on("exact, our mesh", course.carved.nav_mesh().mesh(), SearchMethod::exact);
+  ours.place = [&course](const std::vector<Cylinder>& discs) { course.carved.carve(discs); };
+  return {
+      ours,
+      {"Detour, TileCache's mesh",
+       [&course](const Query& q) { return course.tile_cache_query.locate(q.start, q.goal); },
+       [&course] { return course.tile_cache_query.search(); },
+       [&course](const std::vector<Cylinder>& discs) { course.tile_cache.place(discs); }},
+  };
+}
+
 }  // namespace navvi_nav

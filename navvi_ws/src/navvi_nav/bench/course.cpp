@@ -58,6 +58,19 @@ std::vector<Cylinder> Course::discs(int count) const {
   return out;
 }
 
+double Course::floor_area() const {
+  const Mesh& mesh = ours.nav_mesh().mesh();
+  double twice = 0.0;
+  for (const Polygon& polygon : mesh.polygons) {
+    for (std::size_t k = 2; k < polygon.corners.size(); ++k) {
+      const Point origin = mesh.at(polygon.corners[0]);
+      twice +=
+          cross(mesh.at(polygon.corners[k - 1]) - origin, mesh.at(polygon.corners[k]) - origin);
+    }
+  }
+  return 0.5 * twice;
+}
+
 Point Course::somewhere(std::mt19937& random) const {
   const Floor& floor = *ours.nav_mesh().shared_floor();
   const Point low = floor.center_of(floor.origin());

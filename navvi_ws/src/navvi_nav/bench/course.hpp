@@ -29,6 +29,7 @@ struct Course {
 
   /// `count` discs of 0.5 m at random places of the floor.
   [[nodiscard]] std::vector<Cylinder> discs(int count) const;
+  [[nodiscard]] double floor_area() const;  ///< m^2, of our mesh
 
   std::string name;
   std::uint32_t seed;

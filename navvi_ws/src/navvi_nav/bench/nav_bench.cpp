@@ -3,6 +3,7 @@
 // may use threads; all else by the processor, so that what else the machine does falls out of it.
 
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -29,6 +30,8 @@ using benchmark::State;
 
 constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
+constexpr int kSearchedAmong = 50;  // discs
+const std::string kAmong = "among discs: ";
 constexpr int kJudged = 100;  // queries, by brute force
 const std::string kPrepare = "corners and landmarks, once they pay",
                   kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
@@ -42,11 +45,14 @@ double now() {  // s
 }
 
 /// Times each search alone, once a query, when all have been asked before.
-void ask_all(State& state, const Course& course, const Contestant& search) {
+/// \param before  each of them, untimed
+void ask_all(State& state, const Course& course, const Contestant& search,
+             const std::function<void()>& before) {
   std::vector<double> times;
   for (const Query& query : course.queries)
     if (search.locate(query)) benchmark::DoNotOptimize(search.find());
   for (auto _ : state) {
+    before();
     const Query& query = course.queries[times.size() % course.queries.size()];
     double took = 0.0;
     if (search.locate(query)) {
@@ -61,6 +67,18 @@ void ask_all(State& state, const Course& course, const Contestant& search) {
   state.counters["p50"] = 1e6 * times[times.size() / 2];
   state.counters["p99"] = 1e6 * times[times.size() * 99 / 100];
   state.counters["max"] = 1e6 * times.back();
+}
+
+/// Times each search alone, when all have been asked on the floor without discs, and the discs have
+/// moved since the query before.
+void ask_among_discs(State& state, const Course& course, const Contestant& search) {
+  const std::vector<Cylinder> here = course.discs(kSearchedAmong);
+  std::vector<Cylinder> there = here;
+  for (Cylinder& disc : there) disc.center.x += kMoved;
+  std::size_t turn = 0;
+  search.place({});
+  ask_all(state, course, search, [&] { search.place(++turn % 2 == 0 ? here : there); });
+  search.place({});
 }
 
 /// Times `replan` with the discs here and 0.3 m farther in turn, and a query each time.
@@ -115,7 +133,12 @@ void declare(Course& c) {
   declare_bakes(c);
   for (const Contestant& search : contestants(c))
     benchmark::RegisterBenchmark((search.name + c.name).c_str(),
-                                 [&c, search](State& state) { ask_all(state, c, search); })
+                                 [&c, search](State& state) { ask_all(state, c, search, [] {}); })
+        ->Iterations(Course::kQueries)
+        ->UseManualTime();
+  for (const Contestant& search : among_discs(c))
+    benchmark::RegisterBenchmark((kAmong + search.name + c.name).c_str(),
+                                 [&c, search](State& state) { ask_among_discs(state, c, search); })
         ->Iterations(Course::kQueries)
         ->UseManualTime();
   for (const int count : kDiscs) {
@@ -195,10 +218,38 @@ void compare(Course& c) {
   }
 }
 
+std::size_t bytes_in_use() {
+  const struct mallinfo2 memory = mallinfo2();
+  return memory.uordblks + memory.hblkhd;
+}
+
+/// What a planner keeps of a hall, by the square metre of its mesh.
+void weigh(const Course& c) {
+  const double area = c.floor_area();
+  const std::size_t before = bytes_in_use();
+  Planner planner(c.config);
+  planner.set_map(c.tree);
+  const std::size_t with_mesh = bytes_in_use();
+  const Mesh& mesh = planner.nav_mesh().mesh();
+  CornerGraph graph(0);
+  Path path;
+  graph.find(mesh, *mesh.locate(c.queries[0].start, Course::kNear),
+             *mesh.locate(c.queries[0].goal, Course::kNear), path);
+  const std::size_t with_landmarks = bytes_in_use();
+  const Mesh copy = mesh;
+  const std::size_t with_copy = bytes_in_use();
+  std::printf(
+      "memory, bytes a square metre: %.0f map and mesh (%.0f the mesh alone), "
+      "%.0f corners and landmarks\n",
+      static_cast<double>(with_mesh - before) / area,
+      static_cast<double>(with_copy - with_landmarks) / area,
+      static_cast<double>(with_landmarks - with_mesh) / area);
+}
+
 /// Largest difference from brute force, relative, without holes and with some.
 void judge(Course& c) {
   Search search(SearchMethod::exact);
-  for (const int count : {0, 10}) {
+  for (const int count : {0, 10, 50}) {
     c.carved.carve(c.discs(count));
     const Mesh& mesh = c.carved.nav_mesh().mesh();
     VisibilityGraph truth(mesh);
@@ -230,13 +281,20 @@ void print(const Medians& medians, Course& c) {
     const double took = medians.get(what + name, "real_ms");
     row(what, {took, took / medians.get(kTileCache + name, "real_ms")});
   }
-  heading("search, us", {"p50", "p99", "max", "/ Detour", "p99 /"});
-  for (const Contestant& search : contestants(c)) {
-    const auto get = [&](const char* value) { return medians.get(search.name + name, value); };
-    row(search.name,
-        {get("p50"), get("p99"), get("max"), get("p50") / medians.get("Detour" + name, "p50"),
-         get("p99") / medians.get("Detour" + name, "p99")});
-  }
+  const auto searches = [&](const std::string& what, const std::string& prefix,
+                            const std::vector<Contestant>& all) {
+    heading(what, {"p50", "p99", "max", "/ Detour", "p99 /"});
+    const std::string last = prefix + all.back().name + name;  // Detour
+    for (const Contestant& search : all) {
+      const auto get = [&](const char* value) {
+        return medians.get(prefix + search.name + name, value);
+      };
+      row(search.name, {get("p50"), get("p99"), get("max"), get("p50") / medians.get(last, "p50"),
+                        get("p99") / medians.get(last, "p99")});
+    }
+  };
+  searches("search, us, all queries asked before", "", contestants(c));
+  searches("search, us, 50 discs have just moved", kAmong, among_discs(c));
   heading("discs moved, exact path out, ms", {"ours", "TileCache", "ratio"});
   for (const int count : kDiscs) {
     const std::string which = std::to_string(count) + name;
@@ -245,6 +303,7 @@ void print(const Medians& medians, Course& c) {
     row(std::to_string(count), {ours, theirs, ours / theirs});
   }
   compare(c);
+  weigh(c);
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ int side(Point a, double a_extent, Point b, double b_extent) {
 }  // namespace
 
 bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
-                    std::size_t most, Path& path) {
+                    std::size_t most, FloorBound* bound, Path& path) {
   path.clear();
+  bound_ = bound;
   begin(mesh, start, goal);
   if (mesh.polygon(start.polygon).part != mesh.polygon(goal.polygon).part) return false;
   for (const int polygon : start_polygons_) {
@@ -100,51 +101,50 @@ void AnyAngle::expand(const Node& node) {
   const Point root = at(node.root);
   const double right_extent = extent(node.right);
   const double left_extent = extent(node.left);
+  // An end of a link, and on which side it lies of either border. Most links begin where the one
+  // before ended.
+  struct End {
+    int vertex;
+    Point ahead;
+    int right;
+    int left;
+  };
+  const auto end = [&](int vertex) {
+    const Point ahead = mesh_->at(vertex) - root;
+    if (vertex == node.root) return End{vertex, ahead, 0, 0};
+    const double ahead_extent = extent(ahead);
+    return End{vertex, ahead, side(node.right, right_extent, ahead, ahead_extent),
+               side(node.left, left_extent, ahead, ahead_extent)};
+  };
+  End d{-1, {}, 0, 0};
   for (const Link& link : mesh_->polygon(node.polygon).links) {
     if (link.right == node.link_left && link.left == node.link_right) continue;
-    const Point right = mesh_->at(link.right);
-    const Point left = mesh_->at(link.left);
-    const Point c = right - root;
-    const Point d = left - root;
-    const double c_extent = extent(c);
-    const double d_extent = extent(d);
+    const End c = link.right == d.vertex ? d : end(link.right);
+    d = end(link.left);
     // In a cone of 180 degrees both borders lie on one line.
-    if (link.left != node.root) {
-      const int inside = side(node.right, right_extent, d, d_extent);
-      if (inside < 0 || (inside == 0 && dot(node.right, d) > 0.0)) {
-        if (node.right_end) turn(node, link, true, true);
-        continue;
-      }
+    if (d.right < 0 || (d.right == 0 && d.vertex != node.root && dot(node.right, d.ahead) > 0.0)) {
+      if (node.right_end) turn(node, link, true, true);
+      continue;
     }
-    if (link.right != node.root) {
-      const int inside = side(node.left, left_extent, c, c_extent);
-      if (inside > 0 || (inside == 0 && dot(node.left, c) > 0.0)) {
-        if (node.left_end) turn(node, link, false, true);
-        continue;
-      }
+    if (c.left > 0 || (c.left == 0 && c.vertex != node.root && dot(node.left, c.ahead) > 0.0)) {
+      if (node.left_end) turn(node, link, false, true);
+      continue;
     }
-    const int right_side =
-        link.right == node.root ? 0 : side(node.right, right_extent, c, c_extent);
-    const int left_side = link.left == node.root ? 0 : side(node.left, left_extent, d, d_extent);
-    const bool right_in = right_side >= 0;
-    const bool left_in = left_side <= 0;
-    Node next = node;
-    next.polygon = link.to;
-    next.link_right = link.right;
-    next.link_left = link.left;
-    next.right_end = right_in && link.right != node.root;
-    next.left_end = left_in && link.left != node.root;
-    if (next.right_end) next.right = c;
-    if (next.left_end) next.left = d;
-    if (next.right_end && next.left_end && side(c, c_extent, d, d_extent) <= 0) {
+    const bool right_in = c.right >= 0;
+    const bool left_in = d.left <= 0;
+    const bool right_end = right_in && c.vertex != node.root;
+    const bool left_end = left_in && d.vertex != node.root;
+    if (right_end && left_end && side(c.ahead, extent(c.ahead), d.ahead, extent(d.ahead)) <= 0) {
       slip_into(link, node.root, node.cost);
       continue;
     }
     // Who sees a corner first answers for all ways on from there; so not one who sees it along a
     // border, on one side only.
-    if (right_side > 0 && is_corner(link.right)) reach(link.right, node.root, node.cost + norm(c));
-    if (left_side < 0 && is_corner(link.left)) reach(link.left, node.root, node.cost + norm(d));
-    add(next, right, left);
+    if (c.right > 0 && is_corner(c.vertex)) reach(c.vertex, node.root, node.cost + norm(c.ahead));
+    if (d.left < 0 && is_corner(d.vertex)) reach(d.vertex, node.root, node.cost + norm(d.ahead));
+    add({node.cost, right_end ? c.ahead : node.right, left_end ? d.ahead : node.left, node.root,
+         link.to, link.right, link.left, right_end, left_end},
+        mesh_->at(link.right), mesh_->at(link.left));
     if (!right_in && node.right_end) turn(node, link, true, false);
     if (!left_in && node.left_end) turn(node, link, false, false);
   }
@@ -329,7 +329,33 @@ void AnyAngle::add(const Node& node, const Point& link_right, const Point& link_
   } else {
     rest = norm(target);
   }
+  if (bound_ != nullptr) rest = std::max(rest, farther_round(node));
   push(node, node.cost + rest);
+}
+
+/// m, at least, from the root through the part of the link that it sees to the goal, as the floor
+/// tells: the way there, and on from wherever it is least.
+double AnyAngle::farther_round(const Node& node) const {
+  const Point root = at(node.root);
+  const Point right = end_of(node, true);
+  const Point left = end_of(node, false);
+  const double there = distance(root, nearest_on_segment(root, right, left));
+  const double on = bound_->through(node.polygon, node.link_right, node.link_left, right, left);
+  return std::max(there + on, node.root == start_ ? 0.0 : bound_->of(node.root));
+}
+
+/// Where the border of what the root sees crosses the link.
+Point AnyAngle::end_of(const Node& node, bool right) const {
+  const Point link_right = at(node.link_right);
+  const Point link_left = at(node.link_left);
+  if (right ? node.right_end : node.left_end) return right ? link_right : link_left;
+  const Point border = right ? node.right : node.left;
+  const Point edge = link_left - link_right;
+  const Point root = at(node.root);
+  const double across = cross(border, edge);
+  if (std::abs(across) < 1e-9 * extent(border) * extent(edge))
+    return right ? link_right : link_left;
+  return root + (cross(link_right - root, edge) / across) * border;
 }
 
 AnyAngle::View& AnyAngle::view_of(const Node& node) {
@@ -360,16 +386,8 @@ bool AnyAngle::outdone(const Node& node) {
       (node.left_end && owns(node.link_left, node.left)))
     return false;
   const Point root = at(node.root);
-  const Point link_right = at(node.link_right);
-  const Point link_left = at(node.link_left);
-  const Point edge = link_left - link_right;
-  const auto crossing = [&](Point border, Point end) {
-    const double across = cross(border, edge);
-    if (std::abs(across) < 1e-9 * extent(border) * extent(edge)) return end;
-    return root + (cross(link_right - root, edge) / across) * border;
-  };
-  const Point x = node.right_end ? link_right : crossing(node.right, link_right);
-  const Point y = node.left_end ? link_left : crossing(node.left, link_left);
+  const Point x = end_of(node, true);
+  const Point y = end_of(node, false);
   const double slack = kTie * node.cost;
   if (view.cost + distance(view.from, x) > node.cost + distance(root, x) + slack ||
       view.cost + distance(view.from, y) > node.cost + distance(root, y) + slack)

@@ -55,6 +55,14 @@ bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::P
   return true;
 }
 
+Landmarks* CornerGraph::landmarks(const Mesh& mesh, const Mesh::Place& place, std::size_t cost) {
+  mesh_ = &mesh;
+  tangents_.watch(mesh);
+  keep_landmarks(place);
+  expanded_here_ += cost;
+  return landmarks_.known() ? &landmarks_ : nullptr;
+}
+
 void CornerGraph::keep_landmarks(const Mesh::Place& start) {
   if (mesh_->version != version_) {
     version_ = mesh_->version;

@@ -82,6 +82,8 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   own_vertices_ = pool_.in_use();
   vertices_end_ = mesh_.vertices.size();
   parts_.number(mesh_);
+  mesh_.floor.reset();
+  mesh_.floor = std::make_shared<const Mesh>(mesh_);
   return numbers;
 }
 
@@ -356,6 +358,7 @@ void CutMesh::add_piece(int ground, const ExactPolygon& shape) {
   const int index = free_slot(ground);
   Piece& piece = pieces_[slot(index)];
   piece.ground = ground;
+  mesh_.polygons[slot(index)].ground = ground;
   for (const ExactPolygon::Edge& edge : shape.edges) {
     const int vertex = pool_.take(mesh_.vertices, position(edge.begin));
     // A side too short for doubles has no length.
@@ -431,6 +434,7 @@ void CutMesh::shrink() {
   if (pool_.in_use() != own_vertices_) return;
   pool_.shrink(mesh_.vertices, vertices_end_);
   parts_.number(mesh_);
+  if (free_openings_.size() == openings_.size()) mesh_.version = mesh_.floor->version;
 }
 
 Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {

@@ -36,7 +36,25 @@ void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, Tangents
       ways_[vertex] = ways_from(sight_, seen);
     }
   }
+  forget_pinches(mesh);
   known_ = true;
+}
+
+/// Where polygons meet in a point only, holes can change which of them has which of its vertices.
+void Landmarks::forget_pinches(const Mesh& mesh) {
+  std::vector<int> corners;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (mesh.vertices[i].corner) corners.push_back(static_cast<int>(i));
+  }
+  const auto key = [&mesh](int vertex) {
+    return std::make_pair(mesh.at(vertex).x, mesh.at(vertex).y);
+  };
+  std::sort(corners.begin(), corners.end(), [&](int a, int b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (key(corners[i - 1]) != key(corners[i])) continue;
+    ways_[static_cast<std::size_t>(corners[i - 1])].fill(kUnknown);
+    ways_[static_cast<std::size_t>(corners[i])].fill(kUnknown);
+  }
 }
 
 /// Dijkstra's search from one landmark. \returns the corner that is farthest from all landmarks up

@@ -24,7 +24,7 @@ using namespace navvi_nav;
 constexpr const char* kUsage =
     R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
   MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
-  -o          draw the map, its mesh, the cylinders and the path
+  -o          draw the map, its mesh, the cylinders and the path; ./navvi also takes FILE.png
   --from --to search a path, m in map
   --cylinder  cut a hole around something that moves, m in map
   --config    parameters that differ from the defaults, as in nav_node's config files

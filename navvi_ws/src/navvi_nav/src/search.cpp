@@ -8,9 +8,10 @@
 namespace navvi_nav {
 namespace {
 
-// Nodes that Polyanya may expand before the graph of corners takes over, as measured: the larger
-// the mesh, the fewer queries are done with so few.
-constexpr std::size_t kEasy = 20;
+// Nodes that Polyanya may expand before the graph of corners takes over. In a small mesh as many as
+// cost what looking about from both ends does; the larger the mesh, the fewer queries are done with
+// so few.
+constexpr std::size_t kEasy = 32;
 constexpr std::size_t kEasyInLarge = 8;
 constexpr std::size_t kLarge = 400;  // polygons
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
@@ -20,14 +21,30 @@ constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 /// Most queries are easy. Hard ones on a mesh that has stayed go over the graph of its corners,
 /// which costs much when it is built and little afterwards.
 void Search::find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
+  if (mesh.floor && mesh.floor->version != mesh.version) {
+    find_between_holes(mesh, start, goal);
+    return;
+  }
   const bool stays = mesh.version != 0 && mesh.version == version_;
   version_ = mesh.version;
   const std::size_t easy = mesh.polygons.size() < kLarge ? kEasy : kEasyInLarge;
-  found_.found = any_angle_.find(mesh, start, goal, stays ? easy : kAny, found_.path);
+  found_.found = any_angle_.find(mesh, start, goal, stays ? easy : kAny, nullptr, found_.path);
   found_.nodes_expanded = any_angle_.nodes_expanded();
   if (!any_angle_.gave_up()) return;
   found_.found = corner_graph_.find(mesh, start, goal, found_.path);
   found_.nodes_expanded += corner_graph_.nodes_expanded();
+}
+
+/// Holes come and go, the floor stays: what is known of it bounds the ways that are left.
+void Search::find_between_holes(const Mesh& mesh, const Mesh::Place& start,
+                                const Mesh::Place& goal) {
+  version_ = mesh.floor->version;
+  const Mesh::Place on_floor{mesh.polygon(start.polygon).ground, start.point};
+  Landmarks* landmarks = corner_graph_.landmarks(*mesh.floor, on_floor, expanded_);
+  if (landmarks != nullptr) floor_bound_.aim(mesh, *landmarks, goal);
+  found_.found = any_angle_.find(mesh, start, goal, kAny,
+                                 landmarks != nullptr ? &floor_bound_ : nullptr, found_.path);
+  found_.nodes_expanded = expanded_ = any_angle_.nodes_expanded();
 }
 
 const Found& Search::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {

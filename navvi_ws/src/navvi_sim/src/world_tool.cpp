@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 constexpr const char* kUsage =
     "world list                                   the worlds that have a name\n"
     "world check NAME|FILE [--config FILE.yaml] [name:=value ...]   what a session makes of it\n"
-    "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture\n"
+    "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
+    "      ./navvi also takes FILE.png\n"
     "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"

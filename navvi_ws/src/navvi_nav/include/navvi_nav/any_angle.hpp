@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "navvi_nav/floor_bound.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/open_list.hpp"
 
@@ -14,9 +15,10 @@ namespace navvi_nav {
 class AnyAngle {
  public:
   /// \param path  gets the path, without points where it goes straight on; empty if there is none
-  /// \param most  nodes to expand, then it gives up \returns true if there is a path
+  /// \param most  nodes to expand, then it gives up \param bound  of the ways on this mesh to the
+  /// goal, or null \returns true if there is a path
   bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, std::size_t most,
-            Path& path);
+            FloorBound* bound, Path& path);
   /// True if the last query was left after `most` nodes.
   [[nodiscard]] bool gave_up() const { return gave_up_; }
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
@@ -61,6 +63,8 @@ class AnyAngle {
   [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
   void add(const Node& node, const Point& link_right, const Point& link_left);
+  [[nodiscard]] double farther_round(const Node& node) const;
+  [[nodiscard]] Point end_of(const Node& node, bool right) const;
   [[nodiscard]] View& view_of(const Node& node);
   [[nodiscard]] bool outdone(const Node& node);
   void push(const Node& node, double estimate);
@@ -72,6 +76,7 @@ class AnyAngle {
   void trace(int root, Path& path) const;
 
   const Mesh* mesh_ = nullptr;
+  FloorBound* bound_ = nullptr;
   Point from_;
   Point to_;
   int start_ = 0;  ///< the root that is no vertex

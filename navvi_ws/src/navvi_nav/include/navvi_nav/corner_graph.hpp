@@ -19,6 +19,9 @@ class CornerGraph {
 
   /// \param path  gets the path; empty if there is none \returns true if there is a path
   bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, Path& path);
+  /// Landmarks of the mesh, or null while searches on it have not cost enough to pay for them.
+  /// \param cost  nodes that another search has expanded \param place  on the mesh
+  Landmarks* landmarks(const Mesh& mesh, const Mesh::Place& place, std::size_t cost);
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:

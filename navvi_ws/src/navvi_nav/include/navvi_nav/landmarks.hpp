@@ -42,6 +42,7 @@ class Landmarks {
     double way = -1.0;
   };
   Far turn_everywhere(const Mesh& mesh, std::size_t landmark, Tangents& tangents);
+  void forget_pinches(const Mesh& mesh);
   [[nodiscard]] Ways ways_from(const Sight& sight, const std::vector<Sight::Corner>& seen) const;
 
   bool known_ = false;

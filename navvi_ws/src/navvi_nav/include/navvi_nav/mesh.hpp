@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Polygon {
   std::vector<int> corners;  ///< vertices, counter-clockwise; some may lie on a straight edge
   std::vector<Link> links;   ///< in counter-clockwise order
   int part = 0;              ///< polygons with the same part are connected, others are not
+  int ground = 0;            ///< the polygon of Mesh::floor of which it is a piece
 };
 
 /// Where the robot's centre may be (R-NAV-3): graph G is its polygons and their links.
@@ -42,8 +44,10 @@ struct Mesh {
   std::vector<Polygon> polygons;
   BoxGrid grid;  ///< of polygons, by their corners
   /// Another one after each change, and in each mesh: what is known of a mesh holds while it stays.
-  /// 0: not told.
+  /// The floor's own if there are no holes. 0: not told.
   std::uint64_t version = 0;
+  /// The mesh as it is without holes, in which its vertices have the same numbers; null: not told.
+  std::shared_ptr<const Mesh> floor;
 
   struct Place {
     int polygon = 0;
