@@ -15,6 +15,8 @@ constexpr double kSameGoal = 0.5;
 constexpr double kWorthSaying = 7.0 * kDegree;
 /// m; what is farther ahead than this need not be passed yet.
 constexpr double kInTheWay = 1.0;
+/// m; what is beside the robot and farther off than this is out of reach.
+constexpr double kBeside = 0.5;
 /// m; half as wide as what the robot drives over, and a little.
 constexpr double kHalfLane = 0.45;
 /// m; a robot that turns with a smaller radius turns on the spot.
@@ -195,7 +197,7 @@ RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
 
 void RouteCues::observe(const Situation& now, double time) {
   hour_ = steady_.update(now.guidance->steer_angle);
-  if (hour_ == 12 && rounding_ == Rounding::nearest) hour_ = round_what_is_ahead(now);
+  if (hour_ == 12 && rounding_ == Rounding::nearest) hour_ = clear_of_things(now);
   const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
   if (beyond(now.commanded.linear, 0.02) || beyond(now.commanded.angular, 0.05))
     last_commanded_ = time;
@@ -205,16 +207,20 @@ void RouteCues::observe(const Situation& now, double time) {
   turning_ = last_turning_ && time - *last_turning_ < config_.settle;
 }
 
-/// Who hears "straight ahead" drives on as they look. Where that is into something, the hour on
-/// the side where the way passes it is nearer to the truth, however small the angle.
-int RouteCues::round_what_is_ahead(const Situation& now) const {
+/// Who hears "straight ahead" drives on as they look. Where that is into something, or along
+/// something that the way leads off from, the hour on the way's side is nearer to the truth,
+/// however small the angle.
+int RouteCues::clear_of_things(const Situation& now) const {
   const double angle = now.guidance->steer_angle;
   if (std::abs(angle) < kWorthSaying) return 12;
-  const bool ahead = std::any_of(now.nearby.begin(), now.nearby.end(), [&](const Nearby& thing) {
-    return thing.gap < std::min(kInTheWay, now.guidance->waypoint_distance) &&
-           thing.nearest.x() > 0.0 && std::abs(thing.nearest.y()) < kHalfLane;
-  });
-  if (!ahead) return 12;
+  const bool in_the_way =
+      std::any_of(now.nearby.begin(), now.nearby.end(), [&](const Nearby& thing) {
+        const bool ahead = thing.gap < std::min(kInTheWay, now.guidance->waypoint_distance) &&
+                           std::abs(thing.nearest.y()) < kHalfLane;
+        const bool left_behind = thing.gap < kBeside && thing.nearest.y() * angle > 0.0;
+        return thing.nearest.x() > 0.0 && (ahead || left_behind);
+      });
+  if (!in_the_way) return 12;
   return angle > 0.0 ? 1 : 11;
 }
 

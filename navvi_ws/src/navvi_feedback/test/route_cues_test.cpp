@@ -107,8 +107,10 @@ TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
   drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
   EXPECT_EQ(drive.last.fillings.hour, 1);
+  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.2, -0.7}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "on the way's side, and not in the way";
   drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "beside the robot it is in nobody's way";
+  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"}) << "the way leads off from it";
 }
 
 TEST(RouteCues, JudgeANewLegAfresh) {

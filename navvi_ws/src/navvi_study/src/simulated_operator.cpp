@@ -13,6 +13,7 @@ constexpr double kNeutralAtStart = 1.0;      // s
 constexpr double kPress = 0.15;              // s, a button is held
 constexpr double kSameBump = 15.0;           // s
 constexpr double kBackOff = 0.7;             // s
+constexpr double kCareful = 5.0;             // s, one goes slowly after hearing of something near
 constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
 constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
 constexpr double kListenFirst = 2.5;         // m, likewise
@@ -119,6 +120,7 @@ void SimulatedOperator::back_off(Instruction::Side side, double time) {
   // Who runs into the same thing again backs off further and tries it at an angle.
   const bool again = time - bumped_ < kSameBump;
   bumped_ = time;
+  careful_until_ = time + 2.0 * kCareful;
   back_until_ = time + (again ? 2.0 : 1.0) * kBackOff;
   target_ = heading_;
   if (side == Instruction::Side::left || side == Instruction::Side::right) {
@@ -132,6 +134,7 @@ void SimulatedOperator::back_off(Instruction::Side side, double time) {
 void SimulatedOperator::ask_soon(double time) { last_news_ = time - config_.idle_patience + 0.4; }
 
 void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
+  careful_until_ = std::max(careful_until_, time + kCareful);
   if (!instruction.very_close) return veer(instruction.side, 0.1, time + 1.5);
   veer(instruction.side, 0.3, time + 2.0);
   // Whoever comes very near was heading there, and does not go back to that heading.
@@ -176,7 +179,6 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
         mode_ = Mode::waiting;
         ask_soon(time);
       }
-      speed_ = std::min(speed_, config_.slow);
       shy_away(instruction, time);
       break;
     case Instruction::Kind::bump:
@@ -203,7 +205,7 @@ StickAndButtons SimulatedOperator::drive(double time) const {
   // Near a corner whoever is spoken to listens first.
   const bool listening = !hearing_.empty() || !understood_.empty();
   if (listening && stop_at_ - odometer_ < kListenFirst) return hand;
-  double speed = speed_;
+  double speed = time < careful_until_ ? std::min(speed_, config_.slow) : speed_;
   if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, config_.slow);
   if (left_motor_ > config_.strong_rumble && right_motor_ > config_.strong_rumble) {
     const double excess = (std::min(left_motor_, right_motor_) - config_.strong_rumble) /

@@ -62,7 +62,7 @@ class RouteCues {
   [[nodiscard]] Change compare(const Guidance& guidance) const;
   void observe(const Situation& now, double time);
   [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
-  [[nodiscard]] int round_what_is_ahead(const Situation& now) const;
+  [[nodiscard]] int clear_of_things(const Situation& now) const;
   [[nodiscard]] bool about_to_face(const Situation& now) const;
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;

@@ -104,6 +104,7 @@ class SimulatedOperator {
   double veer_ = 0.0;  ///< rad, added to the target
   double veer_until_ = 0.0;
   double back_until_ = 0.0;
+  double careful_until_ = 0.0;  ///< s
   double bumped_ = -1e9;
   bool other_side_ = false;
   double last_news_ = 0.0;
