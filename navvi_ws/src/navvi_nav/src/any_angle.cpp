@@ -32,7 +32,7 @@ bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Plac
     }
   }
   leave_start();
-  Node node;
+  Cone node;
   while (pop(node)) {
     if (node.cost > reached_[static_cast<std::size_t>(node.root)].cost * (1.0 + kTie)) continue;
     if (node.polygon < 0) {
@@ -86,13 +86,13 @@ void AnyAngle::leave_start() {
         slip_into(link, start_, 0.0);
         continue;
       }
-      Node node{0.0, c - from_, d - from_, start_, link.to, link.right, link.left, true, true};
+      Cone node{0.0, c - from_, d - from_, start_, link.to, link.right, link.left, true, true};
       add(node, c, d);
     }
   }
 }
 
-void AnyAngle::expand(const Node& node) {
+void AnyAngle::expand(const Cone& node) {
   if (std::find(goal_polygons_.begin(), goal_polygons_.end(), node.polygon) !=
       goal_polygons_.end()) {
     see_goal(node);
@@ -158,7 +158,7 @@ void AnyAngle::slip_into(const Link& link, int root, double cost) {
   const int vertex = to_right ? link.right : link.left;
   const Point ahead = to_right ? c : d;
   if (!is_corner(vertex)) return;
-  Node next{cost + norm(ahead),
+  Cone next{cost + norm(ahead),
             to_right ? -1.0 * ahead : ahead,
             to_right ? ahead : -1.0 * ahead,
             vertex,
@@ -173,7 +173,7 @@ void AnyAngle::slip_into(const Link& link, int root, double cost) {
 
 /// Bends round an end of the link through which the polygon was entered, into `link`.
 /// \param whole  false: only the part of the link that the root does not see
-void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whole) {
+void AnyAngle::turn(const Cone& node, const Link& link, bool to_right, bool whole) {
   const Point root = at(node.root);
   int vertex = to_right ? node.link_right : node.link_left;
   const int near = to_right ? link.right : link.left;
@@ -188,7 +188,7 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
   Point ahead = here - root;
   const int origin = origin_of(node.root, ahead);
   if (!touches(vertex, node.polygon, ahead, to_right)) return;
-  Node next;
+  Cone next;
   next.cost = node.cost + norm(ahead);
   if (!reach(vertex, origin, next.cost)) return;
   next.root = vertex;
@@ -230,10 +230,10 @@ void AnyAngle::turn(const Node& node, const Link& link, bool to_right, bool whol
   add(next, mesh_->at(link.right), mesh_->at(link.left));
 }
 
-void AnyAngle::see_goal(const Node& node) {
+void AnyAngle::see_goal(const Cone& node) {
   const Point root = at(node.root);
   const Point ahead = to_ - root;
-  Node last = node;
+  Cone last = node;
   last.polygon = -1;
   const bool over_right = side(node.right, extent(node.right), ahead, extent(ahead)) < 0;
   const bool over_left = side(node.left, extent(node.left), ahead, extent(ahead)) > 0;
@@ -296,69 +296,28 @@ bool AnyAngle::reach(int vertex, int parent, double cost) {
   return known.parent == parent && cost <= known.cost * (1.0 + kTie);
 }
 
-void AnyAngle::add(const Node& node, const Point& link_right, const Point& link_left) {
-  // The goal is taken to lie beyond the link: the way there and its mirror image are as long.
-  const Point root = at(node.root);
-  const Point edge = link_left - link_right;
+void AnyAngle::add(const Cone& node, const Point& link_right, const Point& link_left) {
   if (outdone(node)) return;
+  const Point root = at(node.root);
   if (node.right_end && node.left_end)
     view_of(node) = {query_,    node.polygon, node.link_right, node.link_left, node.root,
                      node.cost, root};
-  Point target = to_ - link_right;
-  const double inside = cross(edge, target);
-  if (inside > 0.0) {
-    const double k = 2.0 * inside / dot(edge, edge);
-    target = target + Point{k * edge.y, -k * edge.x};
-  }
-  target = target + (link_right - root);
-  double rest;
-  const auto through = [&](Point border) {  // where the border crosses the link, from the root
-    const double across = cross(border, edge);
-    const Point to_link = link_right - root;
-    if (std::abs(across) < 1e-9 * extent(border) * extent(edge)) return Point{0, 0};
-    return (cross(to_link, edge) / across) * border;
-  };
-  if (node.root == node.link_right || node.root == node.link_left) {
-    rest = norm(target);
-  } else if (cross(node.right, target) < 0.0) {
-    const Point x = node.right_end ? node.right : through(node.right);
-    rest = norm(x) + distance(x, target);
-  } else if (cross(node.left, target) > 0.0) {
-    const Point x = node.left_end ? node.left : through(node.left);
-    rest = norm(x) + distance(x, target);
-  } else {
-    rest = norm(target);
-  }
+  double rest = node.straight(root, link_right, link_left, to_);
   if (bound_ != nullptr) rest = std::max(rest, farther_round(node));
   push(node, node.cost + rest);
 }
 
 /// m, at least, from the root through the part of the link that it sees to the goal, as the floor
 /// tells: the way there, and on from wherever it is least.
-double AnyAngle::farther_round(const Node& node) const {
+double AnyAngle::farther_round(const Cone& node) const {
   const Point root = at(node.root);
-  const Point right = end_of(node, true);
-  const Point left = end_of(node, false);
+  const auto [right, left] = node.part(root, at(node.link_right), at(node.link_left));
   const double there = distance(root, nearest_on_segment(root, right, left));
   const double on = bound_->through(node.polygon, node.link_right, node.link_left, right, left);
   return std::max(there + on, node.root == start_ ? 0.0 : bound_->of(node.root));
 }
 
-/// Where the border of what the root sees crosses the link.
-Point AnyAngle::end_of(const Node& node, bool right) const {
-  const Point link_right = at(node.link_right);
-  const Point link_left = at(node.link_left);
-  if (right ? node.right_end : node.left_end) return right ? link_right : link_left;
-  const Point border = right ? node.right : node.left;
-  const Point edge = link_left - link_right;
-  const Point root = at(node.root);
-  const double across = cross(border, edge);
-  if (std::abs(across) < 1e-9 * extent(border) * extent(edge))
-    return right ? link_right : link_left;
-  return root + (cross(link_right - root, edge) / across) * border;
-}
-
-AnyAngle::View& AnyAngle::view_of(const Node& node) {
+AnyAngle::View& AnyAngle::view_of(const Cone& node) {
   const auto key = static_cast<std::uint32_t>(node.link_right) * 0x9E3779B1U +
                    static_cast<std::uint32_t>(node.polygon) * 0x85EBCA6BU;
   return views_[key >> views_shift_];
@@ -370,7 +329,7 @@ AnyAngle::View& AnyAngle::view_of(const Node& node) {
 /// cheaper root the difference has its only minimum where its line through the other root meets the
 /// link. Who answers for a corner at an end of the part is never outdone, so that no way is lost
 /// where both are equal.
-bool AnyAngle::outdone(const Node& node) {
+bool AnyAngle::outdone(const Cone& node) {
   const View& view = view_of(node);
   if (view.query != query_ || view.polygon != node.polygon || view.link_right != node.link_right ||
       view.link_left != node.link_left || view.root == node.root || node.root == node.link_right ||
@@ -386,8 +345,7 @@ bool AnyAngle::outdone(const Node& node) {
       (node.left_end && owns(node.link_left, node.left)))
     return false;
   const Point root = at(node.root);
-  const Point x = end_of(node, true);
-  const Point y = end_of(node, false);
+  const auto [x, y] = node.part(root, at(node.link_right), at(node.link_left));
   const double slack = kTie * node.cost;
   if (view.cost + distance(view.from, x) > node.cost + distance(root, x) + slack ||
       view.cost + distance(view.from, y) > node.cost + distance(root, y) + slack)
@@ -399,7 +357,7 @@ bool AnyAngle::outdone(const Node& node) {
   return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0) || view.cost + norm(to_root) <= node.cost;
 }
 
-void AnyAngle::push(const Node& node, double estimate) {
+void AnyAngle::push(const Cone& node, double estimate) {
   std::uint32_t slot;
   if (unused_.empty()) {
     slot = static_cast<std::uint32_t>(nodes_.size());
@@ -415,7 +373,7 @@ void AnyAngle::push(const Node& node, double estimate) {
   open_.push((f << kGBits) | rest, slot);
 }
 
-bool AnyAngle::pop(Node& node) {
+bool AnyAngle::pop(Cone& node) {
   if (open_.empty()) return false;
   const std::uint32_t slot = open_.pop().item;
   node = nodes_[slot];

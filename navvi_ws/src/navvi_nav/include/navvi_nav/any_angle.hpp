@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "navvi_nav/cone.hpp"
 #include "navvi_nav/floor_bound.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/open_list.hpp"
@@ -24,18 +25,6 @@ class AnyAngle {
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:
-  /// What `root` sees through a link: a cone of straight ways into `polygon`.
-  struct Node {
-    double cost;  ///< m, from the start to the root
-    Point right;  ///< border of the cone, from the root
-    Point left;
-    int root;        ///< vertex, or start_
-    int polygon;     ///< that is entered; -1: the goal is seen
-    int link_right;  ///< ends of the link, as seen on the way
-    int link_left;
-    bool right_end;  ///< the border runs through the link's end
-    bool left_end;
-  };
   /// The shortest way known to a vertex.
   struct Reached {
     double cost = 0.0;
@@ -55,20 +44,19 @@ class AnyAngle {
 
   void begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
   void leave_start();
-  void expand(const Node& node);
-  void see_goal(const Node& node);
+  void expand(const Cone& node);
+  void see_goal(const Cone& node);
   void slip_into(const Link& link, int root, double cost);
-  void turn(const Node& node, const Link& link, bool to_right, bool whole);
+  void turn(const Cone& node, const Link& link, bool to_right, bool whole);
   [[nodiscard]] int origin_of(int root, Point ahead) const;
   [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
-  void add(const Node& node, const Point& link_right, const Point& link_left);
-  [[nodiscard]] double farther_round(const Node& node) const;
-  [[nodiscard]] Point end_of(const Node& node, bool right) const;
-  [[nodiscard]] View& view_of(const Node& node);
-  [[nodiscard]] bool outdone(const Node& node);
-  void push(const Node& node, double estimate);
-  bool pop(Node& node);
+  void add(const Cone& node, const Point& link_right, const Point& link_left);
+  [[nodiscard]] double farther_round(const Cone& node) const;
+  [[nodiscard]] View& view_of(const Cone& node);
+  [[nodiscard]] bool outdone(const Cone& node);
+  void push(const Cone& node, double estimate);
+  bool pop(Cone& node);
   [[nodiscard]] bool is_corner(int vertex) const {
     return mesh_->vertices[static_cast<std::size_t>(vertex)].corner;
   }
@@ -84,7 +72,7 @@ class AnyAngle {
   std::vector<Reached> reached_;
   std::vector<View> views_;
   unsigned views_shift_ = 0;
-  std::vector<Node> nodes_;
+  std::vector<Cone> nodes_;
   std::vector<std::uint32_t> unused_;
   OpenList<std::uint64_t, std::uint32_t> open_;  ///< indices into nodes_
   std::vector<int> start_polygons_;
