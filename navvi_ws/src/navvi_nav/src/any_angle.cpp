@@ -55,11 +55,7 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
   to_ = goal.point;
   start_ = static_cast<int>(mesh.vertices.size());
   if (reached_.size() < mesh.vertices.size() + 1) reached_.resize(mesh.vertices.size() + 1);
-  while ((views_.size() >> 1U) < mesh.polygons.size()) {
-    views_.assign(std::max(views_.size() * 2, std::size_t{256}), View{});
-    views_shift_ = 32;
-    for (std::size_t size = views_.size(); size > 1; size >>= 1U) --views_shift_;
-  }
+  views_.begin(mesh.polygons.size());
   if (++query_ == 0) {
     for (Reached& reached : reached_) reached.query = 0;
     query_ = 1;
@@ -299,9 +295,7 @@ bool AnyAngle::reach(int vertex, int parent, double cost) {
 void AnyAngle::add(const Cone& node, const Point& link_right, const Point& link_left) {
   if (outdone(node)) return;
   const Point root = at(node.root);
-  if (node.right_end && node.left_end)
-    view_of(node) = {query_,    node.polygon, node.link_right, node.link_left, node.root,
-                     node.cost, root};
+  if (node.right_end && node.left_end) views_.keep(node, root);
   double rest = node.straight(root, link_right, link_left, to_);
   if (bound_ != nullptr) rest = std::max(rest, farther_round(node));
   push(node, node.cost + rest);
@@ -317,24 +311,12 @@ double AnyAngle::farther_round(const Cone& node) const {
   return std::max(there + on, node.root == start_ ? 0.0 : bound_->of(node.root));
 }
 
-AnyAngle::View& AnyAngle::view_of(const Cone& node) {
-  const auto key = static_cast<std::uint32_t>(node.link_right) * 0x9E3779B1U +
-                   static_cast<std::uint32_t>(node.polygon) * 0x85EBCA6BU;
-  return views_[key >> views_shift_];
-}
-
 /// True if another root that sees the whole link has at least as short a way to all of the part
-/// that this one sees. Where both ends are not farther for a root that is dearer to reach, no point
-/// between is: it is a branch of a hyperbola, convex, within which that root is better. For a
-/// cheaper root the difference has its only minimum where its line through the other root meets the
-/// link. Who answers for a corner at an end of the part is never outdone, so that no way is lost
-/// where both are equal.
+/// that this one sees. Who answers for a corner at an end of the part is never outdone, so that no
+/// way is lost where both are equal.
 bool AnyAngle::outdone(const Cone& node) {
-  const View& view = view_of(node);
-  if (view.query != query_ || view.polygon != node.polygon || view.link_right != node.link_right ||
-      view.link_left != node.link_left || view.root == node.root || node.root == node.link_right ||
-      node.root == node.link_left)
-    return false;
+  const Views::View* const rival = views_.rival(node);
+  if (rival == nullptr || node.root == node.link_right || node.root == node.link_left) return false;
   // Who first came to a corner answers for all ways on from there.
   const auto owns = [&](int vertex, Point ahead) {
     const Reached& known = reached_[static_cast<std::size_t>(vertex)];
@@ -345,16 +327,8 @@ bool AnyAngle::outdone(const Cone& node) {
       (node.left_end && owns(node.link_left, node.left)))
     return false;
   const Point root = at(node.root);
-  const auto [x, y] = node.part(root, at(node.link_right), at(node.link_left));
-  const double slack = kTie * node.cost;
-  if (view.cost + distance(view.from, x) > node.cost + distance(root, x) + slack ||
-      view.cost + distance(view.from, y) > node.cost + distance(root, y) + slack)
-    return false;
-  if (view.cost >= node.cost) return true;
-  const Point to_root = root - view.from;
-  const double a = cross(x - view.from, to_root);
-  const double b = cross(y - view.from, to_root);
-  return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0) || view.cost + norm(to_root) <= node.cost;
+  return rival->as_near(node.part(root, at(node.link_right), at(node.link_left)), root, node.cost,
+                        kTie * node.cost);
 }
 
 void AnyAngle::push(const Cone& node, double estimate) {

@@ -7,6 +7,7 @@
 #include "navvi_nav/floor_bound.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/open_list.hpp"
+#include "navvi_nav/views.hpp"
 
 namespace navvi_nav {
 
@@ -31,16 +32,6 @@ class AnyAngle {
     int parent = -1;  ///< the root from which it was seen
     std::uint32_t query = 0;
   };
-  /// A root that sees the whole of a link.
-  struct View {
-    std::uint32_t query = 0;
-    int polygon = 0;
-    int link_right = 0;
-    int link_left = 0;
-    int root = 0;
-    double cost = 0.0;
-    Point from;
-  };
 
   void begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
   void leave_start();
@@ -53,7 +44,6 @@ class AnyAngle {
   bool reach(int vertex, int parent, double cost);
   void add(const Cone& node, const Point& link_right, const Point& link_left);
   [[nodiscard]] double farther_round(const Cone& node) const;
-  [[nodiscard]] View& view_of(const Cone& node);
   [[nodiscard]] bool outdone(const Cone& node);
   void push(const Cone& node, double estimate);
   bool pop(Cone& node);
@@ -70,8 +60,7 @@ class AnyAngle {
   int start_ = 0;  ///< the root that is no vertex
   std::uint32_t query_ = 0;
   std::vector<Reached> reached_;
-  std::vector<View> views_;
-  unsigned views_shift_ = 0;
+  Views views_;
   std::vector<Cone> nodes_;
   std::vector<std::uint32_t> unused_;
   OpenList<std::uint64_t, std::uint32_t> open_;  ///< indices into nodes_
