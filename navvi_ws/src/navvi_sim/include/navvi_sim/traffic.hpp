@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "navvi_sim/driver.hpp"
 #include "navvi_sim/lanes.hpp"
-#include "navvi_sim/mover.hpp"
 
 namespace navvi_sim {
 
@@ -60,62 +60,36 @@ class Traffic {
   /// \param pressing things, in order, that must stop dead, for the robot cannot give way to them
   void step(const Disc& robot, const std::vector<std::size_t>& pressing, double dt);
 
-  [[nodiscard]] std::size_t size() const { return drivers_.size(); }
-  [[nodiscard]] const Mover& mover(std::size_t i) const { return drivers_[i].mover; }
+  [[nodiscard]] std::size_t size() const { return users_.size(); }
+  [[nodiscard]] const Mover& mover(std::size_t i) const { return users_[i].driver.mover; }
   /// Index in WorldDescription::things.
   [[nodiscard]] std::size_t thing(std::size_t i) const { return lanes_.users[i].thing; }
   /// Mixes every bit of the state into `hash` (FNV-1a over words).
   [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 
  private:
-  /// Blocks of a track, from first to last, which may run on past its end.
-  struct Way {
-    int first;
-    int last;
-  };
-  struct Driver {
-    Mover mover;
-    const Lane* lane;
-    double start;            ///< m along the track
-    std::size_t ahead = 0;   ///< user before it on a shared track; itself if there is none
-    std::size_t behind = 0;  ///< user after it, likewise
-    std::size_t next = 0;    ///< leg to be asked for
-    double ask_at = 0.0;     ///< m before the end of what it was given, at which it asks for more
-    double kept = 0.0;       ///< s that the robot has kept it from going on
-    bool yields = true;
-    bool asking = false;     ///< is in the line
-    bool stranded = false;   ///< stands on shared ground, or did when it last asked
-    bool goes_back = false;  ///< was given the way back, and is not there yet
-    bool robot_ahead = false;
-    bool robot_behind = false;
-    std::optional<Way> claim{};       ///< what it asks for, where only who drives is in its way
-    std::optional<double> back_to{};  ///< m along the track, where it means to back out to
-    std::optional<double> gave_up{};  ///< m along the track, where it stood before it backed out
-    double free_since = 0.0;          ///< s that the robot has been gone from there
+  /// A driver among the others.
+  struct User {
+    Driver driver;
+    std::size_t ahead;           ///< user before it on a shared track; itself if there is none
+    std::size_t behind;          ///< user after it, likewise
+    bool asking = false;         ///< is in the line
+    std::optional<Way> claim{};  ///< what it asks for, where only who drives is in its way
   };
   /// What keeps a mover from a way.
   enum class Obstacle { none, driving, waiting };
 
-  void drive(Driver& driver, const Disc& robot, double dt);
-  [[nodiscard]] double room(Driver& driver, const Disc& robot, double dt);
-  void strand(Driver& driver, std::size_t user);
-  void ask(std::size_t user);
+  void step(std::size_t user, const Disc& robot, bool presses, double dt);
   void leave_line(std::size_t user);
   void serve_line();
   bool serve(std::size_t user);
-  void give(std::size_t user);
-  void give_back(std::size_t user);
-  [[nodiscard]] std::optional<double> place_behind(std::size_t user, const Disc& robot) const;
-  [[nodiscard]] Way way_on(const Driver& driver) const;
-  [[nodiscard]] Way way_back(const Driver& driver) const;
-  [[nodiscard]] Way held(const Driver& driver) const;
   [[nodiscard]] Obstacle obstacle(std::size_t user, const std::vector<Crossing>& crossings) const;
   [[nodiscard]] bool clear_of_one_ahead(std::size_t user) const;
   [[nodiscard]] bool clear_of_one_behind(std::size_t user, int block) const;
 
-  MoversConfig config_;
+  double patience_;  ///< s
   Lanes lanes_;
-  std::vector<Driver> drivers_;    ///< ordered by thing
+  std::vector<User> users_;        ///< ordered by thing
   std::vector<std::size_t> line_;  ///< who asks, the first first
   std::uint64_t steps_ = 0;
 };
