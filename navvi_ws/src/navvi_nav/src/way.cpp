@@ -77,8 +77,7 @@ void WayConfig::describe(navvi_config::Visitor& visit) {
         look_ahead);
   visit({"standing_speed", Range{0.0, 2.0}, "m/s", "what is slower stands"}, standing_speed);
   visit({"pause", Range{0.0, 60.0}, "s",
-         "what moved, and has stood for less time than it takes to get there, is left to go on "
-         "while that is more than this"},
+         "what moved and has stood for less, or for less than it takes to get there, may go on"},
         pause);
   visit({"foresight", Range{0.0, 20.0}, "s",
          "what will have left the path within this time, keeping its velocity, only crosses"},
@@ -146,7 +145,8 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
     if (!now) return out;
     // What has stood for long will stand for long.
     const double there = now.value() / pace;
-    const bool pauses = there > std::max(config_.pause, thing.first->stood);
+    const double stood = thing.first->stood;
+    const bool pauses = stood < config_.pause || there > std::max(config_.pause, stood);
     out = {pauses ? Way::State::comes : Way::State::stands, *now, there, 0.0, there};
     out.ends = false;
     return out;

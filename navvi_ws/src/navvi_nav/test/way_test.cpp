@@ -50,7 +50,9 @@ TEST_F(Ahead, takes_what_moved_for_what_will_move_on_until_it_has_stood_for_long
   pauses.stood = 11.0;
   EXPECT_EQ(judge({pauses}).state, Way::State::stands);
   pauses.stood = 1.0;
-  pauses.center.x = 4.0;  // nearer than 5 s
+  pauses.center.x = 4.0;
+  EXPECT_EQ(judge({pauses}).state, Way::State::comes);
+  pauses.stood = 5.5;  // it is 4.6 s away
   EXPECT_EQ(judge({pauses}).state, Way::State::stands);
   EXPECT_TRUE(WayAhead(config_).foreseen({{0, 0}, {20, 0}}, {pauses}, 0.7).empty());
 }
