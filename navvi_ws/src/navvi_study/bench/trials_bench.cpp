@@ -269,7 +269,8 @@ int run(const Options& options) {
         std::cout.flush();
         return text;
       };
-      running.emplace(task, std::async(std::launch::async, [trial] { return ask_child(trial); }));
+      running.emplace(task, std::async(std::launch::async,
+                                       [trial] { return ask_child(trial, "the trial crashed"); }));
     }
     finish(running.front().first, running.front().second.get());
     running.pop();

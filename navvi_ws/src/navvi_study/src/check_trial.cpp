@@ -61,7 +61,8 @@ int main(int argc, char** argv) {
                  summary ? "closed trial.bag" : "summary.csv in order");
     return 2;
   }
-  const study::Answer answer = study::ask_child([&] { return check(folder, *summary); });
+  const study::Answer answer =
+      study::ask_child([&] { return check(folder, *summary); }, study::kBagCrashed);
   if (!answer.good) {
     std::fprintf(stderr, "This trial cannot be repeated: %s.\n", answer.text.c_str());
     return 2;

@@ -28,7 +28,7 @@ int answer_into(int pipe, const std::function<std::string()>& work) {
 
 }  // namespace
 
-Answer ask_child(const std::function<std::string()>& work) {
+Answer ask_child(const std::function<std::string()>& work, const std::string& crashed) {
   int ends[2];
   if (::pipe(ends) != 0) return {false, "no pipe can be opened"};
   const pid_t child = ::fork();
@@ -47,7 +47,7 @@ Answer ask_child(const std::function<std::string()>& work) {
   int status = 0;
   ::waitpid(child, &status, 0);
   answer.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!WIFEXITED(status)) answer.text = "the bag is damaged: its reader crashed";
+  if (!WIFEXITED(status)) answer.text = crashed;
   return answer;
 }
 

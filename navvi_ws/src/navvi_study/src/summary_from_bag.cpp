@@ -35,7 +35,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "There is no closed trial.bag in %s.\n", folder.c_str());
     return 2;
   }
-  const study::Answer answer = study::ask_child([&] { return recount(folder / "trial.bag"); });
+  const study::Answer answer =
+      study::ask_child([&] { return recount(folder / "trial.bag"); }, study::kBagCrashed);
   const auto recounted = answer.good ? study::parse_summary(answer.text) : std::nullopt;
   if (!recounted) {
     std::fprintf(stderr, "Nothing can be recounted from the bag: %s.\n", answer.text.c_str());
