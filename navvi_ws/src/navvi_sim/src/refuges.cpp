@@ -55,6 +55,9 @@ class Planner {
   [[nodiscard]] int start_block(std::size_t user) const {
     return lanes_.lanes[lanes_.users[user].lane].block_at(lanes_.users[user].start);
   }
+  [[nodiscard]] static Meeting meeting(int block, const Block& other) {
+    return {block, static_cast<std::uint32_t>(other.lane), other.index};
+  }
   [[nodiscard]] bool is_shared(const Lane& lane) const { return lane.users.size() > 1; }
   [[nodiscard]] std::size_t number(std::size_t lane, int index) const {
     return offsets_[lane] + static_cast<std::size_t>(index);
@@ -99,8 +102,8 @@ void Planner::find_shared_ground() {
       own[first.lane][first.index].insert(second.index);
       own[first.lane][second.index].insert(first.index);
     } else {
-      lanes_.lanes[first.lane].meetings.push_back({first.index, second.lane, second.index});
-      lanes_.lanes[second.lane].meetings.push_back({second.index, first.lane, first.index});
+      lanes_.lanes[first.lane].meetings.push_back(meeting(first.index, second));
+      lanes_.lanes[second.lane].meetings.push_back(meeting(second.index, first));
     }
   }
   for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane) {
@@ -114,6 +117,7 @@ void Planner::find_shared_ground() {
     std::sort(here.meetings.begin(), here.meetings.end(), [](const Meeting& a, const Meeting& b) {
       return std::tie(a.block, a.lane, a.other) < std::tie(b.block, b.lane, b.other);
     });
+    here.meetings.shrink_to_fit();
     here.is_private.assign(static_cast<std::size_t>(here.blocks), true);
     for (const Meeting& meeting : here.meetings)
       here.is_private[static_cast<std::size_t>(meeting.block)] = false;
@@ -138,7 +142,7 @@ void Planner::find_spacing(std::size_t lane, std::vector<std::set<int>> touched)
         here.spacing = std::max(here.spacing, k + 1);
       }
     for (const int other : others)
-      if (near.count(other) == 0) here.meetings.push_back({i, lane, other});
+      if (near.count(other) == 0) here.meetings.push_back(meeting(i, {lane, other}));
   }
 }
 

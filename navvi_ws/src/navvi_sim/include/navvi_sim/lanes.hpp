@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <navvi_config/field.hpp>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct Crossing {
 /// A block of a lane whose ground touches a block of another lane, or of its own far along it.
 struct Meeting {
   int block;
-  std::size_t lane;
+  std::uint32_t lane;
   int other;
 };
 
