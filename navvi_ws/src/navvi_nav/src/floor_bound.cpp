@@ -6,8 +6,11 @@ void FloorBound::aim(const Mesh& mesh, Landmarks& landmarks, const Mesh::Place& 
   mesh_ = &mesh;
   landmarks_ = &landmarks;
   if (known_.size() < mesh.vertices.size()) known_.resize(mesh.vertices.size());
+  if (floor_known_.size() < mesh.floor->vertices.size())
+    floor_known_.resize(mesh.floor->vertices.size());
   if (++query_ == 0) {
     std::fill(known_.begin(), known_.end(), Known{});
+    std::fill(floor_known_.begin(), floor_known_.end(), Known{});
     query_ = 1;
   }
   const Mesh::Place place{mesh.polygon(goal.polygon).ground, goal.point};
@@ -45,7 +48,7 @@ double FloorBound::find(int vertex, int polygon) {
 
 double FloorBound::of_floor(int vertex) {
   if (static_cast<std::size_t>(vertex) >= mesh_->floor->vertices.size()) return 0.0;
-  Known& known = known_[static_cast<std::size_t>(vertex)];
+  Known& known = floor_known_[static_cast<std::size_t>(vertex)];
   if (known.query == query_) return known.least;
   if (!mesh_->floor->vertices[static_cast<std::size_t>(vertex)].corner) return 0.0;
   known = {std::max(0.0, landmarks_->at_least(vertex)), query_};

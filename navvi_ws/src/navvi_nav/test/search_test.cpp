@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "allocations.hpp"
 #include "grid_world.hpp"
 #include "navvi_nav/cut_mesh.hpp"
@@ -217,6 +219,33 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
   }
   EXPECT_GT(judge.answered, 1000);
   EXPECT_LT(with, without);
+}
+
+/// Holes can change which side of a pinch has which vertex; what the floor's landmarks say of one
+/// does not hold of the other.
+TEST(Search, does_not_take_one_side_of_a_pinch_for_the_other) {
+  Search surveyed(SearchMethod::exact, 1.0, 0);
+  AnyAngle unbounded;
+  Path path;
+  for (const std::uint32_t seed : {2113, 2409, 5979, 6283, 7511, 8207, 8399, 8455, 11769, 12091}) {
+    SCOPED_TRACE(seed);
+    const GridWorld world = grid_world(WorldKind::crumbs, seed);
+    CutMesh cut(world.polygons(seed), 0.5);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 5; ++i) {
+      const Point at = 0.5 * world.somewhere(random);
+      cut.add(at, 0.1 + 0.05 * static_cast<double>(random() % 8), 8);
+    }
+    cut.update();
+    for (int i = 0; i < 200; ++i) {
+      const auto start = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
+      const auto goal = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
+      if (!start || !goal) continue;
+      unbounded.find(cut.mesh(), *start, *goal, std::numeric_limits<std::size_t>::max(), nullptr,
+                     path);
+      ASSERT_NEAR(surveyed.find(cut.mesh(), *start, *goal).length, length_of(path), 1e-9);
+    }
+  }
 }
 
 TEST(Search, keeps_one_of_equal_routes_whose_turns_lie_in_line_with_another) {

@@ -34,7 +34,9 @@ class FloorBound {
   const Mesh* mesh_ = nullptr;
   const Landmarks* landmarks_ = nullptr;
   std::uint32_t query_ = 0;
-  std::vector<Known> known_;  // of vertices
+  std::vector<Known> known_;  // of the mesh's vertices
+  /// Of the floor's. The same number can stand for another side of a pinch there.
+  std::vector<Known> floor_known_;
   Sight sight_;
 };
 
