@@ -233,7 +233,8 @@ TEST(Proximity, of_what_moves_follows_it) {
   thing.shapes.push_back({Box{{1, 1, 1}}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.5))});
   world.things = {thing};
   const Bodies bodies(world, kHull.bottom);
-  MoverState mover{0, Eigen::Isometry3d(Eigen::Translation3d(3.3, -0.2, 0)), 0, {0, 0}, 0, 0.71, 1};
+  MoverState mover{
+      0, Eigen::Isometry3d(Eigen::Translation3d(3.3, -0.2, 0)), 0, {0, 0}, 0, {0.71, 0, 0}, 1};
   const auto near = things_near(kHull, 5.0, 2.0, bodies, {mover});
   ASSERT_EQ(near.size(), 1u);
   EXPECT_NEAR(near[0].gap, 3.0 - 0.5 - 0.35, 1e-9);
