@@ -7,18 +7,10 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kFinest = 1e-4;     // m, a step at most
-constexpr double kSquare = 2.0;      // m, of the grids in which polygons are looked up
-constexpr double kStraight = 1e-12;  // rad, above the rounding of a sum of angles
+constexpr double kFinest = 1e-4;  // m, a step at most
+constexpr double kSquare = 2.0;   // m, of the grids in which polygons are looked up
 
 std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-
-/// The angle at a corner inside a polygon, rad.
-double angle_at(Point before, Point corner, Point after) {
-  const Point a = after - corner;
-  const Point b = before - corner;
-  return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
-}
 
 void widen(Point& low, Point& high, Point at) {
   low = {std::min(low.x, at.x), std::min(low.y, at.y)};
@@ -38,7 +30,7 @@ CutMesh::CutMesh(const std::vector<GridPolygon>& floor, double unit) : unit_(uni
       widen(low, high, at);
     }
   }
-  ground_grid_ = BoxGrid(low, high, kSquare);
+  grounds_ = Grounds(low, high, kSquare, unit_ / steps_);
   mesh_.grid = BoxGrid(low, high, kSquare);
   change_floor({}, floor);
 }
@@ -49,36 +41,26 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   for (const GridPolygon& polygon : come) shapes.push_back(shape_of(polygon));
   begin();
   pinches_.keep_none();
-  for (const int ground : gone) touch(ground);
-  find_borders();
-  for (const ExactPolygon& shape : shapes) find_borders(shape);
-  for (const int ground : borders_) keep_links(ground, true);
+  for (const int ground : gone) grounds_.touch(ground);
+  grounds_.find_borders();
+  for (const ExactPolygon& shape : shapes) grounds_.find_borders(shape);
+  for (const int ground : grounds_.borders()) keep_links(ground, true);
   std::vector<int> doubtful;
-  for (const int ground : gone) {
-    for (const int corner : mesh_.polygon(ground).corners)
-      doubtful.push_back(pool_.place_of(corner));
-  }
-  for (const int vertex : doubtful) {
-    if (std::exchange(corners_[slot(vertex)], 0) != 0) pool_.unmark(mesh_.vertices, vertex);
-  }
+  for (const int ground : gone) add_places(ground, doubtful);
+  for (const int vertex : doubtful) floor_corners_.forget(mesh_, pool_, vertex);
   for (const int ground : gone) remove_ground(ground);
   std::vector<int> numbers;
   for (const ExactPolygon& shape : shapes) numbers.push_back(add_ground(shape));
   link();
-  for (const int ground : touched_) find_neighbours(ground);
-  for (const int ground : borders_) find_neighbours(ground);
-  for (const int index : changed_) {
-    for (const int corner : mesh_.polygon(index).corners)
-      doubtful.push_back(pool_.place_of(corner));
-  }
+  for (const int ground : grounds_.touched()) find_neighbours(ground);
+  for (const int ground : grounds_.borders()) find_neighbours(ground);
+  for (const int index : changed_) add_places(index, doubtful);
   std::sort(doubtful.begin(), doubtful.end());
   doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
-  corners_.resize(mesh_.vertices.size(), 0);
-  for (const int vertex : doubtful) mark_corner(vertex);
+  for (const int vertex : doubtful) floor_corners_.learn(mesh_, pool_, vertex);
   pinches_.split(mesh_, pool_, changed_);
   pinches_.keep_all();
-  end();
-  corners_.resize(mesh_.vertices.size(), 0);
+  grounds_.settle();
   own_vertices_ = pool_.in_use();
   vertices_end_ = mesh_.vertices.size();
   parts_.number(mesh_);
@@ -97,40 +79,26 @@ ExactPolygon CutMesh::shape_of(const GridPolygon& polygon) const {
 
 void CutMesh::remove_ground(int number) {
   clear_pieces(number);
-  Ground& ground = grounds_[slot(number)];
-  ground_grid_.remove(number, (unit_ / steps_) * ground.shape.low,
-                      (unit_ / steps_) * ground.shape.high);
-  for (const ExactPolygon::Edge& edge : ground.shape.edges) {
+  for (const ExactPolygon::Edge& edge : grounds_[number].shape.edges) {
     const int vertex = pool_.take(mesh_.vertices, position(edge.begin));
     pool_.drop(mesh_.vertices, vertex);
     pool_.drop(mesh_.vertices, vertex);
   }
-  ground = {};
-  free_grounds_.push_back(number);
+  grounds_.remove(number);
 }
 
 int CutMesh::add_ground(const ExactPolygon& shape) {
-  int number = static_cast<int>(grounds_.size());
-  if (free_grounds_.empty()) {
-    grounds_.emplace_back();
-    marks_.push_back(kNone);
-    pieces_.emplace_back();
-    mesh_.polygons.emplace_back();
-  } else {
-    number = free_grounds_.back();
-    free_grounds_.pop_back();
-  }
-  ground_grid_.add(number, (unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high);
+  const int number = grounds_.add(shape);
+  pieces_.resize(grounds_.size());
+  mesh_.polygons.resize(grounds_.size());
   for (const ExactPolygon::Edge& edge : shape.edges)
     pool_.take(mesh_.vertices, position(edge.begin));
-  grounds_[slot(number)].shape = shape;
-  touch(number);
   cut(number);
   return number;
 }
 
 void CutMesh::find_neighbours(int number) {
-  std::vector<Ground::Neighbour>& neighbours = grounds_[slot(number)].neighbours;
+  std::vector<Ground::Neighbour>& neighbours = grounds_[number].neighbours;
   const Piece& piece = pieces_[slot(number)];
   const Polygon& polygon = mesh_.polygon(number);
   neighbours.clear();
@@ -138,41 +106,14 @@ void CutMesh::find_neighbours(int number) {
     neighbours.push_back({polygon.links[k].to, piece.sides[slot(piece.link_sides[k])].number});
 }
 
-/// A corner without holes: holes can add their own corners to these, no others. The groups at a
-/// pinch are told apart later.
-void CutMesh::mark_corner(int vertex) {
-  double free = 0.0;
-  bool walled = false;
-  const Point here = mesh_.at(vertex);
-  mesh_.grid.visit(here, here, [&](int index) {
-    const Polygon& polygon = mesh_.polygon(index);
-    const std::size_t count = polygon.corners.size();
-    for (std::size_t k = 0; k < count; ++k) {
-      const int corner = polygon.corners[k];
-      if (pool_.place_of(corner) != vertex) continue;
-      free += angle_at(mesh_.at(polygon.corners[(k + count - 1) % count]), here,
-                       mesh_.at(polygon.corners[(k + 1) % count]));
-      int links = 0;
-      for (const Link& link : polygon.links)
-        links += (link.right == corner ? 1 : 0) + (link.left == corner ? 1 : 0);
-      walled = walled || links < 2;
-    }
-  });
-  const bool corner = walled && free > M_PI + kStraight;
-  if (corner && corners_[slot(vertex)] == 0) pool_.mark(mesh_.vertices, vertex);
-  if (!corner && corners_[slot(vertex)] != 0) pool_.unmark(mesh_.vertices, vertex);
-  corners_[slot(vertex)] = corner ? 1 : 0;
+/// Where the corners of a polygon of the mesh are.
+void CutMesh::add_places(int polygon, std::vector<int>& out) const {
+  for (const int corner : mesh_.polygon(polygon).corners) out.push_back(pool_.place_of(corner));
 }
 
 Point CutMesh::position(const Meeting& at) const {
   const Point steps = place_of(at);
   return {steps.x / steps_ * unit_, steps.y / steps_ * unit_};
-}
-
-void CutMesh::touch(int ground) {
-  if (marks_[slot(ground)] == kTouched) return;
-  marks_[slot(ground)] = kTouched;
-  touched_.push_back(ground);
 }
 
 int CutMesh::add(Point center, double radius, int sides) {
@@ -189,13 +130,13 @@ int CutMesh::add(Point center, double radius, int sides) {
   opening.hole.place(opening.center, opening.radius, sides);
   const ExactPolygon& shape = opening.hole.shape;
   if (shape.edges.empty()) return number;
-  ground_grid_.visit((unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high, [&](int ground) {
-    std::vector<int>& holes = grounds_[slot(ground)].holes;
+  grounds_.visit(shape, [&](int ground) {
+    std::vector<int>& holes = grounds_[ground].holes;
     if (!holes.empty() && holes.back() == number) return;
-    if (!overlap(grounds_[slot(ground)].shape, shape)) return;
+    if (!overlap(grounds_[ground].shape, shape)) return;
     holes.push_back(number);
     opening.grounds.push_back(ground);
-    touch(ground);
+    grounds_.touch(ground);
   });
   if (opening.grounds.empty()) return number;
   for (const ExactPolygon::Edge& edge : shape.edges) {
@@ -208,9 +149,9 @@ int CutMesh::add(Point center, double radius, int sides) {
 void CutMesh::remove(int number) {
   Opening& opening = openings_[slot(number)];
   for (const int ground : opening.grounds) {
-    std::vector<int>& holes = grounds_[slot(ground)].holes;
+    std::vector<int>& holes = grounds_[ground].holes;
     holes.erase(std::find(holes.begin(), holes.end(), number));
-    touch(ground);
+    grounds_.touch(ground);
   }
   for (const int corner : opening.corners) {
     pool_.unmark(mesh_.vertices, corner);
@@ -222,20 +163,20 @@ void CutMesh::remove(int number) {
 }
 
 int CutMesh::update() {
-  const auto count = static_cast<int>(touched_.size());
+  const auto count = static_cast<int>(grounds_.touched().size());
   if (count == 0) return 0;
   recut();
   pinches_.split(mesh_, pool_, changed_);
-  end();
+  grounds_.settle();
   shrink();
   return count;
 }
 
 void CutMesh::recut() {
   begin();
-  find_borders();
-  for (const int ground : borders_) keep_links(ground, false);
-  for (const int ground : touched_) cut(ground);
+  grounds_.find_borders();
+  for (const int ground : grounds_.borders()) keep_links(ground, false);
+  for (const int ground : grounds_.touched()) cut(ground);
   link();
   keep_parts();
 }
@@ -245,41 +186,14 @@ void CutMesh::begin() {
   matcher_.clear();
   crossings_.clear();
   changed_.clear();
-  borders_.clear();
-}
-
-void CutMesh::end() {
-  for (const int ground : touched_) marks_[slot(ground)] = kNone;
-  for (const int ground : borders_) marks_[slot(ground)] = kNone;
-  touched_.clear();
-}
-
-void CutMesh::find_borders() {
-  for (const int ground : touched_) {
-    for (const Ground::Neighbour& next : grounds_[slot(ground)].neighbours) {
-      if (marks_[slot(next.ground)] != kNone) continue;
-      marks_[slot(next.ground)] = kBorder;
-      borders_.push_back(next.ground);
-    }
-  }
-}
-
-/// Grounds that the shape may touch.
-void CutMesh::find_borders(const ExactPolygon& shape) {
-  ground_grid_.visit((unit_ / steps_) * shape.low, (unit_ / steps_) * shape.high,
-                     [this](int ground) {
-                       if (marks_[slot(ground)] != kNone) return;
-                       marks_[slot(ground)] = kBorder;
-                       borders_.push_back(ground);
-                     });
 }
 
 /// Of a neighbour's pieces along a touched ground: the links that stay, and the sides to be linked.
 void CutMesh::keep_links(int number, bool all_sides) {
-  const Ground& ground = grounds_[slot(number)];
+  const Ground& ground = grounds_[number];
   near_edges_.clear();
   for (const Ground::Neighbour& next : ground.neighbours) {
-    if (marks_[slot(next.ground)] == kTouched) near_edges_.push_back(next.edge);
+    if (grounds_.is_touched(next.ground)) near_edges_.push_back(next.edge);
   }
   for (const int index : ground.pieces) {
     const Piece& piece = pieces_[slot(index)];
@@ -298,12 +212,12 @@ void CutMesh::keep_links(int number, bool all_sides) {
     pinches_.forget(pool_, polygon);
     for (std::size_t i = 0; i < polygon.links.size(); ++i) {
       const Link& link = polygon.links[i];
-      if (marks_[slot(pieces_[slot(link.to)].ground)] == kTouched) continue;
+      if (grounds_.is_touched(pieces_[slot(link.to)].ground)) continue;
       const int side = piece.link_sides[i];
-      crossings_.push_back({index,
-                            side,
-                            along(piece.sides[slot(side)], mesh_.at(link.right)),
-                            {link.to, pool_.place_of(link.right), pool_.place_of(link.left)}});
+      crossings_.add({index,
+                      side,
+                      along(piece.sides[slot(side)], mesh_.at(link.right)),
+                      {link.to, pool_.place_of(link.right), pool_.place_of(link.left)}});
     }
   }
 }
@@ -317,7 +231,7 @@ bool CutMesh::cut_before(int a, int b) const {
 
 void CutMesh::cut(int number) {
   clear_pieces(number);
-  Ground& ground = grounds_[slot(number)];
+  Ground& ground = grounds_[number];
   if (ground.shape.edges.size() < 3) return;
   std::sort(ground.holes.begin(), ground.holes.end(),
             [this](int a, int b) { return cut_before(a, b); });
@@ -328,7 +242,7 @@ void CutMesh::cut(int number) {
 }
 
 void CutMesh::clear_pieces(int number) {
-  Ground& ground = grounds_[slot(number)];
+  Ground& ground = grounds_[number];
   for (const int index : ground.pieces) {
     Piece& piece = pieces_[slot(index)];
     mesh_.grid.remove(index, piece.low, piece.high);
@@ -343,7 +257,7 @@ void CutMesh::clear_pieces(int number) {
 }
 
 int CutMesh::free_slot(int number) {
-  if (grounds_[slot(number)].pieces.empty()) return number;
+  if (grounds_[number].pieces.empty()) return number;
   if (free_pieces_.empty()) {
     mesh_.polygons.emplace_back();
     pieces_.emplace_back();
@@ -376,50 +290,38 @@ void CutMesh::add_piece(int ground, const ExactPolygon& shape) {
   piece.low = piece.high = mesh_.at(piece.sides[0].begin);
   for (const Side& side : piece.sides) widen(piece.low, piece.high, mesh_.at(side.begin));
   mesh_.grid.add(index, piece.low, piece.high);
-  grounds_[slot(ground)].pieces.push_back(index);
+  grounds_[ground].pieces.push_back(index);
   changed_.push_back(index);
   for (std::size_t k = 0; k < piece.sides.size(); ++k)
     matcher_.add(piece.sides, static_cast<int>(k), index, true, mesh_.vertices);
 }
 
 void CutMesh::link() {
-  const std::vector<Crossing>& fresh = matcher_.match();
-  crossings_.insert(crossings_.end(), fresh.begin(), fresh.end());
+  for (const Crossing& crossing : matcher_.match()) crossings_.add(crossing);
+  crossings_.sort_out(pieces_.size());
   std::sort(changed_.begin(), changed_.end());
-  first_crossing_.resize(pieces_.size(), -1);
-  next_crossing_.resize(crossings_.size());
-  for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    int& first = first_crossing_[slot(crossings_[i].polygon)];
-    next_crossing_[i] = std::exchange(first, static_cast<int>(i));
-  }
   for (const int index : changed_) {
     Piece& piece = pieces_[slot(index)];
-    around_.clear();
-    for (int i = std::exchange(first_crossing_[slot(index)], -1); i >= 0;
-         i = next_crossing_[slot(i)])
-      around_.push_back(crossings_[slot(i)]);
-    std::sort(around_.begin(), around_.end(), [](const Crossing& a, const Crossing& b) {
-      return a.side != b.side ? a.side < b.side : a.along < b.along;
-    });
+    const std::vector<Crossing>& around = crossings_.take(index);
     piece.link_sides.clear();
-    for (const Crossing& crossing : around_) piece.link_sides.push_back(crossing.side);
-    bound(mesh_.polygons[slot(index)], piece.sides, around_);
+    for (const Crossing& crossing : around) piece.link_sides.push_back(crossing.side);
+    bound(mesh_.polygons[slot(index)], piece.sides, around);
     pinches_.learn(pool_, mesh_.polygons[slot(index)]);
   }
 }
 
 void CutMesh::keep_parts() {
   regions_.grow(grounds_.size());
-  for (const int ground : touched_) regions_.add(ground);
-  for (const int ground : borders_) regions_.add(ground);
-  for (const int ground : touched_) {
-    for (const Ground::Neighbour& next : grounds_[slot(ground)].neighbours)
+  for (const int ground : grounds_.touched()) regions_.add(ground);
+  for (const int ground : grounds_.borders()) regions_.add(ground);
+  for (const int ground : grounds_.touched()) {
+    for (const Ground::Neighbour& next : grounds_[ground].neighbours)
       regions_.unite(ground, next.ground);
   }
   changed_parts_.clear();
   for (const int index : changed_) {
     const int ground = pieces_[slot(index)].ground;
-    changed_parts_.push_back({index, marks_[slot(ground)] == kTouched, regions_.root(ground)});
+    changed_parts_.push_back({index, grounds_.is_touched(ground), regions_.root(ground)});
   }
   parts_.update(mesh_, changed_parts_);
 }

@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "navvi_nav/boundary.hpp"
-#include "navvi_nav/box_grid.hpp"
+#include "navvi_nav/crossings.hpp"
 #include "navvi_nav/exact_polygon.hpp"
+#include "navvi_nav/floor_corners.hpp"
+#include "navvi_nav/grounds.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/parts.hpp"
 #include "navvi_nav/pinches.hpp"
@@ -38,17 +40,7 @@ class CutMesh {
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
  private:
-  /// A polygon of the floor.
-  struct Ground {
-    struct Neighbour {
-      int ground = 0;
-      int edge = 0;  ///< number of our edge that it touches
-    };
-    ExactPolygon shape;
-    std::vector<Neighbour> neighbours;
-    std::vector<int> holes;   ///< that reach into it
-    std::vector<int> pieces;  ///< its polygons in the mesh
-  };
+  using Ground = Grounds::Ground;
   /// What must be known besides of a polygon of the mesh.
   struct Piece {
     int ground = 0;
@@ -68,15 +60,11 @@ class CutMesh {
   [[nodiscard]] Point position(const Meeting& at) const;
   [[nodiscard]] ExactPolygon shape_of(const GridPolygon& polygon) const;
   void begin();
-  void end();
-  void find_borders(const ExactPolygon& shape);
   void remove_ground(int ground);
   int add_ground(const ExactPolygon& shape);
   void find_neighbours(int ground);
-  void mark_corner(int vertex);
+  void add_places(int polygon, std::vector<int>& out) const;
   [[nodiscard]] bool cut_before(int a, int b) const;
-  void touch(int ground);
-  void find_borders();
   void keep_links(int ground, bool all_sides);
   void cut(int ground);
   void clear_pieces(int ground);
@@ -90,34 +78,25 @@ class CutMesh {
   double unit_ = 1.0;   // m
   double steps_ = 1.0;  // in a unit
   Mesh mesh_;
-  std::vector<Ground> grounds_;
+  Grounds grounds_;
   /// As mesh_.polygons; the first ones belong to the ground of their number.
   std::vector<Piece> pieces_;
   std::vector<int> free_pieces_;
-  std::vector<int> free_grounds_;
   std::vector<Opening> openings_;
   std::vector<int> free_openings_;
   VertexPool pool_;
   Pinches pinches_;
   Parts parts_;
-  std::vector<char> corners_;     // of vertices: 1 if the floor makes them corners
+  FloorCorners floor_corners_;
   std::size_t own_vertices_ = 0;  // that the floor uses
   std::size_t vertices_end_ = 0;  // one beyond the last of these
-  BoxGrid ground_grid_;
 
   // Kept for their memory, and valid during one update only.
-  enum Mark : char { kNone, kTouched, kBorder };
-  std::vector<char> marks_;   // of grounds
-  std::vector<int> touched_;  // grounds to be cut anew
-  std::vector<int> borders_;  // their neighbours that are not
   std::vector<int> changed_;  // polygons of the mesh
   std::vector<int> near_edges_;
   std::vector<const Hole*> holes_;
-  std::vector<Crossing> crossings_;
-  std::vector<int> first_crossing_;  // of each polygon of the mesh; -1: none
-  std::vector<int> next_crossing_;   // of the same polygon
-  std::vector<Crossing> around_;     // one polygon
-  Forest regions_;                   // of touched grounds and their neighbours
+  Crossings crossings_;
+  Forest regions_;  // of touched grounds and their neighbours
   std::vector<Parts::Changed> changed_parts_;
   Matcher matcher_;
   Cutter cutter_;
