@@ -3,9 +3,6 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kElsewhere = 2.0;  // m moved of a path: it leads elsewhere
-constexpr double kAside = 0.4;      // m, from where room was to be made
-
 std::optional<double> age_of(std::optional<double> then, double now) {
   if (!then) return std::nullopt;
   return std::max(0.0, now - *then);
@@ -23,8 +20,7 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   planner.describe(visit);
   visit.group("replan", replan);
-  visit.group("guidance", guidance);
-  visit.group("stand_off", stand_off);
+  course.describe(visit);
   visit({"most_cylinders", Range{1.0, 4.0}, "",
          "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)"},
         most_cylinders);
@@ -38,19 +34,13 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   visit({"plan_timeout", Range{0.1, 10.0}, "s",
          "a path that must change is hidden when no plan came for so long"},
         plan_timeout);
-  visit({"off_path", Range{0.1, 10.0}, "m",
-         "a robot farther off its path gets a new one at the next plan"},
-        off_path);
   visit({"map_timeout", Range{0.0, 3600.0}, "s",
          "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age"},
         map_timeout);
 }
 
 Navigator::Navigator(const NavigatorConfig& config)
-    : config_(config),
-      policy_(policy_of(config)),
-      guidance_(config.guidance),
-      stand_off_(config.stand_off) {}
+    : config_(config), policy_(policy_of(config)), course_(config.course) {}
 
 void Navigator::set_map(std::shared_ptr<const MapMessage> map) {
   new_map_ = std::move(map);
@@ -110,15 +100,8 @@ void Navigator::drop_goal(State state) {
   goal_.reset();
   ++goal_number_;
   goal_planned_ = false;
-  guidance_.follow({});
-  aim_ = Aim::goal;
-  stand_off_.forget();
-  blocker_.reset();
-  makes_room_.reset();
+  course_.forget();
   policy_.reset();
-  churn_.reset();
-  reroutes_ = 0;
-  reroute_reason_ = Reason::none;
   state_ = state;
   refusal_ = Refusal::none;
   detail_.clear();
@@ -126,8 +109,7 @@ void Navigator::drop_goal(State state) {
 
 void Navigator::reset_times() {
   policy_.reset();
-  stand_off_.reset();
-  churn_.reset();
+  course_.reset_times();
   pose_.reset();
   things_.clear();
   moved_.clear();
@@ -165,49 +147,27 @@ std::optional<Job> Navigator::update(double time) {
   }
   pace_.update(time, speed_);
   follow_progress(time);
-  watch_blocker(time);
   return job_since_ ? std::nullopt : next_job(time);
 }
 
 void Navigator::follow_progress(double time) {
-  if (!guidance_.following() || !pose_fresh(time)) return;
-  guidance_.advance(*pose_, space());
-  if (aim_ == Aim::aside) {
-    if (distance(pose_->position, guidance_.path().back()) <= kAside) {
-      aim_ = Aim::waits;
-      stand_off_.went_aside(time, *makes_room_);
-    }
-  } else if (aim_ != Aim::waits && guidance_.arrived(*pose_, space())) {
+  if (course_.arrives(scene(time, pose(time))))
     drop_goal(State::arrived);
-    return;
-  }
+  else
+    give_up_late_plan(time);
+  course_.watch(scene(time, pose(time)), policy_);
+}
+
+void Navigator::give_up_late_plan(double time) {
+  if (!course_.following() || !pose_fresh(time)) return;
   const bool must_change = job_reason_ == Reason::path_carved ||
                            job_reason_ == Reason::waypoint_blocked ||
                            job_reason_ == Reason::map_changed;
   if (job_since_ && must_change && time - *job_since_ > config_.plan_timeout) {
-    guidance_.follow({});
+    course_.drop();
     state_ = State::no_route;
     detail_ = "no plan came in time";
   }
-}
-
-const MovingThing* Navigator::thing(std::optional<std::uint32_t> id) const {
-  const auto found = std::find_if(things_.begin(), things_.end(), [id](const MovingThing& one) {
-    return id && one.cylinder.id == *id;
-  });
-  return found == things_.end() ? nullptr : &*found;
-}
-
-/// What closes the only way, and whether it and the robot wait for each other.
-void Navigator::watch_blocker(double time) {
-  blocker_.reset();
-  if (!guidance_.following() || !pose_fresh(time) || aim_ == Aim::aside) return;
-  if (aim_ == Aim::waits && stand_off_.aside_for(time)) return;
-  if (aim_ == Aim::waits) aim_ = Aim::closed;
-  if (aim_ == Aim::closed)
-    blocker_ = policy_.closed_by(guidance_.remaining(pose_->position), obstacles_);
-  const MovingThing* const by = blocker_ ? thing(blocker_->by) : nullptr;
-  stand_off_.update(time, pose_->position, by ? std::optional(*by) : std::nullopt);
 }
 
 std::optional<Job> Navigator::next_job(double time) {
@@ -227,16 +187,15 @@ std::optional<Job> Navigator::next_job(double time) {
     input.speed = speed_;
     input.pace = pace_.value();
     input.robot = *pose_;
-    input.remaining = guidance_.remaining(pose_->position);
-    if (guidance_.following()) input.path_offset = guidance_.heading(*pose_).path_offset;
+    const Guidance& guidance = course_.guidance();
+    input.remaining = guidance.remaining(pose_->position);
+    if (course_.following()) input.path_offset = guidance.heading(*pose_).path_offset;
     input.obstacles = obstacles_;
-    input.closed = aim_ == Aim::closed || aim_ == Aim::waits;
+    input.closed = course_.closed();
     if (const std::optional<Reason> reason = policy_.update(input)) {
       job.goal = goal_;
       job.foreseen = policy_.foreseen(input.remaining, obstacles_, input.pace);
-      const MovingThing* const rival = thing(aim_ == Aim::aside ? makes_room_ : stand_off_.due());
-      if (rival) job.ground = ground_needed(*rival);
-      if (rival) makes_room_ = rival->cylinder.id;
+      job.ground = course_.ground_to_leave(things_);
       job.start = pose_->position;
       job.reason = *reason;
       map_changed_ = false;
@@ -274,7 +233,10 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
     case PlanStatus::found:
     case PlanStatus::closed:
     case PlanStatus::aside:
-      follow(plan, reason, time);
+      course_.take(plan, reason, scene(time, pose_), policy_);
+      state_ = State::following;
+      detail_ = plan.detail;
+      follow_progress(time);
       return;
     case PlanStatus::refused:
       // A goal that was accepted is not refused later on because of where the robot strayed.
@@ -286,71 +248,15 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
       break;
     case PlanStatus::no_map:
     case PlanStatus::no_route:
-      if (keeps_path(plan, reason, time)) return;
+      if (course_.keeps(plan, reason, scene(time, pose_), policy_)) return;
       state_ = State::no_route;
       break;
     case PlanStatus::off_mesh:
       state_ = State::off_mesh;
       break;
   }
-  guidance_.follow({});
+  course_.drop();
   detail_ = plan.detail;
-}
-
-void Navigator::follow(const Plan& plan, Reason reason, double time) {
-  if (!keeps_path(plan, reason, time)) {
-    change_path(plan, reason, time);
-    const bool waits = aim_ == Aim::waits && plan.status == PlanStatus::closed;
-    aim_ = plan.status == PlanStatus::found   ? Aim::goal
-           : plan.status == PlanStatus::aside ? Aim::aside
-           : waits                            ? Aim::waits
-                                              : Aim::closed;
-  }
-  state_ = State::following;
-  detail_ = plan.detail;
-  follow_progress(time);
-  watch_blocker(time);
-}
-
-void Navigator::change_path(const Plan& plan, Reason reason, double time) {
-  if (guidance_.following() && pose_) {
-    const double moved = Churn::moved(guidance_.remaining(pose_->position), plan.path);
-    churn_.add(time, moved);
-    if (moved > 0.0 && reason != Reason::new_goal && reason != Reason::map_changed)
-      policy_.chose(time);
-    if (moved > kElsewhere) {
-      ++reroutes_;
-      reroute_reason_ = reason;
-    }
-  }
-  guidance_.follow(plan.path);
-  shortest_length_ = plan.shortest;
-  smoothing_price_ = length_of(plan.path) - plan.shortest;
-}
-
-/// Hysteresis: a path that still serves stays, so that a person is not sent here and there. It
-/// serves, too, while only something far ahead closes the way, or something that moves on and would
-/// make the person turn back or go a long way round: that may have moved off by then.
-bool Navigator::keeps_path(const Plan& plan, Reason reason, double time) {
-  if (!guidance_.following() || !pose_) return false;
-  const Path remaining = guidance_.remaining(pose_->position);
-  const bool found = plan.status == PlanStatus::found;
-  const bool held = aim_ == Aim::goal && policy_.holds(time, remaining, found ? plan.path : Path{},
-                                                       obstacles_, pace_.value());
-  if (reason == Reason::new_goal || reason == Reason::map_changed ||
-      guidance_.heading(*pose_).path_offset > config_.off_path)
-    return false;
-  const std::vector<Cylinder> none;
-  const bool sees_next = guidance_.sees_next(pose_->position, {floor_.get(), &none});
-  if (held) return sees_next;
-  if (plan.status == PlanStatus::aside)
-    return aim_ == Aim::aside && !policy_.blocked(remaining, obstacles_) && sees_next;
-  if (plan.status == PlanStatus::closed)
-    return aim_ == Aim::closed && sees_next &&
-           !policy_.worth_changing(Reason::period, remaining, plan.path);
-  if (aim_ != Aim::goal) return false;
-  return !policy_.worth_changing(reason, remaining, found ? plan.path : Path{}) &&
-         !policy_.blocked(remaining, obstacles_) && guidance_.sees_next(pose_->position, space());
 }
 
 Status Navigator::status(double time) const {
@@ -361,9 +267,7 @@ Status Navigator::status(double time) const {
   out.plans = plans_;
   out.plan_time = plan_time_;
   out.nodes_expanded = nodes_expanded_;
-  out.reroutes = reroutes_;
-  out.reroute_reason = reroute_reason_;
-  out.churn = churn_.per_minute(time);
+  course_.tell_unrest(out, time);
   out.mesh_age = age_of(mesh_time_, time);
   out.map_age = age_of(map_time_, time);
   out.goal = last_goal_;
@@ -378,22 +282,10 @@ Status Navigator::status(double time) const {
     out.state = State::pose_stale;
     out.detail = "no fresh pose of the robot";
   } else if (state_ == State::following) {
-    if (guidance_.following() && pose_) {
-      out.heading = guidance_.heading(*pose_);
-      out.eta = out.heading.goal_distance / pace_.value();
-      out.shortest_length = shortest_length_;
-      out.smoothing_price = smoothing_price_;
-      out.blocked = blocker_ ? blocker_ : aim_ == Aim::goal ? policy_.waits_for() : std::nullopt;
-      if (aim_ == Aim::waits) out.blocked = Way::Wait{*makes_room_, 0.0, -1.0};
-      if (out.blocked) out.state = State::blocked;
-      if (aim_ == Aim::aside) {
-        out.state = State::make_room;
-        out.blocked = Way::Wait{*makes_room_, 0.0, 0.0};
-        out.heading.waypoint_is_goal = false;
-      }
-    } else {
+    if (course_.following() && pose_)
+      course_.tell(out, scene(time, pose_), policy_);
+    else
       out.state = State::no_route;
-    }
   }
   if (floor_ && goal_ && !obstacles_fresh(time)) {
     if (!out.detail.empty()) out.detail += "; ";

@@ -5,26 +5,21 @@
 #include <optional>
 #include <string>
 
-#include "navvi_nav/churn.hpp"
+#include "navvi_nav/course.hpp"
 #include "navvi_nav/job.hpp"
-#include "navvi_nav/moving_thing.hpp"
 #include "navvi_nav/pace.hpp"
-#include "navvi_nav/stand_off.hpp"
-#include "navvi_nav/status.hpp"
 
 namespace navvi_nav {
 
 struct NavigatorConfig {
   PlannerConfig planner;
   ReplanPolicyConfig replan;
-  GuidanceConfig guidance;
-  StandOffConfig stand_off;
+  CourseConfig course;
   int most_cylinders = 4;
   double carve_period = 0.5;
   double pose_timeout = 1.0;
   double obstacle_timeout = 1.0;
   double plan_timeout = 1.0;
-  double off_path = 1.0;
   double map_timeout = 0.0;
 
   void describe(navvi_config::Visitor& visit);
@@ -55,7 +50,7 @@ class Navigator {
 
   [[nodiscard]] Status status(double time) const;
   /// The path as planned; empty when there is none to show.
-  [[nodiscard]] const Path& path() const { return guidance_.path(); }
+  [[nodiscard]] const Path& path() const { return course_.guidance().path(); }
   /// True while a first plan for a goal is on its way: nothing new can be said yet.
   [[nodiscard]] bool undecided(double time) const;
   /// Where the robot is; nullopt without a fresh pose.
@@ -69,31 +64,22 @@ class Navigator {
   [[nodiscard]] double floor_height() const { return floor_ ? floor_->height() : 0.0; }
 
  private:
-  /// What the path that is followed is.
-  enum class Aim {
-    goal,    ///< free, as far as is known
-    closed,  ///< only moving things close it, and there is no other
-    aside,   ///< away from the ground that a thing needs
-    waits,   ///< as closed, while the robot waits aside
-  };
   [[nodiscard]] bool pose_fresh(double time) const;
   [[nodiscard]] bool map_stale(double time) const;
   [[nodiscard]] bool obstacles_fresh(double time) const;
-  [[nodiscard]] Space space() const { return {floor_.get(), &obstacles_}; }
+  [[nodiscard]] Scene scene(double time, const std::optional<Pose>& robot) const {
+    return {time, robot, pace_.value(), floor_.get(), things_, obstacles_};
+  }
   [[nodiscard]] std::optional<Job> next_job(double time);
   void follow_progress(double time);
-  void watch_blocker(double time);
-  [[nodiscard]] const MovingThing* thing(std::optional<std::uint32_t> id) const;
+  void give_up_late_plan(double time);
   void take_plan(const Plan& plan, Reason reason, double time);
-  void follow(const Plan& plan, Reason reason, double time);
-  void change_path(const Plan& plan, Reason reason, double time);
-  [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason, double time);
   void drop_goal(State state);
   void refuse_goal(Refusal refusal, const std::string& detail);
 
   NavigatorConfig config_;
   ReplanPolicy policy_;
-  Guidance guidance_;
+  Course course_;
   std::shared_ptr<const Floor> floor_;
   std::shared_ptr<const MapMessage> new_map_;
   std::shared_ptr<const OccupancyGrid> new_grid_;
@@ -117,20 +103,11 @@ class Navigator {
   Reason job_reason_ = Reason::none;
   std::optional<double> carved_at_;
   State state_ = State::no_goal;
-  Aim aim_ = Aim::goal;
-  StandOff stand_off_;
-  std::optional<Way::Wait> blocker_;         ///< of the only way, if near
-  std::optional<std::uint32_t> makes_room_;  ///< for which thing
   Refusal refusal_ = Refusal::none;
   Reason reason_ = Reason::none;
   unsigned plans_ = 0;
   double plan_time_ = 0.0;
   std::size_t nodes_expanded_ = 0;
-  unsigned reroutes_ = 0;
-  Reason reroute_reason_ = Reason::none;
-  double shortest_length_ = 0.0;
-  double smoothing_price_ = 0.0;
-  Churn churn_;
   Pace pace_;
   std::string detail_;
 };
