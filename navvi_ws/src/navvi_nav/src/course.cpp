@@ -1,10 +1,13 @@
 #include "navvi_nav/course.hpp"
 
+#include "navvi_nav/way_out.hpp"
+
 namespace navvi_nav {
 namespace {
 
 constexpr double kElsewhere = 2.0;  // m moved of a path: it leads elsewhere
-constexpr double kAside = 0.4;      // m, from where room was to be made
+constexpr double kAside = 0.4;   // m, from where room was to be made: near enough if out of the way
+constexpr double kThere = 0.15;  // m, likewise: near enough
 
 const MovingThing* find(const std::vector<MovingThing>& things, std::optional<std::uint32_t> id) {
   const auto found = std::find_if(things.begin(), things.end(), [id](const MovingThing& one) {
@@ -40,11 +43,19 @@ void Course::reset_times() {
   churn_.reset();
 }
 
+/// Who stops just short of the place may still be in the way.
+bool Course::is_aside(const Scene& scene) const {
+  const Point robot = scene.robot->position;
+  const double left = distance(robot, guidance_.path().back());
+  return left <= kThere ||
+         (left <= kAside && !in_a_hole(robot, {scene.floor, &ground_}, config_.robot_radius));
+}
+
 bool Course::arrives(const Scene& scene) {
   if (!following() || !scene.robot) return false;
   guidance_.advance(*scene.robot, scene.space());
   if (aim_ == Aim::aside) {
-    if (distance(scene.robot->position, guidance_.path().back()) <= kAside) {
+    if (is_aside(scene)) {
       aim_ = Aim::waits;
       stand_off_.went_aside(scene.time, *makes_room_);
     }
@@ -69,7 +80,8 @@ std::vector<Cylinder> Course::ground_to_leave(const std::vector<MovingThing>& th
       find(things, aim_ == Aim::aside ? makes_room_ : stand_off_.due());
   if (!rival) return {};
   makes_room_ = rival->cylinder.id;
-  return ground_needed(*rival);
+  ground_ = ground_needed(*rival);
+  return ground_;
 }
 
 void Course::take(const Plan& plan, Reason reason, const Scene& scene, ReplanPolicy& policy) {

@@ -14,6 +14,12 @@ ReplanPolicyConfig policy_of(const NavigatorConfig& config) {
   return out;
 }
 
+CourseConfig course_of(const NavigatorConfig& config) {
+  CourseConfig out = config.course;
+  out.robot_radius = config.planner.mesh.robot_radius;
+  return out;
+}
+
 }  // namespace
 
 void NavigatorConfig::describe(navvi_config::Visitor& visit) {
@@ -40,7 +46,7 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
 }
 
 Navigator::Navigator(const NavigatorConfig& config)
-    : config_(config), policy_(policy_of(config)), course_(config.course) {}
+    : config_(config), policy_(policy_of(config)), course_(course_of(config)) {}
 
 void Navigator::set_map(std::shared_ptr<const MapMessage> map) {
   new_map_ = std::move(map);

@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kAsideStep = 0.5;       // m
 constexpr double kAsideFarthest = 12.0;  // m, as the crow flies
+constexpr double kAsideSpare = 0.2;      // m, that a robot keeps from ground it leaves free
 constexpr int kAsideDirections = 16;
 constexpr int kAsideSearches = 200;
 
@@ -120,6 +121,11 @@ Plan Planner::plan_among(const std::vector<Cylinder>& obstacles, Point start, Po
 }
 
 Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start) const {
+  Plan out = plan_aside(ground, start, kAsideSpare);
+  return out.status == PlanStatus::aside ? out : plan_aside(ground, start, 0.0);
+}
+
+Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start, double spare) const {
   const Mesh& mesh = nav_mesh_.mesh();
   const double radius = config_.mesh.robot_radius;
   const Space needed{nav_mesh_.shared_floor().get(), &ground};
@@ -133,7 +139,7 @@ Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start) const
       const double angle = 2.0 * M_PI * i / kAsideDirections;
       const Point place = start + reach * Point{std::cos(angle), std::sin(angle)};
       const std::optional<Mesh::Place> there = mesh.locate(place, 0.0);
-      if (!there || in_a_hole(place, needed, radius)) continue;
+      if (!there || in_a_hole(place, needed, radius + spare)) continue;
       const Anchor from = begin(start, place, mesh.polygon(there->polygon).part);
       if (!from.place) continue;
       ++searches;

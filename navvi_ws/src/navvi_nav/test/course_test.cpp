@@ -102,6 +102,9 @@ TEST_F(CourseTest, goes_aside_for_what_it_faces_waits_there_and_arrives_nowhere)
   EXPECT_EQ(status().state, State::make_room);
   EXPECT_EQ(status().blocked->by, 7U);
   EXPECT_FALSE(status().heading.waypoint_is_goal);
+  robot_.position = {2, 5.75};
+  EXPECT_FALSE(goes_on(1.0));
+  EXPECT_EQ(status().state, State::make_room);
   robot_.position = {2, 6.9};
   EXPECT_FALSE(goes_on(3.0));
   EXPECT_EQ(status().state, State::blocked);
@@ -113,6 +116,21 @@ TEST_F(CourseTest, goes_aside_for_what_it_faces_waits_there_and_arrives_nowhere)
   EXPECT_EQ(status().state, State::following);
   robot_.position = {13.5, 5};
   EXPECT_TRUE(goes_on(15.0));
+}
+
+TEST_F(CourseTest, is_aside_only_where_it_leaves_the_ground_free) {
+  put_before(4.0);
+  take(plan(PlanStatus::closed, straight_), Reason::new_goal);
+  goes_on(0.1);
+  goes_on(10.0);
+  ASSERT_FALSE(course_.ground_to_leave(things_).empty());
+  take(plan(PlanStatus::aside, {{2, 5}, {2, 6.0}}), Reason::period);
+  robot_.position = {2, 5.7};  // the thing needs 0.5 m to the side, the robot 0.35 m
+  goes_on(1.0);
+  EXPECT_EQ(status().state, State::make_room);
+  robot_.position = {2, 5.9};
+  goes_on(1.0);
+  EXPECT_EQ(status().state, State::blocked);
 }
 
 TEST_F(CourseTest, follows_nothing_after_it_was_dropped) {

@@ -34,6 +34,20 @@ const std::string kDoor = R"(
     route: {waypoints: [[0.2, 0], [1.5, 0]], speed: 0.5, delay: 3600}
 )";
 
+/// An aisle of 1.8 m with a niche, and a pallet robot that comes along it.
+const std::string kNiche = R"(name: niche
+things:
+  - {name: ground, class: floor, shapes: [{box: [20, 6, 0.1], pose: [0, 0, -0.05]}]}
+  - {name: south, class: wall, pose: [0, -1.95, 1], shapes: [{box: [10, 2.1, 2]}]}
+  - {name: west, class: wall, pose: [-3.5, 1.95, 1], shapes: [{box: [3, 2.1, 2]}]}
+  - {name: east, class: wall, pose: [2.25, 1.95, 1], shapes: [{box: [5.5, 2.1, 2]}]}
+  - name: mover
+    class: pallet_robot
+    pose: [6, 0, 0, 0, 0, 3.14159]
+    shapes: [{box: [0.8, 0.6, 0.4], pose: [0, 0, 0.25]}]
+    route: {waypoints: [[6, 0], [-8.5, 0]], speed: 0.5, pause: 200}
+)";
+
 class ClosedLoopIn : public testing::Test {
  protected:
   ClosedLoopIn() {
@@ -98,6 +112,19 @@ TEST_F(ClosedLoopIn, aDoorThatSomethingStandsInIsToldAndNotDrivenInto) {
   EXPECT_EQ(row.get("hits"), "-");
   EXPECT_GT(row.number("no_route").value() + row.number("blocked").value(), 30.0);
   EXPECT_GT(row.number("still").value(), 30.0);
+}
+
+TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHasPassed) {
+  config_.sim.start = "1,0,0";
+  config_.sim.goal = "7,1";
+  config_.sim.life.movers.patience = 1000.0;  // it does not back out
+  const Fields row = play(kNiche, 150.0);
+  EXPECT_EQ(row.get("result"), "reached");
+  EXPECT_EQ(row.get("hits"), "-");
+  EXPECT_EQ(row.get("reroutes"), "1");
+  EXPECT_GT(row.number("make_room").value(), 10.0);
+  EXPECT_NE(trace_.str().find("says \"make room for the pallet robot, 6 o'clock"),
+            std::string::npos);
 }
 
 TEST(ClosedLoopConfig, namesEachPartAndRefusesAnUnknownOne) {

@@ -14,6 +14,7 @@ struct CourseConfig {
   GuidanceConfig guidance;
   StandOffConfig stand_off;
   double off_path = 1.0;
+  double robot_radius = 0.35;  ///< m, set from the mesh's
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -73,6 +74,7 @@ class Course {
     aside,   ///< away from the ground that a thing needs
     waits,   ///< as closed, while the robot waits aside
   };
+  [[nodiscard]] bool is_aside(const Scene& scene) const;
   void change(const Plan& plan, Reason reason, const Scene& scene, ReplanPolicy& policy);
 
   CourseConfig config_;
@@ -81,6 +83,7 @@ class Course {
   StandOff stand_off_;
   std::optional<Way::Wait> blocker_;         ///< of the only way, if near
   std::optional<std::uint32_t> makes_room_;  ///< for which thing
+  std::vector<Cylinder> ground_;             ///< that it needs, as of the last search
   unsigned reroutes_ = 0;
   Reason reroute_reason_ = Reason::none;
   double shortest_length_ = 0.0;

@@ -66,7 +66,8 @@ class Planner {
   [[nodiscard]] Plan plan(Point start, Point goal) const;
   /// plan() while `obstacles` are carved, or, if they alone are in the way, a plan that is closed.
   [[nodiscard]] Plan plan_among(const std::vector<Cylinder>& obstacles, Point start, Point goal);
-  /// The shortest path to a place from which a robot leaves `ground` free, or no_route.
+  /// The shortest path to a place from which a robot leaves `ground` free, and some room to it
+  /// where there is, or no_route.
   [[nodiscard]] Plan plan_aside(const std::vector<Cylinder>& ground, Point start) const;
   /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
   /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
@@ -79,6 +80,8 @@ class Planner {
   [[nodiscard]] Refusal refusal_of(Point goal) const;
   [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
   [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;
+  [[nodiscard]] Plan plan_aside(const std::vector<Cylinder>& ground, Point start,
+                                double spare) const;
   [[nodiscard]] Plan finish(const Found& found, const Anchor& from, Point start, Point goal) const;
   [[nodiscard]] std::set<int> components_near(Point point, double within) const;
 
