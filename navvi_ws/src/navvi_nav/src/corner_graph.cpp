@@ -3,6 +3,7 @@
 #include <limits>
 
 namespace navvi_nav {
+
 bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
                        Path& path) {
   path.clear();
@@ -17,24 +18,8 @@ bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::P
     for (Stop& each : stops_) each.query = 0;
     query_ = 1;
   }
-  keep_landmarks(start);
-  const std::vector<Sight::Corner>& near_goal = sight_.look(mesh, goal, &start);
-  if (landmarks_.known()) landmarks_.aim(sight_, near_goal);
-  for (const Sight::Corner& corner : near_goal) {
-    Stop& from = stop(corner.vertex);
-    from.sees_goal = true;
-    from.last = corner.away;
-  }
-  best_ = std::numeric_limits<double>::infinity();
-  last_ = -1;
-  if (sight_.target_seen()) {
-    best_ = distance(start.point, goal.point);
-  } else {
-    for (const Sight::Corner& corner : sight_.look(mesh, start)) {
-      tangents_.meet(corner);
-      reach(corner.vertex, corner.turn, -1, corner.away);
-    }
-  }
+  survey(start);
+  look_about(start, goal);
   while (!open_.empty()) {
     const auto [estimate, vertex] = open_.pop();
     if (estimate >= best_) break;
@@ -55,22 +40,59 @@ bool CornerGraph::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::P
   return true;
 }
 
-Landmarks* CornerGraph::landmarks(const Mesh& mesh, const Mesh::Place& place, std::size_t cost) {
-  mesh_ = &mesh;
-  tangents_.watch(mesh);
-  keep_landmarks(place);
-  expanded_here_ += cost;
-  return landmarks_.known() ? &landmarks_ : nullptr;
+/// Sets where the landmarks lead. \returns what is seen from there
+const std::vector<Sight::Corner>& CornerGraph::look_from_goal(const Mesh::Place& goal,
+                                                              const Mesh::Place* start) {
+  const bool known = windows_.known();
+  const auto& seen = known ? windows_.look(*mesh_, goal) : sight_.look(*mesh_, goal, start);
+  if (landmarks_.known()) landmarks_.aim(known ? windows_.around() : sight_.around(), seen);
+  return seen;
 }
 
-void CornerGraph::keep_landmarks(const Mesh::Place& start) {
+/// Finds what is seen from the goal and, if that is not the start, from the start.
+void CornerGraph::look_about(const Mesh::Place& start, const Mesh::Place& goal) {
+  best_ = std::numeric_limits<double>::infinity();
+  last_ = -1;
+  const bool known = windows_.known();
+  const bool near = known && sight_.sees(*mesh_, start, goal);
+  if (!near) {
+    for (const Sight::Corner& corner : look_from_goal(goal, &start)) {
+      Stop& from = stop(corner.vertex);
+      from.sees_goal = true;
+      from.last = corner.away;
+    }
+  }
+  if (near || (!known && sight_.target_seen())) {
+    best_ = distance(start.point, goal.point);
+    return;
+  }
+  for (const Sight::Corner& corner :
+       known ? windows_.look(*mesh_, start) : sight_.look(*mesh_, start)) {
+    tangents_.meet(corner);
+    reach(corner.vertex, corner.turn, -1, corner.away);
+  }
+}
+
+const Landmarks* CornerGraph::aim(const Mesh& mesh, const Mesh::Place& goal, std::size_t cost) {
+  mesh_ = &mesh;
+  tangents_.watch(mesh);
+  survey(goal);
+  expanded_here_ += cost;
+  if (!landmarks_.known()) return nullptr;
+  look_from_goal(goal, nullptr);
+  return &landmarks_;
+}
+
+void CornerGraph::survey(const Mesh::Place& start) {
   if (mesh_->version != version_) {
     version_ = mesh_->version;
     expanded_here_ = 0;
     landmarks_.forget();
+    windows_.forget();
   }
-  if (!landmarks_.known() && expanded_here_ >= worth_ * mesh_->vertices.size())
-    landmarks_.measure(*mesh_, start, tangents_);
+  if (landmarks_.known() || expanded_here_ < worth_ * mesh_->vertices.size()) return;
+  landmarks_.measure(*mesh_, start, tangents_);
+  windows_.measure(*mesh_);
 }
 
 /// A shortest path bends round a corner: it leaves on the side to which it turned.

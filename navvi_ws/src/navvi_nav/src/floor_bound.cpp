@@ -2,7 +2,7 @@
 
 namespace navvi_nav {
 
-void FloorBound::aim(const Mesh& mesh, Landmarks& landmarks, const Mesh::Place& goal) {
+void FloorBound::aim(const Mesh& mesh, const Landmarks& landmarks) {
   mesh_ = &mesh;
   landmarks_ = &landmarks;
   if (known_.size() < mesh.vertices.size()) known_.resize(mesh.vertices.size());
@@ -13,8 +13,6 @@ void FloorBound::aim(const Mesh& mesh, Landmarks& landmarks, const Mesh::Place& 
     std::fill(floor_known_.begin(), floor_known_.end(), Known{});
     query_ = 1;
   }
-  const Mesh::Place place{mesh.polygon(goal.polygon).ground, goal.point};
-  landmarks.aim(sight_, sight_.look(*mesh.floor, place));
 }
 
 /// From a point of the link, one end or the other can be gone to first: from neither is it farther

@@ -16,9 +16,11 @@ void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, Tangents
   none.fill(kNoWay);
   // The first landmark is as far from anywhere as it gets, each further one from those before.
   places_[0] = somewhere;
+  sees_.resize(mesh.polygons.size());
   turning_.assign(mesh.vertices.size(), none);
   places_[0] = turn_everywhere(mesh, 0, tangents).place;
   turning_.assign(mesh.vertices.size(), none);
+  sees_.assign(mesh.polygons.size(), {});
   for (std::size_t k = 0; k < kCount; ++k) {
     const Far next = turn_everywhere(mesh, k, tangents);
     if (k + 1 < kCount) places_[k + 1] = next.place;
@@ -33,7 +35,7 @@ void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, Tangents
       if (done[vertex] != 0 || !mesh.vertices[vertex].corner) continue;
       done[vertex] = 1;
       const auto& seen = sight_.look(mesh, {static_cast<int>(i), mesh.at(corner)});
-      ways_[vertex] = ways_from(sight_, seen);
+      ways_[vertex] = ways_from(sight_.around(), seen);
     }
   }
   forget_pinches(mesh);
@@ -80,6 +82,8 @@ Landmarks::Far Landmarks::turn_everywhere(const Mesh& mesh, std::size_t landmark
     tangents.meet(corner);
     reach(corner.vertex, corner.away);
   }
+  for (std::size_t i = 0; i < sees_.size(); ++i)
+    sees_[i][landmark] = sight_.swept(static_cast<int>(i));
   while (!open.empty()) {
     const Entry entry = open.top();
     open.pop();
@@ -99,9 +103,8 @@ Landmarks::Far Landmarks::turn_everywhere(const Mesh& mesh, std::size_t landmark
   return out;
 }
 
-/// Of the place that `sight` has just looked from. A landmark that it may see is left out: the way
-/// there need not turn.
-Landmarks::Ways Landmarks::ways_from(const Sight& sight,
+/// Of a place. A landmark that it may see is left out: the way there need not turn.
+Landmarks::Ways Landmarks::ways_from(const std::vector<int>& around,
                                      const std::vector<Sight::Corner>& seen) const {
   Ways out;
   out.fill(kNoWay);
@@ -111,7 +114,10 @@ Landmarks::Ways Landmarks::ways_from(const Sight& sight,
     for (std::size_t k = 0; k < kCount; ++k) out[k] = std::min(out[k], away + turning[k]);
   }
   for (std::size_t k = 0; k < kCount; ++k) {
-    if (out[k] == kNoWay || sight.swept(places_[k].polygon)) out[k] = kUnknown;
+    bool may_see = false;
+    for (const int polygon : around)
+      may_see = may_see || sees_[static_cast<std::size_t>(polygon)][k];
+    if (out[k] == kNoWay || may_see) out[k] = kUnknown;
   }
   return out;
 }

@@ -18,8 +18,8 @@ constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
 
-/// Most queries are easy. Hard ones on a mesh that has stayed go over the graph of its corners,
-/// which costs much when it is built and little afterwards.
+/// On a mesh that stays, the graph of its corners answers: it costs much while it is built, little
+/// afterwards. Until it is known, easy queries are spared it.
 void Search::find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
   if (mesh.floor && mesh.floor->version != mesh.version) {
     find_between_holes(mesh, start, goal);
@@ -27,10 +27,13 @@ void Search::find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh
   }
   const bool stays = mesh.version != 0 && mesh.version == version_;
   version_ = mesh.version;
-  const std::size_t easy = mesh.polygons.size() < kLarge ? kEasy : kEasyInLarge;
-  found_.found = any_angle_.find(mesh, start, goal, stays ? easy : kAny, nullptr, found_.path);
-  found_.nodes_expanded = any_angle_.nodes_expanded();
-  if (!any_angle_.gave_up()) return;
+  found_.nodes_expanded = 0;
+  if (!corner_graph_.knows(mesh)) {
+    const std::size_t easy = mesh.polygons.size() < kLarge ? kEasy : kEasyInLarge;
+    found_.found = any_angle_.find(mesh, start, goal, stays ? easy : kAny, nullptr, found_.path);
+    found_.nodes_expanded = any_angle_.nodes_expanded();
+    if (!any_angle_.gave_up()) return;
+  }
   found_.found = corner_graph_.find(mesh, start, goal, found_.path);
   found_.nodes_expanded += corner_graph_.nodes_expanded();
 }
@@ -39,9 +42,9 @@ void Search::find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh
 void Search::find_between_holes(const Mesh& mesh, const Mesh::Place& start,
                                 const Mesh::Place& goal) {
   version_ = mesh.floor->version;
-  const Mesh::Place on_floor{mesh.polygon(start.polygon).ground, start.point};
-  Landmarks* landmarks = corner_graph_.landmarks(*mesh.floor, on_floor, expanded_);
-  if (landmarks != nullptr) floor_bound_.aim(mesh, *landmarks, goal);
+  const Mesh::Place on_floor{mesh.polygon(goal.polygon).ground, goal.point};
+  const Landmarks* landmarks = corner_graph_.aim(*mesh.floor, on_floor, expanded_);
+  if (landmarks != nullptr) floor_bound_.aim(mesh, *landmarks);
   found_.found = any_angle_.find(mesh, start, goal, kAny,
                                  landmarks != nullptr ? &floor_bound_ : nullptr, found_.path);
   found_.nodes_expanded = expanded_ = any_angle_.nodes_expanded();

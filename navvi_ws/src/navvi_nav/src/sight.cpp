@@ -29,7 +29,7 @@ const std::vector<Sight::Corner>& Sight::look(const Mesh& mesh, const Mesh::Plac
                                               const Mesh::Place* target) {
   mesh_ = &mesh;
   from_ = place.point;
-  is_corner_ = false;
+  walls_.known = false;
   skips_ = false;  // the way may be gone in the other direction
   surround(mesh, place, around_);
   around_target_.clear();
@@ -64,26 +64,73 @@ const std::vector<Sight::Corner>& Sight::look(const Mesh& mesh, int vertex, int 
     if (found == here.corners.end()) continue;
     const auto next = found + 1 == here.corners.end() ? here.corners.begin() : found + 1;
     const auto before = found == here.corners.begin() ? here.corners.end() - 1 : found - 1;
-    if (!out) wall_out_ = mesh.at(*next) - from_, ++walls;
-    if (!in) wall_in_ = mesh.at(*before) - from_, ++walls;
+    if (!out) walls_.out = mesh.at(*next) - from_, ++walls;
+    if (!in) walls_.in = mesh.at(*before) - from_, ++walls;
   }
-  is_corner_ = walls == 2;
+  walls_.known = walls == 2;
   sweep();
   return corners_;
 }
 
-void Sight::sweep() {
-  if (met_.size() < mesh_->vertices.size()) met_.resize(mesh_->vertices.size(), 0);
-  if (swept_.size() < mesh_->polygons.size()) swept_.resize(mesh_->polygons.size(), 0);
-  if (++number_ == 0) {
-    std::fill(met_.begin(), met_.end(), 0);
-    std::fill(swept_.begin(), swept_.end(), 0);
-    number_ = 1;
+Sight::Walls Sight::survey(const Mesh& mesh, int vertex, int polygon,
+                           std::vector<Glimpse>& glimpses) {
+  glimpses_ = &glimpses;
+  look(mesh, vertex, polygon);
+  glimpses_ = nullptr;
+  return walls_;
+}
+
+bool Sight::sees(const Mesh& mesh, const Mesh::Place& place, const Mesh::Place& target) {
+  surround(mesh, place, around_);
+  surround(mesh, target, around_target_);
+  start_number(mesh);
+  const Point ahead = target.point - place.point;
+  for (const int polygon : around_) swept_[static_cast<std::size_t>(polygon)] = number_;
+  waiting_ = around_;
+  while (!waiting_.empty()) {
+    const int polygon = waiting_.back();
+    waiting_.pop_back();
+    if (has(around_target_, polygon)) return true;
+    for (const Link& link : mesh.polygon(polygon).links) {
+      std::uint32_t& swept = swept_[static_cast<std::size_t>(link.to)];
+      if (swept == number_) continue;
+      const Point c = mesh.at(link.right) - place.point;
+      const Point d = mesh.at(link.left) - place.point;
+      if (side(c, ahead) < 0 || side(d, ahead) > 0 || side(c, d) <= 0) continue;
+      swept = number_;
+      waiting_.push_back(link.to);
+    }
   }
+  return false;
+}
+
+std::pair<int, int> Sight::Walls::sides(Point ahead) const {
+  return {side(ahead, in), side(ahead, out)};
+}
+
+std::optional<int> Sight::Walls::turn(Point ahead) const {
+  if (!known) return 0;
+  const auto [in_side, out_side] = sides(ahead);
+  if (in_side * out_side < 0) return std::nullopt;
+  return in_side != 0 ? in_side : out_side;
+}
+
+void Sight::start_number(const Mesh& mesh) {
+  if (met_.size() < mesh.vertices.size()) met_.resize(mesh.vertices.size(), 0);
+  if (swept_.size() < mesh.polygons.size()) swept_.resize(mesh.polygons.size(), 0);
+  if (++number_ != 0) return;
+  std::fill(met_.begin(), met_.end(), 0);
+  std::fill(swept_.begin(), swept_.end(), 0);
+  number_ = 1;
+}
+
+void Sight::sweep() {
+  start_number(*mesh_);
   corners_.clear();
   cones_.clear();
   for (const int polygon : around_) {
     swept_[static_cast<std::size_t>(polygon)] = number_;
+    if (glimpses_ != nullptr) glimpses_->push_back({polygon});
     for (const Link& link : mesh_->polygon(polygon).links) {
       const Point c = mesh_->at(link.right) - from_;
       const Point d = mesh_->at(link.left) - from_;
@@ -92,7 +139,8 @@ void Sight::sweep() {
         continue;
       }
       if (side(c, d) > 0) {
-        cones_.push_back({c, d, link.to, link.right, link.left, true, true, false, false});
+        cones_.push_back({c, d, link.to, link.right, link.left, true, true, false, false,
+                          link.right, link.left});
       } else {
         look_along(link, c, d);
       }
@@ -108,6 +156,7 @@ void Sight::sweep() {
 void Sight::pass(Cone cone) {
   const Polygon& polygon = mesh_->polygon(cone.polygon);
   swept_[static_cast<std::size_t>(cone.polygon)] = number_;
+  if (glimpses_ != nullptr) glimpses_->push_back({cone.polygon, cone.right_at, cone.left_at});
   const double right_extent = extent(cone.right);
   const double left_extent = extent(cone.left);
   const auto right_side = [&](Point point) {
@@ -153,10 +202,11 @@ void Sight::pass(Cone cone) {
       continue;
     }
     if (d.right == 0 || c.left == 0) continue;
-    cones_.push_back({c.right >= 0 ? c.ahead : cone.right, d.left <= 0 ? d.ahead : cone.left,
-                      link.to, link.right, link.left, c.right >= 0, d.left <= 0,
-                      skips_ && cone.right_met && c.right <= 0,
-                      skips_ && cone.left_met && d.left >= 0});
+    cones_.push_back(
+        {c.right >= 0 ? c.ahead : cone.right, d.left <= 0 ? d.ahead : cone.left, link.to,
+         link.right, link.left, c.right >= 0, d.left <= 0, skips_ && cone.right_met && c.right <= 0,
+         skips_ && cone.left_met && d.left >= 0, c.right >= 0 ? link.right : cone.right_at,
+         d.left <= 0 ? link.left : cone.left_at});
   }
 }
 
@@ -171,11 +221,10 @@ void Sight::look_along(const Link& link, Point c, Point d) {
 bool Sight::meet(int vertex, int polygon, Point ahead, std::int8_t turn) {
   if (!mesh_->vertices[static_cast<std::size_t>(vertex)].corner) return false;
   int turned = 0;
-  if (is_corner_) {
-    const int in = side(ahead, wall_in_);
-    const int out = side(ahead, wall_out_);
-    if (in * out < 0) return false;
-    turned = in != 0 ? in : out;
+  if (walls_.known) {
+    const std::optional<int> turn_here = walls_.turn(ahead);
+    if (!turn_here) return false;
+    turned = *turn_here;
   }
   std::uint32_t& met = met_[static_cast<std::size_t>(vertex)];
   if (met == number_) {

@@ -12,8 +12,8 @@ namespace navvi_nav {
 /// measured once on the floor holds whatever holes come, go and move.
 class FloorBound {
  public:
-  /// \param landmarks  of mesh.floor
-  void aim(const Mesh& mesh, Landmarks& landmarks, const Mesh::Place& goal);
+  /// \param landmarks  of mesh.floor, aimed at the goal
+  void aim(const Mesh& mesh, const Landmarks& landmarks);
 
   /// m, from a vertex; 0 for one that no link brought up yet.
   [[nodiscard]] double of(int vertex) const {
@@ -37,7 +37,6 @@ class FloorBound {
   std::vector<Known> known_;  // of the mesh's vertices
   /// Of the floor's. The same number can stand for another side of a pinch there.
   std::vector<Known> floor_known_;
-  Sight sight_;
 };
 
 }  // namespace navvi_nav

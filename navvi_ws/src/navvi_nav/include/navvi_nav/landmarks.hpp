@@ -21,16 +21,20 @@ class Landmarks {
   void forget() { known_ = false; }
   [[nodiscard]] bool known() const { return known_; }
 
-  /// Sets where at_least() leads. \param sight  that has just looked from there
-  void aim(const Sight& sight, const std::vector<Sight::Corner>& seen) {
-    goal_ = ways_from(sight, seen);
+  /// Sets where at_least() leads. \param around  the polygons that hold that place
+  /// \param seen  the corners that are seen from there
+  void aim(const std::vector<int>& around, const std::vector<Sight::Corner>& seen) {
+    goal_ = ways_from(around, seen);
   }
   /// m
   [[nodiscard]] double at_least(int vertex) const {
     const Ways& ways = ways_[static_cast<std::size_t>(vertex)];
-    float out = 0.0F;
-    for (std::size_t k = 0; k < kCount; ++k) out = std::max(out, std::abs(ways[k] - goal_[k]));
-    return static_cast<double>(out) - kRounding;
+    std::array<float, 4> most{};  // side by side, for the processor's vectors
+    for (std::size_t k = 0; k < kCount; k += most.size()) {
+      for (std::size_t i = 0; i < most.size(); ++i)
+        most[i] = std::max(most[i], std::abs(ways[k + i] - goal_[k + i]));
+    }
+    return static_cast<double>(*std::max_element(most.begin(), most.end())) - kRounding;
   }
 
  private:
@@ -43,12 +47,14 @@ class Landmarks {
   };
   Far turn_everywhere(const Mesh& mesh, std::size_t landmark, Tangents& tangents);
   void forget_pinches(const Mesh& mesh);
-  [[nodiscard]] Ways ways_from(const Sight& sight, const std::vector<Sight::Corner>& seen) const;
+  [[nodiscard]] Ways ways_from(const std::vector<int>& around,
+                               const std::vector<Sight::Corner>& seen) const;
 
   bool known_ = false;
   std::array<Mesh::Place, kCount> places_;
   std::vector<Ways> turning_;  // of each vertex, if the way turns there and goes on; or infinity
   std::vector<Ways> ways_;     // of each vertex, if the way ends there; or NaN
+  std::vector<std::array<bool, kCount>> sees_;  // by polygon: landmarks that see some of it
   Ways goal_{};
   Sight sight_;
 };
