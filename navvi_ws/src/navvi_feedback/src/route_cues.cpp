@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
-constexpr double kHalfHour = kHourDegrees / 2.0 * kDegree;
+constexpr double kHour = kHourDegrees * kDegree;
+constexpr double kHalfHour = kHour / 2.0;
 /// m; a goal that moved less is the same goal.
 constexpr double kSameGoal = 0.5;
 /// rad; whoever is told to turn by less turns too far.
@@ -19,6 +20,8 @@ constexpr double kInTheWay = 1.0;
 constexpr double kBeside = 0.5;
 /// m; half as wide as what the robot drives over, and a little.
 constexpr double kHalfLane = 0.45;
+/// m, by which a thing that was in the way may be farther off before it no longer is.
+constexpr double kKept = 0.1;
 /// m; a robot that turns with a smaller radius turns on the spot.
 constexpr double kSpotRadius = 0.5;
 
@@ -197,7 +200,9 @@ RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
 
 void RouteCues::observe(const Situation& now, double time) {
   hour_ = steady_.update(now.guidance->steer_angle);
-  if (hour_ == 12 && rounding_ == Rounding::nearest) hour_ = clear_of_things(now);
+  const bool ahead = hour_ == 12 && rounding_ == Rounding::nearest;
+  if (ahead) hour_ = clear_of_things(now, leads_off_);
+  leads_off_ = ahead && hour_ != 12;
   const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
   if (beyond(now.commanded.linear, 0.02) || beyond(now.commanded.angular, 0.05))
     last_commanded_ = time;
@@ -209,17 +214,22 @@ void RouteCues::observe(const Situation& now, double time) {
 
 /// Who hears "straight ahead" drives on as they look. Where that is into something, or along
 /// something that the way leads off from, the hour on the way's side is nearer to the truth,
-/// however small the angle.
-int RouteCues::clear_of_things(const Situation& now) const {
+/// however small the angle; unless something stands that way, too. Held like any hour.
+int RouteCues::clear_of_things(const Situation& now, bool held) const {
   const double angle = now.guidance->steer_angle;
-  if (std::abs(angle) < kWorthSaying) return 12;
-  const bool in_the_way =
-      std::any_of(now.nearby.begin(), now.nearby.end(), [&](const Nearby& thing) {
-        const bool ahead = thing.gap < std::min(kInTheWay, now.guidance->waypoint_distance) &&
-                           std::abs(thing.nearest.y()) < kHalfLane;
-        const bool left_behind = thing.gap < kBeside && thing.nearest.y() * angle > 0.0;
-        return thing.nearest.x() > 0.0 && (ahead || left_behind);
-      });
+  if (std::abs(angle) < (held ? 0.5 : 1.0) * kWorthSaying) return 12;
+  const double side = angle > 0.0 ? 1.0 : -1.0;
+  const double kept = held ? kKept : 0.0;
+  const double ahead = std::min(kInTheWay, now.guidance->waypoint_distance);
+  bool in_the_way = false;
+  for (const Nearby& thing : now.nearby) {
+    if (thing.nearest.x() <= 0.0) continue;
+    const double beyond = side * (-std::atan2(thing.nearest.y(), thing.nearest.x()) - angle);
+    if (thing.gap < ahead && beyond > 0.0 && beyond < kHour) return 12;
+    const bool before = thing.gap < ahead + kept && std::abs(thing.nearest.y()) < kHalfLane + kept;
+    const bool left_behind = thing.gap < kBeside + kept && side * thing.nearest.y() > 0.0;
+    in_the_way = in_the_way || before || left_behind;
+  }
   if (!in_the_way) return 12;
   return angle > 0.0 ? 1 : 11;
 }

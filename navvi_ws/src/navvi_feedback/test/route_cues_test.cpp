@@ -113,6 +113,27 @@ TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
   EXPECT_EQ(drive.pass(3.0), Kinds{"direction"}) << "the way leads off from it";
 }
 
+TEST(RouteCues, SendNobodyOffIntoWhatStandsThatWay) {
+  Drive drive;
+  drive.settle(8.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.55, {0.78, -0.45}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{}) << "30 degrees to the right is where it stands";
+}
+
+TEST(RouteCues, LeadOffAndAheadAgainOnlyOnceTheAngleHasClearlyChanged) {
+  Drive drive;
+  drive.settle(7.5, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.45, {0.8, 0.2}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(6.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(3.0);
+  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"});
+}
+
 TEST(RouteCues, JudgeANewLegAfresh) {
   Drive drive;
   drive.settle(0.0, 1.5);

@@ -62,7 +62,7 @@ class RouteCues {
   [[nodiscard]] Change compare(const Guidance& guidance) const;
   void observe(const Situation& now, double time);
   [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
-  [[nodiscard]] int clear_of_things(const Situation& now) const;
+  [[nodiscard]] int clear_of_things(const Situation& now, bool held) const;
   [[nodiscard]] bool about_to_face(const Situation& now) const;
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
@@ -77,6 +77,7 @@ class RouteCues {
   std::optional<Eigen::Vector2d> goal_;  ///< m, in map, the one that was introduced
   std::optional<Guidance> last_;         ///< of the path that is being followed
   std::optional<int> hour_;              ///< to the way-point, now
+  bool leads_off_ = false;               ///< it is no 12 only for what is near
   std::optional<int> said_hour_;         ///< what the person last heard
   Change pending_ = Change::none;        ///< still to be told
   std::uint32_t reroutes_ = 0;           ///< of this goal, those told or passed over
