@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <queue>
+#include <tuple>
 
 namespace navvi_nav {
 namespace {
@@ -43,19 +44,21 @@ void Landmarks::measure(const Mesh& mesh, const Mesh::Place& somewhere, Tangents
 }
 
 /// Where polygons meet in a point only, holes can change which of them has which of its vertices.
+/// Only one side can be a corner, but the other may come by its number.
 void Landmarks::forget_pinches(const Mesh& mesh) {
-  std::vector<int> corners;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (mesh.vertices[i].corner) corners.push_back(static_cast<int>(i));
-  }
+  std::vector<int> vertices;
+  for (const Polygon& polygon : mesh.polygons)
+    vertices.insert(vertices.end(), polygon.corners.begin(), polygon.corners.end());
   const auto key = [&mesh](int vertex) {
-    return std::make_pair(mesh.at(vertex).x, mesh.at(vertex).y);
+    return std::make_tuple(mesh.at(vertex).x, mesh.at(vertex).y, vertex);
   };
-  std::sort(corners.begin(), corners.end(), [&](int a, int b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    if (key(corners[i - 1]) != key(corners[i])) continue;
-    ways_[static_cast<std::size_t>(corners[i - 1])].fill(kUnknown);
-    ways_[static_cast<std::size_t>(corners[i])].fill(kUnknown);
+  std::sort(vertices.begin(), vertices.end(), [&](int a, int b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const int a = vertices[i - 1];
+    const int b = vertices[i];
+    if (a == b || !(mesh.at(a) == mesh.at(b))) continue;
+    ways_[static_cast<std::size_t>(a)].fill(kUnknown);
+    ways_[static_cast<std::size_t>(b)].fill(kUnknown);
   }
 }
 

@@ -146,6 +146,14 @@ GridWorld grid_world(WorldKind kind, std::uint32_t seed) {
       }
       return out;
     }
+    case WorldKind::splinters: {
+      GridWorld out(10, 8);
+      for (int i = 0; i < 6; ++i) out.fill(pick(random, 0, 9), pick(random, 0, 7), 1, 1);
+      for (int i = 0; i < 24; ++i)
+        out.fill(pick(random, 0, 9), pick(random, 0, 7), 1, 1,
+                 random() % 2 == 0 ? Kind::lower_right : Kind::lower_left);
+      return out;
+    }
     default: {
       GridWorld out(14, 10);
       for (int i = pick(random, 20, 60); i > 0; --i)

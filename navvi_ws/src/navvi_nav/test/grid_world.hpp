@@ -45,6 +45,7 @@ enum class WorldKind {
   clutter,    ///< boxes and slanted walls anywhere, touching and overlapping
   maze,       ///< dead ends and islands
   crumbs,     ///< single cells, many of which touch in a corner
+  splinters,  ///< single cells and halves: corners that touch, round one of which a way can turn
 };
 
 [[nodiscard]] GridWorld grid_world(WorldKind kind, std::uint32_t seed);

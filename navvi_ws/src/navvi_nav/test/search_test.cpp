@@ -224,26 +224,35 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
 /// Holes can change which side of a pinch has which vertex; what the floor's landmarks say of one
 /// does not hold of the other.
 TEST(Search, does_not_take_one_side_of_a_pinch_for_the_other) {
+  struct Case {
+    WorldKind kind;
+    int holes;
+    std::vector<std::uint32_t> seeds;
+  };
   Search surveyed(SearchMethod::exact, 1.0, 0);
   AnyAngle unbounded;
   Path path;
-  for (const std::uint32_t seed : {2113, 2409, 5979, 6283, 7511, 8207, 8399, 8455, 11769, 12091}) {
-    SCOPED_TRACE(seed);
-    const GridWorld world = grid_world(WorldKind::crumbs, seed);
-    CutMesh cut(world.polygons(seed), 0.5);
-    std::mt19937 random(seed);
-    for (int i = 0; i < 5; ++i) {
-      const Point at = 0.5 * world.somewhere(random);
-      cut.add(at, 0.1 + 0.05 * static_cast<double>(random() % 8), 8);
-    }
-    cut.update();
-    for (int i = 0; i < 200; ++i) {
-      const auto start = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
-      const auto goal = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
-      if (!start || !goal) continue;
-      unbounded.find(cut.mesh(), *start, *goal, std::numeric_limits<std::size_t>::max(), nullptr,
-                     path);
-      ASSERT_NEAR(surveyed.find(cut.mesh(), *start, *goal).length, length_of(path), 1e-9);
+  for (const Case& c :
+       {Case{WorldKind::crumbs, 5, {2113, 2409, 5979, 6283, 7511, 8207, 8399, 8455, 11769, 12091}},
+        Case{WorldKind::splinters, 12, {3915, 4977}}}) {
+    for (const std::uint32_t seed : c.seeds) {
+      SCOPED_TRACE(seed);
+      const GridWorld world = grid_world(c.kind, seed);
+      CutMesh cut(world.polygons(seed), 0.5);
+      std::mt19937 random(seed);
+      for (int i = 0; i < c.holes; ++i) {
+        const Point at = 0.5 * world.somewhere(random);
+        cut.add(at, 0.1 + 0.05 * static_cast<double>(random() % 8), 8);
+      }
+      cut.update();
+      for (int i = 0; i < 200; ++i) {
+        const auto start = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
+        const auto goal = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
+        if (!start || !goal) continue;
+        unbounded.find(cut.mesh(), *start, *goal, std::numeric_limits<std::size_t>::max(), nullptr,
+                       path);
+        ASSERT_NEAR(surveyed.find(cut.mesh(), *start, *goal).length, length_of(path), 1e-9);
+      }
     }
   }
 }
