@@ -28,6 +28,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"pose_stale", P::message, 5.0, 5.0},
       {"map_stale", P::message, 5.0, 5.0},
       {"blocked", P::message, 3.0, 1.5},
+      {"obstacle_stop", P::message, 1.5, 1.0},
       {"make_room", P::message, 5.0, 3.0},
       {"goal_refused_not_finite", P::message, 1.0, 10.0},
       {"goal_refused_unknown_frame", P::message, 1.0, 10.0},
@@ -53,6 +54,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"shelf_close", P::text, 1.5, 1.5},
       {"wall_close", P::text, 1.5, 1.5},
       {"obstacle_near", P::text, 1.5, 1.5},
+      {"obstacle_close", P::text, 1.5, 1.5},
       // On demand, and by the way.
       {"goal_info", P::text, 0.5, 4.0},
       {"goal_info_distance", P::text, 0.5, 4.0},

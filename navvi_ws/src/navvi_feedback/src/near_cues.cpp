@@ -1,5 +1,6 @@
 #include "navvi_feedback/near_cues.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,11 +16,11 @@ bool approaches(const Situation& now, Side side) {
   return side == Side::behind && now.measured->linear < -kMoving;
 }
 
-/// Less than 60 degrees off the way in which the robot drives.
-bool in_the_way(const Situation& now, const Eigen::Vector2d& point) {
+/// Less than 60 degrees off the way in which the robot drives, or, of what it may brush, 90.
+bool in_the_way(const Situation& now, const Eigen::Vector2d& point, bool close) {
   if (!now.measured || std::abs(now.measured->linear) <= kMoving) return false;
   const double forward = std::copysign(point.x(), point.x() * now.measured->linear);
-  return forward >= 0.5 * point.norm();
+  return forward >= (close ? 0.0 : 0.5 * point.norm());
 }
 
 Utterance utterance(const char* kind, ThingClass thing, Side side, bool urgent) {
@@ -113,14 +114,19 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     const auto known = things_.find(thing.id);
     if (known == things_.end() && level(thing.gap, Level::none) == Level::none) continue;
     Watch& watch = known == things_.end() ? things_[thing.id] : known->second;
-    const bool near = observe(watch, thing.gap, time) != Level::none;
-    if (!near || watch.said != Level::none || !in_the_way(now, thing.nearest)) continue;
+    // What moves may turn and come nearer still.
+    const Level most = thing.moving ? Level::close : Level::near;
+    const Level reached = std::min(observe(watch, thing.gap, time), most);
+    const bool close = reached == Level::close;
+    if (reached <= watch.said || !in_the_way(now, thing.nearest, close)) continue;
     const Side side = side_of(thing.nearest);
     const bool urgent = approaches(now, side);
     if (now.voice_busy && !urgent) continue;
-    if (too_soon("obstacle_near", time) || (best && thing.gap >= best->gap)) continue;
-    best = Candidate{utterance("obstacle_near", thing.thing_class, side, urgent), thing.gap, &watch,
-                     Level::near};
+    const char* kind = !close                ? "obstacle_near"
+                       : side == Side::ahead ? "obstacle_stop"
+                                             : "obstacle_close";
+    if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
+    best = Candidate{utterance(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
   }
 }
 

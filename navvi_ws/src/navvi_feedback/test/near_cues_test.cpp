@@ -125,6 +125,26 @@ TEST_F(NearCuesTest, NamesAThingBehindOnlyToWhoDrivesBackAndNoneThatIsPassed) {
             Sides{Side::behind});
 }
 
+TEST_F(NearCuesTest, NamesWhatMovesAboutOnceMoreIfTheRobotMayBrushIt) {
+  now_.measured->linear = 0.5;
+  const auto worker = [](double gap, const Eigen::Vector2d& at) {
+    return Nearby{ThingClass::worker, 3, gap, at, true};
+  };
+  EXPECT_EQ(pass(1.0, {worker(0.9, kAhead)}), Sides{Side::ahead});
+  EXPECT_EQ(pass(2.0, {worker(0.3, kLeft)}), Sides{Side::left});
+  EXPECT_EQ(last_.kind, "obstacle_close");
+  EXPECT_EQ(pass(5.0, {worker(0.2, kLeft)}), Sides{}) << "it was said";
+  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(2.0, {worker(0.3, kAhead)}), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.priority, Priority::message);
+  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(2.0, {worker(0.3, {-0.1, 1.3})}), Sides{}) << "it is left behind";
+  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(2.0, {{ThingClass::box, 4, 0.3, kAhead, false}}), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_near");
+}
+
 TEST_F(NearCuesTest, NamesAThingAgainOnlyAfterItWasGoneForAWhile) {
   now_.measured->linear = 0.5;
   const auto box = [](double gap) { return Nearby{ThingClass::box, 4, gap, kAhead, false}; };

@@ -92,6 +92,8 @@ TEST(Phrases, SayWhatPeopleAndSimulatedOperatorsListenFor) {
   EXPECT_EQ(phrases.say("shelf_near", everything()), "shelf on the left");
   EXPECT_EQ(phrases.say("shelf_close", everything()), "shelf very close, on the left");
   EXPECT_EQ(phrases.say("obstacle_near", everything()), "pallet robot on the left");
+  EXPECT_EQ(phrases.say("obstacle_stop", everything()), "stop, pallet robot on the left");
+  EXPECT_EQ(phrases.say("obstacle_close", everything()), "pallet robot very close, on the left");
   EXPECT_EQ(phrases.say("release_stick"), "release the stick");
   EXPECT_EQ(phrases.say("collision_obstacle", everything()), "hit a pallet robot on the left");
   EXPECT_EQ(phrases.say("stuck", everything()), "stuck, pallet robot left");

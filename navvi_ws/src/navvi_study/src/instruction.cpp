@@ -28,7 +28,7 @@ Instruction::Side side_in(const std::string& text) {
 }  // namespace
 
 bool startles(const std::string& heard_so_far) {
-  return says(heard_so_far, "^(hit|stuck|wait)\\b");
+  return says(heard_so_far, "^(hit|stuck|wait|stop)\\b");
 }
 
 Instruction understand(const std::string& spoken) {

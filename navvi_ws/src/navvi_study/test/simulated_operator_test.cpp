@@ -260,6 +260,10 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
   EXPECT_EQ(understand("in 6 meters, turn to 3 o'clock").hour, 3);
   EXPECT_TRUE(understand("shelf very close, on the left").very_close);
   EXPECT_FALSE(understand("shelf on the left").very_close);
+  EXPECT_EQ(understand("stop, worker ahead").kind, Instruction::Kind::near);
+  EXPECT_EQ(understand("stop, worker ahead").side, Instruction::Side::ahead);
+  EXPECT_TRUE(startles("stop"));
+  EXPECT_FALSE(startles("worker ahead, stop"));
   EXPECT_EQ(understand("2 o'clock, 15 meters").distance, 15.0);
   EXPECT_EQ(understand("hit a wall on the right").side, Instruction::Side::right);
   EXPECT_EQ(understand("no path from here, back away").side, Instruction::Side::none);

@@ -25,7 +25,8 @@ struct NearConfig {
 
 /// Says when a shelf or a wall comes near (R-AUD-3): once a side at `distance`, once more at
 /// `close`. Any other thing is named once at `distance`, if the robot drives towards it: a hand
-/// that feels it cannot tell what it is.
+/// that feels it cannot tell what it is; and once more at `close`, if it moves about. Who is about
+/// to run into that hears first that they must stop.
 class NearCues {
  public:
   explicit NearCues(const NearConfig& config) : config_(config) {}
