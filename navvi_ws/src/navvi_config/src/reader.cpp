@@ -260,7 +260,8 @@ YAML::Node read_words(const std::vector<std::string>& words) {
   YAML::Node all(YAML::NodeType::Map);
   for (const std::string& word : words) {
     const std::size_t split = word.find(":=");
-    if (split == std::string::npos || split == 0)
+    const std::string name = "/" + word.substr(0, split) + "/";  // no key in it may be empty
+    if (split == std::string::npos || name.find("//") != std::string::npos)
       throw ConfigError("\"" + word + "\" is no parameter; parameters look like name:=value.");
     YAML::Node map = all;
     std::istringstream keys(word.substr(0, split));

@@ -135,8 +135,16 @@ TEST(Words, become_keys_in_maps) {
 }
 
 TEST(Words, without_a_name_or_with_one_twice_are_refused) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"speed"}, {":=2"}, {"a:=1", "a:=2"}, {"a:=1", "a/b:=2"}, {"a/b:=2", "a:=1"}})
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"speed"},
+                                             {":=2"},
+                                             {"a/:=1"},
+                                             {"/a:=1"},
+                                             {"a//b:=1"},
+                                             {"/:=1"},
+                                             {"a:=1", "a:=2"},
+                                             {"a:=1", "a/b:=2"},
+                                             {"a/b:=2", "a:=1"}})
     EXPECT_THROW(static_cast<void>(read_words(words)), ConfigError) << words.back();
 }
 
