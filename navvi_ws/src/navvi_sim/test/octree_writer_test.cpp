@@ -114,11 +114,15 @@ class Occupies {
   double voxel_;
 };
 
-/// Draws worlds around a place.
+/// Draws worlds around a place; along axis i around the map's origin, where the tree's root is
+/// split, if bit i of the seed is set.
 class Drawing {
  public:
   Drawing(std::uint64_t seed, double voxel) : random_(seed), voxel_(voxel) {
-    for (int i = 0; i < 3; ++i) middle_[i] = voxel_ * std::round(uniform(-900.0, 900.0));
+    for (int i = 0; i < 3; ++i) {
+      const double far = (seed >> i & 1) != 0 ? 4.0 : 900.0;
+      middle_[i] = voxel_ * std::round(uniform(-far, far));
+    }
   }
 
   static constexpr int kAround = 16;  // voxels, the farthest that anything reaches
