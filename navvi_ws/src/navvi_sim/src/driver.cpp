@@ -15,10 +15,14 @@ constexpr double kGone = 3.0;       // s that the robot is gone before it goes o
 constexpr double kAtFirst = 0.1;    // m, nearer to its first way-point a round begins
 constexpr double kThere = 1e-9;     // m, nearer is there
 
+std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
+  return (hash ^ word) * 0x100000001B3ull;
+}
+
 std::uint64_t mix(std::uint64_t hash, double value) {
   std::uint64_t bits;
   std::memcpy(&bits, &value, sizeof bits);
-  return (hash ^ bits) * 0x100000001B3ull;
+  return mix(hash, bits);
 }
 
 /// m from `from` to `to` along a track of `length` that comes round.
@@ -85,16 +89,16 @@ void Driver::press(const Disc& robot, double dt) {
   kept += dt;
 }
 
-/// m it can go, the way it goes. Who backed out goes on when the robot has been gone for a while
-/// from all the ground that it gave up.
+/// m it can go, the way it goes. Backing out, it stops for the robot even where its route does not
+/// yield, for it is the robot that it makes room for. Who backed out goes on when the robot has
+/// been gone for a while from all the ground that it gave up.
 double Driver::room(const Disc& robot, double dt) {
   robot_ahead = robot_behind = false;
-  if (back_to && yields_) {
+  if (back_to) {
     const double behind = mover.room_behind(robot, clearance_);
     robot_behind = behind <= 0.0;
     if (mover.backs_out()) return behind;
   }
-  if (mover.backs_out()) return Mover::kFree;
   const double length = lane->track.length();
   const double further = gave_up ? onwards(mover.s(), *gave_up, length) : 0.0;
   const double ahead = yields_ ? mover.room_before(robot, clearance_, further) : Mover::kFree;
@@ -203,11 +207,12 @@ Way Driver::way_back() const {
 }
 
 std::uint64_t Driver::hash(std::uint64_t hash) const {
-  for (const double value :
-       {mover.s(), mover.speed(), mover.pause_left(), mover.allowed(), mover.rear(), kept,
-        back_to.value_or(-1.0), gave_up.value_or(-1.0), free_since_})
+  hash = mover.hash(hash);
+  for (const double value : {kept, back_to.value_or(-1.0), gave_up.value_or(-1.0), free_since_})
     hash = mix(hash, value);
-  return hash;
+  for (const bool flag : {stranded, goes_back, robot_ahead, robot_behind})
+    hash = mix(hash, std::uint64_t{flag});
+  return mix(hash, std::uint64_t{next});
 }
 
 }  // namespace navvi_sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace navvi_sim {
 namespace {
@@ -161,6 +162,18 @@ void Mover::pass_end() {
     allowed_ -= lane_->track.length();
     s_ = 0.0;
   }
+}
+
+std::uint64_t Mover::hash(std::uint64_t hash) const {
+  constexpr std::uint64_t kPrime = 0x100000001B3ull;
+  for (const double value : {s_, allowed_, rear_, speed_, pause_left_}) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash = (hash ^ bits) * kPrime;
+  }
+  for (const std::uint64_t word : {random_, std::uint64_t{element_}, std::uint64_t{moved_}})
+    hash = (hash ^ word) * kPrime;
+  return hash;
 }
 
 double Mover::gap_at(double s, const Disc& disc) const {

@@ -288,6 +288,45 @@ TEST(Mover, backs_out_from_a_robot_that_it_presses_even_if_it_does_not_yield) {
   EXPECT_GT(alone.mover().s(), 0.0);
 }
 
+TEST(Mover, that_backs_out_stops_for_the_robot_behind_even_where_it_does_not_yield) {
+  Route route = through({{0, 0}, {10, 0}});
+  route.yields = false;
+  Alone alone({0, 0}, 0, route);
+  alone.run(8.0);
+  const double pressed = alone.at().x();
+  for (int i = 0; i < 3000 && !alone.mover().backs_out(); ++i)
+    alone.run(0.01, {{pressed + 1.5 + 0.34, 0.0}, 0.35}, {0});
+  ASSERT_TRUE(alone.mover().backs_out());
+  const Disc robot{{pressed - 0.5 - 1.5, 0.0}, 0.35};  // 1.15 m behind its tail
+  for (int i = 0; i < 1000; ++i) {
+    alone.run(0.01, robot);
+    ASSERT_GT(alone.at().x() - 0.5 - robot.centre.x(), 0.35 + 0.3) << "after " << 0.01 * i << " s";
+  }
+}
+
+TEST(Driver, has_another_hash_when_anything_differs_that_it_will_act_on) {
+  Route route = through({{0, 0}, {10, 0}}, 1.0, 2.0);
+  route.loop = true;
+  const WorldDescription world = Alone::world({0, 0}, 0, route);
+  const Lanes lanes = lay_lanes(world, {});
+  const LaneUser& entry = lanes.users[0];
+  const Driver driver(lanes.lanes[entry.lane], entry, route, {}, 1);
+  const auto differs = [&](const auto& change) {
+    Driver other = driver;
+    change(other);
+    return other.hash(0) != driver.hash(0);
+  };
+  EXPECT_FALSE(differs([](Driver&) {}));
+  EXPECT_TRUE(differs([](Driver& other) { other.next += 1; }));
+  EXPECT_TRUE(differs([](Driver& other) { other.stranded = !other.stranded; }));
+  EXPECT_TRUE(differs([](Driver& other) { other.goes_back = !other.goes_back; }));
+  EXPECT_TRUE(differs([](Driver& other) { other.robot_ahead = !other.robot_ahead; }));
+  EXPECT_TRUE(differs([](Driver& other) { other.robot_behind = !other.robot_behind; }));
+  EXPECT_TRUE(differs([](Driver& other) { other.kept += 0.01; }));
+  EXPECT_NE(Driver(lanes.lanes[entry.lane], entry, route, {}, 2).hash(0), driver.hash(0))
+      << "the pauses to come";
+}
+
 TEST(Mover, stops_dead_where_it_would_crush_the_robot) {
   MoversConfig config;
   config.yield = false;

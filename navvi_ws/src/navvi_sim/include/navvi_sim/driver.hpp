@@ -57,6 +57,7 @@ struct Driver {
     return mover.allowed() - mover.s() <= ask_at_ && !mover.backs_out() && !lane->legs.empty() &&
            (lane->track.closed() || mover.allowed() < lane->track.length());
   }
+  /// Mixes all of its state into `hash` (FNV-1a over words).
   [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 
   Mover mover;

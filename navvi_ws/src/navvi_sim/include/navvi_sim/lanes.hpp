@@ -14,7 +14,7 @@ namespace navvi_sim {
 
 /// How things with a route behave (R-SIM-3).
 struct MoversConfig {
-  bool yield = true;           ///< stop for the robot, where the route says so too
+  bool yield = true;           ///< stop for the robot ahead, where the route says so too
   double acceleration = 0.8;   ///< m/s^2, to faster and to slower, and sideways in curves
   double turn_rate = 1.0;      ///< rad/s
   double corner_radius = 1.2;  ///< m, at which forklifts round corners where there is room

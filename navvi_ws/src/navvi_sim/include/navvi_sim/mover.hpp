@@ -62,6 +62,8 @@ class Mover {
   [[nodiscard]] bool has_ended() const {
     return !lane_->track.closed() && s_ >= lane_->track.length();
   }
+  /// Mixes all of its state into `hash` (FNV-1a over words).
+  [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 
  private:
   [[nodiscard]] const Track::Element& element() const { return lane_->track.elements()[element_]; }

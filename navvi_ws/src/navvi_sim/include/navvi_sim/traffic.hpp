@@ -64,7 +64,7 @@ class Traffic {
   [[nodiscard]] const Mover& mover(std::size_t i) const { return users_[i].driver.mover; }
   /// Index in WorldDescription::things.
   [[nodiscard]] std::size_t thing(std::size_t i) const { return lanes_.users[i].thing; }
-  /// Mixes every bit of the state into `hash` (FNV-1a over words).
+  /// Mixes all that the next steps depend on into `hash` (FNV-1a over words).
   [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 
  private:

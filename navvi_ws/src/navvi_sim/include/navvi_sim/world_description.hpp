@@ -59,7 +59,7 @@ struct Route {
   double speed = 1.0;               ///< m/s, > 0
   bool loop = true;                 ///< false: it ends at the last way-point and stays there
   double delay = 0.0;               ///< s, stands still before each round, >= 0
-  bool yields = true;               ///< stops for the robot
+  bool yields = true;               ///< stops for the robot ahead; all do backing out
 };
 
 /// Anything with a body and a class. It stands still unless it has a route.
