@@ -3,12 +3,16 @@
 
 #include <ros/package.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
-#include <future>
 #include <iostream>
+#include <map>
 #include <navvi_config/reader.hpp>
-#include <queue>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "navvi_study/child_process.hpp"
 #include "navvi_study/closed_loop.hpp"
@@ -24,6 +28,9 @@ constexpr const char* kUsage =
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
     "A part is sim, nav, feedback or operator, with the names of its node's parameters, such as\n"
     "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
+
+constexpr std::int64_t kMostTrials = 100000;
+constexpr int kMostJobs = 256;
 
 /// A sentence for who typed the command.
 class UsageError : public std::runtime_error {
@@ -47,16 +54,16 @@ struct Options {
   bool help = false;
 };
 
-int number(const std::string& option, const std::string& text, int least) {
+int number(const std::string& option, const std::string& text, int least, int most = 1000000000) {
   std::size_t used = 0;
   int value = least - 1;
   try {
     value = std::stoi(text, &used);
   } catch (const std::exception&) {
   }
-  if (used != text.size() || value < least)
+  if (used != text.size() || value < least || value > most)
     throw UsageError(option + " has \"" + text + "\"; allowed are whole numbers from " +
-                     std::to_string(least) + " on.");
+                     std::to_string(least) + " to " + std::to_string(most) + ".");
   return value;
 }
 
@@ -96,7 +103,7 @@ Options read_options(const std::vector<std::string>& words) {
     } else if (option == "--profile") {
       out.profile = value;
     } else if (option == "--jobs") {
-      out.jobs = number(option, value, 1);
+      out.jobs = number(option, value, 1, kMostJobs);
     } else if (option == "--trace") {
       out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
     } else if (option == "--help") {
@@ -105,6 +112,13 @@ Options read_options(const std::vector<std::string>& words) {
       throw UsageError("\"" + word + "\" is no option; allowed are:\n" + kUsage);
     }
   }
+  if (out.trace && out.jobs > 1)
+    throw UsageError("--trace tells of one trial after the other: it needs --jobs=1.");
+  const std::int64_t trials = (std::int64_t{out.seeds.to} - out.seeds.from + 1) *
+                              static_cast<std::int64_t>(out.worlds.size());
+  if (trials > kMostTrials)
+    throw UsageError("the worlds and seeds make " + std::to_string(trials) +
+                     " trials; allowed are " + std::to_string(kMostTrials) + ".");
   return out;
 }
 
@@ -190,7 +204,7 @@ void print_titles() {
   std::printf("%-10s %4s ", "world", "seed");
   for (const Column& column : columns()) std::printf(" %*s", column.width, column.title);
   std::printf("\n");
-  std::fflush(stdout);  // or each child would print it again
+  std::fflush(stdout);
 }
 
 /// All trials in one line.
@@ -242,39 +256,34 @@ class Total {
 
 int run(const Options& options) {
   const ClosedLoopConfig config = configured(options);
-  std::queue<Task> tasks;
-  for (const std::string& world : options.worlds)
-    for (int seed = options.seeds.from; seed <= options.seeds.to; ++seed) tasks.push({world, seed});
+  const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;
+  const auto task_of = [&](std::size_t index) {
+    return Task{options.worlds[index / seeds],
+                options.seeds.from + static_cast<int>(index % seeds)};
+  };
   Total total;
   int failed = 0;
-  const auto finish = [&](const Task& task, const Answer& answer) {
-    const auto row = answer.good ? Fields::parse(answer.text) : std::nullopt;
-    if (row) {
-      print_row(task, *row);
-      total.add(*row);
-    } else {
-      std::printf("%-10s %4d  %s\n", task.world.c_str(), task.seed, answer.text.c_str());
-      ++failed;
-    }
-  };
   print_titles();
   // A child a trial: a crash takes only its own trial away.
-  std::queue<std::pair<Task, std::future<Answer>>> running;
-  while (!tasks.empty() || !running.empty()) {
-    while (!tasks.empty() && running.size() < static_cast<std::size_t>(options.jobs)) {
-      const Task task = tasks.front();
-      tasks.pop();
-      const auto trial = [&options, &config, task] {
-        const std::string text = run_trial(options, config, task).format();
+  ask_children(
+      options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
+      [&](std::size_t index) {
+        const std::string text = run_trial(options, config, task_of(index)).format();
         std::cout.flush();
         return text;
-      };
-      running.emplace(task, std::async(std::launch::async,
-                                       [trial] { return ask_child(trial, "the trial crashed"); }));
-    }
-    finish(running.front().first, running.front().second.get());
-    running.pop();
-  }
+      },
+      "the trial crashed",
+      [&](std::size_t index, const Answer& answer) {
+        const Task task = task_of(index);
+        const auto row = answer.good ? Fields::parse(answer.text) : std::nullopt;
+        if (row) {
+          print_row(task, *row);
+          total.add(*row);
+        } else {
+          std::printf("%-10s %4d  %s\n", task.world.c_str(), task.seed, answer.text.c_str());
+          ++failed;
+        }
+      });
   total.print();
   return failed == 0 ? 0 : 2;
 }

@@ -1,10 +1,17 @@
 #include "navvi_study/child_process.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <exception>
+#include <iostream>
+#include <map>
+#include <vector>
 
 #include "navvi_study/files.hpp"
 
@@ -26,29 +33,94 @@ int answer_into(int pipe, const std::function<std::string()>& work) {
   return write_all(pipe, rest, SystemCalls::real()) == 0 ? code : 2;
 }
 
-}  // namespace
+struct Child {
+  pid_t id = -1;
+  int pipe = -1;  // -1: has answered, or was never there
+  Answer answer;
+};
 
-Answer ask_child(const std::function<std::string()>& work, const std::string& crashed) {
+Child start(const std::function<std::string()>& work) {
+  Child child;
   int ends[2];
-  if (::pipe(ends) != 0) return {false, "no pipe can be opened"};
-  const pid_t child = ::fork();
-  if (child < 0) return {false, "no process can be started"};
-  if (child == 0) {
+  if (::pipe2(ends, O_CLOEXEC) != 0) {
+    child.answer.text = "no pipe can be opened";
+    return child;
+  }
+  std::cout.flush();
+  std::fflush(nullptr);  // or the child would write out what waits here once more
+  child.id = ::fork();
+  if (child.id == 0) {
     ::close(ends[0]);
     ::_exit(answer_into(ends[1], work));
   }
   ::close(ends[1]);
-  Answer answer;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = ::read(ends[0], buffer, sizeof buffer)) > 0;) {
-    answer.text.append(buffer, static_cast<std::size_t>(n));
+  child.pipe = ends[0];
+  if (child.id < 0) {
+    ::close(child.pipe);
+    child.pipe = -1;
+    child.answer.text = "no process can be started";
   }
-  ::close(ends[0]);
+  return child;
+}
+
+/// Takes what has come; at the end of it, the child's last word.
+void take(Child& child, const std::string& crashed) {
+  char buffer[4096];
+  const ssize_t count = ::read(child.pipe, buffer, sizeof buffer);
+  if (count > 0) {
+    child.answer.text.append(buffer, static_cast<std::size_t>(count));
+    return;
+  }
+  if (count < 0 && errno == EINTR) return;
+  ::close(child.pipe);
+  child.pipe = -1;
   int status = 0;
-  ::waitpid(child, &status, 0);
-  answer.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!WIFEXITED(status)) answer.text = crashed;
-  return answer;
+  while (::waitpid(child.id, &status, 0) < 0 && errno == EINTR) continue;
+  child.answer.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (!WIFEXITED(status)) child.answer.text = crashed;
+}
+
+/// Waits until one of the children says something.
+void listen(std::map<std::size_t, Child>& children, const std::string& crashed) {
+  std::vector<pollfd> pipes;
+  std::vector<Child*> speakers;
+  for (auto& [index, child] : children) {
+    if (child.pipe < 0) continue;
+    pipes.push_back({child.pipe, POLLIN, 0});
+    speakers.push_back(&child);
+  }
+  if (pipes.empty() || ::poll(pipes.data(), pipes.size(), -1) <= 0) return;
+  for (std::size_t i = 0; i < pipes.size(); ++i)
+    if (pipes[i].revents != 0) take(*speakers[i], crashed);
+}
+
+}  // namespace
+
+void ask_children(std::size_t count, std::size_t at_once,
+                  const std::function<std::string(std::size_t)>& work, const std::string& crashed,
+                  const std::function<void(std::size_t, const Answer&)>& answered) {
+  std::map<std::size_t, Child> children;  // whose answers have not been handed over
+  std::size_t started = 0;
+  for (std::size_t next = 0; next < count;) {
+    std::size_t busy = 0;
+    for (const auto& [index, child] : children) busy += child.pipe >= 0 ? 1 : 0;
+    for (; started < count && busy < at_once; ++started, ++busy)
+      children[started] = start([&work, started] { return work(started); });
+    listen(children, crashed);
+    for (auto first = children.find(next); first != children.end() && first->second.pipe < 0;
+         first = children.find(next)) {
+      answered(next++, first->second.answer);
+      children.erase(first);
+    }
+  }
+}
+
+Answer ask_child(const std::function<std::string()>& work, const std::string& crashed) {
+  Answer out;
+  ask_children(
+      1, 1, [&work](std::size_t) { return work(); }, crashed,
+      [&out](std::size_t, const Answer& answer) { out = answer; });
+  return out;
 }
 
 }  // namespace navvi_study

@@ -92,8 +92,8 @@ void ClosedLoop::sense() {
     classes_.clear();
     for (const auto& obstacle : told_.obstacles->obstacles)
       classes_[obstacle.id] = obstacle.thing_class;
-    if (auto obstacles = navvi_nav::from_msg(*told_.obstacles))
-      navigator_.set_obstacles(std::move(*obstacles), time());
+    if (const auto obstacles = navvi_nav::from_msg(*told_.obstacles))
+      navigator_.set_obstacles(*obstacles, time());
   }
 }
 
