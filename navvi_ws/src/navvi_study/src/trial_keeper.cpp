@@ -31,9 +31,11 @@ std::string place_of(const Point2& point) {
 
 }  // namespace
 
-TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now)
+TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
+                         SystemCalls calls)
     : config_(config),
       outlets_(std::move(outlets)),
+      calls_(std::move(calls)),
       now_(now),
       readiness_(config.require),
       monitor_(config.monitor),
@@ -134,7 +136,8 @@ void TrialKeeper::wait() {
 void TrialKeeper::arm() {
   try {
     folder_ = create_trial_folder(config_.out, now_.utc);
-    journal_ = std::make_unique<Journal>(folder_, folder_.filename().string());
+    journal_ =
+        std::make_unique<Journal>(folder_, folder_.filename().string(), Journal::kMinFree, calls_);
   } catch (const std::runtime_error& error) {
     tell(Tone::fatal, error.what());
     return leave(3);

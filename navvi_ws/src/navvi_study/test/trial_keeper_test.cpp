@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sstream>
+#include <thread>
 
 namespace navvi_study {
 namespace {
@@ -32,7 +36,21 @@ class Trials : public testing::Test {
     };
     outlets.set_goal = [this](const Point2& goal) { goals_.push_back(goal); };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
-    keeper_ = std::make_unique<TrialKeeper>(config_, outlets, now());
+    outlets.start_recorder = [this](const fs::path& bag) {
+      const fs::path program = fs::path(config_.out) / "record";
+      std::ofstream(program) << "#!/bin/sh\nexec sleep 60\n";
+      fs::permissions(program, fs::perms::owner_all);
+      return std::make_unique<BagRecorder>(bag, "recorder", std::vector<std::string>{},
+                                           program.string());
+    };
+    SystemCalls calls = SystemCalls::real();
+    calls.write = [this, write = calls.write](int file, const void* bytes, std::size_t count) {
+      if (failures_ == 0) return write(file, bytes, count);
+      --failures_;
+      errno = error_;
+      return ssize_t{-1};
+    };
+    keeper_ = std::make_unique<TrialKeeper>(config_, outlets, now(), calls);
   }
   [[nodiscard]] Moment now() const {
     const auto ns = static_cast<std::int64_t>(1e9 * time_);
@@ -65,7 +83,8 @@ class Trials : public testing::Test {
   }
   [[nodiscard]] std::vector<fs::path> folders() const {
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(config_.out)) found.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(config_.out))
+      if (entry.is_directory()) found.push_back(entry.path());
     std::sort(found.begin(), found.end());
     return found;
   }
@@ -86,6 +105,8 @@ class Trials : public testing::Test {
   std::vector<std::string> events_;
   std::vector<Point2> goals_;
   std::string said_;
+  int failures_ = 0;  ///< writes of the journal that are still to fail
+  int error_ = 0;     ///< with this errno
 };
 
 const ScenarioReport kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
@@ -192,6 +213,64 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
     keeper_->take(DeviceReport{now().ros_ns, device, true}, now());
   live(1.0);
   EXPECT_TRUE(happened("TRIAL_START"));
+}
+
+TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
+  config_.record = true;
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  keeper_->recorder_listens(now());
+  live(2.0);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  EXPECT_FALSE(happened("BAG_LOST"));
+  live(4.0, State::following, kScenario.goal);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "BAG_LOST"), 1);
+  EXPECT_NE(said_.find("The bag does not grow"), std::string::npos) << said_;
+  live(0.1, State::arrived, kScenario.goal);
+  for (int i = 0; i < 1000 && !keeper_->done(); ++i) {  // the recorder is another process
+    live(1.0, State::arrived, kScenario.goal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 0) << "the trial is valid";
+  EXPECT_EQ(events_.back(), "BAG_CLOSED");
+  EXPECT_NE(content("journal.csv").find("state=bad"), std::string::npos);
+  EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
+}
+
+TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_reserve) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  failures_ = 1;
+  error_ = ENOSPC;
+  keeper_->take_goal({7.0, 1.0}, now());
+  live(9.0, State::following, {7.0, 1.0});
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "GOAL_SET"), 2);
+  EXPECT_TRUE(happened("TRIAL_END"));
+  EXPECT_NE(content("summary.csv").find("invalid"), std::string::npos);
+  EXPECT_NE(content("summary.csv").find("disk_full"), std::string::npos);
+}
+
+TEST_F(Trials, are_invalid_from_the_first_row_that_may_not_be_on_the_disk) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  failures_ = 1;
+  error_ = EIO;
+  const std::size_t told = events_.size();
+  keeper_->take_goal({7.0, 1.0}, now());
+  live(9.0, State::following, {7.0, 1.0});
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 4);
+  EXPECT_EQ(events_.size(), told) << "nothing is told that is not recorded";
+  EXPECT_NE(said_.find("The trial is invalid"), std::string::npos) << said_;
+  EXPECT_NE(content("summary.csv").find("journal_broken"), std::string::npos);
 }
 
 TEST_F(Trials, with_a_text_that_would_break_the_record_are_refused) {

@@ -20,12 +20,14 @@ enum class Durability {
 /// it takes nothing more, because what the disk then holds is unknown.
 class Journal {
  public:
+  static constexpr std::uint64_t kMinFree = 50u << 20;  ///< bytes
+
   /// Creates `folder`/journal.csv, which must not exist, a reserve of 1 MiB beside it for the day
   /// the disk is full, and locks the journal against recovery by another process. \throws
   /// std::runtime_error with a sentence if that cannot be done, or less than `min_free` bytes are
   /// free
   Journal(const std::filesystem::path& folder, const std::string& trial,
-          std::uint64_t min_free = 50u << 20, SystemCalls calls = SystemCalls::real());
+          std::uint64_t min_free = kMinFree, SystemCalls calls = SystemCalls::real());
   /// Gives the reserve back.
   ~Journal();
   Journal(const Journal&) = delete;

@@ -43,7 +43,9 @@ class TrialKeeper {
   };
 
   /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
-  TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now);
+  /// \param calls  of the journals
+  TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
+              SystemCalls calls = SystemCalls::real());
 
   /// What the other nodes report; for odometry, in odom.
   template <typename Report>
@@ -107,6 +109,7 @@ class TrialKeeper {
 
   TrialNodeConfig config_;
   Outlets outlets_;
+  SystemCalls calls_;
   Moment now_;
 
   Readiness readiness_;
