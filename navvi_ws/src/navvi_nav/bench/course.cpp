@@ -3,6 +3,8 @@
 #include <random>
 #include <sstream>
 
+#include "octomap_tree.hpp"
+
 namespace navvi_nav {
 namespace {
 
@@ -39,8 +41,8 @@ Course::Course(Hall hall, std::uint32_t seed)
       tile_cache(columns, config.mesh.robot_radius, config.mesh.robot_height, kTile),
       tile_cache_query(tile_cache.mesh()),
       detours_mesh(join(grid(detour), tree.getResolution())) {
-  ours.set_map(tree);
-  carved.set_map(tree);
+  ours.set_map(voxels_of(tree));
+  carved.set_map(voxels_of(tree));
   std::mt19937 random(seed);
   for (int i = 0; i < kQueries; ++i) {
     const Point start = somewhere(random);

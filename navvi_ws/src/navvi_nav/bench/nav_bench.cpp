@@ -21,6 +21,7 @@
 #include "navvi_nav/corner_graph.hpp"
 #include "navvi_nav/octomap_reader.hpp"
 #include "navvi_nav/search.hpp"
+#include "octomap_tree.hpp"
 #include "visibility_graph.hpp"
 
 namespace {
@@ -228,7 +229,7 @@ void weigh(const Course& c) {
   const double area = c.floor_area();
   const std::size_t before = bytes_in_use();
   Planner planner(c.config);
-  planner.set_map(c.tree);
+  planner.set_map(voxels_of(c.tree));
   const std::size_t with_mesh = bytes_in_use();
   const Mesh& mesh = planner.nav_mesh().mesh();
   CornerGraph graph(0);

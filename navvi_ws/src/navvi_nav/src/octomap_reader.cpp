@@ -144,19 +144,4 @@ Voxels read_voxels(const MapBytes& bytes) {
   return out;
 }
 
-Voxels voxels_of(const octomap::OcTree& tree) {
-  Voxels out;
-  out.resolution = tree.getResolution();
-  if (tree.getRoot() != nullptr && !tree.nodeHasChildren(tree.getRoot())) {
-    out.error = no_nodes();
-    return out;
-  }
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    if (!tree.isNodeOccupied(*leaf)) continue;
-    const octomap::OcTreeKey low = leaf.getIndexKey();
-    add_leaf(out, low[0], low[1], low[2], kMapDepth - static_cast<int>(leaf.getDepth()));
-  }
-  return out;
-}
-
 }  // namespace navvi_nav

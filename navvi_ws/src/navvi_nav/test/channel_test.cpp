@@ -14,7 +14,7 @@ class Pillar : public testing::Test {
   Space hall() {
     SmallWorld world;
     world.room(12, 8).box(5.8, 3.8, 0, 6.2, 4.2, 1.0);
-    EXPECT_EQ(mesh_.set_map(world.tree()).error, "");
+    EXPECT_EQ(mesh_.set_map(world.voxels()).error, "");
     return mesh_.space();
   }
   NavMesh mesh_;

@@ -41,7 +41,7 @@ TEST(ConfigFiles, paper_finds_a_path_through_an_aisle_of_three_meters) {
   SmallWorld world;
   world.room(16, 9.5).box(3, 0.1, 0, 13, 3.15, 1.5).box(3, 6.15, 0, 13, 9.4, 1.5);
   Planner planner(read_file("paper.yaml").planner);
-  ASSERT_EQ(planner.set_map(world.tree()).error, "");
+  ASSERT_EQ(planner.set_map(world.voxels()).error, "");
   const Plan plan = planner.plan({1.5, 2.0}, {14.5, 7.0});
   ASSERT_EQ(plan.status, PlanStatus::found) << plan.detail;
   for (const Point point : points_along(plan.path, 0.02)) {

@@ -12,7 +12,7 @@ class CourseTest : public testing::Test {
  protected:
   CourseTest() {
     world_.room(16, 10);
-    EXPECT_EQ(mesh_.set_map(world_.tree()).error, "");
+    EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
   }
 
   [[nodiscard]] static Plan plan(PlanStatus status, const Path& path) {

@@ -7,7 +7,7 @@
 namespace navvi_nav {
 namespace {
 
-MapSurvey survey_of(SmallWorld& world) { return survey_map(voxels_of(world.tree()), {}); }
+MapSurvey survey_of(SmallWorld& world) { return survey_map(world.voxels(), {}); }
 
 std::vector<Point> outline_of(const GridPolygon& polygon, double cell) {
   std::vector<Point> out;

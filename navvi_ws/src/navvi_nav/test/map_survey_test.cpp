@@ -18,7 +18,7 @@ Ground ground_at(const MapSurvey& survey, double x, double y) {
 }
 
 MapSurvey survey_of(SmallWorld& world, const SurveyConfig& config = {}) {
-  MapSurvey survey = survey_map(voxels_of(world.tree()), config);
+  MapSurvey survey = survey_map(world.voxels(), config);
   EXPECT_EQ(survey.error, "");
   return survey;
 }
@@ -128,13 +128,12 @@ TEST(MapSurvey, takes_the_lowest_large_floor_or_the_one_it_is_told) {
   upper.floor_height = 3.0;
   EXPECT_NEAR(survey_of(world, upper).floor_height, 3.1, 1e-9);
   upper.floor_height = 2.0;
-  EXPECT_EQ(survey_map(voxels_of(world.tree()), upper).error,
+  EXPECT_EQ(survey_map(world.voxels(), upper).error,
             "the map shows no floor within 0.25 m of 2.00 m (floor_height)");
 }
 
 TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
-  EXPECT_EQ(survey_map(voxels_of(octomap::OcTree(0.05)), {}).error,
-            "the map has no occupied voxel");
+  EXPECT_EQ(survey_map(Voxels{"", 0.05, {}}, {}).error, "the map has no occupied voxel");
   Voxels wide{"", 0.05, {{0, 0, 32768, 0, 1}, {65000, 65000, 32768, 0, 1}}};
   EXPECT_EQ(survey_map(wide, {}).error,
             "the map spreads over 4225 million columns of voxels; 50 million are allowed");

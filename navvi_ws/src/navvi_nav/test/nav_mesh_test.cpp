@@ -13,7 +13,7 @@ constexpr double kRadius = 0.35;
 
 NavMesh mesh_of(SmallWorld& world, const NavMeshConfig& config = {}) {
   NavMesh mesh(config);
-  EXPECT_EQ(mesh.set_map(world.tree()).error, "");
+  EXPECT_EQ(mesh.set_map(world.voxels()).error, "");
   return mesh;
 }
 
@@ -64,7 +64,7 @@ TEST(NavMesh, refuses_a_map_without_voxels_and_keeps_the_last_one) {
   SmallWorld world;
   world.room(6, 6);
   NavMesh mesh = mesh_of(world);
-  EXPECT_FALSE(mesh.set_map(octomap::OcTree(0.05)).error.empty());
+  EXPECT_FALSE(mesh.set_map(Voxels{"", 0.05, {}}).error.empty());
   EXPECT_TRUE(walkable(mesh, {3, 3}));
 }
 
@@ -72,7 +72,7 @@ TEST(NavMesh, refuses_a_map_without_room_for_the_robot) {
   SmallWorld world;
   world.floor(0, 0, 0.6, 0.6);
   NavMesh mesh(NavMeshConfig{});
-  EXPECT_EQ(mesh.set_map(world.tree()).error, "the map shows no walkable floor");
+  EXPECT_EQ(mesh.set_map(world.voxels()).error, "the map shows no walkable floor");
   EXPECT_TRUE(mesh.empty());
 }
 
@@ -210,9 +210,9 @@ TEST(NavMesh, rebuilds_only_the_tiles_that_a_new_map_changes) {
   NavMeshConfig config;
   config.tile_size = 8.0;
   NavMesh mesh = mesh_of(world, config);
-  EXPECT_EQ(mesh.set_map(world.tree()).tiles_rebuilt, 0);
+  EXPECT_EQ(mesh.set_map(world.voxels()).tiles_rebuilt, 0);
   world.box(4, 4, 0, 4.5, 4.5, 0.5);
-  EXPECT_EQ(mesh.set_map(world.tree()).tiles_rebuilt, 1);
+  EXPECT_EQ(mesh.set_map(world.voxels()).tiles_rebuilt, 1);
   EXPECT_FALSE(walkable(mesh, {4.2, 4.2}));
 }
 
@@ -226,7 +226,7 @@ TEST(NavMesh, does_not_remember_earlier_maps) {
     for (int step = 0; step < 4; ++step) {
       const double x = 1.0 + 0.05 * (37 * step + 11 * seed);
       world.map.box(x, 3 + 2 * step, 0, x + 1, 4 + 2 * step, 0.5);
-      const MeshUpdate update = mesh.set_map(world.map.tree());
+      const MeshUpdate update = mesh.set_map(world.map.voxels());
       EXPECT_LT(2 * update.tiles_rebuilt, update.tiles);
       world.cylinders[0].center.x += 0.3;
       mesh.carve(world.cylinders);

@@ -318,7 +318,7 @@ TEST(Guidance, keeps_a_corner_that_would_be_cut_through_a_shelf) {
   SmallWorld world;
   world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
   NavMesh mesh(NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.tree()).error, "");
+  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
   Guidance guidance{GuidanceConfig{}};
   guidance.follow({{1.2, 1.0}, {1.2, 6.6}, {4.6, 6.6}, {4.6, 1.0}});
   guidance.advance({{1.2, 5.7}, 0.0}, mesh.space());
@@ -331,7 +331,7 @@ TEST(Guidance, passes_a_corner_whose_next_leg_has_no_more_room_than_the_robot_ne
   SmallWorld world;
   world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
   NavMesh mesh(NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.tree()).error, "");
+  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
   Guidance guidance{GuidanceConfig{}};
   guidance.follow({{1.0, 1.0}, {1.0, 6.36}, {4.4, 6.36}, {4.4, 1.0}});
   guidance.advance({{1.1, 6.4}, 0.0}, mesh.space());
@@ -342,7 +342,7 @@ TEST(Guidance, passes_a_corner_though_something_moving_stands_in_the_next_leg) {
   SmallWorld world;
   world.room(8, 8);
   NavMesh mesh(NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.tree()).error, "");
+  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
   mesh.carve({{1, {4, 6}, 0.5, {}}});
   Guidance guidance{GuidanceConfig{}};
   guidance.follow({{1, 1}, {1, 6}, {7, 6}});
@@ -356,7 +356,7 @@ TEST(Guidance, does_not_arrive_through_a_wall) {
   SmallWorld world;
   world.room(8, 8).box(4, 0, 0, 4.05, 6, 1.0);
   NavMesh mesh(NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.tree()).error, "");
+  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
   Guidance guidance{GuidanceConfig{}};
   guidance.follow({{3.58, 2}, {4, 7}, {4.47, 2}});
   EXPECT_FALSE(guidance.arrived({{3.58, 2}, 0.0}, mesh.space()));

@@ -15,7 +15,7 @@ constexpr double kTolerance = 1e-6;
 
 Planner planner_on(SmallWorld& world) {
   Planner planner{PlannerConfig{}};
-  EXPECT_EQ(planner.set_map(world.tree()).error, "");
+  EXPECT_EQ(planner.set_map(world.voxels()).error, "");
   return planner;
 }
 
@@ -165,7 +165,7 @@ TEST(Planner, tells_a_way_that_only_moving_things_close_from_one_that_is_none) {
     EXPECT_EQ(planner.nav_mesh().carved().size(), 1U);
   }
   world.box(8, 2, 0, 8.1, 4, 1);
-  planner.set_map(world.tree());
+  planner.set_map(world.voxels());
   EXPECT_EQ(planner.plan_among({}, {4.2, 3}, {12.8, 3}).refusal, Refusal::unreachable);
 }
 
@@ -195,7 +195,7 @@ TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {
   for (unsigned seed = 0; seed < 15; ++seed) {
     RandomWorld world(seed);
     Planner planner(config);
-    ASSERT_EQ(planner.set_map(world.map.tree()).error, "");
+    ASSERT_EQ(planner.set_map(world.map.voxels()).error, "");
     planner.carve(world.cylinders);
     const Plan plan = planner.plan(world.start, world.goal);
     if (plan.status != PlanStatus::found) continue;

@@ -13,7 +13,7 @@ class Smoothing : public testing::Test {
  protected:
   Smoothing() {
     world_.room(14, 10).box(4, 3, 0, 9, 6, 1.0);
-    EXPECT_EQ(mesh_.set_map(world_.tree()).error, "");
+    EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
   }
   [[nodiscard]] Path smoothed(const Path& path) const {
     return smooth(path, mesh_.space(), room_, config_);
@@ -119,7 +119,7 @@ class SmoothingSeeds : public testing::Test {
     for (unsigned seed = 0; seed < 60; ++seed) {
       RandomWorld world(seed);
       Planner planner(shortest);
-      ASSERT_EQ(planner.set_map(world.map.tree()).error, "");
+      ASSERT_EQ(planner.set_map(world.map.voxels()).error, "");
       (void)planner.carve(world.cylinders);
       std::vector<Point> poles;
       for (const auto& block : world.map.blocks())

@@ -15,7 +15,7 @@ class WayOut : public testing::Test {
  protected:
   WayOut() {
     world_.room(10, 6);
-    EXPECT_EQ(mesh_.set_map(world_.tree()).error, "");
+    EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
   }
   /// Checks what is promised of every way out.
   std::optional<Mesh::Place> leave(Point start, Point towards = {9, 3}) {
@@ -61,7 +61,7 @@ TEST_F(WayOut, does_not_lead_into_another_hole_or_a_wall) {
 
 TEST_F(WayOut, is_none_between_a_thing_and_a_wall) {
   world_.box(4, 4.0, 0, 6.5, 4.3, 1.0).box(6.3, 1.5, 0, 6.5, 4.3, 1.0);
-  ASSERT_EQ(mesh_.set_map(world_.tree()).error, "");
+  ASSERT_EQ(mesh_.set_map(world_.voxels()).error, "");
   things_.push_back({{2, {4.6, 3.5}, 0.3, {}}, 0.0, 0.0, 0.0});
   things_.push_back({{3, {5.9, 2.2}, 0.3, {}}, 0.0, 0.0, 0.0});
   EXPECT_FALSE(leave({5.85, 3.55}));

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <octomap/OcTree.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -61,7 +61,6 @@ class NavMesh {
     MapSurvey survey = survey_map(read_voxels(bytes), survey_config(config_));
     return set_map(std::move(survey));  // when the voxels are gone: they are many
   }
-  MeshUpdate set_map(const octomap::OcTree& tree) { return set_map(voxels_of(tree)); }
   MeshUpdate set_map(const Voxels& voxels) {
     return set_map(survey_map(voxels, survey_config(config_)));
   }

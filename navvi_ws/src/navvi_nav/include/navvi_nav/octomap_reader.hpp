@@ -1,7 +1,5 @@
 #pragma once
 
-#include <octomap/OcTree.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -47,8 +45,5 @@ struct Voxels {
 /// uses every byte. (octomap itself takes a truncated stream in silence and overflows the stack on
 /// one that nests without end.)
 [[nodiscard]] Voxels read_voxels(const MapBytes& bytes);
-
-/// The occupied leaves of a tree in memory.
-[[nodiscard]] Voxels voxels_of(const octomap::OcTree& tree);
 
 }  // namespace navvi_nav
