@@ -75,12 +75,43 @@ void Columns::measure(const Voxels& voxels) {
     error_ = "the map is " + std::to_string(size_[2]) + " voxels tall; " +
              std::to_string(kMaxLevels) + " are allowed";
   const double columns = static_cast<double>(size_[0]) * size_[1];
+  const double stacked = kFreeRuns + kRunsANode * static_cast<double>(voxels.octets.size());
   if (columns > kMaxCells)
     error_ = "the map spreads over " + millions(columns) + " columns of voxels; " +
              millions(kMaxCells) + " are allowed";
   else if (runs > kMaxRuns)
     error_ = "the map has " + millions(runs) + " runs of voxels in its columns; " +
              millions(kMaxRuns) + " are allowed";
+  else if (runs > stacked && runs - columns_of_large_leaves(voxels) > stacked)
+    error_ = "the map stacks " + millions(runs - columns_of_large_leaves(voxels)) +
+             " runs of voxels in its columns; with " + std::to_string(voxels.octets.size()) +
+             " nodes that hold leaves, " + millions(stacked) + " are allowed";
+}
+
+/// Columns that a leaf of kSquare voxels or more covers: one run of each stands in the grid.
+double Columns::columns_of_large_leaves(const Voxels& voxels) const {
+  constexpr int kLevel = 3;
+  constexpr int kSquare = 1 << kLevel;
+  const int low_x = (low_[0] + kMapCenter) >> kLevel;
+  const int low_y = (low_[1] + kMapCenter) >> kLevel;
+  const int width = size_[0] / kSquare + 2;
+  std::vector<bool> squares(static_cast<std::size_t>(width) *
+                            static_cast<std::size_t>(size_[1] / kSquare + 2));
+  for (const Octet& octet : voxels.octets) {
+    if (octet.level < kLevel) continue;
+    const int side = 1 << (octet.level - kLevel);
+    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      if (((quarters >> quarter) & 1) == 0) continue;
+      const int x = (octet.x >> kLevel) - low_x + ((quarter & 1) != 0 ? side : 0);
+      const int y = (octet.y >> kLevel) - low_y + ((quarter & 2) != 0 ? side : 0);
+      for (int row = y; row < y + side; ++row) {
+        const auto first = squares.begin() + (std::ptrdiff_t{row} * width + x);
+        std::fill(first, first + side, true);
+      }
+    }
+  }
+  return kSquare * kSquare * static_cast<double>(std::count(squares.begin(), squares.end(), true));
 }
 
 /// \param first_row, last_row  rows of columns to fill, the last excluded

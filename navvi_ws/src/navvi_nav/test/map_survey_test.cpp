@@ -146,6 +146,14 @@ TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
                               static_cast<std::uint16_t>(256 * (i / 27 / 27)), 7, 15});
   EXPECT_EQ(survey_map(layered, {}).error,
             "the map has 238 million runs of voxels in its columns; 200 million are allowed");
+  Voxels stacked{"", 0.05, {}};  // 26 kB of a message: 11 storeys of 205 x 205 m
+  for (int i = 0; i < 32 * 32 * 11; ++i)
+    stacked.octets.push_back({static_cast<std::uint16_t>(128 * (i % 32)),
+                              static_cast<std::uint16_t>(128 * (i / 32 % 32)),
+                              static_cast<std::uint16_t>(128 * (i / 32 / 32)), 6, 15});
+  EXPECT_EQ(survey_map(stacked, {}).error,
+            "the map stacks 167 million runs of voxels in its columns; with 11264 nodes that hold "
+            "leaves, 4 million are allowed");
   Voxels full{"", 0.05, {{0, 0, 0, 15, 255}}};
   EXPECT_FALSE(survey_map(full, {}).error.empty());
 }
@@ -163,6 +171,18 @@ TEST(MapSurvey, takes_a_hall_of_300_m_in_voxels_of_5_cm) {
   EXPECT_EQ(ground_at(survey, 0.01, 0.01), Ground::obstacle);
   EXPECT_EQ(ground_at(survey, 0.06, 0.01), Ground::floor);
   EXPECT_EQ(ground_at(survey, 150.0, -150.0), Ground::floor);
+}
+
+TEST(MapSurvey, takes_solid_storeys_of_a_few_large_leaves_above_each_other) {
+  Voxels house{"", 0.05, {}};
+  for (int i = 0; i < 8 * 8 * 4; ++i)  // of 51 x 51 m
+    house.octets.push_back({static_cast<std::uint16_t>(32768 + 128 * (i % 8)),
+                            static_cast<std::uint16_t>(32768 + 128 * (i / 8 % 8)),
+                            static_cast<std::uint16_t>(32768 + 128 * (i / 64)), 6, 15});
+  const MapSurvey survey = survey_map(house, {});
+  ASSERT_EQ(survey.error, "");
+  EXPECT_EQ(survey.columns, 1024);
+  EXPECT_EQ(ground_at(survey, 20.01, 20.01), Ground::floor);
 }
 
 TEST(MapSurvey, takes_a_coarse_cell_for_floor_only_if_all_of_it_is) {

@@ -21,10 +21,15 @@ struct Span {
 class Columns {
  public:
   static constexpr int kMaxLevels = 30000;
-  /// What a column's leaves come to, before those that touch are joined. A run below a column's
-  /// highest one costs 8 bytes, and few bytes of a map can ask for very many. The densest layout of
+  /// What a column's leaves come to, before those that touch are joined. The densest layout of
   /// 300 x 300 m at 0.05 m has 142 million, which join to 77.
   static constexpr double kMaxRuns = 200.0e6;
+  /// A run that is not the first of its column costs 8 bytes and some sorting, and a few bytes of a
+  /// map can ask for thousands: large leaves above each other. So there may be this many in any
+  /// map, and so many more for each inner node that holds a leaf. Layouts have 4 a node at 0.05 m
+  /// and 12 at 0.02 m, where solid things have larger leaves.
+  static constexpr double kFreeRuns = 4.0e6;
+  static constexpr double kRunsANode = 32.0;
 
   /// \param threads  that may share the work
   explicit Columns(const Voxels& voxels, int threads = 1);
@@ -65,6 +70,7 @@ class Columns {
   static Span unpacked(Packed span) { return {span.bottom & ~kMore, span.top}; }
   [[nodiscard]] const Lower* below(std::size_t column) const;
   void measure(const Voxels& voxels);
+  [[nodiscard]] double columns_of_large_leaves(const Voxels& voxels) const;
   void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
   void add(std::uint32_t column, Packed span, std::vector<Lower>& lower);
   void settle(std::vector<Lower>& lower);
