@@ -35,6 +35,7 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "once:=maybe"], "allowed are: true false"),
     (["run", *SIMULATED, "world:=office"], "'office' is no world; allowed are"),
     (["run", *SIMULATED, "world:=training", "start:=here"], "not of the form x,y,yaw"),
+    (["run", *SIMULATED, "participant:=Ann Smith"], "letters, digits, - and _"),
     (["replay"], "which trial?"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
 ])

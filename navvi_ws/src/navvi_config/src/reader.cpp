@@ -274,7 +274,16 @@ YAML::Node read_words(const std::vector<std::string>& words) {
       last = key;
     }
     if (map[last]) throw ConfigError("\"" + word.substr(0, split) + "\" is given twice.");
-    map[last] = word.substr(split + 2);
+    const std::string value = word.substr(split + 2);
+    if (!value.empty() && value.front() == '[') {
+      try {
+        map[last] = YAML::Load(value);
+      } catch (const YAML::Exception&) {
+        throw ConfigError("\"" + word + "\" holds no list; allowed is a list such as [a, b].");
+      }
+    } else {
+      map[last] = value;
+    }
   }
   return all;
 }

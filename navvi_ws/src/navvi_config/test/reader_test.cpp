@@ -134,6 +134,14 @@ TEST(Words, become_keys_in_maps) {
   EXPECT_EQ(node["inner"]["name"].as<std::string>(), "a:=b");
 }
 
+TEST(Words, hold_lists_in_brackets) {
+  const YAML::Node node = read_words({"classes:=[box, pedestal]", "none:=[]"});
+  EXPECT_EQ(node["classes"].as<std::vector<std::string>>(),
+            (std::vector<std::string>{"box", "pedestal"}));
+  EXPECT_TRUE(node["none"].IsSequence());
+  EXPECT_THROW(static_cast<void>(read_words({"classes:=[box"})), ConfigError);
+}
+
 TEST(Words, without_a_name_or_with_one_twice_are_refused) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"speed"},

@@ -94,12 +94,13 @@ std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& 
   return std::nullopt;
 }
 
+/// What the arrow shows, in words: the hour of the turn as it will be seen from the way-point.
 std::string turn_text(const Guidance& guidance) {
-  const int hour = clock_hour(guidance.steer_angle, Rounding::nearest).value_or(12);
+  const int hour = clock_hour(guidance.turn_angle, Rounding::nearest).value_or(12);
   char text[64];
   const int decimals = guidance.waypoint_distance < 2.0 ? 1 : 0;
-  std::snprintf(text, sizeof text, "%d o'clock, %.*f m", hour, decimals,
-                guidance.waypoint_distance);
+  std::snprintf(text, sizeof text, "in %.*f m, %d o'clock", decimals, guidance.waypoint_distance,
+                hour);
   return text;
 }
 

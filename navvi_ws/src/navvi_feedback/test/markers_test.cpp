@@ -21,6 +21,7 @@ Guidance following() {
   guidance.waypoint = {4.0, 0.0};
   guidance.waypoint_distance = 4.0;
   guidance.waypoint_angle = guidance.steer_angle = M_PI / 2.0;
+  guidance.turn_angle = M_PI / 2.0;
   return guidance;
 }
 
@@ -108,8 +109,12 @@ TEST(Markers, TheLineAndTheGoalPassThreeToOneOnRvizGreyAndTheLineOnItsEdge) {
 
 TEST(Markers, TheTurnTellsHourAndDistanceAndPointsAlongTheNextLeg) {
   const MarkerArray array = guide_markers({}, following(), kPath);
-  EXPECT_EQ(find(array, "turn", 1)->text, "3 o'clock, 4 m");
+  EXPECT_EQ(find(array, "turn", 1)->text, "in 4 m, 3 o'clock");
   const Marker& arrow = *find(array, "turn", 0);
+  Guidance aside = following();
+  aside.steer_angle = 0.0;
+  EXPECT_EQ(find(guide_markers({}, aside, kPath), "turn", 1)->text, "in 4 m, 3 o'clock")
+      << "where the robot looks does not change what the arrow shows";
   ASSERT_EQ(arrow.points.size(), 2u);
   EXPECT_NEAR(arrow.points[1].x, arrow.points[0].x, 1e-9);
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
