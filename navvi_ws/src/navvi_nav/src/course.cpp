@@ -67,7 +67,8 @@ bool Course::arrives(const Scene& scene) {
 void Course::watch(const Scene& scene, const ReplanPolicy& policy) {
   blocker_.reset();
   if (!following() || !scene.robot || aim_ == Aim::aside) return;
-  if (aim_ == Aim::waits && stand_off_.aside_for(scene.time)) return;
+  // Not where it is run into while it could go on.
+  if (aim_ == Aim::waits && !policy.chases() && stand_off_.aside_for(scene.time)) return;
   if (aim_ == Aim::waits) aim_ = Aim::closed;
   const Point robot = scene.robot->position;
   if (aim_ == Aim::closed) blocker_ = policy.closed_by(guidance_.remaining(robot), scene.obstacles);
@@ -87,6 +88,7 @@ std::vector<Cylinder> Course::ground_to_leave(const std::vector<MovingThing>& th
 void Course::take(const Plan& plan, Reason reason, const Scene& scene, ReplanPolicy& policy) {
   if (keeps(plan, reason, scene, policy)) return;
   change(plan, reason, scene, policy);
+  blocker_.reset();
   const bool waits = aim_ == Aim::waits && plan.status == PlanStatus::closed;
   aim_ = plan.status == PlanStatus::found   ? Aim::goal
          : plan.status == PlanStatus::aside ? Aim::aside
@@ -100,12 +102,14 @@ void Course::change(const Plan& plan, Reason reason, const Scene& scene, ReplanP
     churn_.add(scene.time, moved);
     if (moved > 0.0 && reason != Reason::new_goal && reason != Reason::map_changed)
       policy.chose(scene.time);
-    if (moved > kElsewhere) {
+    const bool aside = !to_goal_ || plan.status == PlanStatus::aside;
+    if (moved > kElsewhere && !aside) {
       ++reroutes_;
       reroute_reason_ = reason;
     }
   }
   guidance_.follow(plan.path);
+  to_goal_ = plan.status != PlanStatus::aside;
   shortest_length_ = plan.shortest;
   smoothing_price_ = length_of(plan.path) - plan.shortest;
 }
@@ -146,14 +150,16 @@ void Course::tell(Status& status, const Scene& scene, const ReplanPolicy& policy
   status.eta = status.heading.goal_distance / scene.pace;
   status.shortest_length = shortest_length_;
   status.smoothing_price = smoothing_price_;
-  status.blocked = blocker_ ? blocker_ : aim_ == Aim::goal ? policy.waits_for() : std::nullopt;
-  if (aim_ == Aim::waits) status.blocked = Way::Wait{*makes_room_, 0.0, -1.0};
-  if (status.blocked) status.state = State::blocked;
+  if (!to_goal_) status.heading.waypoint_is_goal = false;
   if (aim_ == Aim::aside) {
     status.state = State::make_room;
     status.blocked = Way::Wait{*makes_room_, 0.0, 0.0};
-    status.heading.waypoint_is_goal = false;
   }
+  std::optional<Way::Wait> waits = blocker_ ? blocker_ : policy.waits_for();
+  if (aim_ == Aim::waits) waits = Way::Wait{*makes_room_, 0.0, -1.0};
+  if (!waits) return;
+  status.state = State::blocked;
+  status.blocked = waits;
 }
 
 }  // namespace navvi_nav

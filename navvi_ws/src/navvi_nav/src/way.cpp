@@ -15,6 +15,8 @@ constexpr double kSpare = 0.05;     // m, for paths that are not quite followed
 constexpr double kLate = 1.0;       // s, so much later a robot may be
 constexpr double kSame = 1e-6;      // m
 constexpr double kGained = 0.5;     // m, that what goes on ahead must have gained
+constexpr double kChased = 3.0;     // s, what comes from behind later may still turn off
+constexpr int kMostPlaces = 64;     // foreseen of one thing
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The point `along` m down the path, or its end.
@@ -59,13 +61,20 @@ struct WayAhead::Thing {
 /// What one thing does to a path.
 struct WayAhead::Meeting {
   Way::State state = Way::State::free;
-  double at = 0.0;          ///< m, along the path to the first cut
-  double meets_in = 0.0;    ///< s
-  double clears_in = 0.0;   ///< s, until it has left the path
-  double hits_in = kNever;  ///< s
-  bool touches = false;     ///< it does so with no room at all
-  bool ends = true;         ///< it leaves the path
-  bool hits_waiting = false;
+  double at = 0.0;                  ///< m, along the path to the first cut
+  double meets_in = 0.0;            ///< s
+  double clears_in = 0.0;           ///< s, until it has left the path
+  double hits_in = kNever;          ///< s
+  double touches_in = kNever;       ///< s, until it does so with no room at all
+  double hits_waiting_in = kNever;  ///< s
+  bool ends = true;                 ///< it leaves the path
+
+  [[nodiscard]] bool hits_waiting() const { return hits_waiting_in < kNever; }
+  /// Neither going on nor waiting is safe, and it was not seen to come.
+  [[nodiscard]] bool must_be_evaded() const {
+    const bool from_behind = state != Way::State::comes && hits_waiting_in <= kChased;
+    return hits_waiting() && hits_in < kNever && (ends || from_behind);
+  }
 };
 
 void WayConfig::describe(navvi_config::Visitor& visit) {
@@ -158,14 +167,16 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
   double noticed = now ? 0.0 : config_.foresight;  // s, when it first cuts the path
   bool keeps_ahead = now.has_value();
   for (double t = kTick; t <= config_.foresight + 1e-9; t += kTick) {
-    out.hits_waiting = out.hits_waiting || thing.gap(path.front(), t) < touch + kStopRoom;
+    if (thing.gap(path.front(), t) < touch + kStopRoom)
+      out.hits_waiting_in = std::min(out.hits_waiting_in, t);
     const std::optional<double> cut = cut_at(path, thing, t);
     if (!cut) continue;
     const double near = touch + kElbowRoom;
     const bool hits = thing.gap(point_at(path, pace * t), t) < near ||
                       (t > kLate && thing.gap(point_at(path, pace * (t - kLate)), t) < near);
     if (hits) out.hits_in = std::min(out.hits_in, t);
-    out.touches = out.touches || thing.gap(point_at(path, pace * t), t) < touch + kStopRoom;
+    if (thing.gap(point_at(path, pace * t), t) < touch + kStopRoom)
+      out.touches_in = std::min(out.touches_in, t);
     if (!first) {
       first = cut;
       noticed = t;
@@ -187,13 +198,15 @@ WayAhead::Meeting WayAhead::meet(const Path& path, const Thing& thing, double pa
 
 Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, double pace) const {
   Way out;
-  bool touches = false;
+  double touches_in = kNever;
+  double hits_waiting_in = kNever;
   if (path.size() < 2) return out;
   Thing::each(obstacles, [&](const Thing& thing) {
     const Meeting one = meet(path, thing, pace);
-    touches = touches || one.touches;
+    touches_in = std::min(touches_in, one.touches_in);
+    hits_waiting_in = std::min(hits_waiting_in, one.hits_waiting_in);
     out.hits_in = std::min(out.hits_in, one.hits_in);
-    out.hits_waiting = out.hits_waiting || one.hits_waiting;
+    out.hits_waiting = out.hits_waiting || one.hits_waiting();
     const bool moves = norm(thing.velocity()) > config_.standing_speed;
     if (moves && one.hits_in < kNever && (!out.wait || one.at < out.wait->at))
       out.wait = Way::Wait{thing.first->id, one.at, one.ends ? one.clears_in : -1.0};
@@ -203,7 +216,8 @@ Way WayAhead::judge(const Path& path, const std::vector<Cylinder>& obstacles, do
       out.meets_in = one.meets_in;
     out.state = std::max(out.state, one.state);
   });
-  if (out.hits_waiting && !touches) out.wait.reset();
+  // Who waits must not be run into sooner than who goes on.
+  if (out.hits_waiting && hits_waiting_in <= touches_in) out.wait.reset();
   return out;
 }
 
@@ -213,14 +227,20 @@ std::vector<Cylinder> WayAhead::foreseen(const Path& path, const std::vector<Cyl
   if (path.size() < 2) return out;
   Thing::each(obstacles, [&](const Thing& thing) {
     const Meeting one = meet(path, thing, pace);
-    const bool evades = one.hits_waiting && one.ends && one.hits_in < kNever;
+    const bool evades = one.must_be_evaded();
     if (one.state != Way::State::comes && !evades) return;
-    if (norm(thing.velocity()) <= config_.standing_speed) return;
-    const double end = evades ? one.clears_in : one.meets_in + kLate;
-    const double step = thing.first->radius / norm(thing.velocity());  // s
+    const double speed = norm(thing.velocity());
+    if (speed <= config_.standing_speed) return;
+    const double leaves = one.ends ? one.clears_in : config_.foresight;
+    const double end = evades ? leaves : one.meets_in + kLate;
+    const double step = std::max(std::max(thing.first->radius, config_.robot_radius) / speed,
+                                 end / kMostPlaces);  // s
     const double spare = 2.0 * config_.robot_radius + kElbowRoom;
     for (double t = std::min(step, end); t <= end + 1e-9; t += step) {
-      if (thing.gap(path.front(), t) < spare) break;
+      if (thing.gap(path.front(), t) < spare) {
+        if (one.ends || !evades) break;
+        continue;  // it goes on beyond who is on its way
+      }
       for (Cylinder part : thing) {
         part.center = part.center + t * part.velocity;
         part.radius += kElbowRoom + kSpare;

@@ -11,11 +11,20 @@ constexpr double kLongest = 4.0;    // m
 constexpr double kOnMesh = 0.02;    // m
 constexpr double kRounding = 1e-6;  // m
 constexpr double kDearer = 3.0;     // as a metre to `towards` is a metre of the way out
+constexpr double kMoves = 0.2;      // m/s
+constexpr double kBefore = 0.7;     // cosine: who leaves less than 45 degrees off its heading
+constexpr double kLast = 1e6;       // is driven before by what moves: only if there is no other way
 
 bool comes_no_nearer(Point start, Point end, const Cylinder& cylinder, double radius) {
   const double now = distance(start, cylinder.center);
   const double least = distance(nearest_on_segment(cylinder.center, start, end), cylinder.center);
   return least >= std::min(now, cylinder.radius + radius) - kRounding;
+}
+
+bool leads_before(Point start, Point ahead, const Cylinder& cylinder, double radius) {
+  const double speed = norm(cylinder.velocity);
+  return speed > kMoves && distance(start, cylinder.center) < cylinder.radius + radius &&
+         dot(ahead, cylinder.velocity) > kBefore * speed;
 }
 
 }  // namespace
@@ -35,9 +44,12 @@ std::optional<Mesh::Place> way_out(const Mesh& mesh, const Space& space, Point s
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * i / kDirections;
     const Point ahead{std::cos(angle), std::sin(angle)};
+    const bool before =
+        std::any_of(space.cylinders->begin(), space.cylinders->end(),
+                    [&](const Cylinder& one) { return leads_before(start, ahead, one, radius); });
     for (double length = kStep; length <= kLongest; length += kStep) {
       const Point end = start + length * ahead;
-      const double cost = kDearer * length + distance(end, towards);
+      const double cost = kDearer * length + distance(end, towards) + (before ? kLast : 0.0);
       if (cost >= best_cost) break;
       const bool never_nearer = std::all_of(
           space.cylinders->begin(), space.cylinders->end(),

@@ -108,6 +108,8 @@ TEST_F(CourseTest, goes_aside_for_what_it_faces_waits_there_and_arrives_nowhere)
   robot_.position = {2, 6.9};
   EXPECT_FALSE(goes_on(3.0));
   EXPECT_EQ(status().state, State::blocked);
+  EXPECT_FALSE(status().heading.waypoint_is_goal);
+  EXPECT_EQ(status().reroutes, 0U);
   EXPECT_TRUE(course_.closed());
   things_.clear();
   obstacles_.clear();
@@ -131,6 +133,29 @@ TEST_F(CourseTest, is_aside_only_where_it_leaves_the_ground_free) {
   robot_.position = {2, 5.9};
   goes_on(1.0);
   EXPECT_EQ(status().state, State::blocked);
+}
+
+TEST_F(CourseTest, leaves_the_place_aside_where_something_runs_into_it) {
+  put_before(4.0);
+  take(plan(PlanStatus::closed, straight_), Reason::new_goal);
+  goes_on(0.1);
+  goes_on(10.0);
+  ASSERT_FALSE(course_.ground_to_leave(things_).empty());
+  take(plan(PlanStatus::aside, {{2, 5}, {2, 7}}), Reason::period);
+  robot_.position = {2, 6.9};
+  goes_on(1.0);
+  take(plan(PlanStatus::closed, {{2, 6.9}, {14, 6.9}}), Reason::period);
+  ReplanInput input;
+  input.time = time_;
+  input.has_goal = true;
+  input.robot = robot_;
+  input.remaining = course_.guidance().remaining(robot_.position);
+  for (const double speed : {0.0, 1.0}) {
+    input.obstacles = {{9, {2, 2.5}, 0.3, {0, speed}}};
+    static_cast<void>(policy_.update(input));
+    goes_on(0.1);
+    EXPECT_EQ(status().state, speed > 0.0 ? State::following : State::blocked) << speed;
+  }
 }
 
 TEST_F(CourseTest, follows_nothing_after_it_was_dropped) {

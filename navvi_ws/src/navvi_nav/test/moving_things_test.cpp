@@ -262,6 +262,66 @@ TEST_F(OpenHall, a_forklift_that_pauses_far_ahead_is_left_to_go_on) {
   EXPECT_EQ(drive.waited, 0.0);
 }
 
+TEST_F(OpenHall, nobody_is_told_to_wait_for_what_comes_from_behind_but_led_out_of_its_way) {
+  for (const double behind : {5.0, 8.0}) {
+    robot_ = {{10, 8}, 0.0};
+    things_.clear();
+    navigator_.set_goal({28, 8});
+    tick(2);
+    double least = 1e9;
+    double waited = 0.0;
+    for (double elapsed = 0.0; elapsed < 12.0; elapsed += kTick) {
+      obstacles_ = {{3, {10 - 1.25 - behind + 1.5 * elapsed, 8}, 0.9, {1.5, 0}}};
+      const bool waits = status().state == State::blocked;
+      waited += waits ? kTick : 0.0;
+      speed_ = waits ? 0.0 : kPace;
+      if (waits)
+        tick();
+      else
+        drive(kPace * kTick);
+      least = std::min(least, distance(robot_.position, obstacles_[0].center) - 0.9 - 0.35);
+    }
+    EXPECT_GT(least, 0.1) << behind;
+    EXPECT_LT(waited, 1.0) << behind;
+    obstacles_.clear();
+  }
+}
+
+/// A corridor of 3 m, closed at its far end, with an aisle across.
+class ClosedCorridor : public Lockstep {
+ protected:
+  ClosedCorridor() : Lockstep(30, 16) {
+    for (const double y : {0.5, 9.5}) {
+      world_.box(0.5, y, 0, 12, y + 6.0, 1.5);
+      world_.box(15, y, 0, 29.5, y + 6.0, 1.5);
+    }
+    robot_.position = {1.5, 8};
+    load();
+  }
+};
+
+TEST_F(ClosedCorridor, what_crosses_is_waited_for_though_the_way_is_closed_farther_on) {
+  for (const double delay : {10.0, 11.0, 12.0, 13.0, 14.0}) {
+    robot_ = {{1.5, 8}, 0.0};
+    obstacles_ = {{1, {24, 8}, 1.4, {}}};
+    navigator_.set_goal({28, 8});
+    tick(2);
+    double least = 1e9;
+    for (double elapsed = 0.0; elapsed < 25.0; elapsed += kTick) {
+      obstacles_ = {{1, {24, 8}, 1.4, {}},
+                    {2, {13.5, 14.5 - 1.5 * (elapsed - delay)}, 0.8, {0, -1.5}}};
+      const bool drives = status().state == State::following;
+      speed_ = drives ? kPace : 0.0;
+      if (drives)
+        drive(kPace * kTick);
+      else
+        tick();
+      least = std::min(least, distance(robot_.position, obstacles_[1].center) - 0.8 - 0.35);
+    }
+    EXPECT_GT(least, 0.2) << delay;
+  }
+}
+
 /// An aisle of 2.4 m, too narrow for the robot and a forklift side by side, with halls at both
 /// ends.
 class NarrowAisle : public Lockstep {
@@ -307,6 +367,32 @@ TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_pas
   EXPECT_TRUE(named);
   EXPECT_GT(away, 2.0);
   EXPECT_GT(waited, 10.0);
+}
+
+TEST_F(NarrowAisle, what_crosses_is_waited_for_on_the_way_aside_too) {
+  std::optional<double> since;
+  double least = 1e9;
+  bool waited = false;
+  for (double elapsed = 0.0; elapsed < 40.0; elapsed += kTick) {
+    const Status now = status();
+    if (now.state == State::make_room && robot_.position.x < 6.9 && !since) since = elapsed;
+    things_ = {forklift({12.0, 4.0}, M_PI)};
+    obstacles_.clear();
+    if (since) {
+      const double y = 7.5 - 1.5 * (elapsed - *since);
+      if (y > -3.0) obstacles_ = {{2, {4.2, y}, 0.6, {0, -1.5}}};
+      least = std::min(least, distance(robot_.position, {4.2, y}) - 0.6 - 0.35);
+      waited = waited || (now.state == State::blocked && now.blocked->by == 2U);
+    }
+    const bool drives = now.state == State::following || now.state == State::make_room;
+    speed_ = drives ? kPace : 0.0;
+    if (drives)
+      drive(kPace * kTick);
+    else
+      tick();
+  }
+  EXPECT_TRUE(waited);
+  EXPECT_GT(least, 0.2);
 }
 
 TEST_F(NarrowAisle, a_robot_within_the_circle_of_a_forklift_is_led_out_of_it) {

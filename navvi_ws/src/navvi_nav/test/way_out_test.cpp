@@ -52,6 +52,13 @@ TEST_F(WayOut, of_nearly_equal_ways_takes_the_one_towards_the_goal) {
   EXPECT_GT(leave({5, 3.9}, {9, 3})->point.x, leave({5, 3.9}, {1, 3})->point.x);
 }
 
+TEST_F(WayOut, of_what_moves_leads_to_the_side_and_not_on_before_it) {
+  things_[0].cylinder.velocity = {1.0, 0};
+  const auto out = leave({6.5, 3.1}, {9, 3.1});
+  ASSERT_TRUE(out);
+  EXPECT_GT(std::abs(out->point.y - 3.1), out->point.x - 6.5);
+}
+
 TEST_F(WayOut, does_not_lead_into_another_hole_or_a_wall) {
   things_.push_back({{2, {5, 4.75}, 0.4, {}}, 0.0, 0.0, 0.0});
   const auto out = leave({5, 3.95}, {5, 5.9});

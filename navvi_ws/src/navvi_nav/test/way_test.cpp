@@ -105,6 +105,32 @@ TEST_F(Ahead, foresees_where_what_comes_will_be_until_it_is_met) {
       WayAhead(config_).foreseen({{0, 0}, {20, 0}}, {forklift({5, 0.2}, {0, 1.0})}, 0.7).empty());
 }
 
+TEST_F(Ahead, foresees_few_places_of_what_is_tiny_or_fast) {
+  for (const double speed : {0.3, 1.0, 1000.0}) {
+    Cylinder tiny = forklift({4.5, 0}, {-speed, 0});
+    tiny.radius = 1e-9;
+    EXPECT_LE(WayAhead(config_).foreseen({{0, 0}, {20, 0}}, {tiny}, 0.7).size(), 65U);
+  }
+}
+
+TEST_F(Ahead, lets_nobody_wait_where_they_are_run_into_sooner_than_if_they_went_on) {
+  const Way way = judge({forklift({-4, 0}, {1.5, 0})});
+  EXPECT_TRUE(way.hits_waiting);
+  EXPECT_LT(way.hits_in, 6.0);
+  EXPECT_FALSE(way.wait);
+}
+
+TEST_F(Ahead, foresees_where_what_comes_from_behind_goes_on) {
+  const auto foreseen = [&](double behind) {
+    return WayAhead(config_).foreseen({{0, 0}, {20, 0}}, {forklift({-behind, 0}, {1.5, 0})}, 0.7);
+  };
+  EXPECT_TRUE(foreseen(7.0).empty());  // it may still turn off
+  const auto then = foreseen(4.0);
+  const auto ahead = [](const Cylinder& one) { return one.center.x > 1.0; };
+  EXPECT_TRUE(std::any_of(then.begin(), then.end(), ahead));
+  for (const Cylinder& one : then) EXPECT_GT(std::abs(one.center.x), 0.9 + 0.5);
+}
+
 TEST_F(Ahead, judges_a_long_thing_by_what_it_fills_and_as_one) {
   const MovingThing along{{7, {8, 1.3}, 1.35, {-1.0, 0}}, M_PI, 2.4, 1.1};
   EXPECT_EQ(judge(cylinders_of({along}, 1)).state, Way::State::comes);

@@ -80,6 +80,7 @@ class Course {
   CourseConfig config_;
   Guidance guidance_;
   Aim aim_ = Aim::goal;
+  bool to_goal_ = true;  ///< and not aside
   StandOff stand_off_;
   std::optional<Way::Wait> blocker_;         ///< of the only way, if near
   std::optional<std::uint32_t> makes_room_;  ///< for which thing

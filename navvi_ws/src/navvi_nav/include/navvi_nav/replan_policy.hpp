@@ -82,6 +82,9 @@ class ReplanPolicy {
   void chose(double time) { hold_.chose(time); }
   /// What crosses right before the robot and is waited for. As of the last update.
   [[nodiscard]] std::optional<Way::Wait> waits_for() const { return wait_; }
+  /// True if something moves into who waits here, and into nobody who goes on. As of the last
+  /// update.
+  [[nodiscard]] bool chases() const { return way_.hits_waiting && !std::isfinite(way_.hits_in); }
   /// See WayAhead::foreseen; none where nothing is held.
   [[nodiscard]] std::vector<Cylinder> foreseen(const Path& path,
                                                const std::vector<Cylinder>& obstacles,

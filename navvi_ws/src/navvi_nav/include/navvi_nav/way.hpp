@@ -34,8 +34,7 @@ struct Way {
   /// s, until who goes on at the pace, or a little later, runs into something; infinite: into none
   double hits_in = std::numeric_limits<double>::infinity();
   bool hits_waiting = false;  ///< something that moves runs into who waits here
-  /// What moves and is run into by who goes on. None if something runs into who waits here while
-  /// who goes on just comes by.
+  /// What moves and is run into by who goes on. None if something runs into who waits here sooner.
   struct Wait {
     std::uint32_t by = 0;
     double at = 0.0;         ///< m, along the path to where

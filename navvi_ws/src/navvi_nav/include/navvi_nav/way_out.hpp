@@ -12,7 +12,8 @@ namespace navvi_nav {
 
 /// Where the shortest good straight way out of the holes ends in which a robot at `start` stands.
 /// On the way it comes no nearer to any cylinder than it is, nor nearer than `radius` to one that
-/// it is clear of, and keeps `radius` from the map, or what room it has there now.
+/// it is clear of, and keeps `radius` from the map, or what room it has there now. It leads on
+/// before something that moves only if there is no other.
 /// \param part  if given, only this part of the mesh counts \param towards  of ways out of nearly
 /// equal length the one nearer to here is taken \returns nullopt if there is none of at most 4 m
 [[nodiscard]] std::optional<Mesh::Place> way_out(const Mesh& mesh, const Space& space, Point start,
