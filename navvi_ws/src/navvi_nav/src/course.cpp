@@ -1,6 +1,6 @@
 #include "navvi_nav/course.hpp"
 
-#include "navvi_nav/way_out.hpp"
+#include "navvi_nav/escape.hpp"
 
 namespace navvi_nav {
 namespace {
@@ -91,7 +91,7 @@ void Course::take(const Plan& plan, Reason reason, const Scene& scene, ReplanPol
   blocker_.reset();
   const bool waits = aim_ == Aim::waits && plan.status == PlanStatus::closed;
   aim_ = plan.status == PlanStatus::found   ? Aim::goal
-         : plan.status == PlanStatus::aside ? Aim::aside
+         : plan.status == PlanStatus::retreat ? Aim::aside
          : waits                            ? Aim::waits
                                             : Aim::closed;
 }
@@ -102,14 +102,14 @@ void Course::change(const Plan& plan, Reason reason, const Scene& scene, ReplanP
     churn_.add(scene.time, moved);
     if (moved > 0.0 && reason != Reason::new_goal && reason != Reason::map_changed)
       policy.chose(scene.time);
-    const bool aside = !to_goal_ || plan.status == PlanStatus::aside;
+    const bool aside = !to_goal_ || plan.status == PlanStatus::retreat;
     if (moved > kElsewhere && !aside) {
       ++reroutes_;
       reroute_reason_ = reason;
     }
   }
   guidance_.follow(plan.path);
-  to_goal_ = plan.status != PlanStatus::aside;
+  to_goal_ = plan.status != PlanStatus::retreat;
   shortest_length_ = plan.shortest;
   smoothing_price_ = length_of(plan.path) - plan.shortest;
 }
@@ -127,7 +127,7 @@ bool Course::keeps(const Plan& plan, Reason reason, const Scene& scene, ReplanPo
   const std::vector<Cylinder> none;
   const bool sees_next = guidance_.sees_next(robot.position, {scene.floor, &none});
   if (held) return sees_next;
-  if (plan.status == PlanStatus::aside)
+  if (plan.status == PlanStatus::retreat)
     return aim_ == Aim::aside && !policy.blocked(remaining, scene.obstacles) && sees_next;
   if (plan.status == PlanStatus::closed)
     return aim_ == Aim::closed && sees_next &&

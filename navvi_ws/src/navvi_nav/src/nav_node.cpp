@@ -183,28 +183,27 @@ class NavNode {
     }
     last_time_ = now;
     read_pose();
-    if (const std::optional<Outcome> outcome = worker_.take()) {
-      report(*outcome);
-      navigator_.deliver(*outcome, now);
-      publish_mesh(*outcome);
+    if (const std::optional<PlanAnswer> answer = worker_.take()) {
+      report(*answer);
+      navigator_.deliver(*answer, now);
+      publish_mesh(*answer);
     }
     const bool lost_before = navigator_.obstacles_lost();
-    if (std::optional<Job> job = navigator_.update(now)) {
-      job->show_mesh = (ros::WallTime::now() - last_mesh_).toSec() >= mesh_period();
-      worker_.start(std::move(*job));
+    if (std::optional<PlanRequest> request = navigator_.update(now)) {
+      request->show_mesh = (ros::WallTime::now() - last_mesh_).toSec() >= mesh_period();
+      worker_.start(std::move(*request));
     }
     if (navigator_.obstacles_lost() && !lost_before)
       ROS_WARN("No fresh obstacles come any more; moving things are not in the path.");
     publish_all();
   }
 
-  void report(const Outcome& outcome) const {
-    if (outcome.reason != Reason::map_changed || outcome.plan) return;
-    if (outcome.map_taken) {
-      ROS_INFO("Map taken in %.3f s: %zu polygons in %d tiles, %d tiles changed.", outcome.seconds,
-               outcome.polygons, outcome.mesh.tiles, outcome.mesh.tiles_rebuilt);
-    } else {
-      ROS_ERROR("The map is refused: %s.", outcome.map_error.c_str());
+  void report(const PlanAnswer& answer) const {
+    if (answer.map_taken) {
+      ROS_INFO("Map taken in %.3f s: %zu polygons in %d tiles, %d tiles changed.", answer.seconds,
+               answer.polygons, answer.mesh.tiles, answer.mesh.tiles_rebuilt);
+    } else if (!answer.map_error.empty()) {
+      ROS_ERROR("The map is refused: %s.", answer.map_error.c_str());
     }
   }
 
@@ -233,9 +232,9 @@ class NavNode {
     return std::max(config_.mesh_period, static_cast<double>(polygons) / kPolygonsPerSecond);
   }
 
-  void publish_mesh(const Outcome& outcome) {
-    if (!outcome.navmesh || outcome.navmesh == shown_mesh_) return;
-    shown_mesh_ = outcome.navmesh;
+  void publish_mesh(const PlanAnswer& answer) {
+    if (!answer.navmesh || answer.navmesh == shown_mesh_) return;
+    shown_mesh_ = answer.navmesh;
     last_mesh_ = ros::WallTime::now();
     mesh_.publish(
         to_msg(*shown_mesh_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));

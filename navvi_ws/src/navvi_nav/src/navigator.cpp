@@ -123,7 +123,7 @@ void Navigator::reset_times() {
   obstacles_time_.reset();
   obstacles_lost_ = false;
   carved_at_.reset();
-  if (job_since_) job_since_ = 0.0;
+  if (request_since_) request_since_ = 0.0;
 }
 
 bool Navigator::pose_fresh(double time) const {
@@ -142,10 +142,10 @@ bool Navigator::obstacles_fresh(double time) const {
 
 bool Navigator::undecided(double time) const {
   return goal_ && !goal_planned_ && floor_ && pose_fresh(time) &&
-         (!job_since_ || time - *job_since_ < config_.plan_timeout);
+         (!request_since_ || time - *request_since_ < config_.plan_timeout);
 }
 
-std::optional<Job> Navigator::update(double time) {
+std::optional<PlanRequest> Navigator::update(double time) {
   if (obstacles_time_ && !obstacles_fresh(time)) {
     things_.clear();
     obstacles_.clear();
@@ -153,7 +153,7 @@ std::optional<Job> Navigator::update(double time) {
   }
   pace_.update(time, speed_);
   follow_progress(time);
-  return job_since_ ? std::nullopt : next_job(time);
+  return request_since_ ? std::nullopt : next_request(time);
 }
 
 void Navigator::follow_progress(double time) {
@@ -166,24 +166,24 @@ void Navigator::follow_progress(double time) {
 
 void Navigator::give_up_late_plan(double time) {
   if (!course_.following() || !pose_fresh(time)) return;
-  const bool must_change = job_reason_ == Reason::path_carved ||
-                           job_reason_ == Reason::waypoint_blocked ||
-                           job_reason_ == Reason::map_changed;
-  if (job_since_ && must_change && time - *job_since_ > config_.plan_timeout) {
+  const bool must_change = request_reason_ == Reason::path_carved ||
+                           request_reason_ == Reason::waypoint_blocked ||
+                           request_reason_ == Reason::map_changed;
+  if (request_since_ && must_change && time - *request_since_ > config_.plan_timeout) {
     course_.drop();
     state_ = State::no_route;
     detail_ = "no plan came in time";
   }
 }
 
-std::optional<Job> Navigator::next_job(double time) {
-  Job job;
-  job.obstacles = obstacles_;
-  job.goal_number = goal_number_;
+std::optional<PlanRequest> Navigator::next_request(double time) {
+  PlanRequest request;
+  Reason reason = Reason::none;
+  request.obstacles = obstacles_;
   if (new_map_ || new_grid_) {
-    job.map = std::exchange(new_map_, nullptr);
-    job.grid = std::exchange(new_grid_, nullptr);
-    job.reason = Reason::map_changed;
+    request.map = std::exchange(new_map_, nullptr);
+    request.grid = std::exchange(new_grid_, nullptr);
+    reason = Reason::map_changed;
   } else if (floor_ && goal_ && pose_fresh(time)) {
     ReplanInput input;
     input.time = time;
@@ -198,47 +198,48 @@ std::optional<Job> Navigator::next_job(double time) {
     if (course_.following()) input.path_offset = guidance.heading(*pose_).path_offset;
     input.obstacles = obstacles_;
     input.closed = course_.closed();
-    if (const std::optional<Reason> reason = policy_.update(input)) {
-      job.goal = goal_;
-      job.foreseen = policy_.foreseen(input.remaining, obstacles_, input.pace);
-      job.ground = course_.ground_to_leave(things_);
-      job.start = pose_->position;
-      job.reason = *reason;
+    if (const std::optional<Reason> due = policy_.update(input)) {
+      request.goal = goal_;
+      request.predicted = policy_.foreseen(input.remaining, obstacles_, input.pace);
+      request.swept_area = course_.ground_to_leave(things_);
+      request.start = pose_->position;
+      reason = *due;
       map_changed_ = false;
     }
   }
   const bool carve = floor_ && (!carved_at_ || time - *carved_at_ >= config_.carve_period);
-  if (!job.map && !job.grid && !job.goal && !carve) return std::nullopt;
+  if (!request.brings_map() && !request.goal && !carve) return std::nullopt;
   carved_at_ = time;
-  job_since_ = time;
-  job_reason_ = job.reason;
-  return job;
+  request_since_ = time;
+  request_reason_ = reason;
+  request_goal_ = goal_number_;
+  return request;
 }
 
-void Navigator::deliver(const Outcome& outcome, double time) {
-  const std::optional<double> as_of = std::exchange(job_since_, std::nullopt);
-  if (outcome.map_taken) {
+void Navigator::deliver(const PlanAnswer& answer, double time) {
+  const std::optional<double> as_of = std::exchange(request_since_, std::nullopt);
+  if (answer.map_taken) {
     map_changed_ = goal_planned_;
     map_time_ = as_of;
   }
-  if (outcome.floor && !outcome.floor->empty()) {
-    floor_ = outcome.floor;
+  if (answer.floor && !answer.floor->empty()) {
+    floor_ = answer.floor;
     mesh_time_ = as_of;
   }
-  if (!outcome.plan || outcome.goal_number != goal_number_) return;
+  if (!answer.plan || request_goal_ != goal_number_) return;
   ++plans_;
-  plan_time_ = outcome.seconds;
-  nodes_expanded_ = outcome.plan->nodes_expanded;
-  reason_ = outcome.reason;
+  plan_time_ = answer.seconds;
+  nodes_expanded_ = answer.plan->nodes_expanded;
+  reason_ = request_reason_;
   goal_planned_ = true;
-  take_plan(*outcome.plan, outcome.reason, time);
+  take_plan(*answer.plan, request_reason_, time);
 }
 
 void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
   switch (plan.status) {
     case PlanStatus::found:
     case PlanStatus::closed:
-    case PlanStatus::aside:
+    case PlanStatus::retreat:
       course_.take(plan, reason, scene(time, pose_), policy_);
       state_ = State::following;
       detail_ = plan.detail;

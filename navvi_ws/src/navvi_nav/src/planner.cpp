@@ -1,15 +1,17 @@
 #include "navvi_nav/planner.hpp"
 
-#include "navvi_nav/way_out.hpp"
+#include <exception>
+
+#include "navvi_nav/escape.hpp"
 
 namespace navvi_nav {
 namespace {
 
-constexpr double kAsideStep = 0.5;       // m
-constexpr double kAsideFarthest = 12.0;  // m, as the crow flies
-constexpr double kAsideSpare = 0.2;      // m, that a robot keeps from ground it leaves free
-constexpr int kAsideDirections = 16;
-constexpr int kAsideSearches = 200;
+constexpr double kRetreatStep = 0.5;       // m
+constexpr double kRetreatFarthest = 12.0;  // m, as the crow flies
+constexpr double kRetreatSpare = 0.2;      // m, that a robot keeps from the area it leaves
+constexpr int kRetreatDirections = 16;
+constexpr int kRetreatSearches = 200;
 
 Plan failure(PlanStatus status, Refusal refusal, std::string detail) {
   Plan plan;
@@ -31,6 +33,16 @@ Plan refused(Refusal refusal) {
       return failure(PlanStatus::refused, refusal,
                      "the goal is within the robot's radius of an obstacle");
   }
+}
+
+std::vector<Cylinder> joined(std::vector<Cylinder> a, const std::vector<Cylinder>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// True if the path might be found without obstacles.
+bool may_be_closed(const Plan& plan) {
+  return plan.status == PlanStatus::no_route || plan.status == PlanStatus::off_mesh;
 }
 
 bool share(const std::set<int>& a, const std::set<int>& b) {
@@ -64,82 +76,127 @@ Planner::Planner(const PlannerConfig& config)
       search_(config.search == "exact" ? SearchMethod::exact : SearchMethod::centroid_astar,
               config.alpha) {}
 
-Plan Planner::plan(Point start, Point goal) const {
-  if (nav_mesh_.empty()) return failure(PlanStatus::no_map, Refusal::none, "there is no map yet");
+PlanAnswer Planner::answer(const PlanRequest& request) {
+  PlanAnswer out;
+  try {
+    out.mesh = take_map(request);
+    out.map_error = out.mesh.error;
+    out.map_taken = request.brings_map() && out.map_error.empty();
+    carve(joined(request.obstacles, request.predicted));
+    if (request.goal) {
+      Route route = search(request);
+      if (may_be_closed(route.plan)) route = search_without_obstacles(request, route);
+      if (route.plan.status == PlanStatus::closed) route = retreat_if_possible(request, route);
+      out.plan = smoothed(route);
+    }
+  } catch (const std::exception& error) {
+    if (request.brings_map()) out.map_error = error.what();
+    if (request.goal) out.plan = failure(PlanStatus::no_route, Refusal::none, error.what());
+  }
+  if (request.show_mesh) out.navmesh = nav_mesh_.shared_mesh();
+  out.polygons = nav_mesh_.mesh().polygons.size();
+  out.floor = nav_mesh_.shared_floor();
+  return out;
+}
+
+MeshUpdate Planner::take_map(const PlanRequest& request) {
+  if (request.grid) return set_map(*request.grid);
+  if (!request.map) return {};
+  const MapMessage& map = *request.map;
+  return set_map(MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution});
+}
+
+/// Clear of where the obstacles will be, or else of where they are: these are carved then.
+Planner::Route Planner::search(const PlanRequest& request) {
+  Route out = search(request.start, *request.goal);
+  if (out.plan.status == PlanStatus::found || request.predicted.empty()) return out;
+  carve(request.obstacles);
+  return search(request.start, *request.goal);
+}
+
+Planner::Route Planner::search(Point start, Point goal) const {
+  if (nav_mesh_.empty()) return {failure(PlanStatus::no_map, Refusal::none, "there is no map yet")};
   const Refusal refusal = refusal_of(goal);
-  if (refusal != Refusal::none) return refused(refusal);
+  if (refusal != Refusal::none) return {refused(refusal)};
   const double cell = nav_mesh_.shared_floor()->cell_size();
   const double near_goal = (config_.mesh.contour_error + 4.0) * cell;
   const std::set<int> goal_parts = components_near(goal, near_goal);
   const std::set<int> start_parts = components_near(start, config_.start_snap);
-  if (goal_parts.empty()) return refused(Refusal::inside_obstacle);
-  if (!start_parts.empty() && !share(start_parts, goal_parts)) return refused(Refusal::unreachable);
+  if (goal_parts.empty()) return {refused(Refusal::inside_obstacle)};
+  if (!start_parts.empty() && !share(start_parts, goal_parts))
+    return {refused(Refusal::unreachable)};
 
   if (!begin(start, goal, std::nullopt).place)
-    return failure(PlanStatus::off_mesh, Refusal::none, "the robot stands where no path can begin");
+    return {
+        failure(PlanStatus::off_mesh, Refusal::none, "the robot stands where no path can begin")};
   const Anchor to = anchor(goal, near_goal, std::nullopt);
   if (!to.place || !to.joined)
-    return failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal");
+    return {failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal")};
   const int part = nav_mesh_.mesh().polygon(to.place->polygon).part;
   const Anchor from = begin(start, goal, part);
   if (!from.place)
-    return failure(PlanStatus::no_route, Refusal::none,
-                   "nothing joins the robot with the goal now");
-  return finish(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
+    return {
+        failure(PlanStatus::no_route, Refusal::none, "nothing joins the robot with the goal now")};
+  return joined_route(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
 }
 
-Plan Planner::finish(const Found& found, const Anchor& from, Point start, Point goal) const {
-  Plan plan;
-  plan.nodes_expanded = found.nodes_expanded;
-  plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
-  if (!found.found) return plan;
-  Path shortest = found.path;
-  const bool joined = from.joined && !(shortest.front() == start);
-  if (joined && !from.leaves_hole) shortest.insert(shortest.begin(), start);
-  if (!(shortest.back() == goal)) shortest.push_back(goal);
-  plan.path =
-      smooth(shortest, nav_mesh_.space(),
-             {config_.mesh.robot_radius, config_.mesh.preferred_clearance}, config_.smoothing);
-  plan.shortest = length_of(shortest);
-  if (joined && from.leaves_hole) {
-    plan.path.insert(plan.path.begin(), start);
-    plan.shortest += distance(start, shortest.front());
+/// The path found, with what joins it to the start and the goal.
+Planner::Route Planner::joined_route(const Found& found, const Anchor& from, Point start,
+                                     Point goal) {
+  Route out;
+  out.plan.nodes_expanded = found.nodes_expanded;
+  out.plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
+  if (!found.found) return out;
+  Path& path = out.plan.path;
+  path = found.path;
+  if (from.joined && !(path.front() == start)) {
+    if (from.leaves_hole)
+      out.escapes_from = start;
+    else
+      path.insert(path.begin(), start);
   }
-  return plan;
+  if (!(path.back() == goal)) path.push_back(goal);
+  return out;
 }
 
-Plan Planner::plan_among(const std::vector<Cylinder>& obstacles, Point start, Point goal) {
-  Plan plan = this->plan(start, goal);
-  if (plan.status != PlanStatus::no_route && plan.status != PlanStatus::off_mesh) return plan;
+/// A closed plan, or why there is none without obstacles either.
+Planner::Route Planner::search_without_obstacles(const PlanRequest& request, const Route& blocked) {
   carve({});
-  Plan alone = this->plan(start, goal);
-  carve(obstacles);
-  if (alone.status != PlanStatus::found) return alone;
-  alone.status = PlanStatus::closed;
-  alone.detail = std::move(plan.detail);
-  return alone;
+  Route out = search(request.start, *request.goal);
+  carve(request.obstacles);
+  if (out.plan.status != PlanStatus::found) return out;
+  out.plan.status = PlanStatus::closed;
+  out.plan.detail = blocked.plan.detail;
+  return out;
 }
 
-Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start) const {
-  Plan out = plan_aside(ground, start, kAsideSpare);
-  return out.status == PlanStatus::aside ? out : plan_aside(ground, start, 0.0);
+Planner::Route Planner::retreat_if_possible(const PlanRequest& request, Route closed) const {
+  if (request.swept_area.empty()) return closed;
+  Route out = search_retreat(request.swept_area, request.start);
+  return out.plan.status == PlanStatus::retreat ? out : closed;
 }
 
-Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start, double spare) const {
+Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, Point start) const {
+  Route out = search_retreat(swept_area, start, kRetreatSpare);
+  return out.plan.status == PlanStatus::retreat ? out : search_retreat(swept_area, start, 0.0);
+}
+
+Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, Point start,
+                                       double spare) const {
   const Mesh& mesh = nav_mesh_.mesh();
   const double radius = config_.mesh.robot_radius;
-  const Space needed{nav_mesh_.shared_floor().get(), &ground};
+  const Space swept{nav_mesh_.shared_floor().get(), &swept_area};
   Found best;
   Anchor best_from;
   int searches = 0;
-  for (double reach = kAsideStep; reach <= kAsideFarthest && searches < kAsideSearches;
-       reach += kAsideStep) {
+  for (double reach = kRetreatStep; reach <= kRetreatFarthest && searches < kRetreatSearches;
+       reach += kRetreatStep) {
     if (best.found && reach >= best.length) break;
-    for (int i = 0; i < kAsideDirections; ++i) {
-      const double angle = 2.0 * M_PI * i / kAsideDirections;
+    for (int i = 0; i < kRetreatDirections; ++i) {
+      const double angle = 2.0 * M_PI * i / kRetreatDirections;
       const Point place = start + reach * Point{std::cos(angle), std::sin(angle)};
       const std::optional<Mesh::Place> there = mesh.locate(place, 0.0);
-      if (!there || in_a_hole(place, needed, radius + spare)) continue;
+      if (!there || in_a_hole(place, swept, radius + spare)) continue;
       const Anchor from = begin(start, place, mesh.polygon(there->polygon).part);
       if (!from.place) continue;
       ++searches;
@@ -150,9 +207,28 @@ Plan Planner::plan_aside(const std::vector<Cylinder>& ground, Point start, doubl
     }
   }
   if (!best.found)
-    return failure(PlanStatus::no_route, Refusal::none, "there is no room to be made");
-  Plan plan = finish(best, best_from, start, best.path.back());
-  plan.status = PlanStatus::aside;
+    return {failure(PlanStatus::no_route, Refusal::none, "there is no room to be made")};
+  Route out = joined_route(best, best_from, start, best.path.back());
+  out.plan.status = PlanStatus::retreat;
+  return out;
+}
+
+/// The straight leg of an escape stays as it is. A closed path is the one without obstacles.
+Plan Planner::smoothed(Route route) const {
+  Plan& plan = route.plan;
+  if (plan.path.empty()) return plan;
+  const std::vector<Cylinder> none;
+  const bool ignores_obstacles = plan.status == PlanStatus::closed;
+  const Space space{nav_mesh_.shared_floor().get(),
+                    ignores_obstacles ? &none : &nav_mesh_.carved()};
+  const Path shortest = std::exchange(plan.path, {});
+  plan.shortest = length_of(shortest);
+  plan.path = smooth(shortest, space, {config_.mesh.robot_radius, config_.mesh.preferred_clearance},
+                     config_.smoothing);
+  if (route.escapes_from) {
+    plan.path.insert(plan.path.begin(), *route.escapes_from);
+    plan.shortest += distance(*route.escapes_from, shortest.front());
+  }
   return plan;
 }
 
@@ -202,7 +278,7 @@ Planner::Anchor Planner::begin(Point start, Point goal, std::optional<int> part)
   const double radius = config_.mesh.robot_radius;
   if (!in_a_hole(start, nav_mesh_.space(), radius)) return anchor(start, config_.start_snap, part);
   Anchor out;
-  out.place = way_out(nav_mesh_.mesh(), nav_mesh_.space(), start, radius, part, goal);
+  out.place = escape(nav_mesh_.mesh(), nav_mesh_.space(), start, radius, part, goal);
   out.joined = out.leaves_hole = out.place.has_value();
   return out;
 }

@@ -15,17 +15,17 @@ Worker::~Worker() {
   thread_.join();
 }
 
-void Worker::start(Job job) {
+void Worker::start(PlanRequest request) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    job_ = std::move(job);
+    request_ = std::move(request);
   }
   wake_.notify_one();
 }
 
-std::optional<Outcome> Worker::take() {
+std::optional<PlanAnswer> Worker::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(outcome_, std::nullopt);
+  return std::exchange(answer_, std::nullopt);
 }
 
 std::optional<Plan> Worker::ask(Point start, Point goal, double tolerance, double patience) {
@@ -37,19 +37,19 @@ std::optional<Plan> Worker::ask(Point start, Point goal, double tolerance, doubl
 void Worker::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
-    wake_.wait(lock, [this] { return stop_ || job_; });
+    wake_.wait(lock, [this] { return stop_ || request_; });
     if (stop_) return;
-    const Job job = *std::exchange(job_, std::nullopt);
+    const PlanRequest request = *std::exchange(request_, std::nullopt);
     lock.unlock();
     const auto begin = std::chrono::steady_clock::now();
-    Outcome outcome = [&] {
+    PlanAnswer answer = [&] {
       const std::lock_guard<std::timed_mutex> busy(busy_);
-      return work(planner_, job);
+      return planner_.answer(request);
     }();
-    outcome.seconds =
+    answer.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     lock.lock();
-    outcome_ = std::move(outcome);
+    answer_ = std::move(answer);
   }
 }
 

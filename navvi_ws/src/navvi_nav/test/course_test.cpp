@@ -98,7 +98,7 @@ TEST_F(CourseTest, goes_aside_for_what_it_faces_waits_there_and_arrives_nowhere)
   goes_on(0.1);
   goes_on(10.0);
   ASSERT_FALSE(course_.ground_to_leave(things_).empty());
-  take(plan(PlanStatus::aside, {{2, 5}, {2, 7}}), Reason::period);
+  take(plan(PlanStatus::retreat, {{2, 5}, {2, 7}}), Reason::period);
   EXPECT_EQ(status().state, State::make_room);
   EXPECT_EQ(status().blocked->by, 7U);
   EXPECT_FALSE(status().heading.waypoint_is_goal);
@@ -126,7 +126,7 @@ TEST_F(CourseTest, is_aside_only_where_it_leaves_the_ground_free) {
   goes_on(0.1);
   goes_on(10.0);
   ASSERT_FALSE(course_.ground_to_leave(things_).empty());
-  take(plan(PlanStatus::aside, {{2, 5}, {2, 6.0}}), Reason::period);
+  take(plan(PlanStatus::retreat, {{2, 5}, {2, 6.0}}), Reason::period);
   robot_.position = {2, 5.7};  // the thing needs 0.5 m to the side, the robot 0.35 m
   goes_on(1.0);
   EXPECT_EQ(status().state, State::make_room);
@@ -141,7 +141,7 @@ TEST_F(CourseTest, leaves_the_place_aside_where_something_runs_into_it) {
   goes_on(0.1);
   goes_on(10.0);
   ASSERT_FALSE(course_.ground_to_leave(things_).empty());
-  take(plan(PlanStatus::aside, {{2, 5}, {2, 7}}), Reason::period);
+  take(plan(PlanStatus::retreat, {{2, 5}, {2, 7}}), Reason::period);
   robot_.position = {2, 6.9};
   goes_on(1.0);
   take(plan(PlanStatus::closed, {{2, 6.9}, {14, 6.9}}), Reason::period);

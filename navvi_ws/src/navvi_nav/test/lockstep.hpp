@@ -43,8 +43,8 @@ class Lockstep : public testing::Test {
         for (const Cylinder& obstacle : obstacles_) things.push_back({obstacle});
         navigator_.set_obstacles(things, time_);
       }
-      if (const auto job = navigator_.update(time_)) {
-        last_ = work(planner_, *job);
+      if (const auto request = navigator_.update(time_)) {
+        last_ = planner_.answer(*request);
         navigator_.deliver(*last_, time_);
       }
     }
@@ -63,7 +63,7 @@ class Lockstep : public testing::Test {
   NavigatorConfig config_;
   Navigator navigator_{config_};
   Planner planner_{config_.planner};
-  std::optional<Outcome> last_;
+  std::optional<PlanAnswer> last_;
   std::vector<Cylinder> obstacles_;
   std::vector<MovingThing> things_;  ///< besides
   Pose robot_{{2, 5}, 0.0};

@@ -153,20 +153,31 @@ TEST(Planner, leads_straight_out_of_the_hole_of_a_moving_thing) {
   }
 }
 
+Plan answer(Planner& planner, const std::vector<Cylinder>& obstacles, Point start, Point goal,
+            const std::vector<Cylinder>& predicted = {},
+            const std::vector<Cylinder>& swept_area = {}) {
+  PlanRequest request;
+  request.obstacles = obstacles;
+  request.predicted = predicted;
+  request.swept_area = swept_area;
+  request.start = start;
+  request.goal = goal;
+  return planner.answer(request).plan.value_or(Plan{});
+}
+
 TEST(Planner, tells_a_way_that_only_moving_things_close_from_one_that_is_none) {
   SmallWorld world = corridor();
   Planner planner = planner_on(world);
   for (const Point at : {Point{7, 3}, Point{12.8, 3}, Point{4.6, 3}}) {
     const std::vector<Cylinder> obstacles{{1, at, 0.9, {}}};
-    planner.carve(obstacles);
-    const Plan plan = planner.plan_among(obstacles, {4.2, 3}, {12.8, 3});
+    const Plan plan = answer(planner, obstacles, {4.2, 3}, {12.8, 3});
     EXPECT_EQ(plan.status, PlanStatus::closed) << at.x;
     EXPECT_NEAR(length_of(plan.path), 8.6, 0.1);
     EXPECT_EQ(planner.nav_mesh().carved().size(), 1U);
   }
   world.box(8, 2, 0, 8.1, 4, 1);
   planner.set_map(world.voxels());
-  EXPECT_EQ(planner.plan_among({}, {4.2, 3}, {12.8, 3}).refusal, Refusal::unreachable);
+  EXPECT_EQ(answer(planner, {}, {4.2, 3}, {12.8, 3}).refusal, Refusal::unreachable);
 }
 
 TEST(Planner, steps_aside_to_the_nearest_place_off_the_ground_that_is_needed) {
@@ -174,14 +185,45 @@ TEST(Planner, steps_aside_to_the_nearest_place_off_the_ground_that_is_needed) {
   Planner planner = planner_on(world);
   std::vector<Cylinder> ground;
   for (double x = 0.5; x < 6.5; x += 0.5) ground.push_back({1, {x, 3}, 0.75, {}});
-  const Plan plan = planner.plan_aside(ground, {4.5, 3});
-  ASSERT_EQ(plan.status, PlanStatus::aside);
+  const Plan plan = planner.retreat(ground, {4.5, 3});
+  ASSERT_EQ(plan.status, PlanStatus::retreat);
   EXPECT_LT(length_of(plan.path), 4.0);
   for (const Cylinder& one : ground)
     EXPECT_GE(distance(one.center, plan.path.back()), one.radius + kRadius + 0.2 - kTolerance);
   for (double x = 6.5; x < 13.5; x += 0.5) ground.push_back({1, {x, 3}, 0.75, {}});
   ground.push_back({1, {1.3, 3}, 3.0, {}});
-  EXPECT_EQ(planner.plan_aside(ground, {4.5, 3}).status, PlanStatus::no_route);
+  EXPECT_EQ(planner.retreat(ground, {4.5, 3}).status, PlanStatus::no_route);
+}
+
+TEST(Planner, answers_with_a_retreat_only_where_obstacles_close_the_path_and_there_is_room) {
+  SmallWorld world = corridor();
+  Planner planner = planner_on(world);
+  const std::vector<Cylinder> blocks{{1, {7, 3}, 0.9, {}}};
+  std::vector<Cylinder> swept;
+  for (double x = 0.5; x < 6.5; x += 0.5) swept.push_back({1, {x, 3}, 0.75, {}});
+  EXPECT_EQ(answer(planner, {}, {4.5, 3}, {12.8, 3}, {}, swept).status, PlanStatus::found);
+  const Plan retreat = answer(planner, blocks, {4.5, 3}, {12.8, 3}, {}, swept);
+  EXPECT_EQ(retreat.status, PlanStatus::retreat);
+  EXPECT_EQ(retreat.path, planner.retreat(swept, {4.5, 3}).path);
+  swept.push_back({1, {7, 3}, 9.0, {}});
+  EXPECT_EQ(answer(planner, blocks, {4.5, 3}, {12.8, 3}, {}, swept).status, PlanStatus::closed);
+}
+
+TEST(Planner, avoids_where_obstacles_will_be_only_if_there_is_another_path) {
+  SmallWorld world;
+  world.room(14, 8).box(4, 3.5, 0, 10, 4.5, 1);
+  Planner planner = planner_on(world);
+  const std::vector<Cylinder> below{{1, {7, 2}, 1.3, {}}};
+  const std::vector<Cylinder> above{{2, {7, 6}, 1.3, {}}};
+  const auto leads_above = [](const Plan& plan) {
+    return std::any_of(plan.path.begin(), plan.path.end(), [](Point at) { return at.y > 4.5; });
+  };
+  EXPECT_FALSE(leads_above(answer(planner, {}, {2, 3}, {12, 3})));
+  EXPECT_TRUE(leads_above(answer(planner, {}, {2, 3}, {12, 3}, below)));
+  const Plan both = answer(planner, above, {2, 3}, {12, 3}, below);
+  EXPECT_EQ(both.status, PlanStatus::found);
+  EXPECT_FALSE(leads_above(both));
+  EXPECT_EQ(planner.nav_mesh().carved().size(), 1U);
 }
 
 TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {

@@ -108,9 +108,8 @@ void ClosedLoop::navigate() {
     navigator_.set_goal({setting_.scenario.goal.x(), setting_.scenario.goal.y()});
   }
   if (const auto at = navvi_nav::from_msg(pose())) navigator_.set_pose(*at, time());
-  if (const auto outcome = std::exchange(outcome_, std::nullopt))
-    navigator_.deliver(*outcome, time());
-  if (const auto job = navigator_.update(time())) outcome_ = navvi_nav::work(planner_, *job);
+  if (const auto answer = std::exchange(answer_, std::nullopt)) navigator_.deliver(*answer, time());
+  if (const auto request = navigator_.update(time())) answer_ = planner_.answer(*request);
   if (navigator_.undecided(time())) return;
   const navvi_nav::Status status = navigator_.status(time());
   if (!telling_.due(status, time())) return;

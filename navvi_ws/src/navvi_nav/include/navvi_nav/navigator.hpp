@@ -6,8 +6,8 @@
 #include <string>
 
 #include "navvi_nav/course.hpp"
-#include "navvi_nav/job.hpp"
 #include "navvi_nav/pace.hpp"
+#include "navvi_nav/planner.hpp"
 
 namespace navvi_nav {
 
@@ -25,8 +25,8 @@ struct NavigatorConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// What nav_node decides: which job comes next, which path is followed, what the person is told.
-/// Times are s on one clock; after a jump back call reset_times().
+/// What nav_node decides: what the planner does next, which path is followed, what the person is
+/// told. Times are s on one clock; after a jump back call reset_times().
 class Navigator {
  public:
   explicit Navigator(const NavigatorConfig& config);
@@ -44,9 +44,9 @@ class Navigator {
   bool drop_bad_goal(Refusal refusal, const std::string& detail);
   void reset_times();
 
-  /// Brings everything up to `time`. \returns the next job, if one is due and none is running
-  [[nodiscard]] std::optional<Job> update(double time);
-  void deliver(const Outcome& outcome, double time);
+  /// Brings everything up to `time`. \returns the next request, if one is due and none is running
+  [[nodiscard]] std::optional<PlanRequest> update(double time);
+  void deliver(const PlanAnswer& answer, double time);
 
   [[nodiscard]] Status status(double time) const;
   /// The path as planned; empty when there is none to show.
@@ -70,7 +70,7 @@ class Navigator {
   [[nodiscard]] Scene scene(double time, const std::optional<Pose>& robot) const {
     return {time, robot, pace_.value(), floor_.get(), things_, obstacles_};
   }
-  [[nodiscard]] std::optional<Job> next_job(double time);
+  [[nodiscard]] std::optional<PlanRequest> next_request(double time);
   void follow_progress(double time);
   void give_up_late_plan(double time);
   void take_plan(const Plan& plan, Reason reason, double time);
@@ -99,8 +99,9 @@ class Navigator {
   unsigned goal_number_ = 0;
   bool goal_planned_ = false;
   bool map_changed_ = false;
-  std::optional<double> job_since_;
-  Reason job_reason_ = Reason::none;
+  std::optional<double> request_since_;  ///< s, when the one that is answered now was sent
+  Reason request_reason_ = Reason::none;
+  unsigned request_goal_ = 0;  ///< its number
   std::optional<double> carved_at_;
   State state_ = State::no_goal;
   Refusal refusal_ = Refusal::none;

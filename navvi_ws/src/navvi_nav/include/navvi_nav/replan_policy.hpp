@@ -5,23 +5,12 @@
 #include <set>
 #include <vector>
 
+#include "navvi_nav/guidance_enums.hpp"
 #include "navvi_nav/hold.hpp"
 #include "navvi_nav/interest.hpp"
 #include "navvi_nav/way.hpp"
 
 namespace navvi_nav {
-
-/// Why a plan was made; values as in navvi_msgs/Guidance.
-enum class Reason {
-  none,
-  new_goal,
-  path_carved,
-  too_slow,
-  period,
-  waypoint_blocked,
-  obstacle_near,
-  map_changed,
-};
 
 struct ReplanPolicyConfig {
   double period = 2.0;

@@ -4,25 +4,11 @@
 #include <string>
 
 #include "navvi_nav/guidance.hpp"
-#include "navvi_nav/planner.hpp"
+#include "navvi_nav/guidance_enums.hpp"
+#include "navvi_nav/plan_request.hpp"
 #include "navvi_nav/replan_policy.hpp"
 
 namespace navvi_nav {
-
-/// Values as in navvi_msgs/Guidance.
-enum class State {
-  no_goal,
-  following,
-  arrived,
-  goal_refused,
-  no_route,
-  off_mesh,
-  no_map,
-  pose_stale,
-  map_stale,
-  blocked,
-  make_room,
-};
 
 /// navvi_msgs/Guidance without ROS.
 struct Status {

@@ -5,11 +5,11 @@
 #include <optional>
 #include <thread>
 
-#include "navvi_nav/navigator.hpp"
+#include "navvi_nav/planner.hpp"
 
 namespace navvi_nav {
 
-/// Owns the Planner and one thread that does one job at a time and hands back a value.
+/// Owns the Planner and one thread that answers one request at a time.
 class Worker {
  public:
   explicit Worker(const PlannerConfig& config);
@@ -17,11 +17,11 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// The previous job's outcome must have been taken.
-  void start(Job job);
-  /// The finished job, once.
-  [[nodiscard]] std::optional<Outcome> take();
-  /// Plans in the caller's thread, as Planner::plan_near. \returns nullopt if a job kept the
+  /// The previous request's answer must have been taken.
+  void start(PlanRequest request);
+  /// The answer, once.
+  [[nodiscard]] std::optional<PlanAnswer> take();
+  /// Plans in the caller's thread, as Planner::plan_near. \returns nullopt if a request kept the
   /// planner busy for longer than `patience` (s)
   [[nodiscard]] std::optional<Plan> ask(Point start, Point goal, double tolerance, double patience);
 
@@ -32,8 +32,8 @@ class Worker {
   Planner planner_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<Job> job_;
-  std::optional<Outcome> outcome_;
+  std::optional<PlanRequest> request_;
+  std::optional<PlanAnswer> answer_;
   bool stop_ = false;
   std::thread thread_;
 };

@@ -101,7 +101,7 @@ class ClosedLoop {
   navvi_safety::CommandGate gate_;
   navvi_nav::Navigator navigator_;
   navvi_nav::Planner planner_;
-  std::optional<navvi_nav::Outcome> outcome_;  ///< of the job that was begun at the last beat
+  std::optional<navvi_nav::PlanAnswer> answer_;  ///< to the request of the last beat
   navvi_nav::Telling telling_;
   std::map<std::uint32_t, std::string> classes_;  ///< of the moving things, by id
   navvi_feedback::Feedback feedback_;

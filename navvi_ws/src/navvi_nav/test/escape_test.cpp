@@ -1,4 +1,4 @@
-#include "navvi_nav/way_out.hpp"
+#include "navvi_nav/escape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@ namespace {
 constexpr double kRadius = 0.35;  // m, of the robot
 
 /// A room of 10 x 6 m with a forklift in it.
-class WayOut : public testing::Test {
+class Escape : public testing::Test {
  protected:
-  WayOut() {
+  Escape() {
     world_.room(10, 6);
     EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
   }
@@ -22,7 +22,7 @@ class WayOut : public testing::Test {
     const std::vector<Cylinder> row = cylinders_of(things_, 4);
     mesh_.carve(row);
     EXPECT_TRUE(in_a_hole(start, mesh_.space(), kRadius));
-    const auto out = way_out(mesh_.mesh(), mesh_.space(), start, kRadius, std::nullopt, towards);
+    const auto out = escape(mesh_.mesh(), mesh_.space(), start, kRadius, std::nullopt, towards);
     if (!out) return out;
     EXPECT_FALSE(in_a_hole(out->point, mesh_.space(), kRadius - 1e-3));
     for (const Point at : points_along({start, out->point}, 0.02)) {
@@ -40,7 +40,7 @@ class WayOut : public testing::Test {
   std::vector<MovingThing> things_{{{1, {5, 3}, 1.35, {}}, 0.0, 2.4, 1.1}};
 };
 
-TEST_F(WayOut, leads_off_before_beside_and_behind) {
+TEST_F(Escape, leads_off_before_beside_and_behind) {
   for (const Point start : {Point{6.6, 3}, Point{5, 3.9}, Point{5.4, 2.2}, Point{3.5, 3.1}}) {
     const auto out = leave(start);
     ASSERT_TRUE(out) << start.x << ' ' << start.y;
@@ -48,25 +48,25 @@ TEST_F(WayOut, leads_off_before_beside_and_behind) {
   }
 }
 
-TEST_F(WayOut, of_nearly_equal_ways_takes_the_one_towards_the_goal) {
+TEST_F(Escape, of_nearly_equal_ways_takes_the_one_towards_the_goal) {
   EXPECT_GT(leave({5, 3.9}, {9, 3})->point.x, leave({5, 3.9}, {1, 3})->point.x);
 }
 
-TEST_F(WayOut, of_what_moves_leads_to_the_side_and_not_on_before_it) {
+TEST_F(Escape, of_what_moves_leads_to_the_side_and_not_on_before_it) {
   things_[0].cylinder.velocity = {1.0, 0};
   const auto out = leave({6.5, 3.1}, {9, 3.1});
   ASSERT_TRUE(out);
   EXPECT_GT(std::abs(out->point.y - 3.1), out->point.x - 6.5);
 }
 
-TEST_F(WayOut, does_not_lead_into_another_hole_or_a_wall) {
+TEST_F(Escape, does_not_lead_into_another_hole_or_a_wall) {
   things_.push_back({{2, {5, 4.75}, 0.4, {}}, 0.0, 0.0, 0.0});
   const auto out = leave({5, 3.95}, {5, 5.9});
   ASSERT_TRUE(out);
   EXPECT_GT(std::abs(out->point.x - 5.0), 0.3);
 }
 
-TEST_F(WayOut, is_none_between_a_thing_and_a_wall) {
+TEST_F(Escape, is_none_between_a_thing_and_a_wall) {
   world_.box(4, 4.0, 0, 6.5, 4.3, 1.0).box(6.3, 1.5, 0, 6.5, 4.3, 1.0);
   ASSERT_EQ(mesh_.set_map(world_.voxels()).error, "");
   things_.push_back({{2, {4.6, 3.5}, 0.3, {}}, 0.0, 0.0, 0.0});

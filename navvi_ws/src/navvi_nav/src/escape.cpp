@@ -1,4 +1,4 @@
-#include "navvi_nav/way_out.hpp"
+#include "navvi_nav/escape.hpp"
 
 #include <limits>
 
@@ -10,10 +10,10 @@ constexpr double kStep = 0.1;       // m
 constexpr double kLongest = 4.0;    // m
 constexpr double kOnMesh = 0.02;    // m
 constexpr double kRounding = 1e-6;  // m
-constexpr double kDearer = 3.0;     // as a metre to `towards` is a metre of the way out
+constexpr double kDearer = 3.0;     // price of a metre of the leg, in metres to `towards`
 constexpr double kMoves = 0.2;      // m/s
-constexpr double kBefore = 0.7;     // cosine: who leaves less than 45 degrees off its heading
-constexpr double kLast = 1e6;       // is driven before by what moves: only if there is no other way
+constexpr double kBefore = 0.7;     // cosine: a leg less than 45 degrees off its heading leads on in front of it
+constexpr double kLast = 1e6;       // price of such a leg: only if there is no other
 
 bool comes_no_nearer(Point start, Point end, const Cylinder& cylinder, double radius) {
   const double now = distance(start, cylinder.center);
@@ -35,8 +35,8 @@ bool in_a_hole(Point place, const Space& space, double radius) {
   });
 }
 
-std::optional<Mesh::Place> way_out(const Mesh& mesh, const Space& space, Point start, double radius,
-                                   std::optional<int> part, Point towards) {
+std::optional<Mesh::Place> escape(const Mesh& mesh, const Space& space, Point start, double radius,
+                                  std::optional<int> part, Point towards) {
   std::optional<Mesh::Place> best;
   double best_cost = std::numeric_limits<double>::infinity();
   const double room = std::min(radius, space.floor->clearance(start) - kRounding);
