@@ -89,11 +89,19 @@ MapMessage from_msg(const octomap_msgs::Octomap& map) {
   return out;
 }
 
-std::optional<OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map) {
+std::string error_of(const octomap_msgs::Octomap& map, const std::string& frame) {
+  if (map.header.frame_id != frame)
+    return "it is in frame '" + map.header.frame_id + "', not '" + frame + "'";
+  if (map.data.size() > kMaxMapBytes) return "it is larger than 64 MiB";
+  return "";
+}
+
+std::optional<OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map,
+                                      const std::string& frame) {
   const auto& q = map.info.origin.orientation;
   const bool flat = std::abs(q.x) < 1e-3 && std::abs(q.y) < 1e-3;
-  if (!within_each(map.info.origin.position, kFarthest) || !rotation(q) || !flat ||
-      map.info.width > kMaxGridSide || map.info.height > kMaxGridSide)
+  if (map.header.frame_id != frame || !within_each(map.info.origin.position, kFarthest) ||
+      !rotation(q) || !flat || map.info.width > kMaxGridSide || map.info.height > kMaxGridSide)
     return std::nullopt;
   OccupancyGrid out;
   out.width = static_cast<int>(map.info.width);
@@ -142,7 +150,7 @@ navvi_msgs::Guidance to_msg(const Status& status, double z, const std::string& f
   out.map_age = status.map_age.value_or(-1.0);
   if (status.blocked) {
     out.blocked_distance = status.blocked->at;
-    out.blocked_for = status.blocked->clears_in;
+    out.blocked_for = status.blocked->time_to_clear;
   }
   out.goal = point_msg(status.goal, z);
   out.waypoint = point_msg(status.heading.waypoint, z);

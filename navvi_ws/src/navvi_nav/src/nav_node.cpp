@@ -9,14 +9,13 @@
 #include <navvi_config/ros_parameters.hpp>
 
 #include "navvi_nav/msg_conversion.hpp"
-#include "navvi_nav/telling.hpp"
+#include "navvi_nav/publish_throttle.hpp"
 #include "navvi_nav/worker.hpp"
 
 namespace navvi_nav {
 namespace {
 
-constexpr double kServicePatience = 1.0;       // s
-constexpr double kPolygonsPerSecond = 4000.0;  // of pictures of the mesh, some 200 bytes each
+constexpr double kServicePatience = 1.0;  // s
 
 struct NodeConfig {
   NavigatorConfig navigator;
@@ -39,7 +38,10 @@ struct NodeConfig {
 class NavNode {
  public:
   NavNode(ros::NodeHandle node, const NodeConfig& config)
-      : config_(config), navigator_(config.navigator), worker_(config.navigator.planner) {
+      : config_(config),
+        navigator_(config.navigator),
+        worker_(config.navigator.planner),
+        mesh_throttle_(config.mesh_period) {
     path_ = node.advertise<nav_msgs::Path>("navvi/path", 1, true);
     guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
@@ -55,21 +57,16 @@ class NavNode {
 
  private:
   void on_map(const octomap_msgs::Octomap::ConstPtr& msg) {
-    if (msg->header.frame_id != config_.map_frame) {
-      ROS_ERROR("The map is refused: it is in frame '%s', not '%s'.", msg->header.frame_id.c_str(),
-                config_.map_frame.c_str());
-      return;
-    }
-    if (msg->data.size() > kMaxMapBytes) {
-      ROS_ERROR("The map is refused: it is larger than 64 MiB.");
-      return;
-    }
-    navigator_.set_map(std::make_shared<const MapMessage>(from_msg(*msg)));
+    const std::string error = error_of(*msg, config_.map_frame);
+    if (!error.empty())
+      ROS_ERROR("The map is refused: %s.", error.c_str());
+    else
+      navigator_.set_map(std::make_shared<const MapMessage>(from_msg(*msg)));
   }
 
   void on_grid(const nav_msgs::OccupancyGrid::ConstPtr& msg) {
-    std::optional<OccupancyGrid> grid = from_msg(*msg);
-    if (!grid || msg->header.frame_id != config_.map_frame) {
+    std::optional<OccupancyGrid> grid = from_msg(*msg, config_.map_frame);
+    if (!grid) {
       ROS_ERROR("The occupancy grid is refused: it is not a flat grid in frame '%s'.",
                 config_.map_frame.c_str());
     } else if (!navigator_.set_map(std::make_shared<const OccupancyGrid>(std::move(*grid)))) {
@@ -170,7 +167,7 @@ class NavNode {
       if (const std::optional<Pose> pose = from_msg(transform.transform))
         navigator_.set_pose(*pose, transform.header.stamp.toSec());
     } catch (const tf2::TransformException&) {
-      // Told by the age of the pose.
+      // The age of the pose shows it.
     }
   }
 
@@ -190,7 +187,7 @@ class NavNode {
     }
     const bool lost_before = navigator_.obstacles_lost();
     if (std::optional<PlanRequest> request = navigator_.update(now)) {
-      request->show_mesh = (ros::WallTime::now() - last_mesh_).toSec() >= mesh_period();
+      request->show_mesh = mesh_throttle_.due(ros::SteadyTime::now().toSec());
       worker_.start(std::move(*request));
     }
     if (navigator_.obstacles_lost() && !lost_before)
@@ -212,7 +209,7 @@ class NavNode {
     publish_path();
     if (navigator_.undecided(now)) return;
     const Status status = navigator_.status(now);
-    if (!telling_.due(status, ros::SteadyTime::now().toSec())) return;
+    if (!throttle_.due(status, ros::SteadyTime::now().toSec())) return;
     navvi_msgs::Guidance msg =
         to_msg(status, navigator_.floor_height(), config_.map_frame, ros::Time::now());
     msg.seq = ++seq_;
@@ -227,15 +224,10 @@ class NavNode {
         to_msg(*shown_path_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
   }
 
-  [[nodiscard]] double mesh_period() const {
-    const std::size_t polygons = shown_mesh_ ? shown_mesh_->polygons.size() : 0;
-    return std::max(config_.mesh_period, static_cast<double>(polygons) / kPolygonsPerSecond);
-  }
-
   void publish_mesh(const PlanAnswer& answer) {
     if (!answer.navmesh || answer.navmesh == shown_mesh_) return;
     shown_mesh_ = answer.navmesh;
-    last_mesh_ = ros::WallTime::now();
+    mesh_throttle_.published(shown_mesh_->polygons.size(), ros::SteadyTime::now().toSec());
     mesh_.publish(
         to_msg(*shown_mesh_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
   }
@@ -254,8 +246,8 @@ class NavNode {
   std::map<std::uint32_t, std::string> classes_;  // of the obstacles, by id
   std::optional<Path> shown_path_;
   std::shared_ptr<const Mesh> shown_mesh_;
-  Telling telling_;
-  ros::WallTime last_mesh_;
+  PublishThrottle throttle_;
+  MeshThrottle mesh_throttle_;
   double last_time_ = 0.0;
   unsigned seq_ = 0;
   unsigned bad_messages_ = 0;

@@ -8,35 +8,34 @@ std::optional<double> age_of(std::optional<double> then, double now) {
   return std::max(0.0, now - *then);
 }
 
-ReplanPolicyConfig policy_of(const NavigatorConfig& config) {
-  ReplanPolicyConfig out = config.replan;
-  out.way.robot_radius = config.planner.mesh.robot_radius;
-  return out;
-}
-
-CourseConfig course_of(const NavigatorConfig& config) {
-  CourseConfig out = config.course;
-  out.robot_radius = config.planner.mesh.robot_radius;
-  return out;
+/// Fills in what several classes need to know.
+NavigatorConfig completed(NavigatorConfig config) {
+  const double radius = config.planner.mesh.robot_radius;
+  config.replan.trigger.robot_radius = radius;
+  config.replan.forecast.robot_radius = radius;
+  config.deadlock.robot_radius = radius;
+  config.observation.standing_speed = config.replan.forecast.standing_speed;
+  return config;
 }
 
 }  // namespace
+
+void ReplanConfig::describe(navvi_config::Visitor& visit) {
+  trigger.describe(visit);
+  keeper.describe(visit);
+  forecast.describe(visit);
+}
 
 void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   planner.describe(visit);
   visit.group("replan", replan);
-  course.describe(visit);
-  visit({"most_cylinders", Range{1.0, 4.0}, "",
-         "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)"},
-        most_cylinders);
+  path.describe(visit);
+  visit.group("stand_off", deadlock);
+  observation.describe(visit);
   visit({"carve_period", Range{0.05, 60.0}, "s",
          "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)"},
         carve_period);
-  visit({"pose_timeout", Range{0.1, 10.0}, "s", "an older pose of the robot is stale"},
-        pose_timeout);
-  visit({"obstacle_timeout", Range{0.1, 10.0}, "s", "older obstacles are forgotten"},
-        obstacle_timeout);
   visit({"plan_timeout", Range{0.1, 10.0}, "s",
          "a path that must change is hidden when no plan came for so long"},
         plan_timeout);
@@ -46,193 +45,213 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
 }
 
 Navigator::Navigator(const NavigatorConfig& config)
-    : config_(config), policy_(policy_of(config)), course_(course_of(config)) {}
+    : config_(completed(config)),
+      observation_(config_.observation),
+      forecast_(config_.replan.forecast),
+      trigger_(config_.replan.trigger),
+      keeper_(config_.replan.keeper),
+      deadlock_(config_.deadlock),
+      path_(config_.path) {
+  status_.state = State::no_goal;
+}
 
 void Navigator::set_map(std::shared_ptr<const MapMessage> map) {
-  new_map_ = std::move(map);
-  new_grid_.reset();
-  octomap_came_ = true;
+  map_.new_map = std::move(map);
+  map_.new_grid.reset();
+  map_.octomap_came = true;
 }
 
 bool Navigator::set_map(std::shared_ptr<const OccupancyGrid> grid) {
-  if (octomap_came_) return false;
-  new_grid_ = std::move(grid);
+  if (map_.octomap_came) return false;
+  map_.new_grid = std::move(grid);
   return true;
-}
-
-void Navigator::set_obstacles(const std::vector<MovingThing>& things, double time) {
-  std::map<std::uint32_t, double> moved;
-  things_ = things;
-  for (MovingThing& thing : things_) {
-    Cylinder& one = thing.cylinder;
-    const auto before = moved_.find(one.id);
-    if (norm(one.velocity) > config_.replan.way.standing_speed)
-      moved[one.id] = time;
-    else if (before != moved_.end())
-      moved[one.id] = before->second;
-    const auto last = moved.find(one.id);
-    if (last != moved.end()) one.stood = time - last->second;
-  }
-  moved_ = std::move(moved);
-  obstacles_ = cylinders_of(things_, config_.most_cylinders);
-  obstacles_time_ = time;
-  obstacles_lost_ = false;
-}
-
-void Navigator::set_pose(const Pose& pose, double time) {
-  pose_ = pose;
-  pose_time_ = time;
 }
 
 void Navigator::set_goal(Point goal) {
   drop_goal(State::no_goal);
-  goal_ = goal;
-  last_goal_ = goal;
+  goal_.place = goal;
+  goal_.last = goal;
 }
 
 bool Navigator::drop_bad_goal(Refusal refusal, const std::string& detail) {
-  if (goal_) return true;
+  if (goal_.place) return true;
   refuse_goal(refusal, detail);
   return false;
 }
 
 void Navigator::refuse_goal(Refusal refusal, const std::string& detail) {
   drop_goal(State::goal_refused);
-  refusal_ = refusal;
-  detail_ = detail;
+  status_.refusal = refusal;
+  status_.detail = detail;
 }
 
 void Navigator::drop_goal(State state) {
-  goal_.reset();
-  ++goal_number_;
-  goal_planned_ = false;
-  course_.forget();
-  policy_.reset();
-  state_ = state;
-  refusal_ = Refusal::none;
-  detail_.clear();
+  goal_.place.reset();
+  ++goal_.number;
+  goal_.planned = false;
+  path_.reset();
+  trigger_.reset();
+  keeper_.reset();
+  deadlock_.reset();
+  conflict_ = {};
+  blocker_.reset();
+  status_.state = state;
+  status_.refusal = Refusal::none;
+  status_.detail.clear();
 }
 
 void Navigator::reset_times() {
-  policy_.reset();
-  course_.reset_times();
-  pose_.reset();
-  things_.clear();
-  moved_.clear();
-  obstacles_.clear();
-  obstacles_time_.reset();
-  obstacles_lost_ = false;
-  carved_at_.reset();
-  if (request_since_) request_since_ = 0.0;
-}
-
-bool Navigator::pose_fresh(double time) const {
-  return pose_ && time - pose_time_ <= config_.pose_timeout;
+  observation_.reset_times();
+  path_.reset_times();
+  trigger_.reset();
+  keeper_.reset();
+  deadlock_.reset_times();
+  conflict_ = {};
+  sent_.carved.reset();
+  if (sent_.since) sent_.since = 0.0;
 }
 
 /// An arrival or a refusal is still true when the map is old.
 bool Navigator::map_stale(double time) const {
-  return config_.map_timeout > 0.0 && map_time_ && time - *map_time_ > config_.map_timeout &&
-         (goal_ || state_ == State::no_goal);
-}
-
-bool Navigator::obstacles_fresh(double time) const {
-  return obstacles_time_ && time - *obstacles_time_ <= config_.obstacle_timeout;
+  return config_.map_timeout > 0.0 && map_.time && time - *map_.time > config_.map_timeout &&
+         (goal_.place || status_.state == State::no_goal);
 }
 
 bool Navigator::undecided(double time) const {
-  return goal_ && !goal_planned_ && floor_ && pose_fresh(time) &&
-         (!request_since_ || time - *request_since_ < config_.plan_timeout);
+  return goal_.place && !goal_.planned && map_.floor && pose(time) &&
+         (!sent_.since || time - *sent_.since < config_.plan_timeout);
 }
 
 std::optional<PlanRequest> Navigator::update(double time) {
-  if (obstacles_time_ && !obstacles_fresh(time)) {
-    things_.clear();
-    obstacles_.clear();
-    obstacles_lost_ = true;
+  observation_.update(time);
+  const Conflict now = follow_progress(time);
+  if (sent_.since) return std::nullopt;
+  if (map_.new_map || map_.new_grid) {
+    PlanRequest request = send(time, Reason::map_changed);
+    request.map = std::exchange(map_.new_map, nullptr);
+    request.grid = std::exchange(map_.new_grid, nullptr);
+    return request;
   }
-  pace_.update(time, speed_);
-  follow_progress(time);
-  return request_since_ ? std::nullopt : next_request(time);
+  if (const std::optional<Reason> reason = decide_replan(time, now)) {
+    PlanRequest request = send(time, *reason);
+    ask_for_path(request, *pose(time));
+    return request;
+  }
+  const bool carve = map_.floor && (!sent_.carved || time - *sent_.carved >= config_.carve_period);
+  return carve ? std::optional(send(time, Reason::none)) : std::nullopt;
 }
 
-void Navigator::follow_progress(double time) {
-  if (course_.arrives(scene(time, pose(time))))
-    drop_goal(State::arrived);
-  else
-    give_up_late_plan(time);
-  course_.watch(scene(time, pose(time)), policy_);
+Conflict Navigator::forecast(const Path& path) const {
+  return forecast_.forecast(path, observation_.obstacles(), observation_.pace());
+}
+
+/// Goes along with the robot. \returns the conflict on what is left of the path
+Conflict Navigator::follow_progress(double time) {
+  const std::optional<Pose> robot = pose(time);
+  blocker_.reset();
+  if (!robot || !path_.following()) return {};
+  path_.advance(*robot, space());
+  end_retreat(time, robot->position);
+  if (path_.arrived(*robot, space())) drop_goal(State::arrived);
+  give_up_late_plan(time);
+  const Conflict now = forecast(path_.remaining(robot->position));
+  if (path_.following()) watch_deadlock(time, robot->position, now);
+  return now;
+}
+
+/// A robot that stops just short of the end may still be in the way.
+void Navigator::end_retreat(double time, Point robot) {
+  if (path_.mode() != PathMode::retreat || !deadlock_.has_retreated(robot, path().back())) return;
+  path_.set_mode(PathMode::waiting);
+  deadlock_.retreated(time);
 }
 
 void Navigator::give_up_late_plan(double time) {
-  if (!course_.following() || !pose_fresh(time)) return;
-  const bool must_change = request_reason_ == Reason::path_carved ||
-                           request_reason_ == Reason::waypoint_blocked ||
-                           request_reason_ == Reason::map_changed;
-  if (request_since_ && must_change && time - *request_since_ > config_.plan_timeout) {
-    course_.drop();
-    state_ = State::no_route;
-    detail_ = "no plan came in time";
-  }
+  const bool must_change = sent_.reason == Reason::path_carved ||
+                           sent_.reason == Reason::waypoint_blocked ||
+                           sent_.reason == Reason::map_changed;
+  if (!path_.following() || !sent_.since || !must_change ||
+      time - *sent_.since <= config_.plan_timeout)
+    return;
+  path_.drop();
+  status_.state = State::no_route;
+  status_.detail = "no plan came in time";
 }
 
-std::optional<PlanRequest> Navigator::next_request(double time) {
-  PlanRequest request;
-  Reason reason = Reason::none;
-  request.obstacles = obstacles_;
-  if (new_map_ || new_grid_) {
-    request.map = std::exchange(new_map_, nullptr);
-    request.grid = std::exchange(new_grid_, nullptr);
-    reason = Reason::map_changed;
-  } else if (floor_ && goal_ && pose_fresh(time)) {
-    ReplanInput input;
-    input.time = time;
-    input.has_goal = true;
-    input.new_goal = !goal_planned_;
-    input.map_changed = map_changed_;
-    input.speed = speed_;
-    input.pace = pace_.value();
-    input.robot = *pose_;
-    const Guidance& guidance = course_.guidance();
-    input.remaining = guidance.remaining(pose_->position);
-    if (course_.following()) input.path_offset = guidance.heading(*pose_).path_offset;
-    input.obstacles = obstacles_;
-    input.closed = course_.closed();
-    if (const std::optional<Reason> due = policy_.update(input)) {
-      request.goal = goal_;
-      request.predicted = policy_.foreseen(input.remaining, obstacles_, input.pace);
-      request.swept_area = course_.ground_to_leave(things_);
-      request.start = pose_->position;
-      reason = *due;
-      map_changed_ = false;
-    }
+/// Ends the wait in a retreat, and finds out whether the robot and what closes the only path wait
+/// for each other.
+void Navigator::watch_deadlock(double time, Point robot, const Conflict& now) {
+  if (path_.mode() == PathMode::retreat) return;
+  if (path_.mode() == PathMode::waiting) {
+    // Not where it is hit while it could drive on.
+    if (!conflict_.hits_only_waiting() && deadlock_.waits(time)) return;
+    path_.set_mode(PathMode::closed);
   }
-  const bool carve = floor_ && (!carved_at_ || time - *carved_at_ >= config_.carve_period);
-  if (!request.brings_map() && !request.goal && !carve) return std::nullopt;
-  carved_at_ = time;
-  request_since_ = time;
-  request_reason_ = reason;
-  request_goal_ = goal_number_;
+  if (path_.mode() == PathMode::closed) blocker_ = keeper_.blocker(now.cut, conflict_.state);
+  deadlock_.update(time, robot, blocker_ ? observation_.thing(blocker_->by) : std::nullopt);
+}
+
+std::optional<Reason> Navigator::decide_replan(double time, const Conflict& now) {
+  const std::optional<Pose> robot = pose(time);
+  if (!map_.floor || !goal_.place || !robot) return std::nullopt;
+  conflict_ = now;
+  ReplanInput input;
+  input.time = time;
+  input.new_goal = !goal_.planned;
+  input.map_changed = map_.changed;
+  input.speed = observation_.speed();
+  input.robot = *robot;
+  input.remaining = path_.remaining(robot->position);
+  input.path_offset = path_.offset(*robot);
+  input.closed = path_.closed();
+  input.obstacles = observation_.obstacles();
+  input.conflict = now;
+  input.kept = keeper_.update(time, now);
+  input.evades = keeper_.evades(now);
+  input.worthwhile = keeper_.worthwhile(length_of(input.remaining));
+  return trigger_.update(input);
+}
+
+/// A request that at least brings the holes up to date.
+PlanRequest Navigator::send(double time, Reason reason) {
+  sent_ = {time, reason, goal_.number, time};
+  PlanRequest request;
+  request.obstacles = observation_.obstacles();
   return request;
 }
 
+void Navigator::ask_for_path(PlanRequest& request, const Pose& robot) {
+  request.goal = goal_.place;
+  request.start = robot.position;
+  if (keeper_.holds_paths())
+    request.predicted = forecast_.predicted(path_.remaining(robot.position),
+                                            observation_.obstacles(), observation_.pace());
+  const bool retreats = path_.mode() == PathMode::retreat;
+  if (const std::optional<MovingThing> rival =
+          observation_.thing(retreats ? deadlock_.yields_to() : deadlock_.due())) {
+    deadlock_.yield_to(*rival);
+    request.swept_area = deadlock_.swept_area();
+  }
+  map_.changed = false;
+}
+
 void Navigator::deliver(const PlanAnswer& answer, double time) {
-  const std::optional<double> as_of = std::exchange(request_since_, std::nullopt);
+  const std::optional<double> as_of = std::exchange(sent_.since, std::nullopt);
   if (answer.map_taken) {
-    map_changed_ = goal_planned_;
-    map_time_ = as_of;
+    map_.changed = goal_.planned;
+    map_.time = as_of;
   }
   if (answer.floor && !answer.floor->empty()) {
-    floor_ = answer.floor;
-    mesh_time_ = as_of;
+    map_.floor = answer.floor;
+    map_.mesh_time = as_of;
   }
-  if (!answer.plan || request_goal_ != goal_number_) return;
-  ++plans_;
-  plan_time_ = answer.seconds;
-  nodes_expanded_ = answer.plan->nodes_expanded;
-  reason_ = request_reason_;
-  goal_planned_ = true;
-  take_plan(*answer.plan, request_reason_, time);
+  if (!answer.plan || sent_.goal != goal_.number) return;
+  ++status_.plans;
+  status_.plan_time = answer.seconds;
+  status_.nodes_expanded = answer.plan->nodes_expanded;
+  status_.reason = sent_.reason;
+  goal_.planned = true;
+  take_plan(*answer.plan, sent_.reason, time);
 }
 
 void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
@@ -240,9 +259,9 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
     case PlanStatus::found:
     case PlanStatus::closed:
     case PlanStatus::retreat:
-      course_.take(plan, reason, scene(time, pose_), policy_);
-      state_ = State::following;
-      detail_ = plan.detail;
+      if (!keeps_path(plan, reason, time)) change_path(plan, reason, time);
+      status_.state = State::following;
+      status_.detail = plan.detail;
       follow_progress(time);
       return;
     case PlanStatus::refused:
@@ -251,54 +270,85 @@ void Navigator::take_plan(const Plan& plan, Reason reason, double time) {
         refuse_goal(plan.refusal, plan.detail);
         return;
       }
-      state_ = State::no_route;
+      status_.state = State::no_route;
       break;
     case PlanStatus::no_map:
     case PlanStatus::no_route:
-      if (course_.keeps(plan, reason, scene(time, pose_), policy_)) return;
-      state_ = State::no_route;
+      if (keeps_path(plan, reason, time)) return;
+      status_.state = State::no_route;
       break;
     case PlanStatus::off_mesh:
-      state_ = State::off_mesh;
+      status_.state = State::off_mesh;
       break;
   }
-  course_.drop();
-  detail_ = plan.detail;
+  path_.drop();
+  status_.detail = plan.detail;
+}
+
+bool Navigator::keeps_path(const Plan& plan, Reason reason, double time) {
+  const std::optional<Pose>& robot = observation_.last_pose();
+  if (!path_.following() || !robot) return false;
+  const std::vector<Cylinder> none;
+  const Path remaining = path_.remaining(robot->position);
+  PathKeeper::Choice choice;
+  choice.time = time;
+  choice.reason = reason;
+  choice.mode = path_.mode();
+  choice.found = plan.status;
+  choice.followed = {remaining, forecast(remaining)};
+  choice.fresh = {plan.path, forecast(plan.path)};
+  choice.strayed = path_.strayed(*robot);
+  choice.sees_waypoint = path_.guidance().sees_next(robot->position, {map_.floor.get(), &none});
+  choice.reaches_waypoint = path_.guidance().sees_next(robot->position, space());
+  return keeper_.decide(choice);
+}
+
+void Navigator::change_path(const Plan& plan, Reason reason, double time) {
+  const double moved = path_.follow(plan, reason, time, observation_.last_pose());
+  if (moved > 0.0 && reason != Reason::new_goal && reason != Reason::map_changed)
+    keeper_.chose(time);
 }
 
 Status Navigator::status(double time) const {
-  Status out;
-  out.state = state_;
-  out.refusal = refusal_;
-  out.reason = reason_;
-  out.plans = plans_;
-  out.plan_time = plan_time_;
-  out.nodes_expanded = nodes_expanded_;
-  course_.tell_unrest(out, time);
-  out.mesh_age = age_of(mesh_time_, time);
-  out.map_age = age_of(map_time_, time);
-  out.goal = last_goal_;
-  out.detail = detail_;
-  if (!floor_) {
+  Status out = status_;
+  path_.report_changes(out, time);
+  out.mesh_age = age_of(map_.mesh_time, time);
+  out.map_age = age_of(map_.time, time);
+  out.goal = goal_.last;
+  if (!map_.floor) {
     out.state = State::no_map;
     out.detail = "no usable map came yet";
   } else if (map_stale(time)) {
     out.state = State::map_stale;
     out.detail = "no fresh map came";
-  } else if (goal_ && !pose_fresh(time)) {
+  } else if (goal_.place && !pose(time)) {
     out.state = State::pose_stale;
     out.detail = "no fresh pose of the robot";
-  } else if (state_ == State::following) {
-    if (course_.following() && pose_)
-      course_.tell(out, scene(time, pose_), policy_);
-    else
-      out.state = State::no_route;
+  } else if (out.state == State::following) {
+    report_path(out);
   }
-  if (floor_ && goal_ && !obstacles_fresh(time)) {
+  if (map_.floor && goal_.place && !observation_.obstacles_fresh(time)) {
     if (!out.detail.empty()) out.detail += "; ";
     out.detail += "no fresh obstacles: moving things are not in the path";
   }
   return out;
+}
+
+void Navigator::report_path(Status& out) const {
+  const std::optional<Pose>& robot = observation_.last_pose();
+  if (!path_.following() || !robot) {
+    out.state = State::no_route;
+    return;
+  }
+  path_.report(out, *robot, observation_.pace());
+  out.blocked = blocker_ ? blocker_ : keeper_.waits_for();
+  if (path_.mode() == PathMode::waiting) out.blocked = Blocker{*deadlock_.yields_to(), 0.0, -1.0};
+  if (out.blocked) {
+    out.state = State::blocked;
+  } else if (path_.mode() == PathMode::retreat) {
+    out.state = State::make_room;
+    out.blocked = Blocker{*deadlock_.yields_to(), 0.0, 0.0};
+  }
 }
 
 }  // namespace navvi_nav

@@ -21,19 +21,19 @@ TEST(ConfigFiles, default_changes_nothing) {
 
 TEST(ConfigFiles, paper_holds_the_printed_constants) {
   const NavigatorConfig paper = read_file("paper.yaml");
-  EXPECT_DOUBLE_EQ(paper.planner.mesh.cell_size, 0.2);            // R-NAV-1
-  EXPECT_TRUE(paper.planner.mesh.whole_cell_erosion);             // R-NAV-2
-  EXPECT_DOUBLE_EQ(paper.planner.mesh.carve_changed, 0.01);       // R-NAV-5
-  EXPECT_DOUBLE_EQ(paper.carve_period, 2.0);                      // R-NAV-5
-  EXPECT_DOUBLE_EQ(paper.planner.alpha, 1.0);                     // R-NAV-6
-  EXPECT_DOUBLE_EQ(paper.course.guidance.waypoint_reached, 1.0);  // R-NAV-8
-  EXPECT_DOUBLE_EQ(paper.replan.period, 2.0);                     // R-NAV-9
-  EXPECT_DOUBLE_EQ(paper.replan.slow_speed, 0.1);                 // R-NAV-9
-  EXPECT_DOUBLE_EQ(paper.course.guidance.goal_reached, 1.0);      // R-NAV-11
-  EXPECT_FALSE(paper.replan.only_if_it_matters);                  // R-NAV-9, every trigger
-  EXPECT_EQ(paper.most_cylinders, 1);                             // R-NAV-4
-  EXPECT_DOUBLE_EQ(paper.replan.hold.hold_time, 0.0);             // every plan is taken
-  EXPECT_DOUBLE_EQ(paper.course.stand_off.make_room_after, 0.0);
+  EXPECT_DOUBLE_EQ(paper.planner.mesh.cell_size, 0.2);          // R-NAV-1
+  EXPECT_TRUE(paper.planner.mesh.whole_cell_erosion);           // R-NAV-2
+  EXPECT_DOUBLE_EQ(paper.planner.mesh.carve_changed, 0.01);     // R-NAV-5
+  EXPECT_DOUBLE_EQ(paper.carve_period, 2.0);                    // R-NAV-5
+  EXPECT_DOUBLE_EQ(paper.planner.alpha, 1.0);                   // R-NAV-6
+  EXPECT_DOUBLE_EQ(paper.path.guidance.waypoint_reached, 1.0);  // R-NAV-8
+  EXPECT_DOUBLE_EQ(paper.replan.trigger.period, 2.0);           // R-NAV-9
+  EXPECT_DOUBLE_EQ(paper.replan.trigger.slow_speed, 0.1);       // R-NAV-9
+  EXPECT_DOUBLE_EQ(paper.path.guidance.goal_reached, 1.0);      // R-NAV-11
+  EXPECT_FALSE(paper.replan.trigger.only_if_it_matters);        // R-NAV-9, every trigger
+  EXPECT_EQ(paper.observation.most_cylinders, 1);               // R-NAV-4
+  EXPECT_DOUBLE_EQ(paper.replan.keeper.hold_time, 0.0);         // every plan is taken
+  EXPECT_DOUBLE_EQ(paper.deadlock.make_room_after, 0.0);
 }
 
 /// Coarser cells than the voxels, and an aisle that begins on the border of neither.

@@ -23,7 +23,7 @@ inline std::shared_ptr<const MapMessage> message_of(SmallWorld& world) {
   return std::make_shared<const MapMessage>(message);
 }
 
-/// Navigator and planner in lockstep: each job is done within the tick.
+/// Navigator and planner in lockstep: each request is answered within the tick.
 class Lockstep : public testing::Test {
  protected:
   Lockstep() : Lockstep(16, 10) { world_.box(6, 3, 0, 9, 7, 1.0); }

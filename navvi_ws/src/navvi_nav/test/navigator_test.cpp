@@ -86,6 +86,14 @@ TEST_F(Lockstep, says_while_no_fresh_obstacles_come) {
   EXPECT_TRUE(navigator_.obstacles_lost());
 }
 
+TEST_F(Lockstep, without_a_goal_never_plans) {
+  load();
+  tick(100);
+  EXPECT_EQ(status().plans, 0U);
+  EXPECT_FALSE(last_->plan);
+  EXPECT_EQ(status().state, State::no_goal);
+}
+
 TEST_F(Lockstep, leads_around_the_block_and_arrives) {
   load();
   navigator_.set_goal({14, 5});
@@ -129,7 +137,7 @@ TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
   tick(200);
   EXPECT_EQ(status().plans, 1U);  // nothing could have changed it
   EXPECT_EQ(navigator_.path(), before);
-  config_.replan.only_if_it_matters = false;
+  config_.replan.trigger.only_if_it_matters = false;
   navigator_ = Navigator(config_);
   load();
   navigator_.set_goal({14, 5});
@@ -218,7 +226,7 @@ TEST_F(Lockstep, leads_on_to_what_closes_the_only_way_and_waits_before_it) {
   ASSERT_EQ(status().state, State::blocked);
   EXPECT_EQ(status().blocked->by, robot_.position.y < 5 ? 1U : 2U);
   EXPECT_NEAR(status().blocked->at, 3.0, 0.3);
-  EXPECT_EQ(status().blocked->clears_in, -1.0);
+  EXPECT_EQ(status().blocked->time_to_clear, -1.0);
   EXPECT_GT(status().heading.goal_distance, 8.0);
   const Path path = navigator_.path();
   tick(100);
@@ -255,7 +263,7 @@ TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
 }
 
 TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
-  config_.replan.way.look_ahead = 2.0;
+  config_.replan.forecast.look_ahead = 2.0;
   navigator_ = Navigator(config_);
   load();
   navigator_.set_goal({14, 5});
@@ -289,6 +297,137 @@ TEST_F(Lockstep, survives_time_jumping_back) {
   EXPECT_EQ(status().state, State::pose_stale);
   tick(60);
   EXPECT_EQ(status().state, State::following);
+}
+
+/// A room of 16 x 10 m; the robot is to go along y = 5 from x = 2 to x = 14. What the planner finds
+/// is put in its mouth.
+class Guided : public Lockstep {
+ protected:
+  Guided() : Lockstep(16, 10) {
+    config_.replan.trigger.only_if_it_matters = false;
+    navigator_ = Navigator(config_);
+    load();
+    navigator_.set_goal({14, 5});
+  }
+  /// Something 0.8 m long that stands at (x, 5) and faces the robot.
+  void put_before(double x) { things_ = {{{7, {x, 5}, 0.5, {}}, M_PI, 0.8, 0.6}}; }
+  /// Lets time pass; each search finds `path`.
+  void finds(PlanStatus status, const Path& path, double seconds) {
+    const double end = time_ + seconds - 1e-9;
+    while (time_ < end) {
+      time_ += kTick;
+      navigator_.set_pose(robot_, time_);
+      std::vector<MovingThing> things = things_;
+      for (const Cylinder& obstacle : obstacles_) things.push_back({obstacle});
+      navigator_.set_obstacles(things, time_);
+      const auto request = navigator_.update(time_);
+      if (!request) continue;
+      PlanAnswer answer;
+      if (request->goal) {
+        swept_area_ = request->swept_area;
+        answer.plan = Plan{};
+        answer.plan->status = status;
+        answer.plan->path = path;
+        answer.plan->shortest = length_of(path);
+      }
+      navigator_.deliver(answer, time_);
+    }
+  }
+  /// A robot before a thing that faces it for long enough, on its retreat.
+  void retreat(const Path& path) {
+    put_before(4.0);
+    finds(PlanStatus::closed, straight_, 10.0);
+    ASSERT_TRUE(swept_area_.empty());
+    finds(PlanStatus::retreat, path, 2.5);
+    ASSERT_FALSE(swept_area_.empty());
+    ASSERT_EQ(navigator_.path(), path);
+  }
+  std::vector<Cylinder> swept_area_;  // of the last request for a path
+  const Path straight_{{2, 5}, {14, 5}};
+};
+
+TEST_F(Guided, stays_with_a_path_that_serves_and_leaves_it_for_one_that_is_much_shorter) {
+  const Path round{{2, 5}, {2, 1}, {14, 1}, {14, 5}};
+  finds(PlanStatus::found, round, 0.1);
+  finds(PlanStatus::found, {{2, 5}, {2, 1.5}, {14, 1.5}, {14, 5}}, 5.0);
+  EXPECT_GT(status().plans, 2U);
+  EXPECT_EQ(navigator_.path(), round);
+  EXPECT_EQ(status().reroutes, 0U);
+  finds(PlanStatus::found, straight_, 2.5);
+  EXPECT_EQ(navigator_.path(), straight_);
+  EXPECT_EQ(status().reroutes, 1U);
+  EXPECT_GT(status().churn, 5.0);
+}
+
+TEST_F(Guided, leaves_a_path_that_serves_for_a_new_goal_or_from_far_off_it) {
+  finds(PlanStatus::found, straight_, 0.1);
+  const Path other{{2, 5}, {13, 4}};
+  navigator_.set_goal({13, 4});
+  finds(PlanStatus::found, other, 0.1);
+  EXPECT_EQ(navigator_.path(), other);
+  robot_.position = {4, 7};
+  const Path back{{4, 7}, {13, 4}};
+  finds(PlanStatus::found, back, 2.5);
+  EXPECT_EQ(navigator_.path(), back);
+}
+
+TEST_F(Guided, names_what_closes_the_only_path_once_it_is_near) {
+  put_before(8.0);
+  finds(PlanStatus::closed, straight_, 0.2);
+  EXPECT_EQ(status().state, State::following);
+  robot_.position = {5.5, 5};
+  finds(PlanStatus::closed, straight_, 0.2);
+  ASSERT_EQ(status().state, State::blocked);
+  EXPECT_EQ(status().blocked->by, 7U);
+  EXPECT_TRUE(swept_area_.empty());
+}
+
+TEST_F(Guided, retreats_from_what_it_faces_waits_there_and_arrives_nowhere) {
+  const Path path{{2, 5}, {2, 7}};
+  retreat(path);
+  EXPECT_EQ(status().state, State::make_room);
+  EXPECT_EQ(status().blocked->by, 7U);
+  EXPECT_FALSE(status().heading.waypoint_is_goal);
+  robot_.position = {2, 5.75};
+  finds(PlanStatus::retreat, path, 1.0);
+  EXPECT_EQ(status().state, State::make_room);
+  robot_.position = {2, 6.9};
+  finds(PlanStatus::closed, {{2, 6.9}, {14, 5}}, 3.0);
+  EXPECT_EQ(status().state, State::blocked);
+  EXPECT_EQ(status().blocked->by, 7U);
+  EXPECT_EQ(status().blocked->time_to_clear, -1.0);
+  EXPECT_EQ(status().reroutes, 0U);
+  EXPECT_TRUE(swept_area_.empty());
+  things_.clear();
+  finds(PlanStatus::found, {{2, 6.9}, {14, 5}}, 2.5);
+  EXPECT_EQ(status().state, State::following);
+  robot_.position = {13.5, 5};
+  finds(PlanStatus::found, {{13.5, 5}, {14, 5}}, 0.1);
+  EXPECT_EQ(status().state, State::arrived);
+}
+
+TEST_F(Guided, has_retreated_only_where_it_leaves_the_area_free) {
+  const Path path{{2, 5}, {2, 6.0}};
+  retreat(path);
+  robot_.position = {2, 5.7};  // the thing needs 0.5 m to the side, the robot 0.35 m
+  finds(PlanStatus::retreat, path, 1.0);
+  EXPECT_EQ(status().state, State::make_room);
+  robot_.position = {2, 5.9};
+  finds(PlanStatus::retreat, path, 0.1);
+  EXPECT_EQ(status().state, State::blocked);
+}
+
+TEST_F(Guided, leaves_the_end_of_a_retreat_where_something_hits_it) {
+  retreat({{2, 5}, {2, 7}});
+  robot_.position = {2, 6.9};
+  const Path along{{2, 6.9}, {14, 6.9}};
+  finds(PlanStatus::closed, along, 3.0);
+  ASSERT_EQ(navigator_.path(), along);
+  for (const double speed : {0.0, 1.0}) {
+    obstacles_ = {{9, {2, 2.5}, 0.3, {0, speed}}};
+    finds(PlanStatus::closed, along, 0.1);
+    EXPECT_EQ(status().state, speed > 0.0 ? State::following : State::blocked) << speed;
+  }
 }
 
 TEST(Guidance, measures_angles_clockwise_from_the_nose) {

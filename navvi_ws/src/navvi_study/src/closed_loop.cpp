@@ -112,7 +112,7 @@ void ClosedLoop::navigate() {
   if (const auto request = navigator_.update(time())) answer_ = planner_.answer(*request);
   if (navigator_.undecided(time())) return;
   const navvi_nav::Status status = navigator_.status(time());
-  if (!telling_.due(status, time())) return;
+  if (!throttle_.due(status, time())) return;
   navvi_msgs::Guidance msg = navvi_nav::to_msg(status, navigator_.floor_height(), "map", stamp());
   msg.seq = ++guidance_seq_;
   if (status.blocked) msg.blocked_by = classes_[status.blocked->by];

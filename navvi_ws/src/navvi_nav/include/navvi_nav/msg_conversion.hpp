@@ -35,9 +35,12 @@ inline constexpr double kFarthest = 1e5;
 /// direction need not be a rotation: a goal is a place.
 [[nodiscard]] std::optional<Point> from_msg(const geometry_msgs::PoseStamped& goal);
 [[nodiscard]] MapMessage from_msg(const octomap_msgs::Octomap& map);
-/// nullopt if the origin is not finite, absurd or no rotation about z, or the size beyond all
-/// bounds; read_grid() judges the rest.
-[[nodiscard]] std::optional<OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map);
+/// Why the map cannot be used in `frame`, without a full stop; empty if it may be.
+[[nodiscard]] std::string error_of(const octomap_msgs::Octomap& map, const std::string& frame);
+/// nullopt if the grid is not in `frame`, the origin is not finite, absurd or no rotation about z,
+/// or the size beyond all bounds; read_grid() judges the rest.
+[[nodiscard]] std::optional<OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map,
+                                                    const std::string& frame);
 
 [[nodiscard]] nav_msgs::Path to_msg(const Path& path, double z, const std::string& frame,
                                     const ros::Time& stamp);

@@ -1,24 +1,36 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "navvi_nav/course.hpp"
-#include "navvi_nav/pace.hpp"
+#include "navvi_nav/active_path.hpp"
+#include "navvi_nav/conflict_forecast.hpp"
+#include "navvi_nav/deadlock.hpp"
+#include "navvi_nav/observation.hpp"
+#include "navvi_nav/path_keeper.hpp"
 #include "navvi_nav/planner.hpp"
+#include "navvi_nav/replan_trigger.hpp"
+#include "navvi_nav/status.hpp"
 
 namespace navvi_nav {
 
+/// What the deciders are set by: one group of parameters.
+struct ReplanConfig {
+  ReplanTriggerConfig trigger;
+  PathKeeperConfig keeper;
+  ConflictForecastConfig forecast;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
 struct NavigatorConfig {
   PlannerConfig planner;
-  ReplanPolicyConfig replan;
-  CourseConfig course;
-  int most_cylinders = 4;
+  ReplanConfig replan;
+  ActivePathConfig path;
+  DeadlockConfig deadlock;
+  ObservationConfig observation;
   double carve_period = 0.5;
-  double pose_timeout = 1.0;
-  double obstacle_timeout = 1.0;
   double plan_timeout = 1.0;
   double map_timeout = 0.0;
 
@@ -26,91 +38,101 @@ struct NavigatorConfig {
 };
 
 /// What nav_node decides: what the planner does next, which path is followed, what the person is
-/// told. Times are s on one clock; after a jump back call reset_times().
+/// told. It hands one forecast a tick to three deciders that do not know each other: ReplanTrigger
+/// (when to plan), PathKeeper (keep or change the path), Deadlock (when to yield). Times are s on
+/// one clock; after a jump back call reset_times().
 class Navigator {
  public:
   explicit Navigator(const NavigatorConfig& config);
 
   void set_map(std::shared_ptr<const MapMessage> map);
-  /// A map for who has no OctoMap. \returns false if it is ignored because an OctoMap came before
+  /// A map where there is no OctoMap. \returns false if it is ignored because an OctoMap came
+  /// before
   bool set_map(std::shared_ptr<const OccupancyGrid> grid);
-  void set_obstacles(const std::vector<MovingThing>& things, double time);
-  void set_pose(const Pose& pose, double time);
-  void set_speed(double forward) { speed_ = forward; }  ///< m/s
+  void set_obstacles(const std::vector<MovingThing>& things, double time) {
+    observation_.set_obstacles(things, time);
+  }
+  void set_pose(const Pose& pose, double time) { observation_.set_pose(pose, time); }
+  void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(Point goal);
   /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
-  /// without one the refusal is told. \returns true if a goal stands
+  /// without one the refusal is reported. \returns true if a goal stands
   bool drop_bad_goal(Refusal refusal, const std::string& detail);
   void reset_times();
 
-  /// Brings everything up to `time`. \returns the next request, if one is due and none is running
+  /// Brings everything up to `time`. \returns the next request to the planner, if one is due and
+  /// none is being answered
   [[nodiscard]] std::optional<PlanRequest> update(double time);
   void deliver(const PlanAnswer& answer, double time);
 
   [[nodiscard]] Status status(double time) const;
   /// The path as planned; empty when there is none to show.
-  [[nodiscard]] const Path& path() const { return course_.guidance().path(); }
+  [[nodiscard]] const Path& path() const { return path_.guidance().path(); }
   /// True while a first plan for a goal is on its way: nothing new can be said yet.
   [[nodiscard]] bool undecided(double time) const;
   /// Where the robot is; nullopt without a fresh pose.
-  [[nodiscard]] std::optional<Pose> pose(double time) const {
-    return pose_fresh(time) ? pose_ : std::nullopt;
-  }
-  [[nodiscard]] bool has_map() const { return floor_ != nullptr; }
+  [[nodiscard]] std::optional<Pose> pose(double time) const { return observation_.pose(time); }
+  [[nodiscard]] bool has_map() const { return map_.floor != nullptr; }
   /// True if the obstacles were given up as too old; cleared by the next ones.
-  [[nodiscard]] bool obstacles_lost() const { return obstacles_lost_; }
+  [[nodiscard]] bool obstacles_lost() const { return observation_.obstacles_lost(); }
   /// m, z of the floor in map; 0 before there is a map.
-  [[nodiscard]] double floor_height() const { return floor_ ? floor_->height() : 0.0; }
+  [[nodiscard]] double floor_height() const { return map_.floor ? map_.floor->height() : 0.0; }
 
  private:
-  [[nodiscard]] bool pose_fresh(double time) const;
+  struct Goal {
+    std::optional<Point> place;
+    Point last;           ///< the place, also after it was dropped
+    unsigned number = 0;  ///< changes with each goal
+    bool planned = false;
+  };
+  struct MapState {
+    std::shared_ptr<const Floor> floor;  ///< null: no map yet
+    std::shared_ptr<const MapMessage> new_map;
+    std::shared_ptr<const OccupancyGrid> new_grid;
+    bool octomap_came = false;
+    bool changed = false;             ///< since the last plan
+    std::optional<double> time;       ///< s, when the map in use came
+    std::optional<double> mesh_time;  ///< s, as of which the mesh shows what moves
+  };
+  /// The last request: what it was for, and whether it is answered.
+  struct Sent {
+    std::optional<double> since;  ///< s; nullopt: answered
+    Reason reason = Reason::none;
+    unsigned goal = 0;             ///< its number
+    std::optional<double> carved;  ///< s, when the holes were last brought up to date
+  };
+
+  [[nodiscard]] Space space() const { return {map_.floor.get(), &observation_.obstacles()}; }
   [[nodiscard]] bool map_stale(double time) const;
-  [[nodiscard]] bool obstacles_fresh(double time) const;
-  [[nodiscard]] Scene scene(double time, const std::optional<Pose>& robot) const {
-    return {time, robot, pace_.value(), floor_.get(), things_, obstacles_};
-  }
-  [[nodiscard]] std::optional<PlanRequest> next_request(double time);
-  void follow_progress(double time);
+  [[nodiscard]] Conflict forecast(const Path& path) const;
+  Conflict follow_progress(double time);
+  void end_retreat(double time, Point robot);
   void give_up_late_plan(double time);
+  void watch_deadlock(double time, Point robot, const Conflict& now);
+  [[nodiscard]] std::optional<Reason> decide_replan(double time, const Conflict& now);
+  [[nodiscard]] PlanRequest send(double time, Reason reason);
+  void ask_for_path(PlanRequest& request, const Pose& robot);
   void take_plan(const Plan& plan, Reason reason, double time);
+  [[nodiscard]] bool keeps_path(const Plan& plan, Reason reason, double time);
+  void change_path(const Plan& plan, Reason reason, double time);
   void drop_goal(State state);
   void refuse_goal(Refusal refusal, const std::string& detail);
+  void report_path(Status& out) const;
 
   NavigatorConfig config_;
-  ReplanPolicy policy_;
-  Course course_;
-  std::shared_ptr<const Floor> floor_;
-  std::shared_ptr<const MapMessage> new_map_;
-  std::shared_ptr<const OccupancyGrid> new_grid_;
-  bool octomap_came_ = false;
-  std::optional<double> map_time_;   ///< s, when the map in use came
-  std::optional<double> mesh_time_;  ///< s, as of which the mesh shows what moves
-  std::vector<MovingThing> things_;
-  std::map<std::uint32_t, double> moved_;  ///< s, when each was last seen to move
-  std::vector<Cylinder> obstacles_;        ///< the same things
-  std::optional<double> obstacles_time_;   ///< nullopt: none came yet
-  bool obstacles_lost_ = false;
-  std::optional<Pose> pose_;
-  double pose_time_ = 0.0;
-  double speed_ = 0.0;
-  std::optional<Point> goal_;
-  Point last_goal_;
-  unsigned goal_number_ = 0;
-  bool goal_planned_ = false;
-  bool map_changed_ = false;
-  std::optional<double> request_since_;  ///< s, when the one that is answered now was sent
-  Reason request_reason_ = Reason::none;
-  unsigned request_goal_ = 0;  ///< its number
-  std::optional<double> carved_at_;
-  State state_ = State::no_goal;
-  Refusal refusal_ = Refusal::none;
-  Reason reason_ = Reason::none;
-  unsigned plans_ = 0;
-  double plan_time_ = 0.0;
-  std::size_t nodes_expanded_ = 0;
-  Pace pace_;
-  std::string detail_;
+  Observation observation_;
+  ConflictForecast forecast_;
+  ReplanTrigger trigger_;
+  PathKeeper keeper_;
+  Deadlock deadlock_;
+  ActivePath path_;
+  MapState map_;
+  Goal goal_;
+  Sent sent_;
+  Conflict conflict_;               ///< as of the last tick on which a replan was decided
+  std::optional<Blocker> blocker_;  ///< of the only path, if near
+  Status status_;                   ///< but what changes with time
 };
 
 }  // namespace navvi_nav

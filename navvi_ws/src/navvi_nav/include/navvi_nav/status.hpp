@@ -3,10 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "navvi_nav/conflict_forecast.hpp"
 #include "navvi_nav/guidance.hpp"
 #include "navvi_nav/guidance_enums.hpp"
-#include "navvi_nav/plan_request.hpp"
-#include "navvi_nav/replan_policy.hpp"
 
 namespace navvi_nav {
 
@@ -23,7 +22,7 @@ struct Status {
   double churn = 0.0;                    ///< m/min
   std::optional<double> mesh_age;        ///< s
   std::optional<double> map_age;         ///< s
-  std::optional<Way::Wait> blocked;      ///< what is waited for, or made room for
+  std::optional<Blocker> blocked;        ///< what the robot waits for, or yields to
   Point goal;
   Heading heading;               ///< valid while following, blocked or make_room, like all below
   double eta = 0.0;              ///< s

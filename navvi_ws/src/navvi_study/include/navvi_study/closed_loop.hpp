@@ -13,7 +13,7 @@
 #include <navvi_feedback/feedback.hpp>
 #include <navvi_feedback/rumble_output.hpp>
 #include <navvi_nav/navigator.hpp>
-#include <navvi_nav/telling.hpp>
+#include <navvi_nav/publish_throttle.hpp>
 #include <navvi_sim/session.hpp>
 #include <navvi_sim/sim_node_config.hpp>
 #include <optional>
@@ -102,7 +102,7 @@ class ClosedLoop {
   navvi_nav::Navigator navigator_;
   navvi_nav::Planner planner_;
   std::optional<navvi_nav::PlanAnswer> answer_;  ///< to the request of the last beat
-  navvi_nav::Telling telling_;
+  navvi_nav::PublishThrottle throttle_;
   std::map<std::uint32_t, std::string> classes_;  ///< of the moving things, by id
   navvi_feedback::Feedback feedback_;
   navvi_feedback::CueQueue queue_;

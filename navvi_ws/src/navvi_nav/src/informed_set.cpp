@@ -1,10 +1,10 @@
-#include "navvi_nav/interest.hpp"
+#include "navvi_nav/informed_set.hpp"
 
 namespace navvi_nav {
 
-bool Interest::better_way(Point from, Point to, double length,
-                          const std::vector<Cylinder>& obstacles, double moved,
-                          double margin) const {
+bool InformedSet::better_path(Point from, Point to, double length,
+                              const std::vector<Cylinder>& obstacles, double moved,
+                              double margin) const {
   if (distance(from, to) >= length) return false;
   return std::any_of(seen_.begin(), seen_.end(), [&](const Cylinder& hole) {
     const double reach = hole.radius + margin;

@@ -1,4 +1,4 @@
-#include "navvi_nav/churn.hpp"
+#include "navvi_nav/path_instability.hpp"
 
 namespace navvi_nav {
 namespace {
@@ -17,7 +17,7 @@ double away(Point point, const Path& path) {
 
 }  // namespace
 
-double Churn::moved(const Path& old, const Path& fresh) {
+double PathInstability::moved(const Path& old, const Path& fresh) {
   if (fresh.empty()) return std::min(kAhead, length_of(old));
   double sum = 0.0;
   double before = 0.0;
@@ -36,12 +36,12 @@ double Churn::moved(const Path& old, const Path& fresh) {
   return sum;
 }
 
-void Churn::add(double time, double metres) {
+void PathInstability::add(double time, double metres) {
   while (!moves_.empty() && moves_.front().first <= time - kMinute) moves_.pop_front();
   moves_.push_back({time, metres});
 }
 
-double Churn::per_minute(double time) const {
+double PathInstability::per_minute(double time) const {
   double sum = 0.0;
   for (const auto& [when, metres] : moves_) {
     if (when > time - kMinute) sum += metres;

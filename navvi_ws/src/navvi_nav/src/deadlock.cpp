@@ -1,4 +1,6 @@
-#include "navvi_nav/stand_off.hpp"
+#include "navvi_nav/deadlock.hpp"
+
+#include "navvi_nav/escape.hpp"
 
 namespace navvi_nav {
 namespace {
@@ -7,7 +9,9 @@ constexpr double kAhead = 8.0;                // m, of its way that a thing is g
 constexpr double kTurn = 1.2;                 // m, about its front
 constexpr double kBeside = 0.2;               // m
 constexpr double kFaces = 60.0 / 180 * M_PI;  // rad, from its heading to the robot
-constexpr int kOften = 2;  // who stays although room was made is not waiting for the robot
+constexpr int kOften = 2;      // a thing that stays although the robot yielded does not wait for it
+constexpr double kNear = 0.4;  // m, from the end of a retreat: near enough out of the swept area
+constexpr double kThere = 0.15;  // m, likewise: near enough anywhere
 
 bool faces(const MovingThing& thing, Point robot) {
   const Point heading{std::cos(thing.yaw), std::sin(thing.yaw)};
@@ -17,7 +21,7 @@ bool faces(const MovingThing& thing, Point robot) {
 
 }  // namespace
 
-void StandOffConfig::describe(navvi_config::Visitor& visit) {
+void DeadlockConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit({"make_room_after", Range{0.0, 600.0}, "s",
          "what closes the only way and faces the robot for so long is made room for; 0: never"},
@@ -25,7 +29,7 @@ void StandOffConfig::describe(navvi_config::Visitor& visit) {
   visit({"wait_aside", Range{0.0, 600.0}, "s", "how long it is then given to pass"}, wait_aside);
 }
 
-std::vector<Cylinder> ground_needed(const MovingThing& thing) {
+std::vector<Cylinder> area_swept_by(const MovingThing& thing) {
   Cylinder one = thing.cylinder;
   const double front = thing.length > 0.0 ? thing.length / 2.0 : one.radius;
   const double half = thing.width > 0.0 ? thing.width / 2.0 : one.radius;
@@ -42,7 +46,7 @@ std::vector<Cylinder> ground_needed(const MovingThing& thing) {
   return out;
 }
 
-void StandOff::update(double time, Point robot, const std::optional<MovingThing>& blocker) {
+void Deadlock::update(double time, Point robot, const std::optional<MovingThing>& blocker) {
   const std::optional<std::uint32_t> by =
       blocker && faces(*blocker, robot) ? std::optional(blocker->cylinder.id) : std::nullopt;
   if (by != blocker_) since_ = time;
@@ -54,26 +58,37 @@ void StandOff::update(double time, Point robot, const std::optional<MovingThing>
   due_ = long_enough && of_use ? by : std::nullopt;
 }
 
-void StandOff::went_aside(double time, std::uint32_t thing) {
-  ++yielded_[thing];
-  aside_for_ = thing;
-  aside_since_ = time;
+void Deadlock::yield_to(const MovingThing& thing) {
+  yields_to_ = thing.cylinder.id;
+  swept_area_ = area_swept_by(thing);
+}
+
+bool Deadlock::has_retreated(Point robot, Point end) const {
+  const double left = distance(robot, end);
+  return left <= kThere ||
+         (left <= kNear && !in_a_hole(robot, {nullptr, &swept_area_}, config_.robot_radius));
+}
+
+void Deadlock::retreated(double time) {
+  ++yielded_[*yields_to_];
+  retreated_at_ = time;
   blocker_.reset();
   due_.reset();
 }
 
-std::optional<std::uint32_t> StandOff::aside_for(double time) const {
-  return aside_for_ && time - aside_since_ < config_.wait_aside ? aside_for_ : std::nullopt;
+bool Deadlock::waits(double time) const {
+  return retreated_at_ && time - *retreated_at_ < config_.wait_aside;
 }
 
-void StandOff::reset() {
+void Deadlock::reset_times() {
   blocker_.reset();
   due_.reset();
-  aside_for_.reset();
+  retreated_at_.reset();
 }
 
-void StandOff::forget() {
-  reset();
+void Deadlock::reset() {
+  reset_times();
+  yields_to_.reset();
   yielded_.clear();
 }
 
