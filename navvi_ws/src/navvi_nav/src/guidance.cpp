@@ -3,11 +3,11 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kNearPath = 1.5;  // m, who is farther off heads for the way-point itself
+constexpr double kNearPath = 1.5;  // m, a robot farther off steers for the way-point itself
 constexpr double kSlack = 0.02;    // m, of room that need not be kept
 constexpr double kCut = 0.2;       // m, a leg with less room is cut
 constexpr double kSample = 0.1;    // m
-constexpr double kOnPath = 0.5;    // m, who is nearer to a later leg has passed its start
+constexpr double kOnPath = 0.5;    // m, a robot nearer to a later leg has passed its start
 
 /// m, from the segment to the nearest thing, sampled.
 double least_room(Point a, Point b, const Space& space) {
@@ -68,8 +68,8 @@ bool Guidance::reached(Point robot, const Space& space) const {
 }
 
 /// True if a robot close to the next way-point may turn to the one after. More room than the leg
-/// between them has is not asked for, and where something moving stands in that leg, whoever waits
-/// there waits at the corner as well as anywhere.
+/// between them has is not asked for, and where an obstacle stands in that leg, the robot can wait
+/// for it at the corner as well as anywhere.
 bool Guidance::leaves_corner(Point robot, const Space& space) const {
   const Point corner = path_[next_];
   const Point after = path_[next_ + 1];
@@ -104,8 +104,8 @@ bool Guidance::arrived(const Pose& robot, const Space& space) const {
   return space.floor->segment_clear(robot.position, path_.back(), 0.0);
 }
 
-/// Who heads for a far way-point notices too late that they drift off the path; a nearer point
-/// turns the same drift into a larger angle.
+/// Towards a far way-point a drift off the path shows too late; a nearer point turns the same drift
+/// into a larger angle.
 Point Guidance::steer_point(Point robot) const {
   const Point start = path_[next_ - 1];
   const Point leg = path_[next_] - start;

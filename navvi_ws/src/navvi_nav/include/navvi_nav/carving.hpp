@@ -15,7 +15,7 @@ struct CarvingRules {
   double changed = 0.0;  ///< fraction of the carved area that must have changed at all
 };
 
-/// The moving things that have holes in a mesh, told from one another by their ids.
+/// The moving things that have holes in a mesh, identified by their ids.
 class Carving {
  public:
   /// Makes the holes those of `cylinders`. \returns polygons of the floor that were cut anew

@@ -6,7 +6,7 @@
 
 namespace navvi_nav {
 
-/// A moving thing as it is told: the cylinder about it and, where it is known, the rectangle that
+/// A moving thing as reported: the cylinder about it and, where it is known, the rectangle that
 /// it fills of that.
 struct MovingThing {
   Cylinder cylinder;
