@@ -17,26 +17,27 @@ bool is_aligned(const Eigen::Isometry3d& pose) {
   return (pose.linear().cwiseAbs().rowwise().maxCoeff().array() > 1.0 - 1e-9).all();
 }
 
-/// Adds a shape of any kind to the bodies.
-class BodyMaker {
+/// Adds a shape of any kind to the occupied shapes.
+class ShapeInserter {
  public:
   /// \param enclosing  the inside of a closed mesh is where one drives
-  BodyMaker(Bodies& bodies, const Eigen::Isometry3d& pose, double resolution, bool enclosing)
-      : bodies_(bodies), pose_(pose), resolution_(resolution), enclosing_(enclosing) {}
+  ShapeInserter(OccupiedShapes& shapes, const Eigen::Isometry3d& pose, double resolution,
+                bool enclosing)
+      : shapes_(shapes), pose_(pose), resolution_(resolution), enclosing_(enclosing) {}
 
   void operator()(const Box& box) const {
     const double reach = reach_of(box.size.minCoeff());
     if (is_aligned(pose_))
-      bodies_.boxes.push_back(voxel_box(box, reach));
+      shapes_.boxes.push_back(voxel_box(box, reach));
     else
-      bodies_.solids.push_back({TurnedBox(box.size, pose_), reach});
+      shapes_.solids.push_back({TurnedBox(box.size, pose_), reach});
   }
   void operator()(const Cylinder& cylinder) const {
-    bodies_.solids.push_back({SolidCylinder(cylinder, pose_),
+    shapes_.solids.push_back({SolidCylinder(cylinder, pose_),
                               reach_of(std::min(2.0 * cylinder.radius, cylinder.length))});
   }
   void operator()(const Sphere& sphere) const {
-    bodies_.solids.push_back(
+    shapes_.solids.push_back(
         {SolidSphere(sphere, pose_.translation()), reach_of(2.0 * sphere.radius)});
   }
   void operator()(const std::shared_ptr<const Mesh>& mesh) const {
@@ -49,11 +50,11 @@ class BodyMaker {
         triangle.corners[i] = pose_ * mesh->vertices[indices[i]].cast<double>() + down;
       triangles.push_back(triangle);
     }
-    bodies_.triangles.insert(bodies_.triangles.end(), triangles.begin(), triangles.end());
+    shapes_.triangles.insert(shapes_.triangles.end(), triangles.begin(), triangles.end());
     if (enclosing_ || triangles.size() > kMostFilled) return;
     for (ClosedMesh& part : closed_parts(triangles))
       if (part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled)
-        bodies_.closed.push_back(std::move(part));
+        shapes_.closed.push_back(std::move(part));
   }
 
  private:
@@ -80,7 +81,7 @@ class BodyMaker {
     return voxels;
   }
 
-  Bodies& bodies_;
+  OccupiedShapes& shapes_;
   Eigen::Isometry3d pose_;
   double resolution_;
   bool enclosing_;
@@ -120,7 +121,7 @@ void OccupancyConfig::describe(navvi_config::Visitor& visit) {
 OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
   const double border = std::round(world.floor_height / config.resolution) * config.resolution;
   const Eigen::Translation3d lift(0.0, 0.0, border - world.floor_height);
-  Bodies bodies;
+  OccupiedShapes shapes;
   for (const Thing& thing : world.things) {
     if (thing.route) continue;
     for (const Shape& shape : thing.shapes) {
@@ -128,10 +129,10 @@ OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& 
       const Eigen::Isometry3d pose = lift * (thing.pose * shape.pose);
       const bool enclosing =
           thing.thing_class == ThingClass::floor || thing.thing_class == ThingClass::wall;
-      std::visit(BodyMaker(bodies, pose, config.resolution, enclosing), shape.geometry);
+      std::visit(ShapeInserter(shapes, pose, config.resolution, enclosing), shape.geometry);
     }
   }
-  return {config.resolution, write_octree(bodies, config.resolution, kMaxBytes)};
+  return {config.resolution, write_octree(shapes, config.resolution, kMaxBytes)};
 }
 
 }  // namespace navvi_sim

@@ -17,16 +17,16 @@ unsigned as_leaves(unsigned children) {
   return children << 1;
 }
 
-/// Puts all bodies in at once, from the root down: what they fill is one leaf whatever its size,
+/// Puts all shapes in at once, from the root down: what they fill is one leaf whatever its size,
 /// and what they leave free is not entered. Where every body of a cube spans it along an axis, one
 /// half of the cube is a copy of the other: a bare floor costs as good as nothing.
 class OctreeWriter {
  public:
-  OctreeWriter(const Bodies& bodies, double resolution, std::size_t most)
-      : bodies_(bodies), resolution_(resolution), most_(most) {
-    for (std::size_t i = 0; i < bodies.boxes.size(); ++i) boxes_.push_back({i, 0});
+  OctreeWriter(const OccupiedShapes& shapes, double resolution, std::size_t most)
+      : shapes_(shapes), resolution_(resolution), most_(most) {
+    for (std::size_t i = 0; i < shapes.boxes.size(); ++i) boxes_.push_back({i, 0});
     const std::size_t others =
-        bodies.solids.size() + bodies.closed.size() + bodies.triangles.size();
+        shapes.solids.size() + shapes.closed.size() + shapes.triangles.size();
     for (std::size_t i = 0; i < others; ++i) others_.push_back({i, 0});
   }
 
@@ -58,11 +58,11 @@ class OctreeWriter {
 
   /// What reaches by its way into the voxels of an eighth, reaches so into the eighth.
   [[nodiscard]] Octants octants_in(std::size_t other, const Cell& cell) const {
-    if (other < bodies_.solids.size())
-      return octants(bodies_.solids[other].solid, cell, bodies_.solids[other].reach);
-    other -= bodies_.solids.size();
-    if (other < bodies_.closed.size()) return bodies_.closed[other].octants(cell);
-    return octants(bodies_.triangles[other - bodies_.closed.size()], cell);
+    if (other < shapes_.solids.size())
+      return octants(shapes_.solids[other].solid, cell, shapes_.solids[other].reach);
+    other -= shapes_.solids.size();
+    if (other < shapes_.closed.size()) return shapes_.closed[other].octants(cell);
+    return octants(shapes_.triangles[other - shapes_.closed.size()], cell);
   }
 
   /// Writes the cube that the candidates from these on reach into.
@@ -71,7 +71,7 @@ class OctreeWriter {
     Octants all{0, 0};
     unsigned same = others_.size() > first_other ? 0U : 7U;
     for (std::size_t i = first_box; i < boxes_.size(); ++i) {
-      const VoxelBox& box = bodies_.boxes[boxes_[i].body];
+      const VoxelBox& box = shapes_.boxes[boxes_[i].body];
       const Octants part = box.octants(cube);
       boxes_[i].touched = part.touched;
       all.touched |= part.touched;
@@ -139,7 +139,7 @@ class OctreeWriter {
                             std::size_t first_other) const {
     Block all = 0;
     for (std::size_t i = first_box; i < boxes_.size(); ++i)
-      all |= bodies_.boxes[boxes_[i].body].block(cube);
+      all |= shapes_.boxes[boxes_[i].body].block(cube);
     for (std::size_t i = first_other; i < others_.size() && ~all != 0; ++i)
       all |= block_of(others_[i].body, cube);
     return all;
@@ -195,7 +195,7 @@ class OctreeWriter {
     out_[at + 1] = static_cast<std::int8_t>(bits >> 8);
   }
 
-  const Bodies& bodies_;
+  const OccupiedShapes& shapes_;
   double resolution_;
   std::size_t most_;
   std::vector<std::int8_t> out_;
@@ -206,8 +206,9 @@ class OctreeWriter {
 
 }  // namespace
 
-std::vector<std::int8_t> write_octree(const Bodies& bodies, double resolution, std::size_t most) {
-  return OctreeWriter(bodies, resolution, most).write();
+std::vector<std::int8_t> write_octree(const OccupiedShapes& shapes, double resolution,
+                                      std::size_t most) {
+  return OctreeWriter(shapes, resolution, most).write();
 }
 
 }  // namespace navvi_sim

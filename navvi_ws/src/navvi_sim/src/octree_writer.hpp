@@ -10,8 +10,8 @@
 
 namespace navvi_sim {
 
-/// What there is to put into a map.
-struct Bodies {
+/// The shapes to put into a map, by how their voxels are found.
+struct OccupiedShapes {
   /// A solid must reach into a voxel by this much on each side.
   struct Filled {
     Solid solid;
@@ -23,11 +23,11 @@ struct Bodies {
   std::vector<Triangle> triangles;
 };
 
-/// Writes the voxels that bodies occupy as a pruned octree in octomap's binary format
+/// Writes the voxels that `shapes` occupy as a pruned octree in octomap's binary format
 /// (occupancy_map.hpp), from the root down, with no tree in memory.
 /// \param resolution  m, edge of a voxel
 /// \throws WorldError if it comes to more than `most` bytes
-[[nodiscard]] std::vector<std::int8_t> write_octree(const Bodies& bodies, double resolution,
+[[nodiscard]] std::vector<std::int8_t> write_octree(const OccupiedShapes& shapes, double resolution,
                                                     std::size_t most);
 
 }  // namespace navvi_sim
