@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "hash.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -14,16 +15,6 @@ constexpr double kFarthest = 25.0;  // m, that it backs out in all
 constexpr double kGone = 3.0;       // s that the robot is gone before it goes on
 constexpr double kAtFirst = 0.1;    // m, nearer to its first way-point a round begins
 constexpr double kThere = 1e-9;     // m, nearer is there
-
-std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
-  return (hash ^ word) * 0x100000001B3ull;
-}
-
-std::uint64_t mix(std::uint64_t hash, double value) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return mix(hash, bits);
-}
 
 /// m from `from` to `to` along a track of `length` that comes round.
 double onwards(double from, double to, double length) {

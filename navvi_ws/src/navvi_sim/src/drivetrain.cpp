@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "hash.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -13,12 +14,6 @@ Eigen::Vector2d heading(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
 
 /// rad, in (-pi, pi]
 double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
-
-std::uint64_t mix(std::uint64_t hash, double value) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return (hash ^ bits) * 0x100000001B3ull;
-}
 
 }  // namespace
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "hash.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -165,14 +166,9 @@ void Mover::pass_end() {
 }
 
 std::uint64_t Mover::hash(std::uint64_t hash) const {
-  constexpr std::uint64_t kPrime = 0x100000001B3ull;
-  for (const double value : {s_, allowed_, rear_, speed_, pause_left_}) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    hash = (hash ^ bits) * kPrime;
-  }
+  for (const double value : {s_, allowed_, rear_, speed_, pause_left_}) hash = mix(hash, value);
   for (const std::uint64_t word : {random_, std::uint64_t{element_}, std::uint64_t{moved_}})
-    hash = (hash ^ word) * kPrime;
+    hash = mix(hash, word);
   return hash;
 }
 

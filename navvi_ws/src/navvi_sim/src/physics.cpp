@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
+
+#include "hash.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -64,14 +65,6 @@ struct Presence {
   btRigidBody* moving = nullptr;  ///< the same, if it moves
   std::size_t mover = 0;          ///< its index among the movers
 };
-
-template <typename Value>
-std::uint64_t mix(std::uint64_t hash, Value value) {
-  unsigned char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001B3ull;
-  return hash;
-}
 
 btDefaultCollisionConstructionInfo pools() {
   btDefaultCollisionConstructionInfo info;
@@ -303,7 +296,8 @@ std::uint64_t Physics::hash(std::uint64_t hash) const {
                                  impl_->robot->getAngularVelocity()};
   for (int row = 0; row < 3; ++row) vectors.push_back(pose.getBasis()[row]);
   for (const btVector3& vector : vectors)
-    for (const btScalar value : {vector.x(), vector.y(), vector.z()}) hash = mix(hash, value);
+    for (const btScalar value : {vector.x(), vector.y(), vector.z()})
+      hash = mix_bytes(hash, &value, sizeof value);
   return hash;
 }
 

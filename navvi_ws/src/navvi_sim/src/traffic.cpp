@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hash.hpp"
+
 namespace navvi_sim {
 namespace {
 
@@ -144,16 +146,14 @@ bool Traffic::clear_of_one_behind(std::size_t user, int block) const {
 }
 
 std::uint64_t Traffic::hash(std::uint64_t hash) const {
-  const auto mix = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001B3ull; };
   for (const User& user : users_) {
     hash = user.driver.hash(hash);
     const Way claim = user.claim.value_or(Way{-1, -1});
-    mix(std::uint64_t{static_cast<std::uint32_t>(claim.first)} << 32 |
-        static_cast<std::uint32_t>(claim.last));
+    hash = mix(hash, std::uint64_t{static_cast<std::uint32_t>(claim.first)} << 32 |
+                         static_cast<std::uint32_t>(claim.last));
   }
-  for (const std::size_t user : line_) mix(user);  // these are asking
-  mix(steps_);
-  return hash;
+  for (const std::size_t user : line_) hash = mix(hash, user);  // these are asking
+  return mix(hash, steps_);
 }
 
 }  // namespace navvi_sim

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "hash.hpp"
 
 namespace navvi_sim {
 namespace {
 
 constexpr double kCrushing = 0.01;  // m, deeper in the robot than this no mover pushes on
 constexpr double kMaxPushed = 3.0;  // m/s, the fastest a mover can shove the robot
-
-std::uint64_t mix(std::uint64_t hash, double value) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return (hash ^ bits) * 0x100000001B3ull;
-}
 
 bool is_finite(const Eigen::Vector2d& v) { return v.allFinite(); }
 
@@ -144,7 +139,7 @@ bool World::finite() const {
 }
 
 std::uint64_t World::state_hash() const {
-  std::uint64_t hash = mix(0xCBF29CE484222325ull, static_cast<double>(steps_));
+  std::uint64_t hash = mix(kHashBasis, static_cast<double>(steps_));
   hash = traffic_.hash(drivetrain_.hash(physics_.hash(hash)));
   for (const auto& [thing, apart] : contacts_.held())
     hash = mix(mix(hash, static_cast<double>(thing)), apart);

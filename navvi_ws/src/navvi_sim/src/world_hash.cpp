@@ -2,20 +2,16 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
+
+#include "hash.hpp"
 
 namespace navvi_sim {
 namespace {
 
-class Fnv1a {
+/// Over the bytes of a world's names and numbers.
+class WorldHash {
  public:
-  void bytes(const void* data, std::size_t size) {
-    const auto* byte = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) {
-      state_ ^= byte[i];
-      state_ *= 0x100000001b3ULL;
-    }
-  }
+  void bytes(const void* data, std::size_t size) { state_ = mix_bytes(state_, data, size); }
   void add(std::uint64_t value) { bytes(&value, sizeof value); }
   void add(double value) {
     const double canonical = value == 0.0 ? 0.0 : value;  // -0 is 0
@@ -50,10 +46,10 @@ class Fnv1a {
   [[nodiscard]] std::uint64_t state() const { return state_; }
 
  private:
-  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+  std::uint64_t state_ = kHashBasis;
 };
 
-void add(Fnv1a& hash, const Route& route) {
+void add(WorldHash& hash, const Route& route) {
   hash.add(static_cast<std::uint64_t>(route.waypoints.size()));
   for (const Waypoint& waypoint : route.waypoints)
     for (const double value : {waypoint.at.x(), waypoint.at.y(), waypoint.pause, waypoint.speed})
@@ -73,7 +69,7 @@ std::string to_hex(std::uint64_t number) {
 }
 
 std::string world_hash(const WorldDescription& world) {
-  Fnv1a hash;
+  WorldHash hash;
   hash.add(world.name);
   hash.add(world.floor_height);
   hash.add(static_cast<std::uint64_t>(world.things.size()));
