@@ -28,6 +28,7 @@ namespace {
 
 using namespace navvi_nav;
 using benchmark::State;
+using navvi_bench::Medians;
 
 constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
@@ -323,7 +324,7 @@ int main(int argc, char** argv) {
       cluttered({100, 100, 25}, seed), large({300, 300}, seed);
   const std::vector<Course*> courses{&small, &small_cluttered, &middle, &cluttered, &large};
   for (Course* course : courses) declare(*course);
-  const Medians medians(argc, argv);
+  const Medians medians(argc, argv, Medians::Print::nothing);
   for (Course* course : courses) print(medians, *course);
   judge(small);
   return 0;

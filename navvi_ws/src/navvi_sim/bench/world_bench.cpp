@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include "bare_bullet.hpp"
 #include "hall.hpp"
@@ -23,6 +22,7 @@ namespace {
 
 using namespace navvi_sim;
 using benchmark::RegisterBenchmark;
+using navvi_bench::Medians;
 
 constexpr double kDetectionRadius = 5.0;     // m
 constexpr std::uint64_t kProximityEach = 2;  // steps: 50 Hz
@@ -153,12 +153,12 @@ void print_table(const Medians& medians, const std::vector<Row>& rows, double st
   std::puts("\n                                   us a step        / bare Bullet      times life");
   std::puts("scene                          Bullet   ours  +msgs   ours  +msgs     ours   +msgs");
   for (const Row& row : rows) {
-    const auto bare = medians.time("Bullet, " + row.name);
-    const auto ours = medians.time("World::step, " + row.name);
-    const auto all = medians.time("and messages, " + row.name);
-    if (!bare || !ours || !all) continue;
-    std::printf("%-29s %7.1f%7.1f%7.1f%7.2f%7.2f%9.0f%8.0f\n", row.name.c_str(), 1e6 * *bare,
-                1e6 * *ours, 1e6 * *all, *ours / *bare, *all / *bare, step / *ours, step / *all);
+    const double bare = 1e-3 * medians.get("Bullet, " + row.name, "ms");  // s
+    const double ours = 1e-3 * medians.get("World::step, " + row.name, "ms");
+    const double all = 1e-3 * medians.get("and messages, " + row.name, "ms");
+    if (bare == 0.0 || ours == 0.0 || all == 0.0) continue;  // filtered out
+    std::printf("%-29s %7.1f%7.1f%7.1f%7.2f%7.2f%9.0f%8.0f\n", row.name.c_str(), 1e6 * bare,
+                1e6 * ours, 1e6 * all, ours / bare, all / bare, step / ours, step / all);
   }
 }
 
@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
                       FloorPose{1.0, -9.0, 0.0})
         ->Unit(kUnit);
   }
-  const Medians medians(argc, argv);
+  const Medians medians(argc, argv, Medians::Print::medians);
   print_table(medians, rows, WorldConfig{}.step);
   print_memory();
   return 0;

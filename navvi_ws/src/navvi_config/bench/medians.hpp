@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
-namespace navvi_nav {
+namespace navvi_bench {
 
 /// Runs all benchmarks several times in mixed order, so that what else the machine does falls on
-/// all of them alike, and keeps the median of every time and counter instead of printing it.
-class Medians : public benchmark::BenchmarkReporter {
+/// all of them alike, and keeps the median of every time and counter.
+class Medians : public benchmark::ConsoleReporter {
  public:
+  enum class Print { medians, nothing };
+
   /// \param argv  of main; its flags go before the ones set here
-  Medians(int argc, char** argv) {
+  Medians(int argc, char** argv, Print print) : ConsoleReporter(OO_Tabular), print_(print) {
     std::vector<std::string> words{argv[0], "--benchmark_repetitions=3", "--benchmark_min_time=0.2",
                                    "--benchmark_enable_random_interleaving=true"};
     words.insert(words.end(), argv + 1, argv + argc);
@@ -25,8 +27,11 @@ class Medians : public benchmark::BenchmarkReporter {
     benchmark::RunSpecifiedBenchmarks(this);
   }
 
-  bool ReportContext(const Context&) override { return true; }
+  bool ReportContext(const Context& context) override {
+    return print_ == Print::nothing || ConsoleReporter::ReportContext(context);
+  }
   void ReportRuns(const std::vector<Run>& runs) override {
+    std::vector<Run> shown;
     for (const Run& run : runs) {
       if (run.error_occurred)
         std::fprintf(stderr, "%s: %s\n", run.benchmark_name().c_str(), run.error_message.c_str());
@@ -35,7 +40,9 @@ class Medians : public benchmark::BenchmarkReporter {
       values["ms"] = 1e3 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
       values["real_ms"] = 1e3 * run.real_accumulated_time / static_cast<double>(run.iterations);
       for (const auto& [counter, value] : run.counters) values[counter] = value;
+      shown.push_back(run);
     }
+    if (print_ == Print::medians && !shown.empty()) ConsoleReporter::ReportRuns(shown);
   }
 
   /// A counter of a benchmark, or its processor time "ms" or wall time "real_ms"; 0 if it was
@@ -48,7 +55,8 @@ class Medians : public benchmark::BenchmarkReporter {
   }
 
  private:
+  Print print_;
   std::map<std::string, std::map<std::string, double>> values_;
 };
 
-}  // namespace navvi_nav
+}  // namespace navvi_bench
