@@ -15,20 +15,22 @@
 
 #include "medians.hpp"
 #include "navvi_sim/occupancy.hpp"
-#include "navvi_sim/warehouse.hpp"
+#include "navvi_sim/world_source.hpp"
 
 namespace {
 
 using navvi_sim::occupancy_of;
 
-/// Two by three built-in warehouses side by side, 100 x 90 m, on a floor of 100 x 100 m.
+/// Two by three warehouses side by side, 100 x 90 m, on a floor of 100 x 100 m.
 navvi_sim::WorldDescription hall() {
   navvi_sim::WorldDescription hall;
   hall.name = "hall";
   for (int column = 0; column < 2; ++column)
     for (int row = 0; row < 3; ++row)
       for (navvi_sim::Thing thing :
-           navvi_sim::warehouse(static_cast<std::uint64_t>(2 * row + column + 1), {}).things) {
+           navvi_sim::load_world("warehouse", "", static_cast<std::uint64_t>(2 * row + column + 1),
+                                 {})
+               .world.things) {
         if (thing.thing_class == navvi_sim::ThingClass::floor) continue;
         thing.name += "_" + std::to_string(column) + std::to_string(row);
         thing.pose =

@@ -14,7 +14,6 @@
 #include "medians.hpp"
 #include "navvi_sim/scene.hpp"
 #include "navvi_sim/state_conversion.hpp"
-#include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
 #include "navvi_sim/world_source.hpp"
 
@@ -38,8 +37,9 @@ struct Scenery {
   navvi_safety::Velocity command;
 };
 
-const Scenery& built_in() {
-  static const Scenery scenery{warehouse(1, {}), {6.0, -12.8, 1.57}, {0.45, 0.3}};
+const Scenery& warehouse() {
+  static const Scenery scenery{
+      load_world("warehouse", "", 1, {}).world, {6.5, -12.8, 1.57}, {0.45, 0.45}};
   return scenery;
 }
 
@@ -165,7 +165,7 @@ void print_table(const Medians& medians, const std::vector<Row>& rows, double st
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<Row> rows{{"built-in warehouse", built_in()}};
+  std::vector<Row> rows{{"warehouse", warehouse()}};
   for (const std::size_t movers : {10, 50, 200, 1000})
     rows.push_back(
         {"500 shelves, " + std::to_string(movers) + " movers", crowded(33, 500, movers)});
@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
   for (const auto& [name, settings] :
        {std::pair("Bullet as it comes", BareBullet::Settings::as_they_come),
         std::pair("Bullet with a sweep", BareBullet::Settings::sweep)})
-    RegisterBenchmark((std::string(name) + ", " + rows[0].name).c_str(), run_bullet, built_in(),
+    RegisterBenchmark((std::string(name) + ", " + rows[0].name).c_str(), run_bullet, warehouse(),
                       settings)
         ->Unit(kUnit);
   for (const int cells : {6, 12, 24, 33}) {
@@ -192,8 +192,8 @@ int main(int argc, char** argv) {
                       run_proximity, scenery.world, scenery.start)
         ->Unit(kUnit);
   }
-  RegisterBenchmark("proximity in the built-in warehouse", run_proximity, built_in().world,
-                    built_in().start)
+  RegisterBenchmark("proximity in the warehouse", run_proximity, warehouse().world,
+                    warehouse().start)
       ->Unit(kUnit);
   const std::filesystem::path meshes = NAVVI_AWS_WORLD;
   if (std::filesystem::exists(meshes)) {

@@ -26,6 +26,25 @@ LayoutConfig training() {
   return config;
 }
 
+LayoutConfig warehouse() {
+  LayoutConfig config = still();
+  config.length = 50.0;
+  config.width = 30.0;
+  config.bays = 4;
+  config.aisle = 3.2;
+  config.cross_aisle = 3.0;
+  config.docks = 3;
+  config.staged = 0.4;
+  config.pedestals = 0.25;
+  config.pedestal_min = config.pedestal_max = 0.10;
+  config.clutter = 0.12;
+  config.forklifts = 2;
+  config.pallet_robots = 2;
+  config.walking_workers = 3;
+  config.standing_workers = 3;
+  return config;
+}
+
 LayoutConfig busy() {
   LayoutConfig config = still();
   config.length = 64.0;
@@ -132,6 +151,7 @@ const std::vector<Preset>& presets() {
       {"training", "a small hall with wide aisles where nothing moves, to learn the stick",
        training()},
       {"easy", "wide aisles, few obstacles, little traffic", {}},
+      {"warehouse", "the usual one: racks, pedestals, some traffic", warehouse()},
       {"busy", "a large hall at work: docks, forklifts, pallet robots, workers, things left behind",
        busy()},
       {"narrow", "aisles of 1.7 m with pallet robots and workers in them", narrow()},

@@ -58,7 +58,7 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::Range;
   visit({"world", Any{}, "",
-         "warehouse, training, easy, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
+         "training, easy, warehouse, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
          "file"},
         world);
   visit({"models", Any{}, "",
@@ -80,10 +80,17 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   visit({"detection_radius", Range{0.5, 20.0}, "m", "gap up to which things are reported as near"},
         detection_radius);
   life.describe(visit);
-  warehouse.describe(visit);
+  visit({"workers", navvi_config::OneOf{{"standing", "walking", "both"}}, "",
+         "whether all workers of a layout stand, all walk a route, or both as the layout says"},
+        workers);
   visit.group("scenario", scenario);
   visit.group("octomap", octomap);
   visit.group("gate", gate);
+}
+
+Workers SimNodeConfig::worker_choice() const {
+  if (workers == "standing") return Workers::standing;
+  return workers == "walking" ? Workers::walking : Workers::as_laid_out;
 }
 
 std::optional<FloorPose> SimNodeConfig::start_pose() const {
@@ -100,7 +107,7 @@ std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
 
 LoadedWorld load_world(const SimNodeConfig& config) {
   return load_world(config.world, config.models, static_cast<std::uint64_t>(config.seed),
-                    config.warehouse, config.classes);
+                    config.worker_choice(), config.classes);
 }
 
 Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,

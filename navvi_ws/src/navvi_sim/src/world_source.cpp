@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <sstream>
+#include <utility>
 
 #include "navvi_sim/layout_source.hpp"
 #include "navvi_sim/sdf_world.hpp"
@@ -13,7 +14,7 @@ namespace navvi_sim {
 namespace {
 
 std::string allowed() {
-  std::string words = "; allowed are warehouse, ";
+  std::string words = "; allowed are ";
   for (const Preset& known : presets()) words += known.name + ", ";
   return words + "and files that end in .yaml, .yml, .sdf or .world";
 }
@@ -40,9 +41,11 @@ void stop_workers(WorldDescription& world) {
     if (thing.thing_class == ThingClass::worker) thing.route.reset();
 }
 
-LoadedWorld build(const LayoutSource& source, std::uint64_t seed, const WarehouseConfig& config) {
+LoadedWorld build(LayoutSource source, std::uint64_t seed, Workers workers) {
+  if (workers == Workers::walking)
+    source.config.walking_workers += std::exchange(source.config.standing_workers, 0);
   LoadedWorld loaded{source.build(seed), {}};
-  if (config.workers == "standing") stop_workers(loaded.world);
+  if (workers == Workers::standing) stop_workers(loaded.world);
   return loaded;
 }
 
@@ -57,9 +60,8 @@ LoadedWorld validated(LoadedWorld loaded, const std::string& where) {
 }
 
 LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
-                 const WarehouseConfig& config, const std::string& classes) {
-  if (spec == "warehouse") return {warehouse(seed, config), {}};
-  if (const auto source = layout_source(spec)) return build(*source, seed, config);
+                 Workers workers, const std::string& classes) {
+  if (const auto source = layout_source(spec)) return build(*source, seed, workers);
   if (kind_of(spec) == Kind::yaml) return {read_yaml_world(spec), {}};
   return read_sdf_world(spec, folders(models),
                         classes.empty() ? ClassRules::standard() : ClassRules::read(classes));
@@ -69,7 +71,7 @@ LoadedWorld load(const std::string& spec, const std::string& models, std::uint64
 
 std::optional<LayoutSource> layout_source(const std::string& spec) {
   if (const auto config = preset(spec)) return LayoutSource{spec, *config, spec, {}};
-  if (spec == "warehouse" || kind_of(spec) != Kind::yaml) return std::nullopt;
+  if (kind_of(spec) != Kind::yaml) return std::nullopt;
   return read_layout(spec);
 }
 
@@ -82,13 +84,12 @@ std::vector<std::filesystem::path> folders(const std::string& colon_separated) {
 }
 
 LoadedWorld load_world(const std::string& spec, const std::string& models, std::uint64_t seed,
-                       const WarehouseConfig& warehouse, const std::string& classes) {
-  return validated(load(spec, models, seed, warehouse, classes), spec);
+                       Workers workers, const std::string& classes) {
+  return validated(load(spec, models, seed, workers, classes), spec);
 }
 
-LoadedWorld load_world(const LayoutSource& source, std::uint64_t seed,
-                       const WarehouseConfig& warehouse) {
-  return validated(build(source, seed, warehouse), source.where);
+LoadedWorld load_world(const LayoutSource& source, std::uint64_t seed, Workers workers) {
+  return validated(build(source, seed, workers), source.where);
 }
 
 }  // namespace navvi_sim

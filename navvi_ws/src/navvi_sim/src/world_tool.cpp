@@ -92,7 +92,8 @@ Request load(const Words& words) {
   }
   source->config = *request.config.layout;
   for (const auto& entry : given) source->places[entry.first.Scalar()] = "the command line";
-  request.loaded = load_world(*source, static_cast<std::uint64_t>(session.seed), session.warehouse);
+  request.loaded =
+      load_world(*source, static_cast<std::uint64_t>(session.seed), session.worker_choice());
   return request;
 }
 
@@ -170,7 +171,6 @@ void write(const Words& words) {
 }
 
 void list(const Words&) {
-  std::cout << "warehouse   the usual one, 50 x 30 m\n";
   for (const Preset& known : presets())
     std::cout << known.name << std::string(12 - known.name.size(), ' ') << known.help << ", "
               << known.config.length << " x " << known.config.width << " m\n";

@@ -62,10 +62,9 @@ TEST_F(LayoutFile, depends_on_the_seed_as_a_preset_does) {
 }
 
 TEST_F(LayoutFile, has_workers_who_stand_where_all_are_told_to) {
-  WarehouseConfig config;
-  config.workers = "standing";
-  for (const Thing& thing : load_world("busy", "", 1, config).world.things)
-    EXPECT_FALSE(thing.thing_class == ThingClass::worker && thing.route) << thing.name;
+  for (const char* name : {"busy", "warehouse"})
+    for (const Thing& thing : load_world(name, "", 1, Workers::standing).world.things)
+      EXPECT_FALSE(thing.thing_class == ThingClass::worker && thing.route) << thing.name;
 }
 
 TEST_F(LayoutFile, is_refused_in_one_sentence_with_file_line_and_what_is_allowed) {
@@ -158,7 +157,7 @@ TEST_F(LayoutFile, bombs_of_things_are_refused_before_they_are_read) {
 
 TEST(LayoutSources, are_presets_and_layout_files_only) {
   EXPECT_TRUE(layout_source("maze"));
-  EXPECT_FALSE(layout_source("warehouse"));
+  EXPECT_TRUE(layout_source("warehouse"));
   EXPECT_FALSE(layout_source((fs::path(NAVVI_SIM_DIR) / "worlds/crossing.yaml").string()));
   EXPECT_THROW(static_cast<void>(layout_source("office")), WorldError);
 }

@@ -19,7 +19,8 @@
 namespace navvi_sim {
 namespace {
 
-// ---- Two hundred layouts: every preset, in its own size, in the smallest hall, and in large ones.
+// ---- Two hundred and forty layouts: every preset, in its own size, in the smallest hall, and in
+// large ones.
 
 struct Case {
   std::string name;
@@ -48,7 +49,7 @@ LayoutConfig sized(LayoutConfig config, double length, double width) {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < 240; ++seed) {
     const Preset& known = presets()[seed % presets().size()];
     const std::uint64_t round = seed / presets().size();
     LayoutConfig config = known.config;
@@ -204,7 +205,7 @@ std::vector<Body> swept(std::size_t index, const Thing& mover) {
   return ground;
 }
 
-TEST(Layouts, two_hundred_are_valid_and_nothing_overlaps_or_stands_outside) {
+TEST(Layouts, two_hundred_and_forty_are_valid_and_nothing_overlaps_or_stands_outside) {
   for (const Case& one : cases()) {
     const WorldDescription world = built(one);
     ASSERT_NO_THROW(validate(world)) << one.name;
@@ -224,7 +225,7 @@ TEST(Layouts, two_hundred_are_valid_and_nothing_overlaps_or_stands_outside) {
   }
 }
 
-TEST(Layouts, of_two_hundred_no_route_touches_what_stands_or_where_another_waits) {
+TEST(Layouts, of_two_hundred_and_forty_no_route_touches_what_stands_or_where_another_waits) {
   for (const Case& one : cases()) {
     const WorldDescription world = built(one);
     std::vector<Body> all;
@@ -256,12 +257,12 @@ TEST(Layouts, of_two_hundred_no_route_touches_what_stands_or_where_another_waits
   }
 }
 
-TEST(Layouts, of_two_hundred_every_mover_has_a_lane_with_a_place_to_wait) {
+TEST(Layouts, of_two_hundred_and_forty_every_mover_has_a_lane_with_a_place_to_wait) {
   for (const Case& one : cases())
     ASSERT_NO_THROW(static_cast<void>(lay_lanes(built(one), {}))) << one.name;
 }
 
-TEST(Layouts, of_two_hundred_each_has_a_start_connected_to_a_goal) {
+TEST(Layouts, of_two_hundred_and_forty_each_has_a_start_connected_to_a_goal) {
   for (const Case& one : cases()) {
     if (one.config.length > 130.0) continue;
     const WorldDescription world = built(one);

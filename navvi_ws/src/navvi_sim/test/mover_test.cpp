@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "navvi_sim/traffic.hpp"
-#include "navvi_sim/warehouse.hpp"
+#include "warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -70,7 +70,7 @@ TEST(Extent, holds_the_whole_footprint_in_a_rectangle_within_a_disc) {
   things[0].shapes = {{Box{{2.0, 0.5, 1.0}}, ahead}};
   things[1].shapes = {{Box{{2.0, 0.5, 1.0}}, askew}};
   things[2].shapes = {{Box{{3.0, 0.4, 1.0}}, askew}, {Cylinder{0.4, 1.0}, ahead}};
-  for (const Thing& thing : warehouse(1, {}).things)
+  for (const Thing& thing : warehouse(1).things)
     if (thing.route && thing.thing_class != ThingClass::worker) things.push_back(thing);
   ASSERT_GT(things.size(), 3u);
   for (const Thing& thing : things) {
@@ -87,7 +87,7 @@ TEST(Extent, holds_the_whole_footprint_in_a_rectangle_within_a_disc) {
 }
 
 TEST(Extent, of_a_forklift_has_the_width_of_the_forklift_and_the_length_with_its_forks) {
-  for (const Thing& thing : warehouse(1, {}).things) {
+  for (const Thing& thing : warehouse(1).things) {
     if (!thing.route || thing.thing_class != ThingClass::forklift) continue;
     const Extent extent = extent_of(footprint_of(thing, tilt_of(thing.pose)));
     EXPECT_NEAR(extent.length, 2.5, 1e-9);

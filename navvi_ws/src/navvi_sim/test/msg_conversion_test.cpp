@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "navvi_sim/occupancy.hpp"
-#include "navvi_sim/warehouse.hpp"
 #include "octomap_tree.hpp"
+#include "warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -22,7 +22,7 @@ Thing box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
 }
 
 TEST(OctomapMessage, is_read_by_octomap_as_the_same_cubes) {
-  const OccupancyMap map = occupancy_of(warehouse(1, {}), {});
+  const OccupancyMap map = occupancy_of(warehouse(1), {});
   const octomap_msgs::Octomap msg = to_msg(map, kStamp);
   EXPECT_EQ(msg.id, "OcTree");
   EXPECT_TRUE(msg.binary);

@@ -11,9 +11,9 @@
 
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/scenario.hpp"
-#include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world_source.hpp"
 #include "octomap_tree.hpp"
+#include "warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -203,7 +203,7 @@ void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
 }
 
 TEST(OccupancyAgrees, with_the_geometry_of_seeded_warehouses) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) expect_agreement(warehouse(seed, {}), seed);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) expect_agreement(warehouse(seed), seed);
 }
 
 TEST(OccupancyAgrees, with_the_meshes_of_a_world_that_others_made) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "navvi_sim/warehouse.hpp"
+#include "warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -72,7 +72,7 @@ Eigen::AlignedBox3d extent(const Marker& marker) {
 
 TEST(Scene, shows_what_stands_still_by_class) {
   std::set<std::string> namespaces;
-  for (const Marker& marker : standing(warehouse(1, {})).markers) namespaces.insert(marker.ns);
+  for (const Marker& marker : standing(warehouse(1)).markers) namespaces.insert(marker.ns);
   for (const char* ns : {"floor", "wall", "shelf", "box", "pedestal", "worker"})
     EXPECT_EQ(namespaces.count(ns), 1U) << ns;
   EXPECT_EQ(namespaces.count("forklift"), 0U) << "it moves";
@@ -189,7 +189,7 @@ TEST(Scene, the_highest_board_of_a_rack_hides_nothing_from_above) {
 }
 
 TEST(Scene, boxes_on_shelves_stay_within_their_bodies_and_on_their_boards) {
-  WorldDescription world = warehouse(1, {});
+  WorldDescription world = warehouse(1);
   for (Thing& thing : world.things)
     if (thing.thing_class != ThingClass::shelf) thing.shapes.clear();
   world.things.erase(std::remove_if(world.things.begin(), world.things.end(),
@@ -260,7 +260,7 @@ Snapshot snapshot_of(const WorldDescription& world) {
 }
 
 TEST(MovingScene, keeps_its_ids_and_shows_the_robot_with_its_nose_ahead) {
-  const WorldDescription world = warehouse(1, {});
+  const WorldDescription world = warehouse(1);
   const RobotConfig robot;
   Scene scene(world, robot);
   Snapshot now = snapshot_of(world);

@@ -22,7 +22,7 @@ struct Record {
   std::vector<AppliedCommand> commands;
 };
 
-/// The built-in warehouse and a drive through it that brakes, turns and bumps.
+/// The warehouse and a drive through it that brakes, turns and bumps.
 struct Drive {
   SimNodeConfig config;
   WorldDescription world;

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "navvi_sim/layout.hpp"
-#include "navvi_sim/warehouse.hpp"
+#include "warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -475,9 +475,9 @@ TEST(Lanes, let_two_start_on_shared_ground_only_if_one_can_leave_first) {
   EXPECT_NE(sentence.find("each other's way"), std::string::npos) << sentence;
 }
 
-TEST(Lanes, can_be_laid_in_the_built_in_warehouse_of_any_seed) {
+TEST(Lanes, can_be_laid_in_the_warehouse_of_any_seed) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
-    EXPECT_EQ(refusal(warehouse(seed, {})), "") << "seed " << seed;
+    EXPECT_EQ(refusal(warehouse(seed)), "") << "seed " << seed;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The built-in warehouse, alive for ten minutes.
+// The warehouse, alive for ten minutes.
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/scenario.hpp"
-#include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
 #include "navvi_sim/world_source.hpp"
 #include "octomap_tree.hpp"
+#include "warehouse.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kMinutes = 10.0;
 
 struct Life {
   explicit Life(std::uint64_t seed, double off_routes = 0.0)
-      : description(warehouse(seed, {})),
+      : description(warehouse(seed)),
         map(occupancy_of(description, OccupancyConfig{0.10})),
         tree(tree_of(map)),
         world(description, {}, start(seed, off_routes), seed) {}

@@ -104,7 +104,7 @@ TEST_F(WorldTool, refuses_what_is_wrong_in_a_sentence_and_writes_nothing) {
                             "show easy sede:=1",
                             "show easy octomap:=1",
                             "show easy octomap/resolution:=0",
-                            "show warehouse rows:=3",
+                            "show warehouse rows:=90",
                             "show easy start:=0,0",
                             "show easy scenario/min_route:=900",
                             "write easy",

@@ -133,8 +133,9 @@ TEST(WorldSource, takes_every_world_that_ships) {
   EXPECT_GE(files, 2);
 }
 
-TEST(WorldSource, knows_the_warehouse_by_name_and_nothing_else) {
-  EXPECT_EQ(load_world("warehouse", "", 3, {}).world.name, "warehouse");
+TEST(WorldSource, knows_presets_by_name_and_nothing_else) {
+  for (const Preset& known : presets())
+    EXPECT_EQ(load_world(known.name, "", 3, {}).world.name, known.name);
   for (const char* spec : {"", "Warehouse", "office", "a.txt", "/", "missing.yaml", "missing.sdf"})
     EXPECT_THROW(static_cast<void>(load_world(spec, "", 3, {})), WorldError) << spec;
 }

@@ -51,7 +51,7 @@ struct Preset {
   LayoutConfig config;
 };
 
-/// training, easy, busy, narrow, maze: from the least difficult on.
+/// training, easy, warehouse, busy, narrow, maze: from the least difficult on.
 [[nodiscard]] const std::vector<Preset>& presets();
 /// nullopt for a word that is no preset.
 [[nodiscard]] std::optional<LayoutConfig> preset(const std::string& name);

@@ -7,7 +7,6 @@
 
 #include "navvi_sim/occupancy.hpp"
 #include "navvi_sim/scenario.hpp"
-#include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world.hpp"
 #include "navvi_sim/world_source.hpp"
 
@@ -25,7 +24,7 @@ struct SimNodeConfig {
   int max_catch_up = 10;          ///< steps at once, then the simulation slows down
   double detection_radius = 5.0;  ///< m
   WorldConfig life;
-  WarehouseConfig warehouse;
+  std::string workers = "both";  ///< of layouts: standing, walking, or both as laid out
   ScenarioConfig scenario;
   OccupancyConfig octomap;
   navvi_safety::CommandGateConfig gate;
@@ -36,6 +35,7 @@ struct SimNodeConfig {
 
   void describe(navvi_config::Visitor& visit);
 
+  [[nodiscard]] Workers worker_choice() const;
   /// nullopt where nothing is given.
   /// \throws navvi_config::ConfigError with a sentence if it is not three finite numbers
   [[nodiscard]] std::optional<FloorPose> start_pose() const;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "navvi_sim/layout_source.hpp"
-#include "navvi_sim/warehouse.hpp"
 #include "navvi_sim/world_description.hpp"
 #include "navvi_sim/world_error.hpp"
 
@@ -21,24 +20,31 @@ struct LoadedWorld {
   std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
 };
 
-/// Loads and validates the world that `spec` names: the built-in "warehouse", a layout by the name
-/// of a preset (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
+/// What the workers of a layout do (R-SIM-2).
+enum class Workers {
+  as_laid_out,  ///< as many walk and stand as the layout says
+  standing,     ///< all stand, those who would walk where their routes begin
+  walking,      ///< all walk
+};
+
+/// Loads and validates the world that `spec` names: a layout by the name of a preset
+/// (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
 /// yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is taken from the working
 /// directory.
 /// \param models  folders for model://, separated by colons; may be empty. The world's folder and
 ///                its `models` subfolder are always tried, after these.
-/// \param seed    of the built-in warehouse and of layouts; other files do not depend on it
-/// \param warehouse  its `workers`, if "standing", holds for layouts as well
+/// \param seed    of layouts; other files do not depend on it
+/// \param workers  of layouts; those of other files do as their file says
 /// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
 ///                standard ones
 /// \throws WorldError naming the file or thing, what is wrong and what is allowed
 [[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
-                                     std::uint64_t seed, const WarehouseConfig& warehouse,
+                                     std::uint64_t seed, Workers workers,
                                      const std::string& classes = "");
 
 /// The same of a layout that was read, and perhaps changed, before.
 [[nodiscard]] LoadedWorld load_world(const LayoutSource& source, std::uint64_t seed,
-                                     const WarehouseConfig& warehouse);
+                                     Workers workers);
 
 /// The layout that `spec` names, not built yet; nullopt if it names another kind of world.
 /// \throws WorldError as load_world does
