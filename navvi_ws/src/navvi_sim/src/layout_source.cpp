@@ -18,7 +18,6 @@ struct LayoutFile {
     for (const Preset& known : presets()) words.words.push_back(known.name);
     visit({"name", navvi_config::Any{}, "", "of the world; empty: the file's"}, name);
     visit({"preset", words, "", "what the layout starts from"}, start);
-    config = preset(start).value_or(config);
     visit.group("layout", config);
   }
 };
@@ -45,6 +44,9 @@ std::optional<LayoutSource> read_layout(const std::filesystem::path& file) {
     const YAML::Node node = navvi_config::load_yaml(file);
     if (!node.IsMap() || !(has_key(node, "layout") || has_key(node, "preset"))) return std::nullopt;
     LayoutFile content;
+    navvi_config::read(content, node, file.string());
+    // Once more: what the file sets goes on top of the preset that it names.
+    content.config = preset(content.start).value();
     navvi_config::read(content, node, file.string());
     LayoutSource source{content.name.empty() ? file.stem().string() : content.name,
                         content.config,

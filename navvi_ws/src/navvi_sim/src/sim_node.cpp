@@ -23,7 +23,7 @@
 namespace navvi_sim {
 namespace {
 
-constexpr double kTick = 0.005;          // s, wall clock; shorter than a step, for an even pace
+constexpr double kTick = 0.005;  // s, wall clock; shorter than a step, for an even pace
 
 class SimNode {
  public:
@@ -159,8 +159,11 @@ void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
 
 void SimNode::tick(const ros::WallTimerEvent&) {
   const double wall = ros::SteadyTime::now().toSec();
-  // Whoever was held up longer than a command lives must not go on with what waited in the queue.
-  if (wall - last_tick_ > config_.gate.timeout) (void)gate_.update(instant());
+  // The gate counts a command's age from when it is received. After a delay longer than the
+  // timeout, commands that waited in the queue would count as new, and the wheels would go on
+  // turning. So the gate stops the wheels before the queue is read.
+  const bool delayed = wall - last_tick_ > config_.gate.timeout;
+  if (delayed) static_cast<void>(gate_.update(instant()));
   last_tick_ = wall;
   const int due = pacer_.due(wall);
   const long dropped = pacer_.dropped();

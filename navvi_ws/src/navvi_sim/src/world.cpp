@@ -52,8 +52,11 @@ World::Status World::step(const navvi_safety::Velocity& command, Braking braking
   if (!std::isfinite(command.linear) || !std::isfinite(command.angular))
     return Status::command_refused;
 
-  const double speed_before = std::max(now_.robot.velocity.norm(), speed_before_);
-  speed_before_ = now_.robot.velocity.norm();
+  const double speed = now_.robot.velocity.norm();
+  // Bullet measures distances at the begin of a step and brakes the robot in the step that brings
+  // it up to a thing. The touch is found one step later, when the speed has gone already.
+  const double speed_before_contact = std::max(speed, last_speed_);
+  last_speed_ = speed;
   step_movers();
   drive_robot(command, braking);
   physics_.advance(config_.step, now_.movers);
@@ -64,7 +67,8 @@ World::Status World::step(const navvi_safety::Velocity& command, Braking braking
     failed_ = true;
     return Status::numeric_failure;
   }
-  now_.contacts = contacts_.update(physics_.touches(), classes_, speed_before, config_.step);
+  now_.contacts =
+      contacts_.update(physics_.touches(), classes_, speed_before_contact, config_.step);
   return Status::running;
 }
 

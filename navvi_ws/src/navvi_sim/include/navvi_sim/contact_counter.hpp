@@ -38,7 +38,7 @@ class ContactCounter {
 
   /// \param touches  at most one per thing, ordered by thing; a thing that is absent is far
   /// \param classes  of all things
-  /// \param speed    m/s, the robot's before this step
+  /// \param speed    m/s, the robot's before any contact that begins now
   /// \param dt       s, since the last call
   [[nodiscard]] std::vector<ContactEvent> update(const std::vector<Touch>& touches,
                                                  const std::vector<ThingClass>& classes,

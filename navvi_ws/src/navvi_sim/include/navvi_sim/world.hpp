@@ -91,7 +91,7 @@ class World {
   ContactCounter contacts_;
   Snapshot now_;
   std::uint64_t steps_ = 0;
-  double speed_before_ = 0.0;  ///< m/s, one step earlier than now_
+  double last_speed_ = 0.0;  ///< m/s, of the robot, one step earlier than now_
   bool failed_ = false;
 };
 
