@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "navvi_sim/bodies.hpp"
 #include "warehouse.hpp"
 
 namespace navvi_sim {
@@ -197,11 +198,8 @@ TEST(Scene, boxes_on_shelves_stay_within_their_bodies_and_on_their_boards) {
                      world.things.end());
   std::vector<Eigen::AlignedBox3d> bodies;
   for (const Thing& thing : world.things)
-    for (const Shape& shape : thing.shapes) {
-      const Eigen::Vector3d half = 0.5 * std::get<Box>(shape.geometry).size;
-      const Eigen::Vector3d centre = (thing.pose * shape.pose).translation();
-      if (shape.look) bodies.emplace_back(centre - half, centre + half);
-    }
+    for (const Shape& shape : thing.shapes)
+      if (shape.look) bodies.push_back(bounds_of(shape.geometry, thing.pose * shape.pose));
   std::size_t drawn = 0;
   for (const Marker& marker : standing(world).markers) {
     if (marker.ns != "box") continue;
