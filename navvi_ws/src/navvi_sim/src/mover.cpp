@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hash.hpp"
+#include "random.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -14,15 +15,6 @@ constexpr int kHalvings = 4;          // of the stretch in which it would touch
 constexpr double kForesight = 0.5;    // s, that a disc is foreseen beyond the time to stop
 constexpr int kMostForeseen = 8;      // places of a disc
 constexpr double kThere = 1e-9;       // m, nearer is there
-
-/// [0, 1), the same anywhere (splitmix64: Steele, Lea and Flood, 2014).
-double draw(std::uint64_t& state) {
-  state += 0x9E3779B97F4A7C15ull;
-  std::uint64_t bits = state;
-  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ull;
-  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBull;
-  return static_cast<double>((bits ^ (bits >> 31)) >> 11) * 0x1p-53;
-}
 
 /// m, from the disc to the box around a body that stands at `place`.
 double gap_to(const Disc& disc, const Place& place, const Footprint& print) {
@@ -154,8 +146,11 @@ void Mover::pass_end() {
   const Track::Element& passed = element();
   s_ = passed.end();
   if (passed.end_speed == 0.0) speed_ = 0.0;
-  if (passed.pause > 0.0)
-    pause_left_ = passed.pause * (1.0 + pause_spread_ * (2.0 * draw(random_) - 1.0));
+  if (passed.pause > 0.0) {
+    Random random(random_);
+    pause_left_ = passed.pause * (1.0 + pause_spread_ * (2.0 * random.uniform(0.0, 1.0) - 1.0));
+    random_ = random.state();
+  }
   if (element_ + 1 < lane_->track.elements().size()) {
     ++element_;
   } else if (lane_->track.closed()) {

@@ -24,6 +24,8 @@ class Random {
   }
   /// In [0, count); count > 0. The bias is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(next() % count); }
+  /// Whoever is made of it goes on from here.
+  [[nodiscard]] std::uint64_t state() const { return state_; }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
 
  private:
