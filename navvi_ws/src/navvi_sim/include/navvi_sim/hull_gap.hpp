@@ -5,6 +5,9 @@
 
 #include "navvi_sim/world_description.hpp"
 
+// FCL 0.7 was tried: at 10,000 poses its gaps to boxes came out up to 35 mm too large, its depths in
+// meshes up to 0.8 m off where the hull is in by less than 5 cm, in 4 to 19 times our time.
+
 namespace navvi_sim {
 
 /// The robot's hull: a vertical cylinder. Frame: any with z up.
