@@ -18,7 +18,6 @@
 
 #include "contestant.hpp"
 #include "medians.hpp"
-#include "navvi_nav/corner_graph.hpp"
 #include "navvi_nav/octomap_reader.hpp"
 #include "navvi_nav/search.hpp"
 #include "octomap_tree.hpp"
@@ -35,8 +34,7 @@ const std::vector<int> kDiscs{1, 10, 50, 200};
 constexpr int kSearchedAmong = 50;  // discs
 const std::string kAmong = "among discs: ";
 constexpr int kJudged = 100;  // queries, by brute force
-const std::string kPrepare = "corners and landmarks, once they pay",
-                  kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
+const std::string kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
                   kToTree = "bytes to tree, octomap", kWatershed = "spans to mesh, watershed",
                   kTileCache = "spans to mesh, TileCache";
 
@@ -71,8 +69,7 @@ void ask_all(State& state, const Course& course, const Contestant& search,
   state.counters["max"] = 1e6 * times.back();
 }
 
-/// Times each search alone, when all have been asked on the floor without discs, and the discs have
-/// moved since the query before.
+/// Times each search alone, when the discs have moved since the query before.
 void ask_among_discs(State& state, const Course& course, const Contestant& search) {
   const std::vector<Cylinder> here = course.discs(kSearchedAmong);
   std::vector<Cylinder> there = here;
@@ -115,12 +112,6 @@ void declare_bakes(Course& c) {
     benchmark::DoNotOptimize(survey_map(read_voxels(bytes()), survey_config(mesh)));
   });
   add(kToMesh, [&c, bytes] { Planner(c.config).set_map(bytes()); });
-  add(kPrepare, [&c] {
-    const Mesh& mesh = c.ours.nav_mesh().mesh();
-    Path path;
-    CornerGraph(0).find(mesh, *mesh.locate(c.queries[0].start, Course::kNear),
-                        *mesh.locate(c.queries[0].goal, Course::kNear), path);
-  });
   add(kToTree, [&c] {
     std::istringstream stream(std::string(c.bytes.begin(), c.bytes.end()));
     octomap::OcTree(c.tree.getResolution()).readBinaryData(stream);
@@ -232,20 +223,11 @@ void weigh(const Course& c) {
   Planner planner(c.config);
   planner.set_map(voxels_of(c.tree));
   const std::size_t with_mesh = bytes_in_use();
-  const Mesh& mesh = planner.nav_mesh().mesh();
-  CornerGraph graph(0);
-  Path path;
-  graph.find(mesh, *mesh.locate(c.queries[0].start, Course::kNear),
-             *mesh.locate(c.queries[0].goal, Course::kNear), path);
-  const std::size_t with_landmarks = bytes_in_use();
-  const Mesh copy = mesh;
+  const Mesh copy = planner.nav_mesh().mesh();
   const std::size_t with_copy = bytes_in_use();
-  std::printf(
-      "memory, bytes a square metre: %.0f map and mesh (%.0f the mesh alone), "
-      "%.0f corners and landmarks\n",
-      static_cast<double>(with_mesh - before) / area,
-      static_cast<double>(with_copy - with_landmarks) / area,
-      static_cast<double>(with_landmarks - with_mesh) / area);
+  std::printf("memory, bytes a square metre: %.0f map and mesh (%.0f the mesh alone)\n",
+              static_cast<double>(with_mesh - before) / area,
+              static_cast<double>(with_copy - with_mesh) / area);
 }
 
 /// Largest difference from brute force, relative, without holes and with some.
@@ -279,7 +261,7 @@ void print(const Medians& medians, Course& c) {
   std::printf("\n== %s, 0.1 m voxels, seed %u: %zu polygons ours, %zu Detour's\n", name.c_str(),
               c.seed, c.ours.nav_mesh().mesh().polygons.size(), c.detour.polygons().size());
   heading("map, ms on the wall", {"", "/ TileCache"});
-  for (const std::string& what : {kToFloor, kToMesh, kPrepare, kToTree, kWatershed, kTileCache}) {
+  for (const std::string& what : {kToFloor, kToMesh, kToTree, kWatershed, kTileCache}) {
     const double took = medians.get(what + name, "real_ms");
     row(what, {took, took / medians.get(kTileCache + name, "real_ms")});
   }
@@ -296,7 +278,7 @@ void print(const Medians& medians, Course& c) {
     }
   };
   searches("search, us, all queries asked before", "", contestants(c));
-  searches("search, us, floor known, 50 discs moved", kAmong, among_discs(c));
+  searches("search, us, 50 discs moved", kAmong, among_discs(c));
   heading("discs moved, exact path out, ms", {"ours", "TileCache", "ratio"});
   for (const int count : kDiscs) {
     const std::string which = std::to_string(count) + name;

@@ -1,27 +1,43 @@
 #include "navvi_nav/any_angle.hpp"
 
-#include "navvi_nav/sight.hpp"
-
 namespace navvi_nav {
 namespace {
 
 constexpr double kTie = 2e-12;                  // of a length
 constexpr double kQuantum = 1.0 / (1LL << 36);  // m
 constexpr int kGBits = 11;
-constexpr int kMostAround = 64;  // polygons at a vertex
+constexpr int kMostAround = 64;    // polygons at a vertex
+constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line that runs through it
+constexpr double kTouch = 1e-10;   // m, from a point to an edge that it lies on
 
 double extent(Point a) { return std::abs(a.x) + std::abs(a.y); }
 
+/// 1 where `b` lies left of the ray `a`, -1 right of it, 0 on its line.
+/// \param a_extent, b_extent  sums of the absolute coordinates
 int side(Point a, double a_extent, Point b, double b_extent) {
-  return side_of(a, a_extent, b, b_extent);
+  const double value = cross(a, b);
+  const double slack = kOnLine * (a_extent + b_extent);
+  return (value > slack ? 1 : 0) - (value < -slack ? 1 : 0);
+}
+
+/// The polygons that hold a place: more than one if it lies on a link or a vertex.
+void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons) {
+  polygons.assign(1, place.polygon);
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    for (const Link& link : mesh.polygon(polygons[i]).links) {
+      const Point near = nearest_on_segment(place.point, mesh.at(link.right), mesh.at(link.left));
+      if (distance(near, place.point) <= kTouch &&
+          std::find(polygons.begin(), polygons.end(), link.to) == polygons.end())
+        polygons.push_back(link.to);
+    }
+  }
 }
 
 }  // namespace
 
 bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
-                    std::size_t most, FloorBound* bound, Path& path) {
+                    Path& path) {
   path.clear();
-  bound_ = bound;
   begin(mesh, start, goal);
   if (mesh.polygon(start.polygon).part != mesh.polygon(goal.polygon).part) return false;
   for (const int polygon : start_polygons_) {
@@ -38,10 +54,6 @@ bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Plac
     if (node.polygon < 0) {
       trace(node.root, path);
       return true;
-    }
-    if (nodes_expanded_ == most) {
-      gave_up_ = true;
-      return false;
     }
     ++nodes_expanded_;
     expand(node);
@@ -64,7 +76,6 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
   unused_.clear();
   open_.clear();
   nodes_expanded_ = 0;
-  gave_up_ = false;
   surround(mesh, start, start_polygons_);
   surround(mesh, goal, goal_polygons_);
 }
@@ -296,19 +307,7 @@ void AnyAngle::add(const Cone& node, const Point& link_right, const Point& link_
   if (outdone(node)) return;
   const Point root = at(node.root);
   if (node.right_end && node.left_end) views_.keep(node, root);
-  double rest = node.straight(root, link_right, link_left, to_);
-  if (bound_ != nullptr) rest = std::max(rest, farther_round(node));
-  push(node, node.cost + rest);
-}
-
-/// m, at least, from the root through the part of the link that it sees to the goal, as the floor
-/// tells: the way there, and on from wherever it is least.
-double AnyAngle::farther_round(const Cone& node) const {
-  const Point root = at(node.root);
-  const auto [right, left] = node.part(root, at(node.link_right), at(node.link_left));
-  const double there = distance(root, nearest_on_segment(root, right, left));
-  const double on = bound_->through(node.polygon, node.link_right, node.link_left, right, left);
-  return std::max(there + on, node.root == start_ ? 0.0 : bound_->of(node.root));
+  push(node, node.cost + node.straight(root, link_right, link_left, to_));
 }
 
 /// True if another root that sees the whole link has at least as short a way to all of the part

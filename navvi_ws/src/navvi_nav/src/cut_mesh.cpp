@@ -1,14 +1,16 @@
 #include "navvi_nav/cut_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
 namespace navvi_nav {
 namespace {
 
-constexpr double kFinest = 1e-4;  // m, a step at most
-constexpr double kSquare = 2.0;   // m, of the grids in which polygons are looked up
+constexpr double kFinest = 1e-4;     // m, a step at most
+constexpr double kSquare = 2.0;      // m, of the grids in which polygons are looked up
+constexpr double kStraight = 1e-12;  // rad, above the rounding of a sum of angles
 
 std::size_t slot(int index) { return static_cast<std::size_t>(index); }
 
@@ -47,7 +49,7 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   for (const int ground : grounds_.borders()) keep_links(ground, true);
   std::vector<int> doubtful;
   for (const int ground : gone) add_places(ground, doubtful);
-  for (const int vertex : doubtful) floor_corners_.forget(mesh_, pool_, vertex);
+  for (const int vertex : doubtful) set_corner(vertex, false);
   for (const int ground : gone) remove_ground(ground);
   std::vector<int> numbers;
   for (const ExactPolygon& shape : shapes) numbers.push_back(add_ground(shape));
@@ -57,15 +59,13 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   for (const int index : changed_) add_places(index, doubtful);
   std::sort(doubtful.begin(), doubtful.end());
   doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
-  for (const int vertex : doubtful) floor_corners_.learn(mesh_, pool_, vertex);
+  for (const int vertex : doubtful) set_corner(vertex, is_floor_corner(vertex));
   pinches_.split(mesh_, pool_, changed_);
   pinches_.keep_all();
   grounds_.settle();
   own_vertices_ = pool_.in_use();
   vertices_end_ = mesh_.vertices.size();
   parts_.number(mesh_);
-  mesh_.floor.reset();
-  mesh_.floor = std::make_shared<const Mesh>(mesh_);
   return numbers;
 }
 
@@ -109,6 +109,33 @@ void CutMesh::find_neighbours(int number) {
 /// Where the corners of a polygon of the mesh are.
 void CutMesh::add_places(int polygon, std::vector<int>& out) const {
   for (const int corner : mesh_.polygon(polygon).corners) out.push_back(pool_.place_of(corner));
+}
+
+/// While there are no holes, only the floor makes corners. \param vertex  of its place, no twin
+void CutMesh::set_corner(int vertex, bool corner) {
+  if (corner && !pool_.marked(vertex)) pool_.mark(mesh_.vertices, vertex);
+  if (!corner && pool_.marked(vertex)) pool_.unmark(mesh_.vertices, vertex);
+}
+
+/// True if a wall ends at the vertex and the free angle around it is over 180 degrees. The groups
+/// at a pinch are told apart later.
+bool CutMesh::is_floor_corner(int vertex) const {
+  double free = 0.0;
+  bool walled = false;
+  const Point here = mesh_.at(vertex);
+  mesh_.grid.visit(here, here, [&](int index) {
+    const Polygon& polygon = mesh_.polygon(index);
+    for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+      const int corner = polygon.corners[k];
+      if (pool_.place_of(corner) != vertex) continue;
+      free += mesh_.angle_at(polygon, k);
+      const auto links = std::count_if(
+          polygon.links.begin(), polygon.links.end(),
+          [corner](const Link& link) { return link.right == corner || link.left == corner; });
+      walled = walled || links < 2;
+    }
+  });
+  return walled && free > M_PI + kStraight;
 }
 
 Point CutMesh::position(const Meeting& at) const {
@@ -182,7 +209,6 @@ void CutMesh::recut() {
 }
 
 void CutMesh::begin() {
-  mesh_.version = next_mesh_version();
   matcher_.clear();
   crossings_.clear();
   changed_.clear();
@@ -272,7 +298,6 @@ void CutMesh::add_piece(int ground, const ExactPolygon& shape) {
   const int index = free_slot(ground);
   Piece& piece = pieces_[slot(index)];
   piece.ground = ground;
-  mesh_.polygons[slot(index)].ground = ground;
   for (const ExactPolygon::Edge& edge : shape.edges) {
     const int vertex = pool_.take(mesh_.vertices, position(edge.begin));
     // A side too short for doubles has no length.
@@ -336,7 +361,6 @@ void CutMesh::shrink() {
   if (pool_.in_use() != own_vertices_) return;
   pool_.shrink(mesh_.vertices, vertices_end_);
   parts_.number(mesh_);
-  if (free_openings_.size() == openings_.size()) mesh_.version = mesh_.floor->version;
 }
 
 Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {

@@ -1,6 +1,5 @@
 #include "navvi_nav/mesh.hpp"
 
-#include <atomic>
 #include <limits>
 
 namespace navvi_nav {
@@ -35,6 +34,14 @@ std::vector<Point> Mesh::outline(int index) const {
   out.reserve(polygon(index).corners.size());
   for (const int corner : polygon(index).corners) out.push_back(at(corner));
   return out;
+}
+
+double Mesh::angle_at(const Polygon& polygon, std::size_t k) const {
+  const std::size_t count = polygon.corners.size();
+  const Point here = at(polygon.corners[k]);
+  const Point a = at(polygon.corners[(k + 1) % count]) - here;
+  const Point b = at(polygon.corners[(k + count - 1) % count]) - here;
+  return std::abs(std::atan2(cross(a, b), dot(a, b)));  // a straight one may come as -pi
 }
 
 Point Mesh::centroid(int index) const {
@@ -72,11 +79,6 @@ std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optiona
     reach = std::min(within, std::max(2 * reach, grid.square() / 8));
   }
   return best;
-}
-
-std::uint64_t next_mesh_version() {
-  static std::atomic<std::uint64_t> last{0};
-  return ++last;
 }
 
 }  // namespace navvi_nav

@@ -10,15 +10,6 @@ constexpr double kNearlyStraight = 1e-9;  // rad, a free angle less under 180 de
 
 std::size_t slot(int index) { return static_cast<std::size_t>(index); }
 
-/// The angle at a polygon's corner, rad.
-double angle_at(const Mesh& mesh, const Polygon& polygon, std::size_t corner) {
-  const std::size_t count = polygon.corners.size();
-  const Point here = mesh.at(polygon.corners[corner]);
-  const Point a = mesh.at(polygon.corners[(corner + 1) % count]) - here;
-  const Point b = mesh.at(polygon.corners[(corner + count - 1) % count]) - here;
-  return std::abs(std::atan2(cross(a, b), dot(a, b)));
-}
-
 }  // namespace
 
 int& Pinches::walls(int vertex) {
@@ -131,7 +122,7 @@ void Pinches::split_one(Mesh& mesh, VertexPool& pool, int vertex) {
         if (link.right == vertex) link.right = own;
         if (link.left == vertex) link.left = own;
       }
-      free += angle_at(mesh, polygon, wedges_[i].corner);
+      free += mesh.angle_at(polygon, wedges_[i].corner);
     }
     mesh.vertices[slot(own)].corner = corner && free > M_PI - kNearlyStraight;
   }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "allocations.hpp"
 #include "grid_world.hpp"
 #include "navvi_nav/cut_mesh.hpp"
@@ -46,11 +44,7 @@ void check_shape(const Found& found, const Query& query, VisibilityGraph& graph)
 
 struct Judge {
   Search exact{SearchMethod::exact};
-  Search surveyed{SearchMethod::exact, 1.0, 0};  // measures landmarks at once
   Search centroids{SearchMethod::centroid_astar};
-  CornerGraph by_corners;
-  CornerGraph by_landmarks{0};
-  Path path;
   int answered = 0;
   int unreachable = 0;
 
@@ -62,13 +56,6 @@ struct Judge {
     const Found& rough = centroids.find(mesh, query.start, query.goal);
     ASSERT_EQ(found.found, shortest.has_value());
     ASSERT_EQ(found.found, rough.found);
-    const Found& bounded = surveyed.find(mesh, query.start, query.goal);
-    ASSERT_EQ(bounded.found, found.found);
-    EXPECT_NEAR(bounded.length, found.length, 1e-9 * found.length + 1e-12);
-    ASSERT_EQ(by_corners.find(mesh, query.start, query.goal, path), found.found);
-    EXPECT_NEAR(length_of(path), found.length, 1e-9 * found.length + 1e-12);
-    ASSERT_EQ(by_landmarks.find(mesh, query.start, query.goal, path), found.found);
-    EXPECT_NEAR(length_of(path), found.length, 1e-9 * found.length + 1e-12);
     if (!shortest) {
       EXPECT_TRUE(found.path.empty());
       ++unreachable;
@@ -184,10 +171,8 @@ TEST(Search, finds_the_shortest_path_between_carved_cylinders) {
   EXPECT_GT(judge.answered, 200);
 }
 
-/// Among holes that move, one search knows the floor's landmarks from the start, the other none.
 TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
   Judge judge;
-  std::size_t with = 0, without = 0;
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const GridWorld world = grid_world(static_cast<WorldKind>(seed % 4), seed);
@@ -202,7 +187,6 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
                                 0.1 + 0.05 * static_cast<double>(random() % 8), 8));
       cut.update();
       const Mesh& mesh = cut.mesh();
-      EXPECT_EQ(mesh.version == mesh.floor->version, round == 3);
       VisibilityGraph graph(mesh);
       for (int i = 0; i < 6; ++i) {
         const auto start = place_of(mesh, 0.5 * world.somewhere(random));
@@ -211,27 +195,19 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
           continue;
         judge.judge(mesh, {*start, *goal}, graph);
         if (HasFailure()) return;
-        if (round == 3) continue;
-        with += judge.surveyed.find(mesh, *start, *goal).nodes_expanded;
-        without += Search(SearchMethod::exact).find(mesh, *start, *goal).nodes_expanded;
       }
     }
   }
   EXPECT_GT(judge.answered, 1000);
-  EXPECT_LT(with, without);
 }
 
-/// Holes can change which side of a pinch has which vertex; what the floor's landmarks say of one
-/// does not hold of the other.
 TEST(Search, does_not_take_one_side_of_a_pinch_for_the_other) {
   struct Case {
     WorldKind kind;
     int holes;
     std::vector<std::uint32_t> seeds;
   };
-  Search surveyed(SearchMethod::exact, 1.0, 0);
-  AnyAngle unbounded;
-  Path path;
+  Judge judge;
   for (const Case& c :
        {Case{WorldKind::crumbs, 5, {2113, 2409, 5979, 6283, 7511, 8207, 8399, 8455, 11769, 12091}},
         Case{WorldKind::splinters, 12, {3915, 4977}}}) {
@@ -245,16 +221,19 @@ TEST(Search, does_not_take_one_side_of_a_pinch_for_the_other) {
         cut.add(at, 0.1 + 0.05 * static_cast<double>(random() % 8), 8);
       }
       cut.update();
+      const Mesh& mesh = cut.mesh();
+      VisibilityGraph graph(mesh);
       for (int i = 0; i < 200; ++i) {
-        const auto start = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
-        const auto goal = cut.mesh().locate(0.5 * world.somewhere(random), 1e-9);
-        if (!start || !goal) continue;
-        unbounded.find(cut.mesh(), *start, *goal, std::numeric_limits<std::size_t>::max(), nullptr,
-                       path);
-        ASSERT_NEAR(surveyed.find(cut.mesh(), *start, *goal).length, length_of(path), 1e-9);
+        const auto start = mesh.locate(0.5 * world.somewhere(random), 1e-9);
+        const auto goal = mesh.locate(0.5 * world.somewhere(random), 1e-9);
+        if (!start || !goal || on_pinch(mesh, start->point) || on_pinch(mesh, goal->point))
+          continue;
+        judge.judge(mesh, {*start, *goal}, graph);
+        if (HasFailure()) return;
       }
     }
   }
+  EXPECT_GT(judge.answered, 500);
 }
 
 TEST(Search, keeps_one_of_equal_routes_whose_turns_lie_in_line_with_another) {
@@ -331,7 +310,7 @@ TEST(Search, allocates_nothing_in_a_query_that_it_has_answered_before) {
   CutMesh cut(world.polygons(3), 1.0);
   cut.add(world.somewhere(random), 0.4, 8);
   cut.update();
-  Search among_holes(SearchMethod::exact, 1.0, 0);
+  Search among_holes(SearchMethod::exact);
   queries.clear();
   while (queries.size() < 20) {
     const auto start = place_of(cut.mesh(), world.somewhere(random));

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "navvi_nav/cone.hpp"
-#include "navvi_nav/floor_bound.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/open_list.hpp"
 #include "navvi_nav/views.hpp"
@@ -17,12 +16,8 @@ namespace navvi_nav {
 class AnyAngle {
  public:
   /// \param path  gets the path, without points where it goes straight on; empty if there is none
-  /// \param most  nodes to expand, then it gives up \param bound  of the ways on this mesh to the
-  /// goal, or null \returns true if there is a path
-  bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, std::size_t most,
-            FloorBound* bound, Path& path);
-  /// True if the last query was left after `most` nodes.
-  [[nodiscard]] bool gave_up() const { return gave_up_; }
+  /// \returns true if there is a path
+  bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, Path& path);
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:
@@ -43,7 +38,6 @@ class AnyAngle {
   [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
   void add(const Cone& node, const Point& link_right, const Point& link_left);
-  [[nodiscard]] double farther_round(const Cone& node) const;
   [[nodiscard]] bool outdone(const Cone& node);
   void push(const Cone& node, double estimate);
   bool pop(Cone& node);
@@ -54,7 +48,6 @@ class AnyAngle {
   void trace(int root, Path& path) const;
 
   const Mesh* mesh_ = nullptr;
-  FloorBound* bound_ = nullptr;
   Point from_;
   Point to_;
   int start_ = 0;  ///< the root that is no vertex
@@ -67,7 +60,6 @@ class AnyAngle {
   std::vector<int> start_polygons_;
   std::vector<int> goal_polygons_;
   std::size_t nodes_expanded_ = 0;
-  bool gave_up_ = false;
 };
 
 }  // namespace navvi_nav

@@ -5,7 +5,6 @@
 #include "navvi_nav/boundary.hpp"
 #include "navvi_nav/crossings.hpp"
 #include "navvi_nav/exact_polygon.hpp"
-#include "navvi_nav/floor_corners.hpp"
 #include "navvi_nav/grounds.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/parts.hpp"
@@ -64,6 +63,8 @@ class CutMesh {
   int add_ground(const ExactPolygon& shape);
   void find_neighbours(int ground);
   void add_places(int polygon, std::vector<int>& out) const;
+  void set_corner(int vertex, bool corner);
+  [[nodiscard]] bool is_floor_corner(int vertex) const;
   [[nodiscard]] bool cut_before(int a, int b) const;
   void keep_links(int ground, bool all_sides);
   void cut(int ground);
@@ -87,7 +88,6 @@ class CutMesh {
   VertexPool pool_;
   Pinches pinches_;
   Parts parts_;
-  FloorCorners floor_corners_;
   std::size_t own_vertices_ = 0;  // that the floor uses
   std::size_t vertices_end_ = 0;  // one beyond the last of these
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,7 +30,6 @@ struct Polygon {
   std::vector<int> corners;  ///< vertices, counter-clockwise; some may lie on a straight edge
   std::vector<Link> links;   ///< in counter-clockwise order
   int part = 0;              ///< polygons with the same part are connected, others are not
-  int ground = 0;            ///< the polygon of Mesh::floor of which it is a piece
 };
 
 /// Where the robot's centre may be (R-NAV-3): graph G is its polygons and their links.
@@ -43,11 +40,6 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<Polygon> polygons;
   BoxGrid grid;  ///< of polygons, by their corners
-  /// Another one after each change, and in each mesh: what is known of a mesh holds while it stays.
-  /// The floor's own if there are no holes. 0: not told.
-  std::uint64_t version = 0;
-  /// The mesh as it is without holes, in which its vertices have the same numbers; null: not told.
-  std::shared_ptr<const Mesh> floor;
 
   struct Place {
     int polygon = 0;
@@ -64,6 +56,8 @@ struct Mesh {
   }
   /// The corners of a polygon in their places.
   [[nodiscard]] std::vector<Point> outline(int polygon) const;
+  /// The angle at a corner inside a polygon, rad. \param k  number of the corner in the polygon
+  [[nodiscard]] double angle_at(const Polygon& polygon, std::size_t k) const;
   /// Centre of a polygon's area.
   [[nodiscard]] Point centroid(int polygon) const;
 };
@@ -82,8 +76,5 @@ inline bool operator==(const GridPolygon& a, const GridPolygon& b) {
 /// whether or not they share corners; where a link ends within an edge, its vertex is made a corner
 /// of the polygon. So each edge between two following corners is a link or a wall, whole.
 [[nodiscard]] Mesh join(const std::vector<GridPolygon>& polygons, double cell_size);
-
-/// A number that no mesh has had in this process.
-[[nodiscard]] std::uint64_t next_mesh_version();
 
 }  // namespace navvi_nav

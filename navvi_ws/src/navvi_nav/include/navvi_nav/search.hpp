@@ -3,7 +3,6 @@
 #include <cstddef>
 
 #include "navvi_nav/any_angle.hpp"
-#include "navvi_nav/corner_graph.hpp"
 #include "navvi_nav/mesh.hpp"
 
 namespace navvi_nav {
@@ -24,24 +23,16 @@ struct Found {
 /// has answered queries as hard. Not for two threads at once.
 class Search {
  public:
-  /// \param alpha  0 to 1, weight of the heuristic of centroid_astar \param worth  as CornerGraph
-  explicit Search(SearchMethod method, double alpha = 1.0, std::size_t worth = 2)
-      : method_(method), alpha_(alpha), corner_graph_(worth) {}
+  /// \param alpha  0 to 1, weight of the heuristic of centroid_astar
+  explicit Search(SearchMethod method, double alpha = 1.0) : method_(method), alpha_(alpha) {}
 
   /// The mesh may have changed since the last query. \returns what the next query overwrites
   const Found& find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
 
  private:
-  void find_exactly(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
-  void find_between_holes(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
-
   SearchMethod method_;
   double alpha_;
   AnyAngle any_angle_;
-  CornerGraph corner_graph_;
-  FloorBound floor_bound_;
-  std::uint64_t version_ = 0;  ///< of the last query's mesh, or of its floor
-  std::size_t expanded_ = 0;   ///< nodes, in the last query on a mesh with holes
   Found found_;
 };
 
