@@ -26,7 +26,6 @@ double along(const Side& side, Point at) {
 void Matcher::clear() {
   entries_.clear();
   keys_.clear();
-  crossings_.clear();
 }
 
 void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool fresh,
@@ -49,7 +48,7 @@ void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool 
   entries_.push_back(entry);
 }
 
-const std::vector<Crossing>& Matcher::match() {
+void Matcher::match(std::vector<Crossing>& out) {
   std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
     return a.line != b.line ? a.line < b.line : a.low < b.low;
   });
@@ -58,28 +57,21 @@ const std::vector<Crossing>& Matcher::match() {
     for (std::size_t j = i + 1;
          j < keys_.size() && keys_[j].line == keys_[i].line && keys_[j].low < a.high; ++j) {
       const Entry& b = entries_[keys_[j].entry];
-      if (a.ahead != b.ahead && (a.fresh || b.fresh) && a.line == b.line) cross_over(a, b);
+      if (a.ahead == b.ahead || !(a.fresh || b.fresh) || !(a.line == b.line)) continue;
+      const int low = a.low > b.low ? a.low_vertex : b.low_vertex;
+      const int high = a.high < b.high ? a.high_vertex : b.high_vertex;
+      const Entry& ahead = a.ahead ? a : b;
+      const Entry& back = a.ahead ? b : a;
+      // Leaving the left side of the line means looking right: left is then along the line.
+      out.push_back({ahead.polygon, ahead.side, std::max(a.low, b.low), {back.polygon, low, high}});
+      out.push_back(
+          {back.polygon, back.side, -std::min(a.high, b.high), {ahead.polygon, high, low}});
     }
   }
-  return crossings_;
 }
 
-void Matcher::cross_over(const Entry& a, const Entry& b) {
-  const int low = a.low > b.low ? a.low_vertex : b.low_vertex;
-  const int high = a.high < b.high ? a.high_vertex : b.high_vertex;
-  const Entry& ahead = a.ahead ? a : b;
-  const Entry& back = a.ahead ? b : a;
-  // Who leaves the left side looks to the right of the line: its left hand points along the line.
-  crossings_.push_back(
-      {ahead.polygon, ahead.side, std::max(a.low, b.low), {back.polygon, low, high}});
-  crossings_.push_back(
-      {back.polygon, back.side, -std::min(a.high, b.high), {ahead.polygon, high, low}});
-}
-
-void bound(Polygon& polygon, const std::vector<Side>& sides,
-           const std::vector<Crossing>& crossings) {
-  const Crossing* first = crossings.data();
-  const Crossing* const last = first + crossings.size();
+void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
+           const Crossing* last) {
   polygon.corners.clear();
   polygon.links.clear();
   for (std::size_t k = 0; k < sides.size(); ++k) {

@@ -240,10 +240,10 @@ void CutMesh::keep_links(int number, bool all_sides) {
       const Link& link = polygon.links[i];
       if (grounds_.is_touched(pieces_[slot(link.to)].ground)) continue;
       const int side = piece.link_sides[i];
-      crossings_.add({index,
-                      side,
-                      along(piece.sides[slot(side)], mesh_.at(link.right)),
-                      {link.to, pool_.place_of(link.right), pool_.place_of(link.left)}});
+      crossings_.push_back({index,
+                            side,
+                            along(piece.sides[slot(side)], mesh_.at(link.right)),
+                            {link.to, pool_.place_of(link.right), pool_.place_of(link.left)}});
     }
   }
 }
@@ -322,15 +322,19 @@ void CutMesh::add_piece(int ground, const ExactPolygon& shape) {
 }
 
 void CutMesh::link() {
-  for (const Crossing& crossing : matcher_.match()) crossings_.add(crossing);
-  crossings_.sort_out(pieces_.size());
+  matcher_.match(crossings_);
+  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tie(a.polygon, a.side, a.along) < std::tie(b.polygon, b.side, b.along);
+  });
   std::sort(changed_.begin(), changed_.end());
+  const Crossing* next = crossings_.data();
+  const Crossing* const end = next + crossings_.size();
   for (const int index : changed_) {
     Piece& piece = pieces_[slot(index)];
-    const std::vector<Crossing>& around = crossings_.take(index);
+    const Crossing* const first = next;
     piece.link_sides.clear();
-    for (const Crossing& crossing : around) piece.link_sides.push_back(crossing.side);
-    bound(mesh_.polygons[slot(index)], piece.sides, around);
+    for (; next != end && next->polygon == index; ++next) piece.link_sides.push_back(next->side);
+    bound(mesh_.polygons[slot(index)], piece.sides, first, next);
     pinches_.learn(pool_, mesh_.polygons[slot(index)]);
   }
 }

@@ -30,8 +30,8 @@ class Matcher {
   /// \param fresh  only sides of which at least one is fresh are matched
   void add(const std::vector<Side>& sides, int side, int polygon, bool fresh,
            const std::vector<Vertex>& vertices);
-  /// Both ways of each match, in no certain order.
-  const std::vector<Crossing>& match();
+  /// Adds both ways of each match to `out`, in no certain order.
+  void match(std::vector<Crossing>& out);
 
  private:
   struct Entry {
@@ -50,19 +50,17 @@ class Matcher {
     double low = 0.0;
     std::size_t entry = 0;
   };
-  void cross_over(const Entry& a, const Entry& b);
 
   std::vector<Entry> entries_;
   std::vector<Key> keys_;
-  std::vector<Crossing> crossings_;
 };
 
 /// m, of a vertex of the side; grows along it.
 [[nodiscard]] double along(const Side& side, Point at);
 
 /// Gives the polygon its corners and links.
-/// \param crossings  its links, in order of side and place
-void bound(Polygon& polygon, const std::vector<Side>& sides,
-           const std::vector<Crossing>& crossings);
+/// \param first, last  its links, in order of side and place
+void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
+           const Crossing* last);
 
 }  // namespace navvi_nav

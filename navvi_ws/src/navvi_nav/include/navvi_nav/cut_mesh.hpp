@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "navvi_nav/boundary.hpp"
-#include "navvi_nav/crossings.hpp"
 #include "navvi_nav/exact_polygon.hpp"
 #include "navvi_nav/grounds.hpp"
 #include "navvi_nav/mesh.hpp"
@@ -95,8 +94,8 @@ class CutMesh {
   std::vector<int> changed_;  // polygons of the mesh
   std::vector<int> near_edges_;
   std::vector<const Hole*> holes_;
-  Crossings crossings_;
-  Forest regions_;  // of touched grounds and their neighbours
+  std::vector<Crossing> crossings_;  // of changed polygons
+  Forest regions_;                   // of touched grounds and their neighbours
   std::vector<Parts::Changed> changed_parts_;
   Matcher matcher_;
   Cutter cutter_;
