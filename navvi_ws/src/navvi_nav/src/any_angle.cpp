@@ -20,15 +20,16 @@ int side(Point a, double a_extent, Point b, double b_extent) {
   return (value > slack ? 1 : 0) - (value < -slack ? 1 : 0);
 }
 
-/// The polygons that hold a place: more than one if it lies on a link or a vertex.
+/// The polygons that hold a place: more than one if it lies on a portal or a vertex.
 void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons) {
   polygons.assign(1, place.polygon);
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    for (const Link& link : mesh.polygon(polygons[i]).links) {
-      const Point near = nearest_on_segment(place.point, mesh.at(link.right), mesh.at(link.left));
+    for (const Portal& portal : mesh.polygon(polygons[i]).portals) {
+      const Point near =
+          nearest_on_segment(place.point, mesh.at(portal.right), mesh.at(portal.left));
       if (distance(near, place.point) <= kTouch &&
-          std::find(polygons.begin(), polygons.end(), link.to) == polygons.end())
-        polygons.push_back(link.to);
+          std::find(polygons.begin(), polygons.end(), portal.to) == polygons.end())
+        polygons.push_back(portal.to);
     }
   }
 }
@@ -39,7 +40,7 @@ bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Plac
                     Path& path) {
   path.clear();
   begin(mesh, start, goal);
-  if (mesh.polygon(start.polygon).part != mesh.polygon(goal.polygon).part) return false;
+  if (mesh.polygon(start.polygon).component != mesh.polygon(goal.polygon).component) return false;
   for (const int polygon : start_polygons_) {
     if (std::find(goal_polygons_.begin(), goal_polygons_.end(), polygon) != goal_polygons_.end()) {
       reach(start_, -1, 0.0);
@@ -83,17 +84,18 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
 void AnyAngle::leave_start() {
   reach(start_, -1, 0.0);
   for (const int polygon : start_polygons_) {
-    for (const Link& link : mesh_->polygon(polygon).links) {
-      if (std::find(start_polygons_.begin(), start_polygons_.end(), link.to) !=
+    for (const Portal& portal : mesh_->polygon(polygon).portals) {
+      if (std::find(start_polygons_.begin(), start_polygons_.end(), portal.to) !=
           start_polygons_.end())
         continue;
-      const Point c = mesh_->at(link.right);
-      const Point d = mesh_->at(link.left);
+      const Point c = mesh_->at(portal.right);
+      const Point d = mesh_->at(portal.left);
       if (side(c - from_, extent(c - from_), d - from_, extent(d - from_)) <= 0) {
-        slip_into(link, start_, 0.0);
+        slip_into(portal, start_, 0.0);
         continue;
       }
-      Cone node{0.0, c - from_, d - from_, start_, link.to, link.right, link.left, true, true};
+      Cone node{0.0,          c - from_,   d - from_, start_, portal.to,
+                portal.right, portal.left, true,      true};
       add(node, c, d);
     }
   }
@@ -108,8 +110,8 @@ void AnyAngle::expand(const Cone& node) {
   const Point root = at(node.root);
   const double right_extent = extent(node.right);
   const double left_extent = extent(node.left);
-  // An end of a link, and on which side it lies of either border. Most links begin where the one
-  // before ended.
+  // An end of a portal, and on which side it lies of either border. Most portals begin where the
+  // one before ended.
   struct End {
     int vertex;
     Point ahead;
@@ -124,17 +126,17 @@ void AnyAngle::expand(const Cone& node) {
                side(node.left, left_extent, ahead, ahead_extent)};
   };
   End d{-1, {}, 0, 0};
-  for (const Link& link : mesh_->polygon(node.polygon).links) {
-    if (link.right == node.link_left && link.left == node.link_right) continue;
-    const End c = link.right == d.vertex ? d : end(link.right);
-    d = end(link.left);
+  for (const Portal& portal : mesh_->polygon(node.polygon).portals) {
+    if (portal.right == node.portal_left && portal.left == node.portal_right) continue;
+    const End c = portal.right == d.vertex ? d : end(portal.right);
+    d = end(portal.left);
     // In a cone of 180 degrees both borders lie on one line.
     if (d.right < 0 || (d.right == 0 && d.vertex != node.root && dot(node.right, d.ahead) > 0.0)) {
-      if (node.right_end) turn(node, link, true, true);
+      if (node.right_end) turn(node, portal, true, true);
       continue;
     }
     if (c.left > 0 || (c.left == 0 && c.vertex != node.root && dot(node.left, c.ahead) > 0.0)) {
-      if (node.left_end) turn(node, link, false, true);
+      if (node.left_end) turn(node, portal, false, true);
       continue;
     }
     const bool right_in = c.right >= 0;
@@ -142,7 +144,7 @@ void AnyAngle::expand(const Cone& node) {
     const bool right_end = right_in && c.vertex != node.root;
     const bool left_end = left_in && d.vertex != node.root;
     if (right_end && left_end && side(c.ahead, extent(c.ahead), d.ahead, extent(d.ahead)) <= 0) {
-      slip_into(link, node.root, node.cost);
+      slip_into(portal, node.root, node.cost);
       continue;
     }
     // Who sees a corner first answers for all ways on from there; so not one who sees it along a
@@ -150,41 +152,41 @@ void AnyAngle::expand(const Cone& node) {
     if (c.right > 0 && is_corner(c.vertex)) reach(c.vertex, node.root, node.cost + norm(c.ahead));
     if (d.left < 0 && is_corner(d.vertex)) reach(d.vertex, node.root, node.cost + norm(d.ahead));
     add({node.cost, right_end ? c.ahead : node.right, left_end ? d.ahead : node.left, node.root,
-         link.to, link.right, link.left, right_end, left_end},
-        mesh_->at(link.right), mesh_->at(link.left));
-    if (!right_in && node.right_end) turn(node, link, true, false);
-    if (!left_in && node.left_end) turn(node, link, false, false);
+         portal.to, portal.right, portal.left, right_end, left_end},
+        mesh_->at(portal.right), mesh_->at(portal.left));
+    if (!right_in && node.right_end) turn(node, portal, true, false);
+    if (!left_in && node.left_end) turn(node, portal, false, false);
   }
 }
 
-/// Into a link that runs along the line of sight only a turn at its near end leads.
-void AnyAngle::slip_into(const Link& link, int root, double cost) {
-  const Point c = mesh_->at(link.right) - at(root);
-  const Point d = mesh_->at(link.left) - at(root);
+/// Into a portal that runs along the line of sight only a turn at its near end leads.
+void AnyAngle::slip_into(const Portal& portal, int root, double cost) {
+  const Point c = mesh_->at(portal.right) - at(root);
+  const Point d = mesh_->at(portal.left) - at(root);
   const bool to_right = dot(c, c) < dot(d, d);
-  const int vertex = to_right ? link.right : link.left;
+  const int vertex = to_right ? portal.right : portal.left;
   const Point ahead = to_right ? c : d;
   if (!is_corner(vertex)) return;
   Cone next{cost + norm(ahead),
             to_right ? -1.0 * ahead : ahead,
             to_right ? ahead : -1.0 * ahead,
             vertex,
-            link.to,
-            link.right,
-            link.left,
+            portal.to,
+            portal.right,
+            portal.left,
             !to_right,
             to_right};
   if (reach(vertex, origin_of(root, ahead), next.cost))
-    add(next, mesh_->at(link.right), mesh_->at(link.left));
+    add(next, mesh_->at(portal.right), mesh_->at(portal.left));
 }
 
-/// Bends round an end of the link through which the polygon was entered, into `link`.
-/// \param whole  false: only the part of the link that the root does not see
-void AnyAngle::turn(const Cone& node, const Link& link, bool to_right, bool whole) {
+/// Bends round an end of the portal through which the polygon was entered, into `portal`.
+/// \param whole  false: only the part of the portal that the root does not see
+void AnyAngle::turn(const Cone& node, const Portal& portal, bool to_right, bool whole) {
   const Point root = at(node.root);
-  int vertex = to_right ? node.link_right : node.link_left;
-  const int near = to_right ? link.right : link.left;
-  const int far = to_right ? link.left : link.right;
+  int vertex = to_right ? node.portal_right : node.portal_left;
+  const int near = to_right ? portal.right : portal.left;
+  const int far = to_right ? portal.left : portal.right;
   if (near != vertex && whole) {
     const Point border = to_right ? node.right : node.left;
     const Point ahead = at(near) - root;
@@ -199,9 +201,9 @@ void AnyAngle::turn(const Cone& node, const Link& link, bool to_right, bool whol
   next.cost = node.cost + norm(ahead);
   if (!reach(vertex, origin, next.cost)) return;
   next.root = vertex;
-  next.polygon = link.to;
-  next.link_right = link.right;
-  next.link_left = link.left;
+  next.polygon = portal.to;
+  next.portal_right = portal.right;
+  next.portal_left = portal.left;
   Point near_border = -1.0 * ahead;
   Point far_border = ahead;
   bool near_end = false;
@@ -210,7 +212,7 @@ void AnyAngle::turn(const Cone& node, const Link& link, bool to_right, bool whol
     near_border = at(near) - here;
     near_end = true;
     const Point end = at(far) - here;
-    // A link in line with the vertex: another turn, at its near end, leads through.
+    // A portal in line with the vertex: another turn, at its near end, leads through.
     if (side(near_border, extent(near_border), end, extent(end)) == 0) {
       if (!is_corner(near)) return;
       ahead = near_border;
@@ -234,7 +236,7 @@ void AnyAngle::turn(const Cone& node, const Link& link, bool to_right, bool whol
   next.left = to_right ? far_border : near_border;
   next.right_end = to_right ? near_end : far_end;
   next.left_end = to_right ? far_end : near_end;
-  add(next, mesh_->at(link.right), mesh_->at(link.left));
+  add(next, mesh_->at(portal.right), mesh_->at(portal.left));
 }
 
 void AnyAngle::see_goal(const Cone& node) {
@@ -249,7 +251,7 @@ void AnyAngle::see_goal(const Cone& node) {
     return;
   }
   if (over_right ? !node.right_end : !node.left_end) return;
-  last.root = over_right ? node.link_right : node.link_left;
+  last.root = over_right ? node.portal_right : node.portal_left;
   const Point corner = at(last.root);
   last.cost += distance(root, corner);
   if (reach(last.root, origin_of(node.root, corner - root), last.cost))
@@ -277,12 +279,12 @@ bool AnyAngle::touches(int vertex, int polygon, Point ahead, bool on_right) cons
     const Point edge = at(next) - here;
     const int where = side(ahead, extent(ahead), edge, extent(edge));
     if (on_right ? where > 0 : where < 0) return false;
-    const auto& links = mesh_->polygon(polygon).links;
-    const auto link = std::find_if(links.begin(), links.end(), [&](const Link& candidate) {
+    const auto& portals = mesh_->polygon(polygon).portals;
+    const auto portal = std::find_if(portals.begin(), portals.end(), [&](const Portal& candidate) {
       return (on_right ? candidate.right : candidate.left) == vertex;
     });
-    if (link == links.end()) return true;
-    polygon = link->to;
+    if (portal == portals.end()) return true;
+    polygon = portal->to;
   }
   return true;
 }
@@ -303,31 +305,32 @@ bool AnyAngle::reach(int vertex, int parent, double cost) {
   return known.parent == parent && cost <= known.cost * (1.0 + kTie);
 }
 
-void AnyAngle::add(const Cone& node, const Point& link_right, const Point& link_left) {
+void AnyAngle::add(const Cone& node, const Point& portal_right, const Point& portal_left) {
   if (outdone(node)) return;
   const Point root = at(node.root);
   if (node.right_end && node.left_end) views_.keep(node, root);
-  push(node, node.cost + node.straight(root, link_right, link_left, to_));
+  push(node, node.cost + node.straight(root, portal_right, portal_left, to_));
 }
 
-/// True if another root that sees the whole link has at least as short a way to all of the part
+/// True if another root that sees the whole portal has at least as short a way to all of the part
 /// that this one sees. Who answers for a corner at an end of the part is never outdone, so that no
 /// way is lost where both are equal.
 bool AnyAngle::outdone(const Cone& node) {
   const Views::View* const rival = views_.rival(node);
-  if (rival == nullptr || node.root == node.link_right || node.root == node.link_left) return false;
+  if (rival == nullptr || node.root == node.portal_right || node.root == node.portal_left)
+    return false;
   // Who first came to a corner answers for all ways on from there.
   const auto owns = [&](int vertex, Point ahead) {
     const Reached& known = reached_[static_cast<std::size_t>(vertex)];
     return is_corner(vertex) && known.query == query_ &&
            (known.parent == node.root || known.parent == origin_of(node.root, ahead));
   };
-  if ((node.right_end && owns(node.link_right, node.right)) ||
-      (node.left_end && owns(node.link_left, node.left)))
+  if ((node.right_end && owns(node.portal_right, node.right)) ||
+      (node.left_end && owns(node.portal_left, node.left)))
     return false;
   const Point root = at(node.root);
-  return rival->as_near(node.part(root, at(node.link_right), at(node.link_left)), root, node.cost,
-                        kTie * node.cost);
+  return rival->as_near(node.part(root, at(node.portal_right), at(node.portal_left)), root,
+                        node.cost, kTie * node.cost);
 }
 
 void AnyAngle::push(const Cone& node, double estimate) {

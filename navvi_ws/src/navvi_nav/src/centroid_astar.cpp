@@ -10,7 +10,7 @@ namespace {
 struct Node {
   double cost = std::numeric_limits<double>::infinity();  // m, from the start
   int parent = -1;
-  int link = -1;  // of the parent
+  int portal = -1;  // of the parent
   bool closed = false;
 };
 
@@ -51,24 +51,24 @@ Corridor centroid_astar(const Mesh& mesh, const Mesh::Place& start, const Mesh::
       break;
     }
     const Point here = position(current);
-    const auto& links = mesh.polygon(current).links;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      Node& next = at(links[i].to);
+    const auto& portals = mesh.polygon(current).portals;
+    for (std::size_t i = 0; i < portals.size(); ++i) {
+      Node& next = at(portals[i].to);
       if (next.closed) continue;
-      const Point there = position(links[i].to);
+      const Point there = position(portals[i].to);
       const double cost = node.cost + distance(here, there);
       if (cost >= next.cost) continue;
       next.cost = cost;
       next.parent = current;
-      next.link = static_cast<int>(i);
-      open.push({cost + alpha * distance(there, goal.point), links[i].to});
+      next.portal = static_cast<int>(i);
+      open.push({cost + alpha * distance(there, goal.point), portals[i].to});
     }
   }
   if (!out.found) return out;
   for (int index = goal.polygon; index != start.polygon; index = at(index).parent) {
     const Node& node = at(index);
-    const Link& link = mesh.polygon(node.parent).links[static_cast<std::size_t>(node.link)];
-    out.portals.push_back({mesh.at(link.right), mesh.at(link.left)});
+    const Portal& portal = mesh.polygon(node.parent).portals[static_cast<std::size_t>(node.portal)];
+    out.portals.push_back({mesh.at(portal.right), mesh.at(portal.left)});
   }
   std::reverse(out.portals.begin(), out.portals.end());
   return out;

@@ -8,7 +8,7 @@
 namespace navvi_nav {
 namespace {
 
-using Wide = Meeting::Wide;
+using Wide = Intersection::Wide;
 
 constexpr double kSlack = 1.5;  // steps: centre and corner of a hole are both rounded
 
@@ -25,7 +25,7 @@ double divide(Wide numerator, std::int64_t denominator) {
 
 void measure(ExactPolygon& polygon) {
   for (std::size_t i = 0; i < polygon.edges.size(); ++i) {
-    const Meeting& at = polygon.edges[i].begin;
+    const Intersection& at = polygon.edges[i].begin;
     const auto w = static_cast<double>(at.w);
     const Point place{static_cast<double>(at.x) / w, static_cast<double>(at.y) / w};
     if (i == 0) polygon.low = polygon.high = place;
@@ -36,7 +36,7 @@ void measure(ExactPolygon& polygon) {
   polygon.high = polygon.high + Point{1.0, 1.0};
 }
 
-bool boxes_meet(const ExactPolygon& a, const ExactPolygon& b) {
+bool boxes_overlap(const ExactPolygon& a, const ExactPolygon& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
@@ -52,10 +52,10 @@ void keep_part(const ExactPolygon& whole, const std::vector<signed char>& sides,
     if (here <= 0 && there <= 0) continue;
     const ExactPolygon::Edge& edge = whole.edges[i];
     part.edges.push_back(edge);
-    if (here < 0) part.edges.back().begin = meet(edge.line, line);
+    if (here < 0) part.edges.back().begin = intersect(edge.line, line);
     if (there > 0) continue;
-    const Meeting leaves =
-        there == 0 ? whole.edges[i + 1 < count ? i + 1 : 0].begin : meet(edge.line, line);
+    const Intersection leaves =
+        there == 0 ? whole.edges[i + 1 < count ? i + 1 : 0].begin : intersect(edge.line, line);
     part.edges.push_back({side > 0 ? line : line.opposite(), leaves, number});
   }
 }
@@ -67,7 +67,7 @@ bool separates(const ExactPolygon::Edge& edge, const ExactPolygon& other) {
 
 }  // namespace
 
-HalfPlane left_of(Step from, Step to) {
+HalfPlane left_of(LatticePoint from, LatticePoint to) {
   const std::int64_t dx = to.x - from.x;
   const std::int64_t dy = to.y - from.y;
   const std::int64_t divisor = std::gcd(dx, dy);
@@ -76,8 +76,8 @@ HalfPlane left_of(Step from, Step to) {
   return {a, b, -(a * from.x + b * from.y)};
 }
 
-Meeting meet(const HalfPlane& p, const HalfPlane& q) {
-  Meeting out;
+Intersection intersect(const HalfPlane& p, const HalfPlane& q) {
+  Intersection out;
   out.x = static_cast<Wide>(p.b) * q.c - static_cast<Wide>(q.b) * p.c;
   out.y = static_cast<Wide>(p.c) * q.a - static_cast<Wide>(q.c) * p.a;
   out.w = p.a * q.b - q.a * p.b;
@@ -85,14 +85,14 @@ Meeting meet(const HalfPlane& p, const HalfPlane& q) {
   return out;
 }
 
-int side_of(const HalfPlane& half, const Meeting& at) {
+int side_of(const HalfPlane& half, const Intersection& at) {
   const Wide value = half.a * at.x + half.b * at.y + static_cast<Wide>(half.c) * at.w;
   return (value > 0) - (value < 0);
 }
 
-Point place_of(const Meeting& at) { return {divide(at.x, at.w), divide(at.y, at.w)}; }
+Point place_of(const Intersection& at) { return {divide(at.x, at.w), divide(at.y, at.w)}; }
 
-ExactPolygon exact_polygon(const std::vector<Step>& corners) {
+ExactPolygon exact_polygon(const std::vector<LatticePoint>& corners) {
   ExactPolygon out;
   const std::size_t count = corners.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -117,7 +117,7 @@ void Hole::place(Point center, double radius, int sides) {
     if (nearest < far) build_square(center, reach);
     return;
   }
-  const Step middle{std::llround(center.x), std::llround(center.y)};
+  const LatticePoint middle{std::llround(center.x), std::llround(center.y)};
   if (sides != sides_ || radius != radius_) build({0, 0}, reach, sides);
   const std::int64_t dx = middle.x - middle_.x;
   const std::int64_t dy = middle.y - middle_.y;
@@ -132,9 +132,9 @@ void Hole::place(Point center, double radius, int sides) {
   sides_ = sides;
 }
 
-void Hole::build(Step middle, double reach, int sides) {
+void Hole::build(LatticePoint middle, double reach, int sides) {
   const double outer = reach / std::cos(M_PI / sides);
-  std::vector<Step> corners;
+  std::vector<LatticePoint> corners;
   for (int k = 0; k < sides; ++k) {
     const double angle = (2 * k - 1) * M_PI / sides;
     corners.push_back({middle.x + std::llround(outer * std::cos(angle)),
@@ -173,7 +173,7 @@ void Hole::find_order(int sides) {
 }
 
 bool overlap(const ExactPolygon& a, const ExactPolygon& b) {
-  if (a.edges.empty() || b.edges.empty() || !boxes_meet(a, b)) return false;
+  if (a.edges.empty() || b.edges.empty() || !boxes_overlap(a, b)) return false;
   return std::none_of(a.edges.begin(), a.edges.end(),
                       [&b](const auto& edge) { return separates(edge, b); }) &&
          std::none_of(b.edges.begin(), b.edges.end(),
@@ -203,7 +203,7 @@ void Cutter::cut(const ExactPolygon& polygon, const std::vector<const Hole*>& ho
     next_.count = 0;
     for (std::size_t i = 0; i < pieces_.count; ++i) {
       ExactPolygon& piece = pieces_.items[i];
-      if (boxes_meet(piece, hole->shape) && bite(piece, *hole)) continue;
+      if (boxes_overlap(piece, hole->shape) && bite(piece, *hole)) continue;
       std::swap(next_.add(), piece);
     }
     std::swap(pieces_, next_);

@@ -8,13 +8,13 @@ constexpr double kTouch = 1e-10;  // m
 /// Positive where `c` lies left of the ray from `a` through `b`.
 double side(Point a, Point b, Point c) { return cross(b - a, c - a); }
 
-bool on_portal(Point point, const Portal& portal) {
+bool lies_on(Point point, const Interval& portal) {
   return distance(nearest_on_segment(point, portal.right, portal.left), point) < kTouch;
 }
 
 }  // namespace
 
-Path funnel(Point start, Point goal, const std::vector<Portal>& portals) {
+Path funnel(Point start, Point goal, const std::vector<Interval>& portals) {
   Path path{start};
   const auto append = [&path](Point point) {
     if (!(path.back() == point)) path.push_back(point);
@@ -30,7 +30,7 @@ Path funnel(Point start, Point goal, const std::vector<Portal>& portals) {
   std::size_t right_at = 0;
   // A portal that the start lies on is behind it; as a funnel it would be open to both sides.
   std::size_t first = 0;
-  while (first < portals.size() && on_portal(start, portals[first])) ++first;
+  while (first < portals.size() && lies_on(start, portals[first])) ++first;
   for (std::size_t i = first; i < count; ++i) {
     const Point next_right = right_of(i);
     if (side(apex, right, next_right) >= 0.0) {

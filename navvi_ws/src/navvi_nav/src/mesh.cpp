@@ -59,12 +59,13 @@ Point Mesh::centroid(int index) const {
   return area > 0.0 ? origin + (1.0 / (3.0 * area)) * sum : origin;
 }
 
-std::optional<Mesh::Place> Mesh::locate(Point point, double within, std::optional<int> part) const {
+std::optional<Mesh::Place> Mesh::locate(Point point, double within,
+                                        std::optional<int> component) const {
   std::optional<Place> best;
   double best_distance = within;
   const auto look = [&](int index) {
     const Polygon& candidate = polygon(index);
-    if (part && candidate.part != *part) return;
+    if (component && candidate.component != *component) return;
     const Point nearest = nearest_point(*this, candidate, point);
     const double away = distance(nearest, point);
     if (!(away <= best_distance)) return;

@@ -66,7 +66,7 @@ void draw_mesh(Canvas& canvas, const Mesh& mesh) {
   canvas.add("<g stroke=\"#05606b\" stroke-width=\"0.7\" stroke-linejoin=\"round\">\n");
   for (const Polygon& polygon : mesh.polygons) {
     if (polygon.corners.empty()) continue;
-    canvas.add("<polygon fill=\"%s\" points=\"", kShades[polygon.part % 5]);
+    canvas.add("<polygon fill=\"%s\" points=\"", kShades[polygon.component % 5]);
     for (const int corner : polygon.corners) canvas.place(mesh.at(corner));
     canvas.add("\"/>\n");
   }

@@ -132,9 +132,9 @@ Size size_of(const Mesh& mesh) {
     const Polygon& polygon = mesh.polygons[i];
     if (polygon.corners.empty()) continue;
     ++out.polygons;
-    out.links += polygon.links.size();
-    parts.insert(polygon.part);
-    out.bytes += polygon.corners.size() * sizeof(int) + polygon.links.size() * sizeof(Link);
+    out.links += polygon.portals.size();
+    parts.insert(polygon.component);
+    out.bytes += polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(Portal);
     const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
     for (std::size_t k = 2; k < corners.size(); ++k)
       out.area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;

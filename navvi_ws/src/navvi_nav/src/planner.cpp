@@ -132,7 +132,7 @@ Planner::Route Planner::search(Point start, Point goal) const {
   const Anchor to = anchor(goal, near_goal, std::nullopt);
   if (!to.place || !to.joined)
     return {failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal")};
-  const int part = nav_mesh_.mesh().polygon(to.place->polygon).part;
+  const int part = nav_mesh_.mesh().polygon(to.place->polygon).component;
   const Anchor from = begin(start, goal, part);
   if (!from.place)
     return {
@@ -197,7 +197,7 @@ Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, 
       const Point place = start + reach * Point{std::cos(angle), std::sin(angle)};
       const std::optional<Mesh::Place> there = mesh.locate(place, 0.0);
       if (!there || in_a_hole(place, swept, radius + spare)) continue;
-      const Anchor from = begin(start, place, mesh.polygon(there->polygon).part);
+      const Anchor from = begin(start, place, mesh.polygon(there->polygon).component);
       if (!from.place) continue;
       ++searches;
       const Found& found = search_.find(mesh, *from.place, *there);

@@ -59,16 +59,16 @@ int VertexPool::fresh(std::vector<Vertex>& vertices, Point at) {
   return vertex;
 }
 
-int VertexPool::twin(std::vector<Vertex>& vertices, int vertex) {
+int VertexPool::duplicate(std::vector<Vertex>& vertices, int vertex) {
   const int out = fresh(vertices, vertices[slot(vertex)].at);
-  entries_[slot(out)].twin_of = vertex;
+  entries_[slot(out)].duplicate_of = vertex;
   return out;
 }
 
-void VertexPool::drop_twin(std::vector<Vertex>& vertices, int twin) {
-  vertices[slot(twin)].corner = false;
-  entries_[slot(twin)] = {};
-  free_.push_back(twin);
+void VertexPool::drop_duplicate(std::vector<Vertex>& vertices, int duplicate) {
+  vertices[slot(duplicate)].corner = false;
+  entries_[slot(duplicate)] = {};
+  free_.push_back(duplicate);
   --in_use_;
 }
 
@@ -93,7 +93,7 @@ void VertexPool::unmark(std::vector<Vertex>& vertices, int vertex) {
 void VertexPool::grow(const std::vector<Vertex>& vertices) {
   buckets_.assign(buckets_.empty() ? kFirstBuckets : 2 * buckets_.size(), -1);
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (entries_[i].uses == 0 || entries_[i].twin_of >= 0) continue;
+    if (entries_[i].uses == 0 || entries_[i].duplicate_of >= 0) continue;
     int& head = bucket(vertices[i].at);
     entries_[i].next = head;
     head = static_cast<int>(i);

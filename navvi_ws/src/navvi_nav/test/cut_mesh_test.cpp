@@ -76,11 +76,12 @@ bool same(const Mesh& a, const Mesh& b) {
   for (std::size_t i = 0; i < a.polygons.size(); ++i) {
     const Polygon& p = a.polygons[i];
     const Polygon& q = b.polygons[i];
-    if (p.corners != q.corners || p.part != q.part || p.links.size() != q.links.size())
+    if (p.corners != q.corners || p.component != q.component ||
+        p.portals.size() != q.portals.size())
       return false;
-    for (std::size_t k = 0; k < p.links.size(); ++k) {
-      if (p.links[k].to != q.links[k].to || p.links[k].right != q.links[k].right ||
-          p.links[k].left != q.links[k].left)
+    for (std::size_t k = 0; k < p.portals.size(); ++k) {
+      if (p.portals[k].to != q.portals[k].to || p.portals[k].right != q.portals[k].right ||
+          p.portals[k].left != q.portals[k].left)
         return false;
     }
   }
@@ -102,7 +103,7 @@ std::map<Shape, std::pair<std::set<Shape>, std::set<Shape>>> content(const Mesh&
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     if (mesh.polygons[i].corners.empty()) continue;
     auto& [next, corners] = out[shape_of(mesh, static_cast<int>(i))];
-    for (const Link& link : mesh.polygons[i].links) next.insert(shape_of(mesh, link.to));
+    for (const Portal& portal : mesh.polygons[i].portals) next.insert(shape_of(mesh, portal.to));
     for (const int corner : mesh.polygons[i].corners) {
       if (mesh.vertices[static_cast<std::size_t>(corner)].corner)
         corners.insert({{mesh.at(corner).x, mesh.at(corner).y}});
@@ -134,31 +135,32 @@ bool in_floor(const std::vector<GridPolygon>& floor, Point at) {
   return false;
 }
 
-/// Edges are links or walls, links lead back, walls have nothing behind them, polygons are convex,
-/// where a path may turn is marked, and the sides of a pinch have their own vertices.
+/// Edges are portals or walls, portals lead back, walls have nothing behind them, polygons are
+/// convex, where a path may turn is marked, and the sides of a non-manifold vertex have their own
+/// vertices.
 void expect_sound(const Mesh& mesh) {
   Mesh numbered = mesh;
-  Parts().number(numbered);
-  std::map<int, int> part_of, part_is;
+  Components().number(numbered);
+  std::map<int, int> component_of, component_is;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     if (mesh.polygons[i].corners.empty()) continue;
-    const int told = mesh.polygons[i].part;
-    const int found = numbered.polygons[i].part;
-    ASSERT_EQ(part_of.emplace(told, found).first->second, found);
-    ASSERT_EQ(part_is.emplace(found, told).first->second, told);
+    const int told = mesh.polygons[i].component;
+    const int found = numbered.polygons[i].component;
+    ASSERT_EQ(component_of.emplace(told, found).first->second, found);
+    ASSERT_EQ(component_is.emplace(found, told).first->second, told);
   }
   std::map<int, double> free;
   std::set<int> walled, wall_begins;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const Polygon& polygon = mesh.polygons[i];
     if (polygon.corners.empty()) {
-      ASSERT_TRUE(polygon.links.empty());
+      ASSERT_TRUE(polygon.portals.empty());
       continue;
     }
     ASSERT_GE(polygon.corners.size(), 3U);
     ASSERT_EQ(std::set<int>(polygon.corners.begin(), polygon.corners.end()).size(),
               polygon.corners.size());
-    std::size_t link = 0;
+    std::size_t portal = 0;
     const std::size_t count = polygon.corners.size();
     for (std::size_t k = 0; k < count; ++k) {
       const int from = polygon.corners[k];
@@ -167,28 +169,29 @@ void expect_sound(const Mesh& mesh) {
       const Point c = mesh.at(polygon.corners[(k + 2) % count]);
       ASSERT_GE(cross(b - a, c - b), -1e-9);
       free[to] += std::abs(std::atan2(cross(c - b, a - b), dot(c - b, a - b)));
-      if (link < polygon.links.size() && polygon.links[link].right == from) {
-        ASSERT_EQ(polygon.links[link].left, to);
-        const auto& back = mesh.polygon(polygon.links[link].to).links;
+      if (portal < polygon.portals.size() && polygon.portals[portal].right == from) {
+        ASSERT_EQ(polygon.portals[portal].left, to);
+        const auto& back = mesh.polygon(polygon.portals[portal].to).portals;
         ASSERT_EQ(std::count_if(back.begin(), back.end(),
-                                [&](const Link& other) {
+                                [&](const Portal& other) {
                                   return other.to == static_cast<int>(i) && other.right == to &&
                                          other.left == from;
                                 }),
                   1);
-        ASSERT_EQ(mesh.polygon(polygon.links[link].to).part, polygon.part);
-        ++link;
+        ASSERT_EQ(mesh.polygon(polygon.portals[portal].to).component, polygon.component);
+        ++portal;
         continue;
       }
       walled.insert({from, to});
-      ASSERT_TRUE(wall_begins.insert(from).second) << "a pinch at " << a.x << " " << a.y;
+      ASSERT_TRUE(wall_begins.insert(from).second)
+          << "a non-manifold vertex at " << a.x << " " << a.y;
       if (distance(a, b) < 1e-3) continue;
       const Point beyond = 0.5 * (a + b) + (1e-5 / distance(a, b)) * Point{b.y - a.y, a.x - b.x};
       const auto place = mesh.locate(beyond, 0.0);
       ASSERT_FALSE(place && place->polygon != static_cast<int>(i))
           << "a wall at " << beyond.x << " " << beyond.y;
     }
-    ASSERT_EQ(link, polygon.links.size());
+    ASSERT_EQ(portal, polygon.portals.size());
   }
   for (const int vertex : walled) {
     if (free[vertex] > M_PI + 1e-6) {
@@ -235,13 +238,13 @@ TEST(CutMesh, cuts_a_hole_and_heals) {
   EXPECT_TRUE(same(before, mesh.mesh()));
 }
 
-TEST(CutMesh, gives_the_sides_of_a_pinch_their_own_vertices) {
+TEST(CutMesh, gives_the_sides_of_a_non_manifold_vertex_their_own_vertices) {
   // Above a corner of the floor, a hole moves by single steps; once its slanted edge touches it.
   CutMesh mesh({{{{0, 0}, {100, 0}, {100, 40}, {0, 40}}}, {{{0, -40}, {40, -40}, {40, 0}, {0, 0}}}},
                kUnit);
   const Mesh before = mesh.mesh();
   constexpr double kStep = kUnit / 512;
-  int pinches = 0;
+  int split = 0;
   for (int k = -5; k <= 5; ++k) {
     const int hole = mesh.add({2.4 - std::sqrt(0.5) + k * kStep, 0.4}, 0.5, kSides);
     mesh.update();
@@ -252,12 +255,12 @@ TEST(CutMesh, gives_the_sides_of_a_pinch_their_own_vertices) {
         if (mesh.mesh().at(corner) == (Point{2, 0})) there.insert(corner);
       }
     }
-    pinches += there.size() == 2 ? 1 : 0;
+    split += there.size() == 2 ? 1 : 0;
     mesh.remove(hole);
     mesh.update();
     ASSERT_TRUE(same(before, mesh.mesh()));
   }
-  EXPECT_EQ(pinches, 1);
+  EXPECT_EQ(split, 1);
 }
 
 TEST(CutMesh, parts_an_aisle_that_is_filled) {
@@ -266,8 +269,8 @@ TEST(CutMesh, parts_an_aisle_that_is_filled) {
       kUnit);
   const auto joined = [&mesh] {
     const Mesh& m = mesh.mesh();
-    return m.polygon(m.locate({0.1, 1}, 0.0)->polygon).part ==
-           m.polygon(m.locate({9.9, 1}, 0.0)->polygon).part;
+    return m.polygon(m.locate({0.1, 1}, 0.0)->polygon).component ==
+           m.polygon(m.locate({9.9, 1}, 0.0)->polygon).component;
   };
   EXPECT_TRUE(joined());
   const int filling = mesh.add({5, 1}, 1.0, kSides);

@@ -31,14 +31,14 @@ double area(const Cutter& cutter) {
   return sum;
 }
 
-bool holds(const ExactPolygon& polygon, Step at) {
+bool holds(const ExactPolygon& polygon, LatticePoint at) {
   for (const auto& edge : polygon.edges) {
     if (side_of(edge.line, {at.x, at.y, 1}) < 0) return false;
   }
   return !polygon.edges.empty();
 }
 
-bool strictly_holds(const ExactPolygon& polygon, Step at) {
+bool strictly_holds(const ExactPolygon& polygon, LatticePoint at) {
   for (const auto& edge : polygon.edges) {
     if (side_of(edge.line, {at.x, at.y, 1}) <= 0) return false;
   }
@@ -68,7 +68,7 @@ Hole hole_about(Point center, double radius, int sides) {
   return out;
 }
 
-Hole hole_of(const std::vector<Step>& corners) {
+Hole hole_of(const std::vector<LatticePoint>& corners) {
   Hole out;
   out.shape = exact_polygon(corners);
   for (std::size_t k = 0; k < out.shape.edges.size(); ++k) out.order.push_back(static_cast<int>(k));
@@ -90,7 +90,8 @@ void expect_rest(const ExactPolygon& polygon, const std::vector<const Hole*>& ho
     return static_cast<std::int64_t>(std::uniform_real_distribution<double>(low, high)(random));
   };
   for (int k = 0; k < 60; ++k) {
-    const Step at{inside(polygon.low.x, polygon.high.x), inside(polygon.low.y, polygon.high.y)};
+    const LatticePoint at{inside(polygon.low.x, polygon.high.x),
+                          inside(polygon.low.y, polygon.high.y)};
     bool in_piece = false, in_hole = false, deep_in_hole = false;
     for (std::size_t i = 0; i < cutter.count(); ++i)
       in_piece = in_piece || holds(cutter.piece(i), at);
@@ -123,20 +124,20 @@ TEST(ExactPolygon, gives_a_place_the_same_doubles_however_it_came_to_be) {
     return static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * range + 1)) - range;
   };
   for (int i = 0; i < 5000; ++i) {
-    const Step at{draw(1 << 28), draw(1 << 28)};
+    const LatticePoint at{draw(1 << 28), draw(1 << 28)};
     const HalfPlane first = left_of(at, {at.x + draw(9000), at.y + 1 + std::abs(draw(9000))});
     const HalfPlane second = left_of(at, {at.x + 9001 + std::abs(draw(9000)), at.y + draw(9000)});
     if (first.a * second.b == first.b * second.a) continue;
-    const Point place = place_of(meet(first, second));
+    const Point place = place_of(intersect(first, second));
     ASSERT_EQ(place.x, static_cast<double>(at.x));
     ASSERT_EQ(place.y, static_cast<double>(at.y));
     // Three lines through one place that is no whole step.
     const HalfPlane level{0, 3, -10};
     const HalfPlane upright{7, 0, -5};
     const HalfPlane slanted{7 * 2, 3, -5 * 2 - 10};
-    const Point a = place_of(meet(level, upright));
-    const Point b = place_of(meet(upright, slanted));
-    const Point c = place_of(meet(slanted, level));
+    const Point a = place_of(intersect(level, upright));
+    const Point b = place_of(intersect(upright, slanted));
+    const Point c = place_of(intersect(slanted, level));
     ASSERT_TRUE(a == b && b == c);
   }
 }
@@ -261,7 +262,7 @@ TEST(Cutter, cuts_anything_out_of_anything) {
       return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
     };
     // A convex polygon about the origin, corners on whole cells.
-    std::vector<Step> corners;
+    std::vector<LatticePoint> corners;
     const int count = draw(3, 7);
     for (int k = 0; k < count; ++k) {
       const double angle = 2 * M_PI * k / count;

@@ -25,7 +25,7 @@ bool joined(const NavMesh& mesh, Point a, Point b) {
   const auto from = mesh.mesh().locate(a, 0.3);
   const auto to = mesh.mesh().locate(b, 0.3);
   return from && to &&
-         mesh.mesh().polygon(from->polygon).part == mesh.mesh().polygon(to->polygon).part;
+         mesh.mesh().polygon(from->polygon).component == mesh.mesh().polygon(to->polygon).component;
 }
 
 double area_of(const Mesh& mesh) {
@@ -54,7 +54,7 @@ bool equal(const Mesh& a, const Mesh& b) {
   if (a.polygons.size() != b.polygons.size()) return false;
   for (std::size_t i = 0; i < a.polygons.size(); ++i) {
     if (!(a.outline(static_cast<int>(i)) == b.outline(static_cast<int>(i))) ||
-        a.polygons[i].links.size() != b.polygons[i].links.size())
+        a.polygons[i].portals.size() != b.polygons[i].portals.size())
       return false;
   }
   return true;

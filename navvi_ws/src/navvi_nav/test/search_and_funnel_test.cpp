@@ -38,13 +38,13 @@ TEST(Mesh, of_no_triangles_locates_nothing) {
   EXPECT_TRUE(join({}, 0.05).polygons.empty());
 }
 
-TEST(Mesh, links_triangles_that_share_only_a_part_of_an_edge) {
+TEST(Mesh, connects_triangles_that_share_only_a_part_of_an_edge) {
   const Mesh mesh = join({triangle(0, 0, 4, 0, 0, 4), triangle(1, 0, 0, -2, 3, 0)}, 0.5);
-  ASSERT_EQ(mesh.polygons[0].links.size(), 1U);
-  const Link& link = mesh.polygons[0].links[0];
-  EXPECT_EQ(link.to, 1);
-  EXPECT_EQ(mesh.at(link.left), (Point{1.5, 0}));  // who goes down has east on the left
-  EXPECT_EQ(mesh.at(link.right), (Point{0.5, 0}));
+  ASSERT_EQ(mesh.polygons[0].portals.size(), 1U);
+  const Portal& portal = mesh.polygons[0].portals[0];
+  EXPECT_EQ(portal.to, 1);
+  EXPECT_EQ(mesh.at(portal.left), (Point{1.5, 0}));  // who goes down has east on the left
+  EXPECT_EQ(mesh.at(portal.right), (Point{0.5, 0}));
 }
 
 TEST(Mesh, makes_the_end_of_a_link_a_corner_of_both_polygons) {
@@ -70,7 +70,7 @@ TEST(Mesh, takes_neither_open_floor_nor_a_straight_wall_for_a_corner) {
   for (const Vertex& vertex : join(squares, 0.05).vertices) EXPECT_FALSE(vertex.corner);
 }
 
-TEST(Mesh, gives_each_side_of_a_pinch_its_own_vertex) {
+TEST(Mesh, gives_each_side_of_a_non_manifold_vertex_its_own) {
   const auto square = [](int x, int y) {
     return GridPolygon{{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
   };
@@ -78,16 +78,16 @@ TEST(Mesh, gives_each_side_of_a_pinch_its_own_vertex) {
   int there = 0;
   for (const Vertex& vertex : mesh.vertices) there += vertex.at == (Point{1, 1}) ? 1 : 0;
   EXPECT_EQ(there, 1);  // (0, 1) joins them
-  const Mesh pinch = join({square(0, 0), square(1, 1), square(2, 1), square(2, 0)}, 1);
+  const Mesh touching = join({square(0, 0), square(1, 1), square(2, 1), square(2, 0)}, 1);
   there = 0;
-  for (const Vertex& vertex : pinch.vertices) there += vertex.at == (Point{1, 1}) ? 1 : 0;
+  for (const Vertex& vertex : touching.vertices) there += vertex.at == (Point{1, 1}) ? 1 : 0;
   EXPECT_EQ(there, 2);
 }
 
 TEST(Mesh, does_not_link_triangles_that_touch_in_a_point) {
   const Mesh mesh = join({triangle(0, 0, 1, 0, 0, 1), triangle(1, 0, 2, 0, 2, 1)}, 1.0);
-  EXPECT_TRUE(mesh.polygons[0].links.empty());
-  EXPECT_NE(mesh.polygons[0].part, mesh.polygons[1].part);
+  EXPECT_TRUE(mesh.polygons[0].portals.empty());
+  EXPECT_NE(mesh.polygons[0].component, mesh.polygons[1].component);
 }
 
 TEST(Mesh, locates_the_nearest_point_within_reach_only) {
@@ -159,7 +159,7 @@ TEST(Funnel, passes_portals_of_no_width) {
 
 TEST(Funnel, winds_through_a_slalom) {
   // Gates to be passed above, below, above.
-  const std::vector<Portal> gates{{{1, 1}, {1, 3}}, {{2, -3}, {2, -1}}, {{3, 1}, {3, 3}}};
+  const std::vector<Interval> gates{{{1, 1}, {1, 3}}, {{2, -3}, {2, -1}}, {{3, 1}, {3, 3}}};
   const Path path = funnel({0, 0}, {4, 0}, gates);
   ASSERT_EQ(path.size(), 5U);
   EXPECT_EQ(path[1], (Point{1, 1}));

@@ -24,7 +24,7 @@ std::optional<Mesh::Place> place_of(const Mesh& mesh, Point point) {
   return std::nullopt;
 }
 
-/// Two places that no pinch leaves open to interpretation.
+/// Neither place lies on a non-manifold vertex.
 struct Query {
   Mesh::Place start;
   Mesh::Place goal;
@@ -68,9 +68,9 @@ struct Judge {
   }
 };
 
-/// True if polygons meet in this point that no link through it joins: then it is not said on which
-/// side of the pinch a path begins.
-bool on_pinch(const Mesh& mesh, Point point) {
+/// True if polygons meet in this point that no portal through it joins: then it is open on which
+/// side of the vertex a path begins.
+bool on_non_manifold_vertex(const Mesh& mesh, Point point) {
   std::vector<int> there;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const auto outline = mesh.outline(static_cast<int>(i));
@@ -79,11 +79,11 @@ bool on_pinch(const Mesh& mesh, Point point) {
   }
   std::vector<int> joined(there.begin(), there.begin() + 1);
   for (std::size_t i = 0; i < joined.size(); ++i) {
-    for (const Link& link : mesh.polygon(joined[i]).links) {
-      const Point near = nearest_on_segment(point, mesh.at(link.right), mesh.at(link.left));
+    for (const Portal& portal : mesh.polygon(joined[i]).portals) {
+      const Point near = nearest_on_segment(point, mesh.at(portal.right), mesh.at(portal.left));
       if (distance(near, point) < 1e-12 &&
-          std::find(joined.begin(), joined.end(), link.to) == joined.end())
-        joined.push_back(link.to);
+          std::find(joined.begin(), joined.end(), portal.to) == joined.end())
+        joined.push_back(portal.to);
     }
   }
   return joined.size() < there.size();
@@ -108,7 +108,7 @@ void judge_worlds(WorldKind kind, double angle, Judge& judge) {
     const auto somewhere = [&] {
       for (;;) {
         const Point point = to_parent({shift, angle}, scale * world.somewhere(random));
-        if (!on_pinch(mesh, point)) return *place_of(mesh, point);
+        if (!on_non_manifold_vertex(mesh, point)) return *place_of(mesh, point);
       }
     };
     for (int i = 0; i < kQueries; ++i) {
@@ -163,7 +163,9 @@ TEST(Search, finds_the_shortest_path_between_carved_cylinders) {
     for (int i = 0; i < kQueries; ++i) {
       const auto start = place_of(mesh, 0.5 * world.somewhere(random));
       const auto goal = place_of(mesh, 0.5 * world.somewhere(random));
-      if (!start || !goal || on_pinch(mesh, start->point) || on_pinch(mesh, goal->point)) continue;
+      if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
+          on_non_manifold_vertex(mesh, goal->point))
+        continue;
       judge.judge(mesh, {*start, *goal}, graph);
       if (HasFailure()) return;
     }
@@ -191,7 +193,8 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
       for (int i = 0; i < 6; ++i) {
         const auto start = place_of(mesh, 0.5 * world.somewhere(random));
         const auto goal = place_of(mesh, 0.5 * world.somewhere(random));
-        if (!start || !goal || on_pinch(mesh, start->point) || on_pinch(mesh, goal->point))
+        if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
+            on_non_manifold_vertex(mesh, goal->point))
           continue;
         judge.judge(mesh, {*start, *goal}, graph);
         if (HasFailure()) return;
@@ -201,7 +204,7 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
   EXPECT_GT(judge.answered, 1000);
 }
 
-TEST(Search, does_not_take_one_side_of_a_pinch_for_the_other) {
+TEST(Search, keeps_the_sides_of_a_non_manifold_vertex_apart) {
   struct Case {
     WorldKind kind;
     int holes;
@@ -226,7 +229,8 @@ TEST(Search, does_not_take_one_side_of_a_pinch_for_the_other) {
       for (int i = 0; i < 200; ++i) {
         const auto start = mesh.locate(0.5 * world.somewhere(random), 1e-9);
         const auto goal = mesh.locate(0.5 * world.somewhere(random), 1e-9);
-        if (!start || !goal || on_pinch(mesh, start->point) || on_pinch(mesh, goal->point))
+        if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
+            on_non_manifold_vertex(mesh, goal->point))
           continue;
         judge.judge(mesh, {*start, *goal}, graph);
         if (HasFailure()) return;

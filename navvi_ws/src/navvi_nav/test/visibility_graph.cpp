@@ -22,7 +22,7 @@ VisibilityGraph::VisibilityGraph(const Mesh& mesh) : mesh_(mesh) {
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const Polygon& polygon = mesh.polygons[i];
     std::set<std::pair<int, int>> open;
-    for (const Link& link : polygon.links) open.insert({link.right, link.left});
+    for (const Portal& portal : polygon.portals) open.insert({portal.right, portal.left});
     for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
       const int from = polygon.corners[k];
       const int to = polygon.corners[(k + 1) % polygon.corners.size()];
@@ -143,7 +143,8 @@ std::vector<double> VisibilityGraph::reach(Point from) const {
 }
 
 std::optional<double> VisibilityGraph::distance(const Mesh::Place& start, const Mesh::Place& goal) {
-  if (mesh_.polygon(start.polygon).part != mesh_.polygon(goal.polygon).part) return std::nullopt;
+  if (mesh_.polygon(start.polygon).component != mesh_.polygon(goal.polygon).component)
+    return std::nullopt;
   if (visible(start.point, goal.point)) return navvi_nav::distance(start.point, goal.point);
   std::vector<double> best = reach(start.point);
   const std::vector<double> rest = reach(goal.point);

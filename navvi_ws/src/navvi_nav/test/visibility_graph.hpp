@@ -8,7 +8,7 @@
 namespace navvi_nav {
 
 /// Shortest paths by brute force, to judge searches by: every pair of wall ends is tried against
-/// every wall. Of a mesh it takes only its polygons' outlines and which of their edges are links.
+/// every wall. Of a mesh it takes only its polygons' outlines and which of their edges are portals.
 class VisibilityGraph {
  public:
   explicit VisibilityGraph(const Mesh& mesh);
@@ -30,7 +30,8 @@ class VisibilityGraph {
     std::vector<std::pair<int, double>> seen;
   };
   [[nodiscard]] bool inside(Point point) const;
-  /// True if a path that begins at the vertex in this direction begins on its side of a pinch.
+  /// True if a path that begins at the vertex in this direction begins on its side of a
+  /// non-manifold vertex.
   [[nodiscard]] bool leaves(int vertex, Point direction) const;
   [[nodiscard]] bool sees(const Node& a, const Node& b) const;
   [[nodiscard]] std::vector<double> reach(Point from) const;

@@ -32,12 +32,12 @@ class AnyAngle {
   void leave_start();
   void expand(const Cone& node);
   void see_goal(const Cone& node);
-  void slip_into(const Link& link, int root, double cost);
-  void turn(const Cone& node, const Link& link, bool to_right, bool whole);
+  void slip_into(const Portal& portal, int root, double cost);
+  void turn(const Cone& node, const Portal& portal, bool to_right, bool whole);
   [[nodiscard]] int origin_of(int root, Point ahead) const;
   [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
-  void add(const Cone& node, const Point& link_right, const Point& link_left);
+  void add(const Cone& node, const Point& portal_right, const Point& portal_left);
   [[nodiscard]] bool outdone(const Cone& node);
   void push(const Cone& node, double estimate);
   bool pop(Cone& node);

@@ -2,15 +2,14 @@
 
 #include <vector>
 
-#include "navvi_nav/funnel.hpp"
 #include "navvi_nav/mesh.hpp"
 
 namespace navvi_nav {
 
-/// The way from start to goal through the polygons, or none.
+/// The portals from start to goal, or none.
 struct Corridor {
   bool found = false;
-  std::vector<Portal> portals;  ///< that are crossed; none if one polygon holds both
+  std::vector<Interval> portals;  ///< that are crossed; none if one polygon holds both
   std::size_t nodes_expanded = 0;
 };
 

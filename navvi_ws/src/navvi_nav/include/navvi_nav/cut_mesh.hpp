@@ -2,29 +2,32 @@
 
 #include <vector>
 
-#include "navvi_nav/boundary.hpp"
+#include "navvi_nav/base_polygons.hpp"
+#include "navvi_nav/components.hpp"
+#include "navvi_nav/edge_matcher.hpp"
 #include "navvi_nav/exact_polygon.hpp"
-#include "navvi_nav/grounds.hpp"
 #include "navvi_nav/mesh.hpp"
-#include "navvi_nav/parts.hpp"
-#include "navvi_nav/pinches.hpp"
+#include "navvi_nav/non_manifold_vertices.hpp"
 #include "navvi_nav/vertex_pool.hpp"
 
 namespace navvi_nav {
 
 /// A floor of convex polygons with round holes that come and go (R-NAV-4, R-NAV-5).
 ///
-/// The floor's polygons are kept as they are. One that holes reach into is shown as the pieces that
-/// they leave of it, and is cut anew from the whole when one of them changes, so that a floor
-/// without holes is the very floor that was given, whatever happened before. Only these polygons
-/// and their neighbours are looked at: the cost follows what changed, not the floor.
+/// The polygons of the floor, the base polygons, are kept unchanged. The mesh holds the pieces that
+/// holes leave of them. When a hole changes, each base polygon that it reaches is cut again from
+/// the whole, so a floor without holes is exactly the floor that was given, whatever happened
+/// before. Only these polygons and their neighbours are visited: the cost follows what changed, not
+/// the size of the floor.
 class CutMesh {
  public:
   CutMesh() = default;
-  /// \param floor  polygons that do not overlap; they are numbered from 0 \param unit  m, of theirs
+  /// \param floor  polygons that do not overlap; they are numbered from 0 \param unit  m, of their
+  /// coordinates
   CutMesh(const std::vector<GridPolygon>& floor, double unit);
-  /// Takes polygons out of the floor and puts others in. There must be no holes: take them out
-  /// before. \param gone  numbers of polygons \returns the numbers of those that came
+  /// Removes polygons from the floor and adds others. There must be no holes: remove them before.
+  /// \param gone  numbers of polygons \param come  new polygons \returns the numbers of the new
+  /// ones
   std::vector<int> change_floor(const std::vector<int>& gone, const std::vector<GridPolygon>& come);
 
   /// Changes what the next update() makes of the mesh.
@@ -38,55 +41,54 @@ class CutMesh {
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
  private:
-  using Ground = Grounds::Ground;
-  /// What must be known besides of a polygon of the mesh.
+  /// What is kept besides about a polygon of the mesh.
   struct Piece {
-    int ground = 0;
+    int base = 0;
     std::vector<Side> sides;
-    std::vector<int> link_sides;  ///< through which each link leaves
-    Point low;                    ///< m
+    std::vector<int> portal_sides;  ///< through which each portal leaves
+    Point low;                      ///< m
     Point high;
   };
-  struct Opening {
+  struct PlacedHole {
     Hole hole;
     Point center;  ///< steps
     double radius = 0.0;
-    std::vector<int> grounds;  ///< that it reaches into
+    std::vector<int> bases;    ///< that it reaches into
     std::vector<int> corners;  ///< vertices
   };
 
-  [[nodiscard]] Point position(const Meeting& at) const;
+  [[nodiscard]] Point position(const Intersection& at) const;
   [[nodiscard]] ExactPolygon shape_of(const GridPolygon& polygon) const;
   void begin();
-  void remove_ground(int ground);
-  int add_ground(const ExactPolygon& shape);
-  void find_neighbours(int ground);
+  void remove_base(int base);
+  int add_base(const ExactPolygon& shape);
+  void find_neighbours(int base);
   void add_places(int polygon, std::vector<int>& out) const;
   void set_corner(int vertex, bool corner);
   [[nodiscard]] bool is_floor_corner(int vertex) const;
   [[nodiscard]] bool cut_before(int a, int b) const;
-  void keep_links(int ground, bool all_sides);
-  void cut(int ground);
-  void clear_pieces(int ground);
-  void add_piece(int ground, const ExactPolygon& shape);
-  int free_slot(int ground);
+  void keep_portals(int base, bool all_sides);
+  void cut(int base);
+  void clear_pieces(int base);
+  void add_piece(int base, const ExactPolygon& shape);
+  int free_slot(int base);
   void recut();
-  void link();
-  void keep_parts();
+  void connect();
+  void keep_components();
   void shrink();
 
   double unit_ = 1.0;   // m
   double steps_ = 1.0;  // in a unit
   Mesh mesh_;
-  Grounds grounds_;
-  /// As mesh_.polygons; the first ones belong to the ground of their number.
+  BasePolygons bases_;
+  /// As mesh_.polygons; the first ones belong to the base polygon of their number.
   std::vector<Piece> pieces_;
   std::vector<int> free_pieces_;
-  std::vector<Opening> openings_;
-  std::vector<int> free_openings_;
+  std::vector<PlacedHole> placed_holes_;
+  std::vector<int> free_holes_;
   VertexPool pool_;
-  Pinches pinches_;
-  Parts parts_;
+  NonManifoldVertices non_manifold_;
+  Components components_;
   std::size_t own_vertices_ = 0;  // that the floor uses
   std::size_t vertices_end_ = 0;  // one beyond the last of these
 
@@ -94,10 +96,10 @@ class CutMesh {
   std::vector<int> changed_;  // polygons of the mesh
   std::vector<int> near_edges_;
   std::vector<const Hole*> holes_;
-  std::vector<Crossing> crossings_;  // of changed polygons
-  Forest regions_;                   // of touched grounds and their neighbours
-  std::vector<Parts::Changed> changed_parts_;
-  Matcher matcher_;
+  std::vector<SidePortal> side_portals_;  // of changed polygons
+  DisjointSets regions_;                  // of touched base polygons and their neighbours
+  std::vector<Components::Changed> changed_components_;
+  EdgeMatcher matcher_;
   Cutter cutter_;
 };
 

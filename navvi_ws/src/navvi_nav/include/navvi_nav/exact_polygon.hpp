@@ -9,7 +9,7 @@ namespace navvi_nav {
 
 /// Whole steps of a lattice that is finer than the map's cells: whatever is cut, and whatever cuts,
 /// has its corners there, so that all that follows can be told without rounding.
-struct Step {
+struct LatticePoint {
   std::int64_t x = 0;
   std::int64_t y = 0;
 };
@@ -34,30 +34,30 @@ inline bool operator==(const HalfPlane& p, const HalfPlane& q) {
 }
 
 /// What lies on the left of the way between two different steps.
-[[nodiscard]] HalfPlane left_of(Step from, Step to);
+[[nodiscard]] HalfPlane left_of(LatticePoint from, LatticePoint to);
 
 /// Where two lines meet: (x / w, y / w) in steps, w > 0. Exact.
-struct Meeting {
+struct Intersection {
   __extension__ typedef __int128 Wide;
   Wide x = 0;
   Wide y = 0;
   std::int64_t w = 1;
 };
 
-[[nodiscard]] Meeting meet(const HalfPlane& p, const HalfPlane& q);
+[[nodiscard]] Intersection intersect(const HalfPlane& p, const HalfPlane& q);
 /// 1 inside, 0 on the border, -1 outside.
-[[nodiscard]] int side_of(const HalfPlane& half, const Meeting& at);
+[[nodiscard]] int side_of(const HalfPlane& half, const Intersection& at);
 /// The doubles nearest to the place, steps. However a place came to be, it gets the same ones.
-[[nodiscard]] Point place_of(const Meeting& at);
+[[nodiscard]] Point place_of(const Intersection& at);
 
 /// A strictly convex polygon made of its edges' lines, after Sugihara and Iri, "A solid modelling
 /// system free from topological inconsistency" (1989): no cut rounds, so neighbours that were cut
 /// by the same line still match, and no order of cuts opens a gap.
 struct ExactPolygon {
   struct Edge {
-    HalfPlane line;  ///< the polygon is inside
-    Meeting begin;   ///< with the edge before
-    int number = 0;  ///< of the edge in what was cut; kCut for a cut
+    HalfPlane line;      ///< the polygon is inside
+    Intersection begin;  ///< with the edge before
+    int number = 0;      ///< of the edge in what was cut; kCut for a cut
   };
   static constexpr int kCut = -1;
 
@@ -69,7 +69,7 @@ struct ExactPolygon {
 
 /// \param corners  counter-clockwise, convex; those on a straight edge are left out. An edge has
 ///                 the number of the last corner where it may be said to begin.
-[[nodiscard]] ExactPolygon exact_polygon(const std::vector<Step>& corners);
+[[nodiscard]] ExactPolygon exact_polygon(const std::vector<LatticePoint>& corners);
 
 /// A convex hole about a circle.
 struct Hole {
@@ -85,11 +85,11 @@ struct Hole {
   void place(Point center, double radius, int sides);
 
  private:
-  void build(Step middle, double reach, int sides);
+  void build(LatticePoint middle, double reach, int sides);
   void build_square(Point center, double reach);
   void find_order(int sides);
 
-  Step middle_;
+  LatticePoint middle_;
   double radius_ = -1.0;
   int sides_ = 0;  // 0: what stands here can not be moved
 };

@@ -8,24 +8,24 @@
 
 namespace navvi_nav {
 
-/// Of each link a root that sees the whole of it, as far as they have been kept: another one that
+/// Of each portal a root that sees the whole of it, as far as they have been kept: another one that
 /// sees a part may have nothing to add.
 class Views {
  public:
   struct View {
     std::uint32_t query = 0;
     int polygon = 0;
-    int link_right = 0;
-    int link_left = 0;
+    int portal_right = 0;
+    int portal_left = 0;
     int root = 0;
     double cost = 0.0;  ///< m, from the start
     Point from;
 
-    /// True if the way over this root is at least as short to all of a part of the link as the way
-    /// over another. Where both ends are not farther for a root that is dearer to reach, no point
-    /// between is: it is a branch of a hyperbola, convex, within which that root is better. For a
-    /// cheaper root the difference has its only minimum where its line through the other root meets
-    /// the link. \param slack  m, of rounding
+    /// True if the way over this root is at least as short to all of a part of the portal as the
+    /// way over another. Where both ends are not farther for a root that is dearer to reach, no
+    /// point between is: it is a branch of a hyperbola, convex, within which that root is better.
+    /// For a cheaper root the difference has its only minimum where its line through the other root
+    /// meets the portal. \param slack  m, of rounding
     [[nodiscard]] bool as_near(const Cone::Part& part, Point other, double other_cost,
                                double slack) const {
       if (cost + distance(from, part.right) > other_cost + distance(other, part.right) + slack ||
@@ -51,22 +51,23 @@ class Views {
       query_ = 1;
     }
   }
-  /// \param cone  that fills its link
+  /// \param cone  that fills its portal
   void keep(const Cone& cone, Point root) {
-    view_of(cone) = {query_,    cone.polygon, cone.link_right, cone.link_left, cone.root,
+    view_of(cone) = {query_,    cone.polygon, cone.portal_right, cone.portal_left, cone.root,
                      cone.cost, root};
   }
-  /// Another root that sees the whole of the cone's link; null: none is known.
+  /// Another root that sees the whole of the cone's portal; null: none is known.
   [[nodiscard]] const View* rival(const Cone& cone) {
     const View& view = view_of(cone);
     const bool same = view.query == query_ && view.polygon == cone.polygon &&
-                      view.link_right == cone.link_right && view.link_left == cone.link_left;
+                      view.portal_right == cone.portal_right &&
+                      view.portal_left == cone.portal_left;
     return same && view.root != cone.root ? &view : nullptr;
   }
 
  private:
   [[nodiscard]] View& view_of(const Cone& cone) {
-    const auto key = static_cast<std::uint32_t>(cone.link_right) * 0x9E3779B1U +
+    const auto key = static_cast<std::uint32_t>(cone.portal_right) * 0x9E3779B1U +
                      static_cast<std::uint32_t>(cone.polygon) * 0x85EBCA6BU;
     return views_[key >> shift_];
   }

@@ -8,35 +8,35 @@
 
 namespace navvi_nav {
 
-/// The polygons of a floor by number and by place, and which of them a change is about: those that
-/// it touches, to be cut anew, and the others on their borders, to be linked anew.
-class Grounds {
- public:
-  /// A polygon of the floor.
-  struct Ground {
-    struct Neighbour {
-      int ground = 0;
-      int edge = 0;  ///< number of our edge that it touches
-    };
-    ExactPolygon shape;  ///< without edges: an empty slot
-    std::vector<Neighbour> neighbours;
-    std::vector<int> holes;   ///< that reach into it
-    std::vector<int> pieces;  ///< its polygons in the mesh
+/// A polygon of the floor without holes.
+struct BasePolygon {
+  struct Neighbour {
+    int base = 0;
+    int edge = 0;  ///< number of our edge that it touches
   };
+  ExactPolygon shape;  ///< without edges: an empty slot
+  std::vector<Neighbour> neighbours;
+  std::vector<int> holes;   ///< that reach into it
+  std::vector<int> pieces;  ///< its polygons in the mesh
+};
 
-  Grounds() = default;
-  /// \param low, high  m, of the floor at first \param square  m, of the grid \param step  m, of
-  /// the shapes' numbers
-  Grounds(Point low, Point high, double square, double step)
+/// The polygons of a floor by number and by place, and those that a change concerns: the touched
+/// ones are cut again, and their neighbours, the borders, get new portals.
+class BasePolygons {
+ public:
+  BasePolygons() = default;
+  /// \param low, high  m, of the first floor \param square  m, of the grid \param step  m, of the
+  /// shapes' lattice
+  BasePolygons(Point low, Point high, double square, double step)
       : grid_(low, high, square), step_(step) {}
 
-  /// Adds one that is touched. \returns its number, the next one or that of an empty slot
+  /// Adds a touched polygon. \returns its number, the next one or that of an empty slot
   int add(const ExactPolygon& shape);
   void remove(int number);
-  [[nodiscard]] Ground& operator[](int number) {
-    return grounds_[static_cast<std::size_t>(number)];
+  [[nodiscard]] BasePolygon& operator[](int number) {
+    return bases_[static_cast<std::size_t>(number)];
   }
-  [[nodiscard]] std::size_t size() const { return grounds_.size(); }  ///< with empty slots
+  [[nodiscard]] std::size_t size() const { return bases_.size(); }  ///< with empty slots
   /// Calls visit(number) for all that the shape may touch; for some more than once.
   template <typename Visit>
   void visit(const ExactPolygon& shape, Visit visit) const {
@@ -51,7 +51,7 @@ class Grounds {
   }
   [[nodiscard]] const std::vector<int>& touched() const { return touched_; }
   [[nodiscard]] const std::vector<int>& borders() const { return borders_; }
-  /// The change is done.
+  /// Ends the change: nothing is touched.
   void settle();
 
  private:
@@ -60,7 +60,7 @@ class Grounds {
 
   BoxGrid grid_;
   double step_ = 1.0;
-  std::vector<Ground> grounds_;
+  std::vector<BasePolygon> bases_;
   std::vector<int> free_;
   std::vector<Mark> marks_;
   std::vector<int> touched_;

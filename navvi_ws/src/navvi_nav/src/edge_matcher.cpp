@@ -1,4 +1,4 @@
-#include "navvi_nav/boundary.hpp"
+#include "navvi_nav/edge_matcher.hpp"
 
 #include <algorithm>
 
@@ -23,13 +23,13 @@ double along(const Side& side, Point at) {
   return line.a < 0 ? at.y : -at.y;
 }
 
-void Matcher::clear() {
+void EdgeMatcher::clear() {
   entries_.clear();
   keys_.clear();
 }
 
-void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool fresh,
-                  const std::vector<Vertex>& vertices) {
+void EdgeMatcher::add(const std::vector<Side>& sides, int number, int polygon, bool fresh,
+                      const std::vector<Vertex>& vertices) {
   const auto k = static_cast<std::size_t>(number);
   const int begin = sides[k].begin;
   const int end = sides[k + 1 < sides.size() ? k + 1 : 0].begin;
@@ -48,7 +48,7 @@ void Matcher::add(const std::vector<Side>& sides, int number, int polygon, bool 
   entries_.push_back(entry);
 }
 
-void Matcher::match(std::vector<Crossing>& out) {
+void EdgeMatcher::match(std::vector<SidePortal>& out) {
   std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
     return a.line != b.line ? a.line < b.line : a.low < b.low;
   });
@@ -70,17 +70,18 @@ void Matcher::match(std::vector<Crossing>& out) {
   }
 }
 
-void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
-           const Crossing* last) {
+void bound(Polygon& polygon, const std::vector<Side>& sides, const SidePortal* first,
+           const SidePortal* last) {
   polygon.corners.clear();
-  polygon.links.clear();
+  polygon.portals.clear();
   for (std::size_t k = 0; k < sides.size(); ++k) {
     polygon.corners.push_back(sides[k].begin);
     const int end = sides[k + 1 < sides.size() ? k + 1 : 0].begin;
     for (; first != last && first->side == static_cast<int>(k); ++first) {
-      if (first->link.right != polygon.corners.back()) polygon.corners.push_back(first->link.right);
-      if (first->link.left != end) polygon.corners.push_back(first->link.left);
-      polygon.links.push_back(first->link);
+      if (first->portal.right != polygon.corners.back())
+        polygon.corners.push_back(first->portal.right);
+      if (first->portal.left != end) polygon.corners.push_back(first->portal.left);
+      polygon.portals.push_back(first->portal);
     }
   }
 }

@@ -1,11 +1,11 @@
-#include "navvi_nav/grounds.hpp"
+#include "navvi_nav/base_polygons.hpp"
 
 namespace navvi_nav {
 
-int Grounds::add(const ExactPolygon& shape) {
-  int number = static_cast<int>(grounds_.size());
+int BasePolygons::add(const ExactPolygon& shape) {
+  int number = static_cast<int>(bases_.size());
   if (free_.empty()) {
-    grounds_.emplace_back();
+    bases_.emplace_back();
     marks_.push_back(Mark::none);
   } else {
     number = free_.back();
@@ -17,40 +17,40 @@ int Grounds::add(const ExactPolygon& shape) {
   return number;
 }
 
-void Grounds::remove(int number) {
+void BasePolygons::remove(int number) {
   const ExactPolygon& shape = (*this)[number].shape;
   grid_.remove(number, step_ * shape.low, step_ * shape.high);
   (*this)[number] = {};
   free_.push_back(number);
 }
 
-void Grounds::touch(int number) {
+void BasePolygons::touch(int number) {
   Mark& mark = marks_[static_cast<std::size_t>(number)];
   if (mark == Mark::touched) return;
   mark = Mark::touched;
   touched_.push_back(number);
 }
 
-void Grounds::find_borders() {
-  for (const int ground : touched_) {
-    for (const Ground::Neighbour& next : (*this)[ground].neighbours) add_border(next.ground);
+void BasePolygons::find_borders() {
+  for (const int base : touched_) {
+    for (const BasePolygon::Neighbour& next : (*this)[base].neighbours) add_border(next.base);
   }
 }
 
-void Grounds::find_borders(const ExactPolygon& shape) {
-  visit(shape, [this](int ground) { add_border(ground); });
+void BasePolygons::find_borders(const ExactPolygon& shape) {
+  visit(shape, [this](int base) { add_border(base); });
 }
 
-void Grounds::add_border(int number) {
+void BasePolygons::add_border(int number) {
   Mark& mark = marks_[static_cast<std::size_t>(number)];
   if (mark != Mark::none) return;
   mark = Mark::border;
   borders_.push_back(number);
 }
 
-void Grounds::settle() {
-  for (const int ground : touched_) marks_[static_cast<std::size_t>(ground)] = Mark::none;
-  for (const int ground : borders_) marks_[static_cast<std::size_t>(ground)] = Mark::none;
+void BasePolygons::settle() {
+  for (const int base : touched_) marks_[static_cast<std::size_t>(base)] = Mark::none;
+  for (const int base : borders_) marks_[static_cast<std::size_t>(base)] = Mark::none;
   touched_.clear();
   borders_.clear();
 }

@@ -8,29 +8,29 @@
 
 namespace navvi_nav {
 
-/// Where polygons meet in a point and no link joins them, as two obstacles that touch leave them,
-/// each group gets a vertex of its own: a path can not pass there, and what a search knows of a
-/// vertex must not pass there either. A place is such a pinch if two walls begin at it.
-class Pinches {
+/// The places where groups of polygons touch in a point only, as between two obstacles that touch.
+/// Each group gets a vertex of its own: a path cannot pass there, and what a search knows of a
+/// vertex must not pass there either. A vertex is non-manifold if two walls begin at it.
+class NonManifoldVertices {
  public:
-  /// Before a polygon loses its links.
+  /// Before a polygon loses its portals.
   void forget(const VertexPool& pool, const Polygon& polygon);
-  /// After a polygon got new links.
+  /// After a polygon got new portals.
   void learn(const VertexPool& pool, const Polygon& polygon);
-  /// Gives the groups at pinches their own vertices.
-  /// \param changed  the polygons that were learnt
+  /// Gives each group at a non-manifold vertex its own vertex.
+  /// \param changed  the polygons that got new portals
   void split(Mesh& mesh, VertexPool& pool, const std::vector<int>& changed);
-  /// The vertices given so far are kept for their places for good.
+  /// Duplicates that exist now stay in their places, used or not.
   void keep_all();
-  /// No longer, if split() finds no use for them.
+  /// Duplicates go when split() does not use them.
   void keep_none();
 
  private:
-  struct Twins {
+  struct Duplicates {
     std::vector<int> vertices;
     std::size_t kept = 0;
   };
-  /// A polygon's corner at the pinch.
+  /// A polygon's corner at the vertex.
   struct Wedge {
     int polygon = 0;
     std::size_t corner = 0;
@@ -43,8 +43,8 @@ class Pinches {
   void group_wedges(const Mesh& mesh, int vertex);
   void split_one(Mesh& mesh, VertexPool& pool, int vertex);
 
-  std::vector<int> walls_;  // that begin at each vertex, its twins' included
-  std::unordered_map<int, Twins> twins_;
+  std::vector<int> walls_;  // that begin at each vertex, its duplicates' included
+  std::unordered_map<int, Duplicates> duplicates_;
   std::vector<int> suspects_;
   std::vector<Wedge> wedges_;
 };

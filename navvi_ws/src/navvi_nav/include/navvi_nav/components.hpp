@@ -7,7 +7,7 @@
 namespace navvi_nav {
 
 /// Nodes in sets that can be united.
-class Forest {
+class DisjointSets {
  public:
   /// Makes room; nodes are in no set until add().
   void grow(std::size_t count) { parents_.resize(count, -1); }
@@ -22,36 +22,36 @@ class Forest {
   std::vector<int> parents_;
 };
 
-/// Keeps the polygons' parts true while the mesh changes here and there.
-class Parts {
+/// Keeps the polygons' component numbers up to date while parts of the mesh change.
+class Components {
  public:
-  /// A polygon that got new links.
+  /// A polygon that got new portals.
   struct Changed {
     int polygon = 0;
-    bool fresh = false;  ///< it is new, and has no part yet
-    int region = 0;      ///< where: of two regions, neither touches what changed in the other
+    bool fresh = false;  ///< it is new and has no component yet
+    int region = 0;      ///< polygons that changed in different regions do not touch
   };
 
-  /// Numbers all anew.
+  /// Numbers all again.
   void number(Mesh& mesh);
-  /// Looks at what changed alone, where that tells that no part was split or joined: around each
-  /// region, the polygons of a part are still joined by what is new. Else numbers all anew.
+  /// Looks only at what changed if that shows that no component was split or joined: around each
+  /// region, the polygons of a component are still joined by new ones. Else numbers all again.
   void update(Mesh& mesh, const std::vector<Changed>& changed);
 
  private:
   bool label(Mesh& mesh, const std::vector<Changed>& changed);
 
-  /// A changed polygon that kept its part.
+  /// A changed polygon that kept its component.
   struct Witness {
     int region = 0;
-    int part = 0;
+    int component = 0;
     int group = 0;
   };
   int next_ = 0;
-  Forest groups_;  // of changed polygons that links among them join
+  DisjointSets groups_;  // of changed polygons that portals among them join
   std::vector<Witness> witnesses_;
   std::vector<int> waiting_;
-  std::vector<int> labels_;  // part of each group
+  std::vector<int> labels_;  // component of each group
 };
 
 }  // namespace navvi_nav

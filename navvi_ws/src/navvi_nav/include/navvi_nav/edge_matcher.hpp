@@ -15,23 +15,24 @@ struct Side {
   int number = 0;  ///< of the edge of the floor polygon on which it lies, or ExactPolygon::kCut
 };
 
-/// A link and the side through which it leaves.
-struct Crossing {
+/// A portal and the side through which it leaves.
+struct SidePortal {
   int polygon = 0;
   int side = 0;
   double along = 0.0;  ///< m, grows along the side
-  Link link;
+  Portal portal;
 };
 
-/// Finds where polygons touch over some length: their sides lie on one line, from both sides.
-class Matcher {
+/// Finds where polygons touch over some length: where two sides lie on the same line, one on the
+/// left of it and one on the right, and overlap.
+class EdgeMatcher {
  public:
   void clear();
   /// \param fresh  only sides of which at least one is fresh are matched
   void add(const std::vector<Side>& sides, int side, int polygon, bool fresh,
            const std::vector<Vertex>& vertices);
-  /// Adds both ways of each match to `out`, in no certain order.
-  void match(std::vector<Crossing>& out);
+  /// Adds two portals a match to `out`, one in each direction, in no certain order.
+  void match(std::vector<SidePortal>& out);
 
  private:
   struct Entry {
@@ -58,9 +59,9 @@ class Matcher {
 /// m, of a vertex of the side; grows along it.
 [[nodiscard]] double along(const Side& side, Point at);
 
-/// Gives the polygon its corners and links.
-/// \param first, last  its links, in order of side and place
-void bound(Polygon& polygon, const std::vector<Side>& sides, const Crossing* first,
-           const Crossing* last);
+/// Gives the polygon its corners and portals.
+/// \param first, last  its portals, in order of side and place
+void bound(Polygon& polygon, const std::vector<Side>& sides, const SidePortal* first,
+           const SidePortal* last);
 
 }  // namespace navvi_nav
