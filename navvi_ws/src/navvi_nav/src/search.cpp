@@ -8,8 +8,8 @@ namespace navvi_nav {
 const Found& Search::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
   found_.path.clear();
   if (method_ == SearchMethod::exact) {
-    found_.found = any_angle_.find(mesh, start, goal, found_.path);
-    found_.nodes_expanded = any_angle_.nodes_expanded();
+    found_.found = polyanya_.find(mesh, start, goal, found_.path);
+    found_.nodes_expanded = polyanya_.nodes_expanded();
   } else {
     const Corridor corridor = centroid_astar(mesh, start, goal, alpha_);
     found_.found = corridor.found;

@@ -7,9 +7,9 @@
 
 namespace navvi_nav {
 
-/// What a search has still to look at, the least key first: a heap of four branches. What came last
-/// is often the least, so the least of what came since the heap was used stays outside of it.
-/// Keeps its memory.
+/// A priority queue, the least key first: a heap with four children a node. The entry pushed last
+/// is often the least, so the least one pushed since the last pop from the heap is kept outside of
+/// it. Keeps its memory.
 template <typename Key, typename Item>
 class OpenList {
  public:
@@ -32,7 +32,7 @@ class OpenList {
     if (entry.key < first_.key) std::swap(entry, first_);
     sift_up(entry);
   }
-  /// Takes the least out. It must not be empty.
+  /// Removes the least entry. The list must not be empty.
   Entry pop() {
     if (has_first_ && (heap_.empty() || first_.key <= heap_[0].key)) {
       has_first_ = false;

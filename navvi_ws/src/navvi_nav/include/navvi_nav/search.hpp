@@ -2,13 +2,13 @@
 
 #include <cstddef>
 
-#include "navvi_nav/any_angle.hpp"
 #include "navvi_nav/mesh.hpp"
+#include "navvi_nav/polyanya.hpp"
 
 namespace navvi_nav {
 
 enum class SearchMethod {
-  exact,           ///< the shortest path there is
+  exact,           ///< the shortest path: Polyanya
   centroid_astar,  ///< the paper's: A* on centroids, then the funnel (R-NAV-6, R-NAV-7)
 };
 
@@ -19,20 +19,20 @@ struct Found {
   std::size_t nodes_expanded = 0;
 };
 
-/// From a place on a mesh to another. Keeps its memory: the exact method allocates nothing once it
-/// has answered queries as hard. Not for two threads at once.
+/// Finds paths between places on a mesh. Keeps its memory: the exact method allocates nothing once
+/// it has answered queries as hard. Not thread-safe.
 class Search {
  public:
   /// \param alpha  0 to 1, weight of the heuristic of centroid_astar
   explicit Search(SearchMethod method, double alpha = 1.0) : method_(method), alpha_(alpha) {}
 
-  /// The mesh may have changed since the last query. \returns what the next query overwrites
+  /// The mesh may have changed since the last query. \returns valid until the next query
   const Found& find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
 
  private:
   SearchMethod method_;
   double alpha_;
-  AnyAngle any_angle_;
+  Polyanya polyanya_;
   Found found_;
 };
 

@@ -3,44 +3,44 @@
 #include <cstdint>
 #include <vector>
 
-#include "navvi_nav/cone.hpp"
+#include "navvi_nav/dominance_table.hpp"
 #include "navvi_nav/mesh.hpp"
 #include "navvi_nav/open_list.hpp"
-#include "navvi_nav/views.hpp"
+#include "navvi_nav/search_node.hpp"
 
 namespace navvi_nav {
 
 /// The shortest path on a mesh, exact: Polyanya (Cui, Harabor, Grastien, "Compromise-free
-/// Pathfinding on a Navigation Mesh", IJCAI 2017), with another rule for routes of equal length.
+/// Pathfinding on a Navigation Mesh", IJCAI 2017), with another rule for paths of equal length.
 /// Keeps its memory from query to query.
-class AnyAngle {
+class Polyanya {
  public:
-  /// \param path  gets the path, without points where it goes straight on; empty if there is none
+  /// \param path  gets the path, without points where it does not turn; empty if there is none
   /// \returns true if there is a path
   bool find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal, Path& path);
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:
-  /// The shortest way known to a vertex.
+  /// The shortest path known to a vertex.
   struct Reached {
     double cost = 0.0;
-    int parent = -1;  ///< the root from which it was seen
+    int parent = -1;  ///< the root before it
     std::uint32_t query = 0;
   };
 
   void begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal);
-  void leave_start();
-  void expand(const Cone& node);
-  void see_goal(const Cone& node);
-  void slip_into(const Portal& portal, int root, double cost);
-  void turn(const Cone& node, const Portal& portal, bool to_right, bool whole);
+  void expand_start();
+  void expand(const SearchNode& node);
+  void see_goal(const SearchNode& node);
+  void enter_collinear(const Portal& portal, int root, double cost);
+  void turn(const SearchNode& node, const Portal& portal, bool to_right, bool whole);
   [[nodiscard]] int origin_of(int root, Point ahead) const;
-  [[nodiscard]] bool touches(int vertex, int polygon, Point ahead, bool on_right) const;
+  [[nodiscard]] bool has_wall(int vertex, int polygon, Point ahead, bool on_right) const;
   bool reach(int vertex, int parent, double cost);
-  void add(const Cone& node, const Point& portal_right, const Point& portal_left);
-  [[nodiscard]] bool outdone(const Cone& node);
-  void push(const Cone& node, double estimate);
-  bool pop(Cone& node);
+  void add(const SearchNode& node, const Point& portal_right, const Point& portal_left);
+  [[nodiscard]] bool is_dominated(const SearchNode& node);
+  void push(const SearchNode& node, double estimate);
+  bool pop(SearchNode& node);  ///< false if none is left
   [[nodiscard]] bool is_corner(int vertex) const {
     return mesh_->vertices[static_cast<std::size_t>(vertex)].corner;
   }
@@ -50,11 +50,11 @@ class AnyAngle {
   const Mesh* mesh_ = nullptr;
   Point from_;
   Point to_;
-  int start_ = 0;  ///< the root that is no vertex
+  int start_ = 0;  ///< number of the start as a root: one beyond the last vertex
   std::uint32_t query_ = 0;
   std::vector<Reached> reached_;
-  Views views_;
-  std::vector<Cone> nodes_;
+  DominanceTable dominance_;
+  std::vector<SearchNode> nodes_;
   std::vector<std::uint32_t> unused_;
   OpenList<std::uint64_t, std::uint32_t> open_;  ///< indices into nodes_
   std::vector<int> start_polygons_;

@@ -1,11 +1,11 @@
-#include "navvi_nav/any_angle.hpp"
+#include "navvi_nav/polyanya.hpp"
 
 namespace navvi_nav {
 namespace {
 
-constexpr double kTie = 2e-12;                  // of a length
-constexpr double kQuantum = 1.0 / (1LL << 36);  // m
-constexpr int kGBits = 11;
+constexpr double kTie = 2e-12;                  // of a length: paths that differ less are equal
+constexpr double kQuantum = 1.0 / (1LL << 36);  // m, of the keys in the open list
+constexpr int kGBits = 11;  // of these keys, by which among equal estimates the deepest is first
 constexpr int kMostAround = 64;    // polygons at a vertex
 constexpr double kOnLine = 1e-12;  // m, how far a point may lie from a line that runs through it
 constexpr double kTouch = 1e-10;   // m, from a point to an edge that it lies on
@@ -20,8 +20,8 @@ int side(Point a, double a_extent, Point b, double b_extent) {
   return (value > slack ? 1 : 0) - (value < -slack ? 1 : 0);
 }
 
-/// The polygons that hold a place: more than one if it lies on a portal or a vertex.
-void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons) {
+/// Finds the polygons that contain a place: more than one if it lies on a portal or a vertex.
+void find_polygons_at(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons) {
   polygons.assign(1, place.polygon);
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     for (const Portal& portal : mesh.polygon(polygons[i]).portals) {
@@ -36,7 +36,7 @@ void surround(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& poly
 
 }  // namespace
 
-bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
+bool Polyanya::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal,
                     Path& path) {
   path.clear();
   begin(mesh, start, goal);
@@ -48,8 +48,8 @@ bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Plac
       return true;
     }
   }
-  leave_start();
-  Cone node;
+  expand_start();
+  SearchNode node;
   while (pop(node)) {
     if (node.cost > reached_[static_cast<std::size_t>(node.root)].cost * (1.0 + kTie)) continue;
     if (node.polygon < 0) {
@@ -62,13 +62,13 @@ bool AnyAngle::find(const Mesh& mesh, const Mesh::Place& start, const Mesh::Plac
   return false;
 }
 
-void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
+void Polyanya::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Place& goal) {
   mesh_ = &mesh;
   from_ = start.point;
   to_ = goal.point;
   start_ = static_cast<int>(mesh.vertices.size());
   if (reached_.size() < mesh.vertices.size() + 1) reached_.resize(mesh.vertices.size() + 1);
-  views_.begin(mesh.polygons.size());
+  dominance_.begin(mesh.polygons.size());
   if (++query_ == 0) {
     for (Reached& reached : reached_) reached.query = 0;
     query_ = 1;
@@ -77,11 +77,11 @@ void AnyAngle::begin(const Mesh& mesh, const Mesh::Place& start, const Mesh::Pla
   unused_.clear();
   open_.clear();
   nodes_expanded_ = 0;
-  surround(mesh, start, start_polygons_);
-  surround(mesh, goal, goal_polygons_);
+  find_polygons_at(mesh, start, start_polygons_);
+  find_polygons_at(mesh, goal, goal_polygons_);
 }
 
-void AnyAngle::leave_start() {
+void Polyanya::expand_start() {
   reach(start_, -1, 0.0);
   for (const int polygon : start_polygons_) {
     for (const Portal& portal : mesh_->polygon(polygon).portals) {
@@ -91,17 +91,17 @@ void AnyAngle::leave_start() {
       const Point c = mesh_->at(portal.right);
       const Point d = mesh_->at(portal.left);
       if (side(c - from_, extent(c - from_), d - from_, extent(d - from_)) <= 0) {
-        slip_into(portal, start_, 0.0);
+        enter_collinear(portal, start_, 0.0);
         continue;
       }
-      Cone node{0.0,          c - from_,   d - from_, start_, portal.to,
-                portal.right, portal.left, true,      true};
+      SearchNode node{0.0,          c - from_,   d - from_, start_, portal.to,
+                      portal.right, portal.left, true,      true};
       add(node, c, d);
     }
   }
 }
 
-void AnyAngle::expand(const Cone& node) {
+void Polyanya::expand(const SearchNode& node) {
   if (std::find(goal_polygons_.begin(), goal_polygons_.end(), node.polygon) !=
       goal_polygons_.end()) {
     see_goal(node);
@@ -110,8 +110,8 @@ void AnyAngle::expand(const Cone& node) {
   const Point root = at(node.root);
   const double right_extent = extent(node.right);
   const double left_extent = extent(node.left);
-  // An end of a portal, and on which side it lies of either border. Most portals begin where the
-  // one before ended.
+  // An end of a portal, and its side of the right and of the left border. Most portals begin where
+  // the one before ended.
   struct End {
     int vertex;
     Point ahead;
@@ -130,7 +130,7 @@ void AnyAngle::expand(const Cone& node) {
     if (portal.right == node.portal_left && portal.left == node.portal_right) continue;
     const End c = portal.right == d.vertex ? d : end(portal.right);
     d = end(portal.left);
-    // In a cone of 180 degrees both borders lie on one line.
+    // If the node is 180 degrees wide, both borders lie on one line.
     if (d.right < 0 || (d.right == 0 && d.vertex != node.root && dot(node.right, d.ahead) > 0.0)) {
       if (node.right_end) turn(node, portal, true, true);
       continue;
@@ -144,11 +144,11 @@ void AnyAngle::expand(const Cone& node) {
     const bool right_end = right_in && c.vertex != node.root;
     const bool left_end = left_in && d.vertex != node.root;
     if (right_end && left_end && side(c.ahead, extent(c.ahead), d.ahead, extent(d.ahead)) <= 0) {
-      slip_into(portal, node.root, node.cost);
+      enter_collinear(portal, node.root, node.cost);
       continue;
     }
-    // Who sees a corner first answers for all ways on from there; so not one who sees it along a
-    // border, on one side only.
+    // The first root that sees a corner becomes its parent and is followed from there. A root that
+    // sees it along a border does not: its node covers one side of the corner only.
     if (c.right > 0 && is_corner(c.vertex)) reach(c.vertex, node.root, node.cost + norm(c.ahead));
     if (d.left < 0 && is_corner(d.vertex)) reach(d.vertex, node.root, node.cost + norm(d.ahead));
     add({node.cost, right_end ? c.ahead : node.right, left_end ? d.ahead : node.left, node.root,
@@ -159,30 +159,30 @@ void AnyAngle::expand(const Cone& node) {
   }
 }
 
-/// Into a portal that runs along the line of sight only a turn at its near end leads.
-void AnyAngle::slip_into(const Portal& portal, int root, double cost) {
+/// A portal in line with the root can only be entered by a turn at its near end.
+void Polyanya::enter_collinear(const Portal& portal, int root, double cost) {
   const Point c = mesh_->at(portal.right) - at(root);
   const Point d = mesh_->at(portal.left) - at(root);
   const bool to_right = dot(c, c) < dot(d, d);
   const int vertex = to_right ? portal.right : portal.left;
   const Point ahead = to_right ? c : d;
   if (!is_corner(vertex)) return;
-  Cone next{cost + norm(ahead),
-            to_right ? -1.0 * ahead : ahead,
-            to_right ? ahead : -1.0 * ahead,
-            vertex,
-            portal.to,
-            portal.right,
-            portal.left,
-            !to_right,
-            to_right};
+  SearchNode next{cost + norm(ahead),
+                  to_right ? -1.0 * ahead : ahead,
+                  to_right ? ahead : -1.0 * ahead,
+                  vertex,
+                  portal.to,
+                  portal.right,
+                  portal.left,
+                  !to_right,
+                  to_right};
   if (reach(vertex, origin_of(root, ahead), next.cost))
     add(next, mesh_->at(portal.right), mesh_->at(portal.left));
 }
 
-/// Bends round an end of the portal through which the polygon was entered, into `portal`.
-/// \param whole  false: only the part of the portal that the root does not see
-void AnyAngle::turn(const Cone& node, const Portal& portal, bool to_right, bool whole) {
+/// Turns round an end of the portal through which the polygon was entered, into `portal`.
+/// \param whole  false: only into the part of the portal that the root does not see
+void Polyanya::turn(const SearchNode& node, const Portal& portal, bool to_right, bool whole) {
   const Point root = at(node.root);
   int vertex = to_right ? node.portal_right : node.portal_left;
   const int near = to_right ? portal.right : portal.left;
@@ -196,8 +196,8 @@ void AnyAngle::turn(const Cone& node, const Portal& portal, bool to_right, bool 
   Point here = at(vertex);
   Point ahead = here - root;
   const int origin = origin_of(node.root, ahead);
-  if (!touches(vertex, node.polygon, ahead, to_right)) return;
-  Cone next;
+  if (!has_wall(vertex, node.polygon, ahead, to_right)) return;
+  SearchNode next;
   next.cost = node.cost + norm(ahead);
   if (!reach(vertex, origin, next.cost)) return;
   next.root = vertex;
@@ -212,7 +212,7 @@ void AnyAngle::turn(const Cone& node, const Portal& portal, bool to_right, bool 
     near_border = at(near) - here;
     near_end = true;
     const Point end = at(far) - here;
-    // A portal in line with the vertex: another turn, at its near end, leads through.
+    // A portal in line with the vertex can only be entered by another turn, at its near end.
     if (side(near_border, extent(near_border), end, extent(end)) == 0) {
       if (!is_corner(near)) return;
       ahead = near_border;
@@ -239,10 +239,10 @@ void AnyAngle::turn(const Cone& node, const Portal& portal, bool to_right, bool 
   add(next, mesh_->at(portal.right), mesh_->at(portal.left));
 }
 
-void AnyAngle::see_goal(const Cone& node) {
+void Polyanya::see_goal(const SearchNode& node) {
   const Point root = at(node.root);
   const Point ahead = to_ - root;
-  Cone last = node;
+  SearchNode last = node;
   last.polygon = -1;
   const bool over_right = side(node.right, extent(node.right), ahead, extent(ahead)) < 0;
   const bool over_left = side(node.left, extent(node.left), ahead, extent(ahead)) > 0;
@@ -258,17 +258,17 @@ void AnyAngle::see_goal(const Cone& node) {
     push(last, last.cost + distance(corner, to_));
 }
 
-/// Where the straight way begins that runs through the root in this direction: a root at which the
-/// way does not turn is none.
-int AnyAngle::origin_of(int root, Point ahead) const {
+/// The root at which a path that leaves `root` in this direction has turned last: `root`, or its
+/// parent if the path is straight at `root`.
+int Polyanya::origin_of(int root, Point ahead) const {
   const int parent = reached_[static_cast<std::size_t>(root)].parent;
   if (parent < 0) return root;
   const Point before = at(root) - at(parent);
   return side(before, extent(before), ahead, extent(ahead)) == 0 ? parent : root;
 }
 
-/// True if there is a wall at the vertex on that side of a way that comes into the polygon.
-bool AnyAngle::touches(int vertex, int polygon, Point ahead, bool on_right) const {
+/// True if a path that enters the polygon at the vertex has a wall on that side of it there.
+bool Polyanya::has_wall(int vertex, int polygon, Point ahead, bool on_right) const {
   const Point here = at(vertex);
   for (int steps = 0; steps < kMostAround; ++steps) {
     const std::vector<int>& corners = mesh_->polygon(polygon).corners;
@@ -289,14 +289,14 @@ bool AnyAngle::touches(int vertex, int polygon, Point ahead, bool on_right) cons
   return true;
 }
 
-/// Of several ways to a vertex that are equally short, only those are followed that come from the
-/// parent which was first: let the shortest path to the goal run through the vertex after another
-/// parent. After this one its rest makes a path as short, hence a shortest and a taut one: so it
-/// lies in this parent's cones. A way that is straight at the vertex needs no turn there; it counts
-/// as its origin's (origin_of). "Equally" leaves room for rounding: each vertex of a path may cost
-/// it 2e-12 of its length.
-/// \returns false if the way to the vertex need not be followed
-bool AnyAngle::reach(int vertex, int parent, double cost) {
+/// Records a path to a vertex. Of equally short ones only those are followed that come from the
+/// first parent. That is enough: if a shortest path to the goal comes to the vertex from another
+/// parent, then the path over the first parent with the same rest is as short, so it is a shortest
+/// one too, hence taut, and the search nodes of the first parent contain it. A path that is
+/// straight at the vertex does not turn there and is recorded with its origin as parent
+/// (origin_of). Equal means up to rounding: kTie of the length a vertex. \returns false if the path
+/// need not be followed
+bool Polyanya::reach(int vertex, int parent, double cost) {
   Reached& known = reached_[static_cast<std::size_t>(vertex)];
   if (known.query != query_ || cost < known.cost * (1.0 - kTie)) {
     known = {cost, parent, query_};
@@ -305,35 +305,34 @@ bool AnyAngle::reach(int vertex, int parent, double cost) {
   return known.parent == parent && cost <= known.cost * (1.0 + kTie);
 }
 
-void AnyAngle::add(const Cone& node, const Point& portal_right, const Point& portal_left) {
-  if (outdone(node)) return;
+void Polyanya::add(const SearchNode& node, const Point& portal_right, const Point& portal_left) {
+  if (is_dominated(node)) return;
   const Point root = at(node.root);
-  if (node.right_end && node.left_end) views_.keep(node, root);
-  push(node, node.cost + node.straight(root, portal_right, portal_left, to_));
+  if (node.right_end && node.left_end) dominance_.insert(node, root);
+  push(node, node.cost + node.heuristic(root, portal_right, portal_left, to_));
 }
 
-/// True if another root that sees the whole portal has at least as short a way to all of the part
-/// that this one sees. Who answers for a corner at an end of the part is never outdone, so that no
-/// way is lost where both are equal.
-bool AnyAngle::outdone(const Cone& node) {
-  const Views::View* const rival = views_.rival(node);
-  if (rival == nullptr || node.root == node.portal_right || node.root == node.portal_left)
+/// True if over another root, which sees the whole portal, the path to each point of the interval
+/// is no longer. A node whose root is the parent of a corner at an end of its interval is never
+/// dominated, so that no path is lost where both are equal.
+bool Polyanya::is_dominated(const SearchNode& node) {
+  const DominanceTable::Entry* const other = dominance_.other(node);
+  if (other == nullptr || node.root == node.portal_right || node.root == node.portal_left)
     return false;
-  // Who first came to a corner answers for all ways on from there.
-  const auto owns = [&](int vertex, Point ahead) {
+  const auto is_parent_of = [&](int vertex, Point ahead) {
     const Reached& known = reached_[static_cast<std::size_t>(vertex)];
     return is_corner(vertex) && known.query == query_ &&
            (known.parent == node.root || known.parent == origin_of(node.root, ahead));
   };
-  if ((node.right_end && owns(node.portal_right, node.right)) ||
-      (node.left_end && owns(node.portal_left, node.left)))
+  if ((node.right_end && is_parent_of(node.portal_right, node.right)) ||
+      (node.left_end && is_parent_of(node.portal_left, node.left)))
     return false;
   const Point root = at(node.root);
-  return rival->as_near(node.part(root, at(node.portal_right), at(node.portal_left)), root,
-                        node.cost, kTie * node.cost);
+  return other->dominates(node.interval(root, at(node.portal_right), at(node.portal_left)), root,
+                          node.cost, kTie * node.cost);
 }
 
-void AnyAngle::push(const Cone& node, double estimate) {
+void Polyanya::push(const SearchNode& node, double estimate) {
   std::uint32_t slot;
   if (unused_.empty()) {
     slot = static_cast<std::uint32_t>(nodes_.size());
@@ -349,7 +348,7 @@ void AnyAngle::push(const Cone& node, double estimate) {
   open_.push((f << kGBits) | rest, slot);
 }
 
-bool AnyAngle::pop(Cone& node) {
+bool Polyanya::pop(SearchNode& node) {
   if (open_.empty()) return false;
   const std::uint32_t slot = open_.pop().item;
   node = nodes_[slot];
@@ -357,7 +356,7 @@ bool AnyAngle::pop(Cone& node) {
   return true;
 }
 
-void AnyAngle::trace(int root, Path& path) const {
+void Polyanya::trace(int root, Path& path) const {
   path.push_back(to_);
   for (; root >= 0; root = reached_[static_cast<std::size_t>(root)].parent) {
     const Point next = at(root);
