@@ -20,6 +20,8 @@ int side(Point a, double a_extent, Point b, double b_extent) {
   return (value > slack ? 1 : 0) - (value < -slack ? 1 : 0);
 }
 
+int side(Point a, Point b) { return side(a, extent(a), b, extent(b)); }
+
 /// Finds the polygons that contain a place: more than one if it lies on a portal or a vertex.
 void find_polygons_at(const Mesh& mesh, const Mesh::Place& place, std::vector<int>& polygons) {
   polygons.assign(1, place.polygon);
@@ -90,7 +92,7 @@ void Polyanya::expand_start() {
         continue;
       const Point c = mesh_->at(portal.right);
       const Point d = mesh_->at(portal.left);
-      if (side(c - from_, extent(c - from_), d - from_, extent(d - from_)) <= 0) {
+      if (side(c - from_, d - from_) <= 0) {
         enter_collinear(portal, start_, 0.0);
         continue;
       }
@@ -143,7 +145,7 @@ void Polyanya::expand(const SearchNode& node) {
     const bool left_in = d.left <= 0;
     const bool right_end = right_in && c.vertex != node.root;
     const bool left_end = left_in && d.vertex != node.root;
-    if (right_end && left_end && side(c.ahead, extent(c.ahead), d.ahead, extent(d.ahead)) <= 0) {
+    if (right_end && left_end && side(c.ahead, d.ahead) <= 0) {
       enter_collinear(portal, node.root, node.cost);
       continue;
     }
@@ -184,59 +186,27 @@ void Polyanya::enter_collinear(const Portal& portal, int root, double cost) {
 /// \param whole  false: only into the part of the portal that the root does not see
 void Polyanya::turn(const SearchNode& node, const Portal& portal, bool to_right, bool whole) {
   const Point root = at(node.root);
-  int vertex = to_right ? node.portal_right : node.portal_left;
   const int near = to_right ? portal.right : portal.left;
   const int far = to_right ? portal.left : portal.right;
-  if (near != vertex && whole) {
-    const Point border = to_right ? node.right : node.left;
-    const Point ahead = at(near) - root;
-    if (side(border, extent(border), ahead, extent(ahead)) == 0) vertex = near;
-  }
+  int vertex = to_right ? node.portal_right : node.portal_left;
+  if (whole && near != vertex && side(to_right ? node.right : node.left, at(near) - root) == 0)
+    vertex = near;
   if (!is_corner(vertex)) return;
-  Point here = at(vertex);
-  Point ahead = here - root;
+  const Point ahead = at(vertex) - root;
   const int origin = origin_of(node.root, ahead);
-  if (!has_wall(vertex, node.polygon, ahead, to_right)) return;
-  SearchNode next;
-  next.cost = node.cost + norm(ahead);
-  if (!reach(vertex, origin, next.cost)) return;
-  next.root = vertex;
-  next.polygon = portal.to;
-  next.portal_right = portal.right;
-  next.portal_left = portal.left;
-  Point near_border = -1.0 * ahead;
-  Point far_border = ahead;
-  bool near_end = false;
-  bool far_end = false;
-  if (near != vertex) {
-    near_border = at(near) - here;
-    near_end = true;
-    const Point end = at(far) - here;
-    // A portal in line with the vertex can only be entered by another turn, at its near end.
-    if (side(near_border, extent(near_border), end, extent(end)) == 0) {
-      if (!is_corner(near)) return;
-      ahead = near_border;
-      next.cost += norm(ahead);
-      if (!reach(near, vertex, next.cost)) return;
-      next.root = near;
-      near_border = -1.0 * ahead;
-      far_border = ahead;
-      near_end = false;
-      far_end = true;
-      whole = false;
-      here = at(near);
-    }
+  const double cost = node.cost + norm(ahead);
+  if (!has_wall(vertex, node.polygon, ahead, to_right) || !reach(vertex, origin, cost)) return;
+  const bool beside = near != vertex;
+  const Point to_near = beside ? at(near) - at(vertex) : -1.0 * ahead;
+  const Point to_far = at(far) - at(vertex);
+  if (beside && side(to_near, to_far) == 0) {
+    enter_collinear(portal, vertex, cost);
+    return;
   }
-  if (whole) {
-    const Point end = at(far) - here;
-    far_border = end;
-    far_end = true;
-  }
-  next.right = to_right ? near_border : far_border;
-  next.left = to_right ? far_border : near_border;
-  next.right_end = to_right ? near_end : far_end;
-  next.left_end = to_right ? far_end : near_end;
-  add(next, mesh_->at(portal.right), mesh_->at(portal.left));
+  const Point border = whole ? to_far : ahead;
+  add({cost, to_right ? to_near : border, to_right ? border : to_near, vertex, portal.to,
+       portal.right, portal.left, to_right ? beside : whole, to_right ? whole : beside},
+      at(portal.right), at(portal.left));
 }
 
 void Polyanya::see_goal(const SearchNode& node) {
@@ -244,8 +214,8 @@ void Polyanya::see_goal(const SearchNode& node) {
   const Point ahead = to_ - root;
   SearchNode last = node;
   last.polygon = -1;
-  const bool over_right = side(node.right, extent(node.right), ahead, extent(ahead)) < 0;
-  const bool over_left = side(node.left, extent(node.left), ahead, extent(ahead)) > 0;
+  const bool over_right = side(node.right, ahead) < 0;
+  const bool over_left = side(node.left, ahead) > 0;
   if (!over_right && !over_left) {
     push(last, node.cost + norm(ahead));
     return;
@@ -264,7 +234,7 @@ int Polyanya::origin_of(int root, Point ahead) const {
   const int parent = reached_[static_cast<std::size_t>(root)].parent;
   if (parent < 0) return root;
   const Point before = at(root) - at(parent);
-  return side(before, extent(before), ahead, extent(ahead)) == 0 ? parent : root;
+  return side(before, ahead) == 0 ? parent : root;
 }
 
 /// True if a path that enters the polygon at the vertex has a wall on that side of it there.
@@ -277,7 +247,7 @@ bool Polyanya::has_wall(int vertex, int polygon, Point ahead, bool on_right) con
     const int next = on_right ? (found + 1 == corners.end() ? corners.front() : found[1])
                               : (found == corners.begin() ? corners.back() : found[-1]);
     const Point edge = at(next) - here;
-    const int where = side(ahead, extent(ahead), edge, extent(edge));
+    const int where = side(ahead, edge);
     if (on_right ? where > 0 : where < 0) return false;
     const auto& portals = mesh_->polygon(polygon).portals;
     const auto portal = std::find_if(portals.begin(), portals.end(), [&](const Portal& candidate) {
@@ -364,7 +334,7 @@ void Polyanya::trace(int root, Path& path) const {
     if (path.size() > 1) {
       const Point a = path[path.size() - 2] - path.back();
       const Point b = next - path.back();
-      if (side(a, extent(a), b, extent(b)) == 0 && dot(a, b) < 0.0) path.pop_back();
+      if (side(a, b) == 0 && dot(a, b) < 0.0) path.pop_back();
     }
     path.push_back(next);
   }
