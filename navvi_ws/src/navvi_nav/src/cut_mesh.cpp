@@ -8,7 +8,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kFinest = 1e-4;     // m, a step at most
+constexpr double kFinest = 1e-4;     // m, of a lattice step, at most
 constexpr double kSquare = 2.0;      // m, of the grids in which polygons are looked up
 constexpr double kStraight = 1e-12;  // rad, above the rounding of a sum of angles
 
@@ -118,7 +118,7 @@ void CutMesh::set_corner(int vertex, bool corner) {
 }
 
 /// True if a wall ends at the vertex and the free angle around it is over 180 degrees. The groups
-/// at a non-manifold vertex are told apart later.
+/// at a non-manifold vertex are separated later.
 bool CutMesh::is_floor_corner(int vertex) const {
   double free = 0.0;
   bool walled = false;

@@ -228,7 +228,7 @@ bool Cutter::bite(const ExactPolygon& piece, const Hole& hole) {
   return true;
 }
 
-/// Which edges of the hole bound what it has in common with the piece.
+/// Finds the edges of the hole that bound its intersection with the piece.
 bool Cutter::find_biting_edges(const ExactPolygon& piece, const Hole& hole) {
   constexpr int kFirst = 1 << 20;
   rest_ = piece;

@@ -7,12 +7,12 @@
 
 namespace navvi_nav {
 
-/// Which of many things may be near a place: each lies in the squares of a grid that its bounding
-/// box touches. Coming and going costs as much as the box is large, whatever else there is.
+/// Finds what may be near a place: each thing is listed in the squares of a grid that its bounding
+/// box touches. The cost of adding and removing it follows the size of the box alone.
 class BoxGrid {
  public:
   BoxGrid() = default;
-  /// \param low, high  m, of all that will be added; what sticks out counts to the border
+  /// \param low, high  m, of all that will be added; what sticks out is listed at the border
   /// \param square  m, edge
   BoxGrid(Point low, Point high, double square)
       : low_(low),

@@ -35,7 +35,7 @@ class CutMesh {
   /// remove()
   int add(Point center, double radius, int sides);
   void remove(int hole);
-  /// \returns polygons of the floor that were cut anew
+  /// \returns base polygons that were cut again
   int update();
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }

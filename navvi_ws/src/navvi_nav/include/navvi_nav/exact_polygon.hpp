@@ -7,14 +7,14 @@
 
 namespace navvi_nav {
 
-/// Whole steps of a lattice that is finer than the map's cells: whatever is cut, and whatever cuts,
-/// has its corners there, so that all that follows can be told without rounding.
+/// A point of a lattice that is finer than the map's cells, in steps of it. Polygons and holes have
+/// all corners on this lattice, so every predicate below is exact.
 struct LatticePoint {
   std::int64_t x = 0;
   std::int64_t y = 0;
 };
 
-/// Steps from the origin, at most: no product below leaves 128 bits.
+/// Steps from the origin, at most: all products below fit in 128 bits.
 constexpr std::int64_t kFarthestStep = std::int64_t{1} << 36;
 /// Steps along an edge of what is cut out, at most.
 constexpr std::int64_t kLongestEdge = std::int64_t{1} << 24;
@@ -33,10 +33,10 @@ inline bool operator==(const HalfPlane& p, const HalfPlane& q) {
   return p.a == q.a && p.b == q.b && p.c == q.c;
 }
 
-/// What lies on the left of the way between two different steps.
+/// The points left of the line from one point through another.
 [[nodiscard]] HalfPlane left_of(LatticePoint from, LatticePoint to);
 
-/// Where two lines meet: (x / w, y / w) in steps, w > 0. Exact.
+/// The intersection of two lines: (x / w, y / w) in steps, w > 0. Exact.
 struct Intersection {
   __extension__ typedef __int128 Wide;
   Wide x = 0;
@@ -47,17 +47,17 @@ struct Intersection {
 [[nodiscard]] Intersection intersect(const HalfPlane& p, const HalfPlane& q);
 /// 1 inside, 0 on the border, -1 outside.
 [[nodiscard]] int side_of(const HalfPlane& half, const Intersection& at);
-/// The doubles nearest to the place, steps. However a place came to be, it gets the same ones.
+/// The nearest doubles, in steps: the same ones for the same place, whatever lines intersect there.
 [[nodiscard]] Point place_of(const Intersection& at);
 
-/// A strictly convex polygon made of its edges' lines, after Sugihara and Iri, "A solid modelling
-/// system free from topological inconsistency" (1989): no cut rounds, so neighbours that were cut
-/// by the same line still match, and no order of cuts opens a gap.
+/// A strictly convex polygon given by the lines of its edges, after Sugihara and Iri, "A solid
+/// modelling system free from topological inconsistency" (1989): no cut rounds, so neighbours that
+/// were cut by the same line still match, and no order of cuts opens a gap.
 struct ExactPolygon {
   struct Edge {
     HalfPlane line;      ///< the polygon is inside
     Intersection begin;  ///< with the edge before
-    int number = 0;      ///< of the edge in what was cut; kCut for a cut
+    int number = 0;      ///< of the edge before cutting; kCut for a cut
   };
   static constexpr int kCut = -1;
 
@@ -67,21 +67,21 @@ struct ExactPolygon {
   Point high;
 };
 
-/// \param corners  counter-clockwise, convex; those on a straight edge are left out. An edge has
-///                 the number of the last corner where it may be said to begin.
+/// \param corners  counter-clockwise, convex; those on a straight edge are left out. The number of
+///                 an edge is that of the corner where it begins.
 [[nodiscard]] ExactPolygon exact_polygon(const std::vector<LatticePoint>& corners);
 
-/// A convex hole about a circle.
+/// A convex hole around a circle.
 struct Hole {
   ExactPolygon shape;      ///< no edges before place(), and for a circle beyond the farthest step
-  std::vector<int> order;  ///< in which the shape's edges cut what is around
+  std::vector<int> order;  ///< in which the shape's edges cut
 
-  /// Puts the hole about a circle: no point outside the shape is nearer than `radius` to `center`.
-  /// Where an edge faces along an axis nothing more is lost than a step or two, elsewhere up to
-  /// 1 / cos(pi / sides) of the radius. Those four edges cut first: they box the hole in, and the
-  /// others only bevel the box, so that few cuts run far. A circle too large for exact cutting gets
-  /// a square hole. Moving a hole of the same size costs little.
-  /// \param center, radius  steps \param sides  at least 4
+  /// Puts the hole around a circle: no point outside the shape is nearer than `radius` to `center`.
+  /// The hole is a step or two larger than the circle where an edge faces along an axis, elsewhere
+  /// up to 1 / cos(pi / sides) times as large. Those four edges cut first: they box the hole in,
+  /// and the others only bevel the box, so that few cuts run far. A circle too large for exact
+  /// cutting gets a square hole. Moving a hole of the same size costs little. \param center, radius
+  /// steps \param sides  at least 4
   void place(Point center, double radius, int sides);
 
  private:
@@ -91,7 +91,7 @@ struct Hole {
 
   LatticePoint middle_;
   double radius_ = -1.0;
-  int sides_ = 0;  // 0: what stands here can not be moved
+  int sides_ = 0;  // 0: a square, which is built again for each place
 };
 
 /// True if the two share more than their borders.
@@ -100,8 +100,8 @@ struct Hole {
 /// Cuts holes out of polygons. Keeps its memory from one cut to the next.
 class Cutter {
  public:
-  /// Convex pieces that cover `polygon` without the holes, and do not overlap each other. They
-  /// stand in pieces() until the next cut.
+  /// Divides `polygon` without the holes into convex pieces that do not overlap. They are valid
+  /// until the next cut.
   void cut(const ExactPolygon& polygon, const std::vector<const Hole*>& holes);
 
   [[nodiscard]] std::size_t count() const { return pieces_.count; }
@@ -114,7 +114,7 @@ class Cutter {
     ExactPolygon& add();
   };
 
-  /// Where the corners of a polygon lie.
+  /// On which side of a line the corners of a polygon lie.
   struct Sides {
     std::vector<signed char> each;  ///< as side_of()
     bool inside = false;            ///< any

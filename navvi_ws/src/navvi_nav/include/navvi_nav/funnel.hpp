@@ -8,7 +8,7 @@ namespace navvi_nav {
 
 /// The shortest polyline from `start` to `goal` that crosses each portal in order (R-NAV-7).
 /// Simple Stupid Funnel, after Mononen, "Simple Stupid Funnel Algorithm", 2010; linear in the
-/// number of portals but where it starts again from a corner. Repeated points are left out.
+/// number of portals except where it restarts from a corner. Repeated points are left out.
 [[nodiscard]] Path funnel(Point start, Point goal, const std::vector<Interval>& portals);
 
 }  // namespace navvi_nav
