@@ -1,0 +1,29 @@
+#pragma once
+
+#include <ros/console.h>
+#include <ros/node_handle.h>
+
+#include <optional>
+#include <string>
+
+namespace navvi_config {
+
+/// Subscribes to `topic` without delay: `take` gets what `convert` makes of each message. A message
+/// that it makes nothing of is dropped whole, counted, and told at most every 5 s (safety rule 2).
+template <typename Message, typename Value, typename Take>
+[[nodiscard]] ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic,
+                                        std::uint32_t queue,
+                                        std::optional<Value> (*convert)(const Message&),
+                                        Take take) {
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+      [topic, convert, take, dropped = 0U](const boost::shared_ptr<const Message>& msg) mutable {
+        if (const std::optional<Value> value = convert(*msg)) return take(*value);
+        ++dropped;
+        ROS_WARN_THROTTLE(5.0, "A message on %s is malformed and was dropped (%u so far).",
+                          topic.c_str(), dropped);
+      };
+  return node.subscribe<Message>(topic, queue, callback, ros::VoidConstPtr(),
+                                 ros::TransportHints().tcpNoDelay());
+}
+
+}  // namespace navvi_config

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "navvi_types/names.hpp"
+
+namespace navvi_types {
+
+/// What the last stage before the wheels does with the commands.
+struct DriveState {
+  enum class State : std::uint8_t {
+    waiting,  ///< no valid command yet
+    running,
+    stopped,  ///< wheels held at zero until the command was neutral for a while
+  };
+  enum class Reason : std::uint8_t { none, command_lost, command_invalid };
+
+  State state = State::waiting;
+  Reason reason = Reason::none;
+  std::uint32_t rejected = 0;  ///< bad commands so far
+  std::int64_t stamp = 0;      ///< ns, ROS time
+};
+
+[[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::State) {
+  return {"waiting", "running", "stopped"};
+}
+[[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::Reason) {
+  return {"none", "command_lost", "command_invalid"};
+}
+
+}  // namespace navvi_types

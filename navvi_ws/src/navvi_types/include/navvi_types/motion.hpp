@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace navvi_types {
+
+/// A frame on the floor, such as base_link in map.
+struct Pose2 {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
+  double yaw = 0.0;                                    ///< rad, counter-clockwise from x
+
+  /// A point of the parent frame, as seen from here, m.
+  [[nodiscard]] Eigen::Vector2d to_local(const Eigen::Vector2d& point) const;
+  /// A point of this frame in its parent, m.
+  [[nodiscard]] Eigen::Vector2d to_parent(const Eigen::Vector2d& point) const;
+};
+
+/// Planar velocity of base_link (REP-103).
+struct Velocity {
+  double linear = 0.0;   ///< m/s, forward
+  double angular = 0.0;  ///< rad/s, counter-clockwise
+};
+
+/// nav_msgs/Odometry on the floor.
+struct Odometry {
+  std::int64_t stamp = 0;  ///< ns, ROS time
+  Pose2 pose;              ///< base_link in odom
+  Velocity velocity;
+  double sideways = 0.0;  ///< m/s, left: only a push makes it other than 0
+  double floor = 0.0;     ///< m, height of the floor in odom
+};
+
+/// rad in (-pi, pi], clockwise from the nose of a robot at `robot` to `target`, m, in its frame.
+[[nodiscard]] double clockwise_angle(const Pose2& robot, const Eigen::Vector2d& target);
+
+}  // namespace navvi_types

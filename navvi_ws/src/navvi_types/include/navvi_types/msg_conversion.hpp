@@ -1,0 +1,74 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Twist.h>
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/Cue.h>
+#include <navvi_msgs/DriveState.h>
+#include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/Obstacles.h>
+#include <navvi_msgs/Proximity.h>
+#include <navvi_msgs/Scenario.h>
+#include <navvi_msgs/StateHash.h>
+
+#include <optional>
+#include <vector>
+
+#include "navvi_types/cue_event.hpp"
+#include "navvi_types/drive_state.hpp"
+#include "navvi_types/guidance.hpp"
+#include "navvi_types/scenario.hpp"
+
+namespace navvi_types {
+
+// What comes in. nullopt for a message that holds a number that is not finite, beyond limits.hpp or
+// out of the range that its definition gives, or a constant that is none: it is dropped whole
+// (safety rule 2). Frames are not looked at. A class of things that is unknown here counts as
+// other.
+
+[[nodiscard]] std::optional<Velocity> from_msg(const geometry_msgs::Twist& msg);
+[[nodiscard]] std::optional<Pose2> from_msg(const geometry_msgs::Transform& msg);
+/// A goal is a place: its direction must be finite, but need not be a rotation. m
+[[nodiscard]] std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PoseStamped& msg);
+[[nodiscard]] std::optional<Odometry> from_msg(const nav_msgs::Odometry& msg);
+/// The path's points in its frame, m.
+[[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> from_msg(const nav_msgs::Path& msg);
+[[nodiscard]] std::optional<Proximity> from_msg(const navvi_msgs::Proximity& msg);
+[[nodiscard]] std::optional<Contact> from_msg(const navvi_msgs::Contact& msg);
+/// nullopt also if an id repeats.
+[[nodiscard]] std::optional<Obstacles> from_msg(const navvi_msgs::Obstacles& msg);
+[[nodiscard]] std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg);
+[[nodiscard]] std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg);
+[[nodiscard]] std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg);
+[[nodiscard]] std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg);
+/// nullopt if its hash is not 16 hexadecimal digits in lower case.
+[[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
+
+// What goes out, in the frame that the message's definition names.
+
+[[nodiscard]] geometry_msgs::Twist to_msg(const Velocity& velocity);
+/// odom -> base_link
+[[nodiscard]] nav_msgs::Odometry to_msg(const Odometry& odometry);
+[[nodiscard]] navvi_msgs::Proximity to_msg(const Proximity& proximity);
+[[nodiscard]] navvi_msgs::Contact to_msg(const Contact& contact);
+[[nodiscard]] navvi_msgs::Obstacles to_msg(const Obstacles& obstacles);
+[[nodiscard]] navvi_msgs::Guidance to_msg(const Guidance& guidance);
+[[nodiscard]] navvi_msgs::Cue to_msg(const CueEvent& event);
+[[nodiscard]] navvi_msgs::DriveState to_msg(const DriveState& state);
+[[nodiscard]] navvi_msgs::Scenario to_msg(const Scenario& scenario);
+[[nodiscard]] navvi_msgs::StateHash to_msg(const StateHash& state);
+
+/// A path whose poses look along it; the last one as the one before it. \param floor  m, z
+[[nodiscard]] nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
+                                      std::int64_t stamp);
+/// A goal in map.
+[[nodiscard]] geometry_msgs::PoseStamped goal_msg(const Eigen::Vector2d& goal, std::int64_t stamp);
+
+/// ns since the epoch of ROS time, and back; a time before it counts as it.
+[[nodiscard]] std::int64_t to_ns(const ros::Time& time);
+[[nodiscard]] ros::Time from_ns(std::int64_t ns);
+
+}  // namespace navvi_types

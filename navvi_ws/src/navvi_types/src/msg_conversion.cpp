@@ -1,0 +1,471 @@
+#include "navvi_types/msg_conversion.hpp"
+
+#include <tf2/utils.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "navvi_types/limits.hpp"
+
+namespace navvi_types {
+namespace {
+
+// The constants of the messages are the numbers of the enumerations: the last of each shows that none
+// is missing, and the test compares the words.
+using GuidanceMsg = navvi_msgs::Guidance;
+using CueMsg = navvi_msgs::Cue;
+using DriveMsg = navvi_msgs::DriveState;
+constexpr bool is(std::size_t constant, std::size_t value) { return constant == value; }
+static_assert(is(GuidanceMsg::MAKE_ROOM, names(Guidance::State{}).size() - 1));
+static_assert(is(GuidanceMsg::UNREACHABLE, names(Guidance::Refusal{}).size() - 1));
+static_assert(is(GuidanceMsg::MAP_CHANGED, names(Guidance::Replan{}).size() - 1));
+static_assert(is(CueMsg::DROPPED, names(CueStage{}).size() - 1));
+static_assert(is(CueMsg::RUMBLE, names(Modality{}).size() - 1));
+static_assert(is(CueMsg::IMPORTANT, names(Priority{}).size() - 1));
+static_assert(is(DriveMsg::STOPPED, names(DriveState::State{}).size() - 1));
+static_assert(is(DriveMsg::COMMAND_INVALID, names(DriveState::Reason{}).size() - 1));
+
+bool within(double value, double least, double most) { return value >= least && value <= most; }
+bool within(double value, double limit) { return within(value, -limit, limit); }
+
+/// Of a point or a vector.
+template <typename Vector>
+bool each_within(const Vector& vector, double limit) {
+  return within(vector.x, limit) && within(vector.y, limit) && within(vector.z, limit);
+}
+
+bool valid(const geometry_msgs::Point& point) { return each_within(point, kFarthest); }
+bool valid(const geometry_msgs::Quaternion& q) {
+  return within(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0, kUnitSlack);
+}
+bool valid(const geometry_msgs::Pose& pose) {
+  return valid(pose.position) && valid(pose.orientation);
+}
+bool valid(const geometry_msgs::Twist& twist) {
+  return each_within(twist.linear, kFastest) && each_within(twist.angular, kFastest);
+}
+bool is_angle(double angle) { return within(angle, M_PI + kRounding); }
+bool is_length(double length) { return within(length, 0.0, kLongest); }
+bool is_duration(double duration) { return within(duration, 0.0, kLongestTime); }
+/// -1 stands for none.
+bool is_duration_or_none(double duration) { return duration == -1.0 || is_duration(duration); }
+std::optional<double> duration_of(double duration) {
+  return duration < 0.0 ? std::nullopt : std::optional(duration);
+}
+bool is_motor(float command) {
+  return within(static_cast<double>(command), -kRounding, 1.0 + kRounding);
+}
+
+template <typename Enum>
+bool is_constant(std::uint8_t number) {
+  return from_number<Enum>(number).has_value();
+}
+
+ThingClass class_of(const std::string& word) {
+  const ThingClass known = from_word<ThingClass>(word).value_or(ThingClass::other);
+  return known == ThingClass::floor ? ThingClass::other : known;
+}
+
+Eigen::Vector2d flat(const geometry_msgs::Point& point) { return {point.x, point.y}; }
+
+Pose2 pose_of(const geometry_msgs::Point& position, const geometry_msgs::Quaternion& q) {
+  return {flat(position), tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w))};
+}
+Pose2 pose_of(const geometry_msgs::Pose& pose) { return pose_of(pose.position, pose.orientation); }
+
+geometry_msgs::Point point_msg(const Eigen::Vector2d& point, double z) {
+  geometry_msgs::Point msg;
+  msg.x = point.x();
+  msg.y = point.y();
+  msg.z = z;
+  return msg;
+}
+
+geometry_msgs::Pose pose_msg(const Pose2& pose, double z) {
+  geometry_msgs::Pose msg;
+  msg.position = point_msg(pose.position, z);
+  msg.orientation.z = std::sin(0.5 * pose.yaw);
+  msg.orientation.w = std::cos(0.5 * pose.yaw);
+  return msg;
+}
+
+std_msgs::Header header(const char* frame, std::int64_t stamp) {
+  std_msgs::Header msg;
+  msg.frame_id = frame;
+  msg.stamp = from_ns(stamp);
+  return msg;
+}
+
+}  // namespace
+
+std::optional<Velocity> from_msg(const geometry_msgs::Twist& msg) {
+  if (!valid(msg)) return std::nullopt;
+  return Velocity{msg.linear.x, msg.angular.z};
+}
+
+std::optional<Pose2> from_msg(const geometry_msgs::Transform& msg) {
+  geometry_msgs::Point origin;
+  origin.x = msg.translation.x;
+  origin.y = msg.translation.y;
+  origin.z = msg.translation.z;
+  if (!valid(origin) || !valid(msg.rotation)) return std::nullopt;
+  return pose_of(origin, msg.rotation);
+}
+
+std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PoseStamped& msg) {
+  const geometry_msgs::Quaternion& q = msg.pose.orientation;
+  if (!valid(msg.pose.position) || !std::isfinite(q.x + q.y + q.z + q.w)) return std::nullopt;
+  return flat(msg.pose.position);
+}
+
+std::optional<Odometry> from_msg(const nav_msgs::Odometry& msg) {
+  const std::optional<Velocity> velocity = from_msg(msg.twist.twist);
+  if (!velocity || !valid(msg.pose.pose)) return std::nullopt;
+  return Odometry{to_ns(msg.header.stamp), pose_of(msg.pose.pose), *velocity,
+                  msg.twist.twist.linear.y, msg.pose.pose.position.z};
+}
+
+std::optional<std::vector<Eigen::Vector2d>> from_msg(const nav_msgs::Path& msg) {
+  if (msg.poses.size() > kMostPoints) return std::nullopt;
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(msg.poses.size());
+  for (const geometry_msgs::PoseStamped& pose : msg.poses) {
+    if (!valid(pose.pose.position)) return std::nullopt;
+    points.push_back(flat(pose.pose.position));
+  }
+  return points;
+}
+
+std::optional<Proximity> from_msg(const navvi_msgs::Proximity& msg) {
+  if (!is_length(msg.detection_radius) || msg.detection_radius <= 0.0 ||
+      msg.things.size() > kMostThings) {
+    return std::nullopt;
+  }
+  Proximity proximity{to_ns(msg.header.stamp), {}, msg.detection_radius};
+  proximity.things.reserve(msg.things.size());
+  for (const navvi_msgs::ProximityThing& thing : msg.things) {
+    if (!within(thing.gap, kLongest) || !valid(thing.nearest)) return std::nullopt;
+    proximity.things.push_back({class_of(thing.thing_class), thing.id, thing.gap,
+                                flat(thing.nearest), thing.moving != 0, thing.name,
+                                thing.nearest.z});
+  }
+  return proximity;
+}
+
+std::optional<Contact> from_msg(const navvi_msgs::Contact& msg) {
+  if (msg.seq == 0 || !valid(msg.point) || !valid(msg.robot) || !within(msg.speed, kFastest) ||
+      msg.counts.size() > kMostThings) {
+    return std::nullopt;
+  }
+  Contact contact;
+  contact.stamp = to_ns(msg.header.stamp);
+  contact.seq = msg.seq;
+  contact.id = msg.id;
+  contact.thing_class = class_of(msg.thing_class);
+  contact.name = msg.name;
+  contact.point = flat(msg.point);
+  contact.height = msg.point.z;
+  contact.robot = pose_of(msg.robot);
+  contact.floor = msg.robot.position.z;
+  contact.speed = msg.speed;
+  for (const navvi_msgs::ClassCount& entry : msg.counts)
+    contact.counts[class_of(entry.thing_class)] += entry.count;
+  return contact;
+}
+
+std::optional<Obstacles> from_msg(const navvi_msgs::Obstacles& msg) {
+  if (msg.obstacles.size() > kMostThings) return std::nullopt;
+  Obstacles obstacles{to_ns(msg.header.stamp), {}};
+  obstacles.things.reserve(msg.obstacles.size());
+  std::set<std::uint32_t> ids;
+  for (const navvi_msgs::Obstacle& entry : msg.obstacles) {
+    if (!valid(entry.pose) || !each_within(entry.velocity, kFastest) ||
+        !within(entry.radius, 0.0, kLargest) || entry.radius == 0.0 ||
+        !within(entry.height, 0.0, kLargest) || entry.height == 0.0 ||
+        !ids.insert(entry.id).second) {
+      return std::nullopt;
+    }
+    const MovingThing thing{entry.id,
+                            class_of(entry.thing_class),
+                            pose_of(entry.pose),
+                            {entry.velocity.x, entry.velocity.y},
+                            entry.radius,
+                            entry.height,
+                            entry.length,
+                            entry.width,
+                            entry.pose.position.z};
+    if (!thing.sound()) return std::nullopt;
+    obstacles.things.push_back(thing);
+  }
+  return obstacles;
+}
+
+std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
+  const bool sound =
+      is_constant<Guidance::State>(msg.state) && is_constant<Guidance::Refusal>(msg.refusal) &&
+      is_constant<Guidance::Replan>(msg.replan_reason) &&
+      is_constant<Guidance::Replan>(msg.reroute_reason) && is_duration(msg.plan_time) &&
+      is_length(msg.path_churn) && is_duration_or_none(msg.mesh_age) &&
+      is_duration_or_none(msg.map_age) && is_length(msg.blocked_distance) &&
+      is_duration_or_none(msg.blocked_for) && valid(msg.goal) && valid(msg.waypoint) &&
+      is_length(msg.waypoint_distance) && is_angle(msg.waypoint_angle) &&
+      is_angle(msg.steer_angle) && is_angle(msg.turn_angle) && is_length(msg.goal_distance) &&
+      is_duration(msg.eta) && is_length(msg.shortest_length) &&
+      within(msg.smoothing_price, kLongest) && is_length(msg.path_offset);
+  if (!sound) return std::nullopt;
+  Guidance guidance;
+  guidance.stamp = to_ns(msg.header.stamp);
+  guidance.seq = msg.seq;
+  guidance.state = static_cast<Guidance::State>(msg.state);
+  guidance.refusal = static_cast<Guidance::Refusal>(msg.refusal);
+  guidance.replan_reason = static_cast<Guidance::Replan>(msg.replan_reason);
+  guidance.plans = msg.plans;
+  guidance.plan_time = msg.plan_time;
+  guidance.nodes_expanded = msg.nodes_expanded;
+  guidance.reroutes = msg.reroutes;
+  guidance.reroute_reason = static_cast<Guidance::Replan>(msg.reroute_reason);
+  guidance.path_churn = msg.path_churn;
+  guidance.mesh_age = duration_of(msg.mesh_age);
+  guidance.map_age = duration_of(msg.map_age);
+  if (!msg.blocked_by.empty()) guidance.blocked_by = class_of(msg.blocked_by);
+  guidance.blocked_distance = msg.blocked_distance;
+  guidance.blocked_for = duration_of(msg.blocked_for);
+  guidance.goal = flat(msg.goal);
+  guidance.waypoint = flat(msg.waypoint);
+  guidance.floor = msg.waypoint.z;
+  guidance.waypoint_is_goal = msg.waypoint_is_goal != 0;
+  guidance.waypoint_distance = msg.waypoint_distance;
+  guidance.waypoint_angle = msg.waypoint_angle;
+  guidance.steer_angle = msg.steer_angle;
+  guidance.turn_angle = msg.turn_angle;
+  guidance.goal_distance = msg.goal_distance;
+  guidance.eta = msg.eta;
+  guidance.shortest_length = msg.shortest_length;
+  guidance.smoothing_price = msg.smoothing_price;
+  guidance.path_offset = msg.path_offset;
+  guidance.detail = msg.detail;
+  return guidance;
+}
+
+std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg) {
+  if (!is_constant<CueStage>(msg.stage) || !is_constant<Modality>(msg.modality) ||
+      !is_constant<Priority>(msg.priority) || !is_motor(msg.left) || !is_motor(msg.right)) {
+    return std::nullopt;
+  }
+  return CueEvent{msg.id,
+                  static_cast<CueStage>(msg.stage),
+                  msg.kind,
+                  msg.text,
+                  static_cast<Priority>(msg.priority),
+                  static_cast<Modality>(msg.modality),
+                  static_cast<double>(msg.left),
+                  static_cast<double>(msg.right),
+                  to_ns(msg.header.stamp)};
+}
+
+std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg) {
+  const auto state = from_number<DriveState::State>(msg.state);
+  const auto reason = from_number<DriveState::Reason>(msg.reason);
+  if (!state || !reason) return std::nullopt;
+  return DriveState{*state, *reason, msg.rejected, to_ns(msg.header.stamp)};
+}
+
+std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg) {
+  if (!valid(msg.start) || !valid(msg.goal)) return std::nullopt;
+  return Scenario{msg.world,
+                  msg.world_hash,
+                  msg.seed,
+                  flat(msg.goal),
+                  pose_of(msg.start),
+                  msg.start.position.z,
+                  msg.parameters,
+                  to_ns(msg.header.stamp)};
+}
+
+std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
+  if (msg.hash.size() != 16 || msg.hash.find_first_not_of("0123456789abcdef") != msg.hash.npos)
+    return std::nullopt;
+  StateHash state{to_ns(msg.header.stamp), msg.step, 0};
+  std::from_chars(msg.hash.data(), msg.hash.data() + msg.hash.size(), state.hash, 16);
+  return state;
+}
+
+geometry_msgs::Twist to_msg(const Velocity& velocity) {
+  geometry_msgs::Twist msg;
+  msg.linear.x = velocity.linear;
+  msg.angular.z = velocity.angular;
+  return msg;
+}
+
+nav_msgs::Odometry to_msg(const Odometry& odometry) {
+  nav_msgs::Odometry msg;
+  msg.header = header("odom", odometry.stamp);
+  msg.child_frame_id = "base_link";
+  msg.pose.pose = pose_msg(odometry.pose, odometry.floor);
+  msg.twist.twist = to_msg(odometry.velocity);
+  msg.twist.twist.linear.y = odometry.sideways;
+  return msg;
+}
+
+navvi_msgs::Proximity to_msg(const Proximity& proximity) {
+  navvi_msgs::Proximity msg;
+  msg.header = header("base_link", proximity.stamp);
+  msg.detection_radius = proximity.detection_radius;
+  msg.things.reserve(proximity.things.size());
+  for (const NearThing& thing : proximity.things) {
+    navvi_msgs::ProximityThing& entry = msg.things.emplace_back();
+    entry.id = thing.id;
+    entry.name = thing.name;
+    entry.thing_class = to_string(thing.thing_class);
+    entry.moving = thing.moving;
+    entry.gap = thing.gap;
+    entry.nearest = point_msg(thing.nearest, thing.height);
+  }
+  return msg;
+}
+
+navvi_msgs::Contact to_msg(const Contact& contact) {
+  navvi_msgs::Contact msg;
+  msg.header = header("map", contact.stamp);
+  msg.seq = contact.seq;
+  msg.id = contact.id;
+  msg.name = contact.name;
+  msg.thing_class = to_string(contact.thing_class);
+  msg.point = point_msg(contact.point, contact.height);
+  msg.robot = pose_msg(contact.robot, contact.floor);
+  msg.speed = contact.speed;
+  for (const auto& [thing_class, count] : contact.counts) {
+    navvi_msgs::ClassCount& entry = msg.counts.emplace_back();
+    entry.thing_class = to_string(thing_class);
+    entry.count = count;
+  }
+  return msg;
+}
+
+navvi_msgs::Obstacles to_msg(const Obstacles& obstacles) {
+  navvi_msgs::Obstacles msg;
+  msg.header = header("map", obstacles.stamp);
+  msg.obstacles.reserve(obstacles.things.size());
+  for (const MovingThing& thing : obstacles.things) {
+    navvi_msgs::Obstacle& entry = msg.obstacles.emplace_back();
+    entry.id = thing.id;
+    entry.thing_class = to_string(thing.thing_class);
+    entry.pose = pose_msg(thing.pose, thing.floor);
+    entry.velocity.x = thing.velocity.x();
+    entry.velocity.y = thing.velocity.y();
+    entry.radius = thing.radius;
+    entry.height = thing.height;
+    entry.length = thing.length;
+    entry.width = thing.width;
+  }
+  return msg;
+}
+
+navvi_msgs::Guidance to_msg(const Guidance& guidance) {
+  navvi_msgs::Guidance msg;
+  msg.header = header("map", guidance.stamp);
+  msg.seq = guidance.seq;
+  msg.state = static_cast<std::uint8_t>(guidance.state);
+  msg.refusal = static_cast<std::uint8_t>(guidance.refusal);
+  msg.replan_reason = static_cast<std::uint8_t>(guidance.replan_reason);
+  msg.plans = guidance.plans;
+  msg.plan_time = guidance.plan_time;
+  msg.nodes_expanded = guidance.nodes_expanded;
+  msg.reroutes = guidance.reroutes;
+  msg.reroute_reason = static_cast<std::uint8_t>(guidance.reroute_reason);
+  msg.path_churn = guidance.path_churn;
+  msg.mesh_age = guidance.mesh_age.value_or(-1.0);
+  msg.map_age = guidance.map_age.value_or(-1.0);
+  if (guidance.blocked_by) msg.blocked_by = to_string(*guidance.blocked_by);
+  msg.blocked_distance = guidance.blocked_distance;
+  msg.blocked_for = guidance.blocked_for.value_or(-1.0);
+  msg.goal = point_msg(guidance.goal, guidance.floor);
+  msg.waypoint = point_msg(guidance.waypoint, guidance.floor);
+  msg.waypoint_is_goal = guidance.waypoint_is_goal;
+  msg.waypoint_distance = guidance.waypoint_distance;
+  msg.waypoint_angle = guidance.waypoint_angle;
+  msg.steer_angle = guidance.steer_angle;
+  msg.turn_angle = guidance.turn_angle;
+  msg.goal_distance = guidance.goal_distance;
+  msg.eta = guidance.eta;
+  msg.shortest_length = guidance.shortest_length;
+  msg.smoothing_price = guidance.smoothing_price;
+  msg.path_offset = guidance.path_offset;
+  msg.detail = guidance.detail;
+  return msg;
+}
+
+navvi_msgs::Cue to_msg(const CueEvent& event) {
+  navvi_msgs::Cue msg;
+  msg.header.stamp = from_ns(event.stamp);
+  msg.id = event.id;
+  msg.stage = static_cast<std::uint8_t>(event.stage);
+  msg.modality = static_cast<std::uint8_t>(event.modality);
+  msg.priority = static_cast<std::uint8_t>(event.priority);
+  msg.kind = event.kind;
+  msg.text = event.text;
+  msg.left = static_cast<float>(event.left);
+  msg.right = static_cast<float>(event.right);
+  return msg;
+}
+
+navvi_msgs::DriveState to_msg(const DriveState& state) {
+  navvi_msgs::DriveState msg;
+  msg.header.stamp = from_ns(state.stamp);
+  msg.state = static_cast<std::uint8_t>(state.state);
+  msg.reason = static_cast<std::uint8_t>(state.reason);
+  msg.rejected = state.rejected;
+  return msg;
+}
+
+navvi_msgs::Scenario to_msg(const Scenario& scenario) {
+  navvi_msgs::Scenario msg;
+  msg.header = header("map", scenario.stamp);
+  msg.world = scenario.world;
+  msg.world_hash = scenario.world_hash;
+  msg.seed = scenario.seed;
+  msg.start = pose_msg(scenario.start, scenario.floor);
+  msg.goal = point_msg(scenario.goal, scenario.floor);
+  msg.parameters = scenario.parameters;
+  return msg;
+}
+
+navvi_msgs::StateHash to_msg(const StateHash& state) {
+  navvi_msgs::StateHash msg;
+  msg.header = header("map", state.stamp);
+  msg.step = state.step;
+  msg.hash = to_hex(state.hash);
+  return msg;
+}
+
+nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
+                        std::int64_t stamp) {
+  nav_msgs::Path msg;
+  msg.header = header("map", stamp);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t from = i + 1 < points.size() ? i : i - 1;
+    Eigen::Vector2d leg = Eigen::Vector2d::UnitX();
+    if (points.size() > 1) leg = points[from + 1] - points[from];
+    geometry_msgs::PoseStamped& pose = msg.poses.emplace_back();
+    pose.header = msg.header;
+    pose.pose = pose_msg({points[i], std::atan2(leg.y(), leg.x())}, floor);
+  }
+  return msg;
+}
+
+geometry_msgs::PoseStamped goal_msg(const Eigen::Vector2d& goal, std::int64_t stamp) {
+  geometry_msgs::PoseStamped msg;
+  msg.header = header("map", stamp);
+  msg.pose = pose_msg({goal, 0.0}, 0.0);
+  return msg;
+}
+
+std::int64_t to_ns(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
+
+ros::Time from_ns(std::int64_t ns) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, ns)));
+}
+
+}  // namespace navvi_types

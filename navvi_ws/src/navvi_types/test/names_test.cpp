@@ -1,0 +1,35 @@
+#include "navvi_types/names.hpp"
+
+#include <gtest/gtest.h>
+
+#include "navvi_types/guidance.hpp"
+
+namespace navvi_types {
+namespace {
+
+TEST(Names, EachValueIsFoundAgainByItsWordAndByItsNumber) {
+  for (int i = 0; i <= static_cast<int>(ThingClass::other); ++i) {
+    const auto thing = static_cast<ThingClass>(i);
+    EXPECT_EQ(from_word<ThingClass>(to_string(thing)), thing);
+    EXPECT_EQ(from_number<ThingClass>(static_cast<std::uint8_t>(i)), thing);
+  }
+  EXPECT_STREQ(to_string(ThingClass::pallet_robot), "pallet_robot");
+  EXPECT_STREQ(to_string(Guidance::State::make_room), "make_room");
+  EXPECT_STREQ(to_string(Guidance::Refusal::unreachable), "unreachable");
+  EXPECT_STREQ(to_string(Guidance::Replan::map_changed), "map_changed");
+}
+
+TEST(Names, AnotherWordOrNumberIsNothing) {
+  EXPECT_FALSE(from_word<ThingClass>("dragon"));
+  EXPECT_FALSE(from_word<ThingClass>(""));
+  EXPECT_FALSE(from_number<Guidance::State>(11));
+  EXPECT_FALSE(from_number<Guidance::State>(255));
+}
+
+}  // namespace
+}  // namespace navvi_types
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
