@@ -1,11 +1,11 @@
 // Plays recorded cues again: what was heard and felt, when it was. It never drives.
 
-#include <navvi_msgs/Cue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
 
-#include <cmath>
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_feedback/gamepad.hpp"
 #include "navvi_feedback/msg_conversion.hpp"
@@ -28,8 +28,6 @@ struct PlayerConfig {
   }
 };
 
-bool is_force(double value) { return std::isfinite(value) && value >= 0.0 && value <= 1.0; }
-
 class CuePlayer {
  public:
   explicit CuePlayer(const PlayerConfig& config)
@@ -38,21 +36,23 @@ class CuePlayer {
     if (status.device == Speaker::Status::Device::missing)
       ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());
     feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
-    cues_ = node_.subscribe("navvi/cues", 100, &CuePlayer::take, this,
-                            ros::TransportHints().tcpNoDelay());
+    cues_ = navvi_config::subscribe<navvi_msgs::Cue>(
+        node_, "navvi/cues", 100, navvi_types::from_msg,
+        [this](const navvi_types::CueEvent& cue) { take(cue); });
     motor_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
                                          [this](const ros::WallTimerEvent&) { move_motors(); });
   }
 
  private:
-  void take(const navvi_msgs::Cue& cue) {
-    if (cue.modality == navvi_msgs::Cue::RUMBLE) {
-      if (is_force(cue.left) && is_force(cue.right)) rumble_ = {cue.left, cue.right};
-    } else if (cue.stage == navvi_msgs::Cue::STARTED) {
+  void take(const navvi_types::CueEvent& cue) {
+    using navvi_types::CueStage;
+    if (cue.modality == navvi_types::Modality::rumble) {
+      rumble_ = {cue.left, cue.right};
+    } else if (cue.stage == CueStage::started) {
       ROS_INFO("[%s] %s", cue.kind.c_str(), cue.text.c_str());
       speaking_ = cue.id;
       speaker_.start(cue.text);
-    } else if (cue.stage == navvi_msgs::Cue::CUT && speaking_ == cue.id) {
+    } else if (cue.stage == CueStage::cut && speaking_ == cue.id) {
       speaker_.stop();
     }
   }

@@ -153,7 +153,7 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
   // What dies with the simulator, or stops with the pad, needs no word of its own.
   if (links.simulator != Link::lost) {
     if (lost(links_.proximity, links.proximity)) say("proximity_lost");
-    if (gate_ == Situation::Gate::running && now.gate == Situation::Gate::stopped &&
+    if (gate_ == DriveState::State::running && now.gate == DriveState::State::stopped &&
         links.pad != Link::lost)
       say("robot_stopped");
   }
@@ -168,13 +168,13 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
   for (auto hit = hit_.begin(); hit != hit_.end();)
     hit = time - hit->second >= kSameHit ? hit_.erase(hit) : std::next(hit);
   Utterances told;
-  for (const Situation::Contact& contact : now.contacts) {
+  for (const Contact& contact : now.contacts) {
     route_.remind(time + kRecover);
     if (!hit_.emplace(contact.id, time).second) continue;
     const std::string kind = contact.thing_class == ThingClass::shelf  ? "collision_shelf"
                              : contact.thing_class == ThingClass::wall ? "collision_wall"
                                                                        : "collision_obstacle";
-    told.push_back({kind, where(contact.thing_class, contact.point), {}});
+    told.push_back({kind, where(contact.thing_class, contact.seen_from_robot()), {}});
   }
   return told;
 }
@@ -196,7 +196,8 @@ CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
                          std::abs(now.commanded.angular) > 2.0 * config_.stuck_angular;
   const bool still = now.measured && std::abs(now.measured->linear) < config_.stuck_linear &&
                      std::abs(now.measured->angular) < config_.stuck_angular;
-  const bool held = now.gate == Situation::Gate::stopped || now.gate == Situation::Gate::waiting;
+  const bool held =
+      now.gate == DriveState::State::stopped || now.gate == DriveState::State::waiting;
   if (!commanded || !still || held) {
     blocked_since_.reset();
     stuck_said_.reset();
@@ -209,12 +210,12 @@ CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
   route_.remind(time + kRecover);
 
   // What lies where the person wants to go blocks more than what is merely nearer.
-  const Nearby* blocker = nullptr;
-  const auto rank = [&](const Nearby& thing) {
+  const NearThing* blocker = nullptr;
+  const auto rank = [&](const NearThing& thing) {
     const bool in_the_way = thing.nearest.x() * now.commanded.linear >= 0.0;
     return std::make_pair(in_the_way ? 0 : 1, thing.gap);
   };
-  for (const Nearby& thing : now.nearby)
+  for (const NearThing& thing : now.nearby)
     if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
       blocker = &thing;
   if (!blocker) return {{"stuck_unknown", {}, {}}};
@@ -253,7 +254,7 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
 
 Utterance CuePolicy::tell_problem(const Situation& now) const {
   Utterance told{problem_, {}, {}};
-  if (now.guidance) told.fillings.thing = now.guidance->blocked_by;
+  if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
   return told;
 }
 
@@ -317,12 +318,11 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
 void CuePolicy::note(const std::vector<CueEvent>& events) {
   const auto replaced = [&](const std::string& kind) {
     return std::any_of(events.begin(), events.end(), [&](const CueEvent& event) {
-      return event.stage == CueStage::queued && event.cue.kind == kind;
+      return event.stage == CueStage::queued && event.kind == kind;
     });
   };
   for (const CueEvent& event : events)
-    if (event.stage == CueStage::dropped && !replaced(event.cue.kind))
-      last_said_.erase(event.cue.kind);
+    if (event.stage == CueStage::dropped && !replaced(event.kind)) last_said_.erase(event.kind);
 }
 
 }  // namespace navvi_feedback

@@ -8,12 +8,16 @@ namespace {
 /// Waiting below `important`.
 constexpr std::size_t kMaxWaiting = 2;
 
+CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {
+  return {id, stage, cue.kind, cue.text, cue.priority};
+}
+
 }  // namespace
 
 CueQueue::Step CueQueue::update(const std::vector<Cue>& fresh, bool speaker_busy, double time) {
   Step step;
   if (running_ && !speaker_busy) {
-    step.events.push_back({running_->id, CueStage::ended, running_->cue});
+    step.events.push_back(event(running_->id, CueStage::ended, running_->cue));
     running_.reset();
   }
   drop_stale(time, step);
@@ -27,25 +31,25 @@ CueQueue::Step CueQueue::clear() {
   Step step;
   if (running_) {
     step.stop = true;
-    step.events.push_back({running_->id, CueStage::cut, running_->cue});
+    step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
     running_.reset();
   }
   for (const Entry& entry : waiting_)
-    step.events.push_back({entry.id, CueStage::dropped, entry.cue});
+    step.events.push_back(event(entry.id, CueStage::dropped, entry.cue));
   waiting_.clear();
   return step;
 }
 
 void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const Entry entry{++last_id_, time, cue};
-  step.events.push_back({entry.id, CueStage::queued, cue});
+  step.events.push_back(event(entry.id, CueStage::queued, cue));
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     // Two things that were hit are two messages of one kind.
     return other.cue.kind == cue.kind &&
            (cue.priority < Priority::important || other.cue.text == cue.text);
   });
   if (same != waiting_.end()) {
-    step.events.push_back({same->id, CueStage::dropped, same->cue});
+    step.events.push_back(event(same->id, CueStage::dropped, same->cue));
     waiting_.erase(same);
   }
   const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
@@ -60,7 +64,7 @@ void CueQueue::drop_stale(double time, Step& step) {
       ++entry;
       continue;
     }
-    step.events.push_back({entry->id, CueStage::dropped, entry->cue});
+    step.events.push_back(event(entry->id, CueStage::dropped, entry->cue));
     entry = waiting_.erase(entry);
   }
 }
@@ -75,7 +79,7 @@ void CueQueue::drop_surplus(Step& step) {
   const bool lesser_begins = begins && lesser == waiting_.begin();
   const auto room = static_cast<std::ptrdiff_t>(kMaxWaiting + (lesser_begins ? 1 : 0));
   while (waiting_.end() - lesser > room) {
-    step.events.push_back({waiting_.back().id, CueStage::dropped, waiting_.back().cue});
+    step.events.push_back(event(waiting_.back().id, CueStage::dropped, waiting_.back().cue));
     waiting_.pop_back();
   }
 }
@@ -87,12 +91,12 @@ void CueQueue::begin_next(Step& step) {
     if (running_->cue.priority == Priority::important ||
         next.cue.priority <= running_->cue.priority)
       return;
-    step.events.push_back({running_->id, CueStage::cut, running_->cue});
+    step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
     step.stop = true;
   }
   running_ = next;
   waiting_.pop_front();
-  step.events.push_back({running_->id, CueStage::started, running_->cue});
+  step.events.push_back(event(running_->id, CueStage::started, running_->cue));
   step.start = running_->cue.text;
 }
 

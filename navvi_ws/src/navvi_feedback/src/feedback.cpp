@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "navvi_feedback/rumble_output.hpp"
+
 namespace navvi_feedback {
 namespace {
 
@@ -33,6 +35,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   seen_hands_ = seen_hands_ || input.hands.live;
   Output out;
   out.command = drive(input.hands, dt);
+  out.alarm_begins = alarm_begins(input, time);
   out.rumble = feel(time, dt);
   out.cues = policy_.update(situation(input, time), time);
   contacts_.clear();
@@ -54,7 +57,20 @@ std::optional<Velocity> Feedback::drive(const InputState& hands, double dt) {
 Rumble Feedback::feel(double time, double dt) {
   const bool fresh = nearby_.link(time, config_.stale) == Link::alive &&
                      motion_.link(time, config_.stale) != Link::lost;
-  return haptics_.update(nearby_.value.value_or(std::vector<Nearby>{}), fresh, dt);
+  const Rumble near = haptics_.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt);
+  const double alarm = alarm_since_ ? alarm_force(time - *alarm_since_) : 0.0;
+  return {std::max(near.left, alarm), std::max(near.right, alarm)};
+}
+
+/// A missing audio device is told by what still works (safety rule 3), once there are motors.
+bool Feedback::alarm_begins(const Input& input, double time) {
+  if (input.audio == Link::alive) {
+    alarm_since_.reset();
+  } else if (!alarm_since_ && input.motors) {
+    alarm_since_ = time;
+    return true;
+  }
+  return false;
 }
 
 Situation Feedback::situation(const Input& input, double time) const {
@@ -67,9 +83,9 @@ Situation Feedback::situation(const Input& input, double time) const {
   if (result.proximity_link == Link::alive) result.nearby = *nearby_.value;
   if (result.simulator_link == Link::alive) result.measured = motion_.value;
   result.contacts = contacts_;
-  result.commanded = {commanded_.linear, commanded_.angular};
+  result.commanded = commanded_;
   result.stick_held_unarmed = held_unarmed_;
-  result.gate = gate_.value.value_or(Situation::Gate::unknown);
+  result.gate = gate_;
   result.pad_link = pad_link(input.hands);
   result.audio_link = input.audio;
   result.repeat_pressed = input.hands.button(0) && !last_hands_.button(0);

@@ -1,15 +1,15 @@
 // The person's side: one stick in; rumble, speech and a bright path out.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <geometry_msgs/Twist.h>
 #include <ros/callback_queue.h>
 #include <ros/package.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <csignal>
-#include <map>
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_feedback/diagnostics.hpp"
 #include "navvi_feedback/feedback.hpp"
@@ -20,6 +20,11 @@
 #include "navvi_feedback/speech_channel.hpp"
 
 namespace navvi_feedback {
+
+using navvi_types::from_msg;
+using navvi_types::Modality;
+using navvi_types::to_msg;
+
 namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
@@ -103,26 +108,13 @@ class FeedbackNode {
     keep<nav_msgs::Odometry>("odom");
     listen<nav_msgs::Path>("navvi/path", 1,
                            [this](const std::vector<Eigen::Vector2d>& path) { path_ = path; });
-    listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const Situation::Contact& contact) {
-      feedback_.take(contact);
-    });
+    listen<navvi_msgs::Contact>("navvi/contacts", 100,
+                                [this](const Contact& contact) { feedback_.take(contact); });
   }
 
-  /// Passes on what a message means; one that means nothing is dropped whole and counted.
   template <typename Msg, typename Take>
   void listen(const std::string& topic, std::uint32_t queue, Take take) {
-    const boost::function<void(const boost::shared_ptr<const Msg>&)> callback =
-        [this, topic, take](const boost::shared_ptr<const Msg>& msg) {
-          if (const auto value = from_msg(*msg)) {
-            take(*value);
-            return;
-          }
-          ++dropped_[topic];
-          ROS_WARN_THROTTLE(5.0, "A message on %s is malformed and was dropped (%u so far).",
-                            topic.c_str(), dropped_[topic]);
-        };
-    subscribers_.push_back(node_.subscribe<Msg>(topic, queue, callback, ros::VoidConstPtr(),
-                                                ros::TransportHints().tcpNoDelay()));
+    subscribers_.push_back(navvi_config::subscribe<Msg>(node_, topic, queue, from_msg, take));
   }
 
   template <typename Msg>
@@ -135,42 +127,26 @@ class FeedbackNode {
     Feedback::Input input;
     input.hands = source_.read(time);
     input.audio = audio_link();
+    input.motors = !source_.pad() || source_.pad()->status().connected;
     input.voice_busy = !speech_.idle();
     input.goal_angle = goal_angle();
     input.notices = notices();
     const Feedback::Output output = feedback_.update(input, time);
-    if (output.command) cmd_vel_.publish(twist(*output.command));
+    if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
-    feel(output.rumble, time);
+    if (output.alarm_begins)
+      ROS_WARN("There is no audio device: nothing is heard. %s", speech_.status().detail.c_str());
+    move_motors(output.rumble, time);
     say(output.cues, time);
     show(time);
     last_hands_ = input.hands;
-  }
-
-  static geometry_msgs::Twist twist(const Velocity& velocity) {
-    geometry_msgs::Twist msg;
-    msg.linear.x = velocity.linear;
-    msg.angular.z = velocity.angular;
-    return msg;
-  }
-
-  void feel(Rumble rumble, double time) {
-    if (speech_.status().device == Speaker::Status::Device::open || !config_.speech) {
-      alarm_since_.reset();
-    } else if (!alarm_since_ && (!source_.pad() || source_.pad()->status().connected)) {
-      alarm_since_ = time;
-      ROS_WARN("There is no audio device: nothing is heard. %s", speech_.status().detail.c_str());
-    }
-    const double alarm = alarm_since_ ? alarm_force(time - *alarm_since_) : 0.0;
-    rumble = {std::max(rumble.left, alarm), std::max(rumble.right, alarm)};
-    move_motors(rumble, time);
   }
 
   void move_motors(const Rumble& rumble, double time) {
     if (Gamepad* pad = source_.pad()) pad->rumble(rumble);
     const RumbleOutput::Due due = rumble_output_.update(rumble, time);
     if (due.feedback) motors_.publish(feedback_msg(rumble));
-    if (due.changed) cues_.publish(rumble_msg(rumble, ++rumble_id_, ros::Time::now()));
+    if (due.changed) publish({rumble_event(rumble, ++rumble_id_)});
   }
 
   void say(const std::vector<Cue>& cues, double time) {
@@ -206,8 +182,9 @@ class FeedbackNode {
     const std::optional<Guidance>& guidance = feedback_.guidance();
     if (!guidance || !guidance->leads()) return std::nullopt;
     try {
-      const auto transform = tf_.lookupTransform("map", "base_link", ros::Time(0)).transform;
-      return angle_to(transform, guidance->goal);
+      const auto robot = from_msg(tf_.lookupTransform("map", "base_link", ros::Time(0)).transform);
+      if (!robot) return std::nullopt;
+      return navvi_types::clockwise_angle(*robot, guidance->goal);
     } catch (const tf2::TransformException&) {
       return std::nullopt;
     }
@@ -226,10 +203,11 @@ class FeedbackNode {
   }
 
   void publish(const std::vector<CueEvent>& events) {
-    for (const CueEvent& event : events) {
-      cues_.publish(to_msg(event, ros::Time::now()));
-      if (event.stage == CueStage::started)
-        ROS_INFO("[%s] %s", event.cue.kind.c_str(), event.cue.text.c_str());
+    for (CueEvent event : events) {
+      event.stamp = navvi_types::to_ns(ros::Time::now());
+      cues_.publish(to_msg(event));
+      if (event.stage == CueStage::started && event.modality == Modality::speech)
+        ROS_INFO("[%s] %s", event.kind.c_str(), event.text.c_str());
     }
   }
 
@@ -258,10 +236,8 @@ class FeedbackNode {
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
   std::vector<Eigen::Vector2d> path_;  ///< m, in map
-  std::map<std::string, unsigned> dropped_;
 
   std::optional<double> markers_time_;  // s, of now()
-  std::optional<double> alarm_since_;   // s
   InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
   visualization_msgs::MarkerArray shown_;

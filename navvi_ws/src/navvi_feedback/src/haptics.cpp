@@ -64,8 +64,8 @@ double rumble_force(const HapticsConfig& config, double gap) {
 
 Haptics::Haptics(const HapticsConfig& config) : config_(config) {
   for (const std::string& word : config.classes) {
-    const std::optional<ThingClass> thing_class = thing_class_from(word);
-    if (!thing_class) {
+    const auto thing_class = navvi_types::from_word<ThingClass>(word);
+    if (!thing_class || thing_class == ThingClass::floor) {
       throw navvi_config::ConfigError("haptics/classes: \"" + word +
                                       "\" is no class of things; allowed are shelf, wall, box, "
                                       "pedestal, worker, forklift, pallet_robot and other");
@@ -74,10 +74,10 @@ Haptics::Haptics(const HapticsConfig& config) : config_(config) {
   }
 }
 
-const Nearby* Haptics::nearest(const std::vector<Nearby>& things) const {
+const NearThing* Haptics::nearest(const std::vector<NearThing>& things) const {
   const double limit = zone_ ? config_.range : config_.range - config_.range_hysteresis;
-  const Nearby* best = nullptr;
-  for (const Nearby& thing : things) {
+  const NearThing* best = nullptr;
+  for (const NearThing& thing : things) {
     if (std::find(classes_.begin(), classes_.end(), thing.thing_class) == classes_.end()) continue;
     if (!std::isfinite(thing.gap) || !thing.nearest.allFinite() || thing.gap >= limit) continue;
     if (!best || thing.gap < best->gap) best = &thing;
@@ -101,14 +101,14 @@ void Haptics::stop() {
   force_ = {};
 }
 
-Rumble Haptics::update(const std::vector<Nearby>& things, bool fresh, double dt) {
+Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt) {
   if (!fresh || !config_.enabled) {
     stop();
     return {};
   }
   double wanted_left = 0.0;
   double wanted_right = 0.0;
-  if (const Nearby* thing = nearest(things)) {
+  if (const NearThing* thing = nearest(things)) {
     felt_for_ += dt;
     zone_ = zone_of(thing->nearest.y());
     const double ramp = config_.onset > 0.0 ? std::min(1.0, felt_for_ / config_.onset) : 1.0;

@@ -14,7 +14,8 @@ constexpr double kNeutral = 0.02;
 
 bool in_vain(const Situation& now) {
   if (now.stick_held_unarmed) return true;
-  const bool shut = now.gate == Situation::Gate::waiting || now.gate == Situation::Gate::stopped;
+  const bool shut =
+      now.gate == DriveState::State::waiting || now.gate == DriveState::State::stopped;
   return shut &&
          (std::abs(now.commanded.linear) > kNeutral || std::abs(now.commanded.angular) > kNeutral);
 }

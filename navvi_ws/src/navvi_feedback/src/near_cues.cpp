@@ -80,13 +80,14 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
   for (const ThingClass thing : {ThingClass::shelf, ThingClass::wall})
     for (const Side side : {Side::ahead, Side::left, Side::behind, Side::right})
       gaps[{thing, side}] = std::numeric_limits<double>::infinity();
-  for (const Nearby& thing : now.nearby) {
+  for (const NearThing& thing : now.nearby) {
     const auto gap = gaps.find({thing.thing_class, side_of(thing.nearest)});
     if (gap != gaps.end() && thing.gap < gap->second) gap->second = thing.gap;
   }
   // A collision says where the thing is; nothing is left to add.
-  for (const Situation::Contact& contact : now.contacts)
-    if (const std::pair where{contact.thing_class, side_of(contact.point)}; gaps.count(where) > 0)
+  for (const Contact& contact : now.contacts)
+    if (const std::pair where{contact.thing_class, side_of(contact.seen_from_robot())};
+        gaps.count(where) > 0)
       watches_[where] = {Level::close, time};
 
   for (const auto& [where, gap] : gaps) {
@@ -106,10 +107,10 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
 }
 
 void NearCues::consider_things(const Situation& now, double time, std::optional<Candidate>& best) {
-  for (const Situation::Contact& contact : now.contacts) things_[contact.id] = {Level::close, time};
+  for (const Contact& contact : now.contacts) things_[contact.id] = {Level::close, time};
   for (auto thing = things_.begin(); thing != things_.end();)
     thing = time - thing->second.last_near > config_.forget ? things_.erase(thing) : ++thing;
-  for (const Nearby& thing : now.nearby) {
+  for (const NearThing& thing : now.nearby) {
     if (thing.thing_class == ThingClass::shelf || thing.thing_class == ThingClass::wall) continue;
     const auto known = things_.find(thing.id);
     if (known == things_.end() && level(thing.gap, Level::none) == Level::none) continue;

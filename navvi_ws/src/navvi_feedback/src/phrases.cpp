@@ -24,10 +24,15 @@ const std::set<std::string> kPlaceholders = {"clock", "turn", "distance", "thing
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 
+/// All classes that can be spoken of: no message holds the floor.
+std::vector<const char*> things() {
+  const auto all = names(ThingClass{});
+  return {all.begin() + 1, all.end()};
+}
+
 std::set<std::string> word_keys() {
   std::set<std::string> keys = {"meter", "meters"};
-  for (int i = 0; i <= static_cast<int>(ThingClass::other); ++i)
-    keys.insert(to_string(static_cast<ThingClass>(i)));
+  for (const char* thing : things()) keys.insert(thing);
   for (const char* side : kSides) {
     keys.insert(std::string("side_") + side);
     keys.insert(std::string("where_") + side);
@@ -117,8 +122,7 @@ std::vector<std::string> possible(const std::string& placeholder,
       if (key.rfind(prefix, 0) == 0) texts.push_back(word);
   };
   if (placeholder == "thing") {
-    for (int i = 0; i <= static_cast<int>(ThingClass::other); ++i)
-      texts.push_back(words.at(to_string(static_cast<ThingClass>(i))));
+    for (const char* thing : things()) texts.push_back(words.at(thing));
   } else {
     add(placeholder + "_");
   }

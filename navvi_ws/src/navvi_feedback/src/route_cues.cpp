@@ -115,7 +115,7 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   if (guidance.state == Guidance::State::make_room && !made_room_) {
     made_room_ = true;
     way.kind = "make_room";
-    way.fillings.thing = guidance.blocked_by;
+    way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
     reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
@@ -222,7 +222,7 @@ int RouteCues::clear_of_things(const Situation& now, bool held) const {
   const double kept = held ? kKept : 0.0;
   const double ahead = std::min(kInTheWay, now.guidance->waypoint_distance);
   bool in_the_way = false;
-  for (const Nearby& thing : now.nearby) {
+  for (const NearThing& thing : now.nearby) {
     if (thing.nearest.x() <= 0.0) continue;
     const double beyond = side * (-std::atan2(thing.nearest.y(), thing.nearest.x()) - angle);
     if (thing.gap < ahead && beyond > 0.0 && beyond < kHour) return 12;

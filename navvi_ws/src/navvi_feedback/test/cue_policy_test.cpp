@@ -18,7 +18,7 @@ class CuePolicyTest : public testing::Test {
   CuePolicyTest() {
     now_.pad_link = now_.simulator_link = Link::alive;
     now_.guidance_link = now_.proximity_link = now_.audio_link = Link::alive;
-    now_.gate = Situation::Gate::running;
+    now_.gate = DriveState::State::running;
     now_.measured.emplace();
     now_.guidance.emplace();
     now_.guidance->state = Guidance::State::following;
@@ -147,19 +147,19 @@ TEST_F(CuePolicyTest, SaysThatTheGuidanceIsLostAndGoesOnWhenItIsBack) {
 TEST_F(CuePolicyTest, NamesOnlyTheSimulatorWhenAllDiesWithIt) {
   under_way();
   now_.simulator_link = now_.guidance_link = now_.proximity_link = Link::lost;
-  now_.gate = Situation::Gate::stopped;
+  now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
   EXPECT_EQ(last_.priority, Priority::important);
 }
 
 TEST_F(CuePolicyTest, TellsAStoppedRobotFromALostController) {
   under_way();
-  now_.gate = Situation::Gate::stopped;
+  now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(1.0), Texts{"robot stopped, release the stick"});
-  now_.gate = Situation::Gate::running;
+  now_.gate = DriveState::State::running;
   pass(5.0);
   now_.pad_link = Link::lost;
-  now_.gate = Situation::Gate::stopped;
+  now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(1.0), Texts{"controller disconnected"});
   now_.pad_link = Link::alive;
   EXPECT_EQ(pass(1.0),
@@ -198,12 +198,12 @@ TEST_F(CuePolicyTest, SaysWhatBlocksAStuckRobot) {
 TEST_F(CuePolicyTest, CallsNobodyStuckWhoDoesNotDriveOrIsHeld) {
   under_way();
   now_.commanded = {};
-  now_.measured = Situation::Motion{};
+  now_.measured = Velocity{};
   Texts texts = pass(10.0);
   now_.commanded.linear = 1.0;
-  now_.gate = Situation::Gate::waiting;
+  now_.gate = DriveState::State::waiting;
   for (const std::string& text : pass(10.0)) texts.push_back(text);
-  now_.gate = Situation::Gate::running;
+  now_.gate = DriveState::State::running;
   now_.measured.reset();
   for (const std::string& text : pass(10.0)) texts.push_back(text);
   for (const std::string& text : texts) EXPECT_EQ(text.find("stuck"), std::string::npos);
@@ -241,7 +241,7 @@ TEST_F(CuePolicyTest, SpeaksOfWhatIsNearBeforeThereIsAGoalOnlyToWhoMoves) {
 TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenItIsBack) {
   under_way();
   now_.commanded = {};
-  now_.measured = Situation::Motion{};
+  now_.measured = Velocity{};
   now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
   now_.pad_link = Link::lost;
   EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
@@ -252,7 +252,7 @@ TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenI
 TEST_F(CuePolicyTest, AsksToReleaseAStickThatIsHeldInVainAndThenSaysTheWay) {
   under_way();
   now_.commanded = {};
-  now_.measured = Situation::Motion{};
+  now_.measured = Velocity{};
   now_.stick_held_unarmed = true;
   const Texts held = pass(5.0);
   EXPECT_EQ(std::count(held.begin(), held.end(), "release the stick"), 2);
@@ -281,7 +281,7 @@ TEST_F(CuePolicyTest, MaySayAgainAtOnceWhatWasDropped) {
   };
   EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
   EXPECT_EQ(lose_and_find(), Texts{});
-  policy_.note({{1, CueStage::dropped, last_}});
+  policy_.note({{1, CueStage::dropped, last_.kind, last_.text}});
   EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
 }
 
@@ -309,7 +309,7 @@ TEST_F(CuePolicyTest, SpeaksOnlyKnownKindsInAnySituation) {
       now_.simulator_link = draw(4) == 0 ? link() : Link::alive;
       now_.proximity_link = link();
       now_.guidance_link = draw(4) == 0 ? link() : Link::alive;
-      now_.gate = static_cast<Situation::Gate>(draw(4));
+      now_.gate = navvi_types::from_number<DriveState::State>(static_cast<std::uint8_t>(draw(4)));
       now_.guidance->state = static_cast<Guidance::State>(draw(3) == 0 ? draw(8) : 1);
       now_.guidance->refusal = static_cast<Guidance::Refusal>(draw(6));
       now_.guidance->goal = {number(20), number(20)};
@@ -319,10 +319,14 @@ TEST_F(CuePolicyTest, SpeaksOnlyKnownKindsInAnySituation) {
     now_.guidance->turn_angle = number(3.2);
     now_.guidance->waypoint_distance = std::abs(number(20));
     now_.commanded = {number(1), number(1)};
-    now_.measured = Situation::Motion{number(1), number(1)};
-    now_.nearby = {
-        {static_cast<ThingClass>(draw(8)), 1, std::abs(number(2)), {number(2), number(2)}, false}};
-    if (draw(30) == 0) now_.contacts = {{static_cast<ThingClass>(draw(8)), {number(1), number(1)}}};
+    now_.measured = Velocity{number(1), number(1)};
+    now_.nearby = {{static_cast<ThingClass>(1 + draw(8)),
+                    1,
+                    std::abs(number(2)),
+                    {number(2), number(2)},
+                    false}};
+    if (draw(30) == 0)
+      now_.contacts = {{static_cast<ThingClass>(1 + draw(8)), {number(1), number(1)}}};
     now_.voice_busy = draw(2) == 0;
     now_.repeat_pressed = draw(50) == 0;
     now_.stick_held_unarmed = draw(2) == 0;

@@ -17,7 +17,7 @@ std::vector<std::string> told(const CueQueue::Step& step) {
   const std::vector<std::string> stages = {"queued", "started", "ended", "cut", "dropped"};
   std::vector<std::string> words;
   for (const CueEvent& event : step.events)
-    words.push_back(stages.at(static_cast<std::size_t>(event.stage)) + " " + event.cue.kind);
+    words.push_back(stages.at(static_cast<std::size_t>(event.stage)) + " " + event.kind);
   return words;
 }
 
@@ -136,7 +136,7 @@ class Witness {
       ASSERT_EQ(known->second, CueStage::queued);
       ASSERT_FALSE(running_) << "two at a time";
       if (cut_) {
-        ASSERT_GT(event.cue.priority, *cut_) << "cut by a lesser one";
+        ASSERT_GT(event.priority, *cut_) << "cut by a lesser one";
       }
       running_ = event;
     } else if (event.stage == CueStage::dropped) {
@@ -144,8 +144,8 @@ class Witness {
     } else {
       ASSERT_TRUE(runs);
       if (event.stage == CueStage::cut) {
-        ASSERT_NE(event.cue.priority, Priority::important);
-        cut_ = event.cue.priority;
+        ASSERT_NE(event.priority, Priority::important);
+        cut_ = event.priority;
       }
       running_.reset();
     }

@@ -170,6 +170,7 @@ TEST_F(FeedbackNode, IgnoresAProximityThatIsNotFinite) {
 TEST_F(FeedbackNode, SaysWhatWasHitButNothingOfAContactThatIsNotFinite) {
   pass(0.5);
   navvi_msgs::Contact contact;
+  contact.seq = 1;
   contact.thing_class = "shelf";
   contact.robot.orientation.w = 1.0;
   contact.point.x = std::numeric_limits<double>::quiet_NaN();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace navvi_feedback {
 namespace {
@@ -31,6 +32,17 @@ class FeedbackTest : public testing::Test {
     return output;
   }
 
+  /// The most that both motors did together within `seconds`.
+  double strongest(double seconds) {
+    double most = 0.0;
+    for (const double end = time_ + seconds; time_ < end - 1e-9;) {
+      const Feedback::Output output = pass(0.02);
+      most = std::max(most, std::min(output.rumble.left, output.rumble.right));
+      alarms_ += output.alarm_begins ? 1 : 0;
+    }
+    return most;
+  }
+
   [[nodiscard]] bool said(const std::string& kind) const {
     return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
   }
@@ -39,6 +51,7 @@ class FeedbackTest : public testing::Test {
   Feedback::Input input_;
   double time_ = 10.0;
   std::vector<std::string> kinds_;
+  int alarms_ = 0;
 };
 
 TEST_F(FeedbackTest, AStickDrivesOnceItWasNeutralAndItsLossIsOneLastZero) {
@@ -62,17 +75,43 @@ TEST_F(FeedbackTest, AStickThatWasOpenedAnewMustBeNeutralAgain) {
 }
 
 TEST_F(FeedbackTest, WhatIsNearIsFeltWhileItIsFresh) {
-  feedback_.take(Situation::Motion{}, time_);
-  feedback_.take({Nearby{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}, time_);
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
   EXPECT_GT(pass(0.9).rumble.left, 0.5);
   const Rumble stale = pass(0.3).rumble;
   EXPECT_EQ(stale.left, 0.0);
   EXPECT_EQ(stale.right, 0.0);
 }
 
+TEST_F(FeedbackTest, AMissingAudioDeviceIsToldByTheMotorsOnceThereAreSome) {
+  for (const Link missing : {Link::never, Link::lost}) {
+    input_.audio = missing;
+    input_.motors = false;
+    EXPECT_EQ(strongest(5.0), 0.0) << "no pad yet";
+    input_.motors = true;
+    EXPECT_EQ(alarms_, 0);
+    EXPECT_GT(strongest(5.0), 0.1);
+    EXPECT_EQ(alarms_, 1);
+    EXPECT_EQ(strongest(5.0), 0.0) << "told once";
+    input_.audio = Link::alive;
+    EXPECT_EQ(strongest(1.0), 0.0);
+    EXPECT_EQ(std::exchange(alarms_, 0), 1);
+  }
+}
+
+TEST_F(FeedbackTest, AnAlarmEndsAtOnceWhenTheDeviceIsThereAndComesAgainWhenItIsLost) {
+  input_.audio = Link::never;
+  EXPECT_GT(strongest(0.3), 0.0);
+  input_.audio = Link::alive;
+  EXPECT_EQ(strongest(0.02), 0.0);
+  input_.audio = Link::lost;
+  EXPECT_GT(strongest(5.0), 0.1);
+  EXPECT_EQ(alarms_, 2);
+}
+
 TEST_F(FeedbackTest, AContactIsToldOnce) {
-  feedback_.take(Situation::Motion{}, time_);
-  feedback_.take(Situation::Contact{ThingClass::shelf, {0.3, 0.2}, 7});
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7});
   pass(3.0);
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "collision_shelf"), 1);
 }

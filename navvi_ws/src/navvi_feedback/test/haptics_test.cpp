@@ -21,15 +21,15 @@ HapticsConfig paper() {
   return config;
 }
 
-Nearby thing(double gap, double x, double y, ThingClass thing_class = ThingClass::box) {
-  Nearby result;
+NearThing thing(double gap, double x, double y, ThingClass thing_class = ThingClass::box) {
+  NearThing result;
   result.thing_class = thing_class;
   result.gap = gap;
   result.nearest = {x, y};
   return result;
 }
 
-Rumble settle(Haptics& haptics, const std::vector<Nearby>& things, double seconds = 3.0) {
+Rumble settle(Haptics& haptics, const std::vector<NearThing>& things, double seconds = 3.0) {
   Rumble rumble;
   for (int i = 0; i < std::lround(seconds / kStep); ++i)
     rumble = haptics.update(things, true, kStep);

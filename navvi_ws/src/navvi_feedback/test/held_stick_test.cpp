@@ -7,7 +7,7 @@ namespace {
 
 class HeldStickTest : public testing::Test {
  protected:
-  HeldStickTest() { now_.gate = Situation::Gate::running; }
+  HeldStickTest() { now_.gate = DriveState::State::running; }
 
   /// How often it is said within `seconds`.
   int pass(double seconds) {
@@ -38,7 +38,7 @@ TEST_F(HeldStickTest, AsksForAStickThatIsHeldFromTheBeginningAgainAndAgain) {
 }
 
 TEST_F(HeldStickTest, AsksWhileAShutGateIsDrivenAgainst) {
-  for (const auto gate : {Situation::Gate::waiting, Situation::Gate::stopped}) {
+  for (const auto gate : {DriveState::State::waiting, DriveState::State::stopped}) {
     now_.gate = gate;
     now_.commanded = {0.0, -0.5};
     EXPECT_EQ(pass(5.0), 2);
@@ -48,10 +48,10 @@ TEST_F(HeldStickTest, AsksWhileAShutGateIsDrivenAgainst) {
 }
 
 TEST_F(HeldStickTest, PassesOverTheMomentThatAGateTakesToOpen) {
-  now_.gate = Situation::Gate::waiting;
+  now_.gate = DriveState::State::waiting;
   now_.commanded.linear = 0.5;
   EXPECT_EQ(pass(0.4), 0);
-  now_.gate = Situation::Gate::running;
+  now_.gate = DriveState::State::running;
   EXPECT_EQ(pass(1.0), 0);
 }
 

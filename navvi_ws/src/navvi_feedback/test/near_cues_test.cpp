@@ -5,7 +5,7 @@
 namespace navvi_feedback {
 namespace {
 
-Nearby shelf(double gap, const Eigen::Vector2d& nearest) {
+NearThing shelf(double gap, const Eigen::Vector2d& nearest) {
   return {ThingClass::shelf, 7, gap, nearest, false};
 }
 
@@ -19,7 +19,7 @@ class NearCuesTest : public testing::Test {
   NearCuesTest() { now_.measured.emplace(); }
 
   /// The sides said within `seconds` of a situation, in order.
-  std::vector<Side> pass(double seconds, const std::vector<Nearby>& nearby) {
+  std::vector<Side> pass(double seconds, const std::vector<NearThing>& nearby) {
     now_.nearby = nearby;
     std::vector<Side> sides;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
@@ -77,7 +77,7 @@ TEST_F(NearCuesTest, SaysItOnceMoreWhenTheShelfIsClose) {
 }
 
 TEST_F(NearCuesTest, SaysBothSidesOfANarrowAisleOneAfterTheOther) {
-  const std::vector<Nearby> aisle = {shelf(0.8, kLeft), shelf(0.9, kRight)};
+  const std::vector<NearThing> aisle = {shelf(0.8, kLeft), shelf(0.9, kRight)};
   EXPECT_EQ(pass(1.0, aisle), Sides{Side::left});
   EXPECT_EQ(pass(1.0, aisle), Sides{Side::right});
 }
@@ -102,7 +102,7 @@ TEST_F(NearCuesTest, SpeaksOfWallsToo) {
 }
 
 TEST_F(NearCuesTest, NamesAThingOnceThatTheRobotDrivesTowards) {
-  const Nearby pedestal{ThingClass::pedestal, 3, 0.9, kAhead, false};
+  const NearThing pedestal{ThingClass::pedestal, 3, 0.9, kAhead, false};
   EXPECT_EQ(pass(1.0, {pedestal}), Sides{}) << "the robot stands";
   now_.measured->linear = 0.5;
   now_.voice_busy = true;
@@ -128,7 +128,7 @@ TEST_F(NearCuesTest, NamesAThingBehindOnlyToWhoDrivesBackAndNoneThatIsPassed) {
 TEST_F(NearCuesTest, NamesWhatMovesAboutOnceMoreIfTheRobotMayBrushIt) {
   now_.measured->linear = 0.5;
   const auto worker = [](double gap, const Eigen::Vector2d& at) {
-    return Nearby{ThingClass::worker, 3, gap, at, true};
+    return NearThing{ThingClass::worker, 3, gap, at, true};
   };
   EXPECT_EQ(pass(1.0, {worker(0.9, kAhead)}), Sides{Side::ahead});
   EXPECT_EQ(pass(2.0, {worker(0.3, kLeft)}), Sides{Side::left});
@@ -147,7 +147,7 @@ TEST_F(NearCuesTest, NamesWhatMovesAboutOnceMoreIfTheRobotMayBrushIt) {
 
 TEST_F(NearCuesTest, NamesAThingAgainOnlyAfterItWasGoneForAWhile) {
   now_.measured->linear = 0.5;
-  const auto box = [](double gap) { return Nearby{ThingClass::box, 4, gap, kAhead, false}; };
+  const auto box = [](double gap) { return NearThing{ThingClass::box, 4, gap, kAhead, false}; };
   EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
   EXPECT_EQ(pass(3.0, {box(1.15)}), Sides{});
   EXPECT_EQ(pass(1.0, {box(1.3)}), Sides{});

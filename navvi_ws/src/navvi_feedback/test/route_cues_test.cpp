@@ -104,12 +104,12 @@ TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
   drive.settle(10.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
   EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
-  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
   EXPECT_EQ(drive.last.fillings.hour, 1);
-  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.2, -0.7}, false}};
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, -0.7}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "on the way's side, and not in the way";
-  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{"direction"}) << "the way leads off from it";
 }
 
@@ -118,7 +118,7 @@ TEST(RouteCues, SendNobodyOffIntoWhatStandsThatWay) {
   drive.settle(8.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
   EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
-  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.55, {0.78, -0.45}, false}};
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.55, {0.78, -0.45}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{}) << "30 degrees to the right is where it stands";
 }
 
@@ -126,7 +126,7 @@ TEST(RouteCues, LeadOffAndAheadAgainOnlyOnceTheAngleHasClearlyChanged) {
   Drive drive;
   drive.settle(7.5, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
-  drive.now.nearby = {Nearby{ThingClass::shelf, 1, 0.45, {0.8, 0.2}, false}};
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.45, {0.8, 0.2}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(6.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{});
@@ -185,7 +185,7 @@ TEST(RouteCues, CorrectOnlyBeyondTheHysteresis) {
 TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
   Drive drive;
   drive.settle(90.0, 8.0);
-  drive.now.measured = Situation::Motion{0.0, -1.0};
+  drive.now.measured = Velocity{0.0, -1.0};
   double degrees = 90.0;
   Kinds said;
   double angle_when_told = 0.0;
@@ -206,12 +206,12 @@ TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
 TEST(RouteCues, TellARobotThatTurnedTooFarOnceItHasSettled) {
   Drive drive;
   drive.settle(90.0, 8.0);
-  drive.now.measured = Situation::Motion{0.0, -1.0};
+  drive.now.measured = Velocity{0.0, -1.0};
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(10.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
-  drive.now.measured = Situation::Motion{};
+  drive.now.measured = Velocity{};
   EXPECT_EQ(drive.pass(1.0), Kinds{"direction"});
   EXPECT_EQ(drive.last.fillings.hour, 11);
 }
@@ -375,7 +375,7 @@ class Person {
     ++words;
   }
 
-  Situation::Motion command(double time) {
+  Velocity command(double time) {
     if (heard_ && time >= heard_->first) {
       if (heard_->second.kind == "straight") {
         turn_left_ = 0.0;

@@ -5,6 +5,7 @@
 #include <navvi_safety/msg_conversion.hpp>
 #include <navvi_sim/msg_conversion.hpp>
 #include <navvi_sim/state_conversion.hpp>
+#include <navvi_types/msg_conversion.hpp>
 #include <utility>
 
 #include "navvi_study/msg_conversion.hpp"
@@ -72,20 +73,19 @@ bool ClosedLoop::turn_wheels() {
 void ClosedLoop::sense() {
   const navvi_sim::Snapshot& now = session_.world().now();
   told_.odometry = navvi_sim::odometry_msg(now.odometry, setting_.world.floor_height, stamp());
-  if (const auto motion = navvi_feedback::from_msg(told_.odometry)) feedback_.take(*motion, time());
+  if (const auto odometry = from_msg(told_.odometry)) feedback_.take(*odometry, time());
   if (const auto speed = navvi_nav::speed_from_msg(told_.odometry)) navigator_.set_speed(*speed);
-  if (const auto gate = navvi_feedback::from_msg(navvi_safety::state_msg(gate_, stamp())))
+  if (const auto gate = from_msg(navvi_safety::state_msg(gate_, stamp())))
     feedback_.take(*gate, time());
   for (const navvi_sim::ContactEvent& contact : now.contacts) {
     told_.contacts.push_back(navvi_sim::contact_msg(setting_.world, now.robot, contact, stamp()));
-    if (const auto felt = navvi_feedback::from_msg(told_.contacts.back())) feedback_.take(*felt);
+    if (const auto felt = from_msg(told_.contacts.back())) feedback_.take(*felt);
   }
   if (session_.due(navvi_sim::kProximityRate)) {
     const double radius = config_.sim.detection_radius;
     told_.proximity = navvi_sim::proximity_msg(setting_.world, now.robot,
                                                session_.world().proximity(radius), radius, stamp());
-    if (auto nearby = navvi_feedback::from_msg(*told_.proximity))
-      feedback_.take(std::move(*nearby), time());
+    if (const auto proximity = from_msg(*told_.proximity)) feedback_.take(*proximity, time());
   }
   if (session_.due(navvi_sim::kObstaclesRate)) {
     told_.obstacles = navvi_sim::obstacles_msg(setting_.world, now, stamp());
@@ -116,7 +116,7 @@ void ClosedLoop::navigate() {
   navvi_msgs::Guidance msg = navvi_nav::to_msg(status, navigator_.floor_height(), "map", stamp());
   msg.seq = ++guidance_seq_;
   if (status.blocked) msg.blocked_by = classes_[status.blocked->by];
-  if (const auto guidance = navvi_feedback::from_msg(msg)) feedback_.take(*guidance, time());
+  if (const auto guidance = from_msg(msg)) feedback_.take(*guidance, time());
   told_.guidance = std::move(msg);
 }
 
@@ -125,20 +125,21 @@ void ClosedLoop::feed_back() {
   if (const auto hands = navvi_feedback::from_msg(to_msg(hand_, stamp()))) input.hands = *hands;
   input.voice_busy = !queue_.empty();
   if (const auto& guidance = feedback_.guidance(); guidance && guidance->leads())
-    input.goal_angle = navvi_feedback::angle_to(pose(), guidance->goal);
+    if (const auto robot = from_msg(pose()))
+      input.goal_angle = navvi_types::clockwise_angle(*robot, guidance->goal);
   const navvi_feedback::Feedback::Output output = feedback_.update(input, time());
-  if (output.command)
-    gate_.receive(navvi_safety::Velocity{output.command->linear, output.command->angular},
-                  instant());
+  if (output.command) gate_.receive(from_msg(to_msg(*output.command)), instant());
   if (rumble_output_.update(output.rumble, time()).feedback)
     person_.feel(output.rumble.left, output.rumble.right);
-  const std::vector<navvi_feedback::CueEvent> events = speak(output.cues);
+  std::vector<CueEvent> events = speak(output.cues);
   feedback_.note(events);
-  for (const auto& event : events) told_.cues.push_back(navvi_feedback::to_msg(event, stamp()));
+  for (CueEvent& event : events) {
+    event.stamp = navvi_types::to_ns(stamp());
+    told_.cues.push_back(to_msg(event));
+  }
 }
 
-std::vector<navvi_feedback::CueEvent> ClosedLoop::speak(
-    const std::vector<navvi_feedback::Cue>& cues) {
+std::vector<CueEvent> ClosedLoop::speak(const std::vector<navvi_feedback::Cue>& cues) {
   navvi_feedback::CueQueue::Step step = queue_.update(cues, time() < speaks_until_, time());
   if (step.stop) speaks_until_ = time();
   if (step.start) {
@@ -150,7 +151,7 @@ std::vector<navvi_feedback::CueEvent> ClosedLoop::speak(
 
 void ClosedLoop::operate() {
   for (const navvi_msgs::Cue& cue : told_.cues)
-    if (const auto speech = heard(cue)) person_.hear(*speech, time());
+    if (const auto heard = from_msg(cue)) person_.hear(*heard, time());
   hand_ = person_.update(time(), 1.0 / kFeedbackRate);
 }
 

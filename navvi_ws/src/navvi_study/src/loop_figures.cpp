@@ -75,7 +75,7 @@ void LoopFigures::begin(const ClosedLoop& loop) {
   begun_ = loop.time();
   const Eigen::Vector2d& goal = loop.scenario().goal;
   const auto stamp = static_cast<std::int64_t>(std::llround(loop.time() * 1e9));
-  monitor_.start(monitor_.start_now(stamp, {goal.x(), goal.y()}));
+  monitor_.start(monitor_.start_now(stamp, goal));
   stay_ = loop.session().world().now().robot.position;
 }
 

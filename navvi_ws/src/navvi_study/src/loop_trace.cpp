@@ -40,7 +40,7 @@ double seen(const navvi_sim::RobotState& robot, double x, double y) {
 }
 
 std::string guidance_text(const navvi_msgs::Guidance& guidance) {
-  std::string out = to_string(static_cast<GuidanceReport::State>(guidance.state));
+  std::string out = to_string(static_cast<Guidance::State>(guidance.state));
   const bool leads = guidance.state == navvi_msgs::Guidance::FOLLOWING ||
                      guidance.state == navvi_msgs::Guidance::BLOCKED ||
                      guidance.state == navvi_msgs::Guidance::MAKE_ROOM;
@@ -130,7 +130,7 @@ void LoopTrace::tell_guidance(double time, const navvi_msgs::Guidance& guidance)
   if (other_state || elsewhere) {
     const auto report = from_msg(guidance);
     const std::string why = guidance.plans != guidance_.plans && report
-                                ? "planned, " + report->replan_reason
+                                ? std::string("planned, ") + to_string(report->replan_reason)
                                 : std::string("on the way");
     line(time, " * " + why + text(", reroute %u: ", guidance.reroutes) + guidance_text(guidance));
   }

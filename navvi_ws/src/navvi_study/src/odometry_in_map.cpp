@@ -1,7 +1,6 @@
 #include "navvi_study/odometry_in_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace navvi_study {
 namespace {
@@ -11,22 +10,22 @@ constexpr std::size_t kMostCorrections = 200;  // kept
 
 }  // namespace
 
-std::vector<OdometryReport> OdometryInMap::take(const OdometryReport& odometry) {
+std::vector<Odometry> OdometryInMap::take(const Odometry& odometry) {
   waiting_.push_back(odometry);
   return release();
 }
 
-std::vector<OdometryReport> OdometryInMap::take(const Correction& correction) {
+std::vector<Odometry> OdometryInMap::take(const Correction& correction) {
   if (!corrections_.empty() && correction.stamp < corrections_.back().stamp) corrections_.clear();
   corrections_.push_back(correction);
   if (corrections_.size() > kMostCorrections) corrections_.pop_front();
   return release();
 }
 
-std::vector<OdometryReport> OdometryInMap::release() {
-  std::vector<OdometryReport> reports;
+std::vector<Odometry> OdometryInMap::release() {
+  std::vector<Odometry> reports;
   while (!waiting_.empty()) {
-    OdometryReport report = waiting_.front();
+    Odometry report = waiting_.front();
     auto correction =
         std::find_if(corrections_.begin(), corrections_.end(),
                      [&](const Correction& one) { return one.stamp >= report.stamp; });
@@ -35,10 +34,8 @@ std::vector<OdometryReport> OdometryInMap::release() {
       --correction;
     }
     if (correction != corrections_.end()) {
-      const double c = std::cos(correction->yaw), s = std::sin(correction->yaw);
-      const Point2 at = report.position;
-      report.position = {correction->origin.x + c * at.x - s * at.y,
-                         correction->origin.y + s * at.x + c * at.y};
+      report.pose.position = correction->odom.to_parent(report.pose.position);
+      report.pose.yaw += correction->odom.yaw;
     }
     reports.push_back(report);
     waiting_.pop_front();

@@ -1,7 +1,6 @@
 // A simulated person at the stick: hears navvi/cues, feels joy/set_feedback, and knows nothing
 // else.
 
-#include <navvi_msgs/Cue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
@@ -9,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
 
 #include "navvi_study/msg_conversion.hpp"
 #include "navvi_study/simulated_operator.hpp"
@@ -40,10 +40,9 @@ int main(int argc, char** argv) {
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);
-    ros::Subscriber cues = node.subscribe<navvi_msgs::Cue>(
-        "navvi/cues", 100, [&](const navvi_msgs::Cue::ConstPtr& msg) {
-          if (const auto speech = navvi_study::heard(*msg)) person.hear(*speech, now());
-        });
+    const ros::Subscriber cues = navvi_config::subscribe<navvi_msgs::Cue>(
+        node, "navvi/cues", 100, navvi_types::from_msg,
+        [&](const navvi_types::CueEvent& cue) { person.hear(cue, now()); });
     ros::Subscriber rumble = node.subscribe<sensor_msgs::JoyFeedbackArray>(
         "joy/set_feedback", 10, [&](const sensor_msgs::JoyFeedbackArray::ConstPtr& msg) {
           for (const auto& motor : msg->array) {

@@ -7,11 +7,11 @@ constexpr double kFresh = 1.0;  // s, age of a message that still flows
 
 }  // namespace
 
-void Readiness::saw(const GuidanceReport& guidance, double time) {
+void Readiness::saw(const Guidance& guidance, double time) {
   guidance_ = time;
-  has_map_ = guidance.state != GuidanceReport::State::no_map &&
-             guidance.state != GuidanceReport::State::map_stale &&
-             guidance.state != GuidanceReport::State::pose_stale;
+  has_map_ = guidance.state != Guidance::State::no_map &&
+             guidance.state != Guidance::State::map_stale &&
+             guidance.state != Guidance::State::pose_stale;
 }
 
 std::vector<std::string> Readiness::missing(double time, bool clock_runs) const {

@@ -60,13 +60,15 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std:
   speed_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
 }
 
-void SimulatedOperator::hear(const HeardSpeech& speech, double time) {
-  if (speech.stage == HeardSpeech::Stage::begins) {
-    hearing_[speech.id] = {speech.text, heading_, odometer_, time};
-  } else if (speech.stage == HeardSpeech::Stage::breaks_off) {
-    hearing_.erase(speech.id);
-  } else {
-    understood(speech.id, time);
+void SimulatedOperator::hear(const CueEvent& cue, double time) {
+  using navvi_types::CueStage;
+  if (cue.modality != navvi_types::Modality::speech) return;
+  if (cue.stage == CueStage::started) {
+    hearing_[cue.id] = {cue.text, heading_, odometer_, time};
+  } else if (cue.stage == CueStage::cut) {
+    hearing_.erase(cue.id);
+  } else if (cue.stage == CueStage::ended) {
+    understood(cue.id, time);
   }
 }
 

@@ -23,9 +23,9 @@ std::string list_of(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string place_of(const Point2& point) {
+std::string place_of(const Eigen::Vector2d& point) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << point.x << ", " << point.y;
+  text << std::fixed << std::setprecision(2) << point.x() << ", " << point.y();
   return text.str();
 }
 
@@ -51,7 +51,7 @@ void TrialKeeper::enter(Phase phase) {
   phase_since_ = now_.wall();
 }
 
-void TrialKeeper::take(const OdometryReport& odometry, const Moment& now) {
+void TrialKeeper::take(const Odometry& odometry, const Moment& now) {
   now_ = now;
   readiness_.saw_odometry(now.wall());
   for (const auto& place : places_.take(odometry)) observe(place);
@@ -62,7 +62,7 @@ void TrialKeeper::take(const Correction& correction, const Moment& now) {
   for (const auto& place : places_.take(correction)) observe(place);
 }
 
-void TrialKeeper::take(const GuidanceReport& guidance, const Moment& now) {
+void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
   readiness_.saw(guidance, now.wall());
   observe(guidance);
@@ -74,13 +74,13 @@ void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
   observe(device);
 }
 
-void TrialKeeper::take(const ScenarioReport& scenario, const Moment& now) {
+void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
   now_ = now;
   scenario_ = scenario;
   if (!active()) scenario_played_ = false;
 }
 
-void TrialKeeper::take_goal(const Point2& goal, const Moment& now) {
+void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
   now_ = now;
   if (phase_ == Phase::armed && (!scenario_ || scenario_played_)) {
     start(goal);
@@ -164,7 +164,7 @@ void TrialKeeper::try_to_start() {
   }
 }
 
-void TrialKeeper::start(const Point2& goal) {
+void TrialKeeper::start(const Eigen::Vector2d& goal) {
   goal_ = goal;
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);
@@ -177,7 +177,7 @@ void TrialKeeper::start(const Point2& goal) {
   bag_.expect_growth(phase_since_);
   if (!record({"TRIAL_START", conditions(beginning), beginning.stamp})) return;
   Fields where;
-  where.set("goal_x", goal.x, 6).set("goal_y", goal.y, 6);
+  where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
   if (!record({"GOAL_SET", where, beginning.stamp})) return;
   tell(Tone::info,
        "Trial " + folder_.filename().string() + " has begun: goal at " + place_of(goal) + ".");
@@ -192,7 +192,7 @@ Fields TrialKeeper::conditions(const TrialStart& beginning) const {
   fields.set("operator", config_.operator_kind).set("participant", config_.participant);
   fields.set("profile", config_.profile);
   for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
-  fields.set("goal_x", beginning.goal.x, 6).set("goal_y", beginning.goal.y, 6);
+  fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);
   fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
   fields.set("shelf_contacts", beginning.shelf_count);

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvi_study {
 namespace {
+
+using navvi_types::CueStage;
+using navvi_types::Modality;
+using navvi_types::ThingClass;
 
 constexpr double kSameGoal = 0.05;  // m
 constexpr double kMoved = 0.05;     // m, driven
@@ -13,37 +18,26 @@ constexpr std::int64_t kOldNews =
 
 std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
-bool same(const Point2& a, const Point2& b) { return std::hypot(a.x - b.x, a.y - b.y) < kSameGoal; }
+bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < kSameGoal; }
+
+const char* kind_of(ThingClass thing_class) {
+  return thing_class == ThingClass::shelf ? "shelf" : "obstacle";
+}
+
+std::uint64_t shelves_in(const Contact& contact) {
+  const auto shelves = contact.counts.find(ThingClass::shelf);
+  return shelves == contact.counts.end() ? 0 : shelves->second;
+}
+
+/// Everything but shelves.
+std::uint64_t obstacles_in(const Contact& contact) {
+  std::uint64_t sum = 0;
+  for (const auto& [thing_class, count] : contact.counts)
+    if (thing_class != ThingClass::shelf) sum += count;
+  return sum;
+}
 
 }  // namespace
-
-const char* to_string(GuidanceReport::State state) {
-  switch (state) {
-    case GuidanceReport::State::no_goal:
-      return "no_goal";
-    case GuidanceReport::State::following:
-      return "following";
-    case GuidanceReport::State::arrived:
-      return "arrived";
-    case GuidanceReport::State::refused:
-      return "goal_refused";
-    case GuidanceReport::State::no_route:
-      return "no_route";
-    case GuidanceReport::State::off_mesh:
-      return "off_mesh";
-    case GuidanceReport::State::no_map:
-      return "no_map";
-    case GuidanceReport::State::pose_stale:
-      return "pose_stale";
-    case GuidanceReport::State::map_stale:
-      return "map_stale";
-    case GuidanceReport::State::blocked:
-      return "blocked";
-    case GuidanceReport::State::make_room:
-      return "make_room";
-  }
-  return "unknown";
-}
 
 void TrialMonitorConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -65,7 +59,7 @@ bool TrialMonitor::counts(std::int64_t stamp) {
   return start_ && stamp > start_->stamp && (!end_ || stamp <= *end_);
 }
 
-TrialStart TrialMonitor::start_now(std::int64_t stamp, const Point2& goal) const {
+TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const {
   return {std::max(stamp, latest_), goal, contact_seq_, shelf_count_, obstacle_count_};
 }
 
@@ -90,13 +84,13 @@ void TrialMonitor::start(const TrialStart& start) {
   world_restarted_ = false;
 }
 
-Event TrialMonitor::change_goal(const Point2& goal, std::int64_t stamp) {
+Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp) {
   start_->goal = goal;
   guidance_before_ = guidance_ ? guidance_ : guidance_before_;
   goal_taken_ = false;
   reached_.reset();
   refused_.reset();
-  return {"GOAL_SET", Fields().set("goal_x", goal.x).set("goal_y", goal.y), stamp, true};
+  return {"GOAL_SET", Fields().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp, true};
 }
 
 void TrialMonitor::end(std::int64_t stamp) { end_ = end_ ? std::min(*end_, stamp) : stamp; }
@@ -104,7 +98,8 @@ void TrialMonitor::end(std::int64_t stamp) { end_ = end_ ? std::min(*end_, stamp
 Fields TrialMonitor::place() const {
   Fields fields;
   if (!odometry_) return fields.set("x", "n/a").set("y", "n/a");
-  return fields.set("x", odometry_->position.x).set("y", odometry_->position.y);
+  const Eigen::Vector2d& at = odometry_->pose.position;
+  return fields.set("x", at.x()).set("y", at.y());
 }
 
 const char* TrialMonitor::zone(double lateral) const {
@@ -117,15 +112,15 @@ Fields TrialMonitor::tally_fields() const {
   fields.set("path_length", tally_.path_length).set("cues_spoken", tally_.cues_spoken);
   fields.set("missed_messages", tally_.missed_messages);
   fields.set("state_step", world_state_ ? std::to_string(world_state_->step) : "n/a");
-  return fields.set("state_hash", world_state_ ? world_state_->hash : "n/a");
+  return fields.set("state_hash", world_state_ ? navvi_types::to_hex(world_state_->hash) : "n/a");
 }
 
-std::vector<Event> TrialMonitor::observe(const OdometryReport& odometry) {
+std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   if (!counts(odometry.stamp)) return {};
   if (odometry_ && odometry.stamp <= odometry_->stamp) return {};
   if (odometry_) {
-    tally_.path_length += std::hypot(odometry.position.x - odometry_->position.x,
-                                     odometry.position.y - odometry_->position.y);
+    const Eigen::Vector2d moved = odometry.pose.position - odometry_->pose.position;
+    tally_.path_length += std::hypot(moved.x(), moved.y());
   }
   odometry_ = odometry;
   if (odometry.stamp < next_progress_) return {};
@@ -133,15 +128,15 @@ std::vector<Event> TrialMonitor::observe(const OdometryReport& odometry) {
   return {{"PROGRESS", tally_fields(), odometry.stamp, false}};
 }
 
-void TrialMonitor::collision(const ContactReport* contact, bool shelf, std::int64_t stamp,
+void TrialMonitor::collision(const Contact* contact, bool shelf, std::int64_t stamp,
                              std::vector<Event>& events) {
   auto& count = shelf ? tally_.shelf_collisions : tally_.obstacle_collisions;
   ++count;
   Fields fields;
   fields.set("kind", shelf ? "shelf" : "obstacle").set("count", count);
   if (contact != nullptr) {
-    fields.set("x", contact->robot.x).set("y", contact->robot.y);
-    fields.set("class", contact->thing_class).set("thing", contact->thing);
+    fields.set("x", contact->robot.position.x()).set("y", contact->robot.position.y());
+    fields.set("class", to_string(contact->thing_class)).set("thing", contact->name);
     fields.set("speed", contact->speed);
   } else {
     fields.set("made_good", "yes");
@@ -149,9 +144,10 @@ void TrialMonitor::collision(const ContactReport* contact, bool shelf, std::int6
   events.push_back({"COLLISION", fields, stamp, true});
 }
 
-std::vector<Event> TrialMonitor::observe(const ContactReport& contact) {
+std::vector<Event> TrialMonitor::observe(const Contact& contact) {
   const bool inside = counts(contact.stamp);
-  const bool shelf = contact.thing_class == "shelf";
+  const bool shelf = contact.thing_class == ThingClass::shelf;
+  const std::uint64_t shelves = shelves_in(contact), obstacles = obstacles_in(contact);
   std::vector<Event> events;
   if (inside && contact.seq <= contact_seq_) {
     if (contact.seq == 1) world_restarted_ = true;
@@ -159,11 +155,9 @@ std::vector<Event> TrialMonitor::observe(const ContactReport& contact) {
   }
   if (inside) {
     // Running counts that jump by more than this contact tell what was lost on the way.
-    const std::uint64_t missed_shelf =
-        contact.shelf_count - std::min(contact.shelf_count, shelf_count_ + (shelf ? 1 : 0));
+    const std::uint64_t missed_shelf = shelves - std::min(shelves, shelf_count_ + (shelf ? 1 : 0));
     const std::uint64_t missed_obstacle =
-        contact.obstacle_count -
-        std::min(contact.obstacle_count, obstacle_count_ + (shelf ? 0 : 1));
+        obstacles - std::min(obstacles, obstacle_count_ + (shelf ? 0 : 1));
     const std::uint64_t missed = contact.seq - contact_seq_ - 1;
     tally_.missed_messages += missed;
     for (std::uint64_t i = 0; i < std::min(missed_shelf, missed); ++i) {
@@ -175,26 +169,26 @@ std::vector<Event> TrialMonitor::observe(const ContactReport& contact) {
     collision(&contact, shelf, contact.stamp, events);
   }
   contact_seq_ = contact.seq;
-  shelf_count_ = contact.shelf_count;
-  obstacle_count_ = contact.obstacle_count;
+  shelf_count_ = shelves;
+  obstacle_count_ = obstacles;
   return events;
 }
 
-std::vector<Event> TrialMonitor::observe(const ProximityReport& proximity) {
+std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
   if (!counts(proximity.stamp)) return {};
   std::vector<Event> events;
   const auto event = [&](const char* type, const NearThing& thing) {
     Fields fields;
-    fields.set("kind", thing.thing_class == "shelf" ? "shelf" : "obstacle");
-    fields.set("id", std::uint64_t{thing.id}).set("class", thing.thing_class);
-    fields.set("thing", thing.thing).set("gap", thing.gap).set("zone", zone(thing.lateral));
-    fields.set("x", odometry_ ? odometry_->position.x : NAN);
-    fields.set("y", odometry_ ? odometry_->position.y : NAN);
+    fields.set("kind", kind_of(thing.thing_class));
+    fields.set("id", std::uint64_t{thing.id}).set("class", to_string(thing.thing_class));
+    fields.set("thing", thing.name).set("gap", thing.gap).set("zone", zone(thing.nearest.y()));
+    fields.set("x", odometry_ ? odometry_->pose.position.x() : NAN);
+    fields.set("y", odometry_ ? odometry_->pose.position.y() : NAN);
     events.push_back({type, fields, proximity.stamp, true});
   };
   for (const auto& thing : proximity.things) {
     const double range =
-        thing.thing_class == "shelf" ? config_.shelf_range : config_.obstacle_range;
+        thing.thing_class == ThingClass::shelf ? config_.shelf_range : config_.obstacle_range;
     const auto known = inside_.find(thing.id);
     if (known == inside_.end()) {
       if (thing.gap > range) continue;
@@ -216,11 +210,11 @@ std::vector<Event> TrialMonitor::observe(const ProximityReport& proximity) {
   return events;
 }
 
-bool TrialMonitor::about_this_goal(const GuidanceReport& guidance) {
-  using State = GuidanceReport::State;
+bool TrialMonitor::about_this_goal(const Guidance& guidance) {
+  using State = Guidance::State;
   if (goal_taken_) return true;
-  const bool refused = guidance.state == State::refused;
-  const bool was_refused = guidance_before_ && guidance_before_->state == State::refused;
+  const bool refused = guidance.state == State::goal_refused;
+  const bool was_refused = guidance_before_ && guidance_before_->state == State::goal_refused;
   const bool goal_matches = same(guidance.goal, start_->goal);
   if (refused) {
     // A refusal may be told with the goal that still stands.
@@ -230,14 +224,14 @@ bool TrialMonitor::about_this_goal(const GuidanceReport& guidance) {
              guidance_before_->plans == guidance.plans) {
     goal_taken_ = guidance.stamp > start_->stamp + kOldNews;
   } else {
-    goal_taken_ = goal_matches && (guidance.leads() || guidance.state == State::arrived ||
+    goal_taken_ = goal_matches && (guidance.leads_to_goal() || guidance.state == State::arrived ||
                                    guidance.state == State::no_route);
   }
   return goal_taken_;
 }
 
-std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
-  using State = GuidanceReport::State;
+std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
+  using State = Guidance::State;
   const bool inside = counts(guidance.stamp);
   const auto last = guidance_;
   guidance_ = guidance;
@@ -253,7 +247,7 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
   }
   // Only a guidance that was started anew forgets a goal that it had taken.
   if (guidance.state == State::no_goal) goal_taken_ = false;
-  if (guidance.leads()) {
+  if (guidance.leads_to_goal()) {
     if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
     if (!plans_) {
       plans_ = guidance.plans;
@@ -267,7 +261,7 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
     tally_.replans += guidance.plans - *plans_;
     plans_ = guidance.plans;
     Fields fields;
-    fields.set("count", tally_.replans).set("reason", guidance.replan_reason);
+    fields.set("count", tally_.replans).set("reason", to_string(guidance.replan_reason));
     events.push_back(
         {"REPLAN", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp, false});
   }
@@ -277,28 +271,29 @@ std::vector<Event> TrialMonitor::observe(const GuidanceReport& guidance) {
     fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
     events.push_back({"GOAL_REACHED", fields, guidance.stamp});
   }
-  if (guidance.state == State::refused && !refused_) {
-    refused_ = guidance.refusal;
-    events.push_back({"GOAL_REFUSED", Fields().set("reason", guidance.refusal), guidance.stamp});
+  if (guidance.state == State::goal_refused && !refused_) {
+    refused_ = to_string(guidance.refusal);
+    events.push_back({"GOAL_REFUSED", Fields().set("reason", *refused_), guidance.stamp});
   }
   return events;
 }
 
-std::vector<Event> TrialMonitor::observe(const CueReport& cue) {
-  if (!counts(cue.stamp) || !cue.speech) return {};
-  if (cue.stage == CueReport::Stage::started) ++tally_.cues_spoken;
+std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
+  if (!counts(cue.stamp) || cue.modality != Modality::speech) return {};
+  if (cue.stage == CueStage::started) ++tally_.cues_spoken;
   // However its speech fares, a cue that says stuck is the fact of being stuck.
   if (cue.kind != "stuck" || !stuck_cues_.insert(cue.id).second) return {};
   return {{"STUCK", place(), cue.stamp, true}};
 }
 
-std::vector<Event> TrialMonitor::observe(const DriveReport& drive) {
+std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   const bool inside = counts(drive.stamp);
-  const bool stopped_before = drive_ && drive_->stopped;
-  drive_ = drive;
-  if (!inside || drive.reason == "none" || !drive.stopped || stopped_before) return {};
+  const bool stopped = drive.state == DriveState::State::stopped;
+  const bool stopped_before = std::exchange(stopped_, stopped);
+  if (!inside || drive.reason == DriveState::Reason::none || !stopped || stopped_before) return {};
   Fields fields = place();
-  fields.set("reason", drive.reason).set("moved", tally_.path_length > kMoved ? "yes" : "no");
+  fields.set("reason", to_string(drive.reason))
+      .set("moved", tally_.path_length > kMoved ? "yes" : "no");
   return {{"SAFE_STOP", fields, drive.stamp, true}};
 }
 
@@ -313,7 +308,7 @@ std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
   return {{device.usable ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp, true}};
 }
 
-std::vector<Event> TrialMonitor::observe(const StateReport& state) {
+std::vector<Event> TrialMonitor::observe(const StateHash& state) {
   latest_ = std::max(latest_, state.stamp);
   if (!end_ || state.stamp <= *end_) world_state_ = state;
   return {};

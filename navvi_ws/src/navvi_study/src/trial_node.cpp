@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <navvi_config/subscribe.hpp>
 
 #include "navvi_study/msg_conversion.hpp"
 
@@ -90,7 +91,9 @@ TrialNode::TrialNode(const TrialNodeConfig& config)
 TrialKeeper::Outlets TrialNode::outlets() {
   TrialKeeper::Outlets out;
   out.publish = [this](const Row& row) { events_.publish(to_msg(row)); };
-  out.set_goal = [this](const Point2& goal) { goals_.publish(goal_msg(goal, ros::Time::now())); };
+  out.set_goal = [this](const Eigen::Vector2d& goal) {
+    goals_.publish(navvi_types::goal_msg(goal, navvi_types::to_ns(ros::Time::now())));
+  };
   out.tell = tell;
   out.start_recorder = [this](const std::filesystem::path& bag) {
     std::vector<std::string> topics;
@@ -109,13 +112,9 @@ void TrialNode::listen(const std::string& topic, const Callback& callback) {
 
 template <typename Message>
 void TrialNode::take(const std::string& topic) {
-  listen<Message>(topic, [this, topic](const Message& msg) {
-    if (const auto report = from_msg(msg)) {
-      keeper_.take(*report, now());
-    } else {
-      ROS_WARN_THROTTLE(5.0, "a bad message on %s was dropped", topic.c_str());
-    }
-  });
+  subscribers_.push_back(
+      navvi_config::subscribe<Message>(node_, topic, kQueue, navvi_types::from_msg,
+                                       [this](const auto& value) { keeper_.take(value, now()); }));
 }
 
 void TrialNode::subscribe(const TrialNodeConfig& config) {

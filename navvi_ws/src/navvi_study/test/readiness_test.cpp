@@ -7,8 +7,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-GuidanceReport guidance(GuidanceReport::State state) {
-  GuidanceReport report;
+Guidance guidance(Guidance::State state) {
+  Guidance report;
   report.state = state;
   return report;
 }
@@ -20,9 +20,9 @@ TEST(Readiness, of_nothing_misses_everything) {
 TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
   Readiness ready({});
   ready.saw_odometry(10.0);
-  ready.saw(guidance(GuidanceReport::State::no_map), 10.0);
+  ready.saw(guidance(Guidance::State::no_map), 10.0);
   EXPECT_EQ(ready.missing(10.5, true), Words{"a map and a pose in guidance"});
-  ready.saw(guidance(GuidanceReport::State::no_goal), 10.0);
+  ready.saw(guidance(Guidance::State::no_goal), 10.0);
   EXPECT_EQ(ready.missing(10.5, true), Words{});
   EXPECT_EQ(ready.missing(12.0, true), (Words{"odometry", "guidance"}));
   EXPECT_EQ(ready.silence(12.0), 2.0);
@@ -40,7 +40,7 @@ TEST(Readiness, says_of_each_device_what_was_last_reported) {
 TEST(Readiness, needs_the_devices_of_the_condition) {
   Readiness ready({"speech", "rumble"});
   ready.saw_odometry(0.0);
-  ready.saw(guidance(GuidanceReport::State::no_goal), 0.0);
+  ready.saw(guidance(Guidance::State::no_goal), 0.0);
   ready.saw({0, "audio", true});
   ready.saw({0, "speech", true});
   ready.saw({0, "pad", false});

@@ -10,6 +10,8 @@
 namespace navvi_study {
 namespace {
 
+using navvi_types::CueStage;
+
 constexpr double kStep = 0.02;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -45,7 +47,7 @@ class Loop {
 
   void say(const std::string& text) {
     ++id_;
-    person.hear({id_, HeardSpeech::Stage::begins, text}, time);
+    person.hear({id_, CueStage::started, "", text}, time);
     speaking_until_ = time + 0.4 + static_cast<double>(text.size()) / 18.0;
     speaking_ = true;
   }
@@ -56,7 +58,7 @@ class Loop {
     while (time < end && !person.arrived()) {
       const auto hand = step();
       if (speaking_ && time >= speaking_until_) {
-        person.hear({id_, HeardSpeech::Stage::ends, ""}, time);
+        person.hear({id_, CueStage::ended}, time);
         speaking_ = false;
       }
       if (distance() < 1.0 && next_ + 1 < corners_.size()) {
@@ -144,7 +146,7 @@ TEST(SimulatedOperator, does_not_act_on_what_was_cut_off) {
   Loop loop(1, kAroundACorner);
   loop.say("straight ahead, 8 meters");
   (void)loop.step();
-  loop.person.hear({1, HeardSpeech::Stage::breaks_off, ""}, loop.time);
+  loop.person.hear({1, CueStage::cut}, loop.time);
   for (int i = 0; i < 250; ++i) (void)loop.step();
   EXPECT_FALSE(loop.moved);
 }
@@ -153,7 +155,7 @@ TEST(SimulatedOperator, takes_time_to_react) {
   Loop loop(1, kAroundACorner);
   for (int i = 0; i < 100; ++i) (void)loop.step();
   loop.say("straight ahead, 8 meters");
-  loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+  loop.person.hear({1, CueStage::ended}, loop.time);
   const double heard = loop.time;
   while (!loop.moved && loop.time < heard + 3.0) (void)loop.step();
   EXPECT_GE(loop.time - heard, 0.4);
@@ -164,7 +166,7 @@ TEST(SimulatedOperator, backs_off_when_it_hears_that_it_hit_something) {
   Loop loop(1, kAroundACorner);
   for (int i = 0; i < 100; ++i) (void)loop.step();
   loop.say("hit a shelf ahead");
-  loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+  loop.person.hear({1, CueStage::ended}, loop.time);
   for (int i = 0; i < 150; ++i) (void)loop.step();
   EXPECT_LT(loop.x, -0.1);
 }
@@ -173,7 +175,7 @@ TEST(SimulatedOperator, lets_go_at_the_word_that_something_was_hit) {
   Loop loop(1, kAroundACorner);
   for (int i = 0; i < 100; ++i) (void)loop.step();
   loop.say("straight ahead, 8 meters");
-  loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+  loop.person.hear({1, CueStage::ended}, loop.time);
   for (int i = 0; i < 150; ++i) (void)loop.step();
   loop.say("hit a pallet robot on the right");
   for (int i = 0; i < 45; ++i) (void)loop.step();
@@ -185,11 +187,11 @@ TEST(SimulatedOperator, takes_one_o_clock_for_less_after_straight_ahead) {
     Loop loop(seed, kAroundACorner);
     for (int i = 0; i < 100; ++i) (void)loop.step();
     loop.say(first);
-    loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+    loop.person.hear({1, CueStage::ended}, loop.time);
     for (int i = 0; i < 150; ++i) (void)loop.step();
     const double before = loop.yaw;
     loop.say("1 o'clock, 8 meters");
-    loop.person.hear({2, HeardSpeech::Stage::ends, ""}, loop.time);
+    loop.person.hear({2, CueStage::ended}, loop.time);
     for (int i = 0; i < 150; ++i) (void)loop.step();
     return before - loop.yaw;
   };
@@ -205,7 +207,7 @@ TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
   Loop loop(1, kAroundACorner);
   const auto say = [&](std::uint32_t id, const char* text) {
     loop.say(text);
-    loop.person.hear({id, HeardSpeech::Stage::ends, ""}, loop.time);
+    loop.person.hear({id, CueStage::ended}, loop.time);
   };
   for (int i = 0; i < 100; ++i) (void)loop.step();
   say(1, "straight ahead, 8 meters");
@@ -227,7 +229,7 @@ TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
     for (int i = 0; i < 100; ++i) (void)loop.step();
     loop.person.feel(motors, motors);
     loop.say("straight ahead, 20 meters");
-    loop.person.hear({1, HeardSpeech::Stage::ends, ""}, loop.time);
+    loop.person.hear({1, CueStage::ended}, loop.time);
     for (int i = 0; i < 200; ++i) (void)loop.step();
     return loop.x;
   };

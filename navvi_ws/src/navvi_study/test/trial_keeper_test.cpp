@@ -15,7 +15,7 @@ namespace navvi_study {
 namespace {
 
 namespace fs = std::filesystem;
-using State = GuidanceReport::State;
+using State = Guidance::State;
 
 /// A keeper in a world of its own, whose clocks run together.
 class Trials : public testing::Test {
@@ -34,7 +34,7 @@ class Trials : public testing::Test {
       EXPECT_NE(content("journal.csv").find(row.type), std::string::npos) << "not on the disk";
       events_.push_back(row.type);
     };
-    outlets.set_goal = [this](const Point2& goal) { goals_.push_back(goal); };
+    outlets.set_goal = [this](const Eigen::Vector2d& goal) { goals_.push_back(goal); };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
     outlets.start_recorder = [this](const fs::path& bag) {
       const fs::path program = fs::path(config_.out) / "record";
@@ -56,8 +56,8 @@ class Trials : public testing::Test {
     const auto ns = static_cast<std::int64_t>(1e9 * time_);
     return {1'000'000'000'000 + ns, ns, 1'700'000'000};
   }
-  void guide(State state, const Point2& goal) {
-    GuidanceReport report;
+  void guide(State state, const Eigen::Vector2d& goal) {
+    Guidance report;
     report.stamp = now().ros_ns;
     report.seq = ++guidance_;
     report.state = state;
@@ -66,10 +66,11 @@ class Trials : public testing::Test {
     keeper_->take(report, now());
   }
   /// So many s in which all nodes report.
-  void live(double seconds, State state = State::no_goal, const Point2& goal = {}) {
+  void live(double seconds, State state = State::no_goal,
+            const Eigen::Vector2d& goal = Eigen::Vector2d::Zero()) {
     for (const double end = time_ + seconds; time_ < end && !keeper_->done();) {
       time_ += 0.05;
-      keeper_->take(OdometryReport{now().ros_ns, {time_, 0.0}}, now());
+      keeper_->take(Odometry{now().ros_ns, {{time_, 0.0}}}, now());
       guide(state, goal);
       keeper_->step(now());
     }
@@ -103,13 +104,13 @@ class Trials : public testing::Test {
   double time_ = 1.0;  // s, of ROS
   std::uint32_t guidance_ = 0;
   std::vector<std::string> events_;
-  std::vector<Point2> goals_;
+  std::vector<Eigen::Vector2d> goals_;
   std::string said_;
   int failures_ = 0;  ///< writes of the journal that are still to fail
   int error_ = 0;     ///< with this errno
 };
 
-const ScenarioReport kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
+const Scenario kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
 
 TEST_F(Trials, wait_for_every_part_and_name_what_is_missing) {
   begin();

@@ -5,14 +5,16 @@
 namespace navvi_study {
 namespace {
 
+using navvi_types::ThingClass;
+
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 class Monitor : public testing::Test {
  protected:
   void SetUp() override { monitor_.start({10 * kSecond, {5.0, 0.0}}); }
 
-  static GuidanceReport guidance(double time, GuidanceReport::State state, std::uint32_t seq = 1) {
-    GuidanceReport report;
+  static Guidance guidance(double time, Guidance::State state, std::uint32_t seq = 1) {
+    Guidance report;
     report.stamp = static_cast<std::int64_t>(time * 1e9);
     report.state = state;
     report.seq = seq;
@@ -21,20 +23,24 @@ class Monitor : public testing::Test {
     report.plans = 1;
     return report;
   }
-  static ContactReport contact(double time, std::uint32_t seq, const char* what, int shelves,
-                               int others) {
-    ContactReport report;
+  static Contact contact(double time, std::uint32_t seq, const char* what, int shelves,
+                         int others) {
+    Contact report;
     report.stamp = static_cast<std::int64_t>(time * 1e9);
     report.seq = seq;
-    report.thing_class = what;
-    report.shelf_count = static_cast<std::uint64_t>(shelves);
-    report.obstacle_count = static_cast<std::uint64_t>(others);
+    report.thing_class = *navvi_types::from_word<ThingClass>(what);
+    report.counts[ThingClass::shelf] = static_cast<std::uint32_t>(shelves);
+    report.counts[ThingClass::worker] = static_cast<std::uint32_t>(others);
     return report;
   }
-  static ProximityReport near(double time, const char* what, double gap, double lateral = 0.0) {
-    ProximityReport report{static_cast<std::int64_t>(time * 1e9), {}};
-    if (gap < 5.0) report.things.push_back({1, "thing", what, gap, lateral});
+  static Proximity near(double time, const char* what, double gap, double lateral = 0.0) {
+    Proximity report{static_cast<std::int64_t>(time * 1e9), {}};
+    if (gap < 5.0)
+      report.things.push_back({*navvi_types::from_word<ThingClass>(what), 1, gap, {0.0, lateral}});
     return report;
+  }
+  static DriveState stopped(std::int64_t time) {
+    return {DriveState::State::stopped, DriveState::Reason::command_lost, 0, time * kSecond};
   }
   static std::vector<std::string> types(const std::vector<Event>& events) {
     std::vector<std::string> names;
@@ -42,7 +48,7 @@ class Monitor : public testing::Test {
     return names;
   }
   using Names = std::vector<std::string>;
-  using State = GuidanceReport::State;
+  using State = Guidance::State;
 
   TrialMonitor monitor_{TrialMonitorConfig()};
 };
@@ -69,12 +75,13 @@ TEST_F(Monitor, tells_shelves_from_everything_else) {
 
 TEST_F(Monitor, keeps_the_last_state_of_the_world_that_is_not_after_the_end) {
   EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "n/a");
-  (void)monitor_.observe(StateReport{9 * kSecond, 900, "aa"});
-  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "aa") << "before the start, but none later";
-  (void)monitor_.observe(StateReport{11 * kSecond, 1100, "bb"});
+  (void)monitor_.observe(StateHash{9 * kSecond, 900, 0xaa});
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "00000000000000aa")
+      << "before the start, but none later";
+  (void)monitor_.observe(StateHash{11 * kSecond, 1100, 0xbb});
   monitor_.end(11 * kSecond);
-  (void)monitor_.observe(StateReport{12 * kSecond, 1200, "cc"});
-  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "bb");
+  (void)monitor_.observe(StateHash{12 * kSecond, 1200, 0xcc});
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "00000000000000bb");
   EXPECT_EQ(monitor_.tally_fields().get("state_step"), "1100");
 }
 
@@ -110,7 +117,7 @@ TEST_F(Monitor, does_not_flicker_at_the_boundary) {
 TEST_F(Monitor, names_the_zone_of_an_obstacle) {
   const auto zone = [&](double lateral) {
     TrialMonitor fresh{TrialMonitorConfig()};
-    fresh.start({0, {}});
+    fresh.start({});
     return fresh.observe(near(1.0, "box", 2.0, lateral)).at(0).fields.get("zone");
   };
   EXPECT_EQ(zone(1.5), "left");
@@ -167,8 +174,8 @@ TEST_F(Monitor, does_not_take_another_goals_path_for_its_own) {
 }
 
 TEST_F(Monitor, tells_a_refused_goal) {
-  auto refused = guidance(10.5, State::refused);
-  refused.refusal = "inside_obstacle";
+  auto refused = guidance(10.5, State::goal_refused);
+  refused.refusal = Guidance::Refusal::inside_obstacle;
   EXPECT_EQ(types(monitor_.observe(refused)), (Names{"GUIDANCE", "GOAL_REFUSED"}));
   EXPECT_EQ(monitor_.refused(), "inside_obstacle");
 }
@@ -203,35 +210,37 @@ TEST_F(Monitor, takes_a_way_that_is_blocked_for_a_moment_for_a_way) {
 
 TEST_F(Monitor, measures_the_way_driven) {
   for (int i = 0; i <= 10; ++i) {
-    (void)monitor_.observe(OdometryReport{(11 + i) * kSecond, {0.5 * i, 0.0}});
+    (void)monitor_.observe(Odometry{(11 + i) * kSecond, {{0.5 * i, 0.0}}});
   }
   EXPECT_DOUBLE_EQ(monitor_.tally().path_length, 5.0);
 }
 
 TEST_F(Monitor, counts_being_stuck_once_a_cue) {
-  using Stage = CueReport::Stage;
-  EXPECT_EQ(monitor_.observe(CueReport{11 * kSecond, 7, Stage::queued, true, "stuck"}).size(), 1u);
-  EXPECT_EQ(monitor_.observe(CueReport{12 * kSecond, 7, Stage::started, true, "stuck"}).size(), 0u);
-  EXPECT_EQ(monitor_.observe(CueReport{12 * kSecond, 8, Stage::dropped, true, "stuck"}).size(), 1u);
+  using navvi_types::CueStage;
+  const auto events = [this](std::uint32_t id, CueStage stage) {
+    CueEvent cue{id, stage, "stuck"};
+    cue.stamp = 11 * kSecond;
+    return monitor_.observe(cue).size();
+  };
+  EXPECT_EQ(events(7, CueStage::queued), 1u);
+  EXPECT_EQ(events(7, CueStage::started), 0u);
+  EXPECT_EQ(events(8, CueStage::dropped), 1u);
   EXPECT_EQ(monitor_.tally().cues_spoken, 1u);
 }
 
 TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) {
-  const auto early = monitor_.observe(DriveReport{11 * kSecond, true, "command_lost"});
+  const auto early = monitor_.observe(stopped(11));
   ASSERT_EQ(early.size(), 1u);
   EXPECT_EQ(early[0].fields.get("moved"), "no");
-  (void)monitor_.observe(DriveReport{12 * kSecond, false, "none"});
-  (void)monitor_.observe(OdometryReport{12 * kSecond, {0.0, 0.0}});
-  (void)monitor_.observe(OdometryReport{13 * kSecond, {0.2, 0.0}});
-  EXPECT_EQ(
-      monitor_.observe(DriveReport{14 * kSecond, true, "command_lost"})[0].fields.get("moved"),
-      "yes");
+  (void)monitor_.observe(DriveState{DriveState::State::running, {}, 0, 12 * kSecond});
+  (void)monitor_.observe(Odometry{12 * kSecond, {}});
+  (void)monitor_.observe(Odometry{13 * kSecond, {{0.2, 0.0}}});
+  EXPECT_EQ(monitor_.observe(stopped(14))[0].fields.get("moved"), "yes");
 }
 
 TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
-  EXPECT_EQ(types(monitor_.observe(DriveReport{11 * kSecond, true, "command_lost"})),
-            Names{"SAFE_STOP"});
-  EXPECT_TRUE(monitor_.observe(DriveReport{12 * kSecond, true, "command_lost"}).empty());
+  EXPECT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
+  EXPECT_TRUE(monitor_.observe(stopped(12)).empty());
   EXPECT_TRUE(monitor_.observe(DeviceReport{11 * kSecond, "pad", true}).empty());
   EXPECT_EQ(types(monitor_.observe(DeviceReport{12 * kSecond, "pad", false})),
             Names{"DEVICE_LOST"});

@@ -99,6 +99,7 @@ class World {
     scenario.world = "hall, small";
     scenario.world_hash = "c0ffee";
     scenario.seed = 7;
+    scenario.start.orientation.w = 1.0;
     scenario.goal.x = 4.0;
     scenario_.publish(scenario);
   }
@@ -114,6 +115,7 @@ class World {
     nav_msgs::Odometry odom;
     odom.header.stamp = stamp();
     odom.pose.pose.position.x = x_;
+    odom.pose.pose.orientation.w = 1.0;
     odom_.publish(odom);
     publish_guidance();
     navvi_msgs::Proximity proximity;
@@ -167,6 +169,7 @@ class World {
     contact.thing_class = "shelf";
     contact.name = "shelf; 3";
     contact.robot.position.x = x_;
+    contact.robot.orientation.w = 1.0;
     contact.speed = 2.0;
     contact.counts.resize(2);
     contact.counts[0].thing_class = "shelf";

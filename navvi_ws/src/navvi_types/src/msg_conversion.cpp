@@ -12,8 +12,8 @@
 namespace navvi_types {
 namespace {
 
-// The constants of the messages are the numbers of the enumerations: the last of each shows that none
-// is missing, and the test compares the words.
+// The constants of the messages are the numbers of the enumerations: the last of each shows that
+// none is missing, and the test compares the words.
 using GuidanceMsg = navvi_msgs::Guidance;
 using CueMsg = navvi_msgs::Cue;
 using DriveMsg = navvi_msgs::DriveState;
@@ -274,14 +274,9 @@ std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg) {
 
 std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg) {
   if (!valid(msg.start) || !valid(msg.goal)) return std::nullopt;
-  return Scenario{msg.world,
-                  msg.world_hash,
-                  msg.seed,
-                  flat(msg.goal),
-                  pose_of(msg.start),
-                  msg.start.position.z,
-                  msg.parameters,
-                  to_ns(msg.header.stamp)};
+  return Scenario{msg.world,      msg.world_hash,         msg.seed,
+                  flat(msg.goal), pose_of(msg.start),     msg.start.position.z,
+                  msg.parameters, to_ns(msg.header.stamp)};
 }
 
 std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {

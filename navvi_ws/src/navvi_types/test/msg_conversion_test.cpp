@@ -31,9 +31,9 @@ void expect_each_checked(const Msg& sound, const std::vector<Leaf<Msg>>& leaves)
   ASSERT_TRUE(from_msg(sound).has_value());
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     std::vector<double> bad = leaves[i].beyond;
-    bad.insert(bad.end(), {std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity(),
-                           -std::numeric_limits<double>::infinity(), 1e308});
+    bad.insert(bad.end(),
+               {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity(), 1e308});
     for (const double value : bad) {
       Msg msg = sound;
       leaves[i].in(msg) = value;
@@ -357,28 +357,27 @@ TEST(MsgConversion, EveryNumberOfAGuidanceIsChecked) {
   using Msg = navvi_msgs::Guidance;
   const auto length = beyond_from_0(kLongest), duration = beyond_from_0(kLongestTime);
   const std::vector<double> or_none = {-0.5, -2.0, 1.001 * kLongestTime};
-  expect_each_checked<Msg>(
-      guidance(), {{LEAF(Msg, plan_time), duration},
-                   {LEAF(Msg, path_churn), length},
-                   {LEAF(Msg, mesh_age), or_none},
-                   {LEAF(Msg, map_age), or_none},
-                   {LEAF(Msg, blocked_distance), length},
-                   {LEAF(Msg, blocked_for), or_none},
-                   {LEAF(Msg, goal.x), beyond(kFarthest)},
-                   {LEAF(Msg, goal.y), beyond(kFarthest)},
-                   {LEAF(Msg, goal.z), beyond(kFarthest)},
-                   {LEAF(Msg, waypoint.x), beyond(kFarthest)},
-                   {LEAF(Msg, waypoint.y), beyond(kFarthest)},
-                   {LEAF(Msg, waypoint.z), beyond(kFarthest)},
-                   {LEAF(Msg, waypoint_distance), length},
-                   {LEAF(Msg, waypoint_angle), beyond(M_PI)},
-                   {LEAF(Msg, steer_angle), beyond(M_PI)},
-                   {LEAF(Msg, turn_angle), beyond(M_PI)},
-                   {LEAF(Msg, goal_distance), length},
-                   {LEAF(Msg, eta), duration},
-                   {LEAF(Msg, shortest_length), length},
-                   {LEAF(Msg, smoothing_price), beyond(kLongest)},
-                   {LEAF(Msg, path_offset), length}});
+  expect_each_checked<Msg>(guidance(), {{LEAF(Msg, plan_time), duration},
+                                        {LEAF(Msg, path_churn), length},
+                                        {LEAF(Msg, mesh_age), or_none},
+                                        {LEAF(Msg, map_age), or_none},
+                                        {LEAF(Msg, blocked_distance), length},
+                                        {LEAF(Msg, blocked_for), or_none},
+                                        {LEAF(Msg, goal.x), beyond(kFarthest)},
+                                        {LEAF(Msg, goal.y), beyond(kFarthest)},
+                                        {LEAF(Msg, goal.z), beyond(kFarthest)},
+                                        {LEAF(Msg, waypoint.x), beyond(kFarthest)},
+                                        {LEAF(Msg, waypoint.y), beyond(kFarthest)},
+                                        {LEAF(Msg, waypoint.z), beyond(kFarthest)},
+                                        {LEAF(Msg, waypoint_distance), length},
+                                        {LEAF(Msg, waypoint_angle), beyond(M_PI)},
+                                        {LEAF(Msg, steer_angle), beyond(M_PI)},
+                                        {LEAF(Msg, turn_angle), beyond(M_PI)},
+                                        {LEAF(Msg, goal_distance), length},
+                                        {LEAF(Msg, eta), duration},
+                                        {LEAF(Msg, shortest_length), length},
+                                        {LEAF(Msg, smoothing_price), beyond(kLongest)},
+                                        {LEAF(Msg, path_offset), length}});
 }
 
 TEST(MsgConversion, EveryNumberOfAScenarioIsChecked) {

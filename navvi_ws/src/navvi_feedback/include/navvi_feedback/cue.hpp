@@ -1,13 +1,14 @@
 #pragma once
 
-#include <cstdint>
+#include <navvi_types/cue_event.hpp>
 #include <string>
 #include <vector>
 
 namespace navvi_feedback {
 
-/// The scale of speech-dispatcher, least first; the values of navvi_msgs/Cue.
-enum class Priority : std::uint8_t { progress, notification, text, message, important };
+using navvi_types::CueEvent;
+using navvi_types::CueStage;
+using navvi_types::Priority;
 
 /// One spoken message, before it is spoken.
 struct Cue {
@@ -15,15 +16,6 @@ struct Cue {
   std::string text;  ///< as spoken
   Priority priority = Priority::text;
   double max_age = 2.0;  ///< s after which it is dropped if it has not begun
-};
-
-/// One moment of a cue's life; the values of navvi_msgs/Cue.
-enum class CueStage : std::uint8_t { queued, started, ended, cut, dropped };
-
-struct CueEvent {
-  std::uint32_t id = 0;  ///< the same through the cue's life, 1 for the first, no gaps
-  CueStage stage = CueStage::queued;
-  Cue cue;
 };
 
 /// How a kind of cue is treated.

@@ -73,7 +73,7 @@ class CuePolicy {
 
   std::optional<double> first_update_;  ///< s
   Links links_;                         ///< as of the last update
-  Situation::Gate gate_ = Situation::Gate::unknown;
+  std::optional<DriveState::State> gate_;
   bool follows_ = false;                 ///< there is a fresh path now
   std::optional<double> blocked_since_;  ///< s, commanded without moving
   std::optional<double> stuck_said_;     ///< s

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <navvi_types/motion.hpp>
 #include <optional>
 
 #include "navvi_config/field.hpp"
@@ -12,11 +13,7 @@ struct Stick {
   double y = 0.0;  ///< [-1, 1], forward positive
 };
 
-/// What is asked of base_link (REP-103).
-struct Velocity {
-  double linear = 0.0;   ///< m/s, forward
-  double angular = 0.0;  ///< rad/s, counter-clockwise
-};
+using navvi_types::Velocity;
 
 struct DriveConfig {
   double dead_zone = 0.12;

@@ -11,6 +11,9 @@
 
 namespace navvi_feedback {
 
+using navvi_types::Odometry;
+using navvi_types::Proximity;
+
 struct FeedbackConfig {
   double stale = 1.0;  ///< s
   DriveConfig drive;
@@ -28,6 +31,7 @@ class Feedback {
   struct Input {
     InputState hands;
     Link audio = Link::alive;
+    bool motors = true;                ///< false where our own pad is not connected
     bool voice_busy = false;           ///< something is being spoken or waits for it
     std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if known
     std::vector<std::string> notices;  ///< as Situation::notices
@@ -35,17 +39,18 @@ class Feedback {
   struct Output {
     std::optional<Velocity> command;  ///< nullopt: nothing is to be sent
     Rumble rumble;
-    std::vector<Cue> cues;  ///< decided now, most urgent first
+    bool alarm_begins = false;  ///< from now on the motors say that nothing can be heard
+    std::vector<Cue> cues;      ///< decided now, most urgent first
   };
 
   /// \throws navvi_config::ConfigError as Haptics does
   Feedback(const FeedbackConfig& config, Phrases phrases);
 
-  void take(std::vector<Nearby> nearby, double time) { nearby_ = {std::move(nearby), time}; }
+  void take(const Proximity& proximity, double time) { nearby_ = {proximity.things, time}; }
   void take(const Guidance& guidance, double time) { guidance_ = {guidance, time}; }
-  void take(Situation::Gate gate, double time) { gate_ = {gate, time}; }
-  void take(const Situation::Motion& motion, double time) { motion_ = {motion, time}; }
-  void take(const Situation::Contact& contact) { contacts_.push_back(contact); }
+  void take(const DriveState& state, double /*time*/) { gate_ = state.state; }
+  void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
+  void take(const Contact& contact) { contacts_.push_back(contact); }
 
   /// Call it at 50 Hz.
   [[nodiscard]] Output update(const Input& input, double time);
@@ -70,6 +75,7 @@ class Feedback {
 
   [[nodiscard]] std::optional<Velocity> drive(const InputState& hands, double dt);
   [[nodiscard]] Rumble feel(double time, double dt);
+  [[nodiscard]] bool alarm_begins(const Input& input, double time);
   [[nodiscard]] Situation situation(const Input& input, double time) const;
   [[nodiscard]] Link pad_link(const InputState& hands) const;
 
@@ -78,15 +84,16 @@ class Feedback {
   Haptics haptics_;
   CuePolicy policy_;
 
-  Latest<std::vector<Nearby>> nearby_;
+  Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;
-  Latest<Situation::Gate> gate_;
-  Latest<Situation::Motion> motion_;
-  std::vector<Situation::Contact> contacts_;  ///< since the last update
+  std::optional<DriveState::State> gate_;
+  Latest<Velocity> motion_;
+  std::vector<Contact> contacts_;  ///< since the last update
 
   std::optional<double> last_update_;
   InputState last_hands_;
   bool seen_hands_ = false;
+  std::optional<double> alarm_since_;  ///< s, while nothing can be heard
   Velocity commanded_;
   bool held_unarmed_ = false;
 };

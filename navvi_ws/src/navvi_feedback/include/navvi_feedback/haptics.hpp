@@ -1,14 +1,16 @@
 #pragma once
 
-#include <cstdint>
+#include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "navvi_config/field.hpp"
-#include "navvi_feedback/nearby.hpp"
 
 namespace navvi_feedback {
+
+using navvi_types::NearThing;
+using navvi_types::ThingClass;
 
 /// What the two motors of the pad do, each in [0, 1].
 struct Rumble {
@@ -57,13 +59,13 @@ class Haptics {
   /// \param things  all with finite numbers in base_link; in any order
   /// \param fresh  false when sensing is stale: the motors stop at once
   /// \param dt  s since the last call, >= 0
-  [[nodiscard]] Rumble update(const std::vector<Nearby>& things, bool fresh, double dt);
+  [[nodiscard]] Rumble update(const std::vector<NearThing>& things, bool fresh, double dt);
 
   /// The zone of what is felt now; nullopt while nothing is.
   [[nodiscard]] std::optional<Zone> zone() const { return zone_; }
 
  private:
-  [[nodiscard]] const Nearby* nearest(const std::vector<Nearby>& things) const;
+  [[nodiscard]] const NearThing* nearest(const std::vector<NearThing>& things) const;
   [[nodiscard]] Zone zone_of(double lateral) const;
   void stop();
 

@@ -3,13 +3,15 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Core>
+#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <vector>
 
 #include "navvi_config/field.hpp"
-#include "navvi_feedback/guidance.hpp"
 
 namespace navvi_feedback {
+
+using navvi_types::Guidance;
 
 struct MarkersConfig {
   double path_width = 0.22;   // m

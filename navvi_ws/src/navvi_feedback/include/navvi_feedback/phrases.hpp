@@ -2,13 +2,16 @@
 
 #include <filesystem>
 #include <map>
+#include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
 
 #include "navvi_feedback/cue.hpp"
-#include "navvi_feedback/nearby.hpp"
+#include "navvi_feedback/side.hpp"
 
 namespace navvi_feedback {
+
+using navvi_types::ThingClass;
 
 /// How directions are worded.
 enum class DirectionWords {

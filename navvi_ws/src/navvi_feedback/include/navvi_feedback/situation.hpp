@@ -1,38 +1,31 @@
 #pragma once
 
-#include <cstdint>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/guidance.hpp"
 #include "navvi_feedback/link.hpp"
-#include "navvi_feedback/nearby.hpp"
 
 namespace navvi_feedback {
 
+using navvi_types::Contact;
+using navvi_types::DriveState;
+using navvi_types::Guidance;
+using navvi_types::NearThing;
+using navvi_types::Velocity;
+
 /// Everything that is known at one instant and may have to be said. Every number is finite.
 struct Situation {
-  struct Motion {
-    double linear = 0.0;   ///< m/s, forward
-    double angular = 0.0;  ///< rad/s, counter-clockwise
-  };
-  struct Contact {
-    ThingClass thing_class = ThingClass::other;
-    Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< m, in base_link
-    std::uint32_t id = 0;                             ///< of the thing
-  };
-  /// The last stage before the wheels, as navvi_msgs/DriveState.
-  enum class Gate { unknown, waiting, running, stopped };
-
   std::optional<Guidance> guidance;  ///< the latest
   std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if it is known
-  std::vector<Nearby> nearby;        ///< the latest; empty if stale
+  std::vector<NearThing> nearby;     ///< the latest; empty if stale
   std::vector<Contact> contacts;     ///< begun since the last update
-  Motion commanded;                  ///< what was last sent to the robot
+  Velocity commanded;                ///< what was last sent to the robot
   bool stick_held_unarmed = false;   ///< held since before it was neutral, so nothing is sent
-  std::optional<Motion> measured;    ///< nullopt while the odometry is missing or stale
-  Gate gate = Gate::unknown;
+  std::optional<Velocity> measured;  ///< nullopt while the odometry is missing or stale
+  std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
 
   Link guidance_link = Link::never;
   Link proximity_link = Link::never;

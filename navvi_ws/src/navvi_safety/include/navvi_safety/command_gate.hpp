@@ -1,16 +1,15 @@
 #pragma once
 
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/motion.hpp>
 #include <optional>
 
 #include "navvi_config/field.hpp"
 
 namespace navvi_safety {
 
-/// Planar velocity of base_link (REP-103).
-struct Velocity {
-  double linear = 0.0;   ///< m/s, forward
-  double angular = 0.0;  ///< rad/s, counter-clockwise
-};
+using navvi_types::DriveState;
+using navvi_types::Velocity;
 
 /// One instant on both clocks, so that neither a stopped simulation nor a changed wall clock can
 /// keep wheels turning.
@@ -36,8 +35,8 @@ struct CommandGateConfig {
 /// neutral stick.
 class CommandGate {
  public:
-  enum class State { waiting, running, stopped };
-  enum class Reason { none, command_lost, command_invalid };
+  using State = DriveState::State;
+  using Reason = DriveState::Reason;
 
   explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
 
@@ -49,6 +48,8 @@ class CommandGate {
   /// The velocity for the wheels at `now`. Call it at every control step.
   [[nodiscard]] Velocity update(const Instant& now);
 
+  /// As of the last update(), without a stamp.
+  [[nodiscard]] DriveState drive_state() const { return {state_, reason_, rejected_}; }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] Reason reason() const { return reason_; }
   [[nodiscard]] unsigned rejected() const { return rejected_; }

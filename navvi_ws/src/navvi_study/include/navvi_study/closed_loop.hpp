@@ -87,8 +87,7 @@ class ClosedLoop {
   void sense();
   void navigate();
   void feed_back();
-  [[nodiscard]] std::vector<navvi_feedback::CueEvent> speak(
-      const std::vector<navvi_feedback::Cue>& cues);
+  [[nodiscard]] std::vector<CueEvent> speak(const std::vector<navvi_feedback::Cue>& cues);
   void operate();
   [[nodiscard]] navvi_safety::Instant instant() const { return {time(), time()}; }
   [[nodiscard]] ros::Time stamp() const { return ros::Time(time()); }

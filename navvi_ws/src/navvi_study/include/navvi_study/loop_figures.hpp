@@ -61,7 +61,7 @@ class LoopFigures {
   std::optional<Said> said_;
   std::optional<int> announced_;  ///< hour of the turn that comes
   std::map<std::string, double> states_;
-  GuidanceReport::State state_ = GuidanceReport::State::no_goal;
+  Guidance::State state_ = Guidance::State::no_goal;
   std::string blocked_by_;
   std::string spoken_;
   std::string nearest_;

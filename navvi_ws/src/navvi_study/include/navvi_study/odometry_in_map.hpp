@@ -3,19 +3,19 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <navvi_types/motion.hpp>
 #include <vector>
 
-#include "navvi_study/trial_monitor.hpp"
-
 namespace navvi_study {
+
+using navvi_types::Odometry;
 
 /// map -> odom, as a localisation or the simulator tells it.
 struct Correction {
   static constexpr std::int64_t kForGood = std::numeric_limits<std::int64_t>::max();
 
-  std::int64_t stamp = 0;  ///< ns, ROS time; kForGood for one that is told once
-  Point2 origin;           ///< m, of odom in map
-  double yaw = 0.0;        ///< rad
+  std::int64_t stamp = 0;   ///< ns, ROS time; kForGood for one that is told once
+  navvi_types::Pose2 odom = {};  ///< in map
 };
 
 /// Takes odometry, which may drift, over to map. Each report gets the first correction that is not
@@ -24,14 +24,14 @@ struct Correction {
 class OdometryInMap {
  public:
   /// \return in map: none, one, or more that have waited
-  [[nodiscard]] std::vector<OdometryReport> take(const OdometryReport& odometry);
-  [[nodiscard]] std::vector<OdometryReport> take(const Correction& correction);
+  [[nodiscard]] std::vector<Odometry> take(const Odometry& odometry);
+  [[nodiscard]] std::vector<Odometry> take(const Correction& correction);
 
  private:
-  [[nodiscard]] std::vector<OdometryReport> release();
+  [[nodiscard]] std::vector<Odometry> release();
 
   std::deque<Correction> corrections_;  ///< the latest, oldest first
-  std::deque<OdometryReport> waiting_;
+  std::deque<Odometry> waiting_;
 };
 
 }  // namespace navvi_study

@@ -15,7 +15,7 @@ class Readiness {
   explicit Readiness(std::vector<std::string> modalities) : modalities_(std::move(modalities)) {}
 
   void saw_odometry(double time) { odometry_ = time; }
-  void saw(const GuidanceReport& guidance, double time);
+  void saw(const Guidance& guidance, double time);
   void saw(const DeviceReport& device) { devices_[device.device] = device.usable; }
 
   /// What is not there, in words; empty when a trial can begin.

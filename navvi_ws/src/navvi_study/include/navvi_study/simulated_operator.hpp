@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <navvi_types/cue_event.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -29,13 +30,7 @@ struct SimulatedOperatorConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// A moment of a spoken sentence.
-struct HeardSpeech {
-  enum class Stage { begins, ends, breaks_off };
-  std::uint32_t id = 0;
-  Stage stage = Stage::begins;
-  std::string text;
-};
+using navvi_types::CueEvent;
 
 /// What the hands do.
 struct StickAndButtons {
@@ -51,7 +46,8 @@ class SimulatedOperator {
  public:
   SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed);
 
-  void hear(const HeardSpeech& speech, double time);
+  /// Only speech that begins, ends or breaks off is heard.
+  void hear(const CueEvent& cue, double time);
   /// \param left, right  motors [0, 1]
   void feel(double left, double right);
   /// \param time  s, not going back \param dt  s since the last update

@@ -36,7 +36,7 @@ class TrialKeeper {
   /// What a keeper has done for it.
   struct Outlets {
     std::function<void(const Row&)> publish;  ///< is on the disk already
-    std::function<void(const Point2&)> set_goal;
+    std::function<void(const Eigen::Vector2d&)> set_goal;
     std::function<void(Tone, const std::string&)> tell;  ///< a person at the screen
     /// Begins a bag at that path; nullptr where none is wanted.
     std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
@@ -53,13 +53,13 @@ class TrialKeeper {
     now_ = now;
     observe(report);
   }
-  void take(const OdometryReport& odometry, const Moment& now);
+  void take(const Odometry& odometry, const Moment& now);
   void take(const Correction& correction, const Moment& now);
-  void take(const GuidanceReport& guidance, const Moment& now);
+  void take(const Guidance& guidance, const Moment& now);
   void take(const DeviceReport& device, const Moment& now);
-  void take(const ScenarioReport& scenario, const Moment& now);
+  void take(const Scenario& scenario, const Moment& now);
   /// Somebody else has set a goal.
-  void take_goal(const Point2& goal, const Moment& now);
+  void take_goal(const Eigen::Vector2d& goal, const Moment& now);
   /// A simulated operator has moved its hands.
   void saw_operator(const Moment& now) { operator_seen_ = now.wall(); }
   /// The bag's recorder listens.
@@ -84,7 +84,7 @@ class TrialKeeper {
   void wait();
   void arm();
   void try_to_start();
-  void start(const Point2& goal);
+  void start(const Eigen::Vector2d& goal);
   [[nodiscard]] Fields conditions(const TrialStart& beginning) const;
   void watch();
   void watch_bag();
@@ -118,14 +118,14 @@ class TrialKeeper {
   Phase phase_ = Phase::waiting;
   double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
   double said_ = 0.0;
-  std::optional<ScenarioReport> scenario_;
+  std::optional<Scenario> scenario_;
   bool scenario_played_ = false;
 
   std::filesystem::path folder_;
   std::unique_ptr<Journal> journal_;
   BagWatch bag_;
   bool bag_lost_ = false;  ///< and journalled
-  Point2 goal_;
+  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   GoalTries goal_tries_;
   TrialFlow flow_;
   double operator_seen_ = 0.0;  ///< when a simulated one last moved its hands

@@ -26,7 +26,7 @@ class TrialNode {
   void subscribe(const TrialNodeConfig& config);
   template <typename Message, typename Callback>
   void listen(const std::string& topic, const Callback& callback);
-  /// Hands on what from_msg() makes of the messages of `topic`; bad ones are dropped.
+  /// Hands on what from_msg() makes of the messages of `topic`; bad ones are dropped and counted.
   template <typename Message>
   void take(const std::string& topic);
   void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event);

@@ -26,8 +26,8 @@ enum class Priority : std::uint8_t { progress, notification, text, message, impo
 struct CueEvent {
   std::uint32_t id = 0;  ///< the same through the cue's life, 1 for the first, no gaps
   CueStage stage = CueStage::queued;
-  std::string kind;  ///< the phrase's key, such as turn_now
-  std::string text;  ///< as spoken; empty for rumble
+  std::string kind = {};  ///< the phrase's key, such as turn_now
+  std::string text = {};  ///< as spoken; empty for rumble
   Priority priority = Priority::text;
   Modality modality = Modality::speech;
   double left = 0.0;  ///< motor command [0, 1]; 0 for speech

@@ -59,8 +59,8 @@ struct Guidance {
   std::optional<double> mesh_age;        ///< s, >= 0
   std::optional<double> map_age;         ///< s, >= 0
 
-  std::optional<ThingClass> blocked_by;  ///< while blocked or make_room
-  double blocked_distance = 0.0;           ///< m, along the path to where it does, >= 0
+  std::optional<ThingClass> blocked_by;     ///< while blocked or make_room
+  double blocked_distance = 0.0;            ///< m, along the path to where it does, >= 0
   std::optional<double> blocked_for = 0.0;  ///< s, until it has cleared; nullopt: nobody knows
 
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();      ///< m, in map

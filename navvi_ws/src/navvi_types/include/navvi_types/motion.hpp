@@ -25,8 +25,8 @@ struct Velocity {
 /// nav_msgs/Odometry on the floor.
 struct Odometry {
   std::int64_t stamp = 0;  ///< ns, ROS time
-  Pose2 pose;              ///< base_link in odom
-  Velocity velocity;
+  Pose2 pose = {};         ///< base_link in odom
+  Velocity velocity = {};
   double sideways = 0.0;  ///< m/s, left: only a push makes it other than 0
   double floor = 0.0;     ///< m, height of the floor in odom
 };

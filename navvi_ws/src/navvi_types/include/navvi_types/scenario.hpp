@@ -9,13 +9,13 @@ namespace navvi_types {
 
 /// What the simulator was asked to play.
 struct Scenario {
-  std::string world;       ///< its name
-  std::string world_hash;  ///< hexadecimal, of everything in it
+  std::string world = {};       ///< its name
+  std::string world_hash = {};  ///< hexadecimal, of everything in it
   std::uint64_t seed = 0;
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();  ///< m, in map
-  Pose2 start;                                     ///< base_link in map
+  Pose2 start = {};                                ///< base_link in map
   double floor = 0.0;                              ///< m, height of the floor in map
-  std::string parameters;                          ///< YAML, of sim_node
+  std::string parameters = {};                     ///< YAML, of sim_node
   std::int64_t stamp = 0;                          ///< ns, ROS time
 };
 

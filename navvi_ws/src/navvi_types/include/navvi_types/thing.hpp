@@ -27,15 +27,15 @@ struct NearThing {
   double gap = 0.0;                                   ///< m, hull to surface; <= 0 when touching
   Eigen::Vector2d nearest = Eigen::Vector2d::Zero();  ///< m, of its surface, in base_link
   bool moving = false;
-  std::string name;     ///< as in the world, for the record; never spoken
-  double height = 0.0;  ///< m, z of `nearest`
+  std::string name = {};  ///< as in the world, for the record; never spoken
+  double height = 0.0;    ///< m, z of `nearest`
 };
 
 /// Each thing within `detection_radius` of the robot's hull.
 struct Proximity {
-  std::int64_t stamp = 0;           ///< ns, ROS time
-  std::vector<NearThing> things;    ///< nearest first
-  double detection_radius = 5.0;    ///< m, > 0
+  std::int64_t stamp = 0;              ///< ns, ROS time
+  std::vector<NearThing> things = {};  ///< nearest first
+  double detection_radius = 5.0;       ///< m, > 0
 };
 
 /// The robot began to touch a thing (R-SIM-6).
@@ -43,12 +43,12 @@ struct Contact {
   ThingClass thing_class = ThingClass::other;
   Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< m, where they touch, in map
   std::uint32_t id = 0;                             ///< of the thing
-  std::string name;                                 ///< as NearThing::name
+  std::string name = {};                            ///< as NearThing::name
   double height = 0.0;                              ///< m, z of `point`
-  Pose2 robot;                                      ///< base_link in map at that instant
+  Pose2 robot = {};                                 ///< base_link in map at that instant
   double floor = 0.0;                               ///< m, height of the floor in map
   double speed = 0.0;                               ///< m/s, the robot's just before
-  std::map<ThingClass, std::uint32_t> counts;       ///< contacts so far, this one included
+  std::map<ThingClass, std::uint32_t> counts = {};  ///< contacts so far, this one included
   std::uint32_t seq = 1;                            ///< 1 for the first of the world, no gaps
   std::int64_t stamp = 0;                           ///< ns, ROS time
 
@@ -61,7 +61,7 @@ struct Contact {
 struct MovingThing {
   std::uint32_t id = 0;  ///< the same for the life of the world
   ThingClass thing_class = ThingClass::other;
-  Pose2 pose;                                          ///< in map, x along its heading
+  Pose2 pose = {};                                     ///< in map, x along its heading
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s, in map
   double radius = 0.0;                                 ///< m, > 0
   double height = 0.0;                                 ///< m, > 0
@@ -76,7 +76,7 @@ struct MovingThing {
 /// Every moving thing at one instant.
 struct Obstacles {
   std::int64_t stamp = 0;  ///< ns, ROS time
-  std::vector<MovingThing> things;
+  std::vector<MovingThing> things = {};
 };
 
 }  // namespace navvi_types
