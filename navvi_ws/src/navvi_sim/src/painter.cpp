@@ -29,6 +29,30 @@ std::vector<Eigen::Vector3d> circle(const Eigen::Isometry3d& pose, double radius
 
 }  // namespace
 
+Color color_of(ThingClass thing_class) {
+  switch (thing_class) {
+    case ThingClass::floor:
+      return {0.07F, 0.08F, 0.09F};
+    case ThingClass::shelf:
+      return {0.33F, 0.45F, 0.58F};
+    case ThingClass::wall:
+      return {0.78F, 0.78F, 0.78F};
+    case ThingClass::box:
+      return {1.00F, 0.90F, 0.00F};
+    case ThingClass::pedestal:
+      return {0.72F, 0.42F, 0.16F};
+    case ThingClass::worker:
+      return {0.20F, 1.00F, 0.35F};
+    case ThingClass::forklift:
+      return {1.00F, 0.50F, 0.00F};
+    case ThingClass::pallet_robot:
+      return {0.00F, 0.80F, 0.80F};
+    case ThingClass::other:
+      return {0.55F, 0.55F, 0.50F};
+  }
+  return {0.55F, 0.55F, 0.50F};
+}
+
 std_msgs::ColorRGBA color_msg(const Color& color, float brightness) {
   std_msgs::ColorRGBA msg;
   msg.r = color.r * brightness;

@@ -15,6 +15,9 @@ struct Color {
   float r, g, b;
 };
 
+/// High contrast on a dark background. Purple and red are left to the path and the goal.
+[[nodiscard]] Color color_of(ThingClass thing_class);
+
 [[nodiscard]] std_msgs::ColorRGBA color_msg(const Color& color, float brightness = 1.0F);
 [[nodiscard]] geometry_msgs::Point point_msg(const Eigen::Vector3d& point);
 [[nodiscard]] geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose);

@@ -8,6 +8,7 @@
 #include "block_lists.hpp"
 #include "navvi_sim/bodies.hpp"
 #include "painter.hpp"
+#include "rack_drawing.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -22,40 +23,11 @@ constexpr std::size_t kMostLists = 500;  // of blocks
 constexpr double kBoxGrid = 0.1;         // m, of the sizes of boxes on shelves
 constexpr double kCoarseGrid = 0.2;      // m, likewise, in worlds of very many things
 constexpr std::size_t kVeryMany = 1000;  // things
-constexpr double kBeam = 0.08;           // m, of uprights and rims
-constexpr double kBoard = 0.05;          // m, thickness
-constexpr double kPlank = 1.25;          // m, longest block in a list
 constexpr double kFloorGrid = 5.0;       // m, between lines on the floor
 constexpr std::size_t kMany = 100;       // movers; beyond, far ones take turns
 constexpr double kFar = 30.0;            // m from the robot
 constexpr std::uint64_t kTurns = 10;     // a far mover is told in one message of these
 
-/// High contrast on a dark background. Purple and red are left to the path and the goal.
-Color color_of(ThingClass thing_class) {
-  switch (thing_class) {
-    case ThingClass::floor:
-      return {0.07F, 0.08F, 0.09F};
-    case ThingClass::shelf:
-      return {0.33F, 0.45F, 0.58F};
-    case ThingClass::wall:
-      return {0.78F, 0.78F, 0.78F};
-    case ThingClass::box:
-      return {1.00F, 0.90F, 0.00F};
-    case ThingClass::pedestal:
-      return {0.72F, 0.42F, 0.16F};
-    case ThingClass::worker:
-      return {0.20F, 1.00F, 0.35F};
-    case ThingClass::forklift:
-      return {1.00F, 0.50F, 0.00F};
-    case ThingClass::pallet_robot:
-      return {0.00F, 0.80F, 0.80F};
-    case ThingClass::other:
-      return {0.55F, 0.55F, 0.50F};
-  }
-  return {0.55F, 0.55F, 0.50F};
-}
-
-constexpr Color kUpright{0.25F, 0.50F, 0.85F};
 constexpr Color kFloorLine{0.17F, 0.19F, 0.21F};
 constexpr Color kRobot{0.95F, 1.00F, 0.95F};
 constexpr Color kNose{0.00F, 1.00F, 0.20F};
@@ -83,102 +55,10 @@ std::optional<Eigen::AlignedBox3d> block_of(const Geometry& geometry,
   return bounds_of(geometry, pose);
 }
 
-/// A part of a rack, about the centre of the box that it is drawn for.
-struct Part {
-  Eigen::AlignedBox3d block;
-  Color color;
-};
-
-/// Adds blocks along the longer side of a box, whichever it is.
-class Carpenter {
+/// The markers of everything that stands still.
+class StaticMarkers {
  public:
-  explicit Carpenter(const Eigen::Vector3d& size) : along_x_(size.x() >= size.y()) {}
-
-  /// \param low, high  m: along, across, up
-  void add(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Color& color) {
-    parts_.push_back({Eigen::AlignedBox3d(turned(low), turned(high)), color});
-  }
-  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
-
- private:
-  [[nodiscard]] Eigen::Vector3d turned(const Eigen::Vector3d& v) const {
-    return along_x_ ? v : Eigen::Vector3d(v.y(), v.x(), v.z());
-  }
-
-  bool along_x_;
-  std::vector<Part> parts_;
-};
-
-/// The four beams around a board.
-std::vector<Part> rim(const Eigen::Vector3d& size) {
-  const Eigen::Vector3d half = 0.5 * size;
-  const Color color = color_of(ThingClass::shelf);
-  Carpenter carpenter(size);
-  const double length = std::max(half.x(), half.y()), depth = std::min(half.x(), half.y());
-  for (const double side : {-depth, depth - kBeam})
-    carpenter.add({-length, side, -half.z()}, {length, side + kBeam, half.z()}, color);
-  for (const double end : {-length, length - kBeam})
-    carpenter.add({end, kBeam - depth, -half.z()}, {end + kBeam, depth - kBeam, half.z()}, color);
-  return carpenter.parts();
-}
-
-/// An open rack in place of a block: uprights in pairs and boards, the highest one a rim.
-std::vector<Part> rack(const Eigen::Vector3d& size) {
-  constexpr double kBay = 2.0, kLevel = 0.7;  // m, about
-  const Eigen::Vector3d half = 0.5 * size;
-  const double length = std::max(half.x(), half.y()), depth = std::min(half.x(), half.y());
-  Carpenter carpenter(size);
-  const int bays = std::max(1, static_cast<int>(std::lround(2.0 * length / kBay)));
-  for (int i = 0; i <= bays; ++i) {
-    const double at = -length + (2.0 * length - kBeam) * i / bays;
-    for (const double side : {-depth, depth - kBeam})
-      carpenter.add({at, side, -half.z()}, {at + kBeam, side + kBeam, half.z()}, kUpright);
-  }
-  const int levels = std::max(1, static_cast<int>(std::lround(size.z() / kLevel)));
-  for (int i = 0; i < levels; ++i) {
-    const double z = -half.z() + (size.z() - kBoard) * i / levels;
-    carpenter.add({-length, -depth, z}, {length, depth, z + kBoard}, color_of(ThingClass::shelf));
-  }
-  std::vector<Part> parts = carpenter.parts();
-  for (Part part : rim({size.x(), size.y(), kBoard})) {
-    part.block.translate(Eigen::Vector3d(0.0, 0.0, half.z() - 0.5 * kBoard));
-    parts.push_back(part);
-  }
-  return parts;
-}
-
-/// How a box of a shelf is drawn.
-/// \param highest  nothing of the shelf is above it
-std::vector<Part> parts_of(const Eigen::Vector3d& size, bool highest) {
-  const double across = size.head<2>().minCoeff();
-  const bool is_post = size.z() > 4.0 * size.head<2>().maxCoeff();
-  if (size.z() > 1.0 && !is_post && across > 0.3) return rack(size);
-  if (highest && size.z() < 0.2 && across > 4.0 * kBeam) return rim(size);
-  const Eigen::AlignedBox3d whole(-0.5 * size, 0.5 * size);
-  if (!is_post) return {{whole, color_of(ThingClass::shelf)}};
-  // A little out of what it holds, so that the faces of the two are not in one plane.
-  const Eigen::Vector3d out(0.005, 0.005, -0.005);
-  return {{Eigen::AlignedBox3d(whole.min() - out, whole.max() + out), kUpright}};
-}
-
-/// What is long in equal pieces along x or y: RViz leaves out a list of blocks of which it sees no
-/// centre, and darkens blocks towards their ends.
-std::vector<Eigen::AlignedBox3d> planks(const Eigen::AlignedBox3d& block) {
-  const int axis = block.sizes().x() >= block.sizes().y() ? 0 : 1;
-  const int count = std::max(1, static_cast<int>(std::ceil(block.sizes()[axis] / kPlank)));
-  std::vector<Eigen::AlignedBox3d> pieces(static_cast<std::size_t>(count), block);
-  for (int i = 0; i < count; ++i) {
-    Eigen::AlignedBox3d& piece = pieces[static_cast<std::size_t>(i)];
-    piece.min()[axis] = block.min()[axis] + block.sizes()[axis] * i / count;
-    piece.max()[axis] = block.min()[axis] + block.sizes()[axis] * (i + 1) / count;
-  }
-  return pieces;
-}
-
-/// Draws everything that stands still.
-class StillLife {
- public:
-  explicit StillLife(const WorldDescription& world)
+  explicit StaticMarkers(const WorldDescription& world)
       : floor_(world.floor_height),
         grid_(world.things.size() > kVeryMany ? kCoarseGrid : kBoxGrid) {}
 
@@ -218,9 +98,9 @@ class StillLife {
         continue;
       }
       const double top = shape.pose.translation().z() + 0.5 * box->size.z();
-      for (const Part& part : parts_of(box->size, top > bounds.max().z() - 1e-6))
-        for (const Eigen::AlignedBox3d& plank : planks(part.block))
-          add(look, part.color, Box{plank.sizes()}, pose * Eigen::Translation3d(plank.center()));
+      for (const ColoredBlock& part : shelf_parts(box->size, top > bounds.max().z() - 1e-6))
+        add(look, part.color, Box{part.block.sizes()},
+            pose * Eigen::Translation3d(part.block.center()));
     }
   }
 
@@ -230,7 +110,7 @@ class StillLife {
     const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
     if (bounds_of(geometry, pose).min().z() >= cut) return;
     auto block = block_of(geometry, pose);
-    if (block && block->sizes().head<2>().maxCoeff() <= kPlank + 1e-6) {
+    if (block && block->sizes().head<2>().maxCoeff() <= kLongestBlock + 1e-6) {
       block->max().z() = std::min(block->max().z(), cut);
       if (coarse) *block = on_grid(*block);
       return blocks_.add(ns, color, *block);
@@ -324,7 +204,7 @@ Scene::Parts Scene::parts_of(const Thing& thing, std::map<std::string, int>& nex
 MarkerArray Scene::standing(const ros::Time& stamp) const {
   MarkerArray array;
   std::map<std::string, int> next_id;
-  StillLife still(world_);
+  StaticMarkers still(world_);
   for (const Thing& thing : world_.things) {
     if (is_moving(thing)) continue;
     if (!model_of(thing.thing_class) || !is_upright(thing.pose)) {
