@@ -58,6 +58,11 @@ class FloorGrid {
   };
   [[nodiscard]] Ways ways_from(std::size_t start, double least) const;
 
+  /// From `cell` to where the ways begin, pulled taut: each line goes as far as it sees with a
+  /// clearance of `least`. m, in map
+  [[nodiscard]] std::vector<Eigen::Vector2d> way_back(const Ways& ways, std::size_t cell,
+                                                      double least) const;
+
   /// Whether the straight line between the centres of two cells keeps a clearance of `least`.
   [[nodiscard]] bool sees(std::size_t from, std::size_t to, double least) const;
 

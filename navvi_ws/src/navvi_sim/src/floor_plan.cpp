@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 #include <string>
 
 #include "furniture.hpp"
+#include "sentence.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -15,12 +15,6 @@ constexpr double kStagingShare = 0.16;  // of the width, as far as it need not b
 constexpr double kStagingMin = 3.0;     // m
 constexpr double kStagingMax = 9.0;     // m
 constexpr int kUsualBays = 5;
-
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
 
 /// How many of `size` there is room for.
 int fitting(double room, double size) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "sentence.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -17,12 +18,6 @@ constexpr double kPalletRoom = 0.95;     // m, that a pallet set down askew take
 constexpr double kPedestalRoom = 0.85;   // m, likewise
 constexpr double kBoxRoom = 0.75;        // m, likewise, boxes
 constexpr double kStandRoom = 0.6;       // m, likewise, who stands
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 void add(std::vector<Thing>& things, const std::string& name, ThingClass thing_class,
          const Eigen::Isometry3d& pose, std::vector<Shape> shapes) {

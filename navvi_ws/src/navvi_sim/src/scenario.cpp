@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <sstream>
 
-#include "floor_grid.hpp"
+#include "free_places.hpp"
 #include "random.hpp"
+#include "sentence.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -18,88 +17,57 @@ constexpr double kLeg = 1.0;          // m, least length of a leg that counts fo
 constexpr double kTurn = 30.0 * M_PI / 180.0;
 constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
 
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
+double length(const FloorGrid::Ways& ways, std::size_t cell) {
+  return static_cast<double>(ways.length[cell]);
 }
 
-class Drawing {
+std::vector<Eigen::Vector2d> reversed(std::vector<Eigen::Vector2d> way) {
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+/// Draws the ends of a route from a seed.
+class ScenarioSampler {
  public:
-  Drawing(const WorldDescription& world, const OccupancyMap& map, const ScenarioConfig& config,
-          std::uint64_t seed)
+  ScenarioSampler(const WorldDescription& world, const OccupancyMap& map,
+                  const ScenarioConfig& config, std::uint64_t seed)
       : world_(world),
         config_(config),
         grid_(map, world.floor_height, config.robot_height),
-        random_(seed) {
-    for (std::size_t cell = 0; cell < grid_.size(); ++cell)
-      if (grid_.clearance(cell) >= clear()) free_.push_back(cell);
-    if (free_.empty())
-      throw WorldError("world '" + world.name + "' has no place where a robot of radius " +
-                       text(config.robot_radius) + " m stands " + text(config.clearance) +
-                       " m clear of things; a start needs one");
-    find_quiet();
-  }
+        places_(world, grid_, config),
+        random_(seed) {}
 
   [[nodiscard]] Scenario with_start(const FloorPose& start,
-                                    const std::optional<Eigen::Vector2d>& goal) {
-    const std::size_t root = checked(start);
-    const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
-    if (goal) {
-      const std::size_t end = goal->allFinite() ? grid_.cell_at(*goal) : FloorGrid::kNone;
-      if (end == FloorGrid::kNone || !std::isfinite(ways.length[end]))
-        return {start, *goal, 0.0, {}};
-      return {start, *goal, length(ways, end), reversed(way_back(ways, end, passable(root)))};
-    }
-    const std::size_t end = draw(ways, {quiet_, free_}, "goal", passable(root));
-    return {start, grid_.centre(end), length(ways, end),
-            reversed(way_back(ways, end, passable(root)))};
-  }
-
-  [[nodiscard]] Scenario with_goal(const Eigen::Vector2d& goal) {
-    const Places starts = free_of_movers(free_);
-    const std::size_t root = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
-    if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
-      // Navigation refuses such a goal; the start may then be anywhere.
-      const Eigen::Vector2d place = grid_.centre(starts[random_.below(starts.size())]);
-      return {{place.x(), place.y(), 0.0}, goal, 0.0, {}};
-    }
-    const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
-    const std::size_t start = draw(ways, {free_of_movers(quiet_), starts}, "start", passable(root));
-    return {looking_back(ways, start), goal, length(ways, start),
-            way_back(ways, start, passable(root))};
-  }
-
-  [[nodiscard]] Scenario with_nothing() {
-    std::optional<Scenario> scenario = between(quiet_);
-    if (!scenario && quiet_.size() < free_.size()) scenario = between(free_);
-    if (!scenario)
-      throw WorldError("world '" + world_.name +
-                       "' has no place for a start that is connected to one for a goal" +
-                       asked_for());
-    return *scenario;
-  }
+                                    const std::optional<Eigen::Vector2d>& goal);
+  [[nodiscard]] Scenario with_goal(const Eigen::Vector2d& goal);
+  [[nodiscard]] Scenario with_nothing();
 
  private:
-  using Places = std::vector<std::size_t>;  ///< cells
+  using Places = FreePlaces::Places;
 
   /// Both ends drawn from `places`; nullopt if no route leads between any that were tried.
-  [[nodiscard]] std::optional<Scenario> between(const Places& places) {
-    if (places.empty()) return std::nullopt;
-    const Places starts = free_of_movers(places);
-    std::optional<Scenario> best;
-    const double enough = asks_for_route() ? 0.0 : kUsualRoute;
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      const std::size_t root = places[random_.below(places.size())];
-      const FloorGrid::Ways ways = grid_.ways_from(root, clear());
-      const std::size_t start = drawn(ways, starts, clear());
-      if (start == FloorGrid::kNone || (best && length(ways, start) <= best->route_length))
-        continue;
-      best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
-              way_back(ways, start, clear())};
-      if (best->route_length >= enough) break;
-    }
-    return best;
+  [[nodiscard]] std::optional<Scenario> between(const Places& places);
+  /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
+  /// is asked for, a small world has some at 0.8 of the longest way to a free place.
+  [[nodiscard]] Places ends_of(const FloorGrid::Ways& ways, const Places& places);
+  /// One of `places` to which a way leads as asked for; kNone if none was found.
+  [[nodiscard]] std::size_t try_draw(const FloorGrid::Ways& ways, const Places& places,
+                                     double least);
+  /// \param choices  of places, the better ones first
+  [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+                                 const std::string& what, double least);
+
+  /// The cell of a start that was given. \throws WorldError if no robot can stand there
+  [[nodiscard]] std::size_t checked(const FloorPose& start) const;
+  /// The pose in `cell` that looks along the way back to where the ways begin.
+  [[nodiscard]] FloorPose looking_back(const FloorGrid::Ways& ways, std::size_t cell) const;
+  /// What was asked of the route, for a sentence.
+  [[nodiscard]] std::string asked_for() const;
+  [[nodiscard]] bool asks_for_turns() const {
+    return config_.min_turns > 0 || config_.max_turns < ScenarioConfig::kAnyTurns;
+  }
+  [[nodiscard]] bool asks_for_route() const {
+    return config_.min_route > 0.0 || config_.max_route > 0.0 || asks_for_turns();
   }
 
   [[nodiscard]] double clear() const { return config_.robot_radius + config_.clearance; }
@@ -108,167 +76,147 @@ class Drawing {
     return std::min(clear(), grid_.clearance(root));
   }
 
-  [[nodiscard]] std::size_t checked(const FloorPose& start) const {
-    const std::string who =
-        "start (" + text(start.x) + ", " + text(start.y) + ", " + text(start.yaw) + ")";
-    if (!std::isfinite(start.x) || !std::isfinite(start.y) || !std::isfinite(start.yaw))
-      throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
-    const std::size_t cell = grid_.cell_at({start.x, start.y});
-    if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0)
-      throw WorldError(who + " is in a thing or off the floor of world '" + world_.name +
-                       "'; allowed is free floor");
-    if (grid_.clearance(cell) + grid_.cell_size() < config_.robot_radius)
-      throw WorldError(who + " is " + text(grid_.clearance(cell)) +
-                       " m from a thing or the floor's edge; allowed is the robot's radius of " +
-                       text(config_.robot_radius) + " m or more");
-    return cell;
-  }
-
-  /// Looks for the free places that no mover's body comes near.
-  void find_quiet() {
-    const double gap = config_.robot_radius + config_.off_lanes;
-    std::vector<bool> swept(grid_.size(), false);
-    Polygon place(1);
-    for (const Polygon& ground : swept_ground(world_, config_.movers)) {
-      Eigen::AlignedBox2d bounds;
-      for (const Eigen::Vector2d& corner : ground) bounds.extend(corner);
-      const Eigen::Vector2d reach = Eigen::Vector2d::Constant(gap);
-      grid_.for_each_in({bounds.min() - reach, bounds.max() + reach}, [&](std::size_t cell) {
-        if (swept[cell]) return;
-        place[0] = grid_.centre(cell);
-        swept[cell] = overlap(ground, place, gap);
-      });
-    }
-    std::copy_if(free_.begin(), free_.end(), std::back_inserter(quiet_),
-                 [&](std::size_t cell) { return !swept[cell]; });
-  }
-
-  /// Those of `places` that keep their distance from where movers begin; all of them if none does.
-  [[nodiscard]] Places free_of_movers(const Places& all) const {
-    std::vector<Eigen::Vector2d> movers;
-    for (const Thing& thing : world_.things)
-      if (thing.route) movers.emplace_back(thing.pose.translation().head<2>());
-    Places places;
-    for (const std::size_t cell : all) {
-      const Eigen::Vector2d place = grid_.centre(cell);
-      const bool near = std::any_of(movers.begin(), movers.end(), [&](const Eigen::Vector2d& at) {
-        return (at - place).norm() < config_.mover_distance;
-      });
-      if (!near) places.push_back(cell);
-    }
-    return places.empty() ? all : places;
-  }
-
-  [[nodiscard]] bool asks_for_turns() const {
-    return config_.min_turns > 0 || config_.max_turns < ScenarioConfig::kAnyTurns;
-  }
-  [[nodiscard]] bool asks_for_route() const {
-    return config_.min_route > 0.0 || config_.max_route > 0.0 || asks_for_turns();
-  }
-  [[nodiscard]] std::string asked_for() const {
-    if (!asks_for_route()) return "";
-    std::string words = " by a route of " + text(config_.min_route) + " m or more";
-    if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
-    if (asks_for_turns())
-      words += " with " + std::to_string(config_.min_turns) + " to " +
-               std::to_string(config_.max_turns) + " turns";
-    return words + " (the longest that was found has " + text(std::round(longest_)) +
-           " m, and routes had up to " + std::to_string(most_turns_) + " turns)";
-  }
-
-  [[nodiscard]] static double length(const FloorGrid::Ways& ways, std::size_t cell) {
-    return static_cast<double>(ways.length[cell]);
-  }
-
-  /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
-  /// is asked for, a small world has some at 0.8 of the longest way to a free place.
-  [[nodiscard]] Places ends_of(const FloorGrid::Ways& ways, const Places& places) {
-    double longest = 0.0;
-    for (const std::size_t place : free_)
-      if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
-    longest_ = std::max(longest_, longest);
-    const double least =
-        asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
-    const double most = config_.max_route > 0.0 ? config_.max_route : longest;
-    Places ends;
-    for (const std::size_t place : places)
-      if (std::isfinite(ways.length[place]) && length(ways, place) >= least &&
-          length(ways, place) <= most)
-        ends.push_back(place);
-    return ends;
-  }
-
-  /// One of `places` to which a way leads as asked for; kNone if none was found.
-  [[nodiscard]] std::size_t drawn(const FloorGrid::Ways& ways, const Places& places, double least) {
-    const Places ends = ends_of(ways, places);
-    if (ends.empty()) return FloorGrid::kNone;
-    if (!asks_for_turns()) return ends[random_.below(ends.size())];
-    for (int i = 0; i < kDraws; ++i) {
-      const std::size_t end = ends[random_.below(ends.size())];
-      const int count = turns(way_back(ways, end, least));
-      most_turns_ = std::max(most_turns_, count);
-      if (count >= config_.min_turns && count <= config_.max_turns) return end;
-    }
-    return FloorGrid::kNone;
-  }
-
-  /// \param choices  of places, the better ones first
-  [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
-                                 const std::string& what, double least) {
-    for (const Places& places : choices) {
-      const std::size_t end = drawn(ways, places, least);
-      if (end != FloorGrid::kNone) return end;
-    }
-    throw WorldError("world '" + world_.name + "' has no free place for a " + what +
-                     " that is connected to what was given" + asked_for());
-  }
-
-  /// From `cell` to where the ways begin, pulled taut: each line goes as far as it sees.
-  [[nodiscard]] std::vector<Eigen::Vector2d> way_back(const FloorGrid::Ways& ways, std::size_t cell,
-                                                      double least) const {
-    std::vector<std::size_t> cells;
-    for (; cell != FloorGrid::kNone; cell = ways.before[cell]) cells.push_back(cell);
-    std::vector<Eigen::Vector2d> way{grid_.centre(cells.front())};
-    for (std::size_t at = 0; at + 1 < cells.size();) {
-      std::size_t stride = 1;
-      std::size_t next = at + 1;  // the next cell of the way is always seen
-      while (next + stride < cells.size() && grid_.sees(cells[at], cells[next + stride], least)) {
-        next += stride;
-        stride *= 2;
-      }
-      for (; stride > 0; stride /= 2)
-        while (next + stride < cells.size() && grid_.sees(cells[at], cells[next + stride], least))
-          next += stride;
-      at = next;
-      way.push_back(grid_.centre(cells[at]));
-    }
-    return way;
-  }
-  [[nodiscard]] static std::vector<Eigen::Vector2d> reversed(std::vector<Eigen::Vector2d> way) {
-    std::reverse(way.begin(), way.end());
-    return way;
-  }
-
-  /// The pose in `cell` that looks along the way back to where the ways begin.
-  [[nodiscard]] FloorPose looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
-    const Eigen::Vector2d place = grid_.centre(cell);
-    std::size_t ahead = cell;
-    while (ways.before[ahead] != FloorGrid::kNone &&
-           static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead)
-      ahead = ways.before[ahead];
-    const Eigen::Vector2d view = grid_.centre(ahead) - place;
-    return {place.x(), place.y(), std::atan2(view.y(), view.x())};
-  }
-
   const WorldDescription& world_;
   const ScenarioConfig& config_;
   FloorGrid grid_;
+  FreePlaces places_;
   Random random_;
-  Places free_;           ///< clear of everything that stands still
-  Places quiet_;          ///< those of them off the ground that movers sweep
   double longest_ = 0.0;  ///< m, of the ways seen so far
   int most_turns_ = 0;    ///< of the ways seen so far
 };
+
+Scenario ScenarioSampler::with_start(const FloorPose& start,
+                                     const std::optional<Eigen::Vector2d>& goal) {
+  const std::size_t root = checked(start);
+  const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
+  if (goal) {
+    const std::size_t end = goal->allFinite() ? grid_.cell_at(*goal) : FloorGrid::kNone;
+    if (end == FloorGrid::kNone || !std::isfinite(ways.length[end])) return {start, *goal, 0.0, {}};
+    return {start, *goal, length(ways, end), reversed(grid_.way_back(ways, end, passable(root)))};
+  }
+  const std::size_t end = draw(ways, {places_.quiet(), places_.all()}, "goal", passable(root));
+  return {start, grid_.centre(end), length(ways, end),
+          reversed(grid_.way_back(ways, end, passable(root)))};
+}
+
+Scenario ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
+  const Places starts = places_.away_from_movers(places_.all());
+  const std::size_t root = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
+  if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
+    // Navigation refuses such a goal; the start may then be anywhere.
+    const Eigen::Vector2d place = grid_.centre(starts[random_.below(starts.size())]);
+    return {{place.x(), place.y(), 0.0}, goal, 0.0, {}};
+  }
+  const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
+  const std::size_t start =
+      draw(ways, {places_.away_from_movers(places_.quiet()), starts}, "start", passable(root));
+  return {looking_back(ways, start), goal, length(ways, start),
+          grid_.way_back(ways, start, passable(root))};
+}
+
+Scenario ScenarioSampler::with_nothing() {
+  std::optional<Scenario> scenario = between(places_.quiet());
+  if (!scenario && places_.quiet().size() < places_.all().size()) scenario = between(places_.all());
+  if (!scenario)
+    throw WorldError("world '" + world_.name +
+                     "' has no place for a start that is connected to one for a goal" +
+                     asked_for());
+  return *scenario;
+}
+
+std::optional<Scenario> ScenarioSampler::between(const Places& places) {
+  if (places.empty()) return std::nullopt;
+  const Places starts = places_.away_from_movers(places);
+  std::optional<Scenario> best;
+  const double enough = asks_for_route() ? 0.0 : kUsualRoute;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::size_t root = places[random_.below(places.size())];
+    const FloorGrid::Ways ways = grid_.ways_from(root, clear());
+    const std::size_t start = try_draw(ways, starts, clear());
+    if (start == FloorGrid::kNone || (best && length(ways, start) <= best->route_length)) continue;
+    best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
+            grid_.way_back(ways, start, clear())};
+    if (best->route_length >= enough) break;
+  }
+  return best;
+}
+
+std::size_t ScenarioSampler::checked(const FloorPose& start) const {
+  const std::string who =
+      "start (" + text(start.x) + ", " + text(start.y) + ", " + text(start.yaw) + ")";
+  if (!std::isfinite(start.x) || !std::isfinite(start.y) || !std::isfinite(start.yaw))
+    throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
+  const std::size_t cell = grid_.cell_at({start.x, start.y});
+  if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0)
+    throw WorldError(who + " is in a thing or off the floor of world '" + world_.name +
+                     "'; allowed is free floor");
+  if (grid_.clearance(cell) + grid_.cell_size() < config_.robot_radius)
+    throw WorldError(who + " is " + text(grid_.clearance(cell)) +
+                     " m from a thing or the floor's edge; allowed is the robot's radius of " +
+                     text(config_.robot_radius) + " m or more");
+  return cell;
+}
+
+std::string ScenarioSampler::asked_for() const {
+  if (!asks_for_route()) return "";
+  std::string words = " by a route of " + text(config_.min_route) + " m or more";
+  if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
+  if (asks_for_turns())
+    words += " with " + std::to_string(config_.min_turns) + " to " +
+             std::to_string(config_.max_turns) + " turns";
+  return words + " (the longest that was found has " + text(std::round(longest_)) +
+         " m, and routes had up to " + std::to_string(most_turns_) + " turns)";
+}
+
+ScenarioSampler::Places ScenarioSampler::ends_of(const FloorGrid::Ways& ways,
+                                                 const Places& places) {
+  double longest = 0.0;
+  for (const std::size_t place : places_.all())
+    if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
+  longest_ = std::max(longest_, longest);
+  const double least = asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
+  const double most = config_.max_route > 0.0 ? config_.max_route : longest;
+  Places ends;
+  for (const std::size_t place : places)
+    if (std::isfinite(ways.length[place]) && length(ways, place) >= least &&
+        length(ways, place) <= most)
+      ends.push_back(place);
+  return ends;
+}
+
+std::size_t ScenarioSampler::try_draw(const FloorGrid::Ways& ways, const Places& places,
+                                      double least) {
+  const Places ends = ends_of(ways, places);
+  if (ends.empty()) return FloorGrid::kNone;
+  if (!asks_for_turns()) return ends[random_.below(ends.size())];
+  for (int i = 0; i < kDraws; ++i) {
+    const std::size_t end = ends[random_.below(ends.size())];
+    const int count = turns(grid_.way_back(ways, end, least));
+    most_turns_ = std::max(most_turns_, count);
+    if (count >= config_.min_turns && count <= config_.max_turns) return end;
+  }
+  return FloorGrid::kNone;
+}
+
+std::size_t ScenarioSampler::draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+                                  const std::string& what, double least) {
+  for (const Places& places : choices) {
+    const std::size_t end = try_draw(ways, places, least);
+    if (end != FloorGrid::kNone) return end;
+  }
+  throw WorldError("world '" + world_.name + "' has no free place for a " + what +
+                   " that is connected to what was given" + asked_for());
+}
+
+FloorPose ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
+  const Eigen::Vector2d place = grid_.centre(cell);
+  std::size_t ahead = cell;
+  while (ways.before[ahead] != FloorGrid::kNone &&
+         static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead)
+    ahead = ways.before[ahead];
+  const Eigen::Vector2d view = grid_.centre(ahead) - place;
+  return {place.x(), place.y(), std::atan2(view.y(), view.x())};
+}
 
 }  // namespace
 
@@ -309,10 +257,10 @@ Scenario draw_scenario(const WorldDescription& world, const OccupancyMap& map,
     throw WorldError("max_turns is " + std::to_string(config.max_turns) +
                      ", less than min_turns; allowed are " + std::to_string(config.min_turns) +
                      " or more");
-  Drawing drawing(world, map, config, seed);
-  if (start) return drawing.with_start(*start, goal);
-  if (goal) return drawing.with_goal(*goal);
-  return drawing.with_nothing();
+  ScenarioSampler sampler(world, map, config, seed);
+  if (start) return sampler.with_start(*start, goal);
+  if (goal) return sampler.with_goal(*goal);
+  return sampler.with_nothing();
 }
 
 }  // namespace navvi_sim
