@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "floor_height.hpp"
 #include "navvi_sim/validate.hpp"
 #include "sdf_files.hpp"
 #include "sdf_frames.hpp"
 #include "sdf_geometry.hpp"
 #include "sdf_motion.hpp"
 #include "sdf_own.hpp"
+#include "sdf_things.hpp"
 #include "sdf_traffic.hpp"
 #include "sdf_value.hpp"
 
@@ -19,9 +18,6 @@ namespace navvi_sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kPlaneMargin = 2.0;     // m, of a plane beyond the other things
-constexpr double kPlaneThickness = 0.1;  // m
 
 Eigen::Isometry3d placed(const Eigen::Vector3d& at) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -55,30 +51,24 @@ std::string name_of(const XmlElement& element) { return element.attribute("name"
 class WorldReader {
  public:
   WorldReader(const fs::path& file, SdfFiles& files, const ClassRules& rules)
-      : file_(file), files_(files), rules_(rules), shapes_(files, notes_) {}
+      : file_(file), files_(files), rules_(rules), shapes_(files, notes_), things_(notes_) {}
 
   [[nodiscard]] LoadedWorld read() {
     const XmlElement world = files_.world(notes_);
-    loaded_.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
+    LoadedWorld& loaded = things_.loaded;
+    loaded.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
     read_saved_state(world);
     notes_.add_leftovers(world);
     for (const XmlElement* model : world.children_named("model"))
       read_model(*model, name_of(*model), map_pose(world, *model));
     for (const XmlElement* actor : world.children_named("actor")) read_actor(world, *actor);
-    add_planes();
-    find_floor();
-    if (has_foreign_routes_) keep_routes_that_can_be_driven(loaded_.world, places_, notes_);
-    loaded_.notes = notes_.sentences();
-    return std::move(loaded_);
+    things_.find_floor(file_);
+    if (has_foreign_routes_) keep_routes_that_can_be_driven(loaded.world, things_.places(), notes_);
+    loaded.notes = notes_.sentences();
+    return std::move(loaded);
   }
 
  private:
-  struct Plane {
-    std::string name;
-    double height;  ///< m, in map
-    std::string place;
-  };
-
   // -- Models and actors
 
   /// Gazebo puts the models of a saved world where its <state> says.
@@ -106,26 +96,26 @@ class WorldReader {
       return;
     }
     Thing thing;
-    thing.name = unique(name);
+    thing.name = things_.unique(name);
     thing.pose = pose;
     classify(model, thing);
-    const std::size_t planes = planes_.size();
+    const std::size_t planes = things_.planes();
     read_links(model, Eigen::Isometry3d::Identity(), thing);
     thing.route = own_route(model);
     read_plugins(model, thing);
     if (!thing.shapes.empty()) {
-      add(std::move(thing), model);
+      things_.add(std::move(thing), model.place());
       return;
     }
-    names_.erase(thing.name);
-    if (planes == planes_.size())
+    things_.release(thing.name);
+    if (planes == things_.planes())
       notes_.add(model,
                  "the model '" + thing.name + "' is not taken over: it has no collision geometry");
   }
 
   void read_actor(const XmlElement& world, const XmlElement& actor) {
     Thing thing;
-    thing.name = unique(name_of(actor));
+    thing.name = things_.unique(name_of(actor));
     classify(actor, thing);
     if (thing.thing_class == ThingClass::other || thing.thing_class == ThingClass::floor)
       thing.thing_class = ThingClass::worker;
@@ -138,9 +128,10 @@ class WorldReader {
     if (thing.shapes.empty()) {
       thing.shapes = person();
       thing.pose = upright(thing.pose);
-      on_floor_.push_back(loaded_.world.things.size());
+      things_.add_on_floor(std::move(thing), actor.place());
+    } else {
+      things_.add(std::move(thing), actor.place());
     }
-    add(std::move(thing), actor);
   }
 
   void read_plugins(const XmlElement& model, Thing& thing) {
@@ -155,26 +146,10 @@ class WorldReader {
     }
   }
 
-  void add(Thing thing, const XmlElement& element) {
-    if (thing.route && thing.thing_class == ThingClass::floor) {
-      notes_.add(element, "'" + thing.name + "' is a floor, and stands still");
-      thing.route.reset();
-    }
-    loaded_.world.things.push_back(std::move(thing));
-    places_.push_back(element.place());
-  }
-
-  std::string unique(const std::string& name) {
-    const std::string base = name.empty() ? "unnamed" : name;
-    std::string result = base;
-    for (int i = 2; !names_.insert(result).second; ++i) result = base + "#" + std::to_string(i);
-    return result;
-  }
-
   void classify(const XmlElement& model, Thing& thing) {
     if (const auto own = own_class(model, "class")) {
       thing.thing_class = *own;
-      loaded_.rules[thing.name] = "navvi:class";
+      things_.loaded.rules[thing.name] = "navvi:class";
       return;
     }
     std::vector<std::string> names{thing.name};
@@ -184,7 +159,7 @@ class WorldReader {
       const ClassRules::Match match = rules_.match(name);
       if (match.pattern.empty()) continue;
       thing.thing_class = match.thing_class;
-      loaded_.rules[thing.name] = match.pattern;
+      things_.loaded.rules[thing.name] = match.pattern;
       return;
     }
   }
@@ -228,57 +203,11 @@ class WorldReader {
     for (const SdfPlane& plane : read.planes) {
       const Eigen::Isometry3d in_map = thing.pose * plane.pose;
       if ((in_map.linear() * plane.normal.normalized()).z() > 0.999)
-        planes_.push_back({thing.name, in_map.translation().z(), geometry->place()});
+        things_.add_plane(thing.name, in_map.translation().z(), geometry->place());
       else
         notes_.add(*geometry,
                    "the plane of '" + thing.name + "' is not level, and is not taken over");
     }
-  }
-
-  // -- The floor
-
-  /// A plane has no end; the floor made of it goes as far as the other things do, and some more.
-  void add_planes() {
-    for (const Plane& plane : planes_) {
-      Eigen::AlignedBox3d bounds = bounds_of(loaded_.world.things);
-      if (bounds.isEmpty())
-        bounds.extend(Eigen::Vector3d(-10, -10, 0)).extend(Eigen::Vector3d(10, 10, 0));
-      const Eigen::Vector3d size = bounds.sizes() + Eigen::Vector3d::Constant(2.0 * kPlaneMargin);
-      Thing thing;
-      thing.name = names_.count(plane.name) ? unique(plane.name + "_plane") : unique(plane.name);
-      thing.thing_class = ThingClass::floor;
-      loaded_.rules[thing.name] = "a plane";
-      thing.pose.translation() = Eigen::Vector3d(bounds.center().x(), bounds.center().y(),
-                                                 plane.height - kPlaneThickness / 2.0);
-      thing.shapes.push_back(
-          {Box{{size.x(), size.y(), kPlaneThickness}}, Eigen::Isometry3d::Identity()});
-      loaded_.world.things.push_back(std::move(thing));
-      places_.push_back(plane.place);
-    }
-  }
-
-  void find_floor() {
-    std::vector<Thing>& things = loaded_.world.things;
-    const auto height = main_floor_height(things);
-    if (!height)
-      throw WorldError(file_.string() +
-                       ": no thing is a floor with a level surface; allowed are worlds with a "
-                       "plane, or with a model that a class rule calls a floor");
-    loaded_.world.floor_height = *height;
-    for (const std::size_t walker : on_floor_) things[walker].pose.translation().z() = *height;
-    std::vector<Thing> kept;
-    std::vector<std::string> kept_places;
-    for (std::size_t i = 0; i < things.size(); ++i) {
-      if (things[i].thing_class != ThingClass::floor && top_of(things[i]) < *height) {
-        notes_.add(places_[i],
-                   "'" + things[i].name + "' is not taken over: all of it lies under the floor");
-        continue;
-      }
-      kept.push_back(std::move(things[i]));
-      kept_places.push_back(std::move(places_[i]));
-    }
-    things = std::move(kept);
-    places_ = std::move(kept_places);
   }
 
   const fs::path& file_;
@@ -286,12 +215,8 @@ class WorldReader {
   const ClassRules& rules_;
   SdfNotes notes_;
   SdfShapes shapes_;
-  LoadedWorld loaded_;
-  std::vector<std::string> places_;  ///< of the things
-  std::set<std::string> names_;
-  std::vector<Plane> planes_;
-  bool has_foreign_routes_ = false;    ///< given by an actor or a plugin
-  std::vector<std::size_t> on_floor_;  ///< things that stand on the floor, wherever it is
+  SdfThings things_;
+  bool has_foreign_routes_ = false;  ///< given by an actor or a plugin
   std::map<std::string, Eigen::Isometry3d> saved_poses_;
 };
 
