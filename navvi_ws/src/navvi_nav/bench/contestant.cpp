@@ -3,17 +3,17 @@
 #include <memory>
 #include <utility>
 
-#include "navvi_nav/search.hpp"
+#include "navvi_nav/search/search.hpp"
 
-namespace navvi_nav {
+namespace navvi_nav::bench {
 namespace {
 
-Contestant on(const std::string& name, const Mesh& mesh, SearchMethod method) {
+Contestant on(const std::string& name, const mesh::Mesh& mesh, search::SearchMethod method) {
   struct State {
-    Search search;
-    Mesh::Place from, to;
+    search::Search search;
+    mesh::Mesh::Place from, to;
   };
-  const auto state = std::make_shared<State>(State{Search(method), {}, {}});
+  const auto state = std::make_shared<State>(State{search::Search(method), {}, {}});
   return {name,
           [&mesh, state](const Query& query) {
             const auto from = mesh.locate(query.start, Course::kNear);
@@ -29,20 +29,21 @@ Contestant on(const std::string& name, const Mesh& mesh, SearchMethod method) {
 }  // namespace
 
 std::vector<Contestant> contestants(Course& course) {
-  const Mesh& ours = course.ours.nav_mesh().mesh();
-  const Mesh& detours = course.detours_mesh;
+  const mesh::Mesh& ours = course.ours.nav_mesh().mesh();
+  const mesh::Mesh& detours = course.detours_mesh;
   return {
-      on("exact, our mesh", ours, SearchMethod::exact),
-      on("centroids and funnel, our mesh", ours, SearchMethod::centroid_astar),
-      on("exact, Detour's polygons", detours, SearchMethod::exact),
-      on("centroids and funnel, Detour's polygons", detours, SearchMethod::centroid_astar),
+      on("exact, our mesh", ours, search::SearchMethod::exact),
+      on("centroids and funnel, our mesh", ours, search::SearchMethod::centroid_astar),
+      on("exact, Detour's polygons", detours, search::SearchMethod::exact),
+      on("centroids and funnel, Detour's polygons", detours, search::SearchMethod::centroid_astar),
       {"Detour", [&course](const Query& q) { return course.detour_query.locate(q.start, q.goal); },
        [&course] { return course.detour_query.search(); }},
   };
 }
 
 std::vector<Contestant> among_discs(Course& course) {
-  Contestant ours = on("exact, our mesh", course.carved.nav_mesh().mesh(), SearchMethod::exact);
+  Contestant ours =
+      on("exact, our mesh", course.carved.nav_mesh().mesh(), search::SearchMethod::exact);
   ours.place = [&course](const std::vector<Cylinder>& discs) { course.carved.carve(discs); };
   return {
       ours,
@@ -53,4 +54,4 @@ std::vector<Contestant> among_discs(Course& course) {
   };
 }
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::bench

@@ -6,7 +6,7 @@
 
 #include "course.hpp"
 
-namespace navvi_nav {
+namespace navvi_nav::bench {
 
 /// One of the searches that are compared: `find` works on what `locate` left in it, so that only
 /// the search itself need be timed.
@@ -26,4 +26,4 @@ struct Contestant {
 
 inline constexpr std::size_t kOursOnDetours = 2;  ///< index of the exact one on Detour's polygons
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::bench

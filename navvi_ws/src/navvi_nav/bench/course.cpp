@@ -5,7 +5,7 @@
 
 #include "octomap_tree.hpp"
 
-namespace navvi_nav {
+namespace navvi_nav::bench {
 namespace {
 
 std::vector<std::int8_t> bytes_of(const octomap::OcTree& tree) {
@@ -88,4 +88,4 @@ int Course::component(Point point) const {
   return floor.component(floor.cell_at(point));
 }
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::bench

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "hall.hpp"
-#include "navvi_nav/planner.hpp"
+#include "navvi_nav/plan/planner.hpp"
 #include "plain_detour.hpp"
 #include "plain_tile_cache.hpp"
 
-namespace navvi_nav {
+namespace navvi_nav::bench {
 
 struct Query {
   Point start;
@@ -33,17 +33,17 @@ struct Course {
 
   std::string name;
   std::uint32_t seed;
-  PlannerConfig config;
+  plan::PlannerConfig config;
   octomap::OcTree tree;
   std::vector<std::int8_t> bytes;  ///< the tree as octomap_msgs carries it, binary
-  Planner ours;
-  Planner carved;  ///< the same mesh, to make holes in
+  plan::Planner ours;
+  plan::Planner carved;  ///< the same mesh, to make holes in
   plain::Columns columns;
   plain::Detour detour;
   plain::Query detour_query;
   plain::TileCache tile_cache;
   plain::Query tile_cache_query;
-  Mesh detours_mesh;  ///< the very polygons that Detour searches, for our searches
+  mesh::Mesh detours_mesh;  ///< the very polygons that Detour searches, for our searches
   std::vector<Query> queries;
 
  private:
@@ -51,4 +51,4 @@ struct Course {
   [[nodiscard]] int component(Point point) const;
 };
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::bench

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-namespace navvi_nav {
+namespace navvi_nav::bench {
 namespace {
 
 constexpr double kShelf[2] = {10.0, 1.0};  // m
@@ -57,4 +57,4 @@ octomap::OcTree Hall::map() const {
   return tree;
 }
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::bench

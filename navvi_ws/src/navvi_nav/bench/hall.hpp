@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace navvi_nav {
+namespace navvi_nav::bench {
 
 /// A warehouse hall as a map: floor at z = 0, walls, shelves of 10 x 1 m in rows, aisles of 3 m
 /// between rows and bays. Its south-west corner is the origin of map; all edges lie on voxels of
@@ -22,4 +22,4 @@ struct Hall {
   [[nodiscard]] octomap::OcTree map() const;
 };
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::bench

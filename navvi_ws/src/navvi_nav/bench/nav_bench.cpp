@@ -18,14 +18,15 @@
 
 #include "contestant.hpp"
 #include "medians.hpp"
-#include "navvi_nav/octomap_reader.hpp"
-#include "navvi_nav/search.hpp"
+#include "navvi_nav/map/octomap_reader.hpp"
+#include "navvi_nav/search/search.hpp"
 #include "octomap_tree.hpp"
 #include "visibility_graph.hpp"
 
 namespace {
 
 using namespace navvi_nav;
+using namespace navvi_nav::bench;
 using benchmark::State;
 using navvi_bench::Medians;
 
@@ -106,10 +107,10 @@ void declare_bakes(Course& c) {
         ->UseRealTime();
   };
   const auto bytes = [&c] {
-    return MapBytes{c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()};
+    return map::MapBytes{c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()};
   };
   add(kToFloor, [&mesh, bytes] {
-    benchmark::DoNotOptimize(survey_map(read_voxels(bytes()), survey_config(mesh)));
+    benchmark::DoNotOptimize(survey_map(map::read_voxels(bytes()), survey_config(mesh)));
   });
   add(kToMesh, [&c, bytes] { Planner(c.config).set_map(bytes()); });
   add(kToTree, [&c] {
@@ -141,10 +142,10 @@ void declare(Course& c) {
           [&c, count, replan](State& state) { move_discs(state, c, count, replan); })
           ->Unit(benchmark::kMillisecond);
     };
-    const auto search = std::make_shared<Search>(SearchMethod::exact);
+    const auto search = std::make_shared<search::Search>(search::SearchMethod::exact);
     add("our replan ", [&c, search](const std::vector<Cylinder>& discs, const Query& query) {
       c.carved.carve(discs);
-      const Mesh& mesh = c.carved.nav_mesh().mesh();
+      const mesh::Mesh& mesh = c.carved.nav_mesh().mesh();
       const auto from = mesh.locate(query.start, Course::kNear);
       const auto to = mesh.locate(query.goal, Course::kNear);
       if (from && to) benchmark::DoNotOptimize(search->find(mesh, *from, *to));
@@ -223,7 +224,7 @@ void weigh(const Course& c) {
   Planner planner(c.config);
   planner.set_map(voxels_of(c.tree));
   const std::size_t with_mesh = bytes_in_use();
-  const Mesh copy = planner.nav_mesh().mesh();
+  const mesh::Mesh copy = planner.nav_mesh().mesh();
   const std::size_t with_copy = bytes_in_use();
   std::printf("memory, bytes a square metre: %.0f map and mesh (%.0f the mesh alone)\n",
               static_cast<double>(with_mesh - before) / area,
@@ -232,10 +233,10 @@ void weigh(const Course& c) {
 
 /// Largest difference from brute force, relative, without holes and with some.
 void judge(Course& c) {
-  Search search(SearchMethod::exact);
+  search::Search search(search::SearchMethod::exact);
   for (const int count : {0, 10, 50}) {
     c.carved.carve(c.discs(count));
-    const Mesh& mesh = c.carved.nav_mesh().mesh();
+    const mesh::Mesh& mesh = c.carved.nav_mesh().mesh();
     VisibilityGraph truth(mesh);
     double gap = 0.0;
     int differ = 0;
@@ -244,7 +245,7 @@ void judge(Course& c) {
       const auto from = mesh.locate(query.start, Course::kNear);
       const auto to = mesh.locate(query.goal, Course::kNear);
       if (!from || !to) continue;
-      const Found& found = search.find(mesh, *from, *to);
+      const search::Found& found = search.find(mesh, *from, *to);
       const std::optional<double> shortest = truth.distance(*from, *to);
       if (found.found != shortest.has_value()) ++differ;
       if (found.found && shortest)

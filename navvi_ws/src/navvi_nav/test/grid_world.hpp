@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "navvi_nav/mesh.hpp"
+#include "navvi_nav/mesh/mesh.hpp"
 
 namespace navvi_nav {
 
@@ -22,7 +22,7 @@ class GridWorld {
 
   /// Convex polygons of all free cells. Rectangles as large as they come, in an order that the seed
   /// chooses, some of them split: their corners lie on other ones' edges, and on straight edges.
-  [[nodiscard]] std::vector<GridPolygon> polygons(std::uint32_t seed) const;
+  [[nodiscard]] std::vector<mesh::GridPolygon> polygons(std::uint32_t seed) const;
   /// A place in the middle of a cell, on its border or in its corner, in cells; or on the diagonal.
   [[nodiscard]] Point somewhere(std::mt19937& random) const;
 

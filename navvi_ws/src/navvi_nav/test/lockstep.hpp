@@ -4,23 +4,23 @@
 
 #include <sstream>
 
-#include "navvi_nav/navigator.hpp"
+#include "navvi_nav/guide/navigator.hpp"
 #include "small_world.hpp"
 
-namespace navvi_nav {
+namespace navvi_nav::guide {
 
 inline constexpr double kTick = 0.05;  // s
 
-inline std::shared_ptr<const MapMessage> message_of(SmallWorld& world) {
+inline std::shared_ptr<const plan::MapMessage> message_of(SmallWorld& world) {
   std::ostringstream out;
   octomap::OcTree tree = world.tree();
   tree.writeBinaryData(out);
   const std::string text = out.str();
-  MapMessage message;
+  plan::MapMessage message;
   message.data.assign(text.begin(), text.end());
   message.id = "OcTree";
   message.resolution = tree.getResolution();
-  return std::make_shared<const MapMessage>(message);
+  return std::make_shared<const plan::MapMessage>(message);
 }
 
 /// Navigator and planner in lockstep: each request is answered within the tick.
@@ -62,8 +62,8 @@ class Lockstep : public testing::Test {
   SmallWorld world_;
   NavigatorConfig config_;
   Navigator navigator_{config_};
-  Planner planner_{config_.planner};
-  std::optional<PlanAnswer> last_;
+  plan::Planner planner_{config_.planner};
+  std::optional<plan::PlanAnswer> last_;
   std::vector<Cylinder> obstacles_;
   std::vector<MovingThing> things_;  ///< besides
   Pose robot_{{2, 5}, 0.0};
@@ -73,4 +73,4 @@ class Lockstep : public testing::Test {
   double time_ = 100.0;
 };
 
-}  // namespace navvi_nav
+}  // namespace navvi_nav::guide

@@ -2,18 +2,18 @@
 
 #include <octomap/OcTree.h>
 
-#include "navvi_nav/octomap_reader.hpp"
+#include "navvi_nav/map/octomap_reader.hpp"
 
 namespace navvi_nav {
 
 /// The occupied leaves of octomap's own tree, by its own iterator.
-inline Voxels voxels_of(const octomap::OcTree& tree) {
-  Voxels out;
+inline map::Voxels voxels_of(const octomap::OcTree& tree) {
+  map::Voxels out;
   out.resolution = tree.getResolution();
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
     if (!tree.isNodeOccupied(*leaf)) continue;
     const octomap::OcTreeKey low = leaf.getIndexKey();
-    const int level = kMapDepth - static_cast<int>(leaf.getDepth());
+    const int level = map::kMapDepth - static_cast<int>(leaf.getDepth());
     const int away = ~((2 << level) - 1);
     const int bit =
         ((low[0] >> level) & 1) | ((low[1] >> level) & 1) << 1 | ((low[2] >> level) & 1) << 2;

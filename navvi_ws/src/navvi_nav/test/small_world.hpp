@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "navvi_nav/nav_mesh.hpp"
+#include "navvi_nav/plan/nav_mesh.hpp"
 #include "octomap_tree.hpp"
 
 namespace navvi_nav {
@@ -45,7 +45,7 @@ class SmallWorld {
     tree_.prune();
     return tree_;
   }
-  [[nodiscard]] Voxels voxels() { return voxels_of(tree()); }
+  [[nodiscard]] map::Voxels voxels() { return voxels_of(tree()); }
   using Block = std::array<double, 4>;  ///< x0, y0, x1, y1
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 

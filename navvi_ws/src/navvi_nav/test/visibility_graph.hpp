@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "navvi_nav/mesh.hpp"
+#include "navvi_nav/mesh/mesh.hpp"
 
 namespace navvi_nav {
 
@@ -11,10 +11,11 @@ namespace navvi_nav {
 /// every wall. Of a mesh it takes only its polygons' outlines and which of their edges are portals.
 class VisibilityGraph {
  public:
-  explicit VisibilityGraph(const Mesh& mesh);
+  explicit VisibilityGraph(const mesh::Mesh& mesh);
 
   /// m; none if there is no way. \param start, goal  points of the mesh
-  [[nodiscard]] std::optional<double> distance(const Mesh::Place& start, const Mesh::Place& goal);
+  [[nodiscard]] std::optional<double> distance(const mesh::Mesh::Place& start,
+                                               const mesh::Mesh::Place& goal);
   /// True if nothing stands between two points of the mesh. Along a wall is free, between two walls
   /// that touch is not.
   [[nodiscard]] bool visible(Point a, Point b) const;
@@ -36,7 +37,7 @@ class VisibilityGraph {
   [[nodiscard]] bool sees(const Node& a, const Node& b) const;
   [[nodiscard]] std::vector<double> reach(Point from) const;
 
-  const Mesh& mesh_;
+  const mesh::Mesh& mesh_;
   std::vector<Wall> walls_;
   std::vector<std::vector<int>> around_;  ///< of each vertex, polygons
   std::vector<Node> nodes_;

@@ -1,6 +1,6 @@
 #include "bare_bullet.hpp"
 
-namespace navvi_sim {
+namespace navvi_sim::bench {
 namespace {
 
 constexpr int kRobot = 1;  // collision groups
@@ -114,4 +114,4 @@ void BareBullet::step(double speed, double turn_rate, double dt) {
   world_.stepSimulation(static_cast<btScalar>(dt), 0);
 }
 
-}  // namespace navvi_sim
+}  // namespace navvi_sim::bench

@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "navvi_sim/robot.hpp"
-#include "navvi_sim/scenario.hpp"
-#include "navvi_sim/world_description.hpp"
+#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/physics/robot.hpp"
+#include "navvi_sim/scenario/scenario.hpp"
 
-namespace navvi_sim {
+namespace navvi_sim::bench {
 
 /// Bullet used plainly on the bodies of a world: what a step costs without World. Movers run along
 /// their routes at full speed and mind nobody; nothing is asked of the world but to step.
@@ -22,8 +22,8 @@ class BareBullet {
   };
 
   /// Boxes, cylinders and spheres only; floors have no body.
-  BareBullet(const WorldDescription& description, const RobotConfig& robot, const FloorPose& start,
-             Settings settings);
+  BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
+             const FloorPose& start, Settings settings);
   ~BareBullet();
   BareBullet(const BareBullet&) = delete;
   BareBullet& operator=(const BareBullet&) = delete;
@@ -57,4 +57,4 @@ class BareBullet {
   btRigidBody* robot_ = nullptr;
 };
 
-}  // namespace navvi_sim
+}  // namespace navvi_sim::bench

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace navvi_sim {
+namespace navvi_sim::bench {
 namespace {
 
 constexpr double kCell = 9.0;  // m
@@ -71,4 +71,4 @@ WorldDescription hall(int cells, std::size_t shelves, std::size_t movers) {
   return world;
 }
 
-}  // namespace navvi_sim
+}  // namespace navvi_sim::bench

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "medians.hpp"
-#include "navvi_sim/occupancy.hpp"
-#include "navvi_sim/world_source.hpp"
+#include "navvi_sim/occupancy/occupancy.hpp"
+#include "navvi_sim/read/world_source.hpp"
 
 namespace {
 
-using navvi_sim::occupancy_of;
+using navvi_sim::occupancy::occupancy_of;
 
 /// Two by three warehouses side by side, 100 x 90 m, on a floor of 100 x 100 m.
 navvi_sim::WorldDescription hall() {
@@ -28,8 +28,8 @@ navvi_sim::WorldDescription hall() {
   for (int column = 0; column < 2; ++column)
     for (int row = 0; row < 3; ++row)
       for (navvi_sim::Thing thing :
-           navvi_sim::load_world("warehouse", "", static_cast<std::uint64_t>(2 * row + column + 1),
-                                 {})
+           navvi_sim::read::load_world("warehouse", "",
+                                       static_cast<std::uint64_t>(2 * row + column + 1), {})
                .world.things) {
         if (thing.thing_class == navvi_sim::ThingClass::floor) continue;
         thing.name += "_" + std::to_string(column) + std::to_string(row);
@@ -54,7 +54,7 @@ const navvi_sim::WorldDescription& world() {
 void from_shapes(benchmark::State& state, double resolution) {
   std::size_t bytes = 0;
   for (auto _ : state) {
-    const navvi_sim::OccupancyMap map = occupancy_of(world(), {resolution});
+    const navvi_sim::occupancy::OccupancyMap map = occupancy::occupancy_of(world(), {resolution});
     bytes = map.stream().size();
     state.PauseTiming();
     malloc_trim(0);
@@ -64,12 +64,12 @@ void from_shapes(benchmark::State& state, double resolution) {
 }
 
 /// Every occupied voxel at its finest depth.
-std::vector<octomap::OcTreeKey> voxels_of(const navvi_sim::OccupancyMap& map) {
+std::vector<octomap::OcTreeKey> voxels_of(const navvi_sim::occupancy::OccupancyMap& map) {
   std::vector<octomap::OcTreeKey> voxels;
   const auto key = [](int voxel) {
-    return static_cast<octomap::key_type>(voxel + navvi_sim::OccupancyMap::kCenter);
+    return static_cast<octomap::key_type>(voxel + navvi_sim::occupancy::OccupancyMap::kCenter);
   };
-  map.for_each_cube([&](const navvi_sim::OccupiedCube& cube) {
+  map.for_each_cube([&](const navvi_sim::occupancy::OccupiedCube& cube) {
     for (int x = cube.x; x < cube.x + cube.side; ++x)
       for (int y = cube.y; y < cube.y + cube.side; ++y)
         for (int z = cube.z; z < cube.z + cube.side; ++z)
@@ -80,7 +80,7 @@ std::vector<octomap::OcTreeKey> voxels_of(const navvi_sim::OccupancyMap& map) {
 
 /// \param lazy  as octomap advises for many voxels: inner nodes and pruning once, at the end
 void voxel_by_voxel(benchmark::State& state, double resolution, bool lazy) {
-  const navvi_sim::OccupancyMap ours = occupancy_of(world(), {resolution});
+  const navvi_sim::occupancy::OccupancyMap ours = occupancy::occupancy_of(world(), {resolution});
   const std::vector<octomap::OcTreeKey> voxels = voxels_of(ours);
   std::size_t nodes = 0;
   std::size_t memory = 0;

@@ -12,14 +12,15 @@
 #include "bare_bullet.hpp"
 #include "hall.hpp"
 #include "medians.hpp"
-#include "navvi_sim/scene.hpp"
-#include "navvi_sim/state_conversion.hpp"
-#include "navvi_sim/world.hpp"
-#include "navvi_sim/world_source.hpp"
+#include "navvi_sim/live/world.hpp"
+#include "navvi_sim/node/state_conversion.hpp"
+#include "navvi_sim/read/world_source.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 
 using namespace navvi_sim;
+using namespace navvi_sim::bench;
 using benchmark::RegisterBenchmark;
 using navvi_bench::Medians;
 
@@ -39,7 +40,7 @@ struct Scenery {
 
 const Scenery& warehouse() {
   static const Scenery scenery{
-      load_world("warehouse", "", 1, {}).world, {6.5, -12.8, 1.57}, {0.45, 0.45}};
+      setup::load_world("warehouse", "", 1, {}).world, {6.5, -12.8, 1.57}, {0.45, 0.45}};
   return scenery;
 }
 
@@ -64,36 +65,36 @@ std::size_t bytes_of(const Message& message) {
 }
 
 /// Everything that sim_node publishes after a step, made and serialized but not sent.
-std::size_t state_bytes(const WorldDescription& description, const World& world, Scene& looks,
-                        std::uint64_t steps) {
-  const Snapshot& now = world.now();
+std::size_t state_bytes(const WorldDescription& description, const live::World& world,
+                        scene::Scene& looks, std::uint64_t steps) {
+  const live::Snapshot& now = world.now();
   const double floor = description.floor_height;
   const ros::Time stamp(now.time);
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
-  std::size_t bytes = bytes_of(clock) + bytes_of(base_link_msg(now.robot, floor, stamp)) +
-                      bytes_of(odometry_msg(now.robot, floor, stamp));
-  for (const ContactEvent& contact : now.contacts)
-    bytes += bytes_of(contact_msg(description, now.robot, contact, stamp));
+  std::size_t bytes = bytes_of(clock) + bytes_of(node::base_link_msg(now.robot, floor, stamp)) +
+                      bytes_of(node::odometry_msg(now.robot, floor, stamp));
+  for (const physics::ContactEvent& contact : now.contacts)
+    bytes += bytes_of(node::contact_msg(description, now.robot, contact, stamp));
   if (steps % kProximityEach == 0)
-    bytes += bytes_of(proximity_msg(description, now.robot, world.proximity(kDetectionRadius),
-                                    kDetectionRadius, stamp));
+    bytes += bytes_of(node::proximity_msg(description, now.robot, world.proximity(kDetectionRadius),
+                                          kDetectionRadius, stamp));
   if (steps % kObstaclesEach == 0) {
-    bytes += bytes_of(obstacles_msg(description, now, stamp));
+    bytes += bytes_of(node::obstacles_msg(description, now, stamp));
     bytes += bytes_of(looks.moving(now, stamp));
   }
   return bytes;
 }
 
 void run_world(benchmark::State& state, const Scenery& scenery, bool publishing) {
-  const WorldConfig config;
-  World world(scenery.world, config, scenery.start, 1);
+  const live::WorldConfig config;
+  live::World world(scenery.world, config, scenery.start, 1);
   for (int i = 0; i < kWarmUp; ++i) (void)world.step(scenery.command);
-  Scene looks(scenery.world, config.robot);
+  scene::Scene looks(scenery.world, config.robot);
   std::uint64_t steps = 0;
   std::size_t bytes = 0;
   for (auto _ : state) {
-    if (world.step(scenery.command) != World::Status::running)
+    if (world.step(scenery.command) != live::World::Status::running)
       state.SkipWithError("the world stopped");
     if (publishing) bytes += state_bytes(scenery.world, world, looks, ++steps);
   }
@@ -102,7 +103,7 @@ void run_world(benchmark::State& state, const Scenery& scenery, bool publishing)
 }
 
 void run_bullet(benchmark::State& state, const Scenery& scenery, BareBullet::Settings settings) {
-  const WorldConfig config;
+  const live::WorldConfig config;
   BareBullet bullet(scenery.world, config.robot, scenery.start, settings);
   const auto step = [&] {
     bullet.step(scenery.command.linear, scenery.command.angular, config.step);
@@ -114,7 +115,7 @@ void run_bullet(benchmark::State& state, const Scenery& scenery, BareBullet::Set
 
 void run_proximity(benchmark::State& state, const WorldDescription& description,
                    const FloorPose& at) {
-  const World world(description, {}, at, 1);
+  const live::World world(description, {}, at, 1);
   std::size_t near = 0;
   for (auto _ : state) near = world.proximity(kDetectionRadius).size();
   state.counters["near"] = static_cast<double>(near);
@@ -123,7 +124,7 @@ void run_proximity(benchmark::State& state, const WorldDescription& description,
 /// kB of memory that a world of these takes, once made and stepped.
 double kilobytes_of(const WorldDescription& description, const FloorPose& start) {
   const std::size_t before = mallinfo2().uordblks;
-  World world(description, {}, start, 1);
+  live::World world(description, {}, start, 1);
   for (int i = 0; i < kWarmUp; ++i) (void)world.step({});
   return static_cast<double>(mallinfo2().uordblks - before) / 1024.0;
 }
@@ -197,13 +198,13 @@ int main(int argc, char** argv) {
       ->Unit(kUnit);
   const std::filesystem::path meshes = NAVVI_AWS_WORLD;
   if (std::filesystem::exists(meshes)) {
-    static const WorldDescription aws = load_world(meshes.string(), "", 1, {}).world;
+    static const WorldDescription aws = setup::load_world(meshes.string(), "", 1, {}).world;
     RegisterBenchmark("proximity among the meshes of AWS", run_proximity, aws,
                       FloorPose{1.0, -9.0, 0.0})
         ->Unit(kUnit);
   }
   const Medians medians(argc, argv, Medians::Print::medians);
-  print_table(medians, rows, WorldConfig{}.step);
+  print_table(medians, rows, live::WorldConfig{}.step);
   print_memory();
   return 0;
 }

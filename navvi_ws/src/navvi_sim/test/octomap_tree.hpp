@@ -5,12 +5,12 @@
 #include <sstream>
 #include <string>
 
-#include "navvi_sim/occupancy_map.hpp"
+#include "navvi_sim/occupancy/occupancy_map.hpp"
 
 namespace navvi_sim {
 
 /// The map as octomap reads it.
-inline octomap::OcTree tree_of(const OccupancyMap& map) {
+inline octomap::OcTree tree_of(const occupancy::OccupancyMap& map) {
   octomap::OcTree tree(map.resolution());
   if (map.stream().empty()) return tree;
   std::istringstream stream(std::string(map.stream().begin(), map.stream().end()));

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "navvi_sim/world_source.hpp"
+#include "navvi_sim/read/world_source.hpp"
 
-namespace navvi_sim {
+namespace navvi_sim::read {
 
 inline const Thing* thing_named(const WorldDescription& world, const std::string& name) {
   for (const Thing& thing : world.things)
@@ -105,4 +105,4 @@ inline bool has_note(const LoadedWorld& loaded, const std::vector<std::string>& 
   return false;
 }
 
-}  // namespace navvi_sim
+}  // namespace navvi_sim::read

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "navvi_sim/layout.hpp"
+#include "generate/layout.hpp"
 
 namespace navvi_sim {
 
 /// The layout that ships as "warehouse".
 inline WorldDescription warehouse(std::uint64_t seed) {
-  return layout("warehouse", preset("warehouse").value(), seed);
+  return generate::layout("warehouse", generate::preset("warehouse").value(), seed);
 }
 
 }  // namespace navvi_sim

@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "navvi_study/child_process.hpp"
-#include "navvi_study/closed_loop.hpp"
-#include "navvi_study/loop_figures.hpp"
-#include "navvi_study/loop_trace.hpp"
+#include "loop/closed_loop.hpp"
+#include "loop/loop_figures.hpp"
+#include "loop/loop_trace.hpp"
+#include "record/child_process.hpp"
 
-namespace navvi_study {
+namespace navvi_study::bench {
 namespace {
 
 constexpr const char* kUsage =
@@ -129,8 +129,8 @@ std::string share(const std::string& package) {
   return path;
 }
 
-ClosedLoopConfig configured(const Options& options) {
-  ClosedLoopConfig config;
+loop::ClosedLoopConfig configured(const Options& options) {
+  loop::ClosedLoopConfig config;
   const auto overlay = [&](auto& part, const std::string& package) {
     const std::string file = share(package) + "/config/" + options.profile + ".yaml";
     navvi_config::read(part, navvi_config::load_yaml(file), file);
@@ -147,12 +147,12 @@ struct Task {
   int seed = 1;
 };
 
-Fields run_trial(const Options& options, ClosedLoopConfig config, const Task& task) {
+record::Fields run_trial(const Options& options, loop::ClosedLoopConfig config, const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
-  ClosedLoop loop(config, share("navvi_feedback") + "/config/phrases/en.yaml");
-  LoopFigures figures(options.limit);
-  std::optional<LoopTrace> trace;
+  loop::ClosedLoop loop(config, share("navvi_feedback") + "/config/phrases/en.yaml");
+  loop::LoopFigures figures(options.limit);
+  std::optional<loop::LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
   bool goes_on = true;
   while (goes_on) {
@@ -189,7 +189,7 @@ const std::vector<Column>& columns() {
   return all;
 }
 
-void print_row(const Task& task, const Fields& row) {
+void print_row(const Task& task, const record::Fields& row) {
   std::printf("%-10s %4d ", task.world.c_str(), task.seed);
   for (const Column& column : columns()) {
     std::string cell;
@@ -210,7 +210,7 @@ void print_titles() {
 /// All trials in one line.
 class Total {
  public:
-  void add(const Fields& row) {
+  void add(const record::Fields& row) {
     ++trials_;
     const bool reached = row.get("result") == "reached";
     reached_ += reached ? 1 : 0;
@@ -255,7 +255,7 @@ class Total {
 };
 
 int run(const Options& options) {
-  const ClosedLoopConfig config = configured(options);
+  const loop::ClosedLoopConfig config = configured(options);
   const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;
   const auto task_of = [&](std::size_t index) {
     return Task{options.worlds[index / seeds],
@@ -265,7 +265,7 @@ int run(const Options& options) {
   int failed = 0;
   print_titles();
   // A child a trial: a crash takes only its own trial away.
-  ask_children(
+  record::ask_children(
       options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
       [&](std::size_t index) {
         const std::string text = run_trial(options, config, task_of(index)).format();
@@ -273,9 +273,9 @@ int run(const Options& options) {
         return text;
       },
       "the trial crashed",
-      [&](std::size_t index, const Answer& answer) {
+      [&](std::size_t index, const record::Answer& answer) {
         const Task task = task_of(index);
-        const auto row = answer.good ? Fields::parse(answer.text) : std::nullopt;
+        const auto row = answer.good ? record::Fields::parse(answer.text) : std::nullopt;
         if (row) {
           print_row(task, *row);
           total.add(*row);
@@ -289,16 +289,16 @@ int run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace navvi_study
+}  // namespace navvi_study::bench
 
 int main(int argc, char** argv) {
   try {
-    const navvi_study::Options options = navvi_study::read_options({argv + 1, argv + argc});
+    const navvi_study::bench::Options options = navvi_study::bench::read_options({argv + 1, argv + argc});
     if (options.help) {
-      std::cout << navvi_study::kUsage;
+      std::cout << navvi_study::bench::kUsage;
       return 0;
     }
-    return navvi_study::run(options);
+    return navvi_study::bench::run(options);
   } catch (const std::exception& error) {
     std::cerr << "navvi: " << error.what() << '\n';
     return 2;

@@ -25,10 +25,10 @@
 #include <string>
 #include <vector>
 
-#include "navvi_study/files.hpp"
-#include "navvi_study/journal.hpp"
-#include "navvi_study/metrics.hpp"
-#include "navvi_study/row.hpp"
+#include "record/files.hpp"
+#include "record/journal.hpp"
+#include "record/metrics.hpp"
+#include "record/row.hpp"
 
 namespace navvi_study {
 namespace {
@@ -233,7 +233,8 @@ class TrialNodeProcess : public testing::Test {
     return folder;
   }
   [[nodiscard]] static std::map<std::string, std::string> summary_in(const fs::path& folder) {
-    const auto summary = parse_summary(read_file(folder / "summary.csv").value_or(""));
+    const auto summary =
+        record::parse_summary(record::read_file(folder / "summary.csv").value_or(""));
     if (!summary) return {};
     return {summary->begin(), summary->end()};
   }
@@ -254,7 +255,7 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   EXPECT_EQ(node.exit_code(), 0);
   const fs::path folder = only_folder();
 
-  const auto journal = read_journal(read_file(folder / "journal.csv").value_or(""));
+  const auto journal = record::read_journal(record::read_file(folder / "journal.csv").value_or(""));
   EXPECT_EQ(journal.damage, "");
   // What was published is what is on the disk; the row on the closed bag may come too late to hear.
   ASSERT_GE(world.events.size() + 1, journal.rows.size());

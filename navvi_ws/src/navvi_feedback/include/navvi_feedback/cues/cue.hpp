@@ -1,0 +1,36 @@
+#pragma once
+
+#include <navvi_types/cue_event.hpp>
+#include <string>
+#include <vector>
+
+namespace navvi_feedback {
+using navvi_types::CueEvent;
+using navvi_types::CueStage;
+using navvi_types::Priority;
+}  // namespace navvi_feedback
+
+namespace navvi_feedback::cues {
+
+/// One spoken message, before it is spoken.
+struct Cue {
+  std::string kind;  ///< the phrase's key, such as turn_now
+  std::string text;  ///< as spoken
+  Priority priority = Priority::text;
+  double max_age = 2.0;  ///< s after which it is dropped if it has not begun
+};
+
+/// How a kind of cue is treated.
+struct CueKind {
+  const char* kind;
+  Priority priority;
+  double min_interval;  ///< s, the least time between two of the same kind
+  double max_age;       ///< s, as Cue::max_age
+};
+
+/// Every kind there is. Each has a phrase.
+[[nodiscard]] const std::vector<CueKind>& cue_kinds();
+/// \throws std::logic_error for a kind that is none
+[[nodiscard]] const CueKind& cue_kind(const std::string& kind);
+
+}  // namespace navvi_feedback::cues

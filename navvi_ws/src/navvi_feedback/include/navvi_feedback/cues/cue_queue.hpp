@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/cues/cue.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Decides which cue is spoken when (R-AUD-6). A higher priority cuts a lower one; an equal or
+/// lower one waits; nothing cuts an important one. Below `important` at most two wait, the least
+/// goes first. A newer cue of a kind replaces the waiting one, but an important one only the same
+/// text. Whoever waited beyond max_age is
+/// dropped. Every cue that enters reaches exactly one of ended, cut, dropped.
+class CueQueue {
+ public:
+  /// What the speaker has to do, and what happened to whom, in order.
+  struct Step {
+    std::vector<CueEvent> events;
+    bool stop = false;                 ///< fall silent, before `start`
+    std::optional<std::string> start;  ///< begin to speak this text
+  };
+
+  /// \param fresh         cues that were decided since the last call
+  /// \param speaker_busy  the speaker still speaks what it was told to start
+  /// \param time          s, of a clock that does not run backwards
+  [[nodiscard]] Step update(const std::vector<Cue>& fresh, bool speaker_busy, double time);
+
+  /// Ends all: the running cue is cut, the waiting ones are dropped.
+  [[nodiscard]] Step clear();
+
+  [[nodiscard]] bool empty() const { return !running_ && waiting_.empty(); }
+
+ private:
+  struct Entry {
+    std::uint32_t id = 0;
+    double since = 0.0;
+    Cue cue;
+  };
+
+  void enter(const Cue& cue, double time, Step& step);
+  void drop_stale(double time, Step& step);
+  void drop_surplus(Step& step);
+  void begin_next(Step& step);
+
+  std::uint32_t last_id_ = 0;
+  std::optional<Entry> running_;
+  std::deque<Entry> waiting_;  ///< most important first, then oldest first
+};
+
+}  // namespace navvi_feedback::cues

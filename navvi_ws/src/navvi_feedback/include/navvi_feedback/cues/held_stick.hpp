@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "navvi_feedback/cues/phrases.hpp"
+#include "navvi_feedback/cues/situation.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Says to release the stick while it is held and moves nothing: before it was neutral for the
+/// first time, or since the robot was stopped. A person cannot see that it has to be let go.
+class HeldStick {
+ public:
+  /// Call it while there is a stick, and a robot to be moved. \param time  s, monotonic
+  [[nodiscard]] std::optional<Utterance> update(const Situation& now, double time);
+
+  /// Another cue has just asked for the same.
+  void told(double time) { said_ = time; }
+  /// There is no stick, or nothing to be moved.
+  void forget() { since_.reset(); }
+
+ private:
+  std::optional<double> since_;  ///< s, held in vain
+  std::optional<double> said_;   ///< s
+};
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+#include "navvi_feedback/cues/clock_face.hpp"
+#include "navvi_feedback/cues/phrases.hpp"
+#include "navvi_feedback/cues/situation.hpp"
+
+namespace navvi_feedback::cues {
+
+struct RouteConfig {
+  std::string rounding = "nearest";
+  double hysteresis_degrees = 5.0;
+  double turn_ahead = 6.0;        ///< m
+  double turn_now = 2.0;          ///< m
+  double same_turn = 5.0;         ///< s
+  double same_corner = 1.0;       ///< m
+  double repeat_direction = 4.0;  ///< s
+  double repeat_straight = 8.0;   ///< s
+  double pause = 1.5;             ///< s
+  double turning_rate = 0.25;     ///< rad/s
+  double settle = 0.3;            ///< s
+  double straight_lead = 0.5;     ///< s
+  double idle = 5.0;              ///< s
+  double reach = 0.8;             ///< m
+  double at_hand = 1.0;           ///< m
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Says where to drive while there is a path (R-AUD-1, R-AUD-2), so that a person who only hears
+/// can follow it. All hours are seen from the robot's nose to where to steer. While the robot
+/// turns nothing is said but "straight ahead", early enough to stop a turn of more than one hour
+/// by; once it has settled, the hour that is left.
+class RouteCues {
+ public:
+  explicit RouteCues(const RouteConfig& config);
+
+  /// Call it while the guidance is fresh and follows a path. \param time  s, monotonic
+  [[nodiscard]] std::vector<Utterance> update(const Situation& now, double time);
+
+  /// The direction as of now, for a person who asks.
+  [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
+  /// Distance and, if it is known, hour of the goal. \param kind  "start" or "goal_info"
+  [[nodiscard]] Utterance goal(const std::string& kind, const Situation& now) const;
+
+  /// The path is gone: when there is one again, say where it leads.
+  void pause();
+  /// The goal is gone too: the next one is introduced.
+  void forget();
+  /// Something else was said that makes a person stop: say the direction again soon.
+  void remind(double time);
+
+ private:
+  enum class Change { none, next_corner, reroute };
+
+  [[nodiscard]] bool new_goal(const Guidance& guidance) const;
+  [[nodiscard]] bool closed_way(const Guidance& guidance) const;
+  [[nodiscard]] Change compare(const Guidance& guidance) const;
+  void observe(const Situation& now, double time);
+  [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
+  [[nodiscard]] int clear_of_things(const Situation& now, bool held) const;
+  [[nodiscard]] bool about_to_face(const Situation& now) const;
+  [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
+  [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
+  [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, double time) const;
+  [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
+  [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
+  Utterance said(Utterance utterance, int hour, double time);
+
+  RouteConfig config_;
+  Rounding rounding_;
+  SteadyHour steady_;
+  std::optional<Eigen::Vector2d> goal_;  ///< m, in map, the one that was introduced
+  std::optional<Guidance> last_;         ///< of the path that is being followed
+  std::optional<int> hour_;              ///< to the way-point, now
+  bool leads_off_ = false;               ///< it is no 12 only for what is near
+  std::optional<int> said_hour_;         ///< what the person last heard
+  Change pending_ = Change::none;        ///< still to be told
+  std::uint32_t reroutes_ = 0;           ///< of this goal, those told or passed over
+  bool made_room_ = false;               ///< it was said for whom room is made
+  bool ahead_told_ = false;              ///< this corner's turn_ahead was said
+  std::optional<int> turn_said_;         ///< hour of the last turn_ahead
+  double turn_said_time_ = 0.0;          ///< s
+  double said_time_ = 0.0;               ///< s, of the last direction
+  bool turning_ = false;                 ///< on the spot, or not yet settled
+  std::optional<double> last_turning_;   ///< s
+  double last_commanded_ = 0.0;          ///< s, when the person last moved the stick
+  std::optional<double> reminder_;       ///< s, say the direction again from then on
+};
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/cues/link.hpp"
+
+namespace navvi_feedback {
+using navvi_types::Contact;
+using navvi_types::DriveState;
+using navvi_types::Guidance;
+using navvi_types::NearThing;
+using navvi_types::Velocity;
+}  // namespace navvi_feedback
+
+namespace navvi_feedback::cues {
+
+/// Everything that is known at one instant and may have to be said. Every number is finite.
+struct Situation {
+  std::optional<Guidance> guidance;  ///< the latest
+  std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if it is known
+  std::vector<NearThing> nearby;     ///< the latest; empty if stale
+  std::vector<Contact> contacts;     ///< begun since the last update
+  Velocity commanded;                ///< what was last sent to the robot
+  bool stick_held_unarmed = false;   ///< held since before it was neutral, so nothing is sent
+  std::optional<Velocity> measured;  ///< nullopt while the odometry is missing or stale
+  std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
+
+  Link guidance_link = Link::never;
+  Link proximity_link = Link::never;
+  Link simulator_link = Link::never;  ///< /clock or, on a robot, the odometry
+  Link pad_link = Link::never;
+  Link audio_link = Link::never;
+
+  bool repeat_pressed = false;  ///< the button went down since the last update
+  bool goal_pressed = false;
+  bool voice_busy = false;  ///< something is being spoken or waits for it
+
+  std::vector<std::string> notices;  ///< kinds to be said once each, such as no_rumble
+};
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <navvi_types/motion.hpp>
+#include <optional>
+
+#include "navvi_config/field.hpp"
+
+namespace navvi_feedback {
+using navvi_types::Velocity;
+}  // namespace navvi_feedback
+
+namespace navvi_feedback::drive {
+
+/// The one stick (R-CTL-1), as joy_node's axes 0 and 1.
+struct Stick {
+  double x = 0.0;  ///< [-1, 1], left positive
+  double y = 0.0;  ///< [-1, 1], forward positive
+};
+
+struct DriveConfig {
+  double dead_zone = 0.12;
+  double expo = 0.3;
+  double max_forward = 0.9;        // m/s
+  double max_reverse = 0.5;        // m/s
+  double max_turn = 1.2;           // rad/s
+  double acceleration = 1.2;       // m/s^2
+  double deceleration = 2.5;       // m/s^2
+  double turn_acceleration = 4.0;  // rad/s^2
+  double arm_hold = 0.3;           // s
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Turns the stick into a velocity. It begins disarmed, and disarms whenever the stick is lost;
+/// while disarmed it asks for zero. It arms once the stick was neutral for `arm_hold`, so a stick
+/// that is held, or stuck, when it appears moves nothing.
+class Drive {
+ public:
+  explicit Drive(const DriveConfig& config) : config_(config) {}
+
+  /// \param stick  nullopt while there is no live input; so counts a stick that is not finite
+  /// \param dt  s since the last call, >= 0
+  /// \return nullopt while there is no live input: nothing should be asked of the wheels then
+  [[nodiscard]] std::optional<Velocity> update(const std::optional<Stick>& stick, double dt);
+
+  [[nodiscard]] bool armed() const { return armed_; }
+
+  /// The stick after dead zone and curve, each axis by itself in [-1, 1]. Axes are clamped to
+  /// [-1, 1] first.
+  [[nodiscard]] Stick shaped(const Stick& stick) const;
+
+ private:
+  DriveConfig config_;
+  Velocity velocity_;
+  double neutral_for_ = 0.0;  // s
+  bool armed_ = false;
+};
+
+}  // namespace navvi_feedback::drive

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "navvi_feedback/drive/drive.hpp"
+
+namespace navvi_feedback::drive {
+
+/// What the person's hands do, from whatever device, as sensor_msgs/Joy tells it.
+struct InputState {
+  bool live = false;          ///< the device is there and was read within the last 250 ms
+  unsigned session = 0;       ///< another number whenever the device was opened anew
+  std::vector<double> axes;   ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
+  std::vector<bool> buttons;  ///< 0: repeat the last direction; 1: where is the goal
+
+  /// Neutral where there is no such axis.
+  [[nodiscard]] Stick stick() const { return axes.size() < 2 ? Stick{} : Stick{axes[0], axes[1]}; }
+  [[nodiscard]] bool button(std::size_t index) const {
+    return index < buttons.size() && buttons[index];
+  }
+};
+
+}  // namespace navvi_feedback::drive

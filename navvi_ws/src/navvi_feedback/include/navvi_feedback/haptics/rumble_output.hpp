@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "navvi_feedback/haptics/haptics.hpp"
+
+namespace navvi_feedback::haptics {
+
+/// Decides which motor commands are worth a message: a change of 1/255 or more at most every 50 ms,
+/// a stop at once, and the present values again every 100 ms, since a feedback message lasts until
+/// the next one.
+class RumbleOutput {
+ public:
+  struct Due {
+    bool changed = false;   ///< other values than the last time
+    bool feedback = false;  ///< send the values to other drivers
+  };
+
+  /// \param time  s, of a clock that does not run backwards
+  [[nodiscard]] Due update(const Rumble& rumble, double time);
+
+ private:
+  Rumble sent_;
+  std::optional<double> sent_at_;
+  std::optional<double> changed_at_;
+};
+
+/// Three soft pulses of both motors, for what the voice cannot say.
+/// \param since  s since the alarm began
+/// \return [0, 1]; 0 before and after
+[[nodiscard]] double alarm_force(double since);
+
+}  // namespace navvi_feedback::haptics

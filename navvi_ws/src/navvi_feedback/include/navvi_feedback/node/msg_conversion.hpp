@@ -1,0 +1,23 @@
+#pragma once
+
+#include <sensor_msgs/Joy.h>
+#include <sensor_msgs/JoyFeedbackArray.h>
+
+#include <navvi_types/cue_event.hpp>
+#include <optional>
+
+#include "navvi_feedback/drive/input_state.hpp"
+#include "navvi_feedback/haptics/haptics.hpp"
+
+namespace navvi_feedback::node {
+
+/// Axes out of [-1, 1] by more than rounding, or fewer than two, are refused.
+[[nodiscard]] std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg);
+
+[[nodiscard]] sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp);
+/// As joy_node takes it: id 0 is the strong (left) motor, id 1 the weak (right) one.
+[[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble);
+/// As navvi_msgs/Cue tells it. \param id  counts the changes of the motors
+[[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble, std::uint32_t id);
+
+}  // namespace navvi_feedback::node

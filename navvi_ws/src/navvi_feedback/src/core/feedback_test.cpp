@@ -1,0 +1,143 @@
+#include "navvi_feedback/core/feedback.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace navvi_feedback::core {
+namespace {
+
+const std::string kEnglish = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml";
+
+class FeedbackTest : public testing::Test {
+ protected:
+  FeedbackTest() {
+    input_.hands.live = true;
+    hold(0.0, 0.0);
+  }
+
+  void hold(double left, double forward) {
+    input_.hands.axes = {left, forward};
+    input_.hands.buttons = {false, false};
+  }
+
+  /// \return the last output
+  Feedback::Output pass(double seconds) {
+    Feedback::Output output;
+    for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
+      output = feedback_.update(input_, time_);
+      for (const cues::Cue& cue : output.cues) kinds_.push_back(cue.kind);
+    }
+    return output;
+  }
+
+  /// The most that both motors did together within `seconds`.
+  double strongest(double seconds) {
+    double most = 0.0;
+    for (const double end = time_ + seconds; time_ < end - 1e-9;) {
+      const Feedback::Output output = pass(0.02);
+      most = std::max(most, std::min(output.rumble.left, output.rumble.right));
+      alarms_ += output.alarm_begins ? 1 : 0;
+    }
+    return most;
+  }
+
+  [[nodiscard]] bool said(const std::string& kind) const {
+    return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
+  }
+
+  Feedback feedback_{FeedbackConfig{}, cues::Phrases(kEnglish)};
+  Feedback::Input input_;
+  double time_ = 10.0;
+  std::vector<std::string> kinds_;
+  int alarms_ = 0;
+};
+
+TEST_F(FeedbackTest, AStickDrivesOnceItWasNeutralAndItsLossIsOneLastZero) {
+  pass(0.5);
+  hold(0.0, 1.0);
+  EXPECT_GT(pass(1.0).command.value().linear, 0.5);
+  input_.hands = {};
+  const Feedback::Output lost = pass(0.02);
+  ASSERT_TRUE(lost.command);
+  EXPECT_EQ(lost.command->linear, 0.0);
+  EXPECT_FALSE(pass(0.02).command);
+  EXPECT_TRUE(said("pad_lost"));
+}
+
+TEST_F(FeedbackTest, AStickThatWasOpenedAnewMustBeNeutralAgain) {
+  pass(0.5);
+  hold(0.0, 1.0);
+  pass(1.0);
+  ++input_.hands.session;
+  EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
+}
+
+TEST_F(FeedbackTest, WhatIsNearIsFeltWhileItIsFresh) {
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
+  EXPECT_GT(pass(0.9).rumble.left, 0.5);
+  const haptics::Rumble stale = pass(0.3).rumble;
+  EXPECT_EQ(stale.left, 0.0);
+  EXPECT_EQ(stale.right, 0.0);
+}
+
+TEST_F(FeedbackTest, AMissingAudioDeviceIsToldByTheMotorsOnceThereAreSome) {
+  for (const cues::Link missing : {cues::Link::never, cues::Link::lost}) {
+    input_.audio = missing;
+    input_.motors = false;
+    EXPECT_EQ(strongest(5.0), 0.0) << "no pad yet";
+    input_.motors = true;
+    EXPECT_EQ(alarms_, 0);
+    EXPECT_GT(strongest(5.0), 0.1);
+    EXPECT_EQ(alarms_, 1);
+    EXPECT_EQ(strongest(5.0), 0.0) << "told once";
+    input_.audio = cues::Link::alive;
+    EXPECT_EQ(strongest(1.0), 0.0);
+    EXPECT_EQ(std::exchange(alarms_, 0), 1);
+  }
+}
+
+TEST_F(FeedbackTest, AnAlarmEndsAtOnceWhenTheDeviceIsThereAndComesAgainWhenItIsLost) {
+  input_.audio = cues::Link::never;
+  EXPECT_GT(strongest(0.3), 0.0);
+  input_.audio = cues::Link::alive;
+  EXPECT_EQ(strongest(0.02), 0.0);
+  input_.audio = cues::Link::lost;
+  EXPECT_GT(strongest(5.0), 0.1);
+  EXPECT_EQ(alarms_, 2);
+}
+
+TEST_F(FeedbackTest, AContactIsToldOnce) {
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7});
+  pass(3.0);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "collision_shelf"), 1);
+}
+
+TEST_F(FeedbackTest, AButtonThatIsHeldAsksOnce) {
+  pass(6.0);
+  kinds_.clear();
+  input_.hands.buttons = {true, false};
+  pass(2.0);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "no_goal"), 1);
+}
+
+TEST_F(FeedbackTest, GuidanceIsKeptButNotFreshForEver) {
+  EXPECT_FALSE(feedback_.guidance());
+  Guidance guidance;
+  guidance.seq = 5;
+  feedback_.take(guidance, time_);
+  EXPECT_TRUE(feedback_.guidance_fresh(time_ + 0.9));
+  EXPECT_FALSE(feedback_.guidance_fresh(time_ + 1.1));
+  EXPECT_EQ(feedback_.guidance().value().seq, 5U);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::core
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,73 @@
+#include "navvi_feedback/cues/cue.hpp"
+
+#include <stdexcept>
+
+namespace navvi_feedback::cues {
+
+const std::vector<CueKind>& cue_kinds() {
+  using P = Priority;
+  // kind, priority, least interval in s, largest age in s
+  static const std::vector<CueKind> kinds = {
+      // Safety: nothing cuts these. A thing that is hit is told by itself, see CuePolicy.
+      {"collision_shelf", P::important, 0.0, 3.0},
+      {"collision_wall", P::important, 0.0, 3.0},
+      {"collision_obstacle", P::important, 0.0, 3.0},
+      {"pad_lost", P::important, 2.0, 10.0},
+      {"robot_stopped", P::important, 2.0, 4.0},
+      {"simulator_lost", P::important, 5.0, 10.0},
+      {"proximity_lost", P::important, 5.0, 10.0},
+      // What the person must act on now.
+      {"stuck", P::message, 2.0, 2.0},
+      {"stuck_unknown", P::message, 2.0, 2.0},
+      {"arrived", P::message, 1.0, 10.0},
+      {"turn_now", P::message, 1.0, 1.5},
+      {"guidance_lost", P::message, 5.0, 5.0},
+      {"no_route", P::message, 5.0, 5.0},
+      {"off_mesh", P::message, 5.0, 5.0},
+      {"no_map", P::message, 5.0, 5.0},
+      {"pose_stale", P::message, 5.0, 5.0},
+      {"map_stale", P::message, 5.0, 5.0},
+      {"blocked", P::message, 3.0, 1.5},
+      {"obstacle_stop", P::message, 1.5, 1.0},
+      {"make_room", P::message, 5.0, 3.0},
+      {"goal_refused_not_finite", P::message, 1.0, 10.0},
+      {"goal_refused_unknown_frame", P::message, 1.0, 10.0},
+      {"goal_refused_inside_obstacle", P::message, 1.0, 10.0},
+      {"goal_refused_off_the_map", P::message, 1.0, 10.0},
+      {"goal_refused_unreachable", P::message, 1.0, 10.0},
+      {"release_stick", P::message, 3.0, 2.0},
+      {"pad_back", P::message, 2.0, 5.0},
+      {"audio_back", P::message, 2.0, 5.0},
+      {"no_rumble", P::message, 5.0, 10.0},
+      {"second_pad", P::message, 5.0, 10.0},
+      {"pad_firmware", P::message, 5.0, 10.0},
+      // The way.
+      {"start", P::text, 2.0, 10.0},
+      {"start_distance", P::text, 2.0, 10.0},
+      {"direction", P::text, 1.0, 2.0},
+      {"straight", P::text, 1.0, 2.0},
+      {"turn_ahead", P::text, 2.0, 2.0},
+      {"rerouted", P::text, 4.0, 2.0},
+      {"rerouted_blocked", P::text, 4.0, 2.0},
+      {"shelf_near", P::text, 1.5, 1.5},
+      {"wall_near", P::text, 1.5, 1.5},
+      {"shelf_close", P::text, 1.5, 1.5},
+      {"wall_close", P::text, 1.5, 1.5},
+      {"obstacle_near", P::text, 1.5, 1.5},
+      {"obstacle_close", P::text, 1.5, 1.5},
+      // On demand, and by the way.
+      {"goal_info", P::text, 0.5, 4.0},
+      {"goal_info_distance", P::text, 0.5, 4.0},
+      {"no_goal", P::text, 0.5, 4.0},
+      {"welcome", P::notification, 5.0, 10.0},
+  };
+  return kinds;
+}
+
+const CueKind& cue_kind(const std::string& kind) {
+  for (const CueKind& known : cue_kinds())
+    if (kind == known.kind) return known;
+  throw std::logic_error("\"" + kind + "\" is no kind of cue.");
+}
+
+}  // namespace navvi_feedback::cues

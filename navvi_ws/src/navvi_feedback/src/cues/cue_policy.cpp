@@ -1,0 +1,328 @@
+#include "navvi_feedback/cues/cue_policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s, after a collision or a stop until the person is told where to go on.
+constexpr double kRecover = 2.0;
+/// s, what a start may take before it is a problem.
+constexpr double kStarting = 3.0;
+/// s after the start, when a path may still be on its way.
+constexpr double kFirstPath = 5.0;
+/// s; the same thing again within it is the same collision.
+constexpr double kSameHit = 1.5;
+/// m/s and rad/s; slower counts as standing.
+constexpr double kMoving = 0.05;
+
+const char* refusal_kind(Guidance::Refusal refusal) {
+  switch (refusal) {
+    case Guidance::Refusal::unknown_frame:
+      return "goal_refused_unknown_frame";
+    case Guidance::Refusal::inside_obstacle:
+      return "goal_refused_inside_obstacle";
+    case Guidance::Refusal::off_the_map:
+      return "goal_refused_off_the_map";
+    case Guidance::Refusal::unreachable:
+      return "goal_refused_unreachable";
+    default:
+      return "goal_refused_not_finite";
+  }
+}
+
+/// Why the guidance does not lead anywhere, as a kind of cue; empty if it does.
+std::string problem_of(const Guidance& guidance) {
+  switch (guidance.state) {
+    case Guidance::State::no_goal:
+      return "welcome";
+    case Guidance::State::following:
+    case Guidance::State::make_room:
+      return "";
+    case Guidance::State::arrived:
+      return "arrived";
+    case Guidance::State::goal_refused:
+      return refusal_kind(guidance.refusal);
+    case Guidance::State::no_route:
+      return "no_route";
+    case Guidance::State::off_mesh:
+      return "off_mesh";
+    case Guidance::State::no_map:
+      return "no_map";
+    case Guidance::State::pose_stale:
+      return "pose_stale";
+    case Guidance::State::map_stale:
+      return "map_stale";
+    case Guidance::State::blocked:
+      return "blocked";
+  }
+  return "";
+}
+
+bool refused(const std::string& problem) { return problem.rfind("goal_refused", 0) == 0; }
+
+bool said_once(const std::string& problem) {
+  return problem == "arrived" || problem == "welcome" || refused(problem);
+}
+
+Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
+  Fillings fillings;
+  fillings.thing = thing;
+  fillings.side = side_of(point);
+  return fillings;
+}
+
+}  // namespace
+
+void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::OneOf;
+  using navvi_config::Range;
+  visit({"stuck_time", Range{0.2, 30.0}, "s", "commanded without moving for longer is stuck"},
+        stuck_time);
+  visit({"stuck_linear", Range{0.0, 1.0}, "m/s", "slower counts as not moving"}, stuck_linear);
+  visit({"stuck_angular", Range{0.0, 1.0}, "rad/s", "slower counts as not turning"}, stuck_angular);
+  visit({"stuck_repeat", Range{1.0, 60.0}, "s", "repeats while the robot stays stuck"},
+        stuck_repeat);
+  visit({"blocker_gap", Range{0.0, 5.0}, "m", "a thing farther away is not what blocks"},
+        blocker_gap);
+  visit({"state_hold", Range{0.0, 5.0}, "s",
+         "a state of the guidance shorter than this is passed over"},
+        state_hold);
+  visit({"problem_repeat", Range{1.0, 300.0}, "s", "repeats while the guidance does not lead"},
+        problem_repeat);
+  visit({"patience", Range{1.0, 300.0}, "s", "a link that never lived for so long counts as lost"},
+        patience);
+  visit({"direction_words", OneOf{{"clock", "left_right"}}, "", "how directions are worded"},
+        direction_words);
+  visit.group("route", route);
+  visit.group("near", near);
+}
+
+DirectionWords CuePolicyConfig::words() const {
+  return direction_words == "left_right" ? DirectionWords::left_right : DirectionWords::clock;
+}
+
+CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
+    : config_(config), phrases_(std::move(phrases)), route_(config.route), near_(config.near) {}
+
+std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
+  const Links links = judge(now, time);
+  follows_ = now.guidance && now.guidance->is_followed() && links.guidance == Link::alive &&
+             links.simulator != Link::lost;
+  Utterances utterances;
+  const auto add = [&](Utterances more) {
+    utterances.insert(utterances.end(), more.begin(), more.end());
+  };
+  add(lost_and_found(now, links, time));
+  add(collisions(now, time));
+  add(release(now, links, time));
+  add(stuck(now, time));
+  add(guidance_state(now, links, time));
+  add(answers(now, time));
+  add(near(now, time));
+  add(route(now, links, time));
+  links_ = links;
+  gate_ = now.gate;
+  return phrase(utterances, time);
+}
+
+CuePolicy::Links CuePolicy::judge(const Situation& now, double time) {
+  if (!first_update_) first_update_ = time;
+  const bool waited = time - *first_update_ > config_.patience;
+  const auto judged = [&](Link link) { return link == Link::never && waited ? Link::lost : link; };
+  return {judged(now.pad_link), judged(now.simulator_link), judged(now.proximity_link),
+          judged(now.guidance_link), now.audio_link};
+}
+
+CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links,
+                                                double time) {
+  Utterances told;
+  const auto say = [&](const std::string& kind) { told.push_back({kind, {}, {}}); };
+  const auto lost = [](Link before, Link after) {
+    return before != Link::lost && after == Link::lost;
+  };
+  const auto back = [](Link before, Link after) {
+    return before == Link::lost && after == Link::alive;
+  };
+  if (lost(links_.pad, links.pad)) say("pad_lost");
+  if (back(links_.pad, links.pad)) say("pad_back");
+  if (lost(links_.simulator, links.simulator)) say("simulator_lost");
+  if (back(links_.audio, links.audio)) say("audio_back");
+  // What dies with the simulator, or stops with the pad, needs no word of its own.
+  if (links.simulator != Link::lost) {
+    if (lost(links_.proximity, links.proximity)) say("proximity_lost");
+    if (gate_ == DriveState::State::running && now.gate == DriveState::State::stopped &&
+        links.pad != Link::lost)
+      say("robot_stopped");
+  }
+  for (const Utterance& utterance : told)
+    if (utterance.kind == "pad_back" || utterance.kind == "robot_stopped") held_.told(time);
+  for (const std::string& notice : now.notices)
+    if (noticed_.insert(notice).second) say(notice);
+  return told;
+}
+
+CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
+  for (auto hit = hit_.begin(); hit != hit_.end();)
+    hit = time - hit->second >= kSameHit ? hit_.erase(hit) : std::next(hit);
+  Utterances told;
+  for (const Contact& contact : now.contacts) {
+    route_.remind(time + kRecover);
+    if (!hit_.emplace(contact.id, time).second) continue;
+    const std::string kind = contact.thing_class == ThingClass::shelf  ? "collision_shelf"
+                             : contact.thing_class == ThingClass::wall ? "collision_wall"
+                                                                       : "collision_obstacle";
+    told.push_back({kind, where(contact.thing_class, contact.seen_from_robot()), {}});
+  }
+  return told;
+}
+
+CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
+  if (links.pad != Link::alive || links.simulator != Link::alive) {
+    held_.forget();
+    return {};
+  }
+  const auto request = held_.update(now, time);
+  if (!request) return {};
+  route_.remind(time + kRecover);
+  return {*request};
+}
+
+CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
+  // Commands near the thresholds may well move the robot more slowly than these.
+  const bool commanded = std::abs(now.commanded.linear) > 2.0 * config_.stuck_linear ||
+                         std::abs(now.commanded.angular) > 2.0 * config_.stuck_angular;
+  const bool still = now.measured && std::abs(now.measured->linear) < config_.stuck_linear &&
+                     std::abs(now.measured->angular) < config_.stuck_angular;
+  const bool held =
+      now.gate == DriveState::State::stopped || now.gate == DriveState::State::waiting;
+  if (!commanded || !still || held) {
+    blocked_since_.reset();
+    stuck_said_.reset();
+    return {};
+  }
+  if (!blocked_since_) blocked_since_ = time;
+  if (time - *blocked_since_ <= config_.stuck_time) return {};
+  if (stuck_said_ && time - *stuck_said_ < config_.stuck_repeat) return {};
+  stuck_said_ = time;
+  route_.remind(time + kRecover);
+
+  // What lies where the person wants to go blocks more than what is merely nearer.
+  const NearThing* blocker = nullptr;
+  const auto rank = [&](const NearThing& thing) {
+    const bool in_the_way = thing.nearest.x() * now.commanded.linear >= 0.0;
+    return std::make_pair(in_the_way ? 0 : 1, thing.gap);
+  };
+  for (const NearThing& thing : now.nearby)
+    if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
+      blocker = &thing;
+  if (!blocker) return {{"stuck_unknown", {}, {}}};
+  return {{"stuck", where(blocker->thing_class, blocker->nearest), {}}};
+}
+
+CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,
+                                                double time) {
+  if (links.simulator == Link::lost) return {};
+  std::string problem;
+  if (links.guidance == Link::lost)
+    problem = "guidance_lost";
+  else if (now.guidance)
+    problem = problem_of(*now.guidance);
+  if (follows_) arrival_said_ = false;
+
+  const bool other_goal =
+      refused(problem) && now.guidance && (now.guidance->goal - problem_goal_).norm() > 0.0;
+  if (problem != problem_ || other_goal) {
+    problem_ = problem;
+    problem_since_ = time;
+    problem_said_.reset();
+    if (now.guidance) problem_goal_ = now.guidance->goal;
+  }
+  if (problem_.empty()) return {};
+  const bool at_once = problem_ == "arrived" || problem_ == "guidance_lost" || refused(problem_);
+  const bool starting = problem_ == "welcome" || problem_ == "no_map" || problem_ == "pose_stale";
+  const double hold = at_once ? 0.0 : starting ? kStarting : config_.state_hold;
+  if (time - problem_since_ < hold) return {};
+  if (problem_said_ && (said_once(problem_) || time - *problem_said_ < config_.problem_repeat))
+    return {};
+  problem_said_ = time;
+  if (problem_ == "arrived" && std::exchange(arrival_said_, true)) return {};
+  return {tell_problem(now)};
+}
+
+Utterance CuePolicy::tell_problem(const Situation& now) const {
+  Utterance told{problem_, {}, {}};
+  if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
+  return told;
+}
+
+CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
+  // To a robot that stands without a way to go, what is near is no news.
+  const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
+                                      std::abs(now.measured->angular) > kMoving);
+  if (!follows_ && !moves) return {};
+  const Utterances told = near_.update(now, time);
+  // Who hears of something ahead stops, and needs to hear where to go on.
+  for (const Utterance& utterance : told)
+    if (utterance.fillings.side == Side::ahead) route_.remind(time + kRecover);
+  return told;
+}
+
+CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
+  // Nobody can follow without a stick; once it is back, that is told first, then the way.
+  const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
+  if (follows_ && steered) return route_.update(now, time);
+  const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
+  if (goal_gone)
+    route_.forget();
+  else
+    route_.pause();
+  return {};
+}
+
+CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
+  if (!now.repeat_pressed && !now.goal_pressed) return {};
+  Utterance answer;
+  const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
+  if (to_goal && now.goal_pressed) {
+    answer = route_.goal("goal_info", now);
+  } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
+    answer = *way;
+  } else {
+    answer = tell_problem(now);
+    if (problem_.empty() || problem_ == "welcome") answer.kind = "no_goal";
+    if (answer.kind == "no_goal" && time - *first_update_ < kFirstPath) return {};
+  }
+  // Who asks wants it now.
+  answer.priority = Priority::message;
+  return {answer};
+}
+
+std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
+  std::vector<Cue> cues;
+  for (const Utterance& utterance : utterances) {
+    const CueKind& kind = cue_kind(utterance.kind);
+    const auto last = last_said_.find(kind.kind);
+    if (last != last_said_.end() && time - last->second < kind.min_interval) continue;
+    last_said_[kind.kind] = time;
+    cues.push_back({kind.kind, phrases_.say(kind.kind, utterance.fillings),
+                    utterance.priority.value_or(kind.priority), kind.max_age});
+  }
+  std::stable_sort(cues.begin(), cues.end(),
+                   [](const Cue& a, const Cue& b) { return a.priority > b.priority; });
+  return cues;
+}
+
+void CuePolicy::note(const std::vector<CueEvent>& events) {
+  const auto replaced = [&](const std::string& kind) {
+    return std::any_of(events.begin(), events.end(), [&](const CueEvent& event) {
+      return event.stage == CueStage::queued && event.kind == kind;
+    });
+  };
+  for (const CueEvent& event : events)
+    if (event.stage == CueStage::dropped && !replaced(event.kind)) last_said_.erase(event.kind);
+}
+
+}  // namespace navvi_feedback::cues

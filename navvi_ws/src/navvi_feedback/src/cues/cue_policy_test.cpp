@@ -1,0 +1,348 @@
+#include "navvi_feedback/cues/cue_policy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <navvi_config/reader.hpp>
+#include <random>
+
+namespace navvi_feedback::cues {
+namespace {
+
+const std::string kEnglish = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml";
+
+using Texts = std::vector<std::string>;
+
+class CuePolicyTest : public testing::Test {
+ protected:
+  CuePolicyTest() {
+    now_.pad_link = now_.simulator_link = Link::alive;
+    now_.guidance_link = now_.proximity_link = now_.audio_link = Link::alive;
+    now_.gate = DriveState::State::running;
+    now_.measured.emplace();
+    now_.guidance.emplace();
+    now_.guidance->state = Guidance::State::following;
+    now_.guidance->goal = {20.0, 0.0};
+    now_.guidance->waypoint = {20.0, 0.0};
+    now_.guidance->waypoint_is_goal = true;
+    now_.guidance->waypoint_distance = now_.guidance->goal_distance = 20.0;
+  }
+
+  Texts pass(double seconds) {
+    Texts texts;
+    for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
+      for (const Cue& cue : policy_.update(now_, time_)) {
+        texts.push_back(cue.text);
+        last_ = cue;
+      }
+      now_.contacts.clear();
+      now_.repeat_pressed = now_.goal_pressed = false;
+    }
+    return texts;
+  }
+
+  /// Drives ahead until only news is said.
+  void under_way() {
+    now_.commanded.linear = now_.measured->linear = 1.0;
+    pass(3.0);
+  }
+
+  CuePolicy policy_{CuePolicyConfig{}, Phrases(kEnglish)};
+  Situation now_;
+  Cue last_;
+  double time_ = 50.0;
+};
+
+TEST(CuePolicyConfig, RefusesWhatItDoesNotKnow) {
+  CuePolicyConfig config;
+  for (const char* text : {"stuck_time: -1", "route: {rounding: up}", "near: {distance: .nan}",
+                           "direction_words: compass", "chatter: 1"})
+    EXPECT_THROW(navvi_config::read(config, YAML::Load(text), "test"), navvi_config::ConfigError)
+        << text;
+}
+
+TEST(CuePolicyConfig, FloorsTheHoursInThePapersProfile) {
+  const std::string file = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/paper.yaml";
+  CuePolicyConfig config;
+  navvi_config::read(config, navvi_config::load_yaml(file)["cues"], file);
+  EXPECT_EQ(config.route.rounding, "floor");
+  EXPECT_FALSE(config.near.obstacles);
+}
+
+TEST_F(CuePolicyTest, SaysNothingBeforeAnythingIsKnown) {
+  now_ = Situation();
+  EXPECT_EQ(pass(5.0), Texts{});
+}
+
+TEST_F(CuePolicyTest, SaysWhatNeverCame) {
+  now_ = Situation();
+  pass(9.0);
+  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "simulator lost"}));
+}
+
+TEST_F(CuePolicyTest, IntroducesTheGoalThenTheWay) {
+  now_.goal_angle = 1.6;
+  EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters, 3 o'clock", "straight ahead, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, AnnouncesTheArrivalOnce) {
+  under_way();
+  now_.guidance->state = Guidance::State::arrived;
+  EXPECT_EQ(pass(60.0), Texts{"You have reached your destination"});
+  now_.guidance_link = Link::lost;
+  pass(2.0);
+  now_.guidance_link = Link::alive;
+  EXPECT_EQ(pass(2.0), Texts{});
+}
+
+TEST_F(CuePolicyTest, SaysWhyAGoalWasRefusedOnceAGoal) {
+  under_way();
+  now_.guidance->state = Guidance::State::goal_refused;
+  now_.guidance->refusal = Guidance::Refusal::inside_obstacle;
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, something stands there"});
+  now_.guidance->goal = {3.0, 3.0};
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, something stands there"});
+  now_.guidance->refusal = Guidance::Refusal::unreachable;
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, it cannot be reached"});
+}
+
+TEST_F(CuePolicyTest, PassesOverAStateThatLastsNoTime) {
+  under_way();
+  now_.guidance->state = Guidance::State::off_mesh;
+  EXPECT_EQ(pass(0.3), Texts{});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, TellsToWaitForWhatIsInTheWayAndThenToGoOn) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::forklift;
+  EXPECT_EQ(pass(5.0), Texts{"wait, forklift in the way"});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(1.0), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, SaysThatTheMapIsTooOld) {
+  under_way();
+  now_.guidance->state = Guidance::State::map_stale;
+  EXPECT_EQ(pass(5.0), Texts{"map out of date"});
+}
+
+TEST_F(CuePolicyTest, RemindsOfAProblemThatLasts) {
+  under_way();
+  now_.guidance->state = Guidance::State::no_route;
+  EXPECT_EQ(pass(31.0), Texts(3, "no route to the goal"));
+}
+
+TEST_F(CuePolicyTest, SaysThatTheGuidanceIsLostAndGoesOnWhenItIsBack) {
+  under_way();
+  now_.guidance_link = Link::lost;
+  EXPECT_EQ(pass(1.0), Texts{"guidance lost"});
+  EXPECT_EQ(pass(10.0), Texts{});
+  now_.guidance_link = Link::alive;
+  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, NamesOnlyTheSimulatorWhenAllDiesWithIt) {
+  under_way();
+  now_.simulator_link = now_.guidance_link = now_.proximity_link = Link::lost;
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
+  EXPECT_EQ(last_.priority, Priority::important);
+}
+
+TEST_F(CuePolicyTest, TellsAStoppedRobotFromALostController) {
+  under_way();
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(1.0), Texts{"robot stopped, release the stick"});
+  now_.gate = DriveState::State::running;
+  pass(5.0);
+  now_.pad_link = Link::lost;
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(1.0), Texts{"controller disconnected"});
+  now_.pad_link = Link::alive;
+  EXPECT_EQ(pass(1.0),
+            (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, SaysANoticeOnce) {
+  under_way();
+  now_.notices = {"no_rumble"};
+  EXPECT_EQ(pass(3.0), Texts{"this controller cannot rumble"});
+}
+
+TEST_F(CuePolicyTest, SaysWhatWasHitAndWhereAndThenTheWayOn) {
+  under_way();
+  now_.contacts = {{ThingClass::shelf, {0.0, 0.35}}};
+  EXPECT_EQ(pass(0.1), Texts{"hit a shelf on the left"});
+  EXPECT_EQ(last_.priority, Priority::important);
+  EXPECT_EQ(last_.kind, "collision_shelf");
+  EXPECT_EQ(pass(2.0), Texts{"straight ahead, 20 meters"});
+  now_.contacts = {{ThingClass::forklift, {0.35, 0.0}}};
+  EXPECT_EQ(pass(0.1), Texts{"hit a forklift ahead"});
+}
+
+TEST_F(CuePolicyTest, SaysWhatBlocksAStuckRobot) {
+  under_way();
+  now_.nearby = {{ThingClass::box, 1, 0.0, {-0.1, -0.4}, false},
+                 {ThingClass::pallet_robot, 2, 0.05, {0.4, 0.0}, true}};
+  now_.measured->linear = 0.0;
+  EXPECT_EQ(pass(1.4), Texts{});
+  EXPECT_EQ(pass(0.3), Texts{"stuck, pallet robot ahead"});
+  now_.nearby.clear();
+  const Texts later = pass(6.0);
+  EXPECT_EQ(std::count(later.begin(), later.end(), "stuck"), 1);
+}
+
+TEST_F(CuePolicyTest, CallsNobodyStuckWhoDoesNotDriveOrIsHeld) {
+  under_way();
+  now_.commanded = {};
+  now_.measured = Velocity{};
+  Texts texts = pass(10.0);
+  now_.commanded.linear = 1.0;
+  now_.gate = DriveState::State::waiting;
+  for (const std::string& text : pass(10.0)) texts.push_back(text);
+  now_.gate = DriveState::State::running;
+  now_.measured.reset();
+  for (const std::string& text : pass(10.0)) texts.push_back(text);
+  for (const std::string& text : texts) EXPECT_EQ(text.find("stuck"), std::string::npos);
+}
+
+TEST_F(CuePolicyTest, AnswersAtOnceWhoAsks) {
+  under_way();
+  now_.voice_busy = true;
+  now_.repeat_pressed = true;
+  EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(last_.priority, Priority::message);
+  now_.goal_angle = -1.6;
+  now_.goal_pressed = true;
+  EXPECT_EQ(pass(0.1), Texts{"goal 20 meters, 9 o'clock"});
+  now_.guidance.reset();
+  pass(3.0);
+  now_.goal_pressed = true;
+  EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
+}
+
+TEST_F(CuePolicyTest, DoesNotSayThatThereIsNoGoalWhileAPathMayBeOnItsWay) {
+  now_.guidance.reset();
+  now_.repeat_pressed = true;
+  EXPECT_EQ(pass(4.0), Texts{});
+}
+
+TEST_F(CuePolicyTest, SpeaksOfWhatIsNearBeforeThereIsAGoalOnlyToWhoMoves) {
+  now_.guidance.reset();
+  now_.nearby = {{ThingClass::shelf, 1, 0.5, {0.0, 0.9}, false}};
+  EXPECT_EQ(pass(3.0), Texts{});
+  now_.commanded.angular = now_.measured->angular = 0.5;
+  EXPECT_EQ(pass(1.0), Texts{"shelf on the left"});
+}
+
+TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenItIsBack) {
+  under_way();
+  now_.commanded = {};
+  now_.measured = Velocity{};
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
+  now_.pad_link = Link::lost;
+  EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
+  now_.pad_link = Link::alive;
+  EXPECT_EQ(pass(1.0), (Texts{"controller connected, release the stick", "3 o'clock, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, AsksToReleaseAStickThatIsHeldInVainAndThenSaysTheWay) {
+  under_way();
+  now_.commanded = {};
+  now_.measured = Velocity{};
+  now_.stick_held_unarmed = true;
+  const Texts held = pass(5.0);
+  EXPECT_EQ(std::count(held.begin(), held.end(), "release the stick"), 2);
+  now_.stick_held_unarmed = false;
+  EXPECT_EQ(pass(3.0), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, SaysEveryThingThatIsHitButTheSameOnlyOnceInAWhile) {
+  under_way();
+  now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}, {ThingClass::pedestal, {0.0, -0.35}, 5}};
+  EXPECT_EQ(pass(0.5), (Texts{"hit a box ahead", "hit a pedestal on the right"}));
+  now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}, {ThingClass::box, {0.0, 0.35}, 6}};
+  EXPECT_EQ(pass(0.5), Texts{"hit a box on the left"});
+  pass(3.0);
+  now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}};
+  EXPECT_EQ(pass(0.1), Texts{"hit a box ahead"});
+}
+
+TEST_F(CuePolicyTest, MaySayAgainAtOnceWhatWasDropped) {
+  under_way();
+  const auto lose_and_find = [&] {
+    now_.proximity_link = Link::alive;
+    pass(0.1);
+    now_.proximity_link = Link::lost;
+    return pass(0.1);
+  };
+  EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
+  EXPECT_EQ(lose_and_find(), Texts{});
+  policy_.note({{1, CueStage::dropped, last_.kind, last_.text}});
+  EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
+}
+
+TEST_F(CuePolicyTest, WordsDirectionsByLeftAndRightWhereThatIsWanted) {
+  CuePolicyConfig config;
+  config.direction_words = "left_right";
+  policy_ = CuePolicy(config, Phrases(kEnglish, config.words()));
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = -1.6;
+  EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters", "left, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, DoesNotChatterOnAQuietDrive) {
+  under_way();
+  EXPECT_LE(pass(60.0).size(), 8U);
+}
+
+TEST_F(CuePolicyTest, SpeaksOnlyKnownKindsInAnySituation) {
+  std::mt19937 random(1);
+  const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto link = [&] { return static_cast<Link>(draw(3)); };
+  const auto number = [&](double scale) { return scale * (draw(2001) - 1000) / 1000.0; };
+  for (int tick = 0; tick < 20000; ++tick) {
+    if (tick % 20 == 0) {
+      now_.pad_link = link();
+      now_.simulator_link = draw(4) == 0 ? link() : Link::alive;
+      now_.proximity_link = link();
+      now_.guidance_link = draw(4) == 0 ? link() : Link::alive;
+      now_.gate = navvi_types::from_number<DriveState::State>(static_cast<std::uint8_t>(draw(4)));
+      now_.guidance->state = static_cast<Guidance::State>(draw(3) == 0 ? draw(8) : 1);
+      now_.guidance->refusal = static_cast<Guidance::Refusal>(draw(6));
+      now_.guidance->goal = {number(20), number(20)};
+      now_.guidance->waypoint = {number(20), number(20)};
+    }
+    now_.guidance->waypoint_angle = now_.guidance->steer_angle = number(3.2);
+    now_.guidance->turn_angle = number(3.2);
+    now_.guidance->waypoint_distance = std::abs(number(20));
+    now_.commanded = {number(1), number(1)};
+    now_.measured = Velocity{number(1), number(1)};
+    now_.nearby = {{static_cast<ThingClass>(1 + draw(8)),
+                    1,
+                    std::abs(number(2)),
+                    {number(2), number(2)},
+                    false}};
+    if (draw(30) == 0)
+      now_.contacts = {{static_cast<ThingClass>(1 + draw(8)), {number(1), number(1)}}};
+    now_.voice_busy = draw(2) == 0;
+    now_.repeat_pressed = draw(50) == 0;
+    now_.stick_held_unarmed = draw(2) == 0;
+    time_ += 0.02;
+    for (const Cue& cue : policy_.update(now_, time_)) {
+      EXPECT_NO_THROW((void)cue_kind(cue.kind));
+      EXPECT_TRUE(speakable(cue.text));
+    }
+    now_.contacts.clear();
+  }
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,103 @@
+#include "navvi_feedback/cues/cue_queue.hpp"
+
+#include <algorithm>
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// Waiting below `important`.
+constexpr std::size_t kMaxWaiting = 2;
+
+CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {
+  return {id, stage, cue.kind, cue.text, cue.priority};
+}
+
+}  // namespace
+
+CueQueue::Step CueQueue::update(const std::vector<Cue>& fresh, bool speaker_busy, double time) {
+  Step step;
+  if (running_ && !speaker_busy) {
+    step.events.push_back(event(running_->id, CueStage::ended, running_->cue));
+    running_.reset();
+  }
+  drop_stale(time, step);
+  for (const Cue& cue : fresh) enter(cue, time, step);
+  drop_surplus(step);
+  begin_next(step);
+  return step;
+}
+
+CueQueue::Step CueQueue::clear() {
+  Step step;
+  if (running_) {
+    step.stop = true;
+    step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
+    running_.reset();
+  }
+  for (const Entry& entry : waiting_)
+    step.events.push_back(event(entry.id, CueStage::dropped, entry.cue));
+  waiting_.clear();
+  return step;
+}
+
+void CueQueue::enter(const Cue& cue, double time, Step& step) {
+  const Entry entry{++last_id_, time, cue};
+  step.events.push_back(event(entry.id, CueStage::queued, cue));
+  const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
+    // Two things that were hit are two messages of one kind.
+    return other.cue.kind == cue.kind &&
+           (cue.priority < Priority::important || other.cue.text == cue.text);
+  });
+  if (same != waiting_.end()) {
+    step.events.push_back(event(same->id, CueStage::dropped, same->cue));
+    waiting_.erase(same);
+  }
+  const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
+    return other.cue.priority < cue.priority;
+  });
+  waiting_.insert(place, entry);
+}
+
+void CueQueue::drop_stale(double time, Step& step) {
+  for (auto entry = waiting_.begin(); entry != waiting_.end();) {
+    if (time - entry->since <= entry->cue.max_age) {
+      ++entry;
+      continue;
+    }
+    step.events.push_back(event(entry->id, CueStage::dropped, entry->cue));
+    entry = waiting_.erase(entry);
+  }
+}
+
+void CueQueue::drop_surplus(Step& step) {
+  const auto lesser = std::find_if(waiting_.begin(), waiting_.end(), [](const Entry& entry) {
+    return entry.cue.priority < Priority::important;
+  });
+  // One place more for the cue that begins in this very step.
+  const bool begins =
+      !waiting_.empty() && (!running_ || waiting_.front().cue.priority > running_->cue.priority);
+  const bool lesser_begins = begins && lesser == waiting_.begin();
+  const auto room = static_cast<std::ptrdiff_t>(kMaxWaiting + (lesser_begins ? 1 : 0));
+  while (waiting_.end() - lesser > room) {
+    step.events.push_back(event(waiting_.back().id, CueStage::dropped, waiting_.back().cue));
+    waiting_.pop_back();
+  }
+}
+
+void CueQueue::begin_next(Step& step) {
+  if (waiting_.empty()) return;
+  const Entry& next = waiting_.front();
+  if (running_) {
+    if (running_->cue.priority == Priority::important ||
+        next.cue.priority <= running_->cue.priority)
+      return;
+    step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
+    step.stop = true;
+  }
+  running_ = next;
+  waiting_.pop_front();
+  step.events.push_back(event(running_->id, CueStage::started, running_->cue));
+  step.start = running_->cue.text;
+}
+
+}  // namespace navvi_feedback::cues

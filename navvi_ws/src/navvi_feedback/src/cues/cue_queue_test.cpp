@@ -1,0 +1,212 @@
+#include "navvi_feedback/cues/cue_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+namespace navvi_feedback::cues {
+namespace {
+
+Cue cue(const std::string& kind, Priority priority, double max_age = 2.0) {
+  return {kind, "text of " + kind, priority, max_age};
+}
+
+/// "stage kind" of each event, in order.
+std::vector<std::string> told(const CueQueue::Step& step) {
+  const std::vector<std::string> stages = {"queued", "started", "ended", "cut", "dropped"};
+  std::vector<std::string> words;
+  for (const CueEvent& event : step.events)
+    words.push_back(stages.at(static_cast<std::size_t>(event.stage)) + " " + event.kind);
+  return words;
+}
+
+using Words = std::vector<std::string>;
+
+TEST(CueQueue, SaysNothingOfNothing) {
+  CueQueue queue;
+  const auto step = queue.update({}, false, 0.0);
+  EXPECT_TRUE(step.events.empty());
+  EXPECT_FALSE(step.stop);
+  EXPECT_FALSE(step.start);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(CueQueue, StartsACueAtOnceAndEndsItWhenTheSpeakerIsDone) {
+  CueQueue queue;
+  const auto first = queue.update({cue("a", Priority::text)}, false, 0.0);
+  EXPECT_EQ(told(first), (Words{"queued a", "started a"}));
+  EXPECT_EQ(first.start, "text of a");
+  EXPECT_TRUE(queue.update({}, true, 0.1).events.empty());
+  EXPECT_EQ(told(queue.update({}, false, 0.2)), (Words{"ended a"}));
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(CueQueue, LetsAHigherPriorityCutALowerOne) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::text)}, false, 0.0);
+  const auto step = queue.update({cue("b", Priority::message)}, true, 0.1);
+  EXPECT_EQ(told(step), (Words{"queued b", "cut a", "started b"}));
+  EXPECT_TRUE(step.stop);
+  EXPECT_EQ(step.start, "text of b");
+}
+
+TEST(CueQueue, NeverLetsAnEqualOneCut) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::text)}, false, 0.0);
+  EXPECT_EQ(told(queue.update({cue("b", Priority::text)}, true, 0.1)), (Words{"queued b"}));
+  EXPECT_EQ(told(queue.update({}, false, 0.2)), (Words{"ended a", "started b"}));
+}
+
+TEST(CueQueue, NeverCutsAnImportantOne) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
+  EXPECT_EQ(
+      told(queue.update({cue("b", Priority::important), cue("c", Priority::message)}, true, 0.1)),
+      (Words{"queued b", "queued c"}));
+}
+
+TEST(CueQueue, DropsWhatWaitedTooLong) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
+  (void)queue.update({cue("b", Priority::text, 1.0)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({}, false, 1.2)), (Words{"ended a", "dropped b"}));
+}
+
+TEST(CueQueue, ReplacesAWaitingCueByANewerOfItsKind) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
+  (void)queue.update({cue("b", Priority::text)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({cue("b", Priority::text)}, true, 0.2)),
+            (Words{"queued b", "dropped b"}));
+}
+
+TEST(CueQueue, KeepsImportantCuesOfOneKindThatSayDifferentThings) {
+  CueQueue queue;
+  Cue box = cue("hit", Priority::important);
+  Cue shelf = box;
+  shelf.text = "another";
+  EXPECT_EQ(told(queue.update({box, shelf, shelf}, false, 0.0)),
+            (Words{"queued hit", "queued hit", "queued hit", "dropped hit", "started hit"}));
+  EXPECT_EQ(queue.update({}, false, 0.5).start, "another");
+}
+
+TEST(CueQueue, KeepsAtMostTwoWaitingBelowImportantAndTheGreatestOfThem) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
+  (void)queue.update({cue("b", Priority::notification), cue("c", Priority::text)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({cue("d", Priority::message)}, true, 0.2)),
+            (Words{"queued d", "dropped b"}));
+  EXPECT_EQ(told(queue.update({cue("e", Priority::important)}, true, 0.3)), (Words{"queued e"}));
+}
+
+TEST(CueQueue, EndsAllAtTheShutDown) {
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::text), cue("b", Priority::text)}, false, 0.0);
+  const auto step = queue.clear();
+  EXPECT_TRUE(step.stop);
+  EXPECT_EQ(told(step), (Words{"cut a", "dropped b"}));
+  EXPECT_TRUE(queue.empty());
+}
+
+/// A speaker that takes some ticks for each text.
+struct FakeSpeaker {
+  int left = 0;
+
+  void apply(const CueQueue::Step& step, int ticks) {
+    if (step.stop) left = 0;
+    if (step.start) left = ticks;
+  }
+};
+
+/// Follows the life of every cue and complains about what must not be.
+class Witness {
+ public:
+  void see(const CueEvent& event) {
+    const auto known = stages_.find(event.id);
+    if (event.stage == CueStage::queued) {
+      ASSERT_EQ(known, stages_.end());
+      ASSERT_EQ(event.id, stages_.size() + 1) << "ids have no gaps";
+      stages_[event.id] = event.stage;
+      return;
+    }
+    ASSERT_NE(known, stages_.end());
+    const bool runs = known->second == CueStage::started;
+    if (event.stage == CueStage::started) {
+      ASSERT_EQ(known->second, CueStage::queued);
+      ASSERT_FALSE(running_) << "two at a time";
+      if (cut_) {
+        ASSERT_GT(event.priority, *cut_) << "cut by a lesser one";
+      }
+      running_ = event;
+    } else if (event.stage == CueStage::dropped) {
+      ASSERT_EQ(known->second, CueStage::queued);
+    } else {
+      ASSERT_TRUE(runs);
+      if (event.stage == CueStage::cut) {
+        ASSERT_NE(event.priority, Priority::important);
+        cut_ = event.priority;
+      }
+      running_.reset();
+    }
+    known->second = event.stage;
+  }
+
+  void next_step() {
+    ASSERT_FALSE(cut_ && !running_) << "cut for nothing";
+    cut_.reset();
+    std::size_t waiting = 0;
+    for (const auto& [id, stage] : stages_) waiting += stage == CueStage::queued ? 1 : 0;
+    ASSERT_LE(waiting, 2U + 2U) << "two, and the important kinds";
+  }
+
+  [[nodiscard]] bool all_over() const {
+    for (const auto& [id, stage] : stages_)
+      if (stage == CueStage::queued || stage == CueStage::started) return false;
+    return true;
+  }
+
+ private:
+  std::map<std::uint32_t, CueStage> stages_;
+  std::optional<CueEvent> running_;
+  std::optional<Priority> cut_;
+};
+
+TEST(CueQueue, LosesNoCueInAnySequence) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    CueQueue queue;
+    FakeSpeaker speaker;
+    Witness witness;
+    const auto apply = [&](const CueQueue::Step& step) {
+      for (const CueEvent& event : step.events) witness.see(event);
+      speaker.apply(step, 1 + draw(40));
+    };
+    double time = 0.0;
+    for (int tick = 0; tick < 500; ++tick, time += 0.02) {
+      std::vector<Cue> fresh;
+      for (int i = draw(3) == 0 ? draw(4) : 0; i > 0; --i) {
+        const int kind = draw(10);  // two kinds of each priority
+        fresh.push_back(cue(std::to_string(kind), static_cast<Priority>(kind / 2), draw(3)));
+      }
+      if (speaker.left > 0) --speaker.left;
+      apply(queue.update(fresh, speaker.left > 0, time));
+      witness.next_step();
+      if (HasFatalFailure()) FAIL() << "seed " << seed << ", tick " << tick;
+    }
+    for (int tick = 0; tick < 1000 && !queue.empty(); ++tick, time += 0.02) {
+      if (speaker.left > 0) --speaker.left;
+      apply(queue.update({}, speaker.left > 0, time));
+    }
+    ASSERT_TRUE(witness.all_over()) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

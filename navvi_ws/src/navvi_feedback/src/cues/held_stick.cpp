@@ -1,0 +1,36 @@
+#include "navvi_feedback/cues/held_stick.hpp"
+
+#include <cmath>
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s; the gate opens a moment after the stick moves.
+constexpr double kHold = 0.5;
+/// s, between two requests.
+constexpr double kRepeat = 4.0;
+/// m/s and rad/s; a command below these is neutral.
+constexpr double kNeutral = 0.02;
+
+bool in_vain(const Situation& now) {
+  if (now.stick_held_unarmed) return true;
+  const bool shut =
+      now.gate == DriveState::State::waiting || now.gate == DriveState::State::stopped;
+  return shut &&
+         (std::abs(now.commanded.linear) > kNeutral || std::abs(now.commanded.angular) > kNeutral);
+}
+
+}  // namespace
+
+std::optional<Utterance> HeldStick::update(const Situation& now, double time) {
+  if (!in_vain(now)) {
+    since_.reset();
+    return std::nullopt;
+  }
+  if (!since_) since_ = time;
+  if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return std::nullopt;
+  said_ = time;
+  return Utterance{"release_stick", {}, {}};
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,71 @@
+#include "navvi_feedback/cues/held_stick.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_feedback::cues {
+namespace {
+
+class HeldStickTest : public testing::Test {
+ protected:
+  HeldStickTest() { now_.gate = DriveState::State::running; }
+
+  /// How often it is said within `seconds`.
+  int pass(double seconds) {
+    int said = 0;
+    for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02)
+      if (held_.update(now_, time_)) ++said;
+    return said;
+  }
+
+  HeldStick held_;
+  Situation now_;
+  double time_ = 10.0;
+};
+
+TEST_F(HeldStickTest, KeepsQuietWhileTheStickRestsOrDrives) {
+  EXPECT_EQ(pass(5.0), 0);
+  now_.commanded.linear = 0.9;
+  EXPECT_EQ(pass(5.0), 0);
+}
+
+TEST_F(HeldStickTest, AsksForAStickThatIsHeldFromTheBeginningAgainAndAgain) {
+  now_.stick_held_unarmed = true;
+  EXPECT_EQ(pass(0.4), 0);
+  EXPECT_EQ(pass(0.4), 1);
+  EXPECT_EQ(pass(12.0), 3);
+  now_.stick_held_unarmed = false;
+  EXPECT_EQ(pass(10.0), 0);
+}
+
+TEST_F(HeldStickTest, AsksWhileAShutGateIsDrivenAgainst) {
+  for (const auto gate : {DriveState::State::waiting, DriveState::State::stopped}) {
+    now_.gate = gate;
+    now_.commanded = {0.0, -0.5};
+    EXPECT_EQ(pass(5.0), 2);
+    now_.commanded = {};
+    EXPECT_EQ(pass(5.0), 0);
+  }
+}
+
+TEST_F(HeldStickTest, PassesOverTheMomentThatAGateTakesToOpen) {
+  now_.gate = DriveState::State::waiting;
+  now_.commanded.linear = 0.5;
+  EXPECT_EQ(pass(0.4), 0);
+  now_.gate = DriveState::State::running;
+  EXPECT_EQ(pass(1.0), 0);
+}
+
+TEST_F(HeldStickTest, DoesNotAddToACueThatAskedForTheSame) {
+  now_.stick_held_unarmed = true;
+  held_.told(time_);
+  EXPECT_EQ(pass(3.9), 0);
+  EXPECT_EQ(pass(0.4), 1);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,190 @@
+#include "navvi_feedback/cues/near_cues.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_feedback::cues {
+namespace {
+
+NearThing shelf(double gap, const Eigen::Vector2d& nearest) {
+  return {ThingClass::shelf, 7, gap, nearest, false};
+}
+
+const Eigen::Vector2d kLeft(0.1, 1.3);
+const Eigen::Vector2d kRight(0.1, -1.3);
+const Eigen::Vector2d kAhead(1.3, 0.1);
+const Eigen::Vector2d kBehind(-1.3, 0.1);
+
+class NearCuesTest : public testing::Test {
+ protected:
+  NearCuesTest() { now_.measured.emplace(); }
+
+  /// The sides said within `seconds` of a situation, in order.
+  std::vector<Side> pass(double seconds, const std::vector<NearThing>& nearby) {
+    now_.nearby = nearby;
+    std::vector<Side> sides;
+    for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
+      for (const Utterance& utterance : cues_.update(now_, time_)) {
+        sides.push_back(*utterance.fillings.side);
+        last_ = utterance;
+      }
+    }
+    return sides;
+  }
+
+  NearCues cues_{NearConfig{}};
+  Situation now_;
+  Utterance last_;
+  double time_ = 10.0;
+};
+
+using Sides = std::vector<Side>;
+
+TEST_F(NearCuesTest, SaysNothingWhereNothingIsNear) {
+  EXPECT_EQ(pass(1.0, {}), Sides{});
+  EXPECT_EQ(pass(1.0, {shelf(1.01, kLeft)}), Sides{});
+}
+
+TEST_F(NearCuesTest, SaysOnceThatAShelfIsWithinAMetreAndOnWhichSide) {
+  EXPECT_EQ(pass(5.0, {shelf(0.99, kLeft)}), Sides{Side::left});
+  EXPECT_EQ(last_.kind, "shelf_near");
+  EXPECT_FALSE(last_.priority);
+}
+
+TEST_F(NearCuesTest, HoldsItsTongueWhileTheGapTremblesOnTheBorder) {
+  Sides said;
+  for (int i = 0; i < 100; ++i)
+    for (const Side side : pass(0.1, {shelf(i % 2 == 0 ? 0.98 : 1.15, kLeft)}))
+      said.push_back(side);
+  EXPECT_EQ(said, Sides{Side::left});
+}
+
+TEST_F(NearCuesTest, SaysItAgainAfterTheShelfWasGoneForAWhile) {
+  pass(1.0, {shelf(0.9, kLeft)});
+  pass(1.0, {});
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{});
+  pass(3.0, {});
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{Side::left});
+}
+
+TEST_F(NearCuesTest, SaysItOnceMoreWhenTheShelfIsClose) {
+  pass(1.0, {shelf(0.9, kLeft)});
+  EXPECT_EQ(last_.kind, "shelf_near");
+  EXPECT_EQ(pass(5.0, {shelf(0.3, kLeft)}), Sides{Side::left});
+  EXPECT_EQ(last_.kind, "shelf_close");
+  pass(5.0, {});
+  pass(1.0, {{ThingClass::wall, 1, 0.3, kRight, false}});
+  EXPECT_EQ(last_.kind, "wall_close");
+}
+
+TEST_F(NearCuesTest, SaysBothSidesOfANarrowAisleOneAfterTheOther) {
+  const std::vector<NearThing> aisle = {shelf(0.8, kLeft), shelf(0.9, kRight)};
+  EXPECT_EQ(pass(1.0, aisle), Sides{Side::left});
+  EXPECT_EQ(pass(1.0, aisle), Sides{Side::right});
+}
+
+TEST_F(NearCuesTest, WaitsForTheVoiceUnlessTheRobotRunsIntoIt) {
+  now_.voice_busy = true;
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kAhead)}), Sides{});
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(0.1, {shelf(0.9, kAhead)}), Sides{Side::ahead});
+  EXPECT_EQ(last_.priority, Priority::message);
+}
+
+TEST_F(NearCuesTest, TellsWhatIsBehindOnlyToWhoDrivesBack) {
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{});
+  now_.measured->linear = -0.5;
+  EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{Side::behind});
+}
+
+TEST_F(NearCuesTest, SpeaksOfWallsToo) {
+  EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
+  EXPECT_EQ(last_.kind, "wall_near");
+}
+
+TEST_F(NearCuesTest, NamesAThingOnceThatTheRobotDrivesTowards) {
+  const NearThing pedestal{ThingClass::pedestal, 3, 0.9, kAhead, false};
+  EXPECT_EQ(pass(1.0, {pedestal}), Sides{}) << "the robot stands";
+  now_.measured->linear = 0.5;
+  now_.voice_busy = true;
+  EXPECT_EQ(pass(5.0, {pedestal}), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_near");
+  EXPECT_EQ(last_.fillings.thing, ThingClass::pedestal);
+  EXPECT_EQ(last_.priority, Priority::message);
+  EXPECT_EQ(pass(1.0, {{ThingClass::box, 4, 0.8, kAhead, false}}), Sides{Side::ahead});
+  EXPECT_EQ(pass(1.0, {{ThingClass::box, 5, 1.1, kAhead, false}}), Sides{}) << "too far";
+}
+
+TEST_F(NearCuesTest, NamesAThingBehindOnlyToWhoDrivesBackAndNoneThatIsPassed) {
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
+                       {ThingClass::box, 4, 0.6, kLeft, false}}),
+            Sides{});
+  now_.measured->linear = -0.5;
+  EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
+                       {ThingClass::box, 4, 0.6, kLeft, false}}),
+            Sides{Side::behind});
+}
+
+TEST_F(NearCuesTest, NamesWhatMovesAboutOnceMoreIfTheRobotMayBrushIt) {
+  now_.measured->linear = 0.5;
+  const auto worker = [](double gap, const Eigen::Vector2d& at) {
+    return NearThing{ThingClass::worker, 3, gap, at, true};
+  };
+  EXPECT_EQ(pass(1.0, {worker(0.9, kAhead)}), Sides{Side::ahead});
+  EXPECT_EQ(pass(2.0, {worker(0.3, kLeft)}), Sides{Side::left});
+  EXPECT_EQ(last_.kind, "obstacle_close");
+  EXPECT_EQ(pass(5.0, {worker(0.2, kLeft)}), Sides{}) << "it was said";
+  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(2.0, {worker(0.3, kAhead)}), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.priority, Priority::message);
+  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(2.0, {worker(0.3, {-0.1, 1.3})}), Sides{}) << "it is left behind";
+  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(2.0, {{ThingClass::box, 4, 0.3, kAhead, false}}), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_near");
+}
+
+TEST_F(NearCuesTest, NamesAThingAgainOnlyAfterItWasGoneForAWhile) {
+  now_.measured->linear = 0.5;
+  const auto box = [](double gap) { return NearThing{ThingClass::box, 4, gap, kAhead, false}; };
+  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
+  EXPECT_EQ(pass(3.0, {box(1.15)}), Sides{});
+  EXPECT_EQ(pass(1.0, {box(1.3)}), Sides{});
+  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{});
+  EXPECT_EQ(pass(2.5, {}), Sides{});
+  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
+}
+
+TEST_F(NearCuesTest, AddsNothingToACollisionWithAThing) {
+  now_.measured->linear = 0.5;
+  now_.contacts = {{ThingClass::box, kAhead, 4}};
+  EXPECT_EQ(pass(0.02, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
+  now_.contacts.clear();
+  EXPECT_EQ(pass(5.0, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
+}
+
+TEST_F(NearCuesTest, LeavesEverythingElseToTheHandsWhereThatIsWanted) {
+  NearConfig config;
+  config.obstacles = false;
+  cues_ = NearCues(config);
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(1.0, {{ThingClass::forklift, 1, 0.5, kAhead, true},
+                       {ThingClass::box, 2, 0.2, kLeft, false}}),
+            Sides{});
+}
+
+TEST_F(NearCuesTest, AddsNothingToACollision) {
+  now_.contacts = {{ThingClass::shelf, kLeft}};
+  EXPECT_EQ(pass(0.02, {shelf(0.0, kLeft)}), Sides{});
+  now_.contacts.clear();
+  EXPECT_EQ(pass(5.0, {shelf(0.0, kLeft)}), Sides{});
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

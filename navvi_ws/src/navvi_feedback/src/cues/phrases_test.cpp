@@ -1,0 +1,203 @@
+#include "navvi_feedback/cues/phrases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <navvi_config/reader.hpp>
+#include <set>
+#include <sstream>
+
+namespace navvi_feedback::cues {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kEnglish = fs::path(NAVVI_FEEDBACK_CONFIG_DIR) / "phrases" / "en.yaml";
+
+std::string english() {
+  std::ifstream file(kEnglish);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A phrase file that is gone with the object.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& text) {
+    std::string name = (fs::temp_directory_path() / "navvi_phrases_XXXXXX").string();
+    const int handle = mkstemp(name.data());
+    EXPECT_GE(handle, 0);
+    path_ = name;
+    std::ofstream(path_) << text;
+  }
+  ~TemporaryFile() { fs::remove(path_); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string replaced(const std::string& from, const std::string& to) {
+  std::string text = english();
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// The sentence with which `text` is refused; empty if it is taken.
+std::string refusal(const std::string& text) {
+  const TemporaryFile file(text);
+  try {
+    const Phrases phrases(file.path());
+    return "";
+  } catch (const navvi_config::ConfigError& error) {
+    return error.what();
+  }
+}
+
+bool names(const std::string& sentence, const std::string& part) {
+  return sentence.find(part) != std::string::npos;
+}
+
+Fillings everything() {
+  Fillings fillings;
+  fillings.hour = 3;
+  fillings.distance = 8.2;
+  fillings.thing = ThingClass::pallet_robot;
+  fillings.side = Side::left;
+  return fillings;
+}
+
+TEST(Phrases, OfEveryKindCanBeSpokenInBothWordings) {
+  for (const DirectionWords words : {DirectionWords::clock, DirectionWords::left_right}) {
+    const Phrases phrases(kEnglish, words);
+    for (const CueKind& kind : cue_kinds())
+      EXPECT_TRUE(speakable(phrases.say(kind.kind, everything()))) << kind.kind;
+  }
+}
+
+TEST(Phrases, SayWhatPeopleAndSimulatedOperatorsListenFor) {
+  const Phrases phrases(kEnglish);
+  EXPECT_EQ(phrases.say("direction", everything()), "3 o'clock, 8 meters");
+  EXPECT_EQ(phrases.say("straight", everything()), "straight ahead, 8 meters");
+  EXPECT_EQ(phrases.say("turn_ahead", everything()), "in 8 meters, turn to 3 o'clock");
+  EXPECT_EQ(phrases.say("turn_now", everything()), "turn to 3 o'clock now");
+  EXPECT_EQ(phrases.say("start", everything()), "Ready. Goal 8 meters, 3 o'clock");
+  EXPECT_EQ(phrases.say("shelf_near", everything()), "shelf on the left");
+  EXPECT_EQ(phrases.say("shelf_close", everything()), "shelf very close, on the left");
+  EXPECT_EQ(phrases.say("obstacle_near", everything()), "pallet robot on the left");
+  EXPECT_EQ(phrases.say("obstacle_stop", everything()), "stop, pallet robot on the left");
+  EXPECT_EQ(phrases.say("obstacle_close", everything()), "pallet robot very close, on the left");
+  EXPECT_EQ(phrases.say("release_stick"), "release the stick");
+  EXPECT_EQ(phrases.say("collision_obstacle", everything()), "hit a pallet robot on the left");
+  EXPECT_EQ(phrases.say("stuck", everything()), "stuck, pallet robot left");
+  EXPECT_EQ(phrases.say("arrived"), "You have reached your destination");
+}
+
+TEST(Phrases, OfferLeftAndRightInsteadOfTheClock) {
+  const Phrases phrases(kEnglish, DirectionWords::left_right);
+  EXPECT_EQ(phrases.say("direction", everything()), "right, 8 meters");
+  EXPECT_EQ(phrases.say("turn_now", everything()), "turn right now");
+}
+
+TEST(Phrases, RoundDistancesAsPeopleSayThem) {
+  const Phrases phrases(kEnglish);
+  const std::vector<std::pair<double, std::string>> table = {
+      {0.0, "0.5 meters"}, {0.6, "0.5 meters"},  {0.8, "1 meter"},    {1.2, "1 meter"},
+      {1.3, "1.5 meters"}, {1.74, "1.5 meters"}, {1.76, "2 meters"},  {2.4, "2 meters"},
+      {2.6, "3 meters"},   {49.6, "50 meters"},  {1e9, "9999 meters"}};
+  for (const auto& [metres, text] : table) EXPECT_EQ(phrases.distance(metres), text) << metres;
+  EXPECT_THROW((void)phrases.distance(std::nan("")), std::logic_error);
+  EXPECT_THROW((void)phrases.distance(-1.0), std::logic_error);
+}
+
+TEST(Phrases, RefuseToSpeakWithoutWhatThePhraseNeeds) {
+  const Phrases phrases(kEnglish);
+  EXPECT_THROW((void)phrases.say("direction"), std::logic_error);
+  EXPECT_THROW((void)phrases.say("no such kind"), std::logic_error);
+  Fillings thirteen = everything();
+  thirteen.hour = 13;
+  EXPECT_THROW((void)phrases.say("direction", thirteen), std::logic_error);
+}
+
+TEST(Phrases, RefuseAFileThatIsMissingOrNoMap) {
+  EXPECT_THROW(Phrases(fs::path("/nowhere/en.yaml")), navvi_config::ConfigError);
+  EXPECT_NE(refusal(""), "");
+  EXPECT_NE(refusal("- a\n- b\n"), "");
+  EXPECT_NE(refusal("phrases: [1, 2]\n"), "");
+  EXPECT_NE(refusal("phrases: {\n"), "");
+}
+
+TEST(Phrases, RefuseAFileThatLacksAKeyAndNameIt) {
+  const std::string no_phrase = refusal(replaced("  arrived:", "  # arrived:"));
+  EXPECT_TRUE(names(no_phrase, "arrived") && names(no_phrase, "missing")) << no_phrase;
+  const std::string no_word = refusal(replaced("  forklift: forklift\n", ""));
+  EXPECT_TRUE(names(no_word, "words/forklift")) << no_word;
+}
+
+TEST(Phrases, RefuseAnUnknownKeyOrPlaceholderWithItsLine) {
+  const std::string key = refusal(replaced("  no_goal:", "  typo: \"x\"\n  no_goal:"));
+  EXPECT_TRUE(names(key, "phrases/typo") && names(key, "line ")) << key;
+  const std::string placeholder = refusal(replaced("{clock} o'clock, {distance}", "{name} there"));
+  EXPECT_TRUE(names(placeholder, "{name}") && names(placeholder, "line ")) << placeholder;
+  EXPECT_NE(refusal(replaced("hit a {thing} {where}", "hit a {thing {where}")), "");
+  EXPECT_NE(refusal(replaced("hit a {thing} {where}", "hit a {thing")), "");
+  EXPECT_NE(refusal(replaced("  no_goal:", "  arrived: \"again\"\n  no_goal:")), "");
+  EXPECT_NE(refusal(english() + "\nmore: {}\n"), "");
+}
+
+TEST(Phrases, RefuseTextThatCouldHarmTheVoice) {
+  std::string hostile;
+  for (int i = 0; i < 68; ++i) hostile += "s'";
+  const std::vector<std::string> texts = {
+      hostile,
+      "<voice name='x'>",
+      "[[h@loU]]",
+      "caf\xc3\xa9",
+      "\xff\xfe",
+      "line\\nbreak",
+      "nul\\0",
+      "",
+      "   ",
+      std::string(25, 'a'),
+      "one two three four five six seven eight nine ten eleven twelve thirteen fourteen x"};
+  for (const std::string& text : texts)
+    EXPECT_NE(refusal(replaced("\"You have reached your destination\"", "\"" + text + "\"")), "")
+        << text;
+  EXPECT_NE(refusal(replaced("forklift: forklift", "forklift: " + std::string(24, 'f') + "t")), "");
+}
+
+TEST(Phrases, RefuseAPhraseThatIsTooLongOnlyWhenFilled) {
+  const std::string sentence = refusal(
+      replaced("\"hit a {thing} {where}\"",
+               "\"hit a {thing} {where} and that is quite a long sentence for so small a thing\""));
+  EXPECT_TRUE(names(sentence, "filled")) << sentence;
+}
+
+TEST(Phrases, CannotBeMadeToSpeakAnythingElse) {
+  // Whatever is put in comes from fixed sets; every combination stays within the limits.
+  const Phrases phrases(kEnglish);
+  for (const CueKind& kind : cue_kinds())
+    for (int hour = 1; hour <= 12; ++hour)
+      for (int thing = 0; thing <= static_cast<int>(ThingClass::other); ++thing)
+        for (int side = 0; side < 4; ++side)
+          for (const double metres : {0.0, 1.0, 1.5, 123.0, 1e300}) {
+            const Fillings fillings{hour, metres, static_cast<ThingClass>(thing),
+                                    static_cast<Side>(side)};
+            ASSERT_TRUE(speakable(phrases.say(kind.kind, fillings))) << kind.kind;
+          }
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

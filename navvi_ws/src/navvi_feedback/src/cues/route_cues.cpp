@@ -1,0 +1,294 @@
+#include "navvi_feedback/cues/route_cues.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_feedback::cues {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+constexpr double kHour = kHourDegrees * kDegree;
+constexpr double kHalfHour = kHour / 2.0;
+/// m; a goal that moved less is the same goal.
+constexpr double kSameGoal = 0.5;
+/// rad; whoever is told to turn by less turns too far.
+constexpr double kWorthSaying = 7.0 * kDegree;
+/// m; what is farther ahead than this need not be passed yet.
+constexpr double kInTheWay = 1.0;
+/// m; what is beside the robot and farther off than this is out of reach.
+constexpr double kBeside = 0.5;
+/// m; half as wide as what the robot drives over, and a little.
+constexpr double kHalfLane = 0.45;
+/// m, by which a thing that was in the way may be farther off before it no longer is.
+constexpr double kKept = 0.1;
+/// m; a robot that turns with a smaller radius turns on the spot.
+constexpr double kSpotRadius = 0.5;
+
+Rounding rounding_of(const std::string& word) {
+  return word == "floor" ? Rounding::floor : Rounding::nearest;
+}
+
+}  // namespace
+
+void RouteConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::OneOf;
+  using navvi_config::Range;
+  visit({"rounding", OneOf{{"nearest", "floor"}}, "", "how an angle becomes an hour"}, rounding);
+  visit({"hysteresis_degrees", Range{0.0, 14.0}, "deg",
+         "how far beyond its border the announced hour still stands"},
+        hysteresis_degrees);
+  visit({"turn_ahead", Range{0.5, 50.0}, "m", "distance from which a turn is announced"},
+        turn_ahead);
+  visit({"turn_now", Range{0.5, 10.0}, "m",
+         "a way-point that is replaced within this distance was reached: turn now"},
+        turn_now);
+  visit({"same_turn", Range{0.0, 60.0}, "s", "the same turn is not announced again within"},
+        same_turn);
+  visit({"same_corner", Range{0.1, 10.0}, "m", "a way-point that moved less is the same"},
+        same_corner);
+  visit({"repeat_direction", Range{1.0, 60.0}, "s", "repeats while the robot faces elsewhere"},
+        repeat_direction);
+  visit({"repeat_straight", Range{1.0, 60.0}, "s", "repeats while the robot faces the way-point"},
+        repeat_straight);
+  visit({"pause", Range{0.0, 10.0}, "s", "least time between two directions"}, pause);
+  visit({"turning_rate", Range{0.05, 3.0}, "rad/s", "faster turns on the spot are waited for"},
+        turning_rate);
+  visit({"settle", Range{0.0, 3.0}, "s", "how long a turn must have ended"}, settle);
+  visit({"straight_lead", Range{0.0, 2.0}, "s",
+         "how long before it faces the way-point a turning robot is told so"},
+        straight_lead);
+  visit({"idle", Range{1.0, 60.0}, "s", "with the stick at rest for so long, half as many repeats"},
+        idle);
+  visit({"reach", Range{0.1, 5.0}, "m",
+         "no correction while the robot heads to pass the way-point within this distance"},
+        reach);
+  visit({"at_hand", Range{0.0, 5.0}, "m",
+         "nearer than this a way-point roughly ahead needs no more directions"},
+        at_hand);
+}
+
+RouteCues::RouteCues(const RouteConfig& config)
+    : config_(config),
+      rounding_(rounding_of(config.rounding)),
+      steady_(rounding_, rounding_ == Rounding::floor ? 0.0 : config.hysteresis_degrees * kDegree) {
+}
+
+std::vector<Utterance> RouteCues::update(const Situation& now, double time) {
+  const Guidance& guidance = *now.guidance;
+  const bool other_corner =
+      last_ && (guidance.waypoint - last_->waypoint).norm() > config_.same_corner;
+  // What was held was the direction to another place.
+  if (other_corner) steady_.reset();
+  observe(now, time);
+  if (!hour_ || !std::isfinite(guidance.waypoint_distance)) return {};
+  if (guidance.state != Guidance::State::make_room) made_room_ = false;
+  const Change change = last_ ? compare(guidance) : Change::none;
+  if (change != Change::none && pending_ != Change::next_corner) pending_ = change;
+  if (!last_ || other_corner) ahead_told_ = false;
+  last_ = guidance;
+
+  if (new_goal(guidance)) {
+    goal_ = guidance.goal;
+    reroutes_ = guidance.reroutes;
+    pending_ = Change::none;
+    said_hour_.reset();
+    return {goal("start", now)};
+  }
+  return tell(now, time);
+}
+
+std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
+  const Guidance& guidance = *now.guidance;
+  if (turning_) {
+    if (!about_to_face(now)) return {};
+    Utterance straight = *direction(guidance);
+    straight.kind = "straight";
+    straight.priority = Priority::message;
+    return {said(straight, 12, time)};
+  }
+  Utterance way = *direction(guidance);
+  if (pending_ == Change::next_corner && *hour_ != 12) {
+    way.kind = "turn_now";
+    return {said(way, *hour_, time)};
+  }
+  if (guidance.state == Guidance::State::make_room && !made_room_) {
+    made_room_ = true;
+    way.kind = "make_room";
+    way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
+    reroutes_ = guidance.reroutes;
+    return {said(way, *hour_, time)};
+  }
+  if (now.voice_busy) return {};
+  if (pending_ == Change::reroute && *hour_ != said_hour_) {
+    way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+    reroutes_ = guidance.reroutes;
+    return {said(way, *hour_, time)};
+  }
+  if (direction_due(guidance, time)) return {said(way, *hour_, time)};
+  if (turn_ahead_due(guidance, time)) {
+    way.kind = "turn_ahead";
+    way.fillings.hour = clock_hour(guidance.turn_angle, rounding_);
+    turn_said_ = way.fillings.hour;
+    turn_said_time_ = time;
+    ahead_told_ = true;
+    return {said(way, *hour_, time)};
+  }
+  return {};
+}
+
+std::optional<Utterance> RouteCues::ask(const Guidance& guidance, double time) {
+  const std::optional<Utterance> answer = direction(guidance);
+  // An answer need not be said again by itself.
+  if (answer) said(*answer, *answer->fillings.hour, time);
+  return answer;
+}
+
+std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
+  // The held hour, so that what is asked for agrees with what was said; a fresh one where none is.
+  const auto hour = hour_ ? hour_ : clock_hour(guidance.steer_angle, rounding_);
+  if (!hour || !std::isfinite(guidance.waypoint_distance)) return std::nullopt;
+  Utterance utterance;
+  utterance.kind = *hour == 12 ? "straight" : "direction";
+  utterance.fillings.hour = hour;
+  utterance.fillings.distance = std::max(0.0, guidance.waypoint_distance);
+  return utterance;
+}
+
+Utterance RouteCues::goal(const std::string& kind, const Situation& now) const {
+  Utterance utterance;
+  utterance.fillings.distance = std::max(0.0, now.guidance->goal_distance);
+  if (now.goal_angle) utterance.fillings.hour = clock_hour(*now.goal_angle, rounding_);
+  utterance.kind = utterance.fillings.hour ? kind : kind + "_distance";
+  return utterance;
+}
+
+void RouteCues::pause() {
+  last_.reset();
+  said_hour_.reset();
+  hour_.reset();
+  steady_.reset();
+  pending_ = Change::none;
+}
+
+void RouteCues::forget() {
+  pause();
+  goal_.reset();
+}
+
+void RouteCues::remind(double time) { reminder_ = time; }
+
+bool RouteCues::new_goal(const Guidance& guidance) const {
+  return !goal_ || (guidance.goal - *goal_).norm() > kSameGoal;
+}
+
+/// True if a reroute that was not told yet was made because something stands in the old way.
+bool RouteCues::closed_way(const Guidance& guidance) const {
+  return guidance.reroutes != reroutes_ &&
+         (guidance.reroute_reason == Guidance::Replan::path_carved ||
+          guidance.reroute_reason == Guidance::Replan::waypoint_blocked);
+}
+
+RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
+  if ((guidance.waypoint - last_->waypoint).norm() <= config_.same_corner) return Change::none;
+  const bool rerouted = guidance.reroutes != last_->reroutes;
+  if (last_->waypoint_distance <= config_.turn_now && !rerouted) return Change::next_corner;
+  // Seen from one place at one instant: only the plan can have changed the hour.
+  const double moved = std::remainder(guidance.waypoint_angle - last_->waypoint_angle, 2.0 * kPi);
+  return std::abs(moved) > kHalfHour ? Change::reroute : Change::none;
+}
+
+void RouteCues::observe(const Situation& now, double time) {
+  hour_ = steady_.update(now.guidance->steer_angle);
+  const bool ahead = hour_ == 12 && rounding_ == Rounding::nearest;
+  if (ahead) hour_ = clear_of_things(now, leads_off_);
+  leads_off_ = ahead && hour_ != 12;
+  const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
+  if (beyond(now.commanded.linear, 0.02) || beyond(now.commanded.angular, 0.05))
+    last_commanded_ = time;
+  const bool spot = now.measured && beyond(now.measured->angular, config_.turning_rate) &&
+                    !beyond(now.measured->linear, kSpotRadius * std::abs(now.measured->angular));
+  if (spot) last_turning_ = time;
+  turning_ = last_turning_ && time - *last_turning_ < config_.settle;
+}
+
+/// Who hears "straight ahead" drives on as they look. Where that is into something, or along
+/// something that the way leads off from, the hour on the way's side is nearer to the truth,
+/// however small the angle; unless something stands that way, too. Held like any hour.
+int RouteCues::clear_of_things(const Situation& now, bool held) const {
+  const double angle = now.guidance->steer_angle;
+  if (std::abs(angle) < (held ? 0.5 : 1.0) * kWorthSaying) return 12;
+  const double side = angle > 0.0 ? 1.0 : -1.0;
+  const double kept = held ? kKept : 0.0;
+  const double ahead = std::min(kInTheWay, now.guidance->waypoint_distance);
+  bool in_the_way = false;
+  for (const NearThing& thing : now.nearby) {
+    if (thing.nearest.x() <= 0.0) continue;
+    const double beyond = side * (-std::atan2(thing.nearest.y(), thing.nearest.x()) - angle);
+    if (thing.gap < ahead && beyond > 0.0 && beyond < kHour) return 12;
+    const bool before = thing.gap < ahead + kept && std::abs(thing.nearest.y()) < kHalfLane + kept;
+    const bool left_behind = thing.gap < kBeside + kept && side * thing.nearest.y() > 0.0;
+    in_the_way = in_the_way || before || left_behind;
+  }
+  if (!in_the_way) return 12;
+  return angle > 0.0 ? 1 : 11;
+}
+
+bool RouteCues::about_to_face(const Situation& now) const {
+  if (said_hour_ == 12 || !now.measured) return false;
+  // A turn by one hour is made in one go: there is nothing to stop it by.
+  if (said_hour_ == 1 || said_hour_ == 11) return false;
+  const double angle = now.guidance->steer_angle;
+  // Turning left makes what lies ahead wander clockwise.
+  const double soon = angle + now.measured->angular * config_.straight_lead;
+  const bool faces = std::abs(std::remainder(soon, 2.0 * kPi)) <= kHalfHour;
+  const bool crosses = angle * soon < 0.0;
+  // Who is told more than an hour too early stops short of it, and has to be told again.
+  return std::abs(angle) <= 2.0 * kHalfHour && (faces || crosses);
+}
+
+bool RouteCues::passes_within_reach(const Guidance& guidance) const {
+  const double across = guidance.waypoint_distance * std::sin(std::abs(guidance.waypoint_angle));
+  return std::abs(guidance.waypoint_angle) < kPi / 3.0 && across < config_.reach &&
+         guidance.waypoint_distance < config_.turn_now;
+}
+
+bool RouteCues::at_hand(const Guidance& guidance, double time) const {
+  const auto ahead = [](std::optional<int> hour) { return hour && (*hour >= 11 || *hour == 1); };
+  return guidance.waypoint_distance < config_.at_hand && ahead(hour_) && ahead(said_hour_) &&
+         time - last_commanded_ <= config_.idle;
+}
+
+bool RouteCues::turn_ahead_due(const Guidance& guidance, double time) const {
+  const auto turn = clock_hour(guidance.turn_angle, rounding_);
+  if (guidance.waypoint_is_goal || ahead_told_ || *hour_ != 12 || !turn || *turn == 12)
+    return false;
+  if (guidance.waypoint_distance > config_.turn_ahead ||
+      guidance.waypoint_distance <= config_.turn_now)
+    return false;
+  if (turn == turn_said_ && time - turn_said_time_ < config_.same_turn) return false;
+  return time - said_time_ >= config_.pause;
+}
+
+bool RouteCues::direction_due(const Guidance& guidance, double time) const {
+  if (!said_hour_) return true;
+  const double since = time - said_time_;
+  if (since < config_.pause) return false;
+  if (reminder_ && time >= *reminder_) return true;
+  if (at_hand(guidance, time)) return false;
+  if (pending_ == Change::next_corner) return true;
+  if (hour_ != said_hour_ && !passes_within_reach(guidance)) return true;
+  const double interval = *hour_ == 12 ? config_.repeat_straight : config_.repeat_direction;
+  const bool idle = time - last_commanded_ > config_.idle;
+  return since >= (idle ? 2.0 : 1.0) * interval;
+}
+
+Utterance RouteCues::said(Utterance utterance, int hour, double time) {
+  said_hour_ = hour;
+  said_time_ = time;
+  pending_ = Change::none;
+  reminder_.reset();
+  return utterance;
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,478 @@
+#include "navvi_feedback/cues/route_cues.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvi_feedback::cues {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTick = 0.02;
+
+double rad(double degrees) { return degrees * kPi / 180.0; }
+
+Guidance following(double degrees, double distance) {
+  Guidance guidance;
+  guidance.state = Guidance::State::following;
+  guidance.goal = {20.0, 5.0};
+  guidance.waypoint = {10.0, 0.0};
+  guidance.waypoint_angle = guidance.steer_angle = rad(degrees);
+  guidance.waypoint_distance = distance;
+  guidance.turn_angle = rad(90.0);
+  guidance.goal_distance = 25.0;
+  return guidance;
+}
+
+/// A drive as it is told: what was said at which second.
+class Drive {
+ public:
+  explicit Drive(const RouteConfig& config = {}) : cues(config) { now.measured.emplace(); }
+
+  /// Lets `seconds` pass in this situation and returns the kinds that were said.
+  std::vector<std::string> pass(double seconds) {
+    std::vector<std::string> kinds;
+    for (const double end = time + seconds; time < end - 1e-9; time += kTick) {
+      for (const Utterance& utterance : cues.update(now, time)) {
+        kinds.push_back(utterance.kind);
+        last = utterance;
+      }
+    }
+    return kinds;
+  }
+
+  /// After the introduction and the first direction, so that only news is said.
+  void settle(double degrees, double distance) {
+    now.guidance = following(degrees, distance);
+    now.commanded.linear = 1.0;
+    now.measured->linear = 1.0;
+    pass(3.0);
+  }
+
+  RouteCues cues;
+  Situation now;
+  Utterance last;
+  double time = 100.0;
+};
+
+using Kinds = std::vector<std::string>;
+
+TEST(RouteCues, IntroduceANewGoalAndThenTheWayToIt) {
+  Drive drive;
+  drive.now.guidance = following(90.0, 8.0);
+  drive.now.goal_angle = rad(-60.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"start"});
+  EXPECT_EQ(drive.last.fillings.hour, 10);
+  EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 25.0);
+  drive.now.voice_busy = true;
+  EXPECT_EQ(drive.pass(2.0), Kinds{});
+  drive.now.voice_busy = false;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 3);
+  EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 8.0);
+}
+
+TEST(RouteCues, IntroduceAGoalWhoseBearingIsUnknownByItsDistance) {
+  Drive drive;
+  drive.now.guidance = following(90.0, 8.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
+}
+
+TEST(RouteCues, SayNothingOfAnAngleThatIsNoNumber) {
+  Drive drive;
+  drive.now.guidance = following(std::nan(""), 8.0);
+  EXPECT_EQ(drive.pass(10.0), Kinds{});
+  drive.now.guidance = following(0.0, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(drive.pass(10.0), Kinds{});
+  EXPECT_FALSE(drive.cues.ask(*drive.now.guidance, drive.time));
+}
+
+TEST(RouteCues, DoNotSayByThemselvesWhatWasJustAnswered) {
+  Drive drive;
+  drive.settle(0.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.pass(6.0);
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  EXPECT_EQ(drive.pass(7.0), Kinds{});
+  EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
+}
+
+TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
+  Drive drive;
+  drive.settle(10.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 1);
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, -0.7}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "on the way's side, and not in the way";
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"}) << "the way leads off from it";
+}
+
+TEST(RouteCues, SendNobodyOffIntoWhatStandsThatWay) {
+  Drive drive;
+  drive.settle(8.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.55, {0.78, -0.45}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{}) << "30 degrees to the right is where it stands";
+}
+
+TEST(RouteCues, LeadOffAndAheadAgainOnlyOnceTheAngleHasClearlyChanged) {
+  Drive drive;
+  drive.settle(7.5, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.45, {0.8, 0.2}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(6.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(3.0);
+  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"});
+}
+
+TEST(RouteCues, JudgeANewLegAfresh) {
+  Drive drive;
+  drive.settle(0.0, 1.5);
+  drive.now.guidance = following(17.0, 8.0);
+  drive.now.guidance->waypoint = {10.0, 8.0};
+  EXPECT_EQ(drive.pass(2.0), Kinds{"turn_now"});
+  EXPECT_EQ(drive.last.fillings.hour, 1) << "17 degrees would still be held as 12 on the old leg";
+}
+
+TEST(RouteCues, CallANewRouteJustBeforeACornerByItsName) {
+  Drive drive;
+  drive.settle(0.0, 1.5);
+  drive.now.guidance = following(90.0, 8.0);
+  drive.now.guidance->waypoint = {10.0, 8.0};
+  drive.now.guidance->reroutes = 1;
+  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+}
+
+TEST(RouteCues, RepeatTheDirectionWhileTheRobotFacesElsewhere) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  EXPECT_EQ(drive.pass(12.0), (Kinds{"direction", "direction", "direction"}));
+}
+
+TEST(RouteCues, RepeatHalfAsOftenWhileTheStickRests) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.commanded = {};
+  drive.pass(8.0);
+  EXPECT_EQ(drive.pass(16.0).size(), 2U);
+}
+
+TEST(RouteCues, RepeatStraightAheadSeldom) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  EXPECT_EQ(drive.pass(16.0), (Kinds{"straight", "straight"}));
+}
+
+TEST(RouteCues, CorrectOnlyBeyondTheHysteresis) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(18.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(21.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 1);
+}
+
+TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.measured = Velocity{0.0, -1.0};
+  double degrees = 90.0;
+  Kinds said;
+  double angle_when_told = 0.0;
+  while (degrees > 0.0) {
+    degrees -= kTick / kPi * 180.0;
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
+    for (const std::string& kind : drive.pass(kTick)) {
+      said.push_back(kind);
+      angle_when_told = degrees;
+    }
+  }
+  EXPECT_EQ(said, Kinds{"straight"});
+  EXPECT_EQ(drive.last.priority, Priority::message);
+  EXPECT_GT(angle_when_told, 20.0) << "a person needs a moment to stop";
+  EXPECT_LT(angle_when_told, 60.0);
+}
+
+TEST(RouteCues, TellARobotThatTurnedTooFarOnceItHasSettled) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.measured = Velocity{0.0, -1.0};
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(10.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(-30.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{});
+  drive.now.measured = Velocity{};
+  EXPECT_EQ(drive.pass(1.0), Kinds{"direction"});
+  EXPECT_EQ(drive.last.fillings.hour, 11);
+}
+
+TEST(RouteCues, AnnounceATurnOnceAheadAndOnceWhenTheCornerIsReached) {
+  Drive drive;
+  drive.settle(0.0, 12.0);
+  Kinds said;
+  for (double distance = 12.0; distance > 1.0; distance -= kTick) {
+    drive.now.guidance->waypoint_distance = distance;
+    for (const std::string& kind : drive.pass(kTick)) {
+      if (kind == "turn_ahead") {
+        EXPECT_LE(distance, 6.0);
+        EXPECT_GT(distance, 4.0);
+        EXPECT_EQ(drive.last.fillings.hour, 3);
+      }
+      said.push_back(kind);
+    }
+  }
+  EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 1);
+  drive.now.guidance = following(80.0, 9.0);
+  drive.now.guidance->waypoint = {10.0, -10.0};
+  drive.now.voice_busy = true;  // it does not wait for a lesser cue to end
+  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_now"});
+  EXPECT_EQ(drive.last.fillings.hour, 3);
+}
+
+TEST(RouteCues, KeepQuietAboutATurnAtTheGoal) {
+  Drive drive;
+  drive.now.guidance = following(0.0, 5.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  const Kinds said = drive.pass(20.0);
+  EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 0);
+}
+
+TEST(RouteCues, KeepQuietAfterAReplanThatChangesNothingToDo) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  for (int plan = 0; plan < 3; ++plan) {
+    drive.now.guidance->replan_reason = Guidance::Replan::period;
+    drive.now.guidance->waypoint += Eigen::Vector2d(plan % 2 == 0 ? 1.5 : -1.5, 0.2);
+    EXPECT_EQ(drive.pass(1.5), Kinds{}) << plan;
+  }
+}
+
+TEST(RouteCues, SayANewRouteIfTheNextManoeuvreChanged) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance->waypoint = {0.0, -12.0};
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(150.0);
+  drive.now.guidance->waypoint_distance = 12.0;
+  EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted"});
+  EXPECT_EQ(drive.last.fillings.hour, 5);
+}
+
+TEST(RouteCues, SayThatTheOldWayIsBlockedOnceForEachReroute) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  const auto lead_to = [&drive](double x, double degrees) {
+    drive.now.guidance->waypoint = {x, -12.0};
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
+  };
+  drive.now.guidance->reroutes = 1;
+  drive.now.guidance->reroute_reason = Guidance::Replan::path_carved;
+  lead_to(0.0, 150.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted_blocked"});
+  lead_to(9.0, 60.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+}
+
+TEST(RouteCues, SayStraightAheadInATurnNotMoreThanAnHourTooEarly) {
+  Drive drive;
+  drive.settle(90.0, 8.0);
+  drive.now.commanded = {0.0, -1.2};
+  drive.now.measured->linear = 0.0;
+  drive.now.measured->angular = -1.2;
+  const auto face = [&drive](double degrees) {
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
+    return drive.pass(kTick);
+  };
+  EXPECT_EQ(face(60.0), Kinds{});
+  EXPECT_EQ(face(45.0), Kinds{});  // half a second later it would face it
+  EXPECT_EQ(face(29.0), Kinds{"straight"});
+  EXPECT_EQ(face(10.0), Kinds{});
+}
+
+TEST(RouteCues, LetATurnByOneHourEndByItself) {
+  for (const double side : {1.0, -1.0}) {
+    Drive drive;
+    drive.settle(side * 30.0, 8.0);
+    drive.now.measured->linear = 0.0;
+    drive.now.measured->angular = -side * 1.2;
+    for (const double degrees : {30.0, 25.0, 15.0, 5.0, -5.0, -10.0}) {
+      drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(side * degrees);
+      EXPECT_EQ(drive.pass(kTick), Kinds{}) << degrees;
+    }
+    drive.now.measured->angular = 0.0;
+    EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
+  }
+}
+
+TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
+  Drive drive;
+  drive.settle(0.0, 8.0);
+  drive.now.guidance->waypoint_distance = 1.4;
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(28.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{});
+}
+
+TEST(RouteCues, DoNotWaverBetweenTheHoursAheadJustBeforeTheWayPoint) {
+  Drive drive;
+  drive.settle(0.0, 8.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.now.guidance->waypoint_distance = 0.95;
+  Kinds said;
+  for (int i = 0; i < 10; ++i) {
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle =
+        rad(i % 2 == 0 ? -40.0 : 0.0);
+    for (const std::string& kind : drive.pass(2.0)) said.push_back(kind);
+  }
+  EXPECT_EQ(said, Kinds{});
+  EXPECT_TRUE(drive.cues.ask(*drive.now.guidance, drive.time)) << "who asks is told";
+  drive.pass(2.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(100.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{"direction"}) << "who missed it is told";
+}
+
+TEST(RouteCues, TellWhoStandsJustBeforeTheWayPointToGoOn) {
+  Drive drive;
+  drive.settle(0.0, 0.9);
+  drive.now.commanded = {};
+  EXPECT_FALSE(drive.pass(20.0).empty());
+}
+
+TEST(RouteCues, SayTheDirectionAgainAfterAStop) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.cues.remind(drive.time + 1.0);
+  EXPECT_EQ(drive.pass(0.9), Kinds{});
+  EXPECT_EQ(drive.pass(0.2), Kinds{"straight"});
+}
+
+TEST(RouteCues, SayTheDirectionWhenThePathIsBackWithoutANewIntroduction) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.cues.pause();
+  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  drive.cues.forget();
+  EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
+}
+
+/// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,
+/// and drives on when told that the way is straight ahead.
+class Person {
+ public:
+  explicit Person(double error) : error_(error) {}
+
+  void hear(const Utterance& utterance, double time) {
+    heard_ = {time + 1.0, utterance};
+    busy_until_ = time + 1.6;
+    ++words;
+  }
+
+  Velocity command(double time) {
+    if (heard_ && time >= heard_->first) {
+      if (heard_->second.kind == "straight") {
+        turn_left_ = 0.0;
+        drives_ = true;
+      } else if (heard_->second.kind != "turn_ahead") {
+        const double turn = *heard_->second.fillings.hour * kPi / 6.0;
+        turn_left_ = error_ * std::remainder(turn, 2.0 * kPi);
+        drives_ = true;
+      }
+      heard_.reset();
+    }
+    if (std::abs(turn_left_) < 0.8 * kTick) turn_left_ = 0.0;
+    const double rate = turn_left_ > 0.0 ? -0.8 : turn_left_ < 0.0 ? 0.8 : 0.0;
+    turn_left_ += rate * kTick;
+    return {rate == 0.0 && drives_ ? 0.8 : 0.0, rate};
+  }
+
+  [[nodiscard]] bool listens(double time) const { return time < busy_until_; }
+
+  int words = 0;
+
+ private:
+  double error_;
+  double turn_left_ = 0.0;  // rad, clockwise
+  bool drives_ = false;
+  double busy_until_ = 0.0;
+  std::optional<std::pair<double, Utterance>> heard_;
+};
+
+/// Leads a person along a path of four corners, and checks that they get there without much talk.
+void lead(const RouteConfig& config, double error) {
+  const std::vector<Eigen::Vector2d> path = {{12.0, 0.0}, {12.0, 9.0}, {0.0, 9.0}, {-3.0, 14.0}};
+  RouteCues cues(config);
+  Person person(error);
+  Eigen::Vector2d position(0.0, 0.0);
+  double heading = 2.5;
+  std::size_t next = 0;
+  Situation now;
+  now.measured.emplace();
+  double time = 0.0;
+  for (; time < 120.0; time += kTick) {
+    if ((path[next] - position).norm() < 1.0 && ++next == path.size()) break;
+    const Eigen::Vector2d to = path[next] - position;
+    now.guidance = following(0.0, to.norm());
+    now.guidance->waypoint = path[next];
+    now.guidance->goal = path.back();
+    now.guidance->waypoint_is_goal = next + 1 == path.size();
+    now.guidance->waypoint_angle = now.guidance->steer_angle =
+        -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
+    now.voice_busy = person.listens(time);
+    for (const Utterance& utterance : cues.update(now, time))
+      if (utterance.fillings.hour) person.hear(utterance, time);
+    now.commanded = person.command(time);
+    now.measured = now.commanded;
+    heading += now.commanded.angular * kTick;
+    position +=
+        now.commanded.linear * kTick * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  }
+  EXPECT_EQ(next, path.size()) << "got as far as corner " << next;
+  EXPECT_LT(person.words, 45);
+}
+
+TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
+  for (const char* rounding : {"nearest", "floor"}) {
+    for (const double error : {0.8, 1.0, 1.2}) {
+      SCOPED_TRACE(std::string(rounding) + ", turns by " + std::to_string(error) + " of the hour");
+      RouteConfig config;
+      config.rounding = rounding;
+      lead(config, error);
+    }
+  }
+}
+
+TEST(RouteCues, TellOnceForWhomToMakeRoomAndThenTheWay) {
+  Drive drive;
+  drive.settle(0.0, 12.0);
+  drive.now.guidance = following(170.0, 3.0);
+  drive.now.guidance->state = Guidance::State::make_room;
+  drive.now.guidance->blocked_by = ThingClass::forklift;
+  drive.now.voice_busy = true;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"make_room"});
+  EXPECT_EQ(drive.last.fillings.thing, ThingClass::forklift);
+  EXPECT_EQ(drive.last.fillings.hour, 6);
+  EXPECT_EQ(drive.pass(1.0), Kinds{});
+  drive.now.voice_busy = false;
+  EXPECT_EQ(drive.pass(6.0), Kinds{"direction"});
+  drive.now.guidance = following(0.0, 12.0);
+  drive.pass(6.0);
+  drive.now.guidance = following(90.0, 3.0);
+  drive.now.guidance->state = Guidance::State::make_room;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"make_room"});
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

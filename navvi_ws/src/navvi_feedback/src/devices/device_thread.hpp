@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "navvi_feedback/drive/input_state.hpp"
+
+namespace navvi_feedback::devices {
+
+/// A device that wants to be opened, read and closed in one thread, as SDL's do.
+class ThreadedDevice {
+ public:
+  /// \throws DeviceError if it cannot be used
+  virtual void open() = 0;
+  /// Nothing once the device has gone for good.
+  [[nodiscard]] virtual std::optional<drive::InputState> read() = 0;
+  virtual void close() = 0;
+
+ protected:
+  ~ThreadedDevice() = default;
+};
+
+/// Opens a device, reads it period by period, and closes it, in a thread of its own.
+class DeviceThread {
+ public:
+  /// Returns once the device was read for the first time.
+  /// \param device  outlives this \throws DeviceError as its open() does
+  DeviceThread(ThreadedDevice& device, std::chrono::milliseconds period);
+  ~DeviceThread();
+  DeviceThread(const DeviceThread&) = delete;
+  DeviceThread& operator=(const DeviceThread&) = delete;
+
+  /// What was read last. Not live if that is more than 250 ms ago: a thread that hangs has frozen
+  /// values, and they must not go on driving.
+  [[nodiscard]] drive::InputState input() const;
+
+ private:
+  void store(const drive::InputState& input);
+
+  std::atomic<bool> quit_{false};
+  mutable std::mutex mutex_;
+  drive::InputState input_;
+  std::chrono::steady_clock::time_point read_time_{};
+  std::thread thread_;
+};
+
+}  // namespace navvi_feedback::devices

@@ -1,0 +1,326 @@
+#include "devices/gamepad.hpp"
+
+#include <SDL.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <thread>
+
+#include "devices/input_source.hpp"
+
+// A device is its own clock: these tests wait, each for an event with a deadline.
+
+namespace navvi_feedback::devices {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+bool eventually(const std::function<bool()>& condition,
+                std::chrono::milliseconds deadline = 3000ms) {
+  const auto end = Clock::now() + deadline;
+  while (Clock::now() < end) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(2ms);
+  }
+  return condition();
+}
+
+/// A DualSense in memory, and what its motors were told.
+class VirtualPad {
+ public:
+  explicit VirtualPad(bool has_rumble = true) {
+    SDL_VirtualJoystickDesc desc = {};
+    desc.version = SDL_VIRTUAL_JOYSTICK_DESC_VERSION;
+    desc.type = SDL_JOYSTICK_TYPE_GAMECONTROLLER;
+    desc.naxes = SDL_CONTROLLER_AXIS_MAX;
+    desc.nbuttons = SDL_CONTROLLER_BUTTON_MAX;
+    desc.vendor_id = 0x054c;
+    desc.product_id = 0x0ce6;
+    desc.name = "virtual pad";
+    desc.userdata = this;
+    if (has_rumble) desc.Rumble = &VirtualPad::on_rumble;
+    const int index = SDL_JoystickAttachVirtualEx(&desc);
+    EXPECT_GE(index, 0) << SDL_GetError();
+    joystick_ = SDL_JoystickOpen(index);
+    EXPECT_NE(joystick_, nullptr);
+    instance_ = SDL_JoystickInstanceID(joystick_);
+  }
+  ~VirtualPad() {
+    detach();
+    SDL_JoystickClose(joystick_);
+  }
+  VirtualPad(const VirtualPad&) = delete;
+  VirtualPad& operator=(const VirtualPad&) = delete;
+
+  void detach() {
+    for (int index = 0; index < SDL_NumJoysticks(); ++index) {
+      if (SDL_JoystickGetDeviceInstanceID(index) == instance_) SDL_JoystickDetachVirtual(index);
+    }
+  }
+  void stick(double x, double y) {
+    SDL_JoystickSetVirtualAxis(joystick_, SDL_CONTROLLER_AXIS_LEFTX, raw(x));
+    SDL_JoystickSetVirtualAxis(joystick_, SDL_CONTROLLER_AXIS_LEFTY, raw(y));
+  }
+  void press(int button, bool down) {
+    SDL_JoystickSetVirtualButton(joystick_, button, down ? 1 : 0);
+  }
+  [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
+  [[nodiscard]] int left() const { return left_; }
+  [[nodiscard]] int right() const { return right_; }
+
+ private:
+  static Sint16 raw(double value) { return static_cast<Sint16>(std::lround(value * 32767.0)); }
+  static int on_rumble(void* self, Uint16 low, Uint16 high) {
+    static_cast<VirtualPad*>(self)->left_ = low;
+    static_cast<VirtualPad*>(self)->right_ = high;
+    return 0;
+  }
+
+  SDL_Joystick* joystick_ = nullptr;
+  SDL_JoystickID instance_ = -1;
+  std::atomic<int> left_{-1};
+  std::atomic<int> right_{-1};
+};
+
+class GamepadWith : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
+    ASSERT_EQ(SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER), 0) << SDL_GetError();
+  }
+  static void TearDownTestSuite() { SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER); }
+
+  static bool connects(const Gamepad& gamepad) {
+    return eventually([&] { return gamepad.status().connected && gamepad.input().live; });
+  }
+  /// Keeps asking for `rumble`, as the node does.
+  static bool reaches(Gamepad& gamepad, const haptics::Rumble& rumble,
+                      const std::function<bool()>& condition) {
+    return eventually([&] {
+      gamepad.rumble(rumble);
+      return condition();
+    });
+  }
+};
+
+TEST_F(GamepadWith, NoPadIsNotLive) {
+  Gamepad gamepad;
+  EXPECT_FALSE(gamepad.status().connected);
+  EXPECT_FALSE(gamepad.input().live);
+  gamepad.rumble({1.0, 1.0});
+}
+
+TEST_F(GamepadWith, APadGivesItsAxesLeftAndForwardPositive) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  EXPECT_TRUE(gamepad.status().has_rumble);
+  EXPECT_FALSE(gamepad.status().name.empty());
+  pad.stick(-1.0, -0.5);  // SDL: left and up
+  EXPECT_TRUE(eventually([&] {
+    const drive::Stick stick = gamepad.input().stick();
+    return std::abs(stick.x - 1.0) < 1e-3 && std::abs(stick.y - 0.5) < 1e-3;
+  }));
+  for (const double axis : gamepad.input().axes) {
+    EXPECT_GE(axis, -1.0);
+    EXPECT_LE(axis, 1.0);
+  }
+}
+
+TEST_F(GamepadWith, TheFirstTwoButtonsAskForTheDirectionAndTheGoal) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  pad.press(SDL_CONTROLLER_BUTTON_A, true);
+  EXPECT_TRUE(eventually([&] { return gamepad.input().button(0) && !gamepad.input().button(1); }));
+  pad.press(SDL_CONTROLLER_BUTTON_A, false);
+  pad.press(SDL_CONTROLLER_BUTTON_B, true);
+  EXPECT_TRUE(eventually([&] { return !gamepad.input().button(0) && gamepad.input().button(1); }));
+}
+
+TEST_F(GamepadWith, RumbleReachesTheRightMotorsAndExpiresWithoutANewWish) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  std::this_thread::sleep_for(450ms);  // the priming pulse
+  ASSERT_TRUE(reaches(gamepad, {0.75, 0.25}, [&] {
+    return std::abs(pad.left() / 65535.0 - 0.75) < 0.01 &&
+           std::abs(pad.right() / 65535.0 - 0.25) < 0.01;
+  }));
+  EXPECT_TRUE(eventually([&] { return pad.left() == 0 && pad.right() == 0; }, 600ms));
+}
+
+TEST_F(GamepadWith, ASteadyWishKeepsTheMotorsTurningBeyondTheExpiry) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  ASSERT_TRUE(reaches(gamepad, {0.5, 0.5}, [&] { return pad.left() > 32000; }));
+  const auto end = Clock::now() + 900ms;
+  while (Clock::now() < end) {
+    gamepad.rumble({0.5, 0.5});
+    EXPECT_GT(pad.left(), 32000);
+    std::this_thread::sleep_for(10ms);
+  }
+}
+
+TEST_F(GamepadWith, TheFirstTouchOfTheMotorsIsSoft) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  int strongest = 0;
+  EXPECT_FALSE(eventually(
+      [&] {
+        strongest = std::max(strongest, pad.left());
+        return strongest > 6600;  // a tenth
+      },
+      500ms));
+  EXPECT_GT(strongest, 0);
+  EXPECT_EQ(pad.left(), 0);
+}
+
+TEST_F(GamepadWith, AWishThatIsNotFiniteIsSilence) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  ASSERT_TRUE(reaches(gamepad, {1.0, 1.0}, [&] { return pad.left() == 65535; }));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(reaches(gamepad, {nan, nan}, [&] { return pad.left() == 0 && pad.right() == 0; }));
+}
+
+TEST_F(GamepadWith, LeavingStopsTheMotors) {
+  VirtualPad pad;
+  {
+    Gamepad gamepad;
+    ASSERT_TRUE(connects(gamepad));
+    ASSERT_TRUE(reaches(gamepad, {1.0, 1.0}, [&] { return pad.left() == 65535; }));
+  }
+  EXPECT_EQ(pad.left(), 0);
+  EXPECT_EQ(pad.right(), 0);
+}
+
+TEST_F(GamepadWith, J1ADetachedPadIsGoneWithin100ms) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  pad.stick(0.0, -1.0);
+  ASSERT_TRUE(eventually([&] { return gamepad.input().stick().y > 0.9; }));
+  pad.detach();
+  EXPECT_TRUE(eventually([&] { return !gamepad.input().live; }, 100ms));
+  EXPECT_FALSE(gamepad.status().connected);
+}
+
+TEST_F(GamepadWith, J3APadThatComesBackHeldForwardDoesNotArm) {
+  Gamepad gamepad;
+  drive::Drive drive{drive::DriveConfig{}};
+  const auto tick = [&] {
+    const drive::InputState input = gamepad.input();
+    const auto velocity =
+        drive.update(input.live ? std::optional<drive::Stick>(input.stick()) : std::nullopt, 0.02);
+    std::this_thread::sleep_for(5ms);
+    return velocity;
+  };
+  auto pad = std::make_unique<VirtualPad>();
+  ASSERT_TRUE(connects(gamepad));
+  const unsigned session = gamepad.input().session;
+  ASSERT_TRUE(eventually([&] {
+    tick();
+    return drive.armed();
+  }));
+  pad->detach();
+  ASSERT_TRUE(eventually([&] { return !tick().has_value(); }));
+  pad = std::make_unique<VirtualPad>();
+  pad->stick(0.0, -1.0);
+  ASSERT_TRUE(eventually([&] { return gamepad.input().stick().y > 0.9; }));
+  EXPECT_NE(gamepad.input().session, session);
+  for (int i = 0; i < 100; ++i) {
+    const auto velocity = tick();
+    ASSERT_TRUE(velocity.has_value());
+    EXPECT_EQ(velocity->linear, 0.0);
+  }
+  EXPECT_FALSE(drive.armed());
+}
+
+TEST_F(GamepadWith, J4ASecondPadIsIgnoredUntilTheFirstIsGone) {
+  Gamepad gamepad;
+  VirtualPad first;
+  ASSERT_TRUE(connects(gamepad));
+  {
+    VirtualPad second;
+    ASSERT_TRUE(eventually([&] { return gamepad.status().others == 1; }));
+    second.stick(0.0, -1.0);
+    std::this_thread::sleep_for(100ms);
+    EXPECT_EQ(gamepad.input().stick().y, 0.0);
+    EXPECT_EQ(gamepad.status().instance, first.instance());
+  }
+  EXPECT_TRUE(eventually([&] { return gamepad.status().others == 0; }));
+  EXPECT_TRUE(gamepad.input().live);
+  EXPECT_EQ(gamepad.status().instance, first.instance());
+
+  VirtualPad third;
+  first.detach();
+  EXPECT_TRUE(eventually([&] { return gamepad.status().instance == third.instance(); }));
+}
+
+TEST_F(GamepadWith, J5RumbleDuringAndAfterADetachIsHarmless) {
+  Gamepad gamepad;
+  std::atomic<bool> quit{false};
+  std::thread shaker([&] {
+    double force = 0.0;
+    while (!quit) {
+      gamepad.rumble({force, 1.0 - force});
+      force = std::fmod(force + 0.013, 1.0);
+      std::this_thread::sleep_for(200us);
+    }
+  });
+  for (int i = 0; i < 10; ++i) {
+    VirtualPad pad;
+    EXPECT_TRUE(connects(gamepad));
+    pad.detach();
+    EXPECT_TRUE(eventually([&] { return !gamepad.input().live; }));
+  }
+  quit = true;
+  shaker.join();
+  EXPECT_GE(gamepad.status().connections, 10u);
+}
+
+TEST_F(GamepadWith, J6APadWithoutRumbleSaysSo) {
+  Gamepad gamepad;
+  VirtualPad pad(false);
+  ASSERT_TRUE(connects(gamepad));
+  EXPECT_FALSE(gamepad.status().has_rumble);
+  gamepad.rumble({1.0, 1.0});
+  std::this_thread::sleep_for(50ms);
+  EXPECT_TRUE(gamepad.input().live);
+  EXPECT_EQ(gamepad.status().rumble_errors, 0u);
+}
+
+TEST_F(GamepadWith, AutoTakesThePadThatIsThere) {
+  VirtualPad pad;
+  InputSource source("auto");
+  EXPECT_EQ(source.kind(), InputSource::Kind::pad);
+}
+
+TEST(InputSource, ATopicIsLostAfter250msOfSilence) {
+  InputSource source("topic");
+  EXPECT_FALSE(source.read(0.0).live);
+  drive::InputState input;
+  input.live = true;
+  input.axes = {0.25, -0.5};
+  source.receive(input, 10.0);
+  EXPECT_TRUE(source.read(10.25).live);
+  EXPECT_EQ(source.read(10.1).stick().y, -0.5);
+  EXPECT_FALSE(source.read(10.26).live);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::devices
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

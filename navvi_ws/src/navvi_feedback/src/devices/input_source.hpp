@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/gamepad.hpp"
+#include "devices/keyboard.hpp"
+#include "navvi_feedback/drive/input_state.hpp"
+
+namespace navvi_feedback::devices {
+
+/// Where the stick comes from: our own pad or keyboard, or another driver's messages.
+class InputSource {
+ public:
+  enum class Kind { pad, keyboard, topic };
+
+  /// \param wanted  pad, keyboard, topic, or auto: the pad if there is one, otherwise the keyboard
+  /// if there is a display, otherwise topic. What auto chose it keeps.
+  /// \throws DeviceError if a device that was asked for by name cannot be used; a pad may come
+  /// later
+  explicit InputSource(const std::string& wanted);
+
+  /// A message of another driver. Without effect unless kind() is topic.
+  /// \param time  s, of the clock that read() is given
+  void receive(const drive::InputState& input, double time);
+  /// Not live if the device is gone, or if the last message is older than 250 ms.
+  [[nodiscard]] drive::InputState read(double time) const;
+
+  [[nodiscard]] Kind kind() const { return kind_; }
+  /// nullptr unless kind() is pad.
+  [[nodiscard]] Gamepad* pad() const { return pad_.get(); }
+
+ private:
+  void choose(const std::string& wanted);
+
+  Kind kind_ = Kind::topic;
+  std::unique_ptr<Gamepad> pad_;
+  std::unique_ptr<Keyboard> keyboard_;
+  drive::InputState received_;
+  std::optional<double> received_at_;  ///< s
+};
+
+[[nodiscard]] const char* to_string(InputSource::Kind kind);
+
+}  // namespace navvi_feedback::devices

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "devices/speaker.hpp"
+#include "navvi_feedback/cues/cue_queue.hpp"
+
+namespace navvi_feedback::devices {
+
+/// The queue and the voice together.
+class SpeechChannel {
+ public:
+  /// \throws DeviceError as Speaker does
+  SpeechChannel(const SpeakerConfig& config, Audio audio) : speaker_(config, audio) {}
+
+  /// Call it at 50 Hz. Returns what happened to which cue, in order; each event is to be published.
+  /// \param time  s, of a clock that does not run backwards
+  [[nodiscard]] std::vector<CueEvent> tick(const std::vector<cues::Cue>& new_cues, double time);
+
+  /// Falls silent and gives every open cue its end, for the shut-down.
+  [[nodiscard]] std::vector<CueEvent> finish();
+
+  [[nodiscard]] Speaker::Status status() const { return speaker_.status(); }
+  /// Nothing is spoken and nothing waits.
+  [[nodiscard]] bool idle() const { return queue_.empty(); }
+
+ private:
+  std::vector<CueEvent> apply(cues::CueQueue::Step step);
+
+  cues::CueQueue queue_;
+  Speaker speaker_;
+};
+
+}  // namespace navvi_feedback::devices

@@ -1,0 +1,71 @@
+#include "navvi_feedback/drive/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_feedback::drive {
+namespace {
+
+/// Towards `wanted`, faster when that takes `value` nearer to zero.
+double approach(double value, double wanted, double speed_up, double slow_down, double dt) {
+  // A change of direction first brings the value to zero, at the braking rate.
+  const double target = value * wanted < 0.0 ? 0.0 : wanted;
+  const double limit = (std::abs(target) < std::abs(value) ? slow_down : speed_up) * dt;
+  return value + std::clamp(target - value, -limit, limit);
+}
+
+}  // namespace
+
+void DriveConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"dead_zone", Range{0.02, 0.5}, "", "deflection of the stick that counts as neutral"},
+        dead_zone);
+  visit({"expo", Range{0.0, 1.0}, "", "0: linear; 1: cubic, finer near the centre"}, expo);
+  visit({"max_forward", Range{0.1, 1.5}, "m/s", "speed at full stick forward"}, max_forward);
+  visit({"max_reverse", Range{0.0, 1.5}, "m/s", "speed at full stick back"}, max_reverse);
+  visit({"max_turn", Range{0.1, 2.5}, "rad/s", "turning speed at full stick left or right"},
+        max_turn);
+  visit({"acceleration", Range{0.1, 10.0}, "m/s^2", "limit on speeding up"}, acceleration);
+  visit({"deceleration", Range{0.5, 20.0}, "m/s^2", "limit on slowing down"}, deceleration);
+  visit({"turn_acceleration", Range{0.5, 40.0}, "rad/s^2", "limit on changes of turning speed"},
+        turn_acceleration);
+  visit({"arm_hold", Range{0.3, 5.0}, "s",
+         "how long the stick must be neutral before it moves anything"},
+        arm_hold);
+}
+
+Stick Drive::shaped(const Stick& stick) const {
+  const double x = std::clamp(stick.x, -1.0, 1.0);
+  const double y = std::clamp(stick.y, -1.0, 1.0);
+  const auto axis = [this](double value) {
+    const double beyond = (std::abs(value) - config_.dead_zone) / (1.0 - config_.dead_zone);
+    if (beyond <= 0.0) return 0.0;
+    const double curved = (1.0 - config_.expo) * beyond + config_.expo * beyond * beyond * beyond;
+    return std::copysign(curved, value);
+  };
+  return {axis(x), axis(y)};
+}
+
+std::optional<Velocity> Drive::update(const std::optional<Stick>& stick, double dt) {
+  if (!stick || !std::isfinite(stick->x) || !std::isfinite(stick->y)) {
+    velocity_ = {};
+    neutral_for_ = 0.0;
+    armed_ = false;
+    return std::nullopt;
+  }
+  const Stick wanted = shaped(*stick);
+  if (!armed_) {
+    const bool neutral = wanted.x == 0.0 && wanted.y == 0.0;
+    neutral_for_ = neutral ? neutral_for_ + dt : 0.0;
+    armed_ = neutral_for_ >= config_.arm_hold;
+    return Velocity{};
+  }
+  const double linear = wanted.y * (wanted.y > 0.0 ? config_.max_forward : config_.max_reverse);
+  velocity_.linear =
+      approach(velocity_.linear, linear, config_.acceleration, config_.deceleration, dt);
+  velocity_.angular = approach(velocity_.angular, wanted.x * config_.max_turn,
+                               config_.turn_acceleration, config_.turn_acceleration, dt);
+  return velocity_;
+}
+
+}  // namespace navvi_feedback::drive

@@ -1,0 +1,119 @@
+#include "navvi_feedback/drive/drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace navvi_feedback::drive {
+namespace {
+
+constexpr double kStep = 0.02;  // s
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class DriveOf : public testing::Test {
+ protected:
+  std::optional<Velocity> hold(std::optional<Stick> stick, double seconds) {
+    std::optional<Velocity> velocity;
+    for (int i = 0; i < std::lround(seconds / kStep); ++i) velocity = drive_.update(stick, kStep);
+    return velocity;
+  }
+  void arm() { hold(Stick{}, 0.4); }
+
+  DriveConfig config_;
+  Drive drive_{config_};
+};
+
+TEST_F(DriveOf, AMissingStickAsksForNothingAtAll) {
+  EXPECT_FALSE(hold(std::nullopt, 1.0).has_value());
+}
+
+TEST_F(DriveOf, AStickThatIsNotFiniteIsAMissingStick) {
+  arm();
+  EXPECT_FALSE(drive_.update(Stick{kNan, 0.0}, kStep).has_value());
+  EXPECT_FALSE(drive_.update(Stick{0.0, std::numeric_limits<double>::infinity()}, kStep));
+  EXPECT_FALSE(drive_.armed());
+}
+
+TEST_F(DriveOf, AStickThatIsHeldWhenItAppearsMovesNothing) {
+  const auto velocity = hold(Stick{0.0, 1.0}, 5.0);
+  ASSERT_TRUE(velocity);
+  EXPECT_EQ(velocity->linear, 0.0);
+  EXPECT_FALSE(drive_.armed());
+}
+
+TEST_F(DriveOf, AStickArmsAfterThreeHundredMillisecondsOfNeutral) {
+  hold(Stick{}, 0.28);
+  EXPECT_FALSE(drive_.armed());
+  hold(Stick{}, 0.04);
+  EXPECT_TRUE(drive_.armed());
+}
+
+TEST_F(DriveOf, AReturningStickThatIsHeldMovesNothing) {
+  arm();
+  hold(Stick{0.0, 1.0}, 2.0);
+  hold(std::nullopt, kStep);
+  EXPECT_EQ(hold(Stick{0.0, 1.0}, 2.0)->linear, 0.0);
+}
+
+TEST_F(DriveOf, DriftWithinTheDeadZoneCountsAsNeutral) {
+  hold(Stick{0.05, -0.05}, 0.4);
+  EXPECT_TRUE(drive_.armed());
+  const auto velocity = hold(Stick{0.05, -0.05}, 1.0);
+  EXPECT_EQ(velocity->linear, 0.0);
+  EXPECT_EQ(velocity->angular, 0.0);
+}
+
+TEST_F(DriveOf, FullStickGivesTheMaximumsWithTheirSigns) {
+  arm();
+  EXPECT_NEAR(hold(Stick{0.0, 1.0}, 3.0)->linear, config_.max_forward, 1e-9);
+  EXPECT_NEAR(hold(Stick{0.0, -1.0}, 3.0)->linear, -config_.max_reverse, 1e-9);
+  EXPECT_NEAR(hold(Stick{1.0, 0.0}, 3.0)->angular, config_.max_turn, 1e-9);
+  EXPECT_NEAR(hold(Stick{-1.0, 0.0}, 3.0)->angular, -config_.max_turn, 1e-9);
+}
+
+TEST_F(DriveOf, AnAxisBeyondOneIsOne) {
+  EXPECT_NEAR(drive_.shaped({7.0, -9.0}).x, 1.0, 1e-12);
+  EXPECT_NEAR(drive_.shaped({7.0, -9.0}).y, -1.0, 1e-12);
+}
+
+TEST_F(DriveOf, TheCurveStartsAtZeroAndOnlyRises) {
+  double last = 0.0;
+  for (double y = 0.0; y <= 1.0; y += 0.001) {
+    const double shaped = drive_.shaped({0.0, y}).y;
+    EXPECT_GE(shaped, last);
+    EXPECT_LT(shaped - last, 0.003);
+    EXPECT_EQ(drive_.shaped({0.0, -y}).y, -shaped);
+    last = shaped;
+  }
+}
+
+TEST_F(DriveOf, NeverChangesFasterThanItsLimits) {
+  arm();
+  Velocity last;
+  const double hardest = std::max(config_.acceleration, config_.deceleration) * kStep + 1e-12;
+  for (int i = 0; i < 2000; ++i) {
+    const Stick stick{std::sin(0.7 * i), i % 90 < 45 ? 1.0 : -1.0};
+    const Velocity velocity = *drive_.update(stick, kStep);
+    EXPECT_LE(std::abs(velocity.linear - last.linear), hardest);
+    EXPECT_LE(std::abs(velocity.angular - last.angular), config_.turn_acceleration * kStep + 1e-12);
+    EXPECT_LE(std::abs(velocity.linear), config_.max_forward);
+    last = velocity;
+  }
+}
+
+TEST_F(DriveOf, AReleasedStickComesToAFullStop) {
+  arm();
+  hold(Stick{1.0, 1.0}, 3.0);
+  const Velocity velocity = *hold(Stick{}, 1.0);
+  EXPECT_EQ(velocity.linear, 0.0);
+  EXPECT_EQ(velocity.angular, 0.0);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::drive
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

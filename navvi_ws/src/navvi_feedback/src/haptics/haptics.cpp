@@ -1,0 +1,132 @@
+#include "navvi_feedback/haptics/haptics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "navvi_config/reader.hpp"
+
+namespace navvi_feedback::haptics {
+namespace {
+
+/// A motor command that the motor can follow: nothing, or at least its starting threshold.
+double motor(double force, double start, double gain) {
+  if (force <= 0.0) return 0.0;
+  return std::min(1.0, start + (gain - start) * force);
+}
+
+double slewed(double value, double wanted, double limit) {
+  return value + std::clamp(wanted - value, -limit, limit);
+}
+
+}  // namespace
+
+void HapticsConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Any;
+  using navvi_config::OneOf;
+  using navvi_config::Range;
+  visit({"enabled", Any{}, "", "false: the motors stay off"}, enabled);
+  visit({"range", Range{0.5, 20.0}, "m", "a thing is felt if its gap is less than this"}, range);
+  visit({"center", Range{0.0, 5.0}, "m",
+         "a thing whose nearest point lies less far to the side is felt in both motors"},
+        center);
+  visit({"curve", OneOf{{"log", "linear", "power"}}, "", "force over distance"}, curve);
+  visit({"exponent", Range{0.2, 5.0}, "", "of the power curve"}, exponent);
+  visit({"normalize", Any{}, "", "log curve: divide by ln 2, so that touching gives full force"},
+        normalize);
+  visit({"classes",
+         OneOf{{"shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other"}},
+         "", "the classes of things that are felt"},
+        classes);
+  visit({"onset", Range{0.0, 5.0}, "s", "from nothing to the full force; 0: at once"}, onset);
+  visit({"slew", Range{0.0, 1000.0}, "1/s", "largest change of a motor's force; 0: no limit"},
+        slew);
+  visit({"range_hysteresis", Range{0.0, 1.0}, "m",
+         "a thing must come this much nearer than range to be felt first"},
+        range_hysteresis);
+  visit({"zone_hysteresis", Range{0.0, 1.0}, "m",
+         "a thing must be this far across the border between two zones to change zone"},
+        zone_hysteresis);
+  visit({"start_left", Range{0.0, 0.5}, "", "least command that turns the left motor"}, start_left);
+  visit({"start_right", Range{0.0, 0.5}, "", "least command that turns the right motor"},
+        start_right);
+  visit({"gain_left", Range{0.0, 1.0}, "", "left motor's command at full force"}, gain_left);
+  visit({"gain_right", Range{0.0, 1.0}, "", "right motor's command at full force"}, gain_right);
+}
+
+double rumble_force(const HapticsConfig& config, double gap) {
+  if (!std::isfinite(gap)) return 0.0;
+  const double nearness = 1.0 - std::max(gap, 0.0) / config.range;
+  if (nearness <= 0.0) return 0.0;
+  if (config.curve == "linear") return nearness;
+  if (config.curve == "power") return std::pow(nearness, config.exponent);
+  return std::log1p(nearness) / (config.normalize ? std::log(2.0) : 1.0);
+}
+
+Haptics::Haptics(const HapticsConfig& config) : config_(config) {
+  for (const std::string& word : config.classes) {
+    const auto thing_class = navvi_types::from_word<ThingClass>(word);
+    if (!thing_class || thing_class == ThingClass::floor) {
+      throw navvi_config::ConfigError("haptics/classes: \"" + word +
+                                      "\" is no class of things; allowed are shelf, wall, box, "
+                                      "pedestal, worker, forklift, pallet_robot and other");
+    }
+    classes_.push_back(*thing_class);
+  }
+}
+
+const NearThing* Haptics::nearest(const std::vector<NearThing>& things) const {
+  const double limit = zone_ ? config_.range : config_.range - config_.range_hysteresis;
+  const NearThing* best = nullptr;
+  for (const NearThing& thing : things) {
+    if (std::find(classes_.begin(), classes_.end(), thing.thing_class) == classes_.end()) continue;
+    if (!std::isfinite(thing.gap) || !thing.nearest.allFinite() || thing.gap >= limit) continue;
+    if (!best || thing.gap < best->gap) best = &thing;
+  }
+  return best;
+}
+
+Zone Haptics::zone_of(double lateral) const {
+  // Whoever is in a zone leaves it only some way behind the border.
+  const double bias = zone_ ? config_.zone_hysteresis : 0.0;
+  const double to_left = config_.center + (zone_ == Zone::left ? -bias : bias);
+  const double to_right = config_.center + (zone_ == Zone::right ? -bias : bias);
+  if (lateral > to_left) return Zone::left;
+  if (lateral < -to_right) return Zone::right;
+  return Zone::center;
+}
+
+void Haptics::stop() {
+  zone_.reset();
+  felt_for_ = 0.0;
+  force_ = {};
+}
+
+Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt) {
+  if (!fresh || !config_.enabled) {
+    stop();
+    return {};
+  }
+  double wanted_left = 0.0;
+  double wanted_right = 0.0;
+  if (const NearThing* thing = nearest(things)) {
+    felt_for_ += dt;
+    zone_ = zone_of(thing->nearest.y());
+    const double ramp = config_.onset > 0.0 ? std::min(1.0, felt_for_ / config_.onset) : 1.0;
+    const double force = ramp * rumble_force(config_, thing->gap);
+    if (*zone_ != Zone::right) wanted_left = force;
+    if (*zone_ != Zone::left) wanted_right = force;
+  } else {
+    zone_.reset();
+    felt_for_ = 0.0;
+  }
+  if (config_.slew > 0.0) {
+    force_.left = slewed(force_.left, wanted_left, config_.slew * dt);
+    force_.right = slewed(force_.right, wanted_right, config_.slew * dt);
+  } else {
+    force_ = {wanted_left, wanted_right};
+  }
+  return {motor(force_.left, config_.start_left, config_.gain_left),
+          motor(force_.right, config_.start_right, config_.gain_right)};
+}
+
+}  // namespace navvi_feedback::haptics

@@ -1,0 +1,233 @@
+#include "navvi_feedback/haptics/haptics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <navvi_config/reader.hpp>
+
+#include "navvi_feedback/haptics/rumble_output.hpp"
+
+namespace navvi_feedback::haptics {
+namespace {
+
+constexpr double kStep = 0.02;  // s
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+HapticsConfig paper() {
+  const std::string file = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/paper.yaml";
+  HapticsConfig config;
+  navvi_config::read(config, navvi_config::load_yaml(file)["haptics"], file);
+  return config;
+}
+
+NearThing thing(double gap, double x, double y, ThingClass thing_class = ThingClass::box) {
+  NearThing result;
+  result.thing_class = thing_class;
+  result.gap = gap;
+  result.nearest = {x, y};
+  return result;
+}
+
+Rumble settle(Haptics& haptics, const std::vector<NearThing>& things, double seconds = 3.0) {
+  Rumble rumble;
+  for (int i = 0; i < std::lround(seconds / kStep); ++i)
+    rumble = haptics.update(things, true, kStep);
+  return rumble;
+}
+
+TEST(Haptics, ThePaperLawIsTheFormulaAsPrinted) {
+  for (double d = 0.0; d < 5.0; d += 0.1)
+    EXPECT_NEAR(rumble_force(paper(), d), std::log(1.0 + (1.0 - d / 5.0)), 1e-12);
+  EXPECT_NEAR(rumble_force(paper(), 0.0), 0.693, 1e-3);
+}
+
+TEST(Haptics, ThePaperProfileGivesTheBareFormulaAtOnce) {
+  Haptics haptics(paper());
+  const Rumble rumble = haptics.update({thing(2.0, 2.0, 1.5)}, true, kStep);
+  EXPECT_NEAR(rumble.left, std::log(1.6), 1e-12);
+  EXPECT_EQ(rumble.right, 0.0);
+}
+
+TEST(Haptics, EveryCurveFallsFromOneAtTouchToZeroAtTheRange) {
+  HapticsConfig config;
+  for (const char* curve : {"log", "linear", "power"}) {
+    config.curve = curve;
+    EXPECT_NEAR(rumble_force(config, 0.0), 1.0, 1e-12) << curve;
+    EXPECT_NEAR(rumble_force(config, -0.1), 1.0, 1e-12) << curve;
+    EXPECT_EQ(rumble_force(config, config.range), 0.0) << curve;
+    EXPECT_EQ(rumble_force(config, 99.0), 0.0) << curve;
+    double last = 1.0;
+    for (double gap = 0.0; gap < 6.0; gap += 0.01) {
+      EXPECT_LE(rumble_force(config, gap), last) << curve;
+      last = rumble_force(config, gap);
+    }
+  }
+}
+
+TEST(Haptics, AGapThatIsNotFiniteIsNotFelt) {
+  EXPECT_EQ(rumble_force(HapticsConfig{}, kNan), 0.0);
+  Haptics haptics{HapticsConfig{}};
+  EXPECT_EQ(settle(haptics, {thing(kNan, 1.0, 2.0)}).left, 0.0);
+  EXPECT_EQ(settle(haptics, {thing(1.0, kNan, kNan)}).left, 0.0);
+}
+
+TEST(Haptics, TheMotorIsOnTheSideOfTheThing) {
+  struct Row {
+    double y;
+    bool left, right;
+  };
+  for (const Row& row : {Row{1.5, true, false}, Row{-1.5, false, true}, Row{0.9, true, true},
+                         Row{-0.9, true, true}, Row{0.0, true, true}}) {
+    Haptics haptics(paper());
+    const Rumble rumble = settle(haptics, {thing(1.0, 1.0, row.y)});
+    EXPECT_EQ(rumble.left > 0.0, row.left) << row.y;
+    EXPECT_EQ(rumble.right > 0.0, row.right) << row.y;
+  }
+}
+
+TEST(Haptics, AMirroredWorldFeelsMirrored) {
+  HapticsConfig config;
+  config.start_right = config.start_left;
+  for (double y = 0.05; y < 4.0; y += 0.1) {
+    Haptics one(config);
+    Haptics other(config);
+    const Rumble here = settle(one, {thing(1.0, 1.0, y)});
+    const Rumble there = settle(other, {thing(1.0, 1.0, -y)});
+    EXPECT_EQ(here.left, there.right) << y;
+    EXPECT_EQ(here.right, there.left) << y;
+  }
+}
+
+TEST(Haptics, OnlyTheNearestThingIsFelt) {
+  Haptics haptics(paper());
+  const Rumble rumble = settle(haptics, {thing(3.0, 0.0, 3.5), thing(1.0, 0.0, -1.5)});
+  EXPECT_EQ(rumble.left, 0.0);
+  EXPECT_NEAR(rumble.right, std::log(1.8), 1e-12);
+}
+
+TEST(Haptics, ShelvesAndWallsAreNotFelt) {
+  Haptics haptics{HapticsConfig{}};
+  const Rumble rumble = settle(
+      haptics, {thing(0.1, 0.5, 0.0, ThingClass::shelf), thing(0.1, 0.5, 0.0, ThingClass::wall)});
+  EXPECT_EQ(rumble.left, 0.0);
+  EXPECT_EQ(rumble.right, 0.0);
+}
+
+TEST(Haptics, AnUnknownClassInTheListIsRefused) {
+  HapticsConfig config;
+  config.classes = {"dragon"};
+  EXPECT_THROW(Haptics{config}, navvi_config::ConfigError);
+}
+
+TEST(Haptics, StaleSensingStopsTheMotorsAtOnce) {
+  Haptics haptics{HapticsConfig{}};
+  EXPECT_GT(settle(haptics, {thing(0.2, 0.5, 0.0)}).left, 0.5);
+  const Rumble rumble = haptics.update({thing(0.2, 0.5, 0.0)}, false, kStep);
+  EXPECT_EQ(rumble.left, 0.0);
+  EXPECT_EQ(rumble.right, 0.0);
+}
+
+TEST(Haptics, TheOnsetIsARampAndNoJolt) {
+  const HapticsConfig config;
+  Haptics haptics(config);
+  double last = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const Rumble rumble = haptics.update({thing(0.1, 0.5, 0.0)}, true, kStep);
+    EXPECT_LE(rumble.left - last, config.start_left + config.slew * kStep + 1e-12);
+    last = rumble.left;
+  }
+  EXPECT_GT(last, 0.9);
+}
+
+TEST(Haptics, AThingThatTremblesOnTheRangeIsFeltSteadilyOrNotAtAll) {
+  Haptics haptics{HapticsConfig{}};
+  int changes = 0;
+  bool felt = false;
+  for (int i = 0; i < 500; ++i) {
+    (void)haptics.update({thing(4.98 + 0.04 * (i % 2), 1.0, 0.0)}, true, kStep);
+    if (haptics.zone().has_value() != felt) ++changes;
+    felt = haptics.zone().has_value();
+  }
+  EXPECT_LE(changes, 1);
+}
+
+TEST(Haptics, AThingThatTremblesOnABorderKeepsItsZone) {
+  for (const double border : {1.0, -1.0}) {
+    Haptics haptics{HapticsConfig{}};
+    (void)haptics.update({thing(1.0, 1.0, border)}, true, kStep);
+    const Zone first = *haptics.zone();
+    for (int i = 0; i < 100; ++i) {
+      (void)haptics.update({thing(1.0, 1.0, border + (i % 2 ? 0.05 : -0.05))}, true, kStep);
+      EXPECT_EQ(*haptics.zone(), first);
+    }
+  }
+}
+
+TEST(Haptics, AMotorThatTurnsGetsAtLeastItsStartingThreshold) {
+  HapticsConfig config;
+  config.start_left = 0.2;
+  config.gain_left = 0.8;
+  Haptics haptics(config);
+  const Rumble faint = settle(haptics, {thing(4.8, 0.0, 4.9)});
+  EXPECT_GE(faint.left, 0.2);
+  Haptics other(config);
+  EXPECT_NEAR(settle(other, {thing(0.0, 0.35, 0.0)}).left, 0.8, 1e-9);
+}
+
+TEST(Haptics, EveryOutputIsInZeroToOne) {
+  Haptics haptics{HapticsConfig{}};
+  for (int i = 0; i < 3000; ++i) {
+    const double gap = 6.0 * std::abs(std::sin(0.37 * i)) - 0.5;
+    const Rumble rumble =
+        haptics.update({thing(gap, 1.0, 3.0 * std::sin(0.11 * i))}, i % 50 != 0, kStep);
+    for (const double value : {rumble.left, rumble.right}) {
+      EXPECT_GE(value, 0.0);
+      EXPECT_LE(value, 1.0);
+    }
+  }
+}
+
+TEST(RumbleOutput, TellsChangesAtMostTwentyTimesASecondButAStopAtOnce) {
+  RumbleOutput output;
+  int changes = 0;
+  for (int i = 0; i < 100; ++i) {
+    if (output.update({0.1 + 0.008 * i, 0.0}, i * 0.01).changed) ++changes;
+  }
+  EXPECT_GE(changes, 15);
+  EXPECT_LE(changes, 20);
+  EXPECT_TRUE(output.update({0.9, 0.0}, 2.0).changed);
+  EXPECT_TRUE(output.update({0.0, 0.0}, 2.001).changed);
+  EXPECT_FALSE(output.update({0.0, 0.0}, 2.002).changed);
+}
+
+TEST(RumbleOutput, RepeatsTheValuesForDriversWithoutMemory) {
+  RumbleOutput output;
+  int sent = 0;
+  for (int i = 0; i < 50; ++i) {
+    if (output.update({}, i * 0.02).feedback) ++sent;
+  }
+  EXPECT_GE(sent, 9);
+  EXPECT_LE(sent, 11);
+}
+
+TEST(RumbleOutput, TheAlarmIsThreePulsesThatBeginAndEndSoftly) {
+  int pulses = 0;
+  double last = 0.0;
+  for (double t = -0.1; t < 3.0; t += 0.005) {
+    const double force = alarm_force(t);
+    EXPECT_LT(std::abs(force - last), 0.05);
+    if (last == 0.0 && force > 0.0) ++pulses;
+    last = force;
+  }
+  EXPECT_EQ(pulses, 3);
+  EXPECT_EQ(alarm_force(kNan), 0.0);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::haptics
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,96 @@
+// Plays recorded cues again: what was heard and felt, when it was. It never drives.
+
+#include <ros/ros.h>
+#include <sensor_msgs/JoyFeedbackArray.h>
+
+#include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
+#include <navvi_types/msg_conversion.hpp>
+
+#include "devices/gamepad.hpp"
+#include "devices/speaker.hpp"
+#include "navvi_feedback/haptics/rumble_output.hpp"
+#include "navvi_feedback/node/msg_conversion.hpp"
+
+namespace navvi_feedback::node {
+namespace {
+
+/// s of wall time; once the recording's clock has stood for so long, the motors rest.
+constexpr double kStanding = 0.5;
+
+struct PlayerConfig {
+  bool speech = true;
+  devices::SpeakerConfig speaker;
+
+  void describe(navvi_config::Visitor& visit) {
+    visit({"speech", navvi_config::Any{}, "", "false: nothing is heard"}, speech);
+    visit.group("speaker", speaker);
+  }
+};
+
+class CuePlayer {
+ public:
+  explicit CuePlayer(const PlayerConfig& config)
+      : speaker_(config.speaker, config.speech ? devices::Audio::on : devices::Audio::off) {
+    const devices::Speaker::Status status = speaker_.status();
+    if (status.device == devices::Speaker::Status::Device::missing)
+      ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());
+    feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
+    cues_ = navvi_config::subscribe<navvi_msgs::Cue>(
+        node_, "navvi/cues", 100, navvi_types::from_msg,
+        [this](const navvi_types::CueEvent& cue) { take(cue); });
+    motor_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
+                                         [this](const ros::WallTimerEvent&) { move_motors(); });
+  }
+
+ private:
+  void take(const navvi_types::CueEvent& cue) {
+    using navvi_types::CueStage;
+    if (cue.modality == navvi_types::Modality::rumble) {
+      rumble_ = {cue.left, cue.right};
+    } else if (cue.stage == CueStage::started) {
+      ROS_INFO("[%s] %s", cue.kind.c_str(), cue.text.c_str());
+      speaking_ = cue.id;
+      speaker_.start(cue.text);
+    } else if (cue.stage == CueStage::cut && speaking_ == cue.id) {
+      speaker_.stop();
+    }
+  }
+
+  void move_motors() {
+    const double wall = ros::SteadyTime::now().toSec();
+    const ros::Time stamp = ros::Time::now();
+    if (stamp != last_stamp_) moved_at_ = wall;
+    last_stamp_ = stamp;
+    if (wall - moved_at_ > kStanding) rumble_ = {};
+    pad_.rumble(rumble_);
+    if (output_.update(rumble_, wall).feedback) feedback_.publish(feedback_msg(rumble_));
+  }
+
+  devices::Speaker speaker_;
+  devices::Gamepad pad_;
+  haptics::RumbleOutput output_;
+  haptics::Rumble rumble_;
+  std::uint32_t speaking_ = 0;
+  ros::Time last_stamp_;
+  double moved_at_ = 0.0;  // s, steady
+
+  ros::NodeHandle node_;
+  ros::Publisher feedback_;
+  ros::Subscriber cues_;
+  ros::WallTimer motor_timer_;
+};
+
+}  // namespace
+}  // namespace navvi_feedback::node
+
+int main(int argc, char** argv) {
+  using navvi_feedback::node::PlayerConfig;
+  if (navvi_config::tells_parameters<PlayerConfig>(argc, argv)) return 0;
+  ros::init(argc, argv, "cue_player");
+  return navvi_config::run_node<PlayerConfig>([](const PlayerConfig& config) {
+    const navvi_feedback::node::CuePlayer player(config);
+    ros::spin();
+    return 0;
+  });
+}

@@ -1,0 +1,89 @@
+#include "node/diagnostics.hpp"
+
+namespace navvi_feedback::node {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+DiagnosticStatus status(const char* name, std::int8_t level, const std::string& sentence) {
+  DiagnosticStatus result;
+  result.name = name;
+  result.level = level;
+  result.message = sentence;
+  return result;
+}
+
+void add(DiagnosticStatus& to, const std::string& key, const std::string& value) {
+  diagnostic_msgs::KeyValue pair;
+  pair.key = key;
+  pair.value = value;
+  to.values.push_back(pair);
+}
+
+DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
+  if (!pad.connected)
+    return status("navvi/pad", DiagnosticStatus::ERROR, "No game controller is connected.");
+  if (!pad.has_rumble)
+    return status("navvi/pad", DiagnosticStatus::WARN, "This game controller has no rumble.");
+  if (pad.jolting_firmware) {
+    return status("navvi/pad", DiagnosticStatus::WARN,
+                  "The controller's firmware starts each rumble with a jolt; update it.");
+  }
+  if (pad.rumble_errors > 0)
+    return status("navvi/pad", DiagnosticStatus::WARN, "Some rumble commands were refused.");
+  return status("navvi/pad", DiagnosticStatus::OK, "Connected.");
+}
+
+}  // namespace
+
+DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
+                            const std::string& input, bool live) {
+  DiagnosticStatus result;
+  if (pad) {
+    result = own_pad(*pad);
+    add(result, "name", pad->name);
+    add(result, "firmware", pad->firmware == 0 ? "unknown" : std::to_string(pad->firmware));
+    add(result, "other pads, ignored", std::to_string(pad->others));
+    add(result, "rumble errors", std::to_string(pad->rumble_errors));
+  } else if (live) {
+    result = status("navvi/pad", DiagnosticStatus::OK, "The stick comes from the " + input + ".");
+  } else {
+    result = status("navvi/pad", DiagnosticStatus::ERROR, "Nothing comes from the " + input + ".");
+  }
+  add(result, "input", input);
+  return result;
+}
+
+DiagnosticStatus audio_status(const devices::Speaker::Status& speaker) {
+  using Device = devices::Speaker::Status::Device;
+  DiagnosticStatus result;
+  switch (speaker.device) {
+    case Device::open:
+      result = status("navvi/audio", DiagnosticStatus::OK, "Open.");
+      break;
+    case Device::missing:
+      result = status("navvi/audio", DiagnosticStatus::ERROR, "There is no audio device.");
+      break;
+    case Device::lost:
+      result = status("navvi/audio", DiagnosticStatus::ERROR, "The audio device was lost.");
+      break;
+    case Device::off:
+      result = status("navvi/audio", DiagnosticStatus::WARN, "Sound is switched off.");
+      break;
+  }
+  if (!speaker.detail.empty()) result.message += " " + speaker.detail;
+  add(result, "device", speaker.name);
+  return result;
+}
+
+DiagnosticStatus speech_status(const devices::Speaker::Status& speaker) {
+  const bool failed = speaker.failed > 0;
+  DiagnosticStatus result =
+      status("navvi/speech", failed ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+             failed ? "Some texts could not be spoken." : "Ready.");
+  add(result, "spoken", std::to_string(speaker.spoken));
+  add(result, "failed", std::to_string(speaker.failed));
+  return result;
+}
+
+}  // namespace navvi_feedback::node

@@ -1,0 +1,281 @@
+// The person's side: one stick in; rumble, speech and a bright path out.
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/callback_queue.h>
+#include <ros/package.h>
+#include <ros/ros.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <csignal>
+#include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
+#include <navvi_types/msg_conversion.hpp>
+
+#include "devices/input_source.hpp"
+#include "devices/speech_channel.hpp"
+#include "navvi_feedback/core/feedback.hpp"
+#include "navvi_feedback/haptics/rumble_output.hpp"
+#include "navvi_feedback/node/msg_conversion.hpp"
+#include "node/diagnostics.hpp"
+#include "picture/markers.hpp"
+
+namespace navvi_feedback::node {
+
+using navvi_types::from_msg;
+using navvi_types::Modality;
+using navvi_types::to_msg;
+
+namespace {
+
+volatile std::sig_atomic_t g_stop = 0;
+
+struct NodeConfig {
+  std::string input = "auto";
+  bool speech = true;
+  std::string phrases;
+  core::FeedbackConfig feedback;
+  devices::SpeakerConfig speaker;
+  picture::MarkersConfig markers;
+
+  void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Any;
+    using navvi_config::OneOf;
+    visit({"input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
+           "where the stick comes from; topic: joy from another driver"},
+          input);
+    visit({"speech", Any{}, "", "false: cues are timed and published, but nothing is heard"},
+          speech);
+    visit({"phrases", Any{}, "", "file of the spoken phrases; empty for the English that ships"},
+          phrases);
+    feedback.describe(visit);
+    visit.group("speaker", speaker);
+    visit.group("markers", markers);
+  }
+};
+
+std::string phrases_file(const NodeConfig& config) {
+  if (!config.phrases.empty()) return config.phrases;
+  return ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
+}
+
+/// The person lives in wall time: a simulation that stops must not stop what tells of it.
+double now() { return ros::SteadyTime::now().toSec(); }
+
+class FeedbackNode {
+ public:
+  explicit FeedbackNode(const NodeConfig& config)
+      : config_(config),
+        feedback_(config.feedback,
+                  cues::Phrases(phrases_file(config), config.feedback.cues.words())),
+        speech_(config.speaker, config.speech ? devices::Audio::on : devices::Audio::off),
+        source_(config.input) {
+    ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
+    advertise();
+    subscribe();
+    tick_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
+                                        [this](const ros::WallTimerEvent&) { tick(); });
+    diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
+                                               [this](const ros::WallTimerEvent&) { diagnose(); });
+  }
+
+  /// Leaves nothing running, driving or speaking.
+  void finish() {
+    tick_timer_.stop();
+    cmd_vel_.publish(geometry_msgs::Twist());
+    move_motors({}, now());
+    publish(speech_.finish());
+  }
+
+ private:
+  void advertise() {
+    cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    motors_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
+    cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+    markers_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
+    diagnostics_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
+    // Another driver's joy is taken, never answered with one of our own.
+    if (source_.kind() != devices::InputSource::Kind::topic)
+      joy_out_ = node_.advertise<sensor_msgs::Joy>("joy", 1);
+  }
+
+  void subscribe() {
+    if (source_.kind() == devices::InputSource::Kind::topic) {
+      listen<sensor_msgs::Joy>(
+          "joy", 1, [this](const drive::InputState& joy) { source_.receive(joy, now()); });
+    }
+    keep<navvi_msgs::Proximity>("navvi/proximity");
+    keep<navvi_msgs::Guidance>("navvi/guidance");
+    keep<navvi_msgs::DriveState>("navvi/drive_state");
+    keep<nav_msgs::Odometry>("odom");
+    listen<nav_msgs::Path>("navvi/path", 1,
+                           [this](const std::vector<Eigen::Vector2d>& path) { path_ = path; });
+    listen<navvi_msgs::Contact>("navvi/contacts", 100,
+                                [this](const Contact& contact) { feedback_.take(contact); });
+  }
+
+  template <typename Msg, typename Take>
+  void listen(const std::string& topic, std::uint32_t queue, Take take) {
+    subscribers_.push_back(navvi_config::subscribe<Msg>(node_, topic, queue, from_msg, take));
+  }
+
+  template <typename Msg>
+  void keep(const std::string& topic) {
+    listen<Msg>(topic, 1, [this](const auto& value) { feedback_.take(value, now()); });
+  }
+
+  void tick() {
+    const double time = now();
+    core::Feedback::Input input;
+    input.hands = source_.read(time);
+    input.audio = audio_link();
+    input.motors = !source_.pad() || source_.pad()->status().connected;
+    input.voice_busy = !speech_.idle();
+    input.goal_angle = goal_angle();
+    input.notices = notices();
+    const core::Feedback::Output output = feedback_.update(input, time);
+    if (output.command) cmd_vel_.publish(to_msg(*output.command));
+    if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
+    if (output.alarm_begins)
+      ROS_WARN("There is no audio device: nothing is heard. %s", speech_.status().detail.c_str());
+    move_motors(output.rumble, time);
+    say(output.cues, time);
+    show(time);
+    last_hands_ = input.hands;
+  }
+
+  void move_motors(const haptics::Rumble& rumble, double time) {
+    if (devices::Gamepad* pad = source_.pad()) pad->rumble(rumble);
+    const haptics::RumbleOutput::Due due = rumble_output_.update(rumble, time);
+    if (due.feedback) motors_.publish(feedback_msg(rumble));
+    if (due.changed) publish({rumble_event(rumble, ++rumble_id_)});
+  }
+
+  void say(const std::vector<cues::Cue>& cues, double time) {
+    const std::vector<CueEvent> events = speech_.tick(cues, time);
+    feedback_.note(events);
+    publish(events);
+  }
+
+  [[nodiscard]] cues::Link audio_link() const {
+    switch (speech_.status().device) {
+      case devices::Speaker::Status::Device::missing:
+        return cues::Link::never;
+      case devices::Speaker::Status::Device::lost:
+        return cues::Link::lost;
+      case devices::Speaker::Status::Device::open:
+      case devices::Speaker::Status::Device::off:
+        break;
+    }
+    return cues::Link::alive;
+  }
+
+  [[nodiscard]] std::vector<std::string> notices() const {
+    if (!source_.pad()) return {};
+    const devices::Gamepad::Status pad = source_.pad()->status();
+    std::vector<std::string> result;
+    if (pad.connected && !pad.has_rumble) result.push_back("no_rumble");
+    if (pad.others > 0) result.push_back("second_pad");
+    return result;
+  }
+
+  /// rad, clockwise from the nose to the goal.
+  [[nodiscard]] std::optional<double> goal_angle() const {
+    const std::optional<Guidance>& guidance = feedback_.guidance();
+    if (!guidance || !guidance->leads()) return std::nullopt;
+    try {
+      const auto robot = from_msg(tf_.lookupTransform("map", "base_link", ros::Time(0)).transform);
+      if (!robot) return std::nullopt;
+      return navvi_types::clockwise_angle(*robot, guidance->goal);
+    } catch (const tf2::TransformException&) {
+      return std::nullopt;
+    }
+  }
+
+  void show(double time) {
+    if (markers_time_ && time - *markers_time_ < 0.1) return;
+    markers_time_ = time;
+    visualization_msgs::MarkerArray markers = picture::guide_markers(
+        config_.markers, feedback_.guidance_fresh(time) ? feedback_.guidance() : std::nullopt,
+        path_);
+    if (markers.markers == shown_.markers) return;
+    shown_ = markers;
+    picture::stamp(markers, ros::Time::now());
+    markers_.publish(markers);
+  }
+
+  void publish(const std::vector<CueEvent>& events) {
+    for (CueEvent event : events) {
+      event.stamp = navvi_types::to_ns(ros::Time::now());
+      cues_.publish(to_msg(event));
+      if (event.stage == CueStage::started && event.modality == Modality::speech)
+        ROS_INFO("[%s] %s", event.kind.c_str(), event.text.c_str());
+    }
+  }
+
+  void diagnose() {
+    diagnostic_msgs::DiagnosticArray array;
+    array.header.stamp = ros::Time::now();
+    std::optional<devices::Gamepad::Status> pad;
+    if (source_.pad()) pad = source_.pad()->status();
+    array.status = {pad_status(pad, devices::to_string(source_.kind()), last_hands_.live),
+                    audio_status(speech_.status()), speech_status(speech_.status())};
+    diagnostics_.publish(array);
+    if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
+  }
+
+  NodeConfig config_;
+  core::Feedback feedback_;
+  devices::SpeechChannel speech_;
+  devices::InputSource source_;
+  haptics::RumbleOutput rumble_output_;
+
+  ros::NodeHandle node_;
+  tf2_ros::Buffer tf_;
+  tf2_ros::TransformListener tf_listener_{tf_};
+  ros::Publisher cmd_vel_, joy_out_, motors_, cues_, markers_, diagnostics_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer tick_timer_, diagnostics_timer_;
+
+  std::vector<Eigen::Vector2d> path_;  ///< m, in map
+
+  std::optional<double> markers_time_;  // s, of now()
+  drive::InputState last_hands_;
+  std::uint32_t rumble_id_ = 0;
+  visualization_msgs::MarkerArray shown_;
+};
+
+/// roscpp waits for the master where no signal reaches it; so wait here first.
+/// \return false if the wait was ended by a signal
+bool await_master() {
+  if (!ros::master::check())
+    ROS_WARN("Waiting for the ROS master at %s.", ros::master::getURI().c_str());
+  while (g_stop == 0 && !ros::master::check()) ros::WallDuration(0.2).sleep();
+  return g_stop == 0;
+}
+
+void spin(FeedbackNode& node) {
+  while (ros::ok() && g_stop == 0) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  }
+  if (!ros::ok()) return;
+  node.finish();
+  ros::WallDuration(0.05).sleep();  // lets the last messages leave
+}
+
+}  // namespace
+}  // namespace navvi_feedback::node
+
+int main(int argc, char** argv) {
+  using navvi_feedback::node::NodeConfig;
+  if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
+  // roscpp's own handler would close the topics before the last zero is out.
+  ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, [](int) { navvi_feedback::node::g_stop = 1; });
+  if (!navvi_feedback::node::await_master()) return 0;
+  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
+    navvi_feedback::node::FeedbackNode node(config);
+    navvi_feedback::node::spin(node);
+    return 0;
+  });
+}

@@ -1,0 +1,49 @@
+#include "navvi_feedback/node/msg_conversion.hpp"
+
+#include <cmath>
+
+namespace navvi_feedback::node {
+namespace {
+
+constexpr float kAxisSlack = 1e-3F;  // of an axis beyond [-1, 1]
+
+}  // namespace
+
+std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg) {
+  if (msg.axes.size() < 2 || msg.axes.size() > 64 || msg.buttons.size() > 256) return std::nullopt;
+  drive::InputState input;
+  input.live = true;
+  for (const float axis : msg.axes) {
+    if (!(std::abs(axis) <= 1.0F + kAxisSlack)) return std::nullopt;
+    input.axes.push_back(static_cast<double>(axis));
+  }
+  for (const int button : msg.buttons) input.buttons.push_back(button != 0);
+  return input;
+}
+
+sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp) {
+  sensor_msgs::Joy msg;
+  msg.header.stamp = stamp;
+  for (const double axis : input.axes) msg.axes.push_back(static_cast<float>(axis));
+  for (const bool button : input.buttons) msg.buttons.push_back(button ? 1 : 0);
+  return msg;
+}
+
+sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble) {
+  sensor_msgs::JoyFeedbackArray msg;
+  msg.array.resize(2);
+  for (std::uint8_t id = 0; id < 2; ++id) {
+    msg.array[id].type = sensor_msgs::JoyFeedback::TYPE_RUMBLE;
+    msg.array[id].id = id;
+    msg.array[id].intensity = static_cast<float>(id == 0 ? rumble.left : rumble.right);
+  }
+  return msg;
+}
+
+navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble, std::uint32_t id) {
+  using namespace navvi_types;
+  return {id,          CueStage::started, "rumble", "", Priority::progress, Modality::rumble,
+          rumble.left, rumble.right};
+}
+
+}  // namespace navvi_feedback::node

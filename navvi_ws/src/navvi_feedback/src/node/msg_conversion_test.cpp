@@ -1,0 +1,58 @@
+#include "navvi_feedback/node/msg_conversion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace navvi_feedback::node {
+namespace {
+
+TEST(FromMsg, AJoyNeedsTwoAxesInRange) {
+  sensor_msgs::Joy msg;
+  EXPECT_FALSE(from_msg(msg).has_value());
+  msg.axes = {0.5F, -1.0F};
+  EXPECT_TRUE(from_msg(msg).has_value());
+  for (const float bad : {std::nanf(""), 1.5F, -2.0F, std::numeric_limits<float>::infinity()}) {
+    msg.axes[1] = bad;
+    EXPECT_FALSE(from_msg(msg).has_value());
+  }
+}
+
+TEST(Joy, SurvivesTheRoundTrip) {
+  drive::InputState input;
+  input.live = true;
+  input.axes = {0.5, -0.25, 0.0};
+  input.buttons = {true, false, true};
+  const auto back = from_msg(to_msg(input, ros::Time(3.0)));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->axes, input.axes);
+  EXPECT_EQ(back->buttons, input.buttons);
+}
+
+TEST(ToMsg, RumbleNamesBothMotorsAlsoWhenTheyAreOff) {
+  const auto msg = feedback_msg({0.0, 0.5});
+  ASSERT_EQ(msg.array.size(), 2u);
+  EXPECT_EQ(msg.array[0].type, sensor_msgs::JoyFeedback::TYPE_RUMBLE);
+  EXPECT_EQ(msg.array[0].id, 0);
+  EXPECT_EQ(msg.array[0].intensity, 0.0F);
+  EXPECT_EQ(msg.array[1].id, 1);
+  EXPECT_EQ(msg.array[1].intensity, 0.5F);
+}
+
+TEST(ToMsg, ARumbleIsACueThatIsFelt) {
+  const navvi_types::CueEvent event = rumble_event({0.25, 0.5}, 3);
+  EXPECT_EQ(event.id, 3U);
+  EXPECT_EQ(event.modality, navvi_types::Modality::rumble);
+  EXPECT_EQ(event.stage, navvi_types::CueStage::started);
+  EXPECT_EQ(event.left, 0.25);
+  EXPECT_EQ(event.right, 0.5);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::node
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

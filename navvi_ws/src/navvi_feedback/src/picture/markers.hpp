@@ -1,0 +1,43 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Core>
+#include <navvi_types/guidance.hpp>
+#include <optional>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+
+namespace navvi_feedback {
+using navvi_types::Guidance;
+}  // namespace navvi_feedback
+
+namespace navvi_feedback::picture {
+
+struct MarkersConfig {
+  double path_width = 0.22;   // m
+  double outline = 0.08;      // m
+  double path_height = 0.08;  // m
+  double goal_height = 2.5;   // m
+  double goal_radius = 1.0;   // m
+  double label_height = 0.7;  // m
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What is drawn of the guidance (R-VIS-1, 2): the path as a purple strip on a wider white one, the
+/// goal as a red pole in a white ring with the word GOAL, and the next turn as an arrow with the
+/// hour and the distance. Nothing is told apart by colour alone. Namespaces path, goal, turn.
+///
+/// Every call names every marker, with DELETE for what is not there: without guidance that follows
+/// a path, nothing is.
+/// \param path  m, in map
+[[nodiscard]] visualization_msgs::MarkerArray guide_markers(
+    const MarkersConfig& config, const std::optional<Guidance>& guidance,
+    const std::vector<Eigen::Vector2d>& path);
+
+/// Gives every marker the time.
+void stamp(visualization_msgs::MarkerArray& markers, const ros::Time& time);
+
+}  // namespace navvi_feedback::picture

@@ -1,0 +1,148 @@
+#include "picture/markers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace navvi_feedback::picture {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+const std::vector<Eigen::Vector2d> kPath = {{0.0, 0.0}, {4.0, 0.0}, {4.0, -6.0}};
+
+Guidance following() {
+  Guidance guidance;
+  guidance.state = Guidance::State::following;
+  guidance.goal = {4.0, -6.0};
+  guidance.waypoint = {4.0, 0.0};
+  guidance.waypoint_distance = 4.0;
+  guidance.waypoint_angle = guidance.steer_angle = M_PI / 2.0;
+  guidance.turn_angle = M_PI / 2.0;
+  return guidance;
+}
+
+std::set<std::pair<std::string, int>> names(const MarkerArray& array) {
+  std::set<std::pair<std::string, int>> result;
+  for (const Marker& marker : array.markers) result.emplace(marker.ns, marker.id);
+  return result;
+}
+
+const Marker* find(const MarkerArray& array, const std::string& ns, int id) {
+  for (const Marker& marker : array.markers) {
+    if (marker.ns == ns && marker.id == id) return &marker;
+  }
+  return nullptr;
+}
+
+bool finite(const geometry_msgs::Point& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+double luminance(const std_msgs::ColorRGBA& color) {
+  const auto linear = [](double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.r) + 0.7152 * linear(color.g) + 0.0722 * linear(color.b);
+}
+
+double contrast(double one, double other) {
+  return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
+}
+
+TEST(Markers, WithoutGuidanceEverythingIsDeleted) {
+  for (const auto& guidance : {std::optional<Guidance>{}, std::optional<Guidance>{Guidance{}}}) {
+    const MarkerArray array = guide_markers({}, guidance, kPath);
+    EXPECT_EQ(names(array), names(guide_markers({}, following(), kPath)));
+    for (const Marker& marker : array.markers) EXPECT_EQ(marker.action, Marker::DELETE);
+  }
+}
+
+TEST(Markers, AtTheGoalTheLineIsCleared) {
+  Guidance guidance = following();
+  guidance.state = Guidance::State::arrived;
+  for (const Marker& marker : guide_markers({}, guidance, kPath).markers)
+    EXPECT_EQ(marker.action, Marker::DELETE);
+}
+
+TEST(Markers, AnEmptyPathLeavesOnlyTheGoal) {
+  const MarkerArray array = guide_markers({}, following(), {});
+  EXPECT_EQ(find(array, "path", 1)->action, Marker::DELETE);
+  EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
+  EXPECT_EQ(find(array, "goal", 0)->action, Marker::ADD);
+}
+
+TEST(Markers, EveryMarkerIsFiniteAndDrawable) {
+  for (const Marker& marker : guide_markers({}, following(), kPath).markers) {
+    EXPECT_EQ(marker.header.frame_id, "map");
+    EXPECT_EQ(marker.action, Marker::ADD) << marker.ns << marker.id;
+    EXPECT_TRUE(finite(marker.pose.position));
+    EXPECT_EQ(marker.pose.orientation.w, 1.0);
+    EXPECT_EQ(marker.color.a, 1.0F);
+    EXPECT_GT(marker.scale.x + marker.scale.z, 0.0);
+    for (const geometry_msgs::Point& point : marker.points) EXPECT_TRUE(finite(point));
+  }
+}
+
+TEST(Markers, TheLineIsThePathWithAWiderEdgeBelow) {
+  const MarkerArray array = guide_markers({}, following(), kPath);
+  const Marker& edge = *find(array, "path", 0);
+  const Marker& line = *find(array, "path", 1);
+  ASSERT_EQ(line.points.size(), kPath.size());
+  EXPECT_GT(edge.scale.x, line.scale.x);
+  EXPECT_LT(edge.points[0].z, line.points[0].z);
+  EXPECT_EQ(line.points[2].y, -6.0);
+}
+
+TEST(Markers, TheLineAndTheGoalPassThreeToOneOnRvizGreyAndTheLineOnItsEdge) {
+  const MarkerArray array = guide_markers({}, following(), kPath);
+  std_msgs::ColorRGBA grey;
+  grey.r = grey.g = grey.b = 48.0F / 255.0F;
+  const double line = luminance(find(array, "path", 1)->color);
+  EXPECT_GE(contrast(line, luminance(grey)), 3.0);
+  EXPECT_GE(contrast(line, luminance(find(array, "path", 0)->color)), 3.0);
+  EXPECT_GE(contrast(luminance(find(array, "goal", 0)->color), luminance(grey)), 3.0);
+}
+
+TEST(Markers, TheTurnTellsHourAndDistanceAndPointsAlongTheNextLeg) {
+  const MarkerArray array = guide_markers({}, following(), kPath);
+  EXPECT_EQ(find(array, "turn", 1)->text, "in 4 m, 3 o'clock");
+  const Marker& arrow = *find(array, "turn", 0);
+  Guidance aside = following();
+  aside.steer_angle = 0.0;
+  EXPECT_EQ(find(guide_markers({}, aside, kPath), "turn", 1)->text, "in 4 m, 3 o'clock")
+      << "where the robot looks does not change what the arrow shows";
+  ASSERT_EQ(arrow.points.size(), 2u);
+  EXPECT_NEAR(arrow.points[1].x, arrow.points[0].x, 1e-9);
+  EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
+}
+
+TEST(Markers, EverythingStandsOnTheFloorOfTheMap) {
+  Guidance guidance = following();
+  const MarkerArray flat = guide_markers({}, guidance, kPath);
+  guidance.floor = -5.0;
+  const MarkerArray sunk = guide_markers({}, guidance, kPath);
+  for (std::size_t i = 0; i < flat.markers.size(); ++i) {
+    if (flat.markers[i].action != Marker::ADD) continue;
+    EXPECT_DOUBLE_EQ(sunk.markers[i].pose.position.z, flat.markers[i].pose.position.z - 5.0);
+  }
+}
+
+TEST(Markers, BeforeTheGoalThereIsNoTurn) {
+  Guidance guidance = following();
+  guidance.waypoint = guidance.goal;
+  guidance.waypoint_is_goal = true;
+  EXPECT_EQ(find(guide_markers({}, guidance, kPath), "turn", 0)->action, Marker::DELETE);
+  EXPECT_EQ(find(guide_markers({}, guidance, kPath), "goal", 2)->text, "GOAL");
+}
+
+}  // namespace
+}  // namespace navvi_feedback::picture
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+
+#include "navvi_nav/guide/guidance.hpp"
+#include "navvi_nav/guide/path_instability.hpp"
+#include "navvi_nav/guide/status.hpp"
+#include "navvi_nav/plan/plan_request.hpp"
+
+namespace navvi_nav::guide {
+
+struct ActivePathConfig {
+  GuidanceConfig guidance;
+  double off_path = 1.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What the path that is followed is for.
+enum class PathMode {
+  to_goal,  ///< it leads to the goal and is free, as far as is known
+  closed,   ///< it leads to the goal, only obstacles close it, and there is no other
+  retreat,  ///< it leads out of the area that a thing will sweep
+  waiting,  ///< it was a retreat or is closed, while the robot waits at the end of a retreat
+};
+
+/// The path that is followed, its mode, and how often it changed.
+class ActivePath {
+ public:
+  explicit ActivePath(const ActivePathConfig& config)
+      : config_(config), guidance_(config.guidance) {}
+
+  /// Follows what a search found. \param plan  found, closed or retreat
+  /// \returns m of the path so far, if one was followed by a `robot` whose place is known, that the
+  /// new one leaves
+  double follow(const plan::Plan& plan, plan::Reason reason, double time,
+                const std::optional<Pose>& robot);
+  /// There is no path to follow.
+  void drop() { guidance_.follow({}); }
+  /// A new goal, or none.
+  void reset();
+  void reset_times() { instability_.reset(); }
+
+  void advance(const Pose& robot, const map::Space& space) { guidance_.advance(robot, space); }
+  void set_mode(PathMode mode) { mode_ = mode; }
+  [[nodiscard]] PathMode mode() const { return mode_; }
+  /// True if only obstacles close the path to the goal, and there is no other.
+  [[nodiscard]] bool closed() const {
+    return mode_ == PathMode::closed || mode_ == PathMode::waiting;
+  }
+  [[nodiscard]] bool following() const { return guidance_.following(); }
+  [[nodiscard]] const Guidance& guidance() const { return guidance_; }
+  [[nodiscard]] Path remaining(Point robot) const { return guidance_.remaining(robot); }
+  /// m, from the robot to its path; 0 if there is none
+  [[nodiscard]] double offset(const Pose& robot) const;
+  /// True if the robot needs a new path at the next plan. \pre following()
+  [[nodiscard]] bool strayed(const Pose& robot) const { return offset(robot) > config_.off_path; }
+  /// True if the robot is at the goal.
+  [[nodiscard]] bool arrived(const Pose& robot, const map::Space& space) const;
+
+  /// Fills in where the path leads. \pre following()
+  void report(Status& status, const Pose& robot, double pace) const;
+  /// Fills in how often it changed, followed or not.
+  void report_changes(Status& status, double time) const;
+
+ private:
+  ActivePathConfig config_;
+  Guidance guidance_;
+  PathMode mode_ = PathMode::to_goal;
+  bool leads_to_goal_ = true;
+  unsigned reroutes_ = 0;
+  plan::Reason reroute_reason_ = plan::Reason::none;
+  double shortest_length_ = 0.0;
+  double smoothing_price_ = 0.0;
+  PathInstability instability_;
+};
+
+}  // namespace navvi_nav::guide

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace navvi_nav::map {
+
+/// The octree stream of an octomap_msgs/Octomap, not copied.
+struct MapBytes {
+  const std::int8_t* data = nullptr;
+  std::size_t size = 0;
+  bool binary = true;       ///< false: node values as floats (OcTree::writeData)
+  std::string id;           ///< must be OcTree
+  double resolution = 0.0;  ///< m
+};
+
+inline constexpr double kMinResolution = 0.01;  ///< m
+inline constexpr double kMaxResolution = 1.0;   ///< m
+inline constexpr std::size_t kMaxMapBytes = 64U * 1024U * 1024U;
+inline constexpr int kMapDepth = 16;             ///< levels of an octree
+inline constexpr int kMapSide = 1 << kMapDepth;  ///< voxels along a side of an octree
+inline constexpr int kMapCenter = kMapSide / 2;  ///< voxel whose lower corner is the map's origin
+
+/// The occupied leaves among the eight children of one inner node.
+struct Octet {
+  std::uint16_t x = 0;  ///< voxels, lower corner of the node; the map's origin is kMapCenter
+  std::uint16_t y = 0;
+  std::uint16_t z = 0;
+  std::uint8_t level = 0;  ///< a child is a cube of 2^level voxels
+  std::uint8_t mask =
+      0;  ///< bit i: child i is an occupied leaf; child i lies at (i, i / 2, i / 4) mod 2
+};
+
+/// All that navigation wants from an OctoMap: where it is occupied.
+struct Voxels {
+  std::string error;        ///< a sentence if the map was refused
+  double resolution = 0.0;  ///< m
+  std::vector<Octet> octets;
+};
+
+/// Walks the stream once, without recursion and without building a tree, and takes the occupied
+/// leaves as octomap would. Refused: what is not one well-formed octree of at most 16 levels that
+/// uses every byte. (octomap itself takes a truncated stream in silence and overflows the stack on
+/// one that nests without end.)
+[[nodiscard]] Voxels read_voxels(const MapBytes& bytes);
+
+}  // namespace navvi_nav::map

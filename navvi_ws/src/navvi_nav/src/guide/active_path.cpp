@@ -1,0 +1,73 @@
+#include "navvi_nav/guide/active_path.hpp"
+
+namespace navvi_nav::guide {
+namespace {
+
+constexpr double kElsewhere = 2.0;  // m of a path that a new one leaves: the person is rerouted
+
+}  // namespace
+
+void ActivePathConfig::describe(navvi_config::Visitor& visit) {
+  visit.group("guidance", guidance);
+  visit({"off_path", navvi_config::Range{0.1, 10.0}, "m",
+         "a robot farther off its path gets a new one at the next plan"},
+        off_path);
+}
+
+double ActivePath::follow(const plan::Plan& plan, plan::Reason reason, double time,
+                          const std::optional<Pose>& robot) {
+  const bool retreat = plan.status == plan::PlanStatus::retreat;
+  double moved = 0.0;
+  if (following() && robot) {
+    moved = PathInstability::moved(remaining(robot->position), plan.path);
+    instability_.add(time, moved);
+    if (moved > kElsewhere && leads_to_goal_ && !retreat) {
+      ++reroutes_;
+      reroute_reason_ = reason;
+    }
+  }
+  guidance_.follow(plan.path);
+  leads_to_goal_ = !retreat;
+  shortest_length_ = plan.shortest;
+  smoothing_price_ = length_of(plan.path) - plan.shortest;
+  if (plan.status == plan::PlanStatus::found)
+    mode_ = PathMode::to_goal;
+  else if (retreat)
+    mode_ = PathMode::retreat;
+  else if (mode_ != PathMode::waiting)
+    mode_ = PathMode::closed;
+  return moved;
+}
+
+void ActivePath::reset() {
+  drop();
+  mode_ = PathMode::to_goal;
+  instability_.reset();
+  reroutes_ = 0;
+  reroute_reason_ = plan::Reason::none;
+}
+
+double ActivePath::offset(const Pose& robot) const {
+  return following() ? guidance_.heading(robot).path_offset : 0.0;
+}
+
+bool ActivePath::arrived(const Pose& robot, const map::Space& space) const {
+  return (mode_ == PathMode::to_goal || mode_ == PathMode::closed) &&
+         guidance_.arrived(robot, space);
+}
+
+void ActivePath::report(Status& status, const Pose& robot, double pace) const {
+  status.heading = guidance_.heading(robot);
+  if (!leads_to_goal_) status.heading.waypoint_is_goal = false;
+  status.eta = status.heading.goal_distance / pace;
+  status.shortest_length = shortest_length_;
+  status.smoothing_price = smoothing_price_;
+}
+
+void ActivePath::report_changes(Status& status, double time) const {
+  status.reroutes = reroutes_;
+  status.reroute_reason = reroute_reason_;
+  status.churn = instability_.per_minute(time);
+}
+
+}  // namespace navvi_nav::guide

@@ -1,0 +1,95 @@
+#include "navvi_nav/guide/deadlock.hpp"
+
+#include "plan/escape.hpp"
+
+namespace navvi_nav::guide {
+namespace {
+
+constexpr double kAhead = 8.0;                // m, of its way that a thing is given
+constexpr double kTurn = 1.2;                 // m, about its front
+constexpr double kBeside = 0.2;               // m
+constexpr double kFaces = 60.0 / 180 * M_PI;  // rad, from its heading to the robot
+constexpr int kOften = 2;      // a thing that stays although the robot yielded does not wait for it
+constexpr double kNear = 0.4;  // m, from the end of a retreat: near enough out of the swept area
+constexpr double kThere = 0.15;  // m, likewise: near enough anywhere
+
+bool faces(const MovingThing& thing, Point robot) {
+  const Point heading{std::cos(thing.yaw), std::sin(thing.yaw)};
+  const Point away = robot - thing.cylinder.center;
+  return std::abs(std::atan2(cross(heading, away), dot(heading, away))) <= kFaces;
+}
+
+}  // namespace
+
+void DeadlockConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"make_room_after", Range{0.0, 600.0}, "s",
+         "what closes the only way and faces the robot for so long is made room for; 0: never"},
+        make_room_after);
+  visit({"wait_aside", Range{0.0, 600.0}, "s", "how long it is then given to pass"}, wait_aside);
+}
+
+std::vector<Cylinder> area_swept_by(const MovingThing& thing) {
+  Cylinder one = thing.cylinder;
+  const double front = thing.length > 0.0 ? thing.length / 2.0 : one.radius;
+  const double half = thing.width > 0.0 ? thing.width / 2.0 : one.radius;
+  const Pose place{thing.cylinder.center, thing.yaw};
+  std::vector<Cylinder> out;
+  one.center = to_parent(place, {front, 0.0});
+  one.radius = half + kTurn;
+  out.push_back(one);
+  one.radius = half + kBeside;
+  for (double ahead = front; ahead <= front + kAhead; ahead += one.radius) {
+    one.center = to_parent(place, {ahead, 0.0});
+    out.push_back(one);
+  }
+  return out;
+}
+
+void Deadlock::update(double time, Point robot, const std::optional<MovingThing>& blocker) {
+  const std::optional<std::uint32_t> by =
+      blocker && faces(*blocker, robot) ? std::optional(blocker->cylinder.id) : std::nullopt;
+  if (by != blocker_) since_ = time;
+  blocker_ = by;
+  const bool long_enough =
+      by && config_.make_room_after > 0.0 && time - since_ >= config_.make_room_after;
+  const auto before = by ? yielded_.find(*by) : yielded_.end();
+  const bool of_use = before == yielded_.end() || before->second < kOften;
+  due_ = long_enough && of_use ? by : std::nullopt;
+}
+
+void Deadlock::yield_to(const MovingThing& thing) {
+  yields_to_ = thing.cylinder.id;
+  swept_area_ = area_swept_by(thing);
+}
+
+bool Deadlock::has_retreated(Point robot, Point end) const {
+  const double left = distance(robot, end);
+  return left <= kThere ||
+         (left <= kNear && !plan::in_a_hole(robot, {nullptr, &swept_area_}, config_.robot_radius));
+}
+
+void Deadlock::retreated(double time) {
+  ++yielded_[*yields_to_];
+  retreated_at_ = time;
+  blocker_.reset();
+  due_.reset();
+}
+
+bool Deadlock::waits(double time) const {
+  return retreated_at_ && time - *retreated_at_ < config_.wait_aside;
+}
+
+void Deadlock::reset_times() {
+  blocker_.reset();
+  due_.reset();
+  retreated_at_.reset();
+}
+
+void Deadlock::reset() {
+  reset_times();
+  yields_to_.reset();
+  yielded_.clear();
+}
+
+}  // namespace navvi_nav::guide

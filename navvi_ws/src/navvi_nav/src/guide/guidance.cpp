@@ -1,0 +1,137 @@
+#include "navvi_nav/guide/guidance.hpp"
+
+namespace navvi_nav::guide {
+namespace {
+
+constexpr double kNearPath = 1.5;  // m, a robot farther off steers for the way-point itself
+constexpr double kSlack = 0.02;    // m, of room that need not be kept
+constexpr double kCut = 0.2;       // m, a leg with less room is cut
+constexpr double kSample = 0.1;    // m
+constexpr double kOnPath = 0.5;    // m, a robot nearer to a later leg has passed its start
+
+/// m, from the segment to the nearest thing, sampled.
+double least_room(Point a, Point b, const map::Space& space) {
+  const int samples = std::max(1, static_cast<int>(std::ceil(distance(a, b) / kSample)));
+  double least = space.clearance(a);
+  for (int i = 1; i <= samples; ++i)
+    least = std::min(least, space.clearance(a + (1.0 * i / samples) * (b - a)));
+  return least;
+}
+
+}  // namespace
+
+void GuidanceConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"waypoint_reached", Range{0.1, 5.0}, "m", "a way-point counts as reached (R-NAV-8)"},
+        waypoint_reached);
+  visit({"goal_reached", Range{0.1, 5.0}, "m", "the goal counts as reached (R-NAV-11)"},
+        goal_reached);
+  visit({"sight_radius", Range{0.0, 1.0}, "m",
+         "room that the straight way to a way-point must have before the one before is given up"},
+        sight_radius);
+  visit({"easy_radius", Range{0.0, 2.0}, "m", "the same while the robot is not yet close"},
+        easy_radius);
+  visit({"close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close"}, close);
+  visit(
+      {"steer_ahead", Range{0.5, 1e6}, "m",
+       "directions are to the path so far ahead of the robot, or to the way-point if it is nearer"},
+      steer_ahead);
+}
+
+double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
+
+void Guidance::follow(const Path& path) {
+  path_ = path.size() >= 2 ? path : Path{};
+  next_ = path_.empty() ? 0 : 1;
+}
+
+Path Guidance::remaining(Point robot) const {
+  Path out;
+  if (!following()) return out;
+  out.push_back(robot);
+  out.insert(out.end(), path_.begin() + static_cast<std::ptrdiff_t>(next_), path_.end());
+  return out;
+}
+
+bool Guidance::sees(Point robot, Point target, const map::Space& space) const {
+  // A robot that already stands nearer to something must still be able to go on.
+  const double own = space.clearance(robot) - kSlack;
+  return space.segment_clear(robot, target, std::max(0.0, std::min(config_.sight_radius, own)));
+}
+
+bool Guidance::reached(Point robot, const map::Space& space) const {
+  const double away = distance(robot, path_[next_]);
+  if (away > config_.waypoint_reached) return false;
+  const Point after = path_[next_ + 1];
+  if (space.segment_clear(robot, after, config_.easy_radius)) return true;
+  return away <= config_.close && leaves_corner(robot, space);
+}
+
+/// True if a robot close to the next way-point may turn to the one after. More room than the leg
+/// between them has is not asked for, and where an obstacle stands in that leg, the robot can wait
+/// for it at the corner as well as anywhere.
+bool Guidance::leaves_corner(Point robot, const map::Space& space) const {
+  const Point corner = path_[next_];
+  const Point after = path_[next_ + 1];
+  if (sees(robot, after, space)) return true;
+  const std::vector<Cylinder> none;
+  const map::Space still{space.floor, &none};
+  const bool cut = least_room(corner, after, space) < kCut;
+  const map::Space& known = cut ? still : space;
+  const double room = std::min(known.clearance(robot), least_room(corner, after, known)) - kSlack;
+  return room > 0.0 && known.segment_clear(robot, after, std::min(room, config_.sight_radius));
+}
+
+void Guidance::advance(const Pose& robot, const map::Space& space) {
+  const Point at = robot.position;
+  while (next_ + 1 < path_.size() && reached(at, space)) ++next_;
+
+  std::size_t nearest = next_ - 1;  // leg
+  double best = distance(at, nearest_on_segment(at, path_[nearest], path_[next_]));
+  for (std::size_t leg = next_; leg + 1 < path_.size(); ++leg) {
+    const double away = distance(at, nearest_on_segment(at, path_[leg], path_[leg + 1]));
+    if (away < best - 1e-6) {
+      best = away;
+      nearest = leg;
+    }
+  }
+  if (nearest >= next_ && best <= kOnPath && sees(at, path_[nearest + 1], space))
+    next_ = nearest + 1;
+}
+
+bool Guidance::arrived(const Pose& robot, const map::Space& space) const {
+  if (!following() || distance(robot.position, path_.back()) > config_.goal_reached) return false;
+  return space.floor->segment_clear(robot.position, path_.back(), 0.0);
+}
+
+/// Towards a far way-point a drift off the path shows too late; a nearer point turns the same drift
+/// into a larger angle.
+Point Guidance::steer_point(Point robot) const {
+  const Point start = path_[next_ - 1];
+  const Point leg = path_[next_] - start;
+  const Point nearest = nearest_on_segment(robot, start, path_[next_]);
+  const double left = distance(nearest, path_[next_]);
+  if (left <= config_.steer_ahead || distance(robot, nearest) > kNearPath) return path_[next_];
+  return nearest + (config_.steer_ahead / norm(leg)) * leg;
+}
+
+Heading Guidance::heading(const Pose& robot) const {
+  Heading out;
+  const Point at = robot.position;
+  const Point ahead{std::cos(robot.yaw), std::sin(robot.yaw)};
+  const Point leg = path_[next_] - at;
+  out.waypoint = path_[next_];
+  out.waypoint_is_goal = next_ + 1 == path_.size();
+  out.waypoint_distance = norm(leg);
+  out.waypoint_angle = clockwise(ahead, leg);
+  out.steer_angle = clockwise(ahead, steer_point(at) - at);
+  if (!out.waypoint_is_goal) out.turn_angle = clockwise(leg, path_[next_ + 1] - path_[next_]);
+  out.goal_distance = length_of(remaining(at));
+  out.path_offset = distance(at, nearest_on_segment(at, path_[0], path_[1]));
+  for (std::size_t i = 1; i + 1 < path_.size(); ++i)
+    out.path_offset =
+        std::min(out.path_offset, distance(at, nearest_on_segment(at, path_[i], path_[i + 1])));
+  return out;
+}
+
+}  // namespace navvi_nav::guide

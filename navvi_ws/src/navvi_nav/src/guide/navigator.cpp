@@ -1,0 +1,354 @@
+#include "navvi_nav/guide/navigator.hpp"
+
+namespace navvi_nav::guide {
+namespace {
+
+std::optional<double> age_of(std::optional<double> then, double now) {
+  if (!then) return std::nullopt;
+  return std::max(0.0, now - *then);
+}
+
+/// Fills in what several classes need to know.
+NavigatorConfig completed(NavigatorConfig config) {
+  const double radius = config.planner.mesh.robot_radius;
+  config.replan.trigger.robot_radius = radius;
+  config.replan.forecast.robot_radius = radius;
+  config.deadlock.robot_radius = radius;
+  config.observation.standing_speed = config.replan.forecast.standing_speed;
+  return config;
+}
+
+}  // namespace
+
+void ReplanConfig::describe(navvi_config::Visitor& visit) {
+  trigger.describe(visit);
+  keeper.describe(visit);
+  forecast.describe(visit);
+}
+
+void NavigatorConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  planner.describe(visit);
+  visit.group("replan", replan);
+  path.describe(visit);
+  visit.group("stand_off", deadlock);
+  observation.describe(visit);
+  visit({"carve_period", Range{0.05, 60.0}, "s",
+         "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)"},
+        carve_period);
+  visit({"plan_timeout", Range{0.1, 10.0}, "s",
+         "a path that must change is hidden when no plan came for so long"},
+        plan_timeout);
+  visit({"map_timeout", Range{0.0, 3600.0}, "s",
+         "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age"},
+        map_timeout);
+}
+
+Navigator::Navigator(const NavigatorConfig& config)
+    : config_(completed(config)),
+      observation_(config_.observation),
+      forecast_(config_.replan.forecast),
+      trigger_(config_.replan.trigger),
+      keeper_(config_.replan.keeper),
+      deadlock_(config_.deadlock),
+      path_(config_.path) {
+  status_.state = plan::State::no_goal;
+}
+
+void Navigator::set_map(std::shared_ptr<const plan::MapMessage> map) {
+  map_.new_map = std::move(map);
+  map_.new_grid.reset();
+  map_.octomap_came = true;
+}
+
+bool Navigator::set_map(std::shared_ptr<const map::OccupancyGrid> grid) {
+  if (map_.octomap_came) return false;
+  map_.new_grid = std::move(grid);
+  return true;
+}
+
+void Navigator::set_goal(Point goal) {
+  drop_goal(plan::State::no_goal);
+  goal_.place = goal;
+  goal_.last = goal;
+}
+
+bool Navigator::drop_bad_goal(plan::Refusal refusal, const std::string& detail) {
+  if (goal_.place) return true;
+  refuse_goal(refusal, detail);
+  return false;
+}
+
+void Navigator::refuse_goal(plan::Refusal refusal, const std::string& detail) {
+  drop_goal(plan::State::goal_refused);
+  status_.refusal = refusal;
+  status_.detail = detail;
+}
+
+void Navigator::drop_goal(plan::State state) {
+  goal_.place.reset();
+  ++goal_.number;
+  goal_.planned = false;
+  path_.reset();
+  trigger_.reset();
+  keeper_.reset();
+  deadlock_.reset();
+  conflict_ = {};
+  blocker_.reset();
+  status_.state = state;
+  status_.refusal = plan::Refusal::none;
+  status_.detail.clear();
+}
+
+void Navigator::reset_times() {
+  observation_.reset_times();
+  path_.reset_times();
+  trigger_.reset();
+  keeper_.reset();
+  deadlock_.reset_times();
+  conflict_ = {};
+  sent_.carved.reset();
+  if (sent_.since) sent_.since = 0.0;
+}
+
+/// An arrival or a refusal is still true when the map is old.
+bool Navigator::map_stale(double time) const {
+  return config_.map_timeout > 0.0 && map_.time && time - *map_.time > config_.map_timeout &&
+         (goal_.place || status_.state == plan::State::no_goal);
+}
+
+bool Navigator::undecided(double time) const {
+  return goal_.place && !goal_.planned && map_.floor && pose(time) &&
+         (!sent_.since || time - *sent_.since < config_.plan_timeout);
+}
+
+std::optional<plan::PlanRequest> Navigator::update(double time) {
+  observation_.update(time);
+  const Conflict now = follow_progress(time);
+  if (sent_.since) return std::nullopt;
+  if (map_.new_map || map_.new_grid) {
+    plan::PlanRequest request = send(time, plan::Reason::map_changed);
+    request.map = std::exchange(map_.new_map, nullptr);
+    request.grid = std::exchange(map_.new_grid, nullptr);
+    return request;
+  }
+  if (const std::optional<plan::Reason> reason = decide_replan(time, now)) {
+    plan::PlanRequest request = send(time, *reason);
+    ask_for_path(request, *pose(time));
+    return request;
+  }
+  const bool carve = map_.floor && (!sent_.carved || time - *sent_.carved >= config_.carve_period);
+  return carve ? std::optional(send(time, plan::Reason::none)) : std::nullopt;
+}
+
+Conflict Navigator::forecast(const Path& path) const {
+  return forecast_.forecast(path, observation_.obstacles(), observation_.pace());
+}
+
+/// Goes along with the robot. \returns the conflict on what is left of the path
+Conflict Navigator::follow_progress(double time) {
+  const std::optional<Pose> robot = pose(time);
+  blocker_.reset();
+  if (!robot || !path_.following()) return {};
+  path_.advance(*robot, space());
+  end_retreat(time, robot->position);
+  if (path_.arrived(*robot, space())) drop_goal(plan::State::arrived);
+  give_up_late_plan(time);
+  const Conflict now = forecast(path_.remaining(robot->position));
+  if (path_.following()) watch_deadlock(time, robot->position, now);
+  return now;
+}
+
+/// A robot that stops just short of the end may still be in the way.
+void Navigator::end_retreat(double time, Point robot) {
+  if (path_.mode() != PathMode::retreat || !deadlock_.has_retreated(robot, path().back())) return;
+  path_.set_mode(PathMode::waiting);
+  deadlock_.retreated(time);
+}
+
+void Navigator::give_up_late_plan(double time) {
+  const bool must_change = sent_.reason == plan::Reason::path_carved ||
+                           sent_.reason == plan::Reason::waypoint_blocked ||
+                           sent_.reason == plan::Reason::map_changed;
+  if (!path_.following() || !sent_.since || !must_change ||
+      time - *sent_.since <= config_.plan_timeout)
+    return;
+  path_.drop();
+  status_.state = plan::State::no_route;
+  status_.detail = "no plan came in time";
+}
+
+/// Ends the wait in a retreat, and finds out whether the robot and what closes the only path wait
+/// for each other.
+void Navigator::watch_deadlock(double time, Point robot, const Conflict& now) {
+  if (path_.mode() == PathMode::retreat) return;
+  if (path_.mode() == PathMode::waiting) {
+    // Not where it is hit while it could drive on.
+    if (!conflict_.hits_only_waiting() && deadlock_.waits(time)) return;
+    path_.set_mode(PathMode::closed);
+  }
+  if (path_.mode() == PathMode::closed) blocker_ = keeper_.blocker(now.cut, conflict_.state);
+  deadlock_.update(time, robot, blocker_ ? observation_.thing(blocker_->by) : std::nullopt);
+}
+
+std::optional<plan::Reason> Navigator::decide_replan(double time, const Conflict& now) {
+  const std::optional<Pose> robot = pose(time);
+  if (!map_.floor || !goal_.place || !robot) return std::nullopt;
+  conflict_ = now;
+  ReplanInput input;
+  input.time = time;
+  input.new_goal = !goal_.planned;
+  input.map_changed = map_.changed;
+  input.speed = observation_.speed();
+  input.robot = *robot;
+  input.remaining = path_.remaining(robot->position);
+  input.path_offset = path_.offset(*robot);
+  input.closed = path_.closed();
+  input.obstacles = observation_.obstacles();
+  input.conflict = now;
+  input.kept = keeper_.update(time, now);
+  input.evades = keeper_.evades(now);
+  input.worthwhile = keeper_.worthwhile(length_of(input.remaining));
+  return trigger_.update(input);
+}
+
+/// A request that at least brings the holes up to date.
+plan::PlanRequest Navigator::send(double time, plan::Reason reason) {
+  sent_ = {time, reason, goal_.number, time};
+  plan::PlanRequest request;
+  request.obstacles = observation_.obstacles();
+  return request;
+}
+
+void Navigator::ask_for_path(plan::PlanRequest& request, const Pose& robot) {
+  request.goal = goal_.place;
+  request.start = robot.position;
+  if (keeper_.holds_paths())
+    request.predicted = forecast_.predicted(path_.remaining(robot.position),
+                                            observation_.obstacles(), observation_.pace());
+  const bool retreats = path_.mode() == PathMode::retreat;
+  if (const std::optional<MovingThing> rival =
+          observation_.thing(retreats ? deadlock_.yields_to() : deadlock_.due())) {
+    deadlock_.yield_to(*rival);
+    request.swept_area = deadlock_.swept_area();
+  }
+  map_.changed = false;
+}
+
+void Navigator::deliver(const plan::PlanAnswer& answer, double time) {
+  const std::optional<double> as_of = std::exchange(sent_.since, std::nullopt);
+  if (answer.map_taken) {
+    map_.changed = goal_.planned;
+    map_.time = as_of;
+  }
+  if (answer.floor && !answer.floor->empty()) {
+    map_.floor = answer.floor;
+    map_.mesh_time = as_of;
+  }
+  if (!answer.plan || sent_.goal != goal_.number) return;
+  ++status_.plans;
+  status_.plan_time = answer.seconds;
+  status_.nodes_expanded = answer.plan->nodes_expanded;
+  status_.reason = sent_.reason;
+  goal_.planned = true;
+  take_plan(*answer.plan, sent_.reason, time);
+}
+
+void Navigator::take_plan(const plan::Plan& plan, plan::Reason reason, double time) {
+  switch (plan.status) {
+    case plan::PlanStatus::found:
+    case plan::PlanStatus::closed:
+    case plan::PlanStatus::retreat:
+      if (!keeps_path(plan, reason, time)) change_path(plan, reason, time);
+      status_.state = plan::State::following;
+      status_.detail = plan.detail;
+      follow_progress(time);
+      return;
+    case plan::PlanStatus::refused:
+      // A goal that was accepted is not refused later on because of where the robot strayed.
+      if (reason == plan::Reason::new_goal || reason == plan::Reason::map_changed) {
+        refuse_goal(plan.refusal, plan.detail);
+        return;
+      }
+      status_.state = plan::State::no_route;
+      break;
+    case plan::PlanStatus::no_map:
+    case plan::PlanStatus::no_route:
+      if (keeps_path(plan, reason, time)) return;
+      status_.state = plan::State::no_route;
+      break;
+    case plan::PlanStatus::off_mesh:
+      status_.state = plan::State::off_mesh;
+      break;
+  }
+  path_.drop();
+  status_.detail = plan.detail;
+}
+
+bool Navigator::keeps_path(const plan::Plan& plan, plan::Reason reason, double time) {
+  const std::optional<Pose>& robot = observation_.last_pose();
+  if (!path_.following() || !robot) return false;
+  const std::vector<Cylinder> none;
+  const Path remaining = path_.remaining(robot->position);
+  PathKeeper::Choice choice;
+  choice.time = time;
+  choice.reason = reason;
+  choice.mode = path_.mode();
+  choice.found = plan.status;
+  choice.followed = {remaining, forecast(remaining)};
+  choice.fresh = {plan.path, forecast(plan.path)};
+  choice.strayed = path_.strayed(*robot);
+  choice.sees_waypoint = path_.guidance().sees_next(robot->position, {map_.floor.get(), &none});
+  choice.reaches_waypoint = path_.guidance().sees_next(robot->position, space());
+  return keeper_.decide(choice);
+}
+
+void Navigator::change_path(const plan::Plan& plan, plan::Reason reason, double time) {
+  const double moved = path_.follow(plan, reason, time, observation_.last_pose());
+  if (moved > 0.0 && reason != plan::Reason::new_goal && reason != plan::Reason::map_changed)
+    keeper_.chose(time);
+}
+
+Status Navigator::status(double time) const {
+  Status out = status_;
+  path_.report_changes(out, time);
+  out.mesh_age = age_of(map_.mesh_time, time);
+  out.map_age = age_of(map_.time, time);
+  out.goal = goal_.last;
+  if (!map_.floor) {
+    out.state = plan::State::no_map;
+    out.detail = "no usable map came yet";
+  } else if (map_stale(time)) {
+    out.state = plan::State::map_stale;
+    out.detail = "no fresh map came";
+  } else if (goal_.place && !pose(time)) {
+    out.state = plan::State::pose_stale;
+    out.detail = "no fresh pose of the robot";
+  } else if (out.state == plan::State::following) {
+    report_path(out);
+  }
+  if (map_.floor && goal_.place && !observation_.obstacles_fresh(time)) {
+    if (!out.detail.empty()) out.detail += "; ";
+    out.detail += "no fresh obstacles: moving things are not in the path";
+  }
+  return out;
+}
+
+void Navigator::report_path(Status& out) const {
+  const std::optional<Pose>& robot = observation_.last_pose();
+  if (!path_.following() || !robot) {
+    out.state = plan::State::no_route;
+    return;
+  }
+  path_.report(out, *robot, observation_.pace());
+  out.blocked = blocker_ ? blocker_ : keeper_.waits_for();
+  if (path_.mode() == PathMode::waiting) out.blocked = Blocker{*deadlock_.yields_to(), 0.0, -1.0};
+  if (out.blocked) {
+    out.state = plan::State::blocked;
+  } else if (path_.mode() == PathMode::retreat) {
+    out.state = plan::State::make_room;
+    out.blocked = Blocker{*deadlock_.yields_to(), 0.0, 0.0};
+  }
+}
+
+}  // namespace navvi_nav::guide

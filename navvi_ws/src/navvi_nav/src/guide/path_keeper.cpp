@@ -1,0 +1,157 @@
+#include "navvi_nav/guide/path_keeper.hpp"
+
+namespace navvi_nav::guide {
+namespace {
+
+constexpr double kLetGo = 0.5;                // s, that it must be clear before a wait ends
+constexpr double kBack = 120.0 / 180 * M_PI;  // rad, from the course that is followed
+constexpr double kCourse = 1.0;               // m, how much of a path makes its course
+
+/// From the path's start to the point kCourse along it.
+Point course_of(const Path& path) {
+  double left = kCourse;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double length = distance(path[i - 1], path[i]);
+    if (length >= left)
+      return path[i - 1] + (left / length) * (path[i] - path[i - 1]) - path.front();
+    left -= length;
+  }
+  return path.back() - path.front();
+}
+
+bool leads_back(const Path& followed, const Path& fresh) {
+  const Point a = course_of(followed);
+  const Point b = course_of(fresh);
+  return std::abs(std::atan2(cross(a, b), dot(a, b))) > kBack;
+}
+
+}  // namespace
+
+void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"gain", Range{0.0, 1.0}, "",
+         "share by which a new path must be shorter to replace one that is still free"},
+        gain);
+  visit({"gain_length", Range{0.0, 10.0}, "m", "length by which it must be shorter besides"},
+        gain_length);
+  visit({"gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back"}, gain_back);
+  visit({"hold_time", Range{0.0, 60.0}, "s",
+         "a path cut by moving things is kept so long at most; 0: never kept"},
+        hold_time);
+  visit({"hold_choice", Range{0.0, 60.0}, "s",
+         "a path that was chosen because of what moves is kept so long at least, if nothing is run "
+         "into within as long"},
+        hold_choice);
+  visit({"hold_meeting", Range{0.0, 60.0}, "s",
+         "what comes along the path is evaded only when it is so close: it may turn off"},
+        hold_meeting);
+  visit({"hold_detour", Range{0.0, 100.0}, "m",
+         "nobody is led round farther than this for what moves while the path may be kept"},
+        hold_detour);
+  visit({"wait_distance", Range{0.0, 100.0}, "m",
+         "nearer than this a person is told to wait for what crosses, or closes the only way"},
+        wait_distance);
+}
+
+bool PathKeeper::update(double time, const Conflict& conflict) {
+  if (must_wait(conflict)) {
+    wait_ = conflict.wait_for;
+    wait_time_ = time;
+  } else if (time - wait_time_ > kLetGo) {
+    wait_.reset();
+  }
+  if (is_far(conflict)) return true;
+  if (conflict.state == Conflict::State::crossing || waits_safely(conflict))
+    return goes_on(time, true) && !conflict.hits_either_way();
+  if (conflict.state != Conflict::State::oncoming) since_.reset();
+  return false;
+}
+
+bool PathKeeper::decide(const Choice& choice) {
+  const Candidate none;
+  const Candidate& fresh = choice.found == plan::PlanStatus::found ? choice.fresh : none;
+  const bool held = choice.mode == PathMode::to_goal && holds(choice.time, choice.followed, fresh);
+  if (choice.reason == plan::Reason::new_goal || choice.reason == plan::Reason::map_changed ||
+      choice.strayed)
+    return false;
+  if (held) return choice.sees_waypoint;
+  const bool cut = choice.followed.conflict.cut.has_value();
+  if (choice.found == plan::PlanStatus::retreat)
+    return choice.mode == PathMode::retreat && !cut && choice.sees_waypoint;
+  if (choice.found == plan::PlanStatus::closed)
+    return choice.mode == PathMode::closed && choice.sees_waypoint &&
+           !worth_changing(plan::Reason::period, choice.followed.path, choice.fresh.path);
+  return choice.mode == PathMode::to_goal && !cut && choice.reaches_waypoint &&
+         !worth_changing(choice.reason, choice.followed.path, fresh.path);
+}
+
+/// True to keep the path although `fresh` is at hand: as update(), or nothing is hit within
+/// hold_choice, while `fresh` leads in front of something that moves or the path that is followed
+/// was chosen within hold_choice.
+bool PathKeeper::holds(double time, const Candidate& followed, const Candidate& fresh) {
+  const Conflict& conflict = followed.conflict;
+  const bool safer = conflict.hits_either_way() && fresh.path.size() >= 2 &&
+                     fresh.conflict.time_to_collision > conflict.time_to_collision;
+  if (is_far(conflict)) return true;
+  const bool far_round = conflict.state == Conflict::State::oncoming &&
+                         length_of(fresh.path) > length_of(followed.path) + config_.hold_detour;
+  const bool passes =
+      conflict.state == Conflict::State::crossing || waits_safely(conflict) || far_round;
+  if (goes_on(time, passes && !safer)) return true;
+  if (!holds_paths() || conflict.time_to_collision <= config_.hold_choice) return false;
+  const bool just_chosen = chosen_ && time - *chosen_ < config_.hold_choice;
+  return just_chosen ||
+         (fresh.path.size() >= 2 && fresh.conflict.time_to_collision <= config_.hold_choice);
+}
+
+/// Remembers since when a conflict is sat out. \returns true for at most hold_time
+bool PathKeeper::goes_on(double time, bool held) {
+  if (!held) {
+    since_.reset();
+    return false;
+  }
+  if (!since_) since_ = time;
+  return time - *since_ < config_.hold_time;
+}
+
+void PathKeeper::reset() {
+  since_.reset();
+  chosen_.reset();
+  wait_.reset();
+}
+
+std::optional<Blocker> PathKeeper::blocker(const std::optional<Conflict::Cut>& cut,
+                                           Conflict::State state) const {
+  if (!cut || (state != Conflict::State::oncoming && !is_near(cut->at))) return std::nullopt;
+  return Blocker{cut->by, cut->at, -1.0};
+}
+
+bool PathKeeper::evades(const Conflict& conflict) const {
+  return holds_paths() &&
+         (conflict.state == Conflict::State::oncoming || conflict.hits_either_way());
+}
+
+bool PathKeeper::worth_changing(plan::Reason reason, const Path& followed,
+                                const Path& fresh) const {
+  if (reason != plan::Reason::period && reason != plan::Reason::too_slow &&
+      reason != plan::Reason::obstacle_near)
+    return true;
+  if (fresh.size() < 2) return false;
+  const double back = leads_back(followed, fresh) ? config_.gain_back : 0.0;
+  return length_of(fresh) + back < worthwhile(length_of(followed));
+}
+
+bool PathKeeper::must_wait(const Conflict& conflict) const {
+  return holds_paths() && conflict.wait_for && is_near(conflict.wait_for->at);
+}
+
+bool PathKeeper::waits_safely(const Conflict& conflict) const {
+  return must_wait(conflict) && !conflict.hits_waiting;
+}
+
+bool PathKeeper::is_far(const Conflict& conflict) const {
+  return holds_paths() && conflict.state == Conflict::State::oncoming &&
+         conflict.time_to_meeting > config_.hold_meeting;
+}
+
+}  // namespace navvi_nav::guide

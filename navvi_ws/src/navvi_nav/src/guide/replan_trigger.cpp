@@ -1,0 +1,105 @@
+#include "navvi_nav/guide/replan_trigger.hpp"
+
+namespace navvi_nav::guide {
+namespace {
+
+constexpr double kMoved = 0.1;  // m, an obstacle that moved less has not left its place
+constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robot on its rim
+
+}  // namespace
+
+void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"period", Range{0.1, 60.0}, "s", "tau: a plan is made again at least so often (R-NAV-9)"},
+        period);
+  visit({"slow_speed", Range{0.0, 1.0}, "m/s", "slower than this counts as too slow"}, slow_speed);
+  visit({"slow_time", Range{0.0, 60.0}, "s", "how long the robot must be too slow"}, slow_time);
+  visit({"near_range", Range{0.0, 20.0}, "m",
+         "R_threshold: a new obstacle within this distance of the robot is a reason"},
+        near_range);
+  visit({"min_interval", Range{0.0, 10.0}, "s", "least time between plans because of obstacles"},
+        min_interval);
+  visit({"only_if_it_matters", navvi_config::Any{}, "",
+         "search for a path that is still free only if something left a place through which a "
+         "better one could lead, or the robot strayed"},
+        only_if_it_matters);
+  visit({"stray", Range{0.0, 10.0}, "m", "a robot so far off its path strayed"}, stray);
+}
+
+void ReplanTrigger::reset() {
+  last_plan_.reset();
+  last_slow_.reset();
+  slow_since_.reset();
+  near_.clear();
+  near_pending_ = false;
+}
+
+std::optional<plan::Reason> ReplanTrigger::update(const ReplanInput& input) {
+  const bool slow = is_slow(input);
+  near_pending_ = note_near(input) || near_pending_;
+  const std::optional<plan::Reason> reason = choose(input, slow);
+  if (!reason) return reason;
+  last_plan_ = input.time;
+  near_pending_ = false;
+  if (slow) last_slow_ = input.time;
+  informed_set_.searched(input.obstacles);
+  return reason;
+}
+
+/// True if the robot has been too slow for too long, at most once a period.
+bool ReplanTrigger::is_slow(const ReplanInput& input) {
+  if (input.speed >= config_.slow_speed) {
+    slow_since_.reset();
+  } else if (!slow_since_) {
+    slow_since_ = input.time;
+  }
+  return slow_since_ && input.time - *slow_since_ > config_.slow_time &&
+         (!last_slow_ || input.time - *last_slow_ >= config_.period);
+}
+
+/// True if something is near that was not at the last update.
+bool ReplanTrigger::note_near(const ReplanInput& input) {
+  std::set<std::uint32_t> near;
+  bool fresh = false;
+  for (const Cylinder& obstacle : input.obstacles) {
+    if (distance(obstacle.center, input.robot.position) > config_.near_range + obstacle.radius)
+      continue;
+    near.insert(obstacle.id);
+    fresh = fresh || near_.count(obstacle.id) == 0;
+  }
+  near_ = std::move(near);
+  return fresh;
+}
+
+/// False if a search could only find the path that is followed, or none that is worth changing to.
+bool ReplanTrigger::matters(const ReplanInput& input) const {
+  if (!config_.only_if_it_matters || input.remaining.size() < 2 ||
+      input.path_offset > config_.stray)
+    return true;
+  return informed_set_.better_path(input.robot.position, input.remaining.back(), input.worthwhile,
+                                   input.obstacles, kMoved, config_.robot_radius + kHole);
+}
+
+std::optional<plan::Reason> ReplanTrigger::choose(const ReplanInput& input, bool slow) {
+  if (input.new_goal || !last_plan_) return plan::Reason::new_goal;
+  if (input.map_changed) return plan::Reason::map_changed;
+  const double since = input.time - *last_plan_;
+  if (since < std::min(config_.min_interval, config_.period)) return std::nullopt;
+  if (since >= config_.min_interval && !input.kept && !input.closed &&
+      input.remaining.size() >= 2) {
+    if (input.conflict.waypoint_taken) return plan::Reason::waypoint_blocked;
+    if ((input.evades && since >= config_.period) || input.conflict.cut)
+      return plan::Reason::path_carved;
+  }
+  if (!near_pending_ && !slow && since < config_.period) return std::nullopt;
+  if (!input.closed && !matters(input)) {
+    near_pending_ = false;
+    return std::nullopt;
+  }
+  if (since >= config_.min_interval && near_pending_) return plan::Reason::obstacle_near;
+  if (since >= config_.min_interval && slow) return plan::Reason::too_slow;
+  if (since >= config_.period) return plan::Reason::period;
+  return std::nullopt;
+}
+
+}  // namespace navvi_nav::guide

@@ -1,0 +1,185 @@
+#include "map/columns.hpp"
+
+#include <algorithm>
+
+#include "map/parallel.hpp"
+#include "map/resample.hpp"
+
+namespace navvi_nav::map {
+namespace {
+
+/// Children on the low side of x, y and z; the others are a shift higher.
+constexpr unsigned kLowSide[3] = {0x55U, 0x33U, 0x0fU};
+constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // that are set
+
+}  // namespace
+
+Columns::Columns(const Voxels& voxels, int threads) {
+  measure(voxels);
+  if (!error_.empty()) return;
+  const auto width = static_cast<std::size_t>(size_[0]);
+  highest_.resize(width * static_cast<std::size_t>(size_[1]));
+  rows_.resize(static_cast<std::size_t>(size_[1]));
+  const int bands = std::min(std::max(1, threads), size_[1]);
+  lower_.resize(static_cast<std::size_t>(bands));
+  in_parallel(bands, bands, [&](int band) {
+    std::vector<Lower>& lower = lower_[static_cast<std::size_t>(band)];
+    const auto row_at = [&](int end) {
+      return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);
+    };
+    for (const Octet& octet : voxels.octets) add(octet, row_at(band), row_at(band + 1), lower);
+    settle(lower);
+    lower.push_back({static_cast<std::uint32_t>(highest_.size()), {}});
+    const Lower* at = lower.data();
+    for (int row = row_at(band); row < row_at(band + 1); ++row) {
+      const std::size_t end = (static_cast<std::size_t>(row) + 1) * width;
+      const Lower* const begin = at;
+      while (at->column < end) ++at;
+      rows_[static_cast<std::size_t>(row)] = {begin, at};
+    }
+  });
+}
+
+const Columns::Lower* Columns::below(std::size_t column) const {
+  const Row& row = rows_[column / static_cast<std::size_t>(size_[0])];
+  return std::lower_bound(row.begin, row.end, column, [](const Lower& lower, std::size_t wanted) {
+    return lower.column < wanted;
+  });
+}
+
+void Columns::measure(const Voxels& voxels) {
+  int low[3] = {kMapSide, kMapSide, kMapSide};
+  int high[3] = {0, 0, 0};
+  double runs = 0.0;
+  for (const Octet& octet : voxels.octets) {
+    const int at[3] = {octet.x, octet.y, octet.z};
+    const int side = 1 << octet.level;
+    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
+    runs += static_cast<double>(kBits[quarters]) * side * side;
+    for (int k = 0; k < 3; ++k) {
+      const bool in_low = (octet.mask & kLowSide[k]) != 0;
+      const bool in_high = (octet.mask & ~kLowSide[k]) != 0;
+      low[k] = std::min(low[k], at[k] + (in_low ? 0 : side));
+      high[k] = std::max(high[k], at[k] + (in_high ? 2 * side : side));
+    }
+  }
+  if (voxels.octets.empty()) {
+    error_ = "the map has no occupied voxel";
+    return;
+  }
+  for (int k = 0; k < 3; ++k) {
+    low_[k] = low[k] - kMapCenter;
+    size_[k] = high[k] - low[k];
+  }
+  if (size_[2] > kMaxLevels)
+    error_ = "the map is " + std::to_string(size_[2]) + " voxels tall; " +
+             std::to_string(kMaxLevels) + " are allowed";
+  const double columns = static_cast<double>(size_[0]) * size_[1];
+  const double stacked = kFreeRuns + kRunsANode * static_cast<double>(voxels.octets.size());
+  if (columns > kMaxCells)
+    error_ = "the map spreads over " + millions(columns) + " columns of voxels; " +
+             millions(kMaxCells) + " are allowed";
+  else if (runs > kMaxRuns)
+    error_ = "the map has " + millions(runs) + " runs of voxels in its columns; " +
+             millions(kMaxRuns) + " are allowed";
+  else if (runs > stacked && runs - columns_of_large_leaves(voxels) > stacked)
+    error_ = "the map stacks " + millions(runs - columns_of_large_leaves(voxels)) +
+             " runs of voxels in its columns; with " + std::to_string(voxels.octets.size()) +
+             " nodes that hold leaves, " + millions(stacked) + " are allowed";
+}
+
+/// Columns that a leaf of kSquare voxels or more covers: one run of each stands in the grid.
+double Columns::columns_of_large_leaves(const Voxels& voxels) const {
+  constexpr int kLevel = 3;
+  constexpr int kSquare = 1 << kLevel;
+  const int low_x = (low_[0] + kMapCenter) >> kLevel;
+  const int low_y = (low_[1] + kMapCenter) >> kLevel;
+  const int width = size_[0] / kSquare + 2;
+  std::vector<bool> squares(static_cast<std::size_t>(width) *
+                            static_cast<std::size_t>(size_[1] / kSquare + 2));
+  for (const Octet& octet : voxels.octets) {
+    if (octet.level < kLevel) continue;
+    const int side = 1 << (octet.level - kLevel);
+    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      if (((quarters >> quarter) & 1) == 0) continue;
+      const int x = (octet.x >> kLevel) - low_x + ((quarter & 1) != 0 ? side : 0);
+      const int y = (octet.y >> kLevel) - low_y + ((quarter & 2) != 0 ? side : 0);
+      for (int row = y; row < y + side; ++row) {
+        const auto first = squares.begin() + (std::ptrdiff_t{row} * width + x);
+        std::fill(first, first + side, true);
+      }
+    }
+  }
+  return kSquare * kSquare * static_cast<double>(std::count(squares.begin(), squares.end(), true));
+}
+
+/// \param first_row, last_row  rows of columns to fill, the last excluded
+void Columns::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
+  const int side = 1 << octet.level;
+  const int z = octet.z - kMapCenter - low_[2];
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const bool in_low = ((octet.mask >> quarter) & 1) != 0;
+    const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
+    if (!in_low && !in_high) continue;
+    const int x = octet.x - kMapCenter - low_[0] + ((quarter & 1) != 0 ? side : 0);
+    const int y = octet.y - kMapCenter - low_[1] + ((quarter & 2) != 0 ? side : 0);
+    const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
+                      static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
+    for (int row = std::max(y, first_row); row < std::min(y + side, last_row); ++row) {
+      const auto first = static_cast<std::uint32_t>(row * size_[0] + x);
+      for (std::uint32_t column = first; column < first + static_cast<std::uint32_t>(side);
+           ++column)
+        add(column, span, lower);
+    }
+  }
+}
+
+/// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
+/// do, for settle() puts in order what is apart here.
+void Columns::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
+  Packed& high = highest_[column];
+  const std::uint16_t more = high.bottom & kMore;
+  const auto bottom = static_cast<std::uint16_t>(high.bottom & ~kMore);
+  if (high.top == 0) {
+    high = span;
+  } else if (span.bottom <= high.top && span.top >= bottom) {
+    high.bottom = std::min(bottom, span.bottom) | more;
+    high.top = std::max(high.top, span.top);
+  } else {
+    const bool above = span.bottom > high.top;
+    lower.push_back({column, above ? Packed{bottom, high.top} : span});
+    if (above) high = span;
+    high.bottom |= kMore;
+  }
+}
+
+/// Sorts what lies below the highest spans and joins spans that touch.
+void Columns::settle(std::vector<Lower>& lower) {
+  const auto key = [](const Lower& one) {
+    return std::uint64_t{one.column} << 32 |
+           (0xffffffffU - (std::uint32_t{one.span.top} << 16 | one.span.bottom));
+  };
+  std::sort(lower.begin(), lower.end(),
+            [&](const Lower& a, const Lower& b) { return key(a) < key(b); });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < lower.size();) {
+    const std::uint32_t column = lower[i].column;
+    Packed* above = &highest_[column];
+    above->bottom &= static_cast<std::uint16_t>(~kMore);
+    const std::size_t first = kept;
+    for (; i < lower.size() && lower[i].column == column; ++i) {
+      const Packed span = lower[i].span;
+      if (span.top >= above->bottom) {
+        above->bottom = std::min(above->bottom, span.bottom);
+      } else {
+        lower[kept] = {column, span};
+        above = &lower[kept++].span;
+      }
+    }
+    if (kept > first) highest_[column].bottom |= kMore;
+  }
+  lower.resize(kept);
+}
+
+}  // namespace navvi_nav::map

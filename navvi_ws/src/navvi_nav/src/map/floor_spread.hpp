@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "map/columns.hpp"
+#include "navvi_nav/map/floor.hpp"
+
+namespace navvi_nav::map {
+
+/// All in levels of the map, which are as high as its columns are wide.
+struct Climbing {
+  int floor_top = 0;
+  int headroom = 1;
+  int step = 1;  ///< the highest that is climbed
+};
+
+/// Lets the floor at `floor_top` spread over steps of at most `step`, and takes back what is as
+/// steep as 45 degrees and the upper sides of higher steps.
+void spread_floor(std::vector<Ground>& ground, const Columns& columns, const Climbing& climbing);
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,255 @@
+#include "map/map_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <navvi_config/reader.hpp>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace navvi_nav::map {
+namespace {
+
+constexpr std::size_t kMaxHeader = 4096;         // bytes
+constexpr std::size_t kMaxPicture = 64U << 20U;  // bytes
+constexpr std::size_t kMaxPictureSide = 32768;   // pixels
+
+struct FileBytes {
+  std::string error;
+  std::string bytes;
+};
+
+FileBytes load(const std::string& path, std::size_t most) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed))
+    return {path + (std::filesystem::exists(path, failed) ? ": this is no file"
+                                                          : ": there is no such file"),
+            {}};
+  const auto size = std::filesystem::file_size(path, failed);
+  if (failed || size > most)
+    return {path + ": the file is larger than " + std::to_string(most >> 20U) + " MiB", {}};
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
+    return {path + ": the file cannot be read", {}};
+  return {{}, std::move(bytes)};
+}
+
+/// What the lines before "data" say.
+struct Header {
+  std::string error;
+  MapBytes map;
+  std::size_t length = 0;  ///< bytes, the line "data" included
+};
+
+/// A number, and nothing after it.
+std::optional<double> number_in(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  if (!(stream >> value) || !(stream >> std::ws).eof() || !std::isfinite(value)) return {};
+  return value;
+}
+
+Header read_header(const std::string& bytes) {
+  Header out;
+  std::istringstream stream(bytes.substr(0, kMaxHeader));
+  std::string line;
+  std::getline(stream, line);
+  if (line.rfind("# Octomap OcTree binary file", 0) == 0) {
+    out.map.binary = true;
+  } else if (line.rfind("# Octomap OcTree file", 0) == 0) {
+    out.map.binary = false;
+  } else {
+    out.error = "the first line is not that of an OctoMap file (.bt or .ot)";
+    return out;
+  }
+  while (std::getline(stream, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    if (line == "data") {
+      out.length = static_cast<std::size_t>(stream.tellg());
+      return out;
+    }
+    const std::size_t space = line.find(' ');
+    const std::string key = line.substr(0, space);
+    const std::string value = space == std::string::npos ? "" : line.substr(space + 1);
+    if (key == "id") {
+      out.map.id = value;
+    } else if (key == "res") {
+      out.map.resolution = number_in(value).value_or(0.0);
+    } else if (key != "size") {  // octomap's count of nodes; the stream itself tells
+      out.error =
+          "the header has a line \"" + key.substr(0, 40) + "\"; id, size, res and data are allowed";
+      return out;
+    }
+  }
+  out.error = "the header has no line \"data\"";
+  return out;
+}
+
+/// A grey picture, row by row from the top.
+struct Picture {
+  std::string error;
+  std::size_t width = 0;
+  std::size_t height = 0;
+  double white = 255.0;
+  std::string pixels;
+};
+
+/// Reads the next number of a PGM header; comments run from # to the end of the line.
+std::optional<std::size_t> next_number(const std::string& bytes, std::size_t& at) {
+  while (at < bytes.size() &&
+         (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
+    if (bytes[at] == '#') {
+      while (at < bytes.size() && bytes[at] != '\n') ++at;
+    } else {
+      ++at;
+    }
+  }
+  std::size_t value = 0;
+  const std::size_t begin = at;
+  for (; at < bytes.size() && at < begin + 9 && std::isdigit(static_cast<unsigned char>(bytes[at]));
+       ++at)
+    value = 10 * value + static_cast<std::size_t>(bytes[at] - '0');
+  if (at == begin) return {};
+  return value;
+}
+
+Picture read_pgm(const std::string& path) {
+  Picture out;
+  FileBytes file = load(path, kMaxPicture);
+  out.error = file.error;
+  if (!out.error.empty()) return out;
+  std::size_t at = 2;
+  const bool pgm = file.bytes.rfind("P5", 0) == 0;
+  const auto width = pgm ? next_number(file.bytes, at) : std::nullopt;
+  const auto height = pgm ? next_number(file.bytes, at) : std::nullopt;
+  const auto white = pgm ? next_number(file.bytes, at) : std::nullopt;
+  if (!width || !height || !white || *white == 0 || *white > 255) {
+    out.error = path + ": this is no PGM picture of one byte a pixel (P5)";
+    return out;
+  }
+  ++at;  // one white space
+  if (*width == 0 || *height == 0 || *width > kMaxPictureSide || *height > kMaxPictureSide ||
+      at > file.bytes.size() || file.bytes.size() - at < *width * *height) {
+    out.error = path + ": the picture should have " + std::to_string(*width) + " x " +
+                std::to_string(*height) + " pixels, and it has not; 32768 a side are allowed";
+    return out;
+  }
+  out.width = *width;
+  out.height = *height;
+  out.white = static_cast<double>(*white);
+  out.pixels = file.bytes.substr(at, *width * *height);
+  return out;
+}
+
+struct GridDescription {
+  std::string image;
+  double resolution = 0.0;
+  std::vector<double> origin;
+  int negate = 0;
+  double occupied_thresh = kOccupiedAbove;
+  double free_thresh = kFreeBelow;
+  std::string mode = "trinary";
+
+  void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Range;
+    visit({"image", navvi_config::Any{}, "", "a PGM picture"}, image);
+    visit({"resolution", Range{kMinResolution, kMaxResolution}, "m", "side of a pixel"},
+          resolution);
+    visit({"origin", navvi_config::Any{}, "m, m, rad", "lower left corner: x, y, yaw"}, origin);
+    visit({"negate", Range{0.0, 1.0}, "", "1: white is occupied"}, negate);
+    visit({"occupied_thresh", Range{0.0, 1.0}, "", "darker is occupied"}, occupied_thresh);
+    visit({"free_thresh", Range{0.0, 1.0}, "", "lighter is free"}, free_thresh);
+    visit({"mode", navvi_config::OneOf{{"trinary"}}, "", "how grey is understood"}, mode);
+  }
+};
+
+OccupancyGrid grid_of(const GridDescription& how, const Picture& picture) {
+  OccupancyGrid grid;
+  grid.width = static_cast<int>(picture.width);
+  grid.height = static_cast<int>(picture.height);
+  grid.resolution = how.resolution;
+  grid.origin = {how.origin[0], how.origin[1]};
+  grid.yaw = how.origin.size() > 2 ? how.origin[2] : 0.0;
+  grid.cells.reserve(picture.pixels.size());
+  for (std::size_t y = picture.height; y-- > 0;) {  // the picture's top is the map's far side
+    for (std::size_t x = 0; x < picture.width; ++x) {
+      const double light =
+          static_cast<unsigned char>(picture.pixels[y * picture.width + x]) / picture.white;
+      const double occupied = how.negate != 0 ? light : 1.0 - light;
+      grid.cells.push_back(occupied > how.occupied_thresh ? std::int8_t{100}
+                           : occupied < how.free_thresh   ? std::int8_t{0}
+                                                          : std::int8_t{-1});
+    }
+  }
+  return grid;
+}
+
+}  // namespace
+
+Voxels read_octomap_file(const std::string& path) {
+  Voxels refused;
+  const FileBytes file = load(path, kMaxMapBytes + kMaxHeader);
+  refused.error = file.error;
+  if (!refused.error.empty()) return refused;
+  Header header = read_header(file.bytes);
+  if (!header.error.empty()) {
+    refused.error = path + ": " + header.error;
+    return refused;
+  }
+  header.map.data = reinterpret_cast<const std::int8_t*>(file.bytes.data()) + header.length;
+  header.map.size = file.bytes.size() - header.length;
+  Voxels out = read_voxels(header.map);
+  if (!out.error.empty()) out.error.insert(0, path + ": ");
+  return out;
+}
+
+GridFile read_grid_file(const std::string& path) {
+  GridFile out;
+  GridDescription how;
+  try {
+    navvi_config::read(how, navvi_config::load_yaml(path), path);
+  } catch (const navvi_config::ConfigError& error) {
+    out.error = error.what();
+    return out;
+  }
+  if (how.image.empty() || how.resolution <= 0.0 || how.origin.size() < 2) {
+    out.error = path + ": a map_server map names its image, resolution and origin";
+    return out;
+  }
+  const Picture picture =
+      read_pgm((std::filesystem::path(path).parent_path() / how.image).string());
+  out.error = picture.error;
+  if (out.error.empty()) out.grid = grid_of(how, picture);
+  return out;
+}
+
+MapSurvey survey_file(const std::string& path, const SurveyConfig& config) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  MapSurvey out;
+  if (ending == ".bt" || ending == ".ot") {
+    const Voxels voxels = read_octomap_file(path);
+    if (!voxels.error.empty()) {
+      out.error = voxels.error;
+      return out;
+    }
+    out = survey_map(voxels, config);
+  } else if (ending == ".yaml" || ending == ".yml") {
+    const GridFile file = read_grid_file(path);
+    if (!file.error.empty()) {
+      out.error = file.error;
+      return out;
+    }
+    out = read_grid(file.grid, config.cell_size);
+  } else {
+    out.error = path + ": maps end in .bt, .ot (OctoMap) or .yaml (map_server)";
+    return out;
+  }
+  if (!out.error.empty()) out.error.insert(0, path + ": ");
+  return out;
+}
+
+}  // namespace navvi_nav::map

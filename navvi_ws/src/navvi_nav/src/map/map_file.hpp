@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "navvi_nav/map/map_survey.hpp"
+#include "navvi_nav/map/octomap_reader.hpp"
+
+namespace navvi_nav::map {
+
+/// A `.bt` or `.ot` file as octomap writes it (the header, then the stream of read_voxels()). Any
+/// error is a sentence that names the file.
+[[nodiscard]] Voxels read_octomap_file(const std::string& path);
+
+struct GridFile {
+  std::string error;  ///< a sentence that names the file
+  OccupancyGrid grid;
+};
+
+/// A map_server map: a `.yaml` file that names a `.pgm` picture beside it. Of map_server's modes
+/// the usual one, trinary, is read.
+[[nodiscard]] GridFile read_grid_file(const std::string& path);
+
+/// \param path  of a .bt, .ot or .yaml file
+[[nodiscard]] MapSurvey survey_file(const std::string& path, const SurveyConfig& config);
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,129 @@
+#include "map/map_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "small_world.hpp"
+
+namespace navvi_nav::map {
+namespace {
+
+/// A folder of its own for each test, gone with it.
+class MapFile : public testing::Test {
+ protected:
+  MapFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "navvi_map_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~MapFile() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+  static std::string read(const std::string& path) {
+    std::ostringstream out;
+    out << std::ifstream(path, std::ios::binary).rdbuf();
+    return out.str();
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(MapFile, reads_what_octomap_writes) {
+  SmallWorld world;
+  world.room(4, 3).box(1, 1, 0, 2, 2, 0.5);
+  octomap::OcTree tree = world.tree();
+  ASSERT_TRUE(tree.writeBinary(path("map.bt")));
+  ASSERT_TRUE(tree.write(path("map.ot")));
+  const MapSurvey expected = survey_map(voxels_of(tree), {});
+  for (const char* name : {"map.bt", "map.ot"}) {
+    const MapSurvey survey = survey_file(path(name), {});
+    ASSERT_EQ(survey.error, "");
+    EXPECT_EQ(survey.ground, expected.ground);
+    EXPECT_EQ(survey.floor_height, expected.floor_height);
+  }
+}
+
+TEST_F(MapFile, refuses_a_damaged_map_in_a_sentence_that_names_the_file) {
+  SmallWorld world;
+  octomap::OcTree tree = world.room(4, 3).tree();
+  ASSERT_TRUE(tree.writeBinary(path("whole.bt")));
+  const std::string whole = read(path("whole.bt"));
+  for (std::size_t part = 0; part < 64; ++part) {
+    const std::string cut = write("cut.bt", whole.substr(0, whole.size() * part / 64));
+    EXPECT_EQ(survey_file(cut, {}).error.rfind(cut + ": ", 0), 0U) << part;
+  }
+  const auto error = [&](const std::string& bytes) {
+    return read_octomap_file(write("bad.bt", bytes)).error;
+  };
+  const std::string first = "# Octomap OcTree binary file\n";
+  const std::string name = path("bad.bt") + ": ";
+  EXPECT_EQ(error("nonsense"), name + "the first line is not that of an OctoMap file (.bt or .ot)");
+  EXPECT_EQ(error(first + "id OcTree\n"), name + "the header has no line \"data\"");
+  EXPECT_EQ(error(first + "id ColorOcTree\nres 0.1\ndata\nxx"),
+            name + "the map is of another kind than OcTree");
+  EXPECT_EQ(error(first + "id OcTree\nres 1e-9\ndata\nxx"),
+            name + "the map's resolution is not within 0.01 and 1 m");
+  EXPECT_EQ(error(first + "id OcTree\nres nan\ndata\nxx"),
+            name + "the map's resolution is not within 0.01 and 1 m");
+  EXPECT_EQ(error(first + "id OcTree\ncolour red\ndata\nxx"),
+            name + "the header has a line \"colour\"; id, size, res and data are allowed");
+  EXPECT_EQ(error(first + "id OcTree\nres 0.1\ndata\n"), name + "the map is empty");
+  EXPECT_EQ(survey_file(path("none.bt"), {}).error, path("none.bt") + ": there is no such file");
+  EXPECT_EQ(survey_file(path("map.png"), {}).error,
+            path("map.png") + ": maps end in .bt, .ot (OctoMap) or .yaml (map_server)");
+}
+
+TEST_F(MapFile, reads_a_map_server_map_with_its_thresholds) {
+  write("map.pgm", std::string("P5\n# drawn by hand\n3 2\n255\n") + '\x00' + '\xcd' + '\xfe' +
+                       '\xfe' + '\xfe' + '\xfe');
+  const std::string yaml =
+      write("map.yaml",
+            "image: map.pgm\nresolution: 0.1\norigin: [1.0, 2.0, 0.0]\nnegate: 0\n"
+            "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const GridFile file = read_grid_file(yaml);
+  ASSERT_EQ(file.error, "");
+  EXPECT_EQ(file.grid.cells, (std::vector<std::int8_t>{0, 0, 0, 100, -1, 0}));
+  EXPECT_DOUBLE_EQ(file.grid.origin.y, 2.0);
+  const MapSurvey survey = survey_file(yaml, {});
+  ASSERT_EQ(survey.error, "");
+  EXPECT_EQ(survey.low.x, 10);
+  EXPECT_EQ(survey.ground.size(), 6U);
+}
+
+TEST_F(MapFile, refuses_a_map_server_map_in_a_sentence) {
+  const std::string rest =
+      "resolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  const auto error = [&](const std::string& text) {
+    return survey_file(write("map.yaml", text), {}).error;
+  };
+  EXPECT_EQ(error("image: none.pgm\n" + rest), path("none.pgm") + ": there is no such file");
+  EXPECT_NE(error("image: none.pgm\ncolour: red\n" + rest).find("colour"), std::string::npos);
+  EXPECT_FALSE(error("resolution: 0.1\n").empty());
+  EXPECT_FALSE(error("image: [").empty());
+  for (const std::string& picture :
+       {std::string("P6\n1 1\n255\nabc"), std::string("P5\n9 9\n255\nabc"), std::string("P5\n"),
+        std::string("P5\n0 0\n255\n"), std::string("P5\n99999999 99999999\n255\n"),
+        std::string("P5 1 1 70000 ab")}) {
+    write("bad.pgm", picture);
+    EXPECT_EQ(error("image: bad.pgm\n" + rest).rfind(path("bad.pgm") + ": ", 0), 0U) << picture;
+  }
+  write("good.pgm", std::string("P5\n1 1\n255\n") + '\xff');
+  EXPECT_NE(error("image: good.pgm\nresolution: 0.1\norigin: [0, 0, 1.5]\n").find("yaw 0"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace navvi_nav::map
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,140 @@
+#include "navvi_nav/map/map_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <map>
+
+#include "map/columns.hpp"
+#include "map/floor_spread.hpp"
+#include "map/parallel.hpp"
+#include "map/resample.hpp"
+
+namespace navvi_nav::map {
+namespace {
+
+constexpr double kFloorTolerance = 0.25;  // m, around SurveyConfig::floor_height
+constexpr double kRounding = 1e-6;        // levels
+constexpr int kNoLevel = -1;
+
+/// Calls `work(band, first, last)` for bands of columns, the last column excluded.
+template <typename Work>
+void for_bands(const Columns& columns, int bands, const Work& work) {
+  const auto all = static_cast<std::int64_t>(columns.width()) * columns.height();
+  in_parallel(bands, bands, [&](int band) {
+    work(static_cast<std::size_t>(band), static_cast<std::size_t>(all * band / bands),
+         static_cast<std::size_t>(all * (band + 1) / bands));
+  });
+}
+
+/// For each level, how many voxels end there with room for the robot above.
+std::vector<int> count_places(const Columns& columns, int headroom, int threads) {
+  std::vector<std::vector<int>> parts(
+      static_cast<std::size_t>(threads),
+      std::vector<int>(static_cast<std::size_t>(columns.levels()) + 1, 0));
+  for_bands(columns, threads, [&](std::size_t band, std::size_t first, std::size_t last) {
+    std::vector<int>& counts = parts[band];
+    for (std::size_t column = first; column < last; ++column) {
+      int ceiling = std::numeric_limits<int>::max();
+      columns.downwards(column, [&](Span span) {
+        if (ceiling - span.top >= headroom) ++counts[static_cast<std::size_t>(span.top)];
+        ceiling = span.bottom;
+        return true;
+      });
+    }
+  });
+  for (std::size_t part = 1; part < parts.size(); ++part) {
+    for (std::size_t level = 0; level < parts[0].size(); ++level)
+      parts[0][level] += parts[part][level];
+  }
+  return parts[0];
+}
+
+int lowest_large_level(const std::vector<int>& counts) {
+  const int largest = *std::max_element(counts.begin(), counts.end());
+  const auto found = std::find_if(counts.begin(), counts.end(), [largest](int count) {
+    return count > 0 && 2 * count >= largest;
+  });
+  return static_cast<int>(found - counts.begin());
+}
+
+/// \param wanted  levels, not whole
+int largest_level_near(const std::vector<int>& counts, double wanted, double tolerance) {
+  int best = kNoLevel;
+  for (std::size_t level = 0; level < counts.size(); ++level) {
+    if (counts[level] == 0 || std::abs(static_cast<double>(level) - wanted) > tolerance) continue;
+    if (best == kNoLevel || counts[level] > counts[static_cast<std::size_t>(best)])
+      best = static_cast<int>(level);
+  }
+  return best;
+}
+
+/// What the level `floor_top` alone makes of each column.
+std::vector<Ground> on_one_level(const Columns& columns, int floor_top, int headroom, int threads) {
+  std::vector<Ground> ground(
+      static_cast<std::size_t>(columns.width()) * static_cast<std::size_t>(columns.height()),
+      Ground::none);
+  for_bands(columns, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t column = first; column < last; ++column) {
+      int ceiling = std::numeric_limits<int>::max();
+      columns.downwards(column, [&](Span span) {
+        if (span.top < floor_top) return false;
+        if (span.top == floor_top && ceiling - floor_top >= headroom) {
+          ground[column] = Ground::floor;
+        } else if (span.bottom < floor_top + headroom) {
+          ground[column] = Ground::obstacle;
+        }
+        ceiling = span.bottom;
+        return true;
+      });
+    }
+  });
+  return ground;
+}
+
+std::string no_floor_near(double height) {
+  char text[96];
+  std::snprintf(text, sizeof text, "the map shows no floor within %.2f m of %.2f m (floor_height)",
+                kFloorTolerance, height);
+  return text;
+}
+
+}  // namespace
+
+MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
+  MapSurvey refused;
+  refused.error = voxels.error;
+  if (!refused.error.empty()) return refused;
+  const double level = voxels.resolution;
+  const int threads = std::max(1, config.threads);
+  const Columns columns(voxels, threads);
+  refused.error = columns.error();
+  if (!refused.error.empty()) return refused;
+
+  const int headroom =
+      std::max(1, static_cast<int>(std::ceil(config.robot_height / level - kRounding)));
+  const std::vector<int> counts = count_places(columns, headroom, threads);
+  const int floor_top =
+      config.floor_height == kAnyFloor
+          ? lowest_large_level(counts)
+          : largest_level_near(counts, config.floor_height / level - columns.low_z(),
+                               kFloorTolerance / level + kRounding);
+  if (floor_top == kNoLevel) {
+    refused.error = no_floor_near(config.floor_height);
+    return refused;
+  }
+  Sheet sheet{level,
+              {columns.low_x() * level, columns.low_y() * level},
+              columns.width(),
+              columns.height(),
+              on_one_level(columns, floor_top, headroom, threads)};
+  const int climb = static_cast<int>(std::floor(config.climb / level + kRounding));
+  if (climb > 0) spread_floor(sheet.ground, columns, {floor_top, headroom, climb});
+  MapSurvey survey = resample(std::move(sheet), config.cell_size > 0.0 ? config.cell_size : level);
+  survey.floor_height = (columns.low_z() + floor_top) * level;
+  return survey;
+}
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,55 @@
+#include <cmath>
+
+#include "map/resample.hpp"
+#include "navvi_nav/map/map_survey.hpp"
+
+namespace navvi_nav::map {
+namespace {
+
+constexpr double kFarthest = 1e6;   // m, of a grid's origin
+constexpr double kStraight = 1e-6;  // rad
+
+std::string refusal_of(const OccupancyGrid& grid) {
+  if (grid.width <= 0 || grid.height <= 0) return "the occupancy grid has no cells";
+  if (!std::isfinite(grid.resolution) || grid.resolution < kMinResolution ||
+      grid.resolution > kMaxResolution)
+    return "the occupancy grid's resolution is not within 0.01 and 1 m";
+  if (static_cast<double>(grid.width) * grid.height > kMaxCells)
+    return "the occupancy grid has more than " + millions(kMaxCells) + " cells";
+  if (grid.cells.size() !=
+      static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height))
+    return "the occupancy grid holds " + std::to_string(grid.cells.size()) + " cells where " +
+           std::to_string(grid.width) + " x " + std::to_string(grid.height) + " are announced";
+  if (!finite(grid.origin) || std::abs(grid.origin.x) > kFarthest ||
+      std::abs(grid.origin.y) > kFarthest)
+    return "the occupancy grid's origin is not within 1000 km of the origin of map";
+  if (!(std::abs(grid.yaw) < kStraight))
+    return "the occupancy grid is turned by " + std::to_string(grid.yaw) +
+           " rad; only grids along the axes of map (yaw 0) can be read";
+  for (const std::int8_t cell : grid.cells) {
+    if (cell < -1 || cell > 100)
+      return "the occupancy grid holds the value " + std::to_string(cell) +
+             "; -1 and 0 to 100 are allowed";
+  }
+  return {};
+}
+
+Ground ground_of(std::int8_t cell) {
+  if (cell < 0) return Ground::none;
+  if (cell > 100.0 * kOccupiedAbove) return Ground::obstacle;
+  return cell < 100.0 * kFreeBelow ? Ground::floor : Ground::none;
+}
+
+}  // namespace
+
+MapSurvey read_grid(const OccupancyGrid& grid, double cell_size) {
+  MapSurvey refused;
+  refused.error = refusal_of(grid);
+  if (!refused.error.empty()) return refused;
+  Sheet sheet{grid.resolution, grid.origin, grid.width, grid.height, {}};
+  sheet.ground.reserve(grid.cells.size());
+  for (const std::int8_t cell : grid.cells) sheet.ground.push_back(ground_of(cell));
+  return resample(std::move(sheet), cell_size > 0.0 ? cell_size : grid.resolution);
+}
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,75 @@
+#include "map/resample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace navvi_nav::map {
+namespace {
+
+constexpr double kRounding = 1e-4;  // of a cell
+
+int floor_cell(double value) { return static_cast<int>(std::floor(value + kRounding)); }
+int ceil_cell(double value) { return static_cast<int>(std::ceil(value - kRounding)); }
+
+/// The squares [from, to) that a cell overlaps along one axis.
+struct Overlap {
+  int from = 0;
+  int to = 0;
+};
+
+std::vector<Overlap> overlaps(int low, int count, double cell, double origin, double square) {
+  std::vector<Overlap> out;
+  out.reserve(static_cast<std::size_t>(count));
+  for (int at = low; at < low + count; ++at)
+    out.push_back({floor_cell((at * cell - origin) / square),
+                   ceil_cell(((at + 1) * cell - origin) / square)});
+  return out;
+}
+
+Ground worst(const Sheet& sheet, Overlap across, Overlap along) {
+  bool partial =
+      across.from < 0 || along.from < 0 || across.to > sheet.columns || along.to > sheet.rows;
+  for (int y = std::max(0, along.from); y < std::min(along.to, sheet.rows); ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(sheet.columns);
+    for (int x = std::max(0, across.from); x < std::min(across.to, sheet.columns); ++x) {
+      const Ground ground = sheet.ground[row + static_cast<std::size_t>(x)];
+      if (ground == Ground::obstacle) return ground;
+      partial = partial || ground == Ground::none;
+    }
+  }
+  return partial ? Ground::none : Ground::floor;
+}
+
+}  // namespace
+
+MapSurvey resample(Sheet sheet, double cell_size) {
+  MapSurvey out;
+  out.cell_size = cell_size;
+  const double x = sheet.origin.x / cell_size;
+  const double y = sheet.origin.y / cell_size;
+  const double ratio = sheet.cell_size / cell_size;
+  if (sheet.columns * ratio * sheet.rows * ratio > kMaxCells) {
+    out.error = "the map has more than " + millions(kMaxCells) + " cells of " +
+                std::to_string(cell_size) + " m";
+    return out;
+  }
+  out.low = {floor_cell(x), floor_cell(y)};
+  out.columns = ceil_cell(x + sheet.columns * ratio) - out.low.x;
+  out.rows = ceil_cell(y + sheet.rows * ratio) - out.low.y;
+  const bool same = std::abs(ratio - 1.0) * std::max(sheet.columns, sheet.rows) < kRounding &&
+                    out.columns == sheet.columns && out.rows == sheet.rows;
+  if (same) {
+    out.ground = std::move(sheet.ground);
+    return out;
+  }
+  const auto across = overlaps(out.low.x, out.columns, cell_size, sheet.origin.x, sheet.cell_size);
+  const auto along = overlaps(out.low.y, out.rows, cell_size, sheet.origin.y, sheet.cell_size);
+  out.ground.reserve(across.size() * along.size());
+  for (const Overlap& rows : along) {
+    for (const Overlap& columns : across) out.ground.push_back(worst(sheet, columns, rows));
+  }
+  return out;
+}
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,139 @@
+#include "navvi_nav/plan/nav_mesh.hpp"
+
+#include <utility>
+
+namespace navvi_nav::plan {
+namespace {
+
+bool same_frame(const map::Floor& a, const map::Floor& b) {
+  return a.cell_size() == b.cell_size() && a.origin().x == b.origin().x &&
+         a.origin().y == b.origin().y && a.columns() == b.columns() && a.rows() == b.rows();
+}
+
+}  // namespace
+
+void NavMeshConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"robot_radius", Range{0.05, 2.0}, "m", "radius of the robot's hull"}, robot_radius);
+  visit({"robot_height", Range{0.1, 5.0}, "m", "what hangs higher over the floor does not block"},
+        robot_height);
+  visit({"cell_size", Range{0.0, 1.0}, "m", "edge of a cell of the mesh; 0: the map's voxel"},
+        cell_size);
+  visit({"climb", Range{0.0, 0.5}, "m",
+         "highest step that is driven over; steps below 0.05 m are no obstacles (R-NAV-12)"},
+        climb);
+  visit({"floor_height", Range{map::kAnyFloor, 1000.0}, "m",
+         "z of the floor in map; -1000: the lowest that is at least half as large as the largest"},
+        floor_height);
+  visit({"whole_cell_erosion", navvi_config::Any{}, "",
+         "round the eroded width up to whole cells (R-NAV-2)"},
+        whole_cell_erosion);
+  visit({"contour_error", Range{0.0, 2.0}, "cells",
+         "how deep a notch in a wall may be that is filled to draw the wall straight"},
+        contour_error);
+  visit({"tile_size", Range{2.0, 64.0}, "m", "edge of a tile"}, tile_size);
+  visit({"max_edge", Range{0.0, 100.0}, "m", "longer edges along walls are split; 0: never"},
+        max_edge);
+  visit({"polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon"}, polygon_corners);
+  visit({"threads", Range{1.0, 64.0}, "", "that share the work on a new map"}, threads);
+  visit({"preferred_clearance", Range{0.0, 2.0}, "m",
+         "room a guide path leaves beyond the robot's radius where there is room"},
+        preferred_clearance);
+  visit({"carve_moved", Range{0.0, 1.0}, "m", "an obstacle that moved less keeps its hole"},
+        carve_moved);
+  visit({"carve_changed", Range{0.0, 1.0}, "",
+         "fraction of the carved area that must have changed before holes follow (R-NAV-5)"},
+        carve_changed);
+  visit({"hole_sides", Range{4.0, 64.0}, "",
+         "sides of a hole; 8 lose nothing along axes and diagonals and 8 % at most between"},
+        hole_sides);
+}
+
+double NavMesh::margin(double cell) const {
+  return config_.whole_cell_erosion ? std::ceil(config_.robot_radius / cell) * cell
+                                    : config_.robot_radius;
+}
+
+map::SurveyConfig survey_config(const NavMeshConfig& config) {
+  return {config.cell_size, config.robot_height, config.climb, config.floor_height, config.threads};
+}
+
+MeshUpdate NavMesh::set_map(map::MapSurvey survey) {
+  bake::MapBakeConfig how;
+  how.margin = margin(survey.cell_size);
+  how.reach = config_.preferred_clearance + 2.0 * survey.cell_size;
+  how.tile_size = config_.tile_size;
+  how.contour_error = config_.contour_error;
+  how.max_edge = config_.max_edge;
+  how.max_corners = config_.polygon_corners;
+  how.threads = config_.threads;
+  bake::BakedMap baked = bake::bake_map(std::move(survey), how, &baked_);
+  if (!baked.error.empty()) return {baked.error, 0, 0, 0};
+  const std::shared_ptr<const map::Floor> before = std::exchange(floor_, baked.floor);
+  baked_ = std::move(baked);
+  const bool few = 2 * baked_.rebuilt.size() <= baked_.tiles.size();
+  if (few && same_frame(*before, *floor_)) {
+    change_tiles();
+  } else {
+    join_tiles();
+  }
+  return {{}, static_cast<int>(baked_.tiles.size()), static_cast<int>(baked_.rebuilt.size()), 0};
+}
+
+MeshUpdate NavMesh::carve(const std::vector<Cylinder>& cylinders) {
+  MeshUpdate update;
+  update.tiles = static_cast<int>(baked_.tiles.size());
+  update.polygons_cut = carving_.carve(mesh_, cylinders, rules());
+  if (update.polygons_cut > 0) shown_.reset();
+  return update;
+}
+
+CarvingRules NavMesh::rules() const {
+  return {config_.robot_radius, config_.hole_sides, config_.carve_moved, config_.carve_changed};
+}
+
+std::shared_ptr<const mesh::Mesh> NavMesh::shared_mesh() const {
+  if (!shown_) shown_ = std::make_shared<const mesh::Mesh>(mesh_.mesh());
+  return shown_;
+}
+
+void NavMesh::join_tiles() {
+  std::vector<mesh::GridPolygon> all;
+  tile_polygons_.clear();
+  for (const auto& [tile, polygons] : baked_.tiles) {
+    std::vector<int>& numbers = tile_polygons_[tile];
+    for (const mesh::GridPolygon& polygon : polygons) {
+      numbers.push_back(static_cast<int>(all.size()));
+      all.push_back(polygon);
+    }
+  }
+  mesh_ = mesh::CutMesh(all, floor_->cell_size() / map::kStepsPerCellSide);
+  carving_.repeat(mesh_, rules());
+  shown_.reset();
+}
+
+void NavMesh::change_tiles() {
+  if (baked_.rebuilt.empty()) return;
+  carving_.lift(mesh_);
+  std::vector<int> gone;
+  std::vector<mesh::GridPolygon> come;
+  for (const bake::TileIndex& tile : baked_.rebuilt) {
+    const std::vector<int>& numbers = tile_polygons_[tile];
+    gone.insert(gone.end(), numbers.begin(), numbers.end());
+    const auto polygons = baked_.tiles.find(tile);
+    if (polygons != baked_.tiles.end())
+      come.insert(come.end(), polygons->second.begin(), polygons->second.end());
+  }
+  const std::vector<int> numbers = mesh_.change_floor(gone, come);
+  auto next = numbers.begin();
+  for (const bake::TileIndex& tile : baked_.rebuilt) {
+    const auto polygons = baked_.tiles.find(tile);
+    const auto count = polygons == baked_.tiles.end() ? 0 : polygons->second.size();
+    tile_polygons_[tile].assign(next, next + static_cast<std::ptrdiff_t>(count));
+    next += static_cast<std::ptrdiff_t>(count);
+  }
+  carving_.repeat(mesh_, rules());
+  shown_.reset();
+}
+
+}  // namespace navvi_nav::plan

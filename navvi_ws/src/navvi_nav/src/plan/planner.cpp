@@ -1,0 +1,305 @@
+#include "navvi_nav/plan/planner.hpp"
+
+#include <exception>
+
+#include "plan/escape.hpp"
+
+namespace navvi_nav::plan {
+namespace {
+
+constexpr double kRetreatStep = 0.5;       // m
+constexpr double kRetreatFarthest = 12.0;  // m, as the crow flies
+constexpr double kRetreatSpare = 0.2;      // m, that a robot keeps from the area it leaves
+constexpr int kRetreatDirections = 16;
+constexpr int kRetreatSearches = 200;
+
+Plan failure(PlanStatus status, Refusal refusal, std::string detail) {
+  Plan plan;
+  plan.status = status;
+  plan.refusal = refusal;
+  plan.detail = std::move(detail);
+  return plan;
+}
+
+Plan refused(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::not_finite:
+      return failure(PlanStatus::refused, refusal, "the goal is not a finite point");
+    case Refusal::off_the_map:
+      return failure(PlanStatus::refused, refusal, "the map shows no floor at the goal");
+    case Refusal::unreachable:
+      return failure(PlanStatus::refused, refusal, "no floor joins the goal with the robot");
+    default:
+      return failure(PlanStatus::refused, refusal,
+                     "the goal is within the robot's radius of an obstacle");
+  }
+}
+
+std::vector<Cylinder> joined(std::vector<Cylinder> a, const std::vector<Cylinder>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// True if the path might be found without obstacles.
+bool may_be_closed(const Plan& plan) {
+  return plan.status == PlanStatus::no_route || plan.status == PlanStatus::off_mesh;
+}
+
+bool share(const std::set<int>& a, const std::set<int>& b) {
+  return std::any_of(a.begin(), a.end(), [&b](int item) { return b.count(item) > 0; });
+}
+
+}  // namespace
+
+/// Where a point meets the mesh, and whether the straight way there is clear.
+struct Planner::Anchor {
+  std::optional<mesh::Mesh::Place> place;
+  bool joined = false;
+  bool leaves_hole = false;
+};
+
+void PlannerConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit.group("mesh", mesh);
+  visit.group("smoothing", smoothing);
+  visit({"search", navvi_config::OneOf{{"exact", "centroid_astar"}}, "",
+         "the shortest path, or the paper's (R-NAV-6, R-NAV-7)"},
+        search);
+  visit({"alpha", Range{0.0, 1.0}, "", "weight of centroid_astar's heuristic (R-NAV-6)"}, alpha);
+  visit({"start_snap", Range{0.0, 2.0}, "m", "how far off the mesh the robot may stand"},
+        start_snap);
+}
+
+Planner::Planner(const PlannerConfig& config)
+    : config_(config),
+      nav_mesh_(config.mesh),
+      search_(config.search == "exact" ? search::SearchMethod::exact
+                                       : search::SearchMethod::centroid_astar,
+              config.alpha) {}
+
+PlanAnswer Planner::answer(const PlanRequest& request) {
+  PlanAnswer out;
+  try {
+    out.mesh = take_map(request);
+    out.map_error = out.mesh.error;
+    out.map_taken = request.brings_map() && out.map_error.empty();
+    carve(joined(request.obstacles, request.predicted));
+    if (request.goal) {
+      Route route = search(request);
+      if (may_be_closed(route.plan)) route = search_without_obstacles(request, route);
+      if (route.plan.status == PlanStatus::closed) route = retreat_if_possible(request, route);
+      out.plan = smoothed(route);
+    }
+  } catch (const std::exception& error) {
+    if (request.brings_map()) out.map_error = error.what();
+    if (request.goal) out.plan = failure(PlanStatus::no_route, Refusal::none, error.what());
+  }
+  if (request.show_mesh) out.navmesh = nav_mesh_.shared_mesh();
+  out.polygons = nav_mesh_.mesh().polygons.size();
+  out.floor = nav_mesh_.shared_floor();
+  return out;
+}
+
+MeshUpdate Planner::take_map(const PlanRequest& request) {
+  if (request.grid) return set_map(*request.grid);
+  if (!request.map) return {};
+  const MapMessage& map = *request.map;
+  return set_map(
+      map::MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution});
+}
+
+/// Clear of where the obstacles will be, or else of where they are: these are carved then.
+Planner::Route Planner::search(const PlanRequest& request) {
+  Route out = search(request.start, *request.goal);
+  if (out.plan.status == PlanStatus::found || request.predicted.empty()) return out;
+  carve(request.obstacles);
+  return search(request.start, *request.goal);
+}
+
+Planner::Route Planner::search(Point start, Point goal) const {
+  if (nav_mesh_.empty()) return {failure(PlanStatus::no_map, Refusal::none, "there is no map yet")};
+  const Refusal refusal = refusal_of(goal);
+  if (refusal != Refusal::none) return {refused(refusal)};
+  const double cell = nav_mesh_.shared_floor()->cell_size();
+  const double near_goal = (config_.mesh.contour_error + 4.0) * cell;
+  const std::set<int> goal_parts = components_near(goal, near_goal);
+  const std::set<int> start_parts = components_near(start, config_.start_snap);
+  if (goal_parts.empty()) return {refused(Refusal::inside_obstacle)};
+  if (!start_parts.empty() && !share(start_parts, goal_parts))
+    return {refused(Refusal::unreachable)};
+
+  if (!begin(start, goal, std::nullopt).place)
+    return {
+        failure(PlanStatus::off_mesh, Refusal::none, "the robot stands where no path can begin")};
+  const Anchor to = anchor(goal, near_goal, std::nullopt);
+  if (!to.place || !to.joined)
+    return {failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal")};
+  const int part = nav_mesh_.mesh().polygon(to.place->polygon).component;
+  const Anchor from = begin(start, goal, part);
+  if (!from.place)
+    return {
+        failure(PlanStatus::no_route, Refusal::none, "nothing joins the robot with the goal now")};
+  return joined_route(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
+}
+
+/// The path found, with what joins it to the start and the goal.
+Planner::Route Planner::joined_route(const search::Found& found, const Anchor& from, Point start,
+                                     Point goal) {
+  Route out;
+  out.plan.nodes_expanded = found.nodes_expanded;
+  out.plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
+  if (!found.found) return out;
+  Path& path = out.plan.path;
+  path = found.path;
+  if (from.joined && !(path.front() == start)) {
+    if (from.leaves_hole)
+      out.escapes_from = start;
+    else
+      path.insert(path.begin(), start);
+  }
+  if (!(path.back() == goal)) path.push_back(goal);
+  return out;
+}
+
+/// A closed plan, or why there is none without obstacles either.
+Planner::Route Planner::search_without_obstacles(const PlanRequest& request, const Route& blocked) {
+  carve({});
+  Route out = search(request.start, *request.goal);
+  carve(request.obstacles);
+  if (out.plan.status != PlanStatus::found) return out;
+  out.plan.status = PlanStatus::closed;
+  out.plan.detail = blocked.plan.detail;
+  return out;
+}
+
+Planner::Route Planner::retreat_if_possible(const PlanRequest& request, Route closed) const {
+  if (request.swept_area.empty()) return closed;
+  Route out = search_retreat(request.swept_area, request.start);
+  return out.plan.status == PlanStatus::retreat ? out : closed;
+}
+
+Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, Point start) const {
+  Route out = search_retreat(swept_area, start, kRetreatSpare);
+  return out.plan.status == PlanStatus::retreat ? out : search_retreat(swept_area, start, 0.0);
+}
+
+Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, Point start,
+                                       double spare) const {
+  const mesh::Mesh& mesh = nav_mesh_.mesh();
+  const double radius = config_.mesh.robot_radius;
+  const map::Space swept{nav_mesh_.shared_floor().get(), &swept_area};
+  search::Found best;
+  Anchor best_from;
+  int searches = 0;
+  for (double reach = kRetreatStep; reach <= kRetreatFarthest && searches < kRetreatSearches;
+       reach += kRetreatStep) {
+    if (best.found && reach >= best.length) break;
+    for (int i = 0; i < kRetreatDirections; ++i) {
+      const double angle = 2.0 * M_PI * i / kRetreatDirections;
+      const Point place = start + reach * Point{std::cos(angle), std::sin(angle)};
+      const std::optional<mesh::Mesh::Place> there = mesh.locate(place, 0.0);
+      if (!there || in_a_hole(place, swept, radius + spare)) continue;
+      const Anchor from = begin(start, place, mesh.polygon(there->polygon).component);
+      if (!from.place) continue;
+      ++searches;
+      const search::Found& found = search_.find(mesh, *from.place, *there);
+      if (!found.found || (best.found && found.length >= best.length)) continue;
+      best = found;
+      best_from = from;
+    }
+  }
+  if (!best.found)
+    return {failure(PlanStatus::no_route, Refusal::none, "there is no room to be made")};
+  Route out = joined_route(best, best_from, start, best.path.back());
+  out.plan.status = PlanStatus::retreat;
+  return out;
+}
+
+/// The straight leg of an escape stays as it is. A closed path is the one without obstacles.
+Plan Planner::smoothed(Route route) const {
+  Plan& plan = route.plan;
+  if (plan.path.empty()) return plan;
+  const std::vector<Cylinder> none;
+  const bool ignores_obstacles = plan.status == PlanStatus::closed;
+  const map::Space space{nav_mesh_.shared_floor().get(),
+                         ignores_obstacles ? &none : &nav_mesh_.carved()};
+  const Path shortest = std::exchange(plan.path, {});
+  plan.shortest = length_of(shortest);
+  plan.path =
+      smooth::smooth(shortest, space, {config_.mesh.robot_radius, config_.mesh.preferred_clearance},
+                     config_.smoothing);
+  if (route.escapes_from) {
+    plan.path.insert(plan.path.begin(), *route.escapes_from);
+    plan.shortest += distance(*route.escapes_from, shortest.front());
+  }
+  return plan;
+}
+
+Plan Planner::plan_near(Point start, Point goal, double tolerance) const {
+  Plan exact = plan(start, goal);
+  const bool about_the_goal =
+      exact.status == PlanStatus::no_route || (exact.status == PlanStatus::refused && finite(goal));
+  if (!about_the_goal || !(tolerance > 0.0)) return exact;
+  constexpr int kMost = 10;
+  const double step =
+      std::min(tolerance, std::max(tolerance / kMost, 3.0 * nav_mesh_.shared_floor()->cell_size()));
+  const int steps = std::min(kMost, static_cast<int>(tolerance / step + 1e-6));
+  std::vector<Point> places;
+  for (int y = -steps; y <= steps; ++y) {
+    for (int x = -steps; x <= steps; ++x) {
+      if (x != 0 || y != 0) places.push_back(goal + Point{x * step, y * step});
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [goal](Point a, Point b) { return distance(a, goal) < distance(b, goal); });
+  for (const Point place : places) {
+    Plan near = plan(start, place);
+    if (near.status == PlanStatus::found) return near;
+  }
+  return exact;
+}
+
+Refusal Planner::refusal_of(Point goal) const {
+  if (!finite(goal)) return Refusal::not_finite;
+  const map::Floor& floor = *nav_mesh_.shared_floor();
+  if (floor.ground(floor.cell_at(goal)) == map::Ground::none) return Refusal::off_the_map;
+  if (!floor.segment_clear(goal, goal, config_.mesh.robot_radius)) return Refusal::inside_obstacle;
+  return Refusal::none;
+}
+
+Planner::Anchor Planner::anchor(Point point, double within, std::optional<int> part) const {
+  Anchor out;
+  out.place = nav_mesh_.mesh().locate(point, within, part);
+  if (out.place)
+    out.joined =
+        nav_mesh_.space().segment_clear(point, out.place->point, config_.mesh.robot_radius);
+  return out;
+}
+
+/// Where a path from `start` begins.
+Planner::Anchor Planner::begin(Point start, Point goal, std::optional<int> part) const {
+  const double radius = config_.mesh.robot_radius;
+  if (!in_a_hole(start, nav_mesh_.space(), radius)) return anchor(start, config_.start_snap, part);
+  Anchor out;
+  out.place = escape(nav_mesh_.mesh(), nav_mesh_.space(), start, radius, part, goal);
+  out.joined = out.leaves_hole = out.place.has_value();
+  return out;
+}
+
+/// Components of the open cells around, holes disregarded.
+std::set<int> Planner::components_near(Point point, double within) const {
+  const map::Floor& floor = *nav_mesh_.shared_floor();
+  const map::Cell at = floor.cell_at(point);
+  const int window = static_cast<int>(std::ceil(within / floor.cell_size()));
+  std::set<int> found;
+  for (int y = at.y - window; y <= at.y + window; ++y) {
+    for (int x = at.x - window; x <= at.x + window; ++x) {
+      if (floor.component({x, y}) >= 0 &&
+          distance(point, floor.center_of({x, y})) <= within + floor.cell_size())
+        found.insert(floor.component({x, y}));
+    }
+  }
+  return found;
+}
+
+}  // namespace navvi_nav::plan

@@ -1,0 +1,285 @@
+#include "navvi_nav/plan/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "small_world.hpp"
+#include "smooth/waypoints.hpp"
+
+namespace navvi_nav::plan {
+namespace {
+
+constexpr double kRadius = 0.35;
+constexpr double kTolerance = 1e-6;
+
+Planner planner_on(SmallWorld& world) {
+  Planner planner{PlannerConfig{}};
+  EXPECT_EQ(planner.set_map(world.voxels()).error, "");
+  return planner;
+}
+
+/// A path that begins nearer to something than the radius must not lead nearer to it.
+void expect_clear(const Path& path, const SmallWorld& map, const std::vector<Cylinder>& cylinders) {
+  const Point start = path.front();
+  for (const Point point : points_along(path, 0.01)) {
+    for (const auto& block : map.blocks()) {
+      const double least = std::min(kRadius, distance_to(block, start));
+      ASSERT_GE(distance_to(block, point), least - kTolerance) << point.x << " " << point.y;
+    }
+    for (const Cylinder& cylinder : cylinders) {
+      const double least = std::min(cylinder.radius + kRadius, distance(cylinder.center, start));
+      ASSERT_GE(distance(cylinder.center, point), least - kTolerance);
+    }
+  }
+}
+
+TEST(Planner, says_that_there_is_no_map) {
+  EXPECT_EQ(Planner(PlannerConfig{}).plan({0, 0}, {1, 1}).status, PlanStatus::no_map);
+}
+
+TEST(Planner, refuses_a_goal_that_is_not_finite) {
+  SmallWorld world;
+  world.room(6, 6);
+  const Planner planner = planner_on(world);
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const Plan plan = planner.plan({3, 3}, {bad, 3});
+    EXPECT_EQ(plan.status, PlanStatus::refused);
+    EXPECT_EQ(plan.refusal, Refusal::not_finite);
+  }
+}
+
+TEST(Planner, tells_the_refusals_apart) {
+  SmallWorld world;
+  world.room(12, 6).box(6, 0, 0, 6.1, 6, 1).box(2, 2, 0, 3, 3, 1);
+  const Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({1, 1}, {2.5, 2.5}).refusal, Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({1, 1}, {3.2, 2.5}).refusal, Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({1, 1}, {40, 2}).refusal, Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({1, 1}, {1e9, 2}).refusal, Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({1, 1}, {9, 3}).refusal, Refusal::unreachable);
+  EXPECT_EQ(planner.plan({1, 1}, {5, 5}).status, PlanStatus::found);
+}
+
+TEST(Planner, says_off_mesh_where_no_path_can_begin) {
+  SmallWorld world;
+  world.room(12, 8).box(2, 2, 0, 6, 6, 1);
+  const Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({4, 4}, {1, 1}).status, PlanStatus::off_mesh);
+  const Plan snapped = planner.plan({1.75, 4}, {1, 1});  // touches the box
+  ASSERT_EQ(snapped.status, PlanStatus::found);
+  expect_clear(snapped.path, world, {});
+}
+
+TEST(Planner, calls_a_route_closed_by_a_cylinder_no_route_not_unreachable) {
+  SmallWorld world;
+  world.room(12, 4).box(6, 0, 0, 6.2, 1.5, 1).box(6, 2.5, 0, 6.2, 4, 1);
+  Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::found);
+  planner.carve({{7, {6.1, 2.0}, 0.3, {}}});
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::no_route);
+  planner.carve({{7, {10, 2}, 0.3, {}}});
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::no_route);
+  planner.carve({});
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::found);
+}
+
+TEST(Planner, ends_exactly_at_the_goal_even_in_the_last_cell_before_a_wall) {
+  SmallWorld world;
+  world.room(8, 8);
+  const Planner planner = planner_on(world);
+  const Point goal{0.46, 4.0};
+  const Plan plan = planner.plan({4, 4}, goal);
+  ASSERT_EQ(plan.status, PlanStatus::found);
+  EXPECT_TRUE(plan.path.back() == goal);
+  expect_clear(plan.path, world, {});
+}
+
+TEST(Planner, survives_start_and_goal_in_one_place) {
+  SmallWorld world;
+  world.room(8, 8);
+  const Plan plan = planner_on(world).plan({4, 4}, {4, 4});
+  EXPECT_EQ(plan.status, PlanStatus::found);
+}
+
+TEST(Planner, gives_the_same_path_for_the_same_question) {
+  RandomWorld world(3);
+  const Planner planner = planner_on(world.map);
+  const Plan first = planner.plan(world.start, world.goal);
+  const Plan second = planner.plan(world.start, world.goal);
+  ASSERT_EQ(first.path.size(), second.path.size());
+  for (std::size_t i = 0; i < first.path.size(); ++i) EXPECT_TRUE(first.path[i] == second.path[i]);
+}
+
+TEST(Planner, keeps_the_radius_from_everything_in_random_worlds) {
+  int found = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    RandomWorld world(seed);
+    Planner planner = planner_on(world.map);
+    planner.carve(world.cylinders);
+    const Plan plan = planner.plan(world.start, world.goal);
+    if (plan.status != PlanStatus::found) continue;
+    ++found;
+    SCOPED_TRACE(seed);
+    expect_clear(plan.path, world.map, world.cylinders);
+    const double length = length_of(plan.path);
+    EXPECT_LE(length, std::max(1.25 * plan.shortest, plan.shortest + 2.0) + 1e-9);
+    EXPECT_GE(length, distance(plan.path.front(), plan.path.back()) - 1e-9);
+    EXPECT_TRUE(plan.path.back() == world.goal);
+  }
+  EXPECT_GE(found, 12);
+}
+
+/// A corridor 2 m wide and 12 m long, with a place to step aside at its left end.
+SmallWorld corridor() {
+  SmallWorld world;
+  world.room(14, 6).box(2.5, 0, 0, 13.9, 2, 1).box(2.5, 4, 0, 13.9, 6, 1);
+  return world;
+}
+
+TEST(Planner, leads_straight_out_of_the_hole_of_a_moving_thing) {
+  SmallWorld world;
+  world.room(12, 8);
+  Planner planner = planner_on(world);
+  const std::vector<Cylinder> forklift{{1, {5, 4}, 1.35, {}}};
+  planner.carve(forklift);
+  for (const Point start : {Point{6.2, 4.0}, Point{5.2, 3.1}, Point{4.5, 4.2}}) {
+    const Plan plan = planner.plan(start, {1, 4});
+    ASSERT_EQ(plan.status, PlanStatus::found) << start.x << ' ' << start.y;
+    EXPECT_TRUE(plan.path.front() == start);
+    EXPECT_GE(plan.shortest, distance(start, {1, 4}));
+    expect_clear(plan.path, world, forklift);
+  }
+}
+
+Plan answer(Planner& planner, const std::vector<Cylinder>& obstacles, Point start, Point goal,
+            const std::vector<Cylinder>& predicted = {},
+            const std::vector<Cylinder>& swept_area = {}) {
+  PlanRequest request;
+  request.obstacles = obstacles;
+  request.predicted = predicted;
+  request.swept_area = swept_area;
+  request.start = start;
+  request.goal = goal;
+  return planner.answer(request).plan.value_or(Plan{});
+}
+
+TEST(Planner, tells_a_way_that_only_moving_things_close_from_one_that_is_none) {
+  SmallWorld world = corridor();
+  Planner planner = planner_on(world);
+  for (const Point at : {Point{7, 3}, Point{12.8, 3}, Point{4.6, 3}}) {
+    const std::vector<Cylinder> obstacles{{1, at, 0.9, {}}};
+    const Plan plan = answer(planner, obstacles, {4.2, 3}, {12.8, 3});
+    EXPECT_EQ(plan.status, PlanStatus::closed) << at.x;
+    EXPECT_NEAR(length_of(plan.path), 8.6, 0.1);
+    EXPECT_EQ(planner.nav_mesh().carved().size(), 1U);
+  }
+  world.box(8, 2, 0, 8.1, 4, 1);
+  planner.set_map(world.voxels());
+  EXPECT_EQ(answer(planner, {}, {4.2, 3}, {12.8, 3}).refusal, Refusal::unreachable);
+}
+
+TEST(Planner, steps_aside_to_the_nearest_place_off_the_ground_that_is_needed) {
+  SmallWorld world = corridor();
+  Planner planner = planner_on(world);
+  std::vector<Cylinder> ground;
+  for (double x = 0.5; x < 6.5; x += 0.5) ground.push_back({1, {x, 3}, 0.75, {}});
+  const Plan plan = planner.retreat(ground, {4.5, 3});
+  ASSERT_EQ(plan.status, PlanStatus::retreat);
+  EXPECT_LT(length_of(plan.path), 4.0);
+  for (const Cylinder& one : ground)
+    EXPECT_GE(distance(one.center, plan.path.back()), one.radius + kRadius + 0.2 - kTolerance);
+  for (double x = 6.5; x < 13.5; x += 0.5) ground.push_back({1, {x, 3}, 0.75, {}});
+  ground.push_back({1, {1.3, 3}, 3.0, {}});
+  EXPECT_EQ(planner.retreat(ground, {4.5, 3}).status, PlanStatus::no_route);
+}
+
+TEST(Planner, answers_with_a_retreat_only_where_obstacles_close_the_path_and_there_is_room) {
+  SmallWorld world = corridor();
+  Planner planner = planner_on(world);
+  const std::vector<Cylinder> blocks{{1, {7, 3}, 0.9, {}}};
+  std::vector<Cylinder> swept;
+  for (double x = 0.5; x < 6.5; x += 0.5) swept.push_back({1, {x, 3}, 0.75, {}});
+  EXPECT_EQ(answer(planner, {}, {4.5, 3}, {12.8, 3}, {}, swept).status, PlanStatus::found);
+  const Plan retreat = answer(planner, blocks, {4.5, 3}, {12.8, 3}, {}, swept);
+  EXPECT_EQ(retreat.status, PlanStatus::retreat);
+  EXPECT_EQ(retreat.path, planner.retreat(swept, {4.5, 3}).path);
+  swept.push_back({1, {7, 3}, 9.0, {}});
+  EXPECT_EQ(answer(planner, blocks, {4.5, 3}, {12.8, 3}, {}, swept).status, PlanStatus::closed);
+}
+
+TEST(Planner, avoids_where_obstacles_will_be_only_if_there_is_another_path) {
+  SmallWorld world;
+  world.room(14, 8).box(4, 3.5, 0, 10, 4.5, 1);
+  Planner planner = planner_on(world);
+  const std::vector<Cylinder> below{{1, {7, 2}, 1.3, {}}};
+  const std::vector<Cylinder> above{{2, {7, 6}, 1.3, {}}};
+  const auto leads_above = [](const Plan& plan) {
+    return std::any_of(plan.path.begin(), plan.path.end(), [](Point at) { return at.y > 4.5; });
+  };
+  EXPECT_FALSE(leads_above(answer(planner, {}, {2, 3}, {12, 3})));
+  EXPECT_TRUE(leads_above(answer(planner, {}, {2, 3}, {12, 3}, below)));
+  const Plan both = answer(planner, above, {2, 3}, {12, 3}, below);
+  EXPECT_EQ(both.status, PlanStatus::found);
+  EXPECT_FALSE(leads_above(both));
+  EXPECT_EQ(planner.nav_mesh().carved().size(), 1U);
+}
+
+TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {
+  PlannerConfig config;
+  config.mesh.cell_size = 0.2;
+  config.mesh.whole_cell_erosion = true;
+  config.mesh.contour_error = 0.0;
+  config.mesh.preferred_clearance = 0.0;
+  config.smoothing.turn_price = 0.0;
+  int found = 0;
+  for (unsigned seed = 0; seed < 15; ++seed) {
+    RandomWorld world(seed);
+    Planner planner(config);
+    ASSERT_EQ(planner.set_map(world.map.voxels()).error, "");
+    planner.carve(world.cylinders);
+    const Plan plan = planner.plan(world.start, world.goal);
+    if (plan.status != PlanStatus::found) continue;
+    ++found;
+    expect_clear(plan.path, world.map, world.cylinders);
+    EXPECT_LE(length_of(plan.path), plan.shortest + 1e-9);
+  }
+  EXPECT_GE(found, 3);
+}
+
+TEST(Planner, finds_a_route_wherever_open_cells_join_start_and_goal) {
+  for (unsigned seed = 100; seed < 125; ++seed) {
+    RandomWorld world(seed);
+    const Planner planner = planner_on(world.map);
+    const map::Floor& floor = *planner.nav_mesh().shared_floor();
+    const int from = floor.component(floor.cell_at(world.start));
+    const int to = floor.component(floor.cell_at(world.goal));
+    if (from < 0 || to < 0) continue;
+    EXPECT_EQ(planner.plan(world.start, world.goal).status,
+              from == to ? PlanStatus::found : PlanStatus::refused)
+        << seed;
+  }
+}
+
+TEST(Planner, leaves_the_preferred_clearance_where_there_is_room) {
+  SmallWorld world;
+  world.room(16, 10).box(4, 4, 0, 12, 6, 1);
+  const Planner planner = planner_on(world);
+  const Plan plan = planner.plan({2, 5}, {14, 5});
+  ASSERT_EQ(plan.status, PlanStatus::found);
+  const map::Space space = planner.nav_mesh().space();
+  double least = 10.0;
+  for (const Point point : points_along(plan.path, 0.05))
+    least = std::min(least, space.clearance(point));
+  EXPECT_GT(least, 0.5);
+  EXPECT_LE(plan.path.size(), 6U);
+}
+
+}  // namespace
+}  // namespace navvi_nav::plan
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,239 @@
+// A map in; its mesh in numbers, as a picture, and a path over it.
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <navvi_config/reader.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "map/map_file.hpp"
+#include "navvi_nav/guide/navigator.hpp"
+#include "tool/mesh_picture.hpp"
+
+namespace {
+
+using namespace navvi_nav;
+using namespace navvi_nav::tool;
+
+constexpr const char* kUsage =
+    R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
+  MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
+  -o          draw the map, its mesh, the cylinders and the path; ./navvi also takes FILE.png
+  --from --to search a path, m in map
+  --cylinder  cut a hole around something that moves, m in map
+  --config    parameters that differ from the defaults, as in nav_node's config files
+)";
+
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Options {
+  std::string map;
+  std::string picture;
+  std::string config;
+  std::optional<Point> from;
+  std::optional<Point> to;
+  std::vector<Cylinder> cylinders;
+  bool help = false;
+};
+
+std::vector<double> numbers_in(const std::string& option, const std::string& text,
+                               std::size_t count) {
+  std::vector<double> out;
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  for (double value = 0.0; stream >> value;) {
+    out.push_back(value);
+    if (stream.peek() != ',') break;
+    stream.ignore();
+  }
+  if (out.size() != count || stream.peek() != std::istringstream::traits_type::eof())
+    throw UsageError(option + " \"" + text + "\" is not " + std::to_string(count) +
+                     " numbers with commas between, such as " +
+                     (count == 2 ? "1.5,2" : "1.5,2,0.4"));
+  return out;
+}
+
+Options read_options(const std::vector<std::string>& words) {
+  Options out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const auto value = [&]() -> const std::string& {
+      if (i + 1 == words.size()) throw UsageError(word + " needs a value");
+      return words[++i];
+    };
+    const auto point = [&] {
+      const std::vector<double> at = numbers_in(word, value(), 2);
+      return Point{at[0], at[1]};
+    };
+    if (word == "--help") {
+      out.help = true;
+    } else if (word == "--picture" || word == "-o") {
+      out.picture = value();
+      if (std::filesystem::path(out.picture).extension() != ".svg")
+        throw UsageError("\"" + out.picture +
+                         "\" is no picture that can be drawn; allowed is .svg");
+    } else if (word == "--config") {
+      out.config = value();
+    } else if (word == "--from") {
+      out.from = point();
+    } else if (word == "--to") {
+      out.to = point();
+    } else if (word == "--cylinder") {
+      const std::vector<double> at = numbers_in(word, value(), 3);
+      if (!(at[2] > 0.0)) throw UsageError("the radius of a cylinder must be more than 0");
+      out.cylinders.push_back(
+          {static_cast<std::uint32_t>(out.cylinders.size() + 1), {at[0], at[1]}, at[2], {}});
+    } else if (word.rfind("--", 0) == 0) {
+      throw UsageError("\"" + word + "\" is no option");
+    } else if (out.map.empty()) {
+      out.map = word;
+    } else {
+      throw UsageError("one map is enough: \"" + word + "\" is too much");
+    }
+  }
+  if (out.map.empty() && !out.help) throw UsageError("no map is named");
+  if (out.from.has_value() != out.to.has_value()) throw UsageError("--from and --to go together");
+  return out;
+}
+
+/// Times the steps, ms.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double out = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return out;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+struct Size {
+  double area = 0.0;  ///< m^2
+  std::size_t polygons = 0, links = 0, parts = 0, bytes = 0;
+};
+
+Size size_of(const mesh::Mesh& mesh) {
+  Size out;
+  std::set<int> parts;
+  out.bytes =
+      mesh.vertices.size() * sizeof(mesh::Vertex) + mesh.polygons.size() * sizeof(mesh::Polygon);
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    const mesh::Polygon& polygon = mesh.polygons[i];
+    if (polygon.corners.empty()) continue;
+    ++out.polygons;
+    out.links += polygon.portals.size();
+    parts.insert(polygon.component);
+    out.bytes +=
+        polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
+    const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      out.area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
+  }
+  out.parts = parts.size();
+  return out;
+}
+
+void print_mesh(const plan::NavMesh& nav_mesh, const plan::MeshUpdate& update) {
+  const map::Floor& floor = *nav_mesh.shared_floor();
+  const Size size = size_of(nav_mesh.mesh());
+  std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
+              floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
+              floor.cell_size(), floor.height());
+  std::printf("mesh        %.1f m^2, %zu polygons, %zu vertices, %zu links, %d tiles, %zu parts\n",
+              size.area, size.polygons, nav_mesh.mesh().vertices.size(), size.links / 2,
+              update.tiles, size.parts);
+  std::printf("memory      %zu bytes, %.1f a square metre\n", size.bytes,
+              static_cast<double>(size.bytes) / size.area);
+}
+
+void print_plan(const plan::Plan& plan, double milliseconds) {
+  std::printf("query       %.3f ms with smoothing, %zu nodes\n", milliseconds, plan.nodes_expanded);
+  std::printf("shortest    %.6f m\n", plan.shortest);
+  std::printf("guide path  %.3f m:", length_of(plan.path));
+  for (const Point point : plan.path) std::printf(" %.2f,%.2f", point.x, point.y);
+  std::puts("");
+}
+
+/// Each library ends its sentences in its own way.
+void tell(std::string sentence) {
+  if (sentence.back() != '.') sentence += '.';
+  std::cerr << "navmesh: " << sentence << '\n';
+}
+
+int run(const Options& options) {
+  guide::NavigatorConfig config;
+  if (!options.config.empty())
+    navvi_config::read(config, navvi_config::load_yaml(options.config), options.config);
+  std::ofstream file;
+  if (!options.picture.empty()) {
+    file.open(options.picture);
+    if (!file) throw UsageError(options.picture + ": the picture cannot be written");
+  }
+  Stopwatch watch;
+  const map::MapSurvey survey =
+      map::survey_file(options.map, plan::survey_config(config.planner.mesh));
+  if (!survey.error.empty()) throw UsageError(survey.error);
+  const double surveyed = watch.lap();
+  plan::Planner planner(config.planner);
+  const plan::MeshUpdate update = planner.set_map(survey);
+  if (!update.error.empty()) throw UsageError(options.map + ": " + update.error);
+  const double baked = watch.lap();
+  planner.carve(options.cylinders);
+  const double carved = watch.lap();
+  print_mesh(planner.nav_mesh(), update);
+  std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
+              surveyed, baked, carved);
+
+  PictureOf picture;
+  picture.floor = planner.nav_mesh().shared_floor().get();
+  picture.mesh = &planner.nav_mesh().mesh();
+  picture.cylinders = options.cylinders;
+  std::string refusal;
+  if (options.from) {
+    watch.lap();
+    const plan::Plan plan = planner.plan(*options.from, *options.to);
+    const double planned = watch.lap();
+    if (plan.status == plan::PlanStatus::found) {
+      print_plan(plan, planned);
+      picture.path = plan.path;
+    } else {
+      refusal = plan.detail.empty() ? "there is no route" : plan.detail;
+    }
+  }
+  if (!options.picture.empty()) {
+    file << svg_of(picture);
+    if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");
+  }
+  if (refusal.empty()) return 0;
+  tell(refusal);
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Options options = read_options({argv + 1, argv + argc});
+    if (options.help) {
+      std::cout << kUsage;
+      return 0;
+    }
+    return run(options);
+  } catch (const std::exception& error) {
+    tell(error.what());
+  }
+  return 2;
+}

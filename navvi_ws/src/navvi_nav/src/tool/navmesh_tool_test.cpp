@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "small_world.hpp"
+
+namespace navvi_nav::tool {
+namespace {
+
+struct Answer {
+  int code = -1;
+  std::string text;  ///< both streams
+};
+
+/// Two rooms, of which the left one has a box in its middle.
+class NavmeshTool : public testing::Test {
+ protected:
+  NavmeshTool() {
+    std::string name = (std::filesystem::temp_directory_path() / "navvi_tool_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    SmallWorld world;
+    world.room(10, 6).box(7, 0, 0, 7.1, 6, 1).box(3, 2, 0, 4, 4, 1);
+    octomap::OcTree tree = world.tree();
+    tree.writeBinary(path("map.bt"));
+  }
+  ~NavmeshTool() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
+  static Answer ask(const std::string& words) {
+    Answer out;
+    FILE* pipe = popen((std::string(NAVVI_NAVMESH_TOOL) + " " + words + " 2>&1").c_str(), "r");
+    std::array<char, 256> part{};
+    while (fgets(part.data(), static_cast<int>(part.size()), pipe) != nullptr)
+      out.text += part.data();
+    out.code = WEXITSTATUS(pclose(pipe));
+    return out;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(NavmeshTool, tells_what_a_mesh_is_like_and_draws_it) {
+  const Answer answer =
+      ask(path("map.bt") + " --picture " + path("map.svg") + " --cylinder 5.5,3,0.4");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_NE(answer.text.find(", 2 parts"), std::string::npos) << answer.text;
+  std::ostringstream svg;
+  svg << std::ifstream(path("map.svg")).rdbuf();
+  EXPECT_EQ(svg.str().rfind("<svg", 0), 0U);
+  EXPECT_NE(svg.str().find("<circle"), std::string::npos);
+  EXPECT_NE(svg.str().find("</svg>"), std::string::npos);
+}
+
+TEST_F(NavmeshTool, answers_a_query_and_says_why_it_cannot) {
+  const Answer found = ask(path("map.bt") + " --from 1,3 --to 6,3");
+  EXPECT_EQ(found.code, 0) << found.text;
+  EXPECT_NE(found.text.find("shortest    5."), std::string::npos) << found.text;
+  const Answer apart = ask(path("map.bt") + " --from 1,3 --to 8,3");
+  EXPECT_EQ(apart.code, 1);
+  EXPECT_NE(apart.text.find("no floor joins the goal with the robot"), std::string::npos)
+      << apart.text;
+}
+
+TEST_F(NavmeshTool, refuses_what_it_cannot_do_in_a_sentence) {
+  std::ofstream(path("bad.yaml")) << "colour: red\n";
+  for (const std::string& words :
+       {std::string(), path("none.bt"), path("map.svg"), path("map.bt") + " --from 1,2",
+        path("map.bt") + " --from 1 --to 2,3", path("map.bt") + " --cylinder 1,2,-1",
+        path("map.bt") + " --from 1,x --to 2,3", path("map.bt") + " --colour",
+        path("map.bt") + " more", path("bad.yaml"), path("."), path("map.bt") + " --picture",
+        path("map.bt") + " --picture /nowhere/map.svg", path("map.bt") + " -o " + path("map.png"),
+        path("map.bt") + " --config " + path("none.yaml")}) {
+    const Answer answer = ask(words);
+    EXPECT_EQ(answer.code, 2) << words;
+    EXPECT_EQ(answer.text.rfind("navmesh: ", 0), 0U) << answer.text;
+    EXPECT_EQ(answer.text.substr(answer.text.size() - 2), ".\n") << answer.text;
+    EXPECT_EQ(answer.text.find(".."), std::string::npos) << answer.text;
+  }
+}
+
+}  // namespace
+}  // namespace navvi_nav::tool
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

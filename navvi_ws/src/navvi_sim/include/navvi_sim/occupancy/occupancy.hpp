@@ -1,0 +1,34 @@
+#pragma once
+
+#include <navvi_config/field.hpp>
+
+#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/occupancy/occupancy_map.hpp"
+
+namespace navvi_sim::occupancy {
+
+struct OccupancyConfig {
+  double resolution = 0.05;  ///< m, edge of a voxel
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// The map of everything that stands still (things with a route are left out), pruned, in the
+/// frame map. Occupied: every voxel that a shape reaches into by more than 5 % of the voxel's edge
+/// along each axis, so that a top that lies on a border of voxels does not occupy the voxel above
+/// it. Boxes, cylinders and spheres are filled, and so is the inside of a mesh's closed parts,
+/// except in floors and walls, in meshes of more than 2000 triangles, and in parts more than 4 m
+/// long and wide, which may be buildings; other meshes are surfaces. Free space is not marked.
+///
+/// The whole world is moved along z, by half a voxel at most, so that `floor_height` falls on a
+/// border of voxels: a thing on the floor then shows above it, however low it is and wherever the
+/// floor lies (R-NAV-12).
+///
+/// The bytes are those that octomap writes after it has inserted the same voxels and pruned its
+/// tree. \throws WorldError if a shape reaches further than the tree does (32 768 voxels to each
+/// side), or the map comes to more than the 64 MiB that navigation takes
+[[nodiscard]] OccupancyMap occupancy_of(const WorldDescription& world,
+                                        const OccupancyConfig& config);
+
+}  // namespace navvi_sim::occupancy

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <navvi_config/field.hpp>
+#include <navvi_safety/command_gate.hpp>
+
+namespace navvi_sim::physics {
+
+/// What a real robot does not do exactly. All of it is off by default, and drawn from the world's
+/// seed (drivetrain.hpp).
+struct ImperfectionsConfig {
+  double wheel_base = 0.5;      ///< m, between the two wheels
+  double slip_left = 0.0;       ///< share of its turning that the left wheel loses on the floor
+  double slip_right = 0.0;      ///< likewise
+  double slip_noise = 0.0;      ///< standard deviation of what comes on top, each wheel by itself
+  double slip_time = 0.5;       ///< s, in which that comes and goes
+  double command_delay = 0.0;   ///< s, from a command to the wheels
+  double odometry_left = 0.0;   ///< share by which the left wheel's way is counted too long: as if
+                                ///< its diameter were wrong (Borenstein and Feng, 1996)
+  double odometry_right = 0.0;  ///< likewise
+  double odometry_noise = 0.0;  ///< m per root of a metre, standard deviation of each wheel's
+                                ///< counted way (Chong and Kleeman, 1997)
+
+  [[nodiscard]] bool slips() const {
+    return slip_left != 0.0 || slip_right != 0.0 || slip_noise != 0.0;
+  }
+  /// Odometry counts the wheels, so a slip is a drift as well.
+  [[nodiscard]] bool odometry_drifts() const {
+    return slips() || odometry_left != 0.0 || odometry_right != 0.0 || odometry_noise != 0.0;
+  }
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// A differential drive robot: a vertical cylinder, and what its wheels can do (R-SIM-5).
+struct RobotConfig {
+  double radius = 0.35;        ///< m
+  double height = 0.5;         ///< m, top above the floor
+  double clearance = 0.05;     ///< m, underside above the floor; lower things are driven over
+  double mass = 50.0;          ///< kg
+  double max_speed = 0.9;      ///< m/s, forward and back
+  double acceleration = 1.0;   ///< m/s^2
+  double deceleration = 2.0;   ///< m/s^2
+  double max_turn_rate = 1.5;  ///< rad/s
+  double angular_acceleration = 4.0;  ///< rad/s^2, to faster and to slower turning
+  double brake = 30.0;                ///< m/s^2, when the last stage stops the wheels
+  double angular_brake = 60.0;        ///< rad/s^2, likewise
+  ImperfectionsConfig imperfections;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Where the robot is, and how it moves: base_link in map.
+struct RobotState {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
+  double yaw = 0.0;                                    ///< rad, (-pi, pi]
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s, in map
+  double turn_rate = 0.0;                              ///< rad/s, counter-clockwise
+
+  /// m/s along the robot's own x
+  [[nodiscard]] double forward_speed() const;
+  /// m/s along the robot's own y: only a push makes it other than 0
+  [[nodiscard]] double sideways_speed() const;
+};
+
+/// How hard the wheels may slow down.
+enum class Braking { normal, emergency };
+
+/// The wheels' speed after `dt`, from what they do now towards `command`, within the limits.
+[[nodiscard]] navvi_safety::Velocity servo(const RobotConfig& config,
+                                           const navvi_safety::Velocity& now,
+                                           const navvi_safety::Velocity& command, Braking braking,
+                                           double dt);
+
+}  // namespace navvi_sim::physics

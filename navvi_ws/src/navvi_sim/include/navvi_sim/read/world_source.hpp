@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/generate/layout_source.hpp"
+
+namespace navvi_sim::read {
+
+/// A world, and what its source holds that could not be taken over (one sentence each).
+struct LoadedWorld {
+  WorldDescription world;
+  std::vector<std::string> notes;
+  std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
+};
+
+/// What the workers of a layout do (R-SIM-2).
+enum class Workers {
+  as_laid_out,  ///< as many walk and stand as the layout says
+  standing,     ///< all stand, those who would walk where their routes begin
+  walking,      ///< all walk
+};
+
+/// Loads and validates the world that `spec` names: a layout by the name of a preset
+/// (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
+/// yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is taken from the working
+/// directory.
+/// \param models  folders for model://, separated by colons; may be empty. The world's folder and
+///                its `models` subfolder are always tried, after these.
+/// \param seed    of layouts; other files do not depend on it
+/// \param workers  of layouts; those of other files do as their file says
+/// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
+///                standard ones
+/// \throws WorldError naming the file or thing, what is wrong and what is allowed
+[[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
+                                     std::uint64_t seed, Workers workers,
+                                     const std::string& classes = "");
+
+/// The same of a layout that was read, and perhaps changed, before.
+[[nodiscard]] LoadedWorld load_world(const generate::LayoutSource& source, std::uint64_t seed,
+                                     Workers workers);
+
+/// The layout that `spec` names, not built yet; nullopt if it names another kind of world.
+/// \throws WorldError as load_world does
+[[nodiscard]] std::optional<generate::LayoutSource> layout_source(const std::string& spec);
+
+/// The folders of a colon separated list; empty items are left out.
+[[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& colon_separated);
+
+}  // namespace navvi_sim::read

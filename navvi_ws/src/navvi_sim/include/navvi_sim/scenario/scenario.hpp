@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <navvi_config/field.hpp>
+#include <optional>
+#include <vector>
+
+#include "navvi_sim/description/floor_pose.hpp"
+#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/occupancy/occupancy_map.hpp"
+#include "navvi_sim/traffic/lanes.hpp"
+
+namespace navvi_sim::scenario {
+
+struct ScenarioConfig {
+  double robot_radius = 0.35;   ///< m
+  double robot_height = 1.2;    ///< m, headroom that the robot needs
+  double clearance = 0.15;      ///< m, more than the radius, to anything that stands still
+  double off_lanes = 0.3;       ///< m, more than the radius, to ground that movers sweep
+  double mover_distance = 2.0;  ///< m, at least, from the start to a mover at time zero
+  double min_route = 0.0;       ///< m, along the floor; 0: 10 where the world permits
+  double max_route = 0.0;       ///< m; 0: as long as may be
+  int min_turns = 0;            ///< of the route, as turns() counts them
+  int max_turns = kAnyTurns;    ///< kAnyTurns: as many as may be
+
+  traffic::MoversConfig movers;  ///< by which they lay their tracks
+
+  static constexpr int kAnyTurns = 100;
+
+  /// Only what is asked of the route: the rest follows from the robot.
+  void describe(navvi_config::Visitor& visit);
+};
+
+struct Scenario {
+  FloorPose start;
+  Eigen::Vector2d goal;       ///< m, in map
+  double route_length = 0.0;  ///< m, along a grid of the map; 0 if the goal was given and cannot
+                              ///< be reached
+  std::vector<Eigen::Vector2d>
+      route;  ///< m, from start to goal, pulled taut; empty if there is none
+};
+
+/// How often a polyline turns: by 30 degrees or more from one leg of 1 m or more to the next.
+[[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
+
+/// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
+/// connected over the floor, and, where the world has such places, off the ground that movers
+/// sweep: a robot that stood there would keep them from going on. A goal that is given is passed on
+/// as it is, free or not: refusing it is navigation's task. A drawn start looks along its route.
+/// Length and turns that are asked for hold for every route of which an end is drawn.
+/// \param map  of `world` (occupancy.hpp)
+/// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
+/// floor, or if the world has no free place, or none for a route as long and with as many turns as
+/// asked for
+[[nodiscard]] Scenario draw_scenario(const WorldDescription& world,
+                                     const occupancy::OccupancyMap& map,
+                                     const ScenarioConfig& config, std::uint64_t seed,
+                                     const std::optional<FloorPose>& start = std::nullopt,
+                                     const std::optional<Eigen::Vector2d>& goal = std::nullopt);
+
+}  // namespace navvi_sim::scenario

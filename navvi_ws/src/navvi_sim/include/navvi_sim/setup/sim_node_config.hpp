@@ -1,0 +1,61 @@
+#pragma once
+
+#include <navvi_config/field.hpp>
+#include <navvi_safety/command_gate.hpp>
+#include <optional>
+#include <string>
+
+#include "navvi_sim/live/world.hpp"
+#include "navvi_sim/occupancy/occupancy.hpp"
+#include "navvi_sim/read/world_source.hpp"
+#include "navvi_sim/scenario/scenario.hpp"
+
+namespace navvi_sim::setup {
+
+/// Everything that can be chosen of sim_node.
+struct SimNodeConfig {
+  std::string world = "warehouse";
+  std::string models;
+  std::string classes;
+  int seed = 1;
+  std::string start;              ///< "x,y,yaw" in m and rad; empty: drawn from the seed
+  std::string goal;               ///< "x,y" in m; empty: drawn from the seed
+  double rate = 1.0;              ///< simulated seconds per second
+  int max_catch_up = 10;          ///< steps at once, then the simulation slows down
+  double detection_radius = 5.0;  ///< m
+  live::WorldConfig life;
+  std::string workers = "both";  ///< of layouts: standing, walking, or both as laid out
+  scenario::ScenarioConfig scenario;
+  occupancy::OccupancyConfig octomap;
+  navvi_safety::CommandGateConfig gate;
+
+  /// The gate is quicker than it must be, so that the wheels stand still, and are not just told
+  /// to, within 250 ms of the last command.
+  SimNodeConfig() { gate.timeout = 0.20; }
+
+  void describe(navvi_config::Visitor& visit);
+
+  [[nodiscard]] read::Workers worker_choice() const;
+  /// nullopt where nothing is given.
+  /// \throws navvi_config::ConfigError with a sentence if it is not three finite numbers
+  [[nodiscard]] std::optional<FloorPose> start_pose() const;
+  /// nullopt where nothing is given.
+  /// \throws navvi_config::ConfigError with a sentence if it is not two finite numbers
+  [[nodiscard]] std::optional<Eigen::Vector2d> goal_point() const;
+};
+
+/// The world that `config` names. \throws WorldError with a sentence
+[[nodiscard]] read::LoadedWorld load_world(const SimNodeConfig& config);
+
+/// Start and goal: as given, and drawn from the seed where they are not.
+/// \param map  of `world` (occupancy.hpp)
+/// \throws ConfigError or WorldError with a sentence
+[[nodiscard]] scenario::Scenario scenario_of(const SimNodeConfig& config,
+                                             const WorldDescription& world,
+                                             const occupancy::OccupancyMap& map);
+
+/// Every parameter as YAML, with the scenario's start and goal written exactly and the world's path
+/// absolute: who reads this plays the same world again and needs to draw nothing.
+[[nodiscard]] std::string recipe(SimNodeConfig config, const scenario::Scenario& scenario);
+
+}  // namespace navvi_sim::setup

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <navvi_config/field.hpp>
+#include <vector>
+
+#include "navvi_sim/description/footprint.hpp"
+#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/traffic/track.hpp"
+
+namespace navvi_sim::traffic {
+
+/// How things with a route behave (R-SIM-3).
+struct MoversConfig {
+  bool yield = true;           ///< stop for the robot ahead, where the route says so too
+  double acceleration = 0.8;   ///< m/s^2, to faster and to slower, and sideways in curves
+  double turn_rate = 1.0;      ///< rad/s
+  double corner_radius = 1.2;  ///< m, at which forklifts round corners where there is room
+  double clearance = 0.4;      ///< m, at which they stop before the robot
+  double patience = 8.0;       ///< s, after which one that the robot keeps from going on backs out
+  double back_speed = 0.5;     ///< m/s, at most, backing out
+  double pause_spread = 0.3;   ///< share by which a pause varies either way, drawn from the seed
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Ground of another lane that a leg touches: its blocks from first to last.
+struct Crossing {
+  std::size_t lane;
+  int first;
+  int last;
+};
+
+/// A block of a lane whose ground touches a block of another lane, or of its own far along it.
+struct Meeting {
+  int block;
+  std::uint32_t lane;
+  int other;
+};
+
+/// The way from one refuge to the next, in blocks.
+struct Leg {
+  int begin;  ///< the block after the refuge before
+  int end;    ///< the refuge; may be less than begin where the track comes round
+  std::vector<Crossing> crossings;
+};
+
+/// A track and all who drive it. It is cut into blocks of about half a metre, numbered along it. A
+/// body whose place is in a block lies within the ground of that block: the hull of all that the
+/// body sweeps there. Blocks that touch the ground of no other lane are private; a refuge is a
+/// place in the middle of a private block.
+struct Lane {
+  Track track;
+  Footprint footprint;  ///< around all who drive here
+  int blocks;
+  double block_length;             ///< m
+  int spacing = 0;                 ///< blocks between two bodies that surely do not touch
+  std::vector<Meeting> meetings;   ///< ordered by block, lane and other
+  std::vector<bool> is_private;    ///< by block
+  std::vector<Leg> legs;           ///< in order of their ends; none if all ground is private
+  std::vector<std::size_t> users;  ///< indices of Lanes::users, in the order they drive in
+
+  [[nodiscard]] int block_at(double s) const {
+    const int block = static_cast<int>(s / block_length);
+    return block < blocks ? block : blocks - 1;
+  }
+  /// m, where to stand in a block that is a refuge.
+  [[nodiscard]] double refuge(int block) const {
+    return !track.closed() && block + 1 == blocks ? track.length() : (block + 0.5) * block_length;
+  }
+  /// Number of the first leg that ends ahead of s.
+  [[nodiscard]] std::size_t leg_after(double s) const;
+  /// What the ground of its blocks from `first` to `last` touches; last may be less than first
+  /// where the track comes round.
+  [[nodiscard]] std::vector<Crossing> crossings(int first, int last) const;
+};
+
+/// A thing with a route, on its lane.
+struct LaneUser {
+  std::size_t thing;  ///< index in WorldDescription::things
+  std::size_t lane;
+  double start;  ///< m along the track
+};
+
+/// Where everything that moves in a world drives, laid out once so that traffic can keep going
+/// (traffic.hpp says why it does).
+struct Lanes {
+  std::vector<Lane> lanes;
+  std::vector<LaneUser> users;  ///< ordered by thing
+};
+
+/// Lays the lanes of a world. Corners are rounded where the thing then passes everything that
+/// stands.
+/// \throws WorldError naming the things, if one would pass through what stands, stands off its
+///         route, or has no place to wait out of the way of the others
+[[nodiscard]] Lanes lay_lanes(const WorldDescription& world, const MoversConfig& config);
+
+/// The ground that everything with a route sweeps on its way, in convex pieces; m, in map.
+/// \throws WorldError as lay_lanes, but for waiting places
+[[nodiscard]] std::vector<Polygon> swept_ground(const WorldDescription& world,
+                                                const MoversConfig& config);
+
+}  // namespace navvi_sim::traffic

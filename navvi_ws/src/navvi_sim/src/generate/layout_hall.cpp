@@ -1,0 +1,122 @@
+#include "generate/layout_hall.hpp"
+
+#include <algorithm>
+
+namespace navvi_sim::generate {
+namespace {
+
+constexpr double kFloorDepth = 0.8;  // m; so deep that an OctoMap of it is made of few, large cubes
+constexpr double kDoorWidth = 3.0;   // m, of a dock
+constexpr double kPanel = 0.08;      // m, thickness of a dock's door
+constexpr double kFenceHeight = 2.0;  // m, of what closes a way
+
+}  // namespace
+
+std::vector<Thing> LayoutHall::things() {
+  add_floor_and_walls();
+  add_inner_walls();
+  add_fences();
+  return std::move(things_);
+}
+
+/// A wall on `area`.
+void LayoutHall::add(const std::string& name, const Area& area, double height) {
+  const Eigen::Vector2d size = area.sizes();
+  things_.push_back(standing(name, ThingClass::wall, at(area.center().x(), area.center().y(), 0.0),
+                             {box_on(0.0, 0.0, 0.0, size.x(), size.y(), height)}));
+}
+
+void LayoutHall::add_floor_and_walls() {
+  const Area hall = plan_.hall();
+  const Eigen::Vector2d rim(kWallThickness, kWallThickness);
+  const Area outside(hall.min() - rim, hall.max() + rim);
+  const Eigen::Vector2d floor = outside.sizes() + 2.0 * rim;
+  things_.push_back(standing("floor", ThingClass::floor, at(0.0, 0.0, 0.0),
+                             {box_on(0.0, 0.0, -kFloorDepth, floor.x(), floor.y(), kFloorDepth)}));
+  add("wall_north", {Eigen::Vector2d(outside.min().x(), hall.max().y()), outside.max()},
+      kWallHeight);
+  add("wall_east",
+      {Eigen::Vector2d(hall.max().x(), hall.min().y()),
+       Eigen::Vector2d(outside.max().x(), hall.max().y())},
+      kWallHeight);
+  add("wall_west",
+      {Eigen::Vector2d(outside.min().x(), hall.min().y()),
+       Eigen::Vector2d(hall.min().x(), hall.max().y())},
+      kWallHeight);
+  add_dock_wall(outside);
+}
+
+void LayoutHall::add_dock_wall(const Area& outside) {
+  const Area hall = plan_.hall();
+  double west = outside.min().x();
+  std::size_t piece = 0;
+  const auto wall_to = [&](double east) {
+    add(numbered("wall_south", ++piece),
+        {Eigen::Vector2d(west, outside.min().y()), Eigen::Vector2d(east, hall.min().y())},
+        kWallHeight);
+  };
+  for (int lane = 0; lane < plan_.lanes(); ++lane) {
+    if (!plan_.docked(lane)) continue;
+    const Area way = plan_.lane(lane);
+    const double half = std::min(kDoorWidth, way.sizes().x()) / 2.0;
+    wall_to(way.center().x() - half);
+    west = way.center().x() + half;
+    add(numbered("dock_door", piece),
+        {Eigen::Vector2d(way.center().x() - half, outside.min().y()),
+         Eigen::Vector2d(west, outside.min().y() + kPanel)},
+        kWallHeight);
+    things_.back().shapes.front().look = ThingClass::other;
+  }
+  wall_to(outside.max().x());
+}
+
+/// Through the flue of a row from front to back, with a door in each open passage.
+void LayoutHall::add_inner_walls() {
+  std::size_t piece = 0;
+  for (int row = 0; row < plan_.rows(); ++row) {
+    if (!plan_.walled(row)) continue;
+    const double x = plan_.passage(row, 0).center().x();
+    double south = plan_.hall().min().y();
+    const auto wall_to = [&](double north) {
+      if (north - south < 1e-6) return;
+      add(numbered("wall_inner", ++piece),
+          {Eigen::Vector2d(x - kWallThickness / 2.0, south),
+           Eigen::Vector2d(x + kWallThickness / 2.0, north)},
+          kWallHeight);
+    };
+    for (int crossing = 0; crossing < plan_.crossings(); ++crossing) {
+      if (!plan_.passage_open(row, crossing)) continue;
+      const double middle = plan_.passage(row, crossing).center().y();
+      wall_to(middle - plan_.door() / 2.0);
+      south = middle + plan_.door() / 2.0;
+    }
+    wall_to(plan_.hall().max().y());
+  }
+}
+
+/// What closes the ways that the plan has closed: an aisle at one end, a passage in its middle.
+void LayoutHall::add_fences() {
+  std::size_t number = 0;
+  const double thickness = kWallThickness;
+  for (int lane = 0; lane < plan_.lanes(); ++lane)
+    for (int block = 0; block < plan_.blocks(); ++block) {
+      if (plan_.aisle_open(lane, block)) continue;
+      const Area aisle = plan_.aisle(lane, block);
+      const double y = random_.chance(0.5) ? aisle.min().y() : aisle.max().y() - thickness;
+      add(numbered("fence", ++number),
+          {Eigen::Vector2d(aisle.min().x(), y), Eigen::Vector2d(aisle.max().x(), y + thickness)},
+          kFenceHeight);
+    }
+  for (int row = 0; row < plan_.rows(); ++row)
+    for (int crossing = 0; crossing < plan_.crossings(); ++crossing) {
+      if (plan_.walled(row) || plan_.passage_open(row, crossing)) continue;
+      const Area passage = plan_.passage(row, crossing);
+      const double x = passage.center().x() - thickness / 2.0;
+      add(numbered("fence", ++number),
+          {Eigen::Vector2d(x, passage.min().y()),
+           Eigen::Vector2d(x + thickness, passage.max().y())},
+          kFenceHeight);
+    }
+}
+
+}  // namespace navvi_sim::generate

@@ -1,0 +1,69 @@
+#include "navvi_sim/generate/layout_source.hpp"
+
+#include <navvi_config/reader.hpp>
+
+#include "generate/layout.hpp"
+
+namespace navvi_sim::generate {
+namespace {
+
+/// The file as a whole.
+struct LayoutFile {
+  std::string name;
+  std::string start = "easy";
+  LayoutConfig config;
+
+  void describe(navvi_config::Visitor& visit) {
+    navvi_config::OneOf words;
+    for (const Preset& known : presets()) words.words.push_back(known.name);
+    visit({"name", navvi_config::Any{}, "", "of the world; empty: the file's"}, name);
+    visit({"preset", words, "", "what the layout starts from"}, start);
+    visit.group("layout", config);
+  }
+};
+
+bool has_key(const YAML::Node& map, const std::string& key) {
+  for (const auto& entry : map)
+    if (entry.first.IsScalar() && entry.first.Scalar() == key) return true;
+  return false;
+}
+
+}  // namespace
+
+WorldDescription LayoutSource::build(std::uint64_t seed) const {
+  try {
+    return layout(name, config, seed);
+  } catch (const LayoutError& error) {
+    const auto place = places.find(error.key());
+    throw WorldError((place != places.end() ? place->second : where) + ": " + error.what());
+  }
+}
+
+std::optional<LayoutSource> read_layout(const std::filesystem::path& file) {
+  try {
+    const YAML::Node node = navvi_config::load_yaml(file);
+    if (!node.IsMap() || !(has_key(node, "layout") || has_key(node, "preset"))) return std::nullopt;
+    LayoutFile content;
+    navvi_config::read(content, node, file.string());
+    // Once more: what the file sets goes on top of the preset that it names.
+    content.config = preset(content.start).value();
+    navvi_config::read(content, node, file.string());
+    LayoutSource source{content.name.empty() ? file.stem().string() : content.name,
+                        content.config,
+                        file.string(),
+                        {}};
+    for (const auto& entry : node)
+      if (entry.first.Scalar() == "layout" && entry.second.IsMap())
+        for (const auto& field : entry.second)
+          source.places[field.first.Scalar()] =
+              file.string() + ", line " + std::to_string(field.first.Mark().line + 1);
+    return source;
+  } catch (const navvi_config::ConfigError& error) {
+    throw WorldError(error.what());
+  } catch (const YAML::Exception& error) {
+    throw WorldError(file.string() + ", line " + std::to_string(error.mark.line + 1) +
+                     ": no YAML that a layout can be read from: " + error.msg);
+  }
+}
+
+}  // namespace navvi_sim::generate

@@ -1,0 +1,153 @@
+#include "navvi_sim/live/session.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <navvi_config/reader.hpp>
+
+#include "navvi_sim/description/world_hash.hpp"
+#include "navvi_sim/setup/sim_node_config.hpp"
+
+namespace navvi_sim::live {
+namespace {
+
+struct Record {
+  std::vector<StateHash> hashes;
+  std::vector<AppliedCommand> commands;
+};
+
+/// The warehouse and a drive through it that brakes, turns and bumps.
+struct Drive {
+  setup::SimNodeConfig config;
+  WorldDescription world;
+  scenario::Scenario scenario;
+
+  explicit Drive(int seed) {
+    config.seed = seed;
+    world = setup::load_world(config).world;
+    scenario = setup::scenario_of(config, world, occupancy::occupancy_of(world, config.octomap));
+  }
+  [[nodiscard]] Session begin() const {
+    return Session(world, config.life, scenario.start, static_cast<std::uint64_t>(config.seed));
+  }
+  /// By hand, step by step, as a person's commands come: at any step, not at every one.
+  [[nodiscard]] Record driven(int steps) const {
+    Session session = begin();
+    for (int i = 0; i < steps; ++i) {
+      const double t = 0.02 * (i / 2);
+      const bool stop = i % 700 > 640;
+      const navvi_safety::Velocity command{stop ? 0.0 : 0.7 + 0.3 * std::sin(t), std::sin(0.4 * t)};
+      EXPECT_EQ(
+          session.step(command, stop ? physics::Braking::emergency : physics::Braking::normal),
+          World::Status::running);
+    }
+    return {session.hashes(), session.commands()};
+  }
+};
+
+constexpr int kSteps = 2000;
+
+TEST(Session, writes_down_each_second_and_each_change_of_the_command) {
+  Session session = Drive(1).begin();
+  for (int i = 0; i < 250; ++i)
+    ASSERT_EQ(session.step({i < 100 ? 0.0 : 0.5, 0.0}), World::Status::running);
+  ASSERT_EQ(session.hashes().size(), 3u);
+  EXPECT_EQ(session.hashes()[0].step, 0u);
+  EXPECT_EQ(session.hashes()[2].step, 200u);
+  ASSERT_EQ(session.commands().size(), 2u);
+  EXPECT_EQ(session.commands()[1].step, 100u);
+  EXPECT_EQ(session.commands()[1].velocity.linear, 0.5);
+}
+
+TEST(Session, a_refused_command_leaves_no_trace) {
+  Session session = Drive(1).begin();
+  EXPECT_EQ(session.step({std::numeric_limits<double>::quiet_NaN(), 0.0}),
+            World::Status::command_refused);
+  EXPECT_EQ(session.steps(), 0u);
+  EXPECT_TRUE(session.commands().empty());
+}
+
+TEST(Session, its_record_repeats_it) {
+  const Drive drive(3);
+  const Record first = drive.driven(kSteps);
+  Session again = drive.begin();
+  EXPECT_EQ(replay(again, first.commands, kSteps), World::Status::running);
+  EXPECT_EQ(again.hashes(), first.hashes);
+
+  std::vector<AppliedCommand> other = first.commands;
+  for (AppliedCommand& command : other) command.velocity.linear += 1e-12;
+  Session different = drive.begin();
+  EXPECT_EQ(replay(different, other, kSteps), World::Status::running);
+  EXPECT_NE(different.hashes(), first.hashes) << "the hash must see the least change";
+}
+
+TEST(Session, repeats_after_fifty_other_trials_in_the_same_process) {
+  const Drive drive(3);
+  const std::vector<StateHash> first = drive.driven(kSteps).hashes;
+  for (int trial = 0; trial < 50; ++trial) {
+    Drive other = drive;
+    other.config.seed = trial;
+    other.world = setup::load_world(other.config).world;
+    ASSERT_EQ(other.driven(100).hashes.size(), 2u);
+  }
+  EXPECT_EQ(drive.driven(kSteps).hashes, first);
+}
+
+/// What another process says of the same drive.
+std::vector<StateHash> in_another_process(const std::filesystem::path& folder) {
+  const std::string command = std::string(LOCKSTEP) + " " + (folder / "parameters.yaml").string() +
+                              " " + (folder / "commands.csv").string() + " 20";
+  std::vector<StateHash> hashes;
+  FILE* pipe = popen(command.c_str(), "r");
+  unsigned long long step = 0, hash = 0;
+  while (std::fscanf(pipe, "%llu %llx", &step, &hash) == 2) hashes.push_back({step, hash});
+  EXPECT_EQ(pclose(pipe), 0);
+  return hashes;
+}
+
+TEST(Session, repeats_in_other_processes_from_its_written_recipe) {
+  std::string folder = (std::filesystem::temp_directory_path() / "navvi_session_XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const Drive drive(5);
+  const Record first = drive.driven(kSteps);
+  std::ofstream(std::filesystem::path(folder) / "parameters.yaml")
+      << setup::recipe(drive.config, drive.scenario);
+  std::ofstream commands(std::filesystem::path(folder) / "commands.csv");
+  for (const AppliedCommand& command : first.commands) {
+    std::array<char, 128> line{};
+    std::snprintf(line.data(), line.size(), "%llu,%.17g,%.17g,%d\n",
+                  static_cast<unsigned long long>(command.step), command.velocity.linear,
+                  command.velocity.angular, command.braking == physics::Braking::emergency);
+    commands << line.data();
+  }
+  commands.close();
+  EXPECT_EQ(in_another_process(folder), first.hashes);
+  EXPECT_EQ(in_another_process(folder), first.hashes);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Recipe, gives_start_and_goal_back_bit_for_bit) {
+  const Drive drive(11);
+  setup::SimNodeConfig again;
+  navvi_config::read(again, YAML::Load(setup::recipe(drive.config, drive.scenario)), "the recipe");
+  ASSERT_TRUE(again.start_pose() && again.goal_point());
+  EXPECT_EQ(again.start_pose()->x, drive.scenario.start.x);
+  EXPECT_EQ(again.start_pose()->y, drive.scenario.start.y);
+  EXPECT_EQ(again.start_pose()->yaw, drive.scenario.start.yaw);
+  EXPECT_EQ(*again.goal_point(), drive.scenario.goal);
+  EXPECT_EQ(world_hash(setup::load_world(again).world), world_hash(drive.world));
+}
+
+}  // namespace
+}  // namespace navvi_sim::live
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

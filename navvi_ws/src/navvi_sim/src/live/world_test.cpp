@@ -1,0 +1,329 @@
+#include "navvi_sim/live/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace navvi_sim::live {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Thing box_thing(const std::string& name, ThingClass thing_class, const Eigen::Vector3d& centre,
+                const Eigen::Vector3d& size) {
+  Thing thing;
+  thing.name = name;
+  thing.thing_class = thing_class;
+  thing.pose.translation() = centre;
+  thing.shapes.push_back({Box{size}, Eigen::Isometry3d::Identity()});
+  return thing;
+}
+
+WorldDescription floor_only() {
+  WorldDescription world;
+  world.name = "floor";
+  world.things.push_back(box_thing("floor", ThingClass::floor, {0, 0, -0.05}, {40, 40, 0.1}));
+  return world;
+}
+
+Thing mover_thing(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed) {
+  Thing thing =
+      box_thing("mover", ThingClass::pallet_robot, {from.x(), from.y(), 0.25}, {0.8, 0.6, 0.5});
+  thing.route = Route{{{from, 0.5}, {to, 0.5}}, speed};
+  return thing;
+}
+
+/// Steps for `seconds`; returns every contact that began.
+std::vector<physics::ContactEvent> drive(World& world, double seconds,
+                                         const navvi_safety::Velocity& command,
+                                         physics::Braking braking = physics::Braking::normal) {
+  std::vector<physics::ContactEvent> contacts;
+  const int steps = static_cast<int>(std::lround(seconds / 0.01));
+  for (int i = 0; i < steps; ++i) {
+    EXPECT_EQ(world.step(command, braking), World::Status::running);
+    contacts.insert(contacts.end(), world.now().contacts.begin(), world.now().contacts.end());
+  }
+  return contacts;
+}
+
+World make(const WorldDescription& description, const FloorPose& start = {},
+           const WorldConfig& config = {}) {
+  return World(description, config, start, 1);
+}
+
+TEST(World, stands_still_without_a_command) {
+  World world = make(floor_only(), {1.0, 2.0, 0.5});
+  drive(world, 1.0, {});
+  EXPECT_NEAR(world.now().robot.position.x(), 1.0, 1e-9);
+  EXPECT_NEAR(world.now().robot.position.y(), 2.0, 1e-9);
+  EXPECT_NEAR(world.now().robot.yaw, 0.5, 1e-9);
+  EXPECT_NEAR(world.now().time, 1.0, 1e-9);
+}
+
+TEST(World, drives_straight_and_keeps_to_its_limits) {
+  World world = make(floor_only());
+  double before = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_EQ(world.step({1.5, 0.0}), World::Status::running);
+    const double speed = world.now().robot.forward_speed();
+    EXPECT_LE(speed - before, 0.01 * 1.0 + 1e-9) << "acceleration beyond 1 m/s^2";
+    before = speed;
+  }
+  EXPECT_NEAR(before, 0.9, 1e-6);
+  EXPECT_NEAR(world.now().robot.position.y(), 0.0, 1e-6);
+  // 0.9 s to reach the speed, 4.1 s at it.
+  EXPECT_NEAR(world.now().robot.position.x(), 0.5 * 0.81 + 4.1 * 0.9, 0.02);
+}
+
+TEST(World, an_emergency_stops_the_wheels_within_50_ms) {
+  World world = make(floor_only());
+  drive(world, 2.0, {0.9, 0.0});
+  drive(world, 0.05, {}, physics::Braking::emergency);
+  EXPECT_EQ(world.now().robot.velocity.norm(), 0.0);
+}
+
+TEST(World, turns_on_the_spot_and_does_not_slip_sideways) {
+  World world = make(floor_only());
+  drive(world, 3.0, {0.9, 1.0});
+  EXPECT_LT(std::abs(world.now().robot.sideways_speed()), 0.01);
+  World spot = make(floor_only());
+  drive(spot, 2.0, {0.0, 1.0});
+  EXPECT_LT(spot.now().robot.position.norm(), 1e-6);
+  EXPECT_NEAR(spot.now().robot.yaw, 2.0 - 0.5 * 0.25, 0.02);
+}
+
+TEST(World, a_wall_stops_it_at_the_surface) {
+  WorldDescription description = floor_only();
+  description.things.push_back(box_thing("wall", ThingClass::wall, {2.05, 0, 1}, {0.1, 10, 2}));
+  World world = make(description);
+  double farthest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_EQ(world.step({0.9, 0.0}), World::Status::running);
+    farthest = std::max(farthest, world.now().robot.position.x());
+  }
+  EXPECT_LT(farthest, 2.0 - 0.35 + 0.005);
+  EXPECT_GT(world.now().robot.position.x(), 2.0 - 0.35 - 0.005);
+  EXPECT_LT(world.now().robot.velocity.norm(), 0.03);
+}
+
+TEST(World, a_mesh_wall_stops_it_as_well) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices = {{0, -5, 0}, {0, 5, 0}, {0, 5, 2}, {0, -5, 2}};
+  mesh->triangles = {{0, 1, 2}, {0, 2, 3}};
+  Thing wall;
+  wall.name = "wall";
+  wall.thing_class = ThingClass::wall;
+  wall.pose.translation().x() = 2.0;
+  wall.shapes.push_back({std::shared_ptr<const Mesh>(mesh), Eigen::Isometry3d::Identity()});
+  WorldDescription description = floor_only();
+  description.things.push_back(wall);
+  World world = make(description);
+  const auto contacts = drive(world, 10.0, {0.9, 0.0});
+  EXPECT_NEAR(world.now().robot.position.x(), 1.65, 0.005);
+  EXPECT_EQ(contacts.size(), 1u);
+}
+
+TEST(World, slides_along_a_wall_but_never_through_it) {
+  WorldDescription description = floor_only();
+  description.things.push_back(box_thing("wall", ThingClass::wall, {0, 1.05, 1}, {30, 0.1, 2}));
+  World world = make(description, {0, 0, kPi / 6});
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_EQ(world.step({0.9, 0.0}), World::Status::running);
+    ASSERT_LT(world.now().robot.position.y(), 1.0 - 0.35 + 0.005);
+  }
+}
+
+TEST(World, low_pedestals_block_and_lower_plates_do_not) {
+  for (const double height : {0.06, 0.08, 0.10}) {
+    WorldDescription description = floor_only();
+    description.things.push_back(
+        box_thing("pedestal", ThingClass::pedestal, {2.5, 0, 0.5 * height}, {1, 1, height}));
+    World world = make(description);
+    drive(world, 6.0, {0.9, 0.0});
+    EXPECT_NEAR(world.now().robot.position.x(), 1.65, 0.01) << "height " << height;
+  }
+  WorldDescription description = floor_only();
+  description.things.push_back(box_thing("plate", ThingClass::other, {2.5, 0, 0.01}, {1, 1, 0.02}));
+  World world = make(description);
+  EXPECT_TRUE(drive(world, 6.0, {0.9, 0.0}).empty());
+  EXPECT_GT(world.now().robot.position.x(), 4.0);
+}
+
+TEST(World, passes_under_what_is_above_it) {
+  WorldDescription description = floor_only();
+  description.things.push_back(box_thing("beam", ThingClass::wall, {2, 0, 1.0}, {0.2, 10, 0.2}));
+  World world = make(description);
+  EXPECT_TRUE(drive(world, 6.0, {0.9, 0.0}).empty());
+  EXPECT_GT(world.now().robot.position.x(), 4.0);
+}
+
+TEST(World, a_contact_counts_once_while_pushing_and_again_after_parting) {
+  WorldDescription description = floor_only();
+  description.things.push_back(box_thing("shelf", ThingClass::shelf, {2.5, 0, 1}, {1, 3, 2}));
+  World world = make(description);
+  const auto first = drive(world, 6.0, {0.9, 0.0});
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0].seq, 1u);
+  EXPECT_EQ(first[0].thing, 1u);
+  EXPECT_NEAR(first[0].point.x(), 2.0, 0.01);
+  EXPECT_NEAR(first[0].speed, 0.9, 0.05);
+  EXPECT_EQ(first[0].counts.at(ThingClass::shelf), 1u);
+  EXPECT_TRUE(drive(world, 1.0, {-0.5, 0.0}).empty());
+  const auto second = drive(world, 3.0, {0.5, 0.0});
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].seq, 2u);
+  EXPECT_EQ(second[0].counts.at(ThingClass::shelf), 2u);
+}
+
+TEST(World, a_mover_follows_its_route_for_ever) {
+  WorldDescription description = floor_only();
+  description.things.push_back(mover_thing({-3, 5}, {3, 5}, 1.0));
+  World world = make(description);
+  double low = 0.0, high = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    ASSERT_EQ(world.step({}), World::Status::running);
+    const MoverState& mover = world.now().movers.at(0);
+    EXPECT_NEAR(mover.pose.translation().y(), 5.0, 0.01);
+    EXPECT_NEAR(mover.pose.translation().z(), 0.25, 1e-9);
+    EXPECT_LT(mover.velocity.norm(), 1.0 + 1e-9);
+    low = std::min(low, mover.pose.translation().x());
+    high = std::max(high, mover.pose.translation().x());
+  }
+  EXPECT_NEAR(low, -3.0, 1e-6);
+  EXPECT_NEAR(high, 3.0, 1e-6);
+  EXPECT_NEAR(world.now().movers[0].extent.radius, 0.5, 1e-6);
+  EXPECT_NEAR(world.now().movers[0].height, 0.5, 1e-6);
+}
+
+TEST(World, a_yielding_mover_stops_before_the_robot) {
+  WorldDescription description = floor_only();
+  description.things.push_back(mover_thing({-4, 0}, {4, 0}, 1.0));
+  World world = make(description);
+  EXPECT_TRUE(drive(world, 9.0, {}).empty());
+  const double gap = -world.now().movers.at(0).pose.translation().x() - 0.4 - 0.35;
+  EXPECT_GT(gap, 0.2);
+  EXPECT_LT(gap, 0.7);
+  EXPECT_LT(world.now().robot.position.norm(), 1e-6);
+}
+
+TEST(World, a_yielding_mover_touches_no_robot_that_stands_anywhere_on_its_way) {
+  Thing mover = box_thing("mover", ThingClass::forklift, {-4, -3, 1.0}, {2.4, 1.0, 2.0});
+  mover.route = Route{{{{-4, -3}}, {{4, -3}, 1.0}, {{4, 3}}, {{-4, 3}}}, 1.5};
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2.0 * kPi * i / 40.0;
+    WorldDescription description = floor_only();
+    description.things.push_back(mover);
+    const FloorPose start{4.2 * std::cos(angle), 3.2 * std::sin(angle), 0.0};
+    if (Eigen::Vector2d(start.x + 4, start.y + 3).norm() < 2.5) continue;
+    World world = make(description, start);
+    EXPECT_TRUE(drive(world, 60.0, {}).empty()) << "robot at " << start.x << ", " << start.y;
+  }
+}
+
+TEST(World, a_mover_that_does_not_yield_pushes_the_robot_and_is_counted) {
+  WorldDescription description = floor_only();
+  description.things.push_back(mover_thing({-4, 0}, {4, 0}, 1.0));
+  WorldConfig config;
+  config.movers.yield = false;
+  World world = make(description, {0, 0, kPi / 2}, config);
+  const auto contacts = drive(world, 7.0, {});
+  ASSERT_FALSE(contacts.empty());
+  EXPECT_EQ(contacts[0].counts.at(ThingClass::pallet_robot), 1u);
+  EXPECT_GT(world.now().robot.position.x(), 0.5);
+  EXPECT_LT(world.now().robot.velocity.norm(), 2.0);
+}
+
+TEST(World, a_pushing_mover_does_not_press_the_robot_through_a_wall) {
+  WorldDescription description = floor_only();
+  description.things.push_back(box_thing("wall", ThingClass::wall, {2.05, 0, 1}, {0.1, 10, 2}));
+  description.things.push_back(mover_thing({-4, 0}, {1.45, 0}, 1.0));
+  WorldConfig config;
+  config.movers.yield = false;
+  World world = make(description, {1, 0, kPi / 2}, config);
+  drive(world, 20.0, {});
+  EXPECT_LT(world.now().robot.position.x(), 2.0 - 0.35 + 0.05);
+}
+
+TEST(World, refuses_movers_that_cannot_let_each_other_pass) {
+  WorldDescription description = floor_only();
+  description.things.push_back(mover_thing({-6, 3}, {6, 3}, 1.0));
+  description.things.push_back(mover_thing({6, 3}, {-6, 3}, 0.8));
+  description.things.back().name = "other";
+  EXPECT_THROW(make(description), WorldError);
+}
+
+TEST(World, repeats_bit_for_bit_though_other_worlds_lived_between) {
+  WorldDescription description = floor_only();
+  for (int i = 0; i < 20; ++i)
+    description.things.push_back(box_thing("shelf " + std::to_string(i), ThingClass::shelf,
+                                           {i % 5 * 1.7 + 1.0, i / 5 * 1.9 - 3.0, 0.5},
+                                           {0.5, 0.7, 1.0}));
+  description.things.push_back(mover_thing({-1, -4}, {-1, 4}, 1.0));
+  const auto history = [&](std::uint64_t seed) {
+    World world(description, {}, {-1, 0, 0.1}, seed);
+    std::vector<std::uint64_t> hashes;
+    for (int i = 0; i < 2000; ++i) {
+      const double t = 0.01 * i;
+      EXPECT_EQ(world.step({0.9 * std::sin(0.3 * t), std::sin(0.7 * t)}), World::Status::running);
+      hashes.push_back(world.state_hash());
+    }
+    return hashes;
+  };
+  const auto first = history(7);
+  std::vector<std::unique_ptr<World>> others;
+  for (int i = 0; i < 10; ++i) {
+    others.push_back(
+        std::make_unique<World>(description, WorldConfig{}, FloorPose{-1, 0, 0.2 * i}, 3));
+    drive(*others.back(), 0.5, {0.5, 0.1});
+  }
+  EXPECT_EQ(first, history(7));
+  EXPECT_NE(first, history(8)) << "the seed draws the pauses";
+}
+
+TEST(World, is_the_same_to_the_robot_whatever_is_far_away) {
+  WorldDescription near = floor_only();
+  near.things.push_back(box_thing("wall", ThingClass::wall, {4.0, 0, 1}, {0.1, 6, 2}));
+  near.things.push_back(mover_thing({-4, 1}, {3, 1}, 1.0));
+  WorldDescription crowded = near;
+  for (int i = 0; i < 200; ++i)
+    crowded.things.push_back(box_thing("shelf " + std::to_string(i), ThingClass::shelf,
+                                       {i % 20 - 10.0, 90.0 + i / 20 * 2.0, 0.5}, {0.5, 0.7, 1.0}));
+  crowded.things.push_back(mover_thing({-9, -90}, {9, -90}, 1.0));
+  crowded.things.back().name = "far mover";
+  World one = make(near), other = make(crowded);
+  std::size_t contacts = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const navvi_safety::Velocity command{0.9, 0.1 * std::sin(0.004 * i)};
+    ASSERT_EQ(one.step(command), World::Status::running);
+    ASSERT_EQ(other.step(command), World::Status::running);
+    ASSERT_EQ(one.now().robot.position, other.now().robot.position) << i;
+    contacts += one.now().contacts.size();
+  }
+  EXPECT_GT(contacts, 0u);
+}
+
+TEST(World, refuses_a_command_that_is_no_number_and_lives_on) {
+  World world = make(floor_only());
+  const std::uint64_t before = world.state_hash();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(world.step({nan, 0.0}), World::Status::command_refused);
+  EXPECT_EQ(world.step({0.0, std::numeric_limits<double>::infinity()}),
+            World::Status::command_refused);
+  EXPECT_EQ(world.state_hash(), before);
+  EXPECT_EQ(world.step({}), World::Status::running);
+}
+
+TEST(World, a_state_that_is_no_number_stops_the_world_for_good) {
+  World world = make(floor_only(), {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+  EXPECT_EQ(world.step({}), World::Status::numeric_failure);
+  EXPECT_EQ(world.step({}), World::Status::numeric_failure);
+}
+
+}  // namespace
+}  // namespace navvi_sim::live
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,266 @@
+// The simulator: a world that lives in step with the wall clock, driven by cmd_vel.
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <csignal>
+#include <map>
+#include <navvi_config/ros_parameters.hpp>
+#include <navvi_safety/msg_conversion.hpp>
+
+#include "live/pacer.hpp"
+#include "navvi_sim/description/world_hash.hpp"
+#include "navvi_sim/live/session.hpp"
+#include "navvi_sim/node/msg_conversion.hpp"
+#include "navvi_sim/node/state_conversion.hpp"
+#include "navvi_sim/setup/sim_node_config.hpp"
+#include "read/thing_table.hpp"
+#include "scene/scene.hpp"
+
+namespace navvi_sim::node {
+namespace {
+
+constexpr double kTick = 0.005;  // s, wall clock; shorter than a step, for an even pace
+
+class SimNode {
+ public:
+  SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded);
+
+  /// The exit code of the process.
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+ private:
+  void advertise();
+  void publish_what_stands(const scenario::Scenario& scenario);
+  void tell_what_there_is(const std::vector<std::string>& notes,
+                          const scenario::Scenario& scenario) const;
+  void receive(const geometry_msgs::Twist::ConstPtr& msg);
+  void tick(const ros::WallTimerEvent& event);
+  [[nodiscard]] bool step();
+  void publish_state();
+  void publish_drive_state();
+  void publish_record();
+  [[nodiscard]] const live::World& world() const { return session_->world(); }
+  [[nodiscard]] ros::Time stamp() const { return ros::Time(world().now().time); }
+  /// The gate is told simulated time by the world itself, not by a clock that lags behind it.
+  [[nodiscard]] navvi_safety::Instant instant() const {
+    return {ros::SteadyTime::now().toSec(), world().now().time};
+  }
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue commands_queue_;
+  setup::SimNodeConfig config_;
+  WorldDescription description_;
+  occupancy::OccupancyMap map_;
+  std::optional<live::Session> session_;
+  scene::Scene looks_;
+  navvi_safety::CommandGate gate_;
+  live::Pacer pacer_;
+  std::size_t commands_told_ = 0;
+  std::size_t hashes_told_ = 0;
+  double last_tick_ = 0.0;  // s, monotonic wall clock
+  int exit_code_ = 0;
+  std::optional<navvi_msgs::DriveState> drive_state_;
+
+  ros::Publisher clock_, odom_, octomap_, cells_, scene_, moving_, obstacles_, proximity_,
+      contacts_, scenario_, drive_, applied_, hash_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  ros::Subscriber commands_;
+  ros::WallTimer timer_;
+};
+
+SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
+    : config_(config),
+      description_(std::move(loaded.world)),
+      map_(occupancy::occupancy_of(description_, config_.octomap)),
+      looks_(description_, config.life.robot),
+      gate_(config.gate),
+      pacer_(config.life.step, config.rate, config.max_catch_up) {
+  const scenario::Scenario scenario = setup::scenario_of(config_, description_, map_);
+  session_.emplace(description_, config_.life, scenario.start,
+                   static_cast<std::uint64_t>(config_.seed));
+
+  advertise();
+  tell_what_there_is(loaded.notes, scenario);
+  publish_what_stands(scenario);
+  publish_drive_state();
+  publish_record();
+
+  ros::SubscribeOptions commands = ros::SubscribeOptions::create<geometry_msgs::Twist>(
+      "cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) { receive(msg); },
+      ros::VoidPtr(), &commands_queue_);
+  commands.transport_hints = ros::TransportHints().tcpNoDelay();
+  commands_ = node_.subscribe(commands);
+  timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
+}
+
+void SimNode::advertise() {
+  clock_ = node_.advertise<rosgraph_msgs::Clock>("clock", 10);
+  odom_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
+  octomap_ = node_.advertise<octomap_msgs::Octomap>("octomap_binary", 1, true);
+  // Large, and seldom looked at: made for whoever asks.
+  cells_ = node_.advertise<visualization_msgs::MarkerArray>(
+      "occupied_cells_vis_array", 1, [this](const ros::SingleSubscriberPublisher& listener) {
+        listener.publish(occupied_cells_msg(map_, stamp()));
+      });
+  scene_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene", 1, true);
+  moving_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/scene_moving", 1);
+  obstacles_ = node_.advertise<navvi_msgs::Obstacles>("navvi/obstacles", 2);
+  proximity_ = node_.advertise<navvi_msgs::Proximity>("navvi/proximity", 2);
+  contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
+  scenario_ = node_.advertise<navvi_msgs::Scenario>("navvi/scenario", 1, true);
+  drive_ = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
+  // Who begins to listen in mid-session can still repeat it from its first step.
+  applied_ = node_.advertise<navvi_msgs::AppliedCommands>(
+      "navvi/applied_commands", 1000, [this](const ros::SingleSubscriberPublisher& listener) {
+        listener.publish(applied_commands_msg(session_->commands(), 0, stamp()));
+      });
+  hash_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
+}
+
+void SimNode::publish_what_stands(const scenario::Scenario& scenario) {
+  if (!config_.life.robot.imperfections.odometry_drifts())
+    static_transforms_.sendTransform(
+        odom_msg(world().now().robot, world().now().odometry, stamp()));
+  octomap_.publish(to_msg(map_, ros::Time()));
+  scene_.publish(looks_.standing(stamp()));
+  navvi_msgs::Scenario played =
+      scenario_msg(description_, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
+                   scenario, stamp());
+  played.parameters = setup::recipe(config_, scenario);
+  scenario_.publish(played);
+}
+
+void SimNode::tell_what_there_is(const std::vector<std::string>& notes,
+                                 const scenario::Scenario& scenario) const {
+  for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
+  std::map<std::string, int> standing, moving;
+  for (const Thing& thing : description_.things)
+    ++(thing.route ? moving : standing)[to_string(thing.thing_class)];
+  ROS_INFO("world %s, floor at z = %.3f m", description_.name.c_str(), description_.floor_height);
+  for (const auto& [thing_class, count] : standing)
+    ROS_INFO("  %4d %s standing", count, thing_class.c_str());
+  for (const auto& [thing_class, count] : moving)
+    ROS_INFO("  %4d %s on routes", count, thing_class.c_str());
+  ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.x, scenario.start.y,
+           scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
+}
+
+void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
+  const unsigned before = gate_.rejected();
+  gate_.receive(navvi_safety::from_msg(*msg), instant());
+  if (gate_.rejected() != before)
+    ROS_WARN_THROTTLE(1.0, "cmd_vel: %u commands rejected, not finite or absurdly large",
+                      gate_.rejected());
+}
+
+void SimNode::tick(const ros::WallTimerEvent&) {
+  const double wall = ros::SteadyTime::now().toSec();
+  // The gate counts a command's age from when it is received. After a delay longer than the
+  // timeout, commands that waited in the queue would count as new, and the wheels would go on
+  // turning. So the gate stops the wheels before the queue is read.
+  const bool delayed = wall - last_tick_ > config_.gate.timeout;
+  if (delayed) static_cast<void>(gate_.update(instant()));
+  last_tick_ = wall;
+  const int due = pacer_.due(wall);
+  const long dropped = pacer_.dropped();
+  for (int i = 0; i < due; ++i) {
+    // Commands that came while this process was held up must count before their age does.
+    commands_queue_.callAvailable();
+    if (!step()) return;
+  }
+  if (due == config_.max_catch_up && dropped > 0)
+    ROS_WARN_THROTTLE(5.0, "the simulation is slower than asked for: %ld steps let go so far",
+                      dropped);
+}
+
+bool SimNode::step() {
+  const navvi_safety::Velocity wheels = gate_.update(instant());
+  const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
+  const live::World::Status status =
+      session_->step(wheels, running ? physics::Braking::normal : physics::Braking::emergency);
+  if (status != live::World::Status::running) {
+    ROS_FATAL("the simulation has stopped at %.2f s: a number in it is not finite",
+              world().now().time);
+    exit_code_ = 3;
+    timer_.stop();
+    ros::requestShutdown();
+    return false;
+  }
+  publish_state();
+  publish_drive_state();
+  publish_record();
+  return true;
+}
+
+void SimNode::publish_state() {
+  const live::Snapshot& now = world().now();
+  const double floor = description_.floor_height;
+  rosgraph_msgs::Clock clock;
+  clock.clock = stamp();
+  clock_.publish(clock);
+  std::vector<geometry_msgs::TransformStamped> frames{base_link_msg(now.odometry, floor, stamp())};
+  if (config_.life.robot.imperfections.odometry_drifts())
+    frames.push_back(odom_msg(now.robot, now.odometry, stamp()));
+  transforms_.sendTransform(frames);
+  odom_.publish(odometry_msg(now.odometry, floor, stamp()));
+  for (const physics::ContactEvent& contact : now.contacts)
+    contacts_.publish(contact_msg(description_, now.robot, contact, stamp()));
+  if (session_->due(kProximityRate)) {
+    proximity_.publish(proximity_msg(description_, now.robot,
+                                     world().proximity(config_.detection_radius),
+                                     config_.detection_radius, stamp()));
+  }
+  if (session_->due(kObstaclesRate)) {
+    obstacles_.publish(obstacles_msg(description_, now, stamp()));
+    moving_.publish(looks_.moving(now, stamp()));
+  }
+}
+
+void SimNode::publish_drive_state() {
+  const navvi_msgs::DriveState msg = navvi_safety::state_msg(gate_, stamp());
+  if (drive_state_ && drive_state_->state == msg.state && drive_state_->reason == msg.reason &&
+      drive_state_->rejected == msg.rejected)
+    return;
+  drive_.publish(msg);
+  drive_state_ = msg;
+}
+
+/// What repeats this world, and what proves that the repetition is the same.
+void SimNode::publish_record() {
+  if (commands_told_ < session_->commands().size()) {
+    applied_.publish(applied_commands_msg(session_->commands(), commands_told_, stamp()));
+    commands_told_ = session_->commands().size();
+  }
+  if (hashes_told_ < session_->hashes().size()) {
+    hash_.publish(state_hash_msg(session_->hashes().back(), stamp()));
+    hashes_told_ = session_->hashes().size();
+  }
+}
+
+/// \throws ConfigError with a sentence for whoever chose the world
+int run(const setup::SimNodeConfig& config) try {
+  read::LoadedWorld loaded = setup::load_world(config);
+  if (!loaded.rules.empty())
+    ROS_INFO("what the models of the world are:\n%s", read::thing_table(loaded, 100).c_str());
+  const SimNode sim(config, std::move(loaded));
+  ros::spin();
+  return sim.exit_code();
+} catch (const WorldError& error) {
+  throw navvi_config::ConfigError(error.what());
+}
+
+}  // namespace
+}  // namespace navvi_sim::node
+
+int main(int argc, char** argv) {
+  using navvi_sim::setup::SimNodeConfig;
+  if (navvi_config::tells_parameters<SimNodeConfig>(argc, argv)) return 0;
+  ros::init(argc, argv, "sim_node");
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  return navvi_config::run_node<SimNodeConfig>(navvi_sim::node::run);
+}

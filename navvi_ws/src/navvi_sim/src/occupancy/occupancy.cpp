@@ -1,0 +1,138 @@
+#include "navvi_sim/occupancy/occupancy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "occupancy/octree_writer.hpp"
+
+namespace navvi_sim::occupancy {
+namespace {
+
+constexpr double kReach = 0.05;  // share of a voxel's edge that a shape must reach into
+constexpr std::size_t kMaxBytes = 64U * 1024U * 1024U;  // as many as navigation takes
+constexpr std::size_t kMostFilled = 2'000;              // triangles of a mesh
+constexpr double kWidestFilled = 4.0;  // m, the lesser side: what is wider may be a building
+
+bool is_aligned(const Eigen::Isometry3d& pose) {
+  return (pose.linear().cwiseAbs().rowwise().maxCoeff().array() > 1.0 - 1e-9).all();
+}
+
+/// Adds a shape of any kind to the occupied shapes.
+class ShapeInserter {
+ public:
+  /// \param enclosing  the inside of a closed mesh is where one drives
+  ShapeInserter(OccupiedShapes& shapes, const Eigen::Isometry3d& pose, double resolution,
+                bool enclosing)
+      : shapes_(shapes), pose_(pose), resolution_(resolution), enclosing_(enclosing) {}
+
+  void operator()(const Box& box) const {
+    const double reach = reach_of(box.size.minCoeff());
+    if (is_aligned(pose_))
+      shapes_.boxes.push_back(voxel_box(box, reach));
+    else
+      shapes_.solids.push_back({TurnedBox(box.size, pose_), reach});
+  }
+  void operator()(const Cylinder& cylinder) const {
+    shapes_.solids.push_back({SolidCylinder(cylinder, pose_),
+                              reach_of(std::min(2.0 * cylinder.radius, cylinder.length))});
+  }
+  void operator()(const Sphere& sphere) const {
+    shapes_.solids.push_back(
+        {SolidSphere(sphere, pose_.translation()), reach_of(2.0 * sphere.radius)});
+  }
+  void operator()(const std::shared_ptr<const Mesh>& mesh) const {
+    // A surface has no inside to reach into: it counts a little below where it is instead.
+    const Eigen::Vector3d down = -kReach * resolution_ * Eigen::Vector3d::UnitZ();
+    std::vector<Triangle> triangles;
+    for (const auto& indices : mesh->triangles) {
+      Triangle triangle;
+      for (std::size_t i = 0; i < 3; ++i)
+        triangle.corners[i] = pose_ * mesh->vertices[indices[i]].cast<double>() + down;
+      triangles.push_back(triangle);
+    }
+    shapes_.triangles.insert(shapes_.triangles.end(), triangles.begin(), triangles.end());
+    if (enclosing_ || triangles.size() > kMostFilled) return;
+    for (ClosedMesh& part : closed_parts(triangles))
+      if (part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled)
+        shapes_.closed.push_back(std::move(part));
+  }
+
+ private:
+  /// m, that a solid must reach into a voxel.
+  /// \param thickness  m, its least extent
+  [[nodiscard]] double reach_of(double thickness) const {
+    return std::min(kReach * resolution_, thickness / 4.0);
+  }
+
+  /// The voxels that a box along the axes reaches into.
+  [[nodiscard]] VoxelBox voxel_box(const Box& box, double reach) const {
+    const Eigen::Vector3d half =
+        pose_.linear().array().round().matrix().cwiseAbs() * box.size / 2.0;
+    const Eigen::Vector3d low = pose_.translation() - half;
+    const Eigen::Vector3d high = pose_.translation() + half;
+    VoxelBox voxels{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      voxels.low[i] = OccupancyMap::kCenter - 1 +
+                      static_cast<int>(std::ceil((low[axis] + reach) / resolution_));
+      voxels.high[i] = OccupancyMap::kCenter + 1 +
+                       static_cast<int>(std::floor((high[axis] - reach) / resolution_));
+    }
+    return voxels;
+  }
+
+  OccupiedShapes& shapes_;
+  Eigen::Isometry3d pose_;
+  double resolution_;
+  bool enclosing_;
+};
+
+/// Half the length of a cube around the shape's frame that holds the shape.
+struct Extent {
+  double operator()(const Box& box) const { return box.size.norm() / 2.0; }
+  double operator()(const Cylinder& cylinder) const {
+    return std::hypot(cylinder.radius, cylinder.length / 2.0);
+  }
+  double operator()(const Sphere& sphere) const { return sphere.radius; }
+  double operator()(const std::shared_ptr<const Mesh>& mesh) const {
+    float extent = 0.0F;
+    for (const Eigen::Vector3f& vertex : mesh->vertices) extent = std::max(extent, vertex.norm());
+    return static_cast<double>(extent);
+  }
+};
+
+void check_reach(const Thing& thing, const Shape& shape, double resolution) {
+  const double reach = OccupancyMap::kCenter * resolution;
+  const double extent = (thing.pose * shape.pose).translation().cwiseAbs().maxCoeff() +
+                        std::visit(Extent{}, shape.geometry);
+  if (!(extent < reach))
+    throw WorldError("thing '" + thing.name + "' reaches " + std::to_string(extent) +
+                     " m from the origin; allowed is less than " + std::to_string(reach) +
+                     " m at the OctoMap's resolution of " + std::to_string(resolution) + " m");
+}
+
+}  // namespace
+
+void OccupancyConfig::describe(navvi_config::Visitor& visit) {
+  visit({"resolution", navvi_config::Range{0.01, 1.0}, "m", "edge of a voxel of the OctoMap"},
+        resolution);
+}
+
+OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
+  const double border = std::round(world.floor_height / config.resolution) * config.resolution;
+  const Eigen::Translation3d lift(0.0, 0.0, border - world.floor_height);
+  OccupiedShapes shapes;
+  for (const Thing& thing : world.things) {
+    if (thing.route) continue;
+    for (const Shape& shape : thing.shapes) {
+      check_reach(thing, shape, config.resolution);
+      const Eigen::Isometry3d pose = lift * (thing.pose * shape.pose);
+      const bool enclosing =
+          thing.thing_class == ThingClass::floor || thing.thing_class == ThingClass::wall;
+      std::visit(ShapeInserter(shapes, pose, config.resolution, enclosing), shape.geometry);
+    }
+  }
+  return {config.resolution, write_octree(shapes, config.resolution, kMaxBytes)};
+}
+
+}  // namespace navvi_sim::occupancy

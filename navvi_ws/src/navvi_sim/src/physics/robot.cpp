@@ -1,0 +1,60 @@
+#include "navvi_sim/physics/robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_sim::physics {
+namespace {
+
+/// `now` moved towards `target`, by at most `faster` where its size grows, `slower` where it falls.
+/// Who reverses brakes first.
+double approach(double now, double target, double faster, double slower) {
+  const bool reverses = now * target < 0.0;
+  const double goal = reverses ? 0.0 : target;
+  const double limit = std::abs(goal) > std::abs(now) ? faster : slower;
+  return now + std::clamp(goal - now, -limit, limit);
+}
+
+}  // namespace
+
+void RobotConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"radius", Range{0.1, 1.0}, "m", "radius of the hull"}, radius);
+  visit({"height", Range{0.15, 2.0}, "m", "top of the hull above the floor"}, height);
+  visit({"clearance", Range{0.01, 0.1}, "m",
+         "underside of the hull above the floor; what is lower is driven over"},
+        clearance);
+  visit({"mass", Range{1.0, 1000.0}, "kg", "mass of the robot"}, mass);
+  visit({"max_speed", Range{0.05, 3.0}, "m/s", "largest speed, forward and back"}, max_speed);
+  visit({"acceleration", Range{0.1, 10.0}, "m/s^2", "towards a larger speed"}, acceleration);
+  visit({"deceleration", Range{0.1, 10.0}, "m/s^2", "towards a smaller speed"}, deceleration);
+  visit({"max_turn_rate", Range{0.1, 6.0}, "rad/s", "largest rate of turn"}, max_turn_rate);
+  visit({"angular_acceleration", Range{0.1, 40.0}, "rad/s^2", "of turning, both ways"},
+        angular_acceleration);
+  visit({"brake", Range{1.0, 100.0}, "m/s^2", "deceleration when commands fail to come"}, brake);
+  visit({"angular_brake", Range{1.0, 200.0}, "rad/s^2",
+         "angular deceleration when commands fail to come"},
+        angular_brake);
+  visit.group("imperfections", imperfections);
+}
+
+double RobotState::forward_speed() const {
+  return velocity.dot(Eigen::Vector2d(std::cos(yaw), std::sin(yaw)));
+}
+
+double RobotState::sideways_speed() const {
+  return velocity.dot(Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)));
+}
+
+navvi_safety::Velocity servo(const RobotConfig& config, const navvi_safety::Velocity& now,
+                             const navvi_safety::Velocity& command, Braking braking, double dt) {
+  const bool hard = braking == Braking::emergency;
+  const double linear = std::clamp(command.linear, -config.max_speed, config.max_speed);
+  const double angular = std::clamp(command.angular, -config.max_turn_rate, config.max_turn_rate);
+  return {approach(now.linear, linear, config.acceleration * dt,
+                   (hard ? config.brake : config.deceleration) * dt),
+          approach(now.angular, angular, config.angular_acceleration * dt,
+                   (hard ? config.angular_brake : config.angular_acceleration) * dt)};
+}
+
+}  // namespace navvi_sim::physics

@@ -1,0 +1,231 @@
+#include "picture/world_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "picture/map_canvas.hpp"
+
+namespace navvi_sim::picture {
+namespace {
+
+constexpr double kLongSide = 1500.0;  // px, of the map
+constexpr double kMinScale = 4.0;     // px a metre
+constexpr double kMaxScale = 40.0;    // px a metre
+constexpr double kFrame = 24.0;       // px, around everything
+constexpr double kHead = 64.0;        // px, title
+constexpr double kLegend = 250.0;     // px, width
+constexpr double kLegendLine = 26.0;  // px, height of a line of the legend
+
+/// What stands, from below, and what moves, thing by thing.
+struct Outlines {
+  std::vector<Outline> standing, moving;
+  Eigen::AlignedBox2d bounds;  ///< m, in map; not empty
+};
+
+Outlines all_outlines(const WorldDescription& world) {
+  Outlines all;
+  for (const Thing& thing : world.things)
+    for (Outline& outline : outlines_of(thing)) {
+      for (const auto& ring : outline.rings)
+        for (const Eigen::Vector2d& p : ring) all.bounds.extend(p);
+      (thing.route ? all.moving : all.standing).push_back(std::move(outline));
+    }
+  if (all.bounds.isEmpty())
+    all.bounds.extend(Eigen::Vector2d(-1.0, -1.0)).extend(Eigen::Vector2d(1.0, 1.0));
+  std::stable_sort(all.standing.begin(), all.standing.end(),
+                   [](const Outline& a, const Outline& b) { return a.top < b.top; });
+  return all;
+}
+
+void draw_route(MapCanvas& canvas, const Thing& thing) {
+  const char* color = paint_of(thing.thing_class).edge;
+  std::vector<Eigen::Vector2d> line;
+  for (const Waypoint& waypoint : thing.route->waypoints) line.push_back(waypoint.at);
+  if (thing.route->loop && line.size() > 2) line.push_back(line.front());
+  canvas.line(line, color, 0.06, "stroke-dasharray=\"6 4\" opacity=\"0.8\"");
+  const double size = std::clamp(0.2 * canvas.scale(), 2.0, 6.0) / canvas.scale();
+  for (const Waypoint& waypoint : thing.route->waypoints) {
+    if (!(waypoint.pause > 0.0)) continue;
+    const std::vector<Eigen::Vector2d> diamond{
+        waypoint.at + Eigen::Vector2d(size, 0.0), waypoint.at + Eigen::Vector2d(0.0, size),
+        waypoint.at - Eigen::Vector2d(size, 0.0), waypoint.at - Eigen::Vector2d(0.0, size)};
+    canvas.svg() << "<path d=\"" << canvas.path(diamond, true) << "\" fill=\"#ffffff\" stroke=\""
+                 << color << "\"/>\n";
+  }
+}
+
+/// An arrow head over what moves says where ahead is.
+void draw_heading(MapCanvas& canvas, const Thing& thing) {
+  const Eigen::Vector2d centre = thing.pose.translation().head<2>();
+  Eigen::Vector2d ahead = thing.pose.linear().col(0).head<2>();
+  if (ahead.norm() < 1e-6) return;
+  ahead.normalize();
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const double size = std::max(0.22, 4.0 / canvas.scale());
+  canvas.svg() << "<path d=\""
+               << canvas.path({centre + size * ahead, centre - size * (0.7 * ahead - 0.7 * left),
+                               centre - size * (0.7 * ahead + 0.7 * left)},
+                              true)
+               << "\" fill=\"#ffffff\" stroke=\"" << paint_of(thing.thing_class).edge << "\"/>\n";
+}
+
+void label(MapCanvas& canvas, const Eigen::Vector2d& p, const std::string& text) {
+  canvas.text({p.x() + 16.0, p.y() - 8.0}, 14.0, text,
+              "font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"4\" paint-order=\"stroke\"");
+}
+
+void draw_scenario(MapCanvas& canvas, const scenario::Scenario& scenario) {
+  if (!scenario.route.empty()) {
+    canvas.svg()
+        << "<path d=\"" << canvas.path(scenario.route, false)
+        << "\" fill=\"none\" stroke=\"#9b00d3\" stroke-width=\"3\" stroke-linejoin=\"round\" "
+           "opacity=\"0.75\"/>\n";
+  }
+  canvas.goal(canvas.px(scenario.goal));
+  canvas.start(canvas.px({scenario.start.x, scenario.start.y}), scenario.start.yaw,
+               std::max(0.35 * canvas.scale(), 7.0));
+  label(canvas, canvas.px({scenario.start.x, scenario.start.y}), "start");
+  label(canvas, canvas.px(scenario.goal), "goal");
+}
+
+/// One such thing, drawn as in the map at a scale of its own.
+void draw_swatch(MapCanvas& canvas, const WorldDescription& world, ThingClass thing_class,
+                 const Eigen::Vector2d& p) {
+  for (const Thing& thing : world.things) {
+    if (thing.thing_class != thing_class) continue;
+    const auto outlines = outlines_of(thing);
+    Eigen::AlignedBox2d bounds;
+    for (const Outline& outline : outlines) bounds.extend(outline.local);
+    const bool is_line =
+        bounds.isEmpty() || bounds.sizes().minCoeff() < 0.15 * bounds.sizes().maxCoeff();
+    if (is_line || outlines.front().rings.size() != 1) break;
+    const double scale = std::min(32.0 / bounds.sizes().x(), 18.0 / bounds.sizes().y());
+    const double yaw = std::atan2(thing.pose.linear()(1, 0), thing.pose.linear()(0, 0));
+    const Eigen::Vector2d place = canvas.px(thing.pose.translation().head<2>());
+    const Eigen::Vector2d middle = bounds.center() * canvas.scale();
+    canvas.svg() << "<g transform=\"translate(" << svg_number(p.x()) << ',' << svg_number(p.y())
+                 << ") scale(" << svg_number(scale / canvas.scale()) << ") translate("
+                 << svg_number(-middle.x()) << ',' << svg_number(middle.y()) << ") rotate("
+                 << svg_number(yaw * 180.0 / M_PI) << ") translate(" << svg_number(-place.x())
+                 << ',' << svg_number(-place.y()) << ")\">\n";
+    for (const Outline& outline : outlines) canvas.outline(outline);
+    canvas.svg() << "</g>\n";
+    return;
+  }
+  canvas.svg() << "<rect x=\"" << svg_number(p.x() - 16.0) << "\" y=\"" << svg_number(p.y() - 8.0)
+               << "\" width=\"32\" height=\"16\" fill=\"" << paint_of(thing_class).fill
+               << "\" stroke=\"" << paint_of(thing_class).edge << "\"/>\n";
+}
+
+/// Doors of docks, and routes, where there are any. \return y, px, of the next line
+double draw_other_legends(MapCanvas& canvas, const WorldDescription& world, double x, double y) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(world.things.begin(), world.things.end(), has);
+  };
+  if (any([](const Thing& thing) {
+        return thing.thing_class == ThingClass::wall && thing.shapes.size() == 1 &&
+               thing.shapes.front().look == ThingClass::other;
+      })) {
+    const Paint paint = paint_of(ThingClass::other);
+    canvas.svg() << "<rect x=\"" << svg_number(x) << "\" y=\"" << svg_number(y - 8.0)
+                 << "\" width=\"32\" height=\"5\" fill=\"" << paint.fill << "\" stroke=\""
+                 << paint.edge << "\"/>\n";
+    canvas.text({x + 42.0, y}, 14.0, "dock door");
+    y += kLegendLine;
+  }
+  if (any([](const Thing& thing) { return thing.route.has_value(); })) {
+    canvas.svg() << "<path d=\"M" << svg_number(x) << ',' << svg_number(y - 5.0)
+                 << "h32\" stroke=\"#8f4300\" stroke-width=\"2\" stroke-dasharray=\"6 4\"/>\n"
+                 << "<path d=\"M" << svg_number(x + 16.0) << ',' << svg_number(y - 11.0)
+                 << "l6,6l-6,6l-6,-6Z\" fill=\"#ffffff\" stroke=\"#8f4300\"/>\n";
+    canvas.text({x + 42.0, y}, 14.0, "route, and a stop");
+    y += kLegendLine;
+  }
+  return y + 0.2 * kLegendLine;
+}
+
+/// A bar of 1, 2 or 5 times a power of ten metres.
+void draw_scale(MapCanvas& canvas, double x, double y) {
+  double length = 1.0;
+  const double most = std::max(1.0, canvas.area().sizes().x() / 4.0);
+  for (const double next : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0})
+    if (next <= most) length = next;
+  const double width = length * canvas.scale();
+  for (int part = 0; part < 4; ++part)
+    canvas.svg() << "<rect x=\"" << svg_number(x + part * width / 4.0) << "\" y=\"" << svg_number(y)
+                 << "\" width=\"" << svg_number(width / 4.0)
+                 << "\" height=\"6\" stroke=\"#000000\" fill=\""
+                 << (part % 2 == 0 ? "#000000" : "#ffffff") << "\"/>\n";
+  canvas.text({x + width + 8.0, y + 9.0}, 14.0, svg_number(length) + " m");
+  // North, as far as the map is concerned.
+  const double north = x + canvas.area().sizes().x() * canvas.scale() - 20.0;
+  canvas.svg() << "<path d=\"M" << svg_number(north) << ',' << svg_number(y + 14.0)
+               << "l0,-26l-5,9m5,-9l5,9\" "
+               << "fill=\"none\" stroke=\"#000000\" stroke-width=\"2\"/>\n";
+  canvas.text({north + 10.0, y + 9.0}, 14.0, "y");
+}
+
+/// What the symbols and colours mean, with counts.
+void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scenario, double x,
+                 double y) {
+  std::map<ThingClass, std::pair<int, int>> counts;  // standing, moving
+  for (const Thing& thing : world.things) {
+    auto& [standing, moving] = counts[thing.thing_class];
+    ++(thing.route ? moving : standing);
+  }
+  for (const auto& [thing_class, count] : counts) {
+    if (thing_class == ThingClass::floor) continue;
+    draw_swatch(canvas, world, thing_class, {x + 16.0, y - 6.0});
+    std::string words = to_string(thing_class);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    words += " (" + std::to_string(count.first + count.second);
+    if (count.second > 0) words += ", " + std::to_string(count.second) + " moving";
+    canvas.text({x + 42.0, y}, 14.0, words + ")");
+    y += kLegendLine;
+  }
+  y = draw_other_legends(canvas, world, x, y + kLegendLine / 2.0);
+  if (!has_scenario) return;
+  canvas.start({x + 16.0, y - 5.0}, 0.0, 8.0);
+  canvas.text({x + 42.0, y}, 14.0, "start of the robot");
+  y += 1.2 * kLegendLine;
+  canvas.goal({x + 16.0, y - 5.0});
+  canvas.text({x + 42.0, y}, 14.0, "goal");
+  y += 1.2 * kLegendLine;
+  canvas.svg() << "<path d=\"M" << svg_number(x) << ',' << svg_number(y - 5.0)
+               << "h32\" stroke=\"#9b00d3\" stroke-width=\"3\"/>\n";
+  canvas.text({x + 42.0, y}, 14.0, "shortest way");
+}
+
+}  // namespace
+
+std::string world_picture(const WorldDescription& world,
+                          const std::optional<scenario::Scenario>& scenario,
+                          const std::string& caption) {
+  const Outlines outlines = all_outlines(world);
+  const double scale =
+      std::clamp(kLongSide / outlines.bounds.sizes().maxCoeff(), kMinScale, kMaxScale);
+  MapCanvas canvas(outlines.bounds, {kFrame, kHead}, scale);
+  const Eigen::Vector2d map = outlines.bounds.sizes() * scale;  // px
+  const double width = 3.0 * kFrame + map.x() + kLegend;
+  const double height = kHead + std::max(map.y(), 15.0 * kLegendLine) + kFrame + 50.0;
+  canvas.svg() << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << svg_number(width)
+               << "\" height=\"" << svg_number(height) << "\" viewBox=\"0 0 " << svg_number(width)
+               << ' ' << svg_number(height) << "\" font-family=\"sans-serif\">\n"
+               << "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+  canvas.text({kFrame, 30.0}, 22.0, world.name);
+  canvas.text({kFrame, 52.0}, 14.0, caption);
+  for (const Outline& outline : outlines.standing) canvas.outline(outline);
+  for (const Thing& thing : world.things)
+    if (thing.route) draw_route(canvas, thing);
+  for (const Outline& outline : outlines.moving) canvas.outline(outline);
+  for (const Thing& thing : world.things)
+    if (thing.route) draw_heading(canvas, thing);
+  if (scenario) draw_scenario(canvas, *scenario);
+  draw_scale(canvas, kFrame, kHead + map.y() + 30.0);
+  draw_legend(canvas, world, scenario.has_value(), 2.0 * kFrame + map.x(), kHead + kLegendLine);
+  canvas.svg() << "</svg>\n";
+  return canvas.str();
+}
+
+}  // namespace navvi_sim::picture

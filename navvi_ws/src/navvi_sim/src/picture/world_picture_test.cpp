@@ -1,0 +1,89 @@
+#include "picture/world_picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "generate/layout.hpp"
+
+namespace navvi_sim::picture {
+namespace {
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    ++found;
+  return found;
+}
+
+scenario::Scenario somewhere() {
+  return {{1.0, 2.0, 0.5}, {4.0, 2.0}, 3.0, {{1.0, 2.0}, {4.0, 2.0}}};
+}
+
+TEST(WorldPicture, names_the_world_its_classes_start_goal_and_scale) {
+  const WorldDescription world = generate::layout("my hall", generate::LayoutConfig{}, 1);
+  const std::string svg = world_picture(world, somewhere(), "seed 1");
+  for (const char* word : {"<svg", "my hall", "seed 1", ">start<", ">goal<", ">5 m<", "shelf (",
+                           "forklift (1, 1 moving", "pallet robot (", "worker (", "dock door",
+                           "route, and a stop", "shortest way", "</svg>"})
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
+  EXPECT_EQ(count(svg, "<svg"), 1u);
+}
+
+TEST(WorldPicture, draws_every_standing_thing_in_the_colour_of_its_class) {
+  WorldDescription world;
+  world.name = "two";
+  for (const double x : {-3.0, 3.0}) {
+    Thing thing;
+    thing.name = x < 0 ? "a" : "b";
+    thing.thing_class = x < 0 ? ThingClass::shelf : ThingClass::box;
+    thing.pose.translation().x() = x;
+    thing.shapes.push_back({Box{{1.0, 1.0, 1.0}}});
+    world.things.push_back(thing);
+  }
+  const std::string svg = world_picture(world, std::nullopt, "");
+  EXPECT_EQ(count(svg, "fill=\"#7d9bbd\""), 2u);  // in the map and in the legend
+  EXPECT_EQ(count(svg, "fill=\"#f2cf3b\""), 2u);
+  EXPECT_EQ(svg.find("goal"), std::string::npos);
+}
+
+TEST(WorldPicture, leaves_out_what_a_shelf_covers) {
+  generate::LayoutConfig empty, full;
+  empty.fill = 0.0;
+  full.fill = 1.0;
+  EXPECT_EQ(count(world_picture(generate::layout("a", empty, 1), std::nullopt, ""), "<path"),
+            count(world_picture(generate::layout("a", full, 1), std::nullopt, ""), "<path"));
+}
+
+TEST(WorldPicture, cannot_be_broken_by_a_name) {
+  WorldDescription world = generate::layout("<script>&\x01\"", generate::LayoutConfig{}, 1);
+  const std::string svg = world_picture(world, std::nullopt, "</svg>");
+  EXPECT_EQ(count(svg, "</svg>"), 1u);
+  EXPECT_EQ(svg.find("<script>"), std::string::npos);
+  EXPECT_EQ(svg.find('\x01'), std::string::npos);
+}
+
+TEST(WorldPicture, shows_meshes_and_things_that_lie_askew) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  mesh->triangles = {{0, 1, 2}, {0, 1, 3}};
+  Thing thing;
+  thing.name = "odd";
+  thing.pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 1, 0).normalized()));
+  thing.shapes = {
+      {std::shared_ptr<const Mesh>(mesh)}, {Box{{1, 2, 3}}}, {Cylinder{0.2, 2.0}}, {Sphere{0.3}}};
+  WorldDescription world{"odd", 0.0, {thing}};
+  const std::string svg = world_picture(world, std::nullopt, "");
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  EXPECT_NE(svg.find("other (1)"), std::string::npos);
+  EXPECT_NO_THROW(static_cast<void>(world_picture({"empty", 0.0, {}}, std::nullopt, "")));
+}
+
+}  // namespace
+}  // namespace navvi_sim::picture
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

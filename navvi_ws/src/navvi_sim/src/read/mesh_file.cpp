@@ -1,0 +1,147 @@
+#include "read/mesh_file.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <set>
+
+namespace navvi_sim::read {
+namespace {
+
+constexpr std::uintmax_t kMaxBytes = 200'000'000;
+constexpr std::size_t kMaxTriangles = 5'000'000;
+constexpr int kMaxDepth = 200;      // of nodes
+constexpr std::size_t kNamed = 10;  // parts in a sentence
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw WorldError("the mesh " + file.string() + " " + what);
+}
+
+void check_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    refuse(file, "does not exist or is no file; allowed are .dae, .stl and .obj files");
+  if (std::filesystem::file_size(file, error) > kMaxBytes || error)
+    refuse(file, "is larger than 200 MB or cannot be read; allowed is up to 200 MB");
+}
+
+Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
+  Eigen::Matrix4d result;
+  result << static_cast<double>(m.a1), static_cast<double>(m.a2), static_cast<double>(m.a3),
+      static_cast<double>(m.a4), static_cast<double>(m.b1), static_cast<double>(m.b2),
+      static_cast<double>(m.b3), static_cast<double>(m.b4), static_cast<double>(m.c1),
+      static_cast<double>(m.c2), static_cast<double>(m.c3), static_cast<double>(m.c4),
+      static_cast<double>(m.d1), static_cast<double>(m.d2), static_cast<double>(m.d3),
+      static_cast<double>(m.d4);
+  return result;
+}
+
+/// Gathers the triangles of a scene, or of its parts of one name.
+class Gatherer {
+ public:
+  Gatherer(const aiScene& scene, const std::filesystem::path& file, const MeshPart& part)
+      : scene_(scene), file_(file), part_(part) {}
+
+  [[nodiscard]] Mesh gather() {
+    if (scene_.mRootNode != nullptr)
+      visit(*scene_.mRootNode, Eigen::Matrix4d::Identity(), part_.name.empty(), 0);
+    if (mesh_.triangles.empty() && !part_.name.empty())
+      refuse(file_, "has no part '" + part_.name + "' with triangles; it has " + names());
+    if (mesh_.triangles.empty()) refuse(file_, "has no triangles; allowed are one or more");
+    place();
+    return std::move(mesh_);
+  }
+
+ private:
+  void visit(const aiNode& node, const Eigen::Matrix4d& parent, bool wanted, int depth) {
+    if (depth > kMaxDepth)
+      refuse(file_, "has nodes nested more than " + std::to_string(kMaxDepth) + " deep");
+    const Eigen::Matrix4d pose = parent * matrix(node.mTransformation);
+    names_.insert(node.mName.C_Str());
+    const bool all = wanted || node.mName.C_Str() == part_.name;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= scene_.mNumMeshes) refuse(file_, "has a node without its mesh");
+      const aiMesh& piece = *scene_.mMeshes[node.mMeshes[i]];
+      names_.insert(piece.mName.C_Str());
+      if (all || piece.mName.C_Str() == part_.name) append(piece, pose);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+      visit(*node.mChildren[i], pose, all, depth + 1);
+  }
+
+  void append(const aiMesh& piece, const Eigen::Matrix4d& pose) {
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (unsigned i = 0; i < piece.mNumVertices; ++i) {
+      const aiVector3D& v = piece.mVertices[i];
+      const Eigen::Vector4d at(static_cast<double>(v.x), static_cast<double>(v.y),
+                               static_cast<double>(v.z), 1.0);
+      mesh_.vertices.push_back((pose * at).head<3>().cwiseProduct(part_.scale).cast<float>());
+      if (!mesh_.vertices.back().allFinite())
+        refuse(file_, "has a vertex that is not finite; allowed are finite numbers");
+    }
+    for (unsigned i = 0; i < piece.mNumFaces; ++i) {
+      const aiFace& face = piece.mFaces[i];
+      if (face.mNumIndices != 3) continue;  // lines and points have no surface
+      for (unsigned k = 0; k < 3; ++k)
+        if (face.mIndices[k] >= piece.mNumVertices)
+          refuse(file_, "has a triangle with vertex " + std::to_string(face.mIndices[k]) +
+                            "; there are " + std::to_string(piece.mNumVertices));
+      mesh_.triangles.push_back(
+          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+    }
+    if (mesh_.triangles.size() > kMaxTriangles || mesh_.vertices.size() > 3 * kMaxTriangles)
+      refuse(file_, "has more than " + std::to_string(kMaxTriangles) +
+                        " triangles; allowed is up to that");
+  }
+
+  void place() {
+    if (!part_.centred) return;
+    Eigen::AlignedBox3f bounds;
+    for (const Eigen::Vector3f& vertex : mesh_.vertices) bounds.extend(vertex);
+    const Eigen::Vector3f centre = bounds.center();
+    for (Eigen::Vector3f& vertex : mesh_.vertices) vertex -= centre;
+  }
+
+  [[nodiscard]] std::string names() const {
+    std::string list;
+    std::size_t count = 0;
+    for (const std::string& name : names_) {
+      if (name.empty()) continue;
+      if (++count > kNamed) return list + ", ...";
+      list += (list.empty() ? "'" : ", '") + name + "'";
+    }
+    return list.empty() ? "no names" : list;
+  }
+
+  const aiScene& scene_;
+  const std::filesystem::path& file_;
+  const MeshPart& part_;
+  Mesh mesh_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
+  if (!part.scale.allFinite() || (part.scale.array() == 0.0).any())
+    refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
+  check_file(file);
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does
+  const aiScene* scene = nullptr;
+  std::string reason;
+  try {
+    scene =
+        importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+    reason = importer.GetErrorString();
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (scene == nullptr)
+    refuse(file, "cannot be read (" + reason + "); allowed are whole .dae, .stl and .obj files");
+  return Gatherer(*scene, file, part).gather();
+}
+
+}  // namespace navvi_sim::read

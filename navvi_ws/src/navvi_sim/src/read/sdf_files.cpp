@@ -1,0 +1,232 @@
+#include "read/sdf_files.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "navvi_sim/description/world_error.hpp"
+#include "read/sdf_value.hpp"
+
+namespace navvi_sim::read {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxDepth = 32;
+constexpr std::size_t kMaxElements = 500'000;
+
+std::size_t size_of(const XmlElement& element) {
+  std::size_t size = 1;
+  for (const XmlElement& child : element.children) size += size_of(child);
+  return size;
+}
+
+/// The SDF file of a model: itself if it is a file, else what its model.config (or manifest.xml)
+/// names, the newest version that is there.
+fs::path sdf_file_of(const fs::path& model) {
+  std::error_code error;
+  if (!fs::is_directory(model, error)) return model;
+  for (const char* config : {"model.config", "manifest.xml"}) {
+    if (!fs::is_regular_file(model / config, error)) continue;
+    const XmlElement document = read_xml(model / config);
+    fs::path file;
+    std::string newest;
+    for (const XmlElement* sdf : document.children_named("sdf")) {
+      if (sdf->text.empty() || !fs::is_regular_file(model / sdf->text, error)) continue;
+      if (!file.empty() && sdf->attribute("version") < newest) continue;
+      file = model / sdf->text;
+      newest = sdf->attribute("version");
+    }
+    if (file.empty())
+      throw WorldError("the model in " + model.string() + " has no SDF file; its " + config +
+                       " must name one that exists");
+    return file;
+  }
+  if (fs::is_regular_file(model / "model.sdf", error)) return model / "model.sdf";
+  throw WorldError("the model in " + model.string() +
+                   " has neither model.config nor model.sdf; a model needs one");
+}
+
+/// Gazebo brings these two itself, so that worlds count on them.
+enum class Stock { none, sun, ground_plane };
+
+Stock stock_of(const std::string& uri) {
+  std::string name =
+      uri.substr(uri.find_last_of('/') == std::string::npos ? 0 : uri.find_last_of('/') + 1);
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+    return c == ' ' ? '_' : static_cast<char>(std::tolower(c));
+  });
+  if (name == "sun") return Stock::sun;
+  if (name == "ground_plane" || name == "ground%20plane") return Stock::ground_plane;
+  return Stock::none;
+}
+
+XmlElement element_at(const XmlElement& place, const std::string& name) {
+  XmlElement element;
+  element.name = name;
+  element.file = place.file;
+  element.line = place.line;
+  return element;
+}
+
+/// \param names  of elements, each within the one before
+XmlElement nested(const XmlElement& place, const std::vector<std::string>& names) {
+  XmlElement element = element_at(place, names.front());
+  if (names.size() > 1) element.children.push_back(nested(place, {names.begin() + 1, names.end()}));
+  return element;
+}
+
+XmlElement stock_ground(const XmlElement& include) {
+  XmlElement ground = nested(include, {"model", "link", "collision", "geometry", "plane"});
+  ground.set_attribute("name", "ground_plane");
+  return ground;
+}
+
+/// What the include says of the model stands above what the model says.
+void override_with(XmlElement& model, const XmlElement& include) {
+  const std::string name = include.text_of("name");
+  if (!name.empty()) model.set_attribute("name", name);
+  if (const XmlElement* pose = include.child("pose")) {
+    auto& children = model.children;
+    children.erase(std::remove_if(children.begin(), children.end(),
+                                  [](const XmlElement& child) { return child.name == "pose"; }),
+                   children.end());
+    children.push_back(*pose);
+  }
+  const std::string placement = include.text_of("placement_frame");
+  if (!placement.empty()) model.set_attribute("placement_frame", placement);
+  for (const XmlElement* plugin : include.children_named("plugin"))
+    model.children.push_back(*plugin);
+  if (include.attribute("merge") == "true" || include.attribute("merge") == "1")
+    model.set_attribute("merge", "true");
+}
+
+}  // namespace
+
+SdfFiles::SdfFiles(const fs::path& world_file, std::vector<fs::path> models)
+    : world_file_(world_file), folders_(std::move(models)) {
+  const fs::path home = fs::absolute(world_file).parent_path();
+  folders_.push_back(home / "models");
+  folders_.push_back(home);
+}
+
+std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& from) const {
+  const auto is_prefix = [&](const std::string& prefix) { return uri.rfind(prefix, 0) == 0; };
+  std::error_code error;
+  const auto existing = [&](const fs::path& path) -> std::optional<fs::path> {
+    if (fs::exists(path, error)) return path;
+    return std::nullopt;
+  };
+  const std::size_t scheme = uri.find("://");
+  const std::string path = scheme == std::string::npos ? uri : uri.substr(scheme + 3);
+  if (path.empty()) return std::nullopt;
+  if (is_prefix("file://") && fs::path(path).is_absolute()) return existing(path);
+  if (scheme != std::string::npos && !is_prefix("model://") && !is_prefix("file://"))
+    return std::nullopt;
+  if (scheme == std::string::npos) {
+    if (fs::path(path).is_absolute()) return existing(path);
+    if (const auto beside = existing(fs::absolute(from).parent_path() / path)) return beside;
+  }
+  const fs::path inside = fs::path(path).lexically_normal();
+  if (inside.is_absolute() || *inside.begin() == "..") return std::nullopt;
+  for (const fs::path& folder : folders_)
+    if (const auto found = existing(folder / inside)) return found;
+  return std::nullopt;
+}
+
+std::string SdfFiles::looked_in() const {
+  std::string text;
+  for (const fs::path& folder : folders_) text += (text.empty() ? "" : ", ") + folder.string();
+  return text;
+}
+
+const XmlElement& SdfFiles::document(const fs::path& file) {
+  const auto known = documents_.find(file);
+  if (known != documents_.end()) return known->second;
+  return documents_.emplace(file, read_xml(file)).first->second;
+}
+
+XmlElement SdfFiles::world(SdfNotes& notes) {
+  const XmlElement& root = document(world_file_);
+  if (root.name != "sdf" || root.child("world") == nullptr)
+    throw WorldError(world_file_.string() + ": is no SDF world (it has " +
+                     (root.name == "sdf" ? "no <world>" : "<" + root.name + "> for its root") +
+                     "); allowed is an <sdf> element with one <world> in it");
+  if (root.children_named("world").size() > 1)
+    notes.add(*root.children_named("world")[1], "a second world is not taken over");
+  XmlElement world = *root.child("world");
+  elements_ = size_of(world);
+  std::error_code error;
+  std::vector<fs::path> chain{fs::weakly_canonical(world_file_, error)};
+  expand(world, notes, chain);
+  return world;
+}
+
+void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path>& chain) {
+  std::vector<XmlElement> children;
+  for (XmlElement& child : element.children) {
+    if (child.name == "include") {
+      if (auto model = included(child, notes, chain)) children.push_back(std::move(*model));
+      continue;
+    }
+    if (child.name == "model") expand(child, notes, chain);
+    children.push_back(std::move(child));
+  }
+  element.children = std::move(children);
+}
+
+std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes& notes,
+                                             std::vector<fs::path>& chain) {
+  const std::string uri = required(include, "uri").text;
+  const auto found = find(uri, *include.file);
+  if (!found) {
+    const Stock stock = stock_of(uri);
+    if (stock == Stock::none)
+      refuse(include, "the model " + uri + " is not there; looked in " + looked_in() +
+                          " (give its folder as models)");
+    if (stock == Stock::sun) {
+      notes.add_harmless(include);
+      return std::nullopt;
+    }
+    XmlElement ground = stock_ground(include);
+    override_with(ground, include);
+    notes.add(include, "the model " + uri + " is not there; a level plane stands for it");
+    return ground;
+  }
+  const XmlElement* root = nullptr;
+  fs::path file;
+  try {
+    auto known = model_files_.find(*found);
+    if (known == model_files_.end())
+      known = model_files_.emplace(*found, sdf_file_of(*found)).first;
+    file = known->second;
+    root = &document(file);
+  } catch (const WorldError& error) {
+    refuse(include, error.what());
+  }
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(file, error);
+  if (std::find(chain.begin(), chain.end(), canonical) != chain.end())
+    refuse(include, "the model " + uri + " includes itself; includes must not go in a circle");
+  if (chain.size() >= kMaxDepth)
+    refuse(include, "includes are nested more than " + std::to_string(kMaxDepth) +
+                        " deep; allowed is up to that");
+  for (const char* kind : {"model", "actor", "light"}) {
+    if (root->name != "sdf" || root->child(kind) == nullptr) continue;
+    XmlElement model = *root->child(kind);
+    elements_ += size_of(model);
+    if (elements_ > kMaxElements)
+      refuse(include, "with this include the world comes to more than " +
+                          std::to_string(kMaxElements) + " elements; allowed is up to that");
+    chain.push_back(canonical);
+    expand(model, notes, chain);
+    chain.pop_back();
+    override_with(model, include);
+    return model;
+  }
+  refuse(include, "the model " + uri + " holds " +
+                      (root->name == "sdf" ? "no <model>, <actor> or <light>"
+                                           : "a <" + root->name + "> and no <sdf>") +
+                      "; allowed is an <sdf> element with one of these in it");
+}
+
+}  // namespace navvi_sim::read

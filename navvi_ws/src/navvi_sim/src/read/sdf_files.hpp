@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "read/sdf_notes.hpp"
+#include "read/xml_element.hpp"
+
+namespace navvi_sim::read {
+
+/// Finds the files that an SDF world speaks of, and puts its models together.
+class SdfFiles {
+ public:
+  /// \param models  folders of models, first come first served; the world's own folder and its
+  ///                `models` subfolder come last
+  SdfFiles(const std::filesystem::path& world_file, std::vector<std::filesystem::path> models);
+
+  /// The file or folder of `uri`: model://..., file://..., or a path, absolute or relative to
+  /// `from` (a file). nullopt if there is none, or if a model:// leads out of the folders.
+  [[nodiscard]] std::optional<std::filesystem::path> find(const std::string& uri,
+                                                          const std::filesystem::path& from) const;
+
+  /// The <world> of the world file. In place of each <include> stands what is included, a <model>,
+  /// <actor> or <light>, with the name, pose, placement frame and plugins that the include gives.
+  /// \throws WorldError for a file that is no SDF world, and for a model that is missing, that
+  /// includes itself, or that is nested too deep
+  [[nodiscard]] XmlElement world(SdfNotes& notes);
+
+  /// The folders that are looked in, for an error sentence.
+  [[nodiscard]] std::string looked_in() const;
+
+ private:
+  void expand(XmlElement& element, SdfNotes& notes, std::vector<std::filesystem::path>& chain);
+  [[nodiscard]] std::optional<XmlElement> included(const XmlElement& include, SdfNotes& notes,
+                                                   std::vector<std::filesystem::path>& chain);
+  [[nodiscard]] const XmlElement& document(const std::filesystem::path& file);
+
+  std::filesystem::path world_file_;
+  std::vector<std::filesystem::path> folders_;
+  std::map<std::filesystem::path, XmlElement> documents_;
+  std::map<std::filesystem::path, std::filesystem::path> model_files_;  ///< by the model's folder
+  std::size_t elements_ = 0;  ///< of all that was put together
+};
+
+}  // namespace navvi_sim::read

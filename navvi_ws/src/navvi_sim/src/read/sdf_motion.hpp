@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "navvi_sim/description/world_description.hpp"
+#include "read/sdf_notes.hpp"
+#include "read/xml_element.hpp"
+
+namespace navvi_sim::read {
+
+/// How something in an SDF world moves: where it is at time zero, and its route if it has one.
+struct SdfMotion {
+  Eigen::Isometry3d start;  ///< in map
+  std::optional<Route> route;
+};
+
+/// The motion of an <actor> by its <script>: trajectories one after the other, way-points at times.
+/// Between way-points it walks straight on; way-points at one place are a pause. A loop that does
+/// not end where it began walks back, where Gazebo jumps.
+/// \param pose  of the actor in map, where it stands if no script moves it
+[[nodiscard]] SdfMotion actor_motion(const XmlElement& actor, const Eigen::Isometry3d& pose,
+                                     SdfNotes& notes);
+
+/// The motion that a <plugin> gives, for those plugins whose way-points stand in the world:
+/// TrajectoryFollower (gz-sim), PedestrianSFMPlugin (gazebo_sfm_plugin), obstaclePathPlugin
+/// (uav_simulator). nullopt for any other plugin.
+/// \param pose  of what the plugin moves, in map
+[[nodiscard]] std::optional<SdfMotion> plugin_motion(const XmlElement& plugin,
+                                                     const Eigen::Isometry3d& pose,
+                                                     SdfNotes& notes);
+
+}  // namespace navvi_sim::read

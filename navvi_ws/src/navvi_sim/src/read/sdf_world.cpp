@@ -1,0 +1,231 @@
+#include "read/sdf_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "description/validate.hpp"
+#include "read/sdf_files.hpp"
+#include "read/sdf_frames.hpp"
+#include "read/sdf_geometry.hpp"
+#include "read/sdf_motion.hpp"
+#include "read/sdf_own.hpp"
+#include "read/sdf_things.hpp"
+#include "read/sdf_traffic.hpp"
+#include "read/sdf_value.hpp"
+
+namespace navvi_sim::read {
+namespace {
+
+namespace fs = std::filesystem;
+
+Eigen::Isometry3d placed(const Eigen::Vector3d& at) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = at;
+  return pose;
+}
+
+/// A person of 1.75 m, standing on the origin.
+std::vector<Shape> person() {
+  return {{Cylinder{0.24, 1.45}, placed({0.0, 0.0, 0.725})},
+          {Sphere{0.15}, placed({0.0, 0.0, 1.60})}};
+}
+
+/// The same place and heading, upright.
+Eigen::Isometry3d upright(const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d ahead = pose.linear().col(0);
+  Eigen::Isometry3d result(
+      Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ()));
+  result.translation() = pose.translation();
+  return result;
+}
+
+bool has_collision(const XmlElement& model) {
+  const auto links = model.children_named("link");
+  return std::any_of(links.begin(), links.end(),
+                     [](const XmlElement* link) { return link->child("collision") != nullptr; });
+}
+
+std::string name_of(const XmlElement& element) { return element.attribute("name"); }
+
+class WorldReader {
+ public:
+  WorldReader(const fs::path& file, SdfFiles& files, const ClassRules& rules)
+      : file_(file), files_(files), rules_(rules), shapes_(files, notes_), things_(notes_) {}
+
+  [[nodiscard]] LoadedWorld read() {
+    const XmlElement world = files_.world(notes_);
+    LoadedWorld& loaded = things_.loaded;
+    loaded.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
+    read_saved_state(world);
+    notes_.add_leftovers(world);
+    for (const XmlElement* model : world.children_named("model"))
+      read_model(*model, name_of(*model), map_pose(world, *model));
+    for (const XmlElement* actor : world.children_named("actor")) read_actor(world, *actor);
+    things_.find_floor(file_);
+    if (has_foreign_routes_) keep_routes_that_can_be_driven(loaded.world, things_.places(), notes_);
+    loaded.notes = notes_.sentences();
+    return std::move(loaded);
+  }
+
+ private:
+  // -- Models and actors
+
+  /// Gazebo puts the models of a saved world where its <state> says.
+  void read_saved_state(const XmlElement& world) {
+    for (const XmlElement* state : world.children_named("state")) {
+      for (const XmlElement* model : state->children_named("model"))
+        if (const XmlElement* pose = model->child("pose"))
+          saved_poses_[name_of(*model)] = pose_value(*pose);
+      if (!saved_poses_.empty()) notes_.add(*state, "models stand where the saved state says");
+    }
+  }
+
+  [[nodiscard]] Eigen::Isometry3d map_pose(const XmlElement& world, const XmlElement& model) const {
+    const auto saved = saved_poses_.find(name_of(model));
+    return saved != saved_poses_.end() ? saved->second : pose_in(world, model);
+  }
+
+  /// \param pose  in map
+  void read_model(const XmlElement& model, const std::string& name, const Eigen::Isometry3d& pose) {
+    const auto inner = model.children_named("model");
+    if (inner.size() > 1 && !has_collision(model) && model.child("plugin") == nullptr) {
+      notes_.add_leftovers(model);
+      for (const XmlElement* one : inner)
+        read_model(*one, name + "::" + name_of(*one), pose * pose_in(model, *one));
+      return;
+    }
+    Thing thing;
+    thing.name = things_.unique(name);
+    thing.pose = pose;
+    classify(model, thing);
+    const std::size_t planes = things_.planes();
+    read_links(model, Eigen::Isometry3d::Identity(), thing);
+    thing.route = own_route(model);
+    read_plugins(model, thing);
+    if (!thing.shapes.empty()) {
+      things_.add(std::move(thing), model.place());
+      return;
+    }
+    things_.release(thing.name);
+    if (planes == things_.planes())
+      notes_.add(model,
+                 "the model '" + thing.name + "' is not taken over: it has no collision geometry");
+  }
+
+  void read_actor(const XmlElement& world, const XmlElement& actor) {
+    Thing thing;
+    thing.name = things_.unique(name_of(actor));
+    classify(actor, thing);
+    if (thing.thing_class == ThingClass::other || thing.thing_class == ThingClass::floor)
+      thing.thing_class = ThingClass::worker;
+    read_links(actor, Eigen::Isometry3d::Identity(), thing);
+    const SdfMotion motion = actor_motion(actor, pose_in(world, actor), notes_);
+    thing.pose = motion.start;
+    thing.route = motion.route;
+    has_foreign_routes_ = true;
+    read_plugins(actor, thing);
+    if (thing.shapes.empty()) {
+      thing.shapes = person();
+      thing.pose = upright(thing.pose);
+      things_.add_on_floor(std::move(thing), actor.place());
+    } else {
+      things_.add(std::move(thing), actor.place());
+    }
+  }
+
+  void read_plugins(const XmlElement& model, Thing& thing) {
+    for (const XmlElement* plugin : model.children_named("plugin")) {
+      if (auto motion = plugin_motion(*plugin, thing.pose, notes_)) {
+        thing.pose = motion->start;
+        thing.route = std::move(motion->route);
+        has_foreign_routes_ = true;
+      } else {
+        notes_.add_plugin(*plugin, "of '" + thing.name + "' ");
+      }
+    }
+  }
+
+  void classify(const XmlElement& model, Thing& thing) {
+    if (const auto own = own_class(model, "class")) {
+      thing.thing_class = *own;
+      things_.loaded.rules[thing.name] = "navvi:class";
+      return;
+    }
+    std::vector<std::string> names{thing.name};
+    for (const char* kind : {"model", "link"})
+      for (const XmlElement* inner : model.children_named(kind)) names.push_back(name_of(*inner));
+    for (const std::string& name : names) {
+      const ClassRules::Match match = rules_.match(name);
+      if (match.pattern.empty()) continue;
+      thing.thing_class = match.thing_class;
+      things_.loaded.rules[thing.name] = match.pattern;
+      return;
+    }
+  }
+
+  // -- Links
+
+  /// \param pose  of `model` in the thing's frame
+  void read_links(const XmlElement& model, const Eigen::Isometry3d& pose, Thing& thing) {
+    notes_.add_leftovers(model);
+    for (const XmlElement* link : model.children_named("link")) {
+      notes_.add_leftovers(*link);
+      const Eigen::Isometry3d link_pose = pose * pose_in(model, *link);
+      for (const XmlElement* collision : link->children_named("collision"))
+        read_collision(*collision, link_pose * pose_in_link(model, *link, *collision), thing);
+      const std::size_t seen = link->children_named("visual").size();
+      if (seen > 0 && link->child("collision") == nullptr && has_collision(model))
+        notes_.add(*link, "the link '" + name_of(*link) + "' of '" + thing.name +
+                              "' is seen in "
+                              "Gazebo and touches nothing, and is not taken over");
+    }
+    for (const XmlElement* inner : model.children_named("model"))
+      read_links(*inner, pose * pose_in(model, *inner), thing);
+  }
+
+  void read_collision(const XmlElement& collision, const Eigen::Isometry3d& pose, Thing& thing) {
+    const XmlElement* geometry = collision.child("geometry");
+    if (geometry == nullptr) {
+      notes_.add(collision, "a collision of '" + thing.name + "' without geometry is left out");
+      return;
+    }
+    SdfGeometry read = shapes_.read(*geometry, pose);
+    const std::optional<ThingClass> look = own_class(collision, "look");
+    for (Shape& shape : read.shapes) {
+      shape.look = look;
+      thing.shapes.push_back(std::move(shape));
+    }
+    if (thing.shapes.size() > WorldLimits::shapes_per_thing)
+      refuse(collision, "'" + thing.name + "' has more than " +
+                            std::to_string(WorldLimits::shapes_per_thing) +
+                            " shapes; allowed is up to that");
+    for (const SdfPlane& plane : read.planes) {
+      const Eigen::Isometry3d in_map = thing.pose * plane.pose;
+      if ((in_map.linear() * plane.normal.normalized()).z() > 0.999)
+        things_.add_plane(thing.name, in_map.translation().z(), geometry->place());
+      else
+        notes_.add(*geometry,
+                   "the plane of '" + thing.name + "' is not level, and is not taken over");
+    }
+  }
+
+  const fs::path& file_;
+  SdfFiles& files_;
+  const ClassRules& rules_;
+  SdfNotes notes_;
+  SdfShapes shapes_;
+  SdfThings things_;
+  bool has_foreign_routes_ = false;  ///< given by an actor or a plugin
+  std::map<std::string, Eigen::Isometry3d> saved_poses_;
+};
+
+}  // namespace
+
+LoadedWorld read_sdf_world(const fs::path& file, const std::vector<fs::path>& models,
+                           const ClassRules& rules) {
+  SdfFiles files(file, models);
+  return WorldReader(file, files, rules).read();
+}
+
+}  // namespace navvi_sim::read

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "navvi_sim/read/world_source.hpp"
+#include "read/class_rules.hpp"
+
+// Why SDF is read by our own reader, with libsdformat only as its judge in tests. libsdformat 12
+// throws what is no std::exception at worlds that Gazebo itself saved. Ours says of everything that
+// is wrong or left out what it is, in a sentence with file and line. World files come from
+// anywhere, so ours also limits a file's size, its nesting, its numbers and where it may refer to.
+
+namespace navvi_sim::read {
+
+/// Reads a world in Gazebo's SDF, 1.4 to 1.11, by its collision geometry, as sdformat.org/spec says
+/// it. One thing a top-level model; a model without shapes of its own gives one thing for each of
+/// the models in it if these are several. A thing is classed by the first of its own name and the
+/// names of the models and links in it that a rule fits. `model://` is looked for in `models`, then
+/// beside the world file. `floor_height` is that of the largest level surface of the floor things.
+///
+/// An actor with a script walks its trajectories, as a person where it has no collision geometry.
+/// Models that one of three plugins moves by way-points have them for their route (sdf_motion.hpp).
+/// A model that the file moves otherwise stands still.
+///
+/// The notes say, with file and line, what is not taken over or is taken otherwise than in Gazebo:
+/// other plugins, height maps, tilted planes, links that are seen and touch nothing, models without
+/// collision geometry or wholly under the floor. What means nothing here (lights, joints, sensors,
+/// ...) is one last note.
+/// \throws WorldError, with file and line, for a file that is missing or no SDF world, a model or
+/// mesh that is missing, unreadable, or includes itself, a number that is not finite or out of its
+/// range, and a world without a floor
+[[nodiscard]] LoadedWorld read_sdf_world(const std::filesystem::path& file,
+                                         const std::vector<std::filesystem::path>& models,
+                                         const ClassRules& rules);
+
+}  // namespace navvi_sim::read

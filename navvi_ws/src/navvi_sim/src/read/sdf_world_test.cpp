@@ -1,0 +1,218 @@
+#include "read/sdf_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "navvi_sim/occupancy/occupancy.hpp"
+#include "navvi_sim/scenario/scenario.hpp"
+#include "sdf_folder.hpp"
+
+namespace navvi_sim::read {
+namespace {
+
+class SdfWorld : public SdfFolder {};
+
+TEST_F(SdfWorld, that_ships_is_a_room_with_a_shelf) {
+  const LoadedWorld loaded =
+      load_world(std::string(NAVVI_SIM_DIR) + "/worlds/small_room.world", "", 1, {});
+  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_EQ(loaded.world.name, "small_room");
+  EXPECT_EQ(loaded.world.things.size(), 8U);
+  EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
+  const Thing* shelf = thing_named(loaded.world, "shelf");
+  ASSERT_NE(shelf, nullptr);
+  EXPECT_EQ(shelf->thing_class, ThingClass::shelf);
+  EXPECT_EQ(shelf->shapes.size(), 4U) << "one of them in a nested model";
+  EXPECT_NEAR(bounds(*shelf).max().x(), 2.0, 1e-9);
+  EXPECT_EQ(thing_named(loaded.world, "pedestal")->thing_class, ThingClass::pedestal);
+  EXPECT_EQ(thing_named(loaded.world, "box_upper")->thing_class, ThingClass::box);
+  EXPECT_EQ(thing_named(loaded.world, "worker")->thing_class, ThingClass::worker);
+  const occupancy::OccupancyMap map = occupancy::occupancy_of(loaded.world, {});
+  EXPECT_GT(scenario::draw_scenario(loaded.world, map, {}, 1).route_length, 5.0);
+}
+
+TEST_F(SdfWorld, adds_up_poses_of_world_model_link_and_collision) {
+  write_model(
+      "crate",
+      "<link name='l'><pose>0 2 0 0 0 0</pose><collision name='c'><pose>0 0 0.5 0 0 0</pose>"
+      "<geometry><box><size>1 1 1</size></box></geometry></collision></link>");
+  const LoadedWorld loaded = load_world(
+      write_world(ground_ + "<model name='crate_1'><include><uri>model://crate</uri></include>"
+                            "<pose>1 0 0 0 0 1.5707963267948966</pose></model>"),
+      "", 1, {});
+  const Thing* crate = thing_named(loaded.world, "crate_1");
+  ASSERT_NE(crate, nullptr);
+  EXPECT_LT((bounds(*crate).center() - Eigen::Vector3d(-1.0, 0.0, 0.5)).norm(), 1e-9);
+}
+
+TEST_F(SdfWorld, follows_relative_to) {
+  const LoadedWorld loaded = load_world(
+      write_world(ground_ +
+                      "<frame name='f'><pose>3 0 0 0 0 0</pose></frame><model name='box'>"
+                      "<pose relative_to='f'>0 1 0.5 0 0 0</pose>" +
+                      cube_ + "</model>",
+                  "1.7"),
+      "", 1, {});
+  EXPECT_LT(
+      (bounds(*thing_named(loaded.world, "box")).center() - Eigen::Vector3d(3, 1, 0.5)).norm(),
+      1e-9);
+}
+
+TEST_F(SdfWorld, takes_geometry_whatever_the_masses_are) {
+  const LoadedWorld loaded = load_world(
+      write_world(ground_ +
+                  "<model name='box'><link name='l'><inertial><mass>-3</mass><inertia><ixx>-1</ixx>"
+                  "</inertia></inertial><collision name='c'><geometry><box><size>1 1 1</size></box>"
+                  "</geometry></collision></link></model>"),
+      "", 1, {});
+  EXPECT_NE(thing_named(loaded.world, "box"), nullptr);
+}
+
+TEST_F(SdfWorld, as_gazebo_saves_it_is_read_with_its_state) {
+  const LoadedWorld loaded = load_world(
+      write_world(
+          ground_ +
+          "<model name='box'><link name='A::body'><collision name='c'><geometry><box>"
+          "<size>1 1 1</size></box></geometry></collision></link></model>"
+          "<state world_name='w'><model name='box'><pose frame=''>2 3 0.5 0 -0 0</pose>"
+          "<link name='A::body'><pose frame=''>2 3 0.5 0 -0 0</pose></link></model></state>"),
+      "", 1, {});
+  EXPECT_LT(
+      (bounds(*thing_named(loaded.world, "box")).center() - Eigen::Vector3d(2, 3, 0.5)).norm(),
+      1e-9);
+  EXPECT_FALSE(loaded.notes.empty());
+}
+
+TEST_F(SdfWorld, makes_a_floor_of_an_endless_plane) {
+  const LoadedWorld loaded = load_world(
+      write_world("<model name='ground_plane'><link name='l'><collision name='c'><geometry><plane>"
+                  "<normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
+                  "</model><model name='box'><pose>4 0 0.5 0 0 0</pose>" +
+                  cube_ + "</model>"),
+      "", 1, {});
+  EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
+  EXPECT_EQ(thing_named(loaded.world, "ground_plane")->thing_class, ThingClass::floor);
+}
+
+TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
+  const LoadedWorld loaded =
+      load("<light name='lamp' type='point'/>\n" + ground_ +
+           "\n<model name='ghost'><link name='l'/></model>\n" +
+           model("hill", "<heightmap><uri>a.png</uri></heightmap>") + "\n" +
+           model("ramp", "<plane><normal>1 0 1</normal></plane>") + "\n" +
+           model("cellar", "<box><size>1 1 1</size></box>", "0 0 -5 0 0 0") + "\n" +
+           "<model name='door'>" + cube_ +
+           "<joint name='hinge' type='revolute'><parent>world</parent><child>l</child></joint>\n"
+           "<plugin name='opener' filename='libDoor.so'/>\n"
+           "<link name='sign'><visual name='v'/></link></model>\n"
+           "<population name='crowd'/>\n<plugin name='weather' filename='libRain.so'/>");
+  EXPECT_EQ(loaded.world.things.size(), 2U) << "ground and door";
+  EXPECT_TRUE(has_note(loaded, {"line 3", "ghost", "no collision geometry"}));
+  EXPECT_TRUE(has_note(loaded, {"line 4", "<heightmap>"}));
+  EXPECT_TRUE(has_note(loaded, {"line 5", "ramp", "not level"}));
+  EXPECT_TRUE(has_note(loaded, {"line 6", "cellar", "under the floor"}));
+  EXPECT_TRUE(has_note(loaded, {"line 8", "opener", "libDoor.so", "door"}));
+  EXPECT_TRUE(has_note(loaded, {"line 9", "sign", "touches nothing"}));
+  EXPECT_TRUE(has_note(loaded, {"line 10", "<population>"}));
+  EXPECT_TRUE(has_note(loaded, {"line 11", "weather", "libRain.so"}));
+  EXPECT_TRUE(has_note(loaded, {"without meaning", "'lamp', line 1", "'hinge', line 7"}));
+  EXPECT_EQ(loaded.notes.size(), 11U) << "hill and ramp are named once more, as models";
+}
+
+TEST_F(SdfWorld, is_refused_with_a_sentence_when_it_is_none) {
+  EXPECT_NE(sentence_of("/nowhere/a.world"), "");
+  EXPECT_NE(sentence_of(folder_.string()), "");
+  EXPECT_NE(sentence_of(write("a.txt", "hello")), "");
+  EXPECT_NE(sentence_of(write("empty.world", "")), "");
+  EXPECT_NE(sentence_of(write("words.world", "this is no XML")), "");
+  const std::string half =
+      sentence_of(write("half.world", "<sdf version='1.6'><world name='w'>\n<model name='a'>"));
+  EXPECT_NE(half.find("line 2"), std::string::npos) << half;
+  EXPECT_NE(sentence_of(write("html.sdf", "<html><body/></html>")), "");
+  EXPECT_NE(sentence_of(write("model.sdf",
+                              "<sdf version='1.6'><model name='m'>" + cube_ + "</model></sdf>")),
+            "");
+  EXPECT_NE(sentence_of(write_world("<model name='box'>" + cube_ + "</model>")), "") << "no floor";
+  EXPECT_NE(sentence_of(write_world("")), "");
+}
+
+TEST_F(SdfWorld, names_the_model_that_is_missing) {
+  const std::string sentence = sentence_of(write_world(
+      ground_ + "<model name='a'><include><uri>model://not_there</uri></include></model>"));
+  EXPECT_NE(sentence.find("model://not_there"), std::string::npos) << sentence;
+}
+
+TEST_F(SdfWorld, names_the_mesh_that_is_missing_or_broken) {
+  const auto with_mesh = [&](const std::string& uri) {
+    return sentence_of(write_world(
+        ground_ + "<model name='a'><link name='l'><collision name='c'><geometry><mesh><uri>" + uri +
+        "</uri></mesh></geometry></collision></link></model>"));
+  };
+  EXPECT_NE(with_mesh("model://m/a.dae").find("model://m/a.dae"), std::string::npos);
+  EXPECT_NE(with_mesh("http://example.org/a.dae"), "");
+  write("broken.dae", "no mesh");
+  write("empty.stl", "");
+  EXPECT_NE(with_mesh("broken.dae").find("broken.dae"), std::string::npos);
+  EXPECT_NE(with_mesh("empty.stl").find("empty.stl"), std::string::npos);
+}
+
+TEST_F(SdfWorld, takes_a_mesh_in_its_unit_and_as_it_lies_in_its_file) {
+  for (const char* up : {"Z_UP", "Y_UP"}) {
+    write(
+        "tri.dae",
+        "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+        "version='1.4.1'><asset><unit name='centimeter' meter='0.01'/><up_axis>" +
+            std::string(up) +
+            "</up_axis></asset><library_geometries><geometry id='g'><mesh><source id='p'>"
+            "<float_array id='a' count='9'>0 0 100 200 0 100 0 300 100</float_array>"
+            "<technique_common><accessor source='#a' count='3' stride='3'><param name='X' "
+            "type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
+            "</technique_common></source><vertices id='v'><input semantic='POSITION' "
+            "source='#p'/></vertices><triangles count='1'><input semantic='VERTEX' source='#v' "
+            "offset='0'/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
+            "<library_visual_scenes><visual_scene id='s'><node id='n'><instance_geometry "
+            "url='#g'/></node></visual_scene></library_visual_scenes><scene>"
+            "<instance_visual_scene url='#s'/></scene></COLLADA>");
+    const LoadedWorld loaded = load_world(
+        write_world(
+            ground_ +
+            "<model name='box'><link name='l'><collision name='c'><geometry><mesh><uri>"
+            "tri.dae</uri><scale>1 1 2</scale></mesh></geometry></collision></link></model>"),
+        "", 1, {});
+    const Eigen::AlignedBox3d box = bounds(*thing_named(loaded.world, "box"));
+    EXPECT_LT((box.max() - Eigen::Vector3d(2.0, 3.0, 2.0)).norm(), 1e-6) << up;
+    EXPECT_LT((box.min() - Eigen::Vector3d(0.0, 0.0, 2.0)).norm(), 1e-6) << up;
+  }
+}
+
+TEST_F(SdfWorld, refuses_models_that_include_each_other_in_a_circle) {
+  write_model("a", "<include><uri>model://b</uri></include>");
+  write_model("b", "<include><uri>model://a</uri></include>");
+  const std::string sentence =
+      sentence_of(write_world(ground_ + "<include><uri>model://a</uri></include>"));
+  EXPECT_NE(sentence.find("includes itself"), std::string::npos) << sentence;
+}
+
+TEST_F(SdfWorld, refuses_numbers_that_make_no_world) {
+  const auto with_box = [&](const std::string& pose, const std::string& size) {
+    return sentence_of(
+        write_world(ground_ + "<model name='box'><pose>" + pose +
+                    "</pose><link name='l'><collision name='c'><geometry><box><size>" + size +
+                    "</size></box></geometry></collision></link></model>"));
+  };
+  EXPECT_EQ(with_box("0 0 1 0 0 0", "1 1 1"), "");
+  EXPECT_NE(with_box("0 0 1 0 0 0", "1 0 1"), "");
+  EXPECT_NE(with_box("0 0 1 0 0 0", "1 -1 1"), "");
+  EXPECT_NE(with_box("0 0 1 0 0 0", "nan 1 1"), "");
+  EXPECT_NE(with_box("nan 0 1 0 0 0", "1 1 1"), "");
+  EXPECT_NE(with_box("1e9 0 1 0 0 0", "1 1 1"), "");
+}
+
+}  // namespace
+}  // namespace navvi_sim::read
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

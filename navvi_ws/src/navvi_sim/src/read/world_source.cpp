@@ -1,0 +1,96 @@
+#include "navvi_sim/read/world_source.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <utility>
+
+#include "description/validate.hpp"
+#include "navvi_sim/generate/layout_source.hpp"
+#include "read/sdf_world.hpp"
+#include "read/yaml_world.hpp"
+
+namespace navvi_sim::read {
+namespace {
+
+std::string allowed() {
+  std::string words = "; allowed are ";
+  for (const generate::Preset& known : generate::presets()) words += known.name + ", ";
+  return words + "and files that end in .yaml, .yml, .sdf or .world";
+}
+
+enum class Kind { yaml, sdf };
+
+/// \throws WorldError if `spec` is no file that may hold a world
+Kind kind_of(const std::string& spec) {
+  std::string ending = std::filesystem::path(spec).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool is_yaml = ending == ".yaml" || ending == ".yml";
+  if (!is_yaml && ending != ".sdf" && ending != ".world")
+    throw WorldError("'" + spec + "' is no world" + allowed());
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(spec, error))
+    throw WorldError("the world file '" + spec + "' does not exist or is no file" + allowed());
+  return is_yaml ? Kind::yaml : Kind::sdf;
+}
+
+/// Those who walk stand where their routes begin.
+void stop_workers(WorldDescription& world) {
+  for (Thing& thing : world.things)
+    if (thing.thing_class == ThingClass::worker) thing.route.reset();
+}
+
+LoadedWorld build(generate::LayoutSource source, std::uint64_t seed, Workers workers) {
+  if (workers == Workers::walking)
+    source.config.walking_workers += std::exchange(source.config.standing_workers, 0);
+  LoadedWorld loaded{source.build(seed), {}};
+  if (workers == Workers::standing) stop_workers(loaded.world);
+  return loaded;
+}
+
+/// \throws WorldError that begins with where the world comes from
+LoadedWorld validated(LoadedWorld loaded, const std::string& where) {
+  try {
+    validate(loaded.world);
+  } catch (const WorldError& error) {
+    throw WorldError(where + ": " + error.what());
+  }
+  return loaded;
+}
+
+LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
+                 Workers workers, const std::string& classes) {
+  if (const auto source = layout_source(spec)) return build(*source, seed, workers);
+  if (kind_of(spec) == Kind::yaml) return {read_yaml_world(spec), {}};
+  return read_sdf_world(spec, folders(models),
+                        classes.empty() ? ClassRules::standard() : ClassRules::read(classes));
+}
+
+}  // namespace
+
+std::optional<generate::LayoutSource> layout_source(const std::string& spec) {
+  if (const auto config = generate::preset(spec))
+    return generate::LayoutSource{spec, *config, spec, {}};
+  if (kind_of(spec) != Kind::yaml) return std::nullopt;
+  return generate::read_layout(spec);
+}
+
+std::vector<std::filesystem::path> folders(const std::string& colon_separated) {
+  std::vector<std::filesystem::path> result;
+  std::istringstream stream(colon_separated);
+  for (std::string item; std::getline(stream, item, ':');)
+    if (!item.empty()) result.emplace_back(item);
+  return result;
+}
+
+LoadedWorld load_world(const std::string& spec, const std::string& models, std::uint64_t seed,
+                       Workers workers, const std::string& classes) {
+  return validated(load(spec, models, seed, workers, classes), spec);
+}
+
+LoadedWorld load_world(const generate::LayoutSource& source, std::uint64_t seed, Workers workers) {
+  return validated(build(source, seed, workers), source.where);
+}
+
+}  // namespace navvi_sim::read

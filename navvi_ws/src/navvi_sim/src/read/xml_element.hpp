@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace navvi_sim::read {
+
+constexpr std::uintmax_t kMaxXmlBytes = 20'000'000;  ///< of a file that is read
+
+/// An element of an XML file, with all that is in it.
+struct XmlElement {
+  std::string name;
+  std::string text;  ///< without the space around it
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<XmlElement> children;
+  std::shared_ptr<const std::string> file;  ///< that it stands in
+  int line = 0;                             ///< in that file, from 1
+
+  /// The first child of that name; null if there is none.
+  [[nodiscard]] const XmlElement* child(const std::string& child_name) const;
+  [[nodiscard]] std::vector<const XmlElement*> children_named(const std::string& child_name) const;
+  /// The text of a child; empty if there is none.
+  [[nodiscard]] std::string text_of(const std::string& child_name) const;
+  /// Empty if there is none.
+  [[nodiscard]] std::string attribute(const std::string& key) const;
+  void set_attribute(const std::string& key, const std::string& value);
+  /// "a.world, line 12", for sentences.
+  [[nodiscard]] std::string place() const;
+};
+
+/// \throws WorldError for a file that is missing, larger than 20 MB, or no XML
+[[nodiscard]] XmlElement read_xml(const std::filesystem::path& file);
+
+/// \throws WorldError that says where the element stands
+[[noreturn]] void refuse(const XmlElement& element, const std::string& what);
+
+}  // namespace navvi_sim::read

@@ -1,0 +1,266 @@
+#include "navvi_sim/scenario/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "description/random.hpp"
+#include "description/sentence.hpp"
+#include "scenario/free_places.hpp"
+
+namespace navvi_sim::scenario {
+namespace {
+
+constexpr int kAttempts = 20;
+constexpr int kDraws = 50;            // of one end of a route, the other fixed, until its turns fit
+constexpr double kUsualRoute = 10.0;  // m
+constexpr double kLeg = 1.0;          // m, least length of a leg that counts for turns
+constexpr double kTurn = 30.0 * M_PI / 180.0;
+constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
+
+double length(const FloorGrid::Ways& ways, std::size_t cell) {
+  return static_cast<double>(ways.length[cell]);
+}
+
+std::vector<Eigen::Vector2d> reversed(std::vector<Eigen::Vector2d> way) {
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+/// Draws the ends of a route from a seed.
+class ScenarioSampler {
+ public:
+  ScenarioSampler(const WorldDescription& world, const occupancy::OccupancyMap& map,
+                  const ScenarioConfig& config, std::uint64_t seed)
+      : world_(world),
+        config_(config),
+        grid_(map, world.floor_height, config.robot_height),
+        places_(world, grid_, config),
+        random_(seed) {}
+
+  [[nodiscard]] Scenario with_start(const FloorPose& start,
+                                    const std::optional<Eigen::Vector2d>& goal);
+  [[nodiscard]] Scenario with_goal(const Eigen::Vector2d& goal);
+  [[nodiscard]] Scenario with_nothing();
+
+ private:
+  using Places = FreePlaces::Places;
+
+  /// Both ends drawn from `places`; nullopt if no route leads between any that were tried.
+  [[nodiscard]] std::optional<Scenario> between(const Places& places);
+  /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
+  /// is asked for, a small world has some at 0.8 of the longest way to a free place.
+  [[nodiscard]] Places ends_of(const FloorGrid::Ways& ways, const Places& places);
+  /// One of `places` to which a way leads as asked for; kNone if none was found.
+  [[nodiscard]] std::size_t try_draw(const FloorGrid::Ways& ways, const Places& places,
+                                     double least);
+  /// \param choices  of places, the better ones first
+  [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+                                 const std::string& what, double least);
+
+  /// The cell of a start that was given. \throws WorldError if no robot can stand there
+  [[nodiscard]] std::size_t checked(const FloorPose& start) const;
+  /// The pose in `cell` that looks along the way back to where the ways begin.
+  [[nodiscard]] FloorPose looking_back(const FloorGrid::Ways& ways, std::size_t cell) const;
+  /// What was asked of the route, for a sentence.
+  [[nodiscard]] std::string asked_for() const;
+  [[nodiscard]] bool asks_for_turns() const {
+    return config_.min_turns > 0 || config_.max_turns < ScenarioConfig::kAnyTurns;
+  }
+  [[nodiscard]] bool asks_for_route() const {
+    return config_.min_route > 0.0 || config_.max_route > 0.0 || asks_for_turns();
+  }
+
+  [[nodiscard]] double clear() const { return config_.robot_radius + config_.clearance; }
+  /// A way may leave from nearer to things than it may pass by.
+  [[nodiscard]] double passable(std::size_t root) const {
+    return std::min(clear(), grid_.clearance(root));
+  }
+
+  const WorldDescription& world_;
+  const ScenarioConfig& config_;
+  FloorGrid grid_;
+  FreePlaces places_;
+  Random random_;
+  double longest_ = 0.0;  ///< m, of the ways seen so far
+  int most_turns_ = 0;    ///< of the ways seen so far
+};
+
+Scenario ScenarioSampler::with_start(const FloorPose& start,
+                                     const std::optional<Eigen::Vector2d>& goal) {
+  const std::size_t root = checked(start);
+  const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
+  if (goal) {
+    const std::size_t end = goal->allFinite() ? grid_.cell_at(*goal) : FloorGrid::kNone;
+    if (end == FloorGrid::kNone || !std::isfinite(ways.length[end])) return {start, *goal, 0.0, {}};
+    return {start, *goal, length(ways, end), reversed(grid_.way_back(ways, end, passable(root)))};
+  }
+  const std::size_t end = draw(ways, {places_.quiet(), places_.all()}, "goal", passable(root));
+  return {start, grid_.centre(end), length(ways, end),
+          reversed(grid_.way_back(ways, end, passable(root)))};
+}
+
+Scenario ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
+  const Places starts = places_.away_from_movers(places_.all());
+  const std::size_t root = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
+  if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
+    // Navigation refuses such a goal; the start may then be anywhere.
+    const Eigen::Vector2d place = grid_.centre(starts[random_.below(starts.size())]);
+    return {{place.x(), place.y(), 0.0}, goal, 0.0, {}};
+  }
+  const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
+  const std::size_t start =
+      draw(ways, {places_.away_from_movers(places_.quiet()), starts}, "start", passable(root));
+  return {looking_back(ways, start), goal, length(ways, start),
+          grid_.way_back(ways, start, passable(root))};
+}
+
+Scenario ScenarioSampler::with_nothing() {
+  std::optional<Scenario> scenario = between(places_.quiet());
+  if (!scenario && places_.quiet().size() < places_.all().size()) scenario = between(places_.all());
+  if (!scenario)
+    throw WorldError("world '" + world_.name +
+                     "' has no place for a start that is connected to one for a goal" +
+                     asked_for());
+  return *scenario;
+}
+
+std::optional<Scenario> ScenarioSampler::between(const Places& places) {
+  if (places.empty()) return std::nullopt;
+  const Places starts = places_.away_from_movers(places);
+  std::optional<Scenario> best;
+  const double enough = asks_for_route() ? 0.0 : kUsualRoute;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::size_t root = places[random_.below(places.size())];
+    const FloorGrid::Ways ways = grid_.ways_from(root, clear());
+    const std::size_t start = try_draw(ways, starts, clear());
+    if (start == FloorGrid::kNone || (best && length(ways, start) <= best->route_length)) continue;
+    best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
+            grid_.way_back(ways, start, clear())};
+    if (best->route_length >= enough) break;
+  }
+  return best;
+}
+
+std::size_t ScenarioSampler::checked(const FloorPose& start) const {
+  const std::string who =
+      "start (" + text(start.x) + ", " + text(start.y) + ", " + text(start.yaw) + ")";
+  if (!std::isfinite(start.x) || !std::isfinite(start.y) || !std::isfinite(start.yaw))
+    throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
+  const std::size_t cell = grid_.cell_at({start.x, start.y});
+  if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0)
+    throw WorldError(who + " is in a thing or off the floor of world '" + world_.name +
+                     "'; allowed is free floor");
+  if (grid_.clearance(cell) + grid_.cell_size() < config_.robot_radius)
+    throw WorldError(who + " is " + text(grid_.clearance(cell)) +
+                     " m from a thing or the floor's edge; allowed is the robot's radius of " +
+                     text(config_.robot_radius) + " m or more");
+  return cell;
+}
+
+std::string ScenarioSampler::asked_for() const {
+  if (!asks_for_route()) return "";
+  std::string words = " by a route of " + text(config_.min_route) + " m or more";
+  if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
+  if (asks_for_turns())
+    words += " with " + std::to_string(config_.min_turns) + " to " +
+             std::to_string(config_.max_turns) + " turns";
+  return words + " (the longest that was found has " + text(std::round(longest_)) +
+         " m, and routes had up to " + std::to_string(most_turns_) + " turns)";
+}
+
+ScenarioSampler::Places ScenarioSampler::ends_of(const FloorGrid::Ways& ways,
+                                                 const Places& places) {
+  double longest = 0.0;
+  for (const std::size_t place : places_.all())
+    if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
+  longest_ = std::max(longest_, longest);
+  const double least = asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
+  const double most = config_.max_route > 0.0 ? config_.max_route : longest;
+  Places ends;
+  for (const std::size_t place : places)
+    if (std::isfinite(ways.length[place]) && length(ways, place) >= least &&
+        length(ways, place) <= most)
+      ends.push_back(place);
+  return ends;
+}
+
+std::size_t ScenarioSampler::try_draw(const FloorGrid::Ways& ways, const Places& places,
+                                      double least) {
+  const Places ends = ends_of(ways, places);
+  if (ends.empty()) return FloorGrid::kNone;
+  if (!asks_for_turns()) return ends[random_.below(ends.size())];
+  for (int i = 0; i < kDraws; ++i) {
+    const std::size_t end = ends[random_.below(ends.size())];
+    const int count = turns(grid_.way_back(ways, end, least));
+    most_turns_ = std::max(most_turns_, count);
+    if (count >= config_.min_turns && count <= config_.max_turns) return end;
+  }
+  return FloorGrid::kNone;
+}
+
+std::size_t ScenarioSampler::draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+                                  const std::string& what, double least) {
+  for (const Places& places : choices) {
+    const std::size_t end = try_draw(ways, places, least);
+    if (end != FloorGrid::kNone) return end;
+  }
+  throw WorldError("world '" + world_.name + "' has no free place for a " + what +
+                   " that is connected to what was given" + asked_for());
+}
+
+FloorPose ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
+  const Eigen::Vector2d place = grid_.centre(cell);
+  std::size_t ahead = cell;
+  while (ways.before[ahead] != FloorGrid::kNone &&
+         static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead)
+    ahead = ways.before[ahead];
+  const Eigen::Vector2d view = grid_.centre(ahead) - place;
+  return {place.x(), place.y(), std::atan2(view.y(), view.x())};
+}
+
+}  // namespace
+
+void ScenarioConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"min_route", Range{0.0, 10000.0}, "m",
+         "least length of the way from start to goal where one of them is drawn; 0: 10 where the "
+         "world permits"},
+        min_route);
+  visit({"max_route", Range{0.0, 10000.0}, "m", "its greatest length; 0: any"}, max_route);
+  visit({"min_turns", Range{0, kAnyTurns}, "", "least number of its turns, of 30 degrees or more"},
+        min_turns);
+  visit({"max_turns", Range{0, kAnyTurns}, "", "most of its turns; 100: any"}, max_turns);
+}
+
+int turns(const std::vector<Eigen::Vector2d>& polyline) {
+  int count = 0;
+  std::optional<double> course;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Eigen::Vector2d leg = polyline[i] - polyline[i - 1];
+    if (leg.norm() < kLeg) continue;
+    const double next = std::atan2(leg.y(), leg.x());
+    if (course && std::abs(std::remainder(next - *course, 2.0 * M_PI)) >= kTurn) ++count;
+    course = next;
+  }
+  return count;
+}
+
+Scenario draw_scenario(const WorldDescription& world, const occupancy::OccupancyMap& map,
+                       const ScenarioConfig& config, std::uint64_t seed,
+                       const std::optional<FloorPose>& start,
+                       const std::optional<Eigen::Vector2d>& goal) {
+  if (config.max_route > 0.0 && config.max_route < config.min_route)
+    throw WorldError("max_route is " + text(config.max_route) +
+                     " m, less than min_route; allowed are " + text(config.min_route) +
+                     " m or more, or 0 for any");
+  if (config.max_turns < config.min_turns)
+    throw WorldError("max_turns is " + std::to_string(config.max_turns) +
+                     ", less than min_turns; allowed are " + std::to_string(config.min_turns) +
+                     " or more");
+  ScenarioSampler sampler(world, map, config, seed);
+  if (start) return sampler.with_start(*start, goal);
+  if (goal) return sampler.with_goal(*goal);
+  return sampler.with_nothing();
+}
+
+}  // namespace navvi_sim::scenario

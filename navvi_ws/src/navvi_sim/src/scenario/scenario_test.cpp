@@ -1,0 +1,220 @@
+#include "navvi_sim/scenario/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "navvi_sim/occupancy/occupancy.hpp"
+
+namespace navvi_sim::scenario {
+namespace {
+
+Thing thing(const std::string& name, ThingClass thing_class, const Eigen::Vector3d& centre,
+            const Eigen::Vector3d& size) {
+  Thing result;
+  result.name = name;
+  result.thing_class = thing_class;
+  result.pose.translation() = centre;
+  result.shapes.push_back({Box{size}, Eigen::Isometry3d::Identity()});
+  return result;
+}
+
+/// 16 x 8 m of floor, cut in two by a wall at x = 0 with a door of `door` m at its southern end.
+WorldDescription two_rooms(double door) {
+  WorldDescription world;
+  world.name = "two rooms";
+  world.things.push_back(thing("ground", ThingClass::floor, {0.0, 0.0, -0.05}, {16.0, 8.0, 0.1}));
+  world.things.push_back(
+      thing("wall", ThingClass::wall, {0.0, door / 2.0, 1.0}, {0.2, 8.0 - door, 2.0}));
+  return world;
+}
+
+class ScenarioIn : public testing::Test {
+ protected:
+  void enter(WorldDescription world) {
+    world_ = std::move(world);
+    map_ = occupancy::occupancy_of(world_, occupancy::OccupancyConfig{});
+  }
+  Scenario draw(std::uint64_t seed, const std::optional<FloorPose>& start = std::nullopt,
+                const std::optional<Eigen::Vector2d>& goal = std::nullopt) {
+    return draw_scenario(world_, map_, ScenarioConfig{}, seed, start, goal);
+  }
+  WorldDescription world_;
+  occupancy::OccupancyMap map_{occupancy::OccupancyConfig{}.resolution, {}};
+};
+
+TEST_F(ScenarioIn, is_the_same_for_the_same_seed_and_another_for_another) {
+  enter(two_rooms(2.0));
+  const Scenario one = draw(7);
+  const Scenario again = draw(7);
+  const Scenario other = draw(8);
+  EXPECT_EQ(one.start.x, again.start.x);
+  EXPECT_EQ(one.start.yaw, again.start.yaw);
+  EXPECT_EQ(one.goal, again.goal);
+  EXPECT_NE(one.goal, other.goal);
+}
+
+TEST_F(ScenarioIn, keeps_clear_of_things_and_goes_far) {
+  enter(two_rooms(2.0));
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_GE(scenario.route_length, 10.0);
+    for (const Eigen::Vector2d& place :
+         {Eigen::Vector2d(scenario.start.x, scenario.start.y), scenario.goal}) {
+      EXPECT_LT(std::abs(place.x()), 8.0 - 0.5 + 0.05);
+      EXPECT_LT(std::abs(place.y()), 4.0 - 0.5 + 0.05);
+      if (place.y() > -2.0) {
+        EXPECT_GT(std::abs(place.x()), 0.1 + 0.5 - 0.05);
+      }
+    }
+  }
+}
+
+TEST_F(ScenarioIn, never_leads_through_a_wall) {
+  enter(two_rooms(0.0));
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_GT(scenario.start.x * scenario.goal.x(), 0.0) << "seed " << seed;
+  }
+}
+
+TEST_F(ScenarioIn, takes_a_given_start_and_goal_as_they_are) {
+  enter(two_rooms(2.0));
+  const Scenario scenario = draw(1, FloorPose{-5.0, 1.0, 0.5}, Eigen::Vector2d(5.0, 1.0));
+  EXPECT_EQ(scenario.start.yaw, 0.5);
+  EXPECT_EQ(scenario.goal, Eigen::Vector2d(5.0, 1.0));
+  EXPECT_GT(scenario.route_length, 10.0);
+}
+
+TEST_F(ScenarioIn, passes_on_a_goal_in_a_wall_and_refuses_a_start_there) {
+  enter(two_rooms(2.0));
+  EXPECT_EQ(draw(1, FloorPose{-5.0, 1.0, 0.0}, Eigen::Vector2d(0.0, 1.0)).route_length, 0.0);
+  EXPECT_EQ(draw(1, std::nullopt, Eigen::Vector2d(0.0, 1.0)).goal, Eigen::Vector2d(0.0, 1.0));
+  for (const FloorPose& start :
+       {FloorPose{0.0, 1.0, 0.0}, FloorPose{0.3, 1.0, 0.0}, FloorPose{50.0, 1.0, 0.0},
+        FloorPose{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0},
+        FloorPose{-5.0, 0.0, std::numeric_limits<double>::infinity()}})
+    EXPECT_THROW(static_cast<void>(draw(1, start)), WorldError) << start.x;
+}
+
+TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
+  WorldDescription world = two_rooms(2.0);
+  Thing mover = thing("mover", ThingClass::forklift, {-4.0, 0.0, 0.5}, {1.0, 1.0, 1.0});
+  mover.route = Route{{{{-4.0, 0.0}}, {{-4.0, 2.0}}}};
+  world.things.push_back(mover);
+  enter(world);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_GE(std::hypot(scenario.start.x + 4.0, scenario.start.y), 2.0);
+  }
+  const Scenario to_east = draw(3, std::nullopt, Eigen::Vector2d(-1.0, 2.0));
+  EXPECT_LT(std::abs(to_east.start.yaw), M_PI);
+}
+
+Thing shuttle(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  Thing mover =
+      thing("shuttle", ThingClass::pallet_robot, {from.x(), from.y(), 0.25}, {1.0, 0.8, 0.5});
+  mover.route = Route{{{from}, {to}}};
+  return mover;
+}
+
+TEST_F(ScenarioIn, is_drawn_off_the_lanes_of_what_moves_and_given_anywhere) {
+  WorldDescription world = two_rooms(2.0);
+  world.things.push_back(shuttle({-7.0, 2.0}, {-1.0, 2.0}));
+  enter(world);
+  const Eigen::Vector2d on_lane(-4.0, 2.0);
+  // Seen from above the shuttle sweeps 0.4 m to each side, 0.64 m where it turns.
+  const auto off_lane = [](const Eigen::Vector2d& place) {
+    return place.x() > 0.0 || std::abs(place.y() - 2.0) > 0.4 + 0.35 + 0.25;
+  };
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scenario scenario = draw(seed);
+    EXPECT_TRUE(off_lane({scenario.start.x, scenario.start.y})) << seed;
+    EXPECT_TRUE(off_lane(scenario.goal)) << seed;
+    EXPECT_GE(scenario.route_length, 10.0);
+    EXPECT_TRUE(off_lane(draw(seed, FloorPose{-4.0, 2.0, 0.0}).goal)) << seed;
+    const FloorPose start = draw(seed, std::nullopt, on_lane).start;
+    EXPECT_TRUE(off_lane({start.x, start.y})) << seed;
+  }
+  EXPECT_EQ(draw(1, FloorPose{-4.0, 2.0, 0.0}, on_lane).goal, on_lane);
+}
+
+TEST_F(ScenarioIn, is_drawn_on_the_lanes_where_there_is_nothing_else) {
+  WorldDescription world;
+  world.name = "alley";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {20.0, 2.2, 0.1}));
+  world.things.push_back(shuttle({-8.0, 0.0}, {8.0, 0.0}));
+  enter(world);
+  const Scenario scenario = draw(1);
+  EXPECT_GE(scenario.route_length, 10.0);
+  EXPECT_GE(std::hypot(scenario.start.x + 8.0, scenario.start.y), 2.0);
+}
+
+TEST_F(ScenarioIn, is_refused_where_nothing_is_free) {
+  WorldDescription world;
+  world.name = "full";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {2.0, 2.0, 0.1}));
+  world.things.push_back(thing("block", ThingClass::box, {0, 0, 0.5}, {1.9, 1.9, 1.0}));
+  enter(world);
+  EXPECT_THROW(static_cast<void>(draw(1)), WorldError);
+}
+
+TEST_F(ScenarioIn, has_the_length_and_the_turns_that_were_asked_for) {
+  enter(two_rooms(2.0));
+  ScenarioConfig config;
+  config.min_route = 12.0;
+  config.max_route = 14.0;
+  config.min_turns = 1;
+  config.max_turns = 2;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Scenario scenario = draw_scenario(world_, map_, config, seed);
+    EXPECT_GE(scenario.route_length, 12.0);
+    EXPECT_LE(scenario.route_length, 14.0);
+    EXPECT_GE(turns(scenario.route), 1);
+    EXPECT_LE(turns(scenario.route), 2);
+    ASSERT_GE(scenario.route.size(), 3u);
+    EXPECT_EQ(scenario.route.back(), scenario.goal);
+    EXPECT_EQ(scenario.route.front(), Eigen::Vector2d(scenario.start.x, scenario.start.y));
+    double length = 0.0;
+    for (std::size_t i = 1; i < scenario.route.size(); ++i)
+      length += (scenario.route[i] - scenario.route[i - 1]).norm();
+    EXPECT_LE(length, scenario.route_length + 1e-3);
+  }
+}
+
+TEST_F(ScenarioIn, is_refused_in_a_sentence_where_no_route_is_as_asked_for) {
+  enter(two_rooms(2.0));
+  ScenarioConfig too_long, too_winding, contrary, no_turns;
+  too_long.min_route = 100.0;
+  too_winding.min_turns = 9;
+  contrary.min_route = 10.0;
+  contrary.max_route = 5.0;
+  no_turns.min_turns = 3;
+  no_turns.max_turns = 2;
+  for (const ScenarioConfig& config : {too_long, too_winding, contrary, no_turns}) {
+    try {
+      static_cast<void>(draw_scenario(world_, map_, config, 1));
+      ADD_FAILURE();
+    } catch (const WorldError& error) {
+      EXPECT_NE(std::string(error.what()), "");
+    }
+  }
+}
+
+TEST(Turns, are_changes_of_direction_between_legs_and_not_wiggles) {
+  EXPECT_EQ(turns({}), 0);
+  EXPECT_EQ(turns({{0, 0}, {5, 0}}), 0);
+  EXPECT_EQ(turns({{0, 0}, {5, 0}, {10, 1}}), 0);
+  EXPECT_EQ(turns({{0, 0}, {5, 0}, {5, 5}}), 1);
+  EXPECT_EQ(turns({{0, 0}, {5, 0}, {5.4, 0.4}, {5.4, 5}}), 1);
+  EXPECT_EQ(turns({{0, 0}, {5, 0}, {5, 2}, {0, 2}}), 2);
+}
+
+}  // namespace
+}  // namespace navvi_sim::scenario
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

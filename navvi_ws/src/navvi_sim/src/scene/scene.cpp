@@ -1,0 +1,266 @@
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "navvi_sim/physics/bodies.hpp"
+#include "scene/block_lists.hpp"
+#include "scene/painter.hpp"
+#include "scene/rack_drawing.hpp"
+
+namespace navvi_sim::scene {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+constexpr double kWallCut = 1.0;  // m above the floor, to which walls are drawn
+constexpr double kCut = 2.7;      // m above the floor, to which everything else is drawn
+constexpr double kNoCut = std::numeric_limits<double>::max();
+constexpr std::size_t kMostLists = 500;  // of blocks
+constexpr double kBoxGrid = 0.1;         // m, of the sizes of boxes on shelves
+constexpr double kCoarseGrid = 0.2;      // m, likewise, in worlds of very many things
+constexpr std::size_t kVeryMany = 1000;  // things
+constexpr double kFloorGrid = 5.0;       // m, between lines on the floor
+constexpr std::size_t kMany = 100;       // movers; beyond, far ones take turns
+constexpr double kFar = 30.0;            // m from the robot
+constexpr std::uint64_t kTurns = 10;     // a far mover is told in one message of these
+
+constexpr Color kFloorLine{0.17F, 0.19F, 0.21F};
+constexpr Color kRobot{0.95F, 1.00F, 0.95F};
+constexpr Color kNose{0.00F, 1.00F, 0.20F};
+
+/// What is drawn in place of a thing's own shapes, as large as they are together.
+std::optional<std::string> model_of(ThingClass thing_class) {
+  switch (thing_class) {
+    case ThingClass::worker:
+    case ThingClass::forklift:
+    case ThingClass::pallet_robot:
+      return std::string("package://navvi_sim/meshes/") + to_string(thing_class) + ".dae";
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_upright(const Eigen::Isometry3d& pose) { return pose.linear()(2, 2) > 1.0 - 1e-6; }
+
+/// A box whose faces look along the axes of map.
+std::optional<Eigen::AlignedBox3d> block_of(const Geometry& geometry,
+                                            const Eigen::Isometry3d& pose) {
+  if (!std::holds_alternative<Box>(geometry) || !is_upright(pose)) return std::nullopt;
+  const double x = std::abs(pose.linear()(0, 0));
+  if (x > 1e-6 && x < 1.0 - 1e-6) return std::nullopt;
+  return physics::bounds_of(geometry, pose);
+}
+
+/// The markers of everything that stands still.
+class StaticMarkers {
+ public:
+  explicit StaticMarkers(const WorldDescription& world)
+      : floor_(world.floor_height),
+        grid_(world.things.size() > kVeryMany ? kCoarseGrid : kBoxGrid) {}
+
+  void add(const Thing& thing) {
+    if (thing.thing_class == ThingClass::shelf) return add_shelf(thing);
+    for (const Shape& shape : thing.shapes) {
+      const ThingClass look = look_of(thing, shape);
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      add(look, color_of(look), shape.geometry, pose);
+      if (look == ThingClass::floor) ground_.extend(physics::bounds_of(shape.geometry, pose));
+    }
+  }
+
+  void append_to(MarkerArray& array, std::map<std::string, int>& next_id) {
+    for (auto& [ns, msg] : triangles_) {
+      if (msg.points.empty()) continue;
+      msg.id = next_id[ns]++;
+      array.markers.push_back(std::move(msg));
+    }
+    for (Marker& msg : blocks_.markers(kMostLists, next_id))
+      array.markers.push_back(std::move(msg));
+    if (!ground_.isEmpty()) array.markers.push_back(floor_lines(next_id["floor"]++));
+  }
+
+ private:
+  /// A rack is drawn so that it is seen into: from above through its highest board, of which only
+  /// the rim is drawn, and from aside through what is a block to whoever drives.
+  void add_shelf(const Thing& thing) {
+    Eigen::AlignedBox3d bounds;
+    for (const Shape& shape : thing.shapes)
+      bounds.extend(physics::bounds_of(shape.geometry, shape.pose));
+    for (const Shape& shape : thing.shapes) {
+      const ThingClass look = look_of(thing, shape);
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      const auto* box = std::get_if<Box>(&shape.geometry);
+      if (!box || look == ThingClass::box || !is_upright(shape.pose)) {
+        add(look, color_of(look), shape.geometry, pose, look == ThingClass::box);
+        continue;
+      }
+      const double top = shape.pose.translation().z() + 0.5 * box->size.z();
+      for (const ColoredBlock& part : shelf_parts(box->size, top > bounds.max().z() - 1e-6))
+        add(look, part.color, Box{part.block.sizes()},
+            pose * Eigen::Translation3d(part.block.center()));
+    }
+  }
+
+  void add(ThingClass look, const Color& color, const Geometry& geometry,
+           const Eigen::Isometry3d& pose, bool coarse = false) {
+    const std::string ns = to_string(look);
+    const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
+    if (physics::bounds_of(geometry, pose).min().z() >= cut) return;
+    auto block = block_of(geometry, pose);
+    if (block && block->sizes().head<2>().maxCoeff() <= kLongestBlock + 1e-6) {
+      block->max().z() = std::min(block->max().z(), cut);
+      if (coarse) *block = on_grid(*block);
+      return blocks_.add(ns, color, *block);
+    }
+    if (triangles_.count(ns) == 0)
+      triangles_[ns] = marker_msg(ns, 0, Marker::TRIANGLE_LIST, color_of(look));
+    Painter(triangles_[ns], color, cut).shape(geometry, pose);
+  }
+
+  /// Not larger, with its centre and underside where they were: so that many have one size.
+  [[nodiscard]] Eigen::AlignedBox3d on_grid(const Eigen::AlignedBox3d& block) const {
+    const Eigen::Vector3d size = block.sizes().unaryExpr([this](double side) {
+      return std::max(std::min(side, grid_), grid_ * std::floor(side / grid_ + 1e-6));
+    });
+    Eigen::Vector3d centre = block.center();
+    centre.z() = block.min().z() + 0.5 * size.z();
+    return {centre - 0.5 * size, centre + 0.5 * size};
+  }
+
+  /// Motion is seen against something.
+  [[nodiscard]] Marker floor_lines(int id) const {
+    Marker msg = marker_msg("floor", id, Marker::LINE_LIST, kFloorLine);
+    msg.scale.x = 0.04;
+    const Eigen::Vector3d low = ground_.min(), high = ground_.max();
+    for (int axis = 0; axis < 2; ++axis) {
+      for (double at = std::ceil(low[axis] / kFloorGrid) * kFloorGrid; at <= high[axis];
+           at += kFloorGrid) {
+        for (const Eigen::Vector3d& end : {low, high}) {
+          Eigen::Vector3d point(end.x(), end.y(), floor_ + 0.01);
+          point[axis] = at;
+          msg.points.push_back(point_msg(point));
+        }
+      }
+    }
+    return msg;
+  }
+
+  double floor_;
+  double grid_;
+  BlockLists blocks_;
+  std::map<std::string, Marker> triangles_;
+  Eigen::AlignedBox3d ground_;
+};
+
+bool is_moving(const Thing& thing) { return thing.route.has_value(); }
+
+}  // namespace
+
+Scene::Scene(const WorldDescription& world, const physics::RobotConfig& robot)
+    : world_(world), robot_(parts_of(robot)) {
+  std::map<std::string, int> next_id;
+  for (std::size_t id = 0; id < world.things.size(); ++id)
+    if (is_moving(world.things[id])) movers_[id] = parts_of(world.things[id], next_id);
+}
+
+/// The model of its class where there is one, or a marker a shape.
+Scene::Parts Scene::parts_of(const Thing& thing, std::map<std::string, int>& next_id) const {
+  Parts parts;
+  const auto model = model_of(thing.thing_class);
+  if (model && is_upright(thing.pose)) {
+    const std::string ns = to_string(thing.thing_class);
+    Eigen::AlignedBox3d bounds;
+    for (const Shape& shape : thing.shapes)
+      bounds.extend(physics::bounds_of(shape.geometry, shape.pose));
+    Marker msg = marker_msg(ns, next_id[ns]++, Marker::MESH_RESOURCE, {0.0F, 0.0F, 0.0F});
+    msg.color.a = 0.0F;  // no tint: the model's own colours
+    msg.mesh_resource = *model;
+    msg.mesh_use_embedded_materials = true;
+    msg.scale.x = bounds.sizes().x();
+    msg.scale.y = bounds.sizes().y();
+    msg.scale.z = bounds.sizes().z();
+    parts.push_back({std::move(msg), Eigen::Isometry3d(Eigen::Translation3d(bounds.center()))});
+    return parts;
+  }
+  for (const Shape& shape : thing.shapes) {
+    const ThingClass look = look_of(thing, shape);
+    const std::string ns = to_string(look);
+    Marker msg = marker_msg(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color_of(look));
+    if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+      msg.type = Marker::CUBE;
+      msg.scale.x = box->size.x();
+      msg.scale.y = box->size.y();
+      msg.scale.z = box->size.z();
+    } else {
+      Painter(msg, color_of(look), kNoCut).shape(shape.geometry, Eigen::Isometry3d::Identity());
+    }
+    parts.push_back({std::move(msg), shape.pose});
+  }
+  return parts;
+}
+
+MarkerArray Scene::standing(const ros::Time& stamp) const {
+  MarkerArray array;
+  std::map<std::string, int> next_id;
+  StaticMarkers still(world_);
+  for (const Thing& thing : world_.things) {
+    if (is_moving(thing)) continue;
+    if (!model_of(thing.thing_class) || !is_upright(thing.pose)) {
+      still.add(thing);
+      continue;
+    }
+    for (Part& part : parts_of(thing, next_id)) {
+      part.marker.pose = pose_msg(thing.pose * part.pose);
+      array.markers.push_back(std::move(part.marker));
+    }
+  }
+  still.append_to(array, next_id);
+  for (Marker& msg : array.markers) msg.header.stamp = stamp;
+  return array;
+}
+
+const MarkerArray& Scene::moving(const live::Snapshot& now, const ros::Time& stamp) {
+  std::size_t told = 0;
+  // Into the markers of the last call: what they hold need not be made anew.
+  const auto tell = [&](const Parts& parts, const Eigen::Isometry3d& pose) {
+    for (const Part& part : parts) {
+      if (told == moving_.markers.size()) moving_.markers.emplace_back();
+      Marker& msg = moving_.markers[told++];
+      msg = part.marker;
+      msg.header.stamp = stamp;
+      msg.pose = pose_msg(pose * part.pose);
+    }
+  };
+  ++turn_;
+  for (std::size_t i = 0; i < now.movers.size(); ++i) {
+    const MoverState& mover = now.movers[i];
+    const Eigen::Vector2d away = mover.pose.translation().head<2>() - now.robot.position;
+    const bool has_turn = now.movers.size() <= kMany || (turn_ + i) % kTurns == 0;
+    if (has_turn || away.norm() <= kFar) tell(movers_.at(mover.thing), mover.pose);
+  }
+  Eigen::Isometry3d base(Eigen::AngleAxisd(now.robot.yaw, Eigen::Vector3d::UnitZ()));
+  base.translation() << now.robot.position, world_.floor_height;
+  tell(robot_, base);
+  moving_.markers.resize(told);
+  return moving_;
+}
+
+Scene::Parts Scene::parts_of(const physics::RobotConfig& robot) {
+  Marker body = marker_msg("robot", 0, Marker::CYLINDER, kRobot);
+  body.scale.x = body.scale.y = 2.0 * robot.radius;
+  body.scale.z = robot.height;
+
+  // A flat arrow head over the lid, its tip over the rim, says where ahead is.
+  Marker nose = marker_msg("robot", 1, Marker::TRIANGLE_LIST, kNose);
+  const double r = robot.radius;
+  Painter(nose, kNose, kNoCut)
+      .triangle({1.5 * r, 0.0, 0.0}, {-0.6 * r, 0.75 * r, 0.0}, {-0.6 * r, -0.75 * r, 0.0});
+  const auto above = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); };
+  return {{body, above(robot.height / 2.0)}, {nose, above(robot.height + 0.02)}};
+}
+
+}  // namespace navvi_sim::scene

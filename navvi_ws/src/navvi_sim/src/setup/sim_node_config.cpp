@@ -1,0 +1,135 @@
+#include "navvi_sim/setup/sim_node_config.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <navvi_config/reader.hpp>
+#include <navvi_config/writer.hpp>
+#include <sstream>
+#include <vector>
+
+namespace navvi_sim::setup {
+namespace {
+
+/// The numbers of a list such as "1,-9,1.57".
+std::vector<double> numbers(const std::string& list, std::size_t count, const std::string& key,
+                            const std::string& form) {
+  const navvi_config::ConfigError error(key + ": \"" + list + "\" is not of the form " + form +
+                                        " with finite numbers");
+  std::vector<double> values;
+  std::stringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) {
+    std::size_t used = 0;
+    try {
+      values.push_back(std::stod(item, &used));
+    } catch (const std::exception&) {
+      throw error;
+    }
+    if (item.find_first_not_of(" \t", used) != std::string::npos || !std::isfinite(values.back()))
+      throw error;
+  }
+  if (values.size() != count || list.back() == ',') throw error;
+  return values;
+}
+
+/// The shortest texts that are read back as the same numbers.
+std::string exact(const std::vector<double>& values) {
+  std::string list;
+  for (const double value : values) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    list += (list.empty() ? "" : ",") + std::string(text.data(), end.ptr);
+  }
+  return list;
+}
+
+/// Where there is such a file, or folder; else the word itself.
+std::string absolute(const std::string& path, std::filesystem::file_type type) {
+  std::error_code error;
+  if (path.empty() || std::filesystem::status(path, error).type() != type) return path;
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+}  // namespace
+
+void SimNodeConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Any;
+  using navvi_config::Range;
+  visit({"world", Any{}, "",
+         "training, easy, warehouse, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
+         "file"},
+        world);
+  visit({"models", Any{}, "",
+         "folders for SDF's model://, separated by colons; those beside the world are always "
+         "searched"},
+        models);
+  visit({"classes", Any{}, "",
+         "a YAML file of class rules for SDF's models; empty: navvi_sim's config/classes.yaml"},
+        classes);
+  visit({"seed", Range{0, std::numeric_limits<int>::max()}, "",
+         "draws the world's fill, the movers' pauses, and start and goal where not given"},
+        seed);
+  visit({"start", Any{}, "m, m, rad", "x,y,yaw of the robot; empty: drawn from the seed"}, start);
+  visit({"goal", Any{}, "m, m", "x,y of the goal; empty: drawn from the seed"}, goal);
+  visit({"rate", Range{0.05, 50.0}, "", "simulated seconds per second of wall time"}, rate);
+  visit({"max_catch_up", Range{1, 1000}, "",
+         "most steps at once after a delay; beyond it the simulation slows down"},
+        max_catch_up);
+  visit({"detection_radius", Range{0.5, 20.0}, "m", "gap up to which things are reported as near"},
+        detection_radius);
+  life.describe(visit);
+  visit({"workers", navvi_config::OneOf{{"standing", "walking", "both"}}, "",
+         "whether all workers of a layout stand, all walk a route, or both as the layout says"},
+        workers);
+  visit.group("scenario", scenario);
+  visit.group("octomap", octomap);
+  visit.group("gate", gate);
+}
+
+read::Workers SimNodeConfig::worker_choice() const {
+  if (workers == "standing") return read::Workers::standing;
+  return workers == "walking" ? read::Workers::walking : read::Workers::as_laid_out;
+}
+
+std::optional<FloorPose> SimNodeConfig::start_pose() const {
+  if (start.empty()) return std::nullopt;
+  const auto values = numbers(start, 3, "start", "x,y,yaw");
+  return FloorPose{values[0], values[1], values[2]};
+}
+
+std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
+  if (goal.empty()) return std::nullopt;
+  const auto values = numbers(goal, 2, "goal", "x,y");
+  return Eigen::Vector2d(values[0], values[1]);
+}
+
+read::LoadedWorld load_world(const SimNodeConfig& config) {
+  return load_world(config.world, config.models, static_cast<std::uint64_t>(config.seed),
+                    config.worker_choice(), config.classes);
+}
+
+scenario::Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
+                               const occupancy::OccupancyMap& map) {
+  scenario::ScenarioConfig drawing = config.scenario;
+  drawing.robot_radius = config.life.robot.radius;
+  drawing.movers = config.life.movers;
+  return scenario::draw_scenario(world, map, drawing, static_cast<std::uint64_t>(config.seed),
+                                 config.start_pose(), config.goal_point());
+}
+
+std::string recipe(SimNodeConfig config, const scenario::Scenario& scenario) {
+  config.start = exact({scenario.start.x, scenario.start.y, scenario.start.yaw});
+  config.goal = exact({scenario.goal.x(), scenario.goal.y()});
+  for (std::string* path : {&config.world, &config.classes})
+    *path = absolute(*path, std::filesystem::file_type::regular);
+  std::string models;
+  for (const std::filesystem::path& folder : read::folders(config.models))
+    models += (models.empty() ? "" : ":") +
+              absolute(folder.string(), std::filesystem::file_type::directory);
+  config.models = models;
+  return navvi_config::write(config);
+}
+
+}  // namespace navvi_sim::setup

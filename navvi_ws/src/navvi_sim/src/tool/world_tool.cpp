@@ -1,0 +1,214 @@
+// Lists, checks, shows and writes worlds, without ROS: `./navvi world`.
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <navvi_config/reader.hpp>
+#include <sstream>
+
+#include "description/validate.hpp"
+#include "navvi_sim/description/world_hash.hpp"
+#include "navvi_sim/setup/sim_node_config.hpp"
+#include "picture/world_picture.hpp"
+#include "read/sdf_writer.hpp"
+#include "read/xml_element.hpp"
+
+namespace navvi_sim::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kUsage =
+    "world list                                   the worlds that have a name\n"
+    "world check NAME|FILE [--config FILE.yaml] [name:=value ...]   what a session makes of it\n"
+    "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
+    "      ./navvi also takes FILE.png\n"
+    "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
+    "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
+    "own,\n"
+    "such as length:=80; `./navvi parameters` tells them all. --config takes a file like those of "
+    "sim_node.\n";
+
+/// Sentences for who typed the command.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What may be said on the command line.
+struct ToolConfig {
+  setup::SimNodeConfig session;
+  std::optional<generate::LayoutConfig> layout;
+
+  void describe(navvi_config::Visitor& visit) {
+    session.describe(visit);
+    if (layout) layout->describe(visit);
+  }
+};
+
+/// What the command line asks for.
+struct Words {
+  std::vector<std::string> plain;       ///< the sub-command and what it is about
+  std::vector<std::string> parameters;  ///< name:=value
+  std::optional<std::string> out, config;
+};
+
+struct Request {
+  ToolConfig config;
+  read::LoadedWorld loaded;
+};
+
+Words sort_out(const std::vector<std::string>& words) {
+  Words sorted;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "-o" || word == "--config") {
+      if (++i == words.size()) throw UsageError(word + " needs a file after it");
+      (word == "-o" ? sorted.out : sorted.config) = words[i];
+    } else if (word.find(":=") != std::string::npos) {
+      sorted.parameters.push_back(word);
+    } else {
+      sorted.plain.push_back(word);
+    }
+  }
+  return sorted;
+}
+
+Request load(const Words& words) {
+  Request request;
+  setup::SimNodeConfig& session = request.config.session;
+  const std::string& spec = words.plain[1];
+  if (words.config)
+    navvi_config::read(session, navvi_config::load_yaml(*words.config), *words.config);
+  auto source = read::layout_source(spec);
+  if (source) request.config.layout = source->config;
+  const YAML::Node given = navvi_config::read_words(words.parameters);
+  navvi_config::read(request.config, given, "the command line");
+  session.world = spec;
+  if (!source) {
+    request.loaded = setup::load_world(session);
+    return request;
+  }
+  source->config = *request.config.layout;
+  for (const auto& entry : given) source->places[entry.first.Scalar()] = "the command line";
+  request.loaded =
+      read::load_world(*source, static_cast<std::uint64_t>(session.seed), session.worker_choice());
+  return request;
+}
+
+scenario::Scenario scenario_of(const Request& request) {
+  const setup::SimNodeConfig& session = request.config.session;
+  const WorldDescription& world = request.loaded.world;
+  return scenario_of(session, world, occupancy::occupancy_of(world, session.octomap));
+}
+
+void write_file(const fs::path& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  file << content;
+  file.close();
+  if (!file) throw WorldError("the file '" + path.string() + "' cannot be written");
+}
+
+std::string rounded(double value, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << std::fixed << value;
+  return text.str();
+}
+
+std::string caption_of(const Request& request, const scenario::Scenario& scenario) {
+  const int count = scenario::turns(scenario.route);
+  return "seed " + std::to_string(request.config.session.seed) + ", world " +
+         world_hash(request.loaded.world) +
+         (scenario.route.empty() ? ", no way from start to goal"
+                                 : ", way of " + rounded(scenario.route_length, 1) + " m with " +
+                                       std::to_string(count) + (count == 1 ? " turn" : " turns"));
+}
+
+void tell(const Request& request, const scenario::Scenario& scenario) {
+  const WorldDescription& world = request.loaded.world;
+  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
+  std::map<std::string, int> counts;
+  for (const Thing& thing : world.things)
+    ++counts[std::string(to_string(thing.thing_class)) + (thing.route ? " on routes" : "")];
+  for (const auto& [what, number] : counts) std::cout << number << ' ' << what << '\n';
+  std::cout << world.name << ", " << caption_of(request, scenario) << "\nstart "
+            << rounded(scenario.start.x, 2) << "," << rounded(scenario.start.y, 2) << ","
+            << rounded(scenario.start.yaw, 3) << " goal " << rounded(scenario.goal.x(), 2) << ","
+            << rounded(scenario.goal.y(), 2) << '\n';
+}
+
+void check(const Words& words) {
+  const Request request = load(words);
+  tell(request, scenario_of(request));
+}
+
+void show(const Words& words) {
+  const fs::path path = words.out.value_or(fs::path(words.plain[1]).stem().string() + ".svg");
+  if (path.extension() != ".svg")
+    throw UsageError("'" + path.string() + "' is no picture that can be drawn; allowed is .svg");
+  const Request request = load(words);
+  const scenario::Scenario scenario = scenario_of(request);
+  write_file(path,
+             picture::world_picture(request.loaded.world, scenario, caption_of(request, scenario)));
+  tell(request, scenario);
+  if (!words.out) std::cout << path.string() << '\n';
+}
+
+void write(const Words& words) {
+  const fs::path path = words.plain[2];
+  if (path.extension() != ".sdf" && path.extension() != ".world")
+    throw UsageError("'" + path.string() + "' is no SDF file; allowed are .sdf and .world");
+  const Request request = load(words);
+  std::string text = read::to_sdf(request.loaded.world);
+  if (text.size() > read::kMaxXmlBytes) {
+    text = read::to_sdf(request.loaded.world, false);
+    std::cout << "without visuals, with which the file would be too large to be read back\n";
+  }
+  write_file(path, text);
+  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
+  std::cout << request.loaded.world.things.size() << " things in " << path.string() << '\n';
+}
+
+void list(const Words&) {
+  for (const generate::Preset& known : generate::presets())
+    std::cout << known.name << std::string(12 - known.name.size(), ' ') << known.help << ", "
+              << known.config.length << " x " << known.config.width << " m\n";
+}
+
+struct Command {
+  const char* name;
+  std::size_t words;  ///< with its name
+  void (*run)(const Words&);
+};
+
+constexpr Command kCommands[] = {
+    {"list", 1, list}, {"check", 2, check}, {"show", 2, show}, {"write", 3, write}};
+
+void run(const Words& words) {
+  const std::string name = words.plain.empty() ? "" : words.plain.front();
+  if (words.out && name != "show") throw UsageError("-o belongs to world show");
+  for (const Command& command : kCommands) {
+    if (name != command.name) continue;
+    if (words.plain.size() > command.words)
+      throw UsageError("\"" + words.plain[command.words] +
+                       "\" is too much; parameters look like name:=value");
+    if (words.plain.size() == command.words) return command.run(words);
+  }
+  throw UsageError(std::string("allowed are:\n") + kUsage);
+}
+
+}  // namespace
+}  // namespace navvi_sim::tool
+
+int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<navvi_sim::generate::LayoutConfig>(argc, argv)) return 0;
+  try {
+    navvi_sim::tool::run(navvi_sim::tool::sort_out({argv + 1, argv + argc}));
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "navvi: " << error.what() << '\n';
+    return 2;
+  }
+}

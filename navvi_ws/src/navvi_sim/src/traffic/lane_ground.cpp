@@ -1,0 +1,90 @@
+#include "traffic/lane_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace navvi_sim::traffic {
+namespace {
+
+constexpr double kTurnStep = 0.1;  // rad, between the poses of a body that a block is the hull of
+
+}  // namespace
+
+Polygon swept(const Track& track, const Footprint& print, double from, double to) {
+  std::vector<Eigen::Vector2d> points;
+  double wider = 0.0;
+  const auto stand = [&](const Track::Element& element, double s) {
+    const Place place = element.place(s);
+    const Eigen::Rotation2Dd rotation(place.yaw);
+    for (const Eigen::Vector2d& corner : print.hull) points.push_back(place.at + rotation * corner);
+  };
+  for (std::size_t e = track.element_at(from); e < track.elements().size(); ++e) {
+    const Track::Element& element = track.elements()[e];
+    if (element.begin >= to) break;
+    const double begin = std::max(from, element.begin);
+    const double end = std::min(to, element.end());
+    const double turn = (std::abs(element.curvature) + std::abs(element.spin)) * (end - begin);
+    const int steps = std::max(1, static_cast<int>(std::ceil(turn / kTurnStep)));
+    for (int i = 0; i <= steps; ++i) stand(element, begin + (end - begin) * i / steps);
+    // Between two poses a point leaves their chord by the arc's height.
+    if (turn > 0.0) {
+      const double radius =
+          print.radius + (element.curvature != 0.0 ? 1.0 / std::abs(element.curvature) : 0.0);
+      wider = std::max(wider, radius * (1.0 - std::cos(0.5 * turn / steps)));
+    }
+  }
+  if (wider > 0.0) {
+    const std::size_t count = points.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (const Eigen::Vector2d& side :
+           {Eigen::Vector2d(wider, wider), Eigen::Vector2d(-wider, wider),
+            Eigen::Vector2d(wider, -wider), Eigen::Vector2d(-wider, -wider)})
+        points.push_back(points[i] + side);
+  }
+  return convex_hull(std::move(points));
+}
+
+std::vector<Polygon> ground_of(const Lane& lane) {
+  std::vector<Polygon> ground;
+  for (int block = 0; block < lane.blocks; ++block)
+    ground.push_back(swept(lane.track, lane.footprint, block * lane.block_length,
+                           (block + 1) * lane.block_length));
+  return ground;
+}
+
+void for_each_standing(const WorldDescription& world, double least,
+                       const std::function<void(const Standing&)>& visit) {
+  for (std::size_t id = 0; id < world.things.size(); ++id) {
+    const Thing& thing = world.things[id];
+    if (thing.route || thing.thing_class == ThingClass::floor) continue;
+    const auto show = [&](const std::vector<Eigen::Vector3d>& points) {
+      Standing standing{
+          id, std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), {}};
+      std::vector<Eigen::Vector2d> seen;
+      for (const Eigen::Vector3d& point : points) {
+        standing.bottom = std::min(standing.bottom, point.z());
+        standing.top = std::max(standing.top, point.z());
+        seen.emplace_back(point.x(), point.y());
+      }
+      if (standing.top <= world.floor_height + least) return;
+      standing.polygon = convex_hull(std::move(seen));
+      visit(standing);
+    };
+    for (const Shape& shape : thing.shapes) {
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry)) {
+        const auto at = [&](std::uint32_t index) -> Eigen::Vector3d {
+          return pose * (*mesh)->vertices[index].cast<double>();
+        };
+        for (const auto& [a, b, c] : (*mesh)->triangles) show({at(a), at(b), at(c)});
+      } else {
+        std::vector<Eigen::Vector3d> points = hull_points(shape.geometry);
+        for (Eigen::Vector3d& point : points) point = pose * point;
+        show(points);
+      }
+    }
+  }
+}
+
+}  // namespace navvi_sim::traffic

@@ -1,0 +1,311 @@
+#include "navvi_sim/traffic/lanes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "traffic/block_index.hpp"
+#include "traffic/lane_ground.hpp"
+#include "traffic/refuges.hpp"
+
+namespace navvi_sim::traffic {
+namespace {
+
+constexpr double kBlock = 0.5;        // m
+constexpr double kDrivenOver = 0.05;  // m above the floor; lower things stop nobody
+constexpr double kOffRoute = 0.1;     // m, farther from its way, corners cut, no thing may stand
+constexpr double kThere = 1e-9;       // m, nearer is there
+constexpr int kHalvings = 3;          // of a corner's radius, before it is turned on the spot
+
+[[noreturn]] void refuse(const std::string& sentence) { throw WorldError(sentence); }
+
+std::string quoted(const Thing& thing) { return "'" + thing.name + "'"; }
+
+std::string place_text(const Eigen::Vector2d& at) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "(" << at.x() << ", " << at.y() << ")";
+  return text.str();
+}
+
+/// m, the radius at which things of a class round corners.
+double corner_radius(ThingClass thing_class, const MoversConfig& config) {
+  switch (thing_class) {
+    case ThingClass::worker:
+      return 0.25 * config.corner_radius;
+    case ThingClass::pallet_robot:
+      return 0.5 * config.corner_radius;
+    default:
+      return config.corner_radius;
+  }
+}
+
+bool operator<(const Waypoint& a, const Waypoint& b) {
+  const auto key = [](const Waypoint& w) {
+    return std::array<double, 4>{w.at.x(), w.at.y(), w.pause, w.speed};
+  };
+  return key(a) < key(b);
+}
+
+/// Equal for things that drive the same round in the same direction and may follow each other.
+struct RoundKey {
+  ThingClass thing_class;
+  double speed;
+  std::vector<Waypoint> waypoints;  ///< beginning with the least
+  std::size_t alone;                ///< for what shares with nobody
+
+  bool operator<(const RoundKey& other) const {
+    if (thing_class != other.thing_class) return thing_class < other.thing_class;
+    if (speed != other.speed) return speed < other.speed;
+    if (alone != other.alone) return alone < other.alone;
+    return std::lexicographical_compare(
+        waypoints.begin(), waypoints.end(), other.waypoints.begin(), other.waypoints.end(),
+        [](const Waypoint& a, const Waypoint& b) { return traffic::operator<(a, b); });
+  }
+};
+
+RoundKey round_key(const Thing& thing, std::size_t id) {
+  RoundKey key{thing.thing_class, thing.route->speed, thing.route->waypoints, 0};
+  if (!thing.route->loop || thing.route->delay > 0.0) key.alone = id + 1;
+  const auto least = std::min_element(
+      key.waypoints.begin(), key.waypoints.end(),
+      [](const Waypoint& a, const Waypoint& b) { return traffic::operator<(a, b); });
+  std::rotate(key.waypoints.begin(), least, key.waypoints.end());
+  return key;
+}
+
+Footprint footprint_at(const Thing& thing) { return footprint_of(thing, tilt_of(thing.pose)); }
+
+void grow(Footprint& print, const Footprint& other) {
+  print.front = std::max(print.front, other.front);
+  print.back = std::max(print.back, other.back);
+  print.side = std::max(print.side, other.side);
+  print.radius = std::max(print.radius, other.radius);
+  print.bottom = std::min(print.bottom, other.bottom);
+  print.top = std::max(print.top, other.top);
+  Polygon points = print.hull;
+  points.insert(points.end(), other.hull.begin(), other.hull.end());
+  print.hull = convex_hull(std::move(points));
+}
+
+class Surveyor {
+ public:
+  Surveyor(const WorldDescription& world, const MoversConfig& config)
+      : world_(world), config_(config) {}
+
+  Lanes survey();
+  std::vector<Polygon> ground();
+
+ private:
+  struct Plan {
+    std::vector<std::size_t> things;
+    Route route;
+    Footprint footprint;
+    double base;  ///< m, the height of the things' origins
+    TrackLimits limits;
+    std::vector<double> radii;
+  };
+  void gather();
+  void lay();
+  void avoid_what_stands();
+  [[nodiscard]] std::vector<std::size_t> rounded_corners(std::size_t lane, int block) const;
+  void place_users();
+
+  const WorldDescription& world_;
+  const MoversConfig& config_;
+  std::vector<Plan> plans_;  ///< one a lane
+  Lanes lanes_;
+  std::vector<Polygon> ground_;  ///< of all blocks, lane by lane
+};
+
+Lanes Surveyor::survey() {
+  gather();
+  if (plans_.empty()) return {};
+  avoid_what_stands();
+  place_users();
+  find_refuges(world_, std::move(ground_), lanes_);
+  return std::move(lanes_);
+}
+
+std::vector<Polygon> Surveyor::ground() {
+  gather();
+  if (!plans_.empty()) avoid_what_stands();
+  return std::move(ground_);
+}
+
+void Surveyor::gather() {
+  std::map<RoundKey, std::size_t> rounds;
+  for (std::size_t id = 0; id < world_.things.size(); ++id) {
+    const Thing& thing = world_.things[id];
+    if (!thing.route) continue;
+    const RoundKey key = round_key(thing, id);
+    const auto [entry, is_new] = rounds.emplace(key, plans_.size());
+    const Footprint print = footprint_at(thing);
+    if (is_new) {
+      Route route = *thing.route;
+      if (key.alone == 0) route.waypoints = key.waypoints;
+      const double radius = corner_radius(thing.thing_class, config_);
+      plans_.push_back({{},
+                        route,
+                        print,
+                        thing.pose.translation().z(),
+                        {config_.acceleration, config_.turn_rate, radius},
+                        std::vector<double>(route.waypoints.size(), radius)});
+    }
+    grow(plans_[entry->second].footprint, print);
+    plans_[entry->second].things.push_back(id);
+  }
+}
+
+void Surveyor::lay() {
+  lanes_.lanes.clear();
+  ground_.clear();
+  for (const Plan& plan : plans_) {
+    Track track(plan.route, plan.limits, plan.radii);
+    const int blocks = std::max(3, static_cast<int>(std::ceil(track.length() / kBlock)));
+    const double length = track.length() / blocks;
+    lanes_.lanes.push_back({std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}, {}});
+    for (Polygon& polygon : ground_of(lanes_.lanes.back())) ground_.push_back(std::move(polygon));
+  }
+}
+
+/// The way-points whose rounded corners lie in a block.
+std::vector<std::size_t> Surveyor::rounded_corners(std::size_t lane, int block) const {
+  const Lane& here = lanes_.lanes[lane];
+  const auto& elements = here.track.elements();
+  const double begin = block * here.block_length;
+  std::vector<std::size_t> corners;
+  for (std::size_t e = here.track.element_at(begin);
+       e < elements.size() && elements[e].begin < begin + here.block_length; ++e)
+    if (elements[e].curvature != 0.0) corners.push_back(elements[e].corner);
+  return corners;
+}
+
+/// Where a rounded corner touches what stands, its radius is halved, and in the end it is turned on
+/// the spot. What then still touches is refused.
+void Surveyor::avoid_what_stands() {
+  for (int halving = 0;; ++halving) {
+    lay();
+    std::vector<std::pair<std::size_t, int>> blocks;  // lane and block, as in ground_
+    for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane)
+      for (int i = 0; i < lanes_.lanes[lane].blocks; ++i) blocks.emplace_back(lane, i);
+    std::set<std::pair<std::size_t, std::size_t>> tight;  // lane, way-point
+    const BlockIndex index(ground_, 0.0);
+    for_each_standing(world_, kDrivenOver, [&](const Standing& standing) {
+      for (const std::size_t number : index.touching(standing.polygon)) {
+        const auto [lane, block] = blocks[number];
+        const Plan& plan = plans_[lane];
+        const double bottom = plan.base + plan.footprint.bottom;
+        const double top = plan.base + plan.footprint.top;
+        if (standing.bottom >= top || standing.top <= bottom) continue;
+        const auto corners = rounded_corners(lane, block);
+        for (const std::size_t corner : corners) tight.emplace(lane, corner);
+        if (corners.empty())
+          refuse("thing " + quoted(world_.things[plan.things[0]]) + " would drive through " +
+                 quoted(world_.things[standing.thing]) + " near " +
+                 place_text(
+                     lanes_.lanes[lane].track.place(block * lanes_.lanes[lane].block_length).at) +
+                 "; allowed is a route that keeps its whole body clear of what stands");
+      }
+    });
+    if (tight.empty()) return;
+    for (const auto& [lane, waypoint] : tight)
+      plans_[lane].radii[waypoint] *= halving < kHalvings ? 0.5 : 0.0;
+  }
+}
+
+void Surveyor::place_users() {
+  for (std::size_t lane = 0; lane < plans_.size(); ++lane)
+    for (const std::size_t thing : plans_[lane].things) lanes_.users.push_back({thing, lane, 0.0});
+  std::sort(lanes_.users.begin(), lanes_.users.end(),
+            [](const LaneUser& a, const LaneUser& b) { return a.thing < b.thing; });
+  for (std::size_t user = 0; user < lanes_.users.size(); ++user) {
+    LaneUser& entry = lanes_.users[user];
+    Lane& lane = lanes_.lanes[entry.lane];
+    const Thing& thing = world_.things[entry.thing];
+    const Eigen::Vector2d at = thing.pose.translation().head<2>();
+    entry.start = lane.track.nearest({at, yaw_of(thing.pose)});
+    const double off = (lane.track.place(entry.start).at - at).norm();
+    const double cut = plans_[entry.lane].limits.corner_radius;
+    if (off > kOffRoute + cut)
+      refuse("thing " + quoted(thing) + " stands " + std::to_string(off).substr(0, 4) +
+             " m off its route at the start; allowed is a place on the route");
+    lane.users.push_back(user);
+  }
+  for (Lane& lane : lanes_.lanes)
+    std::sort(lane.users.begin(), lane.users.end(), [&](std::size_t a, std::size_t b) {
+      return std::make_pair(lanes_.users[a].start, a) < std::make_pair(lanes_.users[b].start, b);
+    });
+}
+
+}  // namespace
+
+void MoversConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Any;
+  using navvi_config::Range;
+  visit({"yield", Any{}, "",
+         "movers stop for the robot unless their route says otherwise; false: none does"},
+        yield);
+  visit({"acceleration", Range{0.1, 5.0}, "m/s^2",
+         "of movers, to faster and to slower, and sideways in curves"},
+        acceleration);
+  visit({"turn_rate", Range{0.1, 6.0}, "rad/s", "of movers, on the spot and in curves"}, turn_rate);
+  visit({"corner_radius", Range{0.0, 10.0}, "m",
+         "at which forklifts round corners where there is room; pallet robots half, workers a "
+         "quarter of it; 0: all turn on the spot"},
+        corner_radius);
+  visit({"clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot"},
+        clearance);
+  visit({"patience", Range{4.0, 3600.0}, "s",
+         "after which a mover that the robot keeps from going on backs out, to let it pass"},
+        patience);
+  visit({"back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover that backs out"}, back_speed);
+  visit({"pause_spread", Range{0.0, 1.0}, "",
+         "share by which pauses at way-points vary either way, drawn from the seed"},
+        pause_spread);
+}
+
+std::size_t Lane::leg_after(double s) const {
+  const auto leg = std::find_if(legs.begin(), legs.end(), [&](const Leg& candidate) {
+    return refuge(candidate.end) > s + kThere;
+  });
+  return leg == legs.end() ? 0 : static_cast<std::size_t>(leg - legs.begin());
+}
+
+std::vector<Crossing> Lane::crossings(int first, int last) const {
+  std::set<std::pair<std::size_t, int>> touched;
+  const auto gather = [&](int from, int to) {
+    auto meeting =
+        std::lower_bound(meetings.begin(), meetings.end(), from,
+                         [](const Meeting& entry, int block) { return entry.block < block; });
+    for (; meeting != meetings.end() && meeting->block <= to; ++meeting)
+      touched.emplace(meeting->lane, meeting->other);
+  };
+  if (first <= last) {
+    gather(first, last);
+  } else {
+    gather(first, blocks - 1);
+    gather(0, last);
+  }
+  std::vector<Crossing> found;
+  for (const auto& [lane, other] : touched) {
+    if (!found.empty() && found.back().lane == lane && found.back().last + 1 == other)
+      found.back().last = other;
+    else
+      found.push_back({lane, other, other});
+  }
+  return found;
+}
+
+Lanes lay_lanes(const WorldDescription& world, const MoversConfig& config) {
+  return Surveyor(world, config).survey();
+}
+
+std::vector<Polygon> swept_ground(const WorldDescription& world, const MoversConfig& config) {
+  return Surveyor(world, config).ground();
+}
+
+}  // namespace navvi_sim::traffic

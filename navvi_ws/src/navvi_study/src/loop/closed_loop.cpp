@@ -1,0 +1,165 @@
+#include "loop/closed_loop.hpp"
+
+#include <navvi_feedback/node/msg_conversion.hpp>
+#include <navvi_nav/node/msg_conversion.hpp>
+#include <navvi_safety/msg_conversion.hpp>
+#include <navvi_sim/node/msg_conversion.hpp>
+#include <navvi_sim/node/state_conversion.hpp>
+#include <navvi_types/msg_conversion.hpp>
+#include <utility>
+
+#include "node/msg_conversion.hpp"
+
+namespace navvi_study::loop {
+namespace {
+
+constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer
+constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
+constexpr double kGoalAt = 1.0;           // s; trial_node sets the goal when every part is there
+// espeak-ng at 220 words a minute, measured over NavVI's phrases.
+constexpr double kVoiceStarts = 0.15;  // s
+constexpr double kCharactersPerSecond = 18.0;
+
+}  // namespace
+
+void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
+  visit.group("sim", sim);
+  visit.group("nav", nav);
+  visit.group("feedback", feedback);
+  visit.group("operator", person);
+}
+
+ClosedLoop::Setting::Setting(const navvi_sim::setup::SimNodeConfig& config)
+    : world(navvi_sim::setup::load_world(config).world) {
+  const navvi_sim::occupancy::OccupancyMap occupancy =
+      navvi_sim::occupancy::occupancy_of(world, config.octomap);
+  scenario = navvi_sim::setup::scenario_of(config, world, occupancy);
+  map = navvi_nav::node::from_msg(navvi_sim::node::to_msg(occupancy, ros::Time()));
+}
+
+ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases)
+    : config_(config),
+      setting_(config.sim),
+      session_(setting_.world, config.sim.life, setting_.scenario.start,
+               static_cast<std::uint64_t>(config.sim.seed)),
+      gate_(config.sim.gate),
+      navigator_(config.nav),
+      planner_(config.nav.planner),
+      feedback_(config.feedback,
+                navvi_feedback::cues::Phrases(phrases, config.feedback.cues.words())),
+      person_(config.person, static_cast<std::uint64_t>(config.sim.seed)) {
+  navigator_.set_map(std::make_shared<const navvi_nav::plan::MapMessage>(std::move(setting_.map)));
+}
+
+bool ClosedLoop::step() {
+  told_ = {};
+  if (!turn_wheels()) return false;
+  sense();
+  if (session_.due(kNavigationRate)) navigate();
+  if (session_.due(kFeedbackRate)) {
+    feed_back();
+    operate();
+  }
+  return true;
+}
+
+bool ClosedLoop::turn_wheels() {
+  using navvi_safety::CommandGate;
+  const navvi_safety::Velocity wheels = gate_.update(instant());
+  const bool running = gate_.state() == CommandGate::State::running;
+  return session_.step(wheels, running ? navvi_sim::physics::Braking::normal
+                                       : navvi_sim::physics::Braking::emergency) ==
+         navvi_sim::live::World::Status::running;
+}
+
+void ClosedLoop::sense() {
+  const navvi_sim::live::Snapshot& now = session_.world().now();
+  told_.odometry =
+      navvi_sim::node::odometry_msg(now.odometry, setting_.world.floor_height, stamp());
+  if (const auto odometry = node::from_msg(told_.odometry)) feedback_.take(*odometry, time());
+  if (const auto speed = navvi_nav::node::speed_from_msg(told_.odometry))
+    navigator_.set_speed(*speed);
+  if (const auto gate = node::from_msg(navvi_safety::state_msg(gate_, stamp())))
+    feedback_.take(*gate, time());
+  for (const navvi_sim::physics::ContactEvent& contact : now.contacts) {
+    told_.contacts.push_back(
+        navvi_sim::node::contact_msg(setting_.world, now.robot, contact, stamp()));
+    if (const auto felt = node::from_msg(told_.contacts.back())) feedback_.take(*felt);
+  }
+  if (session_.due(navvi_sim::node::kProximityRate)) {
+    const double radius = config_.sim.detection_radius;
+    told_.proximity = navvi_sim::node::proximity_msg(
+        setting_.world, now.robot, session_.world().proximity(radius), radius, stamp());
+    if (const auto proximity = node::from_msg(*told_.proximity)) feedback_.take(*proximity, time());
+  }
+  if (session_.due(navvi_sim::node::kObstaclesRate)) {
+    told_.obstacles = navvi_sim::node::obstacles_msg(setting_.world, now, stamp());
+    classes_.clear();
+    for (const auto& obstacle : told_.obstacles->obstacles)
+      classes_[obstacle.id] = obstacle.thing_class;
+    if (const auto obstacles = navvi_nav::node::from_msg(*told_.obstacles))
+      navigator_.set_obstacles(*obstacles, time());
+  }
+}
+
+geometry_msgs::Transform ClosedLoop::pose() const {
+  const navvi_sim::physics::RobotState& robot = session_.world().now().robot;
+  return navvi_sim::node::base_link_msg(robot, setting_.world.floor_height, stamp()).transform;
+}
+
+void ClosedLoop::navigate() {
+  if (!begun_ && navigator_.has_map() && time() >= kGoalAt) {
+    begun_ = true;
+    navigator_.set_goal({setting_.scenario.goal.x(), setting_.scenario.goal.y()});
+  }
+  if (const auto at = navvi_nav::node::from_msg(pose())) navigator_.set_pose(*at, time());
+  if (const auto answer = std::exchange(answer_, std::nullopt)) navigator_.deliver(*answer, time());
+  if (const auto request = navigator_.update(time())) answer_ = planner_.answer(*request);
+  if (navigator_.undecided(time())) return;
+  const navvi_nav::guide::Status status = navigator_.status(time());
+  if (!throttle_.due(status, time())) return;
+  navvi_msgs::Guidance msg =
+      navvi_nav::node::to_msg(status, navigator_.floor_height(), "map", stamp());
+  msg.seq = ++guidance_seq_;
+  if (status.blocked) msg.blocked_by = classes_[status.blocked->by];
+  if (const auto guidance = node::from_msg(msg)) feedback_.take(*guidance, time());
+  told_.guidance = std::move(msg);
+}
+
+void ClosedLoop::feed_back() {
+  navvi_feedback::core::Feedback::Input input;
+  if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand_, stamp())))
+    input.hands = *hands;
+  input.voice_busy = !queue_.empty();
+  if (const auto& guidance = feedback_.guidance(); guidance && guidance->leads())
+    if (const auto robot = node::from_msg(pose()))
+      input.goal_angle = navvi_types::clockwise_angle(*robot, guidance->goal);
+  const navvi_feedback::core::Feedback::Output output = feedback_.update(input, time());
+  if (output.command) gate_.receive(node::from_msg(node::to_msg(*output.command)), instant());
+  if (rumble_output_.update(output.rumble, time()).feedback)
+    person_.feel(output.rumble.left, output.rumble.right);
+  std::vector<CueEvent> events = speak(output.cues);
+  feedback_.note(events);
+  for (CueEvent& event : events) {
+    event.stamp = navvi_types::to_ns(stamp());
+    told_.cues.push_back(node::to_msg(event));
+  }
+}
+
+std::vector<CueEvent> ClosedLoop::speak(const std::vector<navvi_feedback::cues::Cue>& cues) {
+  navvi_feedback::cues::CueQueue::Step step = queue_.update(cues, time() < speaks_until_, time());
+  if (step.stop) speaks_until_ = time();
+  if (step.start) {
+    const auto length = static_cast<double>(step.start->size());
+    speaks_until_ = time() + kVoiceStarts + length / kCharactersPerSecond;
+  }
+  return std::move(step.events);
+}
+
+void ClosedLoop::operate() {
+  for (const navvi_msgs::Cue& cue : told_.cues)
+    if (const auto heard = node::from_msg(cue)) person_.hear(*heard, time());
+  hand_ = person_.update(time(), 1.0 / kFeedbackRate);
+}
+
+}  // namespace navvi_study::loop

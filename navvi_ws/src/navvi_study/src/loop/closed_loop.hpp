@@ -1,0 +1,117 @@
+#pragma once
+
+#include <geometry_msgs/Transform.h>
+#include <nav_msgs/Odometry.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/Cue.h>
+#include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/Obstacles.h>
+#include <navvi_msgs/Proximity.h>
+
+#include <map>
+#include <navvi_feedback/core/feedback.hpp>
+#include <navvi_feedback/cues/cue_queue.hpp>
+#include <navvi_feedback/haptics/rumble_output.hpp>
+#include <navvi_nav/guide/navigator.hpp>
+#include <navvi_nav/guide/publish_throttle.hpp>
+#include <navvi_sim/live/session.hpp>
+#include <navvi_sim/setup/sim_node_config.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "people/simulated_operator.hpp"
+
+namespace navvi_study::loop {
+
+/// The parameters of all nodes of a session with a simulated operator, each under its part's name.
+struct ClosedLoopConfig {
+  navvi_sim::setup::SimNodeConfig sim;
+  navvi_nav::guide::NavigatorConfig nav;
+  navvi_feedback::core::FeedbackConfig feedback;
+  people::SimulatedOperatorConfig person;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// A whole session, without ROS and without a clock: world -> navigation -> cues -> operator ->
+/// stick -> wheels -> world. The parts are those that the nodes use, at the nodes' rates, and what
+/// they tell each other are the nodes' messages. What differs: no message is late or lost, a plan
+/// is there at the next beat of navigation (50 ms), and a sentence takes as long as it is written
+/// (the figures are in the .cpp). The same config gives the same session, bit for bit.
+class ClosedLoop {
+ public:
+  /// What was told in one step, in the order of the loop.
+  struct Messages {
+    nav_msgs::Odometry odometry;
+    std::vector<navvi_msgs::Contact> contacts;
+    std::optional<navvi_msgs::Proximity> proximity;
+    std::optional<navvi_msgs::Obstacles> obstacles;
+    std::optional<navvi_msgs::Guidance> guidance;
+    std::vector<navvi_msgs::Cue> cues;  ///< spoken ones
+  };
+
+  /// \param phrases  file of the spoken phrases
+  /// \throws WorldError or ConfigError with a sentence
+  ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases);
+
+  /// One step of the world, and whatever is due after it. \return false if the world has stopped
+  /// because a number in it is not finite
+  [[nodiscard]] bool step();
+
+  /// s since the world began
+  [[nodiscard]] double time() const { return session_.world().now().time; }
+  /// s, the length of a step
+  [[nodiscard]] double dt() const { return config_.sim.life.step; }
+  /// True once navigation has been given the goal.
+  [[nodiscard]] bool begun() const { return begun_; }
+  [[nodiscard]] const navvi_sim::scenario::Scenario& scenario() const { return setting_.scenario; }
+  [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
+  [[nodiscard]] const Messages& told() const { return told_; }
+  /// As now planned, m, in map; empty where there is none.
+  [[nodiscard]] const navvi_nav::Path& path() const { return navigator_.path(); }
+  [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
+  [[nodiscard]] const people::StickAndButtons& hand() const { return hand_; }
+
+ private:
+  /// What is there before anything moves.
+  struct Setting {
+    navvi_sim::WorldDescription world;
+    navvi_sim::scenario::Scenario scenario;
+    navvi_nav::plan::MapMessage map;
+
+    explicit Setting(const navvi_sim::setup::SimNodeConfig& config);
+  };
+
+  [[nodiscard]] bool turn_wheels();
+  void sense();
+  void navigate();
+  void feed_back();
+  [[nodiscard]] std::vector<CueEvent> speak(const std::vector<navvi_feedback::cues::Cue>& cues);
+  void operate();
+  [[nodiscard]] navvi_safety::Instant instant() const { return {time(), time()}; }
+  [[nodiscard]] ros::Time stamp() const { return ros::Time(time()); }
+  /// base_link in map
+  [[nodiscard]] geometry_msgs::Transform pose() const;
+
+  ClosedLoopConfig config_;
+  Setting setting_;
+  navvi_sim::live::Session session_;
+  navvi_safety::CommandGate gate_;
+  navvi_nav::guide::Navigator navigator_;
+  navvi_nav::plan::Planner planner_;
+  std::optional<navvi_nav::plan::PlanAnswer> answer_;  ///< to the request of the last beat
+  navvi_nav::guide::PublishThrottle throttle_;
+  std::map<std::uint32_t, std::string> classes_;  ///< of the moving things, by id
+  navvi_feedback::core::Feedback feedback_;
+  navvi_feedback::cues::CueQueue queue_;
+  navvi_feedback::haptics::RumbleOutput rumble_output_;
+  double speaks_until_ = 0.0;  ///< s
+  people::SimulatedOperator person_;
+  people::StickAndButtons hand_;
+  std::uint32_t guidance_seq_ = 0;
+  bool begun_ = false;
+  Messages told_;
+};
+
+}  // namespace navvi_study::loop

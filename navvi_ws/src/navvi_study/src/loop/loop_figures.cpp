@@ -1,0 +1,165 @@
+#include "loop/loop_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <navvi_sim/description/world_hash.hpp>
+#include <navvi_sim/node/state_conversion.hpp>
+
+#include "node/msg_conversion.hpp"
+
+namespace navvi_study::loop {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kStay = 0.3;        // m; who does not leave this circle stands still
+constexpr double kNearby = 1.5;      // m; what is farther away does not hold a robot up
+constexpr double kJustBefore = 8.0;  // s; of two directions, the later one is not news of its own
+constexpr double kSamePlace = 1.5;   // m, likewise
+constexpr double kContrary = 75.0 * kPi / 180.0;
+
+std::string metres(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f m", value);
+  return text.data();
+}
+
+/// How many hours lie between two, the shorter way round.
+int hours_between(int a, int b) {
+  const int apart = std::abs(a - b) % 12;
+  return std::min(apart, 12 - apart);
+}
+
+}  // namespace
+
+bool LoopFigures::watch(const ClosedLoop& loop) {
+  const ClosedLoop::Messages& told = loop.told();
+  if (!begun_ && loop.begun()) begin(loop);
+  const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
+  // Where the robot truly is, which the odometry may not know.
+  if (const auto place =
+          node::from_msg(navvi_sim::node::odometry_msg(robot, 0.0, told.odometry.header.stamp)))
+    (void)monitor_.observe(*place);
+  for (const auto& contact : told.contacts) {
+    if (const auto report = node::from_msg(contact)) (void)monitor_.observe(*report);
+    if (begun_) ++hits_[contact.thing_class];
+  }
+  if (told.proximity) {
+    if (const auto report = node::from_msg(*told.proximity)) (void)monitor_.observe(*report);
+    nearest_.clear();
+    if (!told.proximity->things.empty() && told.proximity->things.front().gap < kNearby)
+      nearest_ = told.proximity->things.front().thing_class + " at " +
+                 metres(told.proximity->things.front().gap);
+  }
+  for (const auto& cue : told.cues) {
+    if (const auto report = node::from_msg(cue)) (void)monitor_.observe(*report);
+    if (begun_ && cue.stage == navvi_msgs::Cue::STARTED) listen(loop, cue);
+  }
+  if (told.guidance) {
+    if (const auto report = node::from_msg(*told.guidance)) {
+      (void)monitor_.observe(*report);
+      state_ = report->state;
+    }
+    if (begun_) take(*told.guidance);
+  }
+  if (!begun_) return true;
+  time_ = loop.time() - *begun_;
+  states_[to_string(state_)] += loop.dt();
+  stand(loop);
+  if (monitor_.reached()) result_ = "reached";
+  if (monitor_.refused()) result_ = "refused: " + *monitor_.refused();
+  return result_ == "timeout" && time_ < limit_;
+}
+
+void LoopFigures::begin(const ClosedLoop& loop) {
+  begun_ = loop.time();
+  const Eigen::Vector2d& goal = loop.scenario().goal;
+  const auto stamp = static_cast<std::int64_t>(std::llround(loop.time() * 1e9));
+  monitor_.start(monitor_.start_now(stamp, goal));
+  stay_ = loop.session().world().now().robot.position;
+}
+
+void LoopFigures::take(const navvi_msgs::Guidance& guidance) {
+  blocked_by_ = guidance.blocked_by;
+  reroutes_ = std::max(reroutes_, guidance.reroutes);
+  if (shortest_ == 0.0) shortest_ = guidance.shortest_length;
+  churn_sum_ += guidance.path_churn;
+  churn_max_ = std::max(churn_max_, guidance.path_churn);
+  ++guidances_;
+}
+
+void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
+  spoken_ = cue.text;
+  if (cue.kind == "turn_ahead") {
+    const people::Instruction turn = people::understand(cue.text);
+    announced_ = turn.hour;
+    return;
+  }
+  const people::Instruction instruction = people::understand(cue.text);
+  const bool turn = instruction.kind == people::Instruction::Kind::turn;
+  if (!turn && instruction.kind != people::Instruction::Kind::straight) return;
+  const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
+  const Said now{instruction.hour, robot.yaw - instruction.hour * kPi / 6.0, loop.time(),
+                 robot.position};
+  if (cue.kind == "turn_now" && announced_) {
+    if (hours_between(*announced_, now.hour) > 1) ++misled_;
+    announced_.reset();
+  }
+  if (said_) {
+    if (said_->hour != now.hour) ++turns_;
+    // Whoever has come to a corner is rightly sent elsewhere.
+    if (cue.kind != "turn_now" && now.time - said_->time < kJustBefore &&
+        (now.place - said_->place).norm() < kSamePlace &&
+        std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kContrary)
+      ++flips_;
+  }
+  said_ = now;
+}
+
+void LoopFigures::stand(const ClosedLoop& loop) {
+  const Eigen::Vector2d& at = loop.session().world().now().robot.position;
+  if (time_ - stay_since_ > still_) {
+    still_ = time_ - stay_since_;
+    still_at_ = stay_since_;
+    why_ = about();
+  }
+  if ((at - stay_).norm() <= kStay) return;
+  stay_ = at;
+  stay_since_ = time_;
+}
+
+std::string LoopFigures::about() const {
+  std::string text = to_string(state_);
+  if (!blocked_by_.empty()) text += " by " + blocked_by_;
+  if (!nearest_.empty()) text += ", " + nearest_;
+  return text + ", \"" + spoken_ + "\"";
+}
+
+record::Fields LoopFigures::row(const ClosedLoop& loop) const {
+  std::string hits;
+  for (const auto& [thing_class, count] : hits_)
+    hits += (hits.empty() ? "" : " ") + thing_class + " " + std::to_string(count);
+  const auto state = [&](const char* name) {
+    const auto found = states_.find(name);
+    return found == states_.end() ? 0.0 : found->second;
+  };
+  double known = 0.0;
+  record::Fields row;
+  row.set("result", result_).set("time", time_, 1);
+  row.set("driven", monitor_.tally().path_length, 1).set("shortest", shortest_, 1);
+  row.set("hits", hits.empty() ? "-" : hits).set("reroutes", std::uint64_t{reroutes_});
+  row.set("churn_mean", guidances_ > 0 ? churn_sum_ / guidances_ : 0.0, 1);
+  row.set("churn_max", churn_max_, 1);
+  row.set("turns", time_ > 0.0 ? 60.0 * turns_ / time_ : 0.0, 1);
+  row.set("flips", std::uint64_t{flips_}).set("misled", std::uint64_t{misled_});
+  for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh"}) {
+    row.set(name, state(name), 1);
+    known += state(name);
+  }
+  row.set("other", std::max(0.0, time_ - known), 1);
+  row.set("still", still_, 1).set("still_at", still_at_, 1).set("why", why_);
+  return row.set("hash", navvi_sim::to_hex(loop.session().world().state_hash()));
+}
+
+}  // namespace navvi_study::loop

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "loop/closed_loop.hpp"
+#include "people/instruction.hpp"
+#include "trial/trial_monitor.hpp"
+
+namespace navvi_study::loop {
+
+/// Judges the trial of a closed loop: whether and when its goal was reached, and how good the
+/// guidance was on the way. What trials count, it counts as they do (TrialMonitor).
+class LoopFigures {
+ public:
+  /// \param limit  s after the goal was set
+  explicit LoopFigures(double limit) : limit_(limit), monitor_(trial::TrialMonitorConfig()) {}
+
+  /// Call it after every step of `loop`. \return whether the trial goes on
+  [[nodiscard]] bool watch(const ClosedLoop& loop);
+
+  /// One row. `time` s since the goal was set; `driven` and `shortest` m; `hits` by class;
+  /// `churn_mean` and `churn_max` m/min (Guidance.path_churn); `turns` changes of the announced
+  /// hour a minute; `flips` how often a direction contradicted the one just before; `misled` how
+  /// often the turn that was ordered was not the one announced for it; the states of the guidance
+  /// in s; `still` s, the longest stay within 0.3 m, since `still_at` s, and `why`: what was about
+  /// at its end; `hash` of the world's last state.
+  [[nodiscard]] record::Fields row(const ClosedLoop& loop) const;
+
+ private:
+  /// A direction that was spoken, and where.
+  struct Said {
+    int hour = 12;
+    double course = 0.0;  ///< rad, in map
+    double time = 0.0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  };
+
+  void begin(const ClosedLoop& loop);
+  void listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue);
+  void take(const navvi_msgs::Guidance& guidance);
+  void stand(const ClosedLoop& loop);
+  [[nodiscard]] std::string about() const;
+
+  double limit_;
+  trial::TrialMonitor monitor_;
+  std::optional<double> begun_;  ///< s
+  double time_ = 0.0;            ///< s since then
+  std::string result_ = "timeout";
+  std::map<std::string, std::uint64_t> hits_;
+  unsigned reroutes_ = 0;
+  double shortest_ = 0.0;
+  double churn_sum_ = 0.0;
+  double churn_max_ = 0.0;
+  unsigned guidances_ = 0;
+  unsigned turns_ = 0;
+  unsigned flips_ = 0;
+  unsigned misled_ = 0;
+  std::optional<Said> said_;
+  std::optional<int> announced_;  ///< hour of the turn that comes
+  std::map<std::string, double> states_;
+  Guidance::State state_ = Guidance::State::no_goal;
+  std::string blocked_by_;
+  std::string spoken_;
+  std::string nearest_;
+  Eigen::Vector2d stay_ = Eigen::Vector2d::Zero();
+  double stay_since_ = 0.0;
+  double still_ = 0.0;
+  double still_at_ = 0.0;
+  std::string why_;
+};
+
+}  // namespace navvi_study::loop

@@ -1,0 +1,57 @@
+#include "node/msg_conversion.hpp"
+
+namespace navvi_study::node {
+
+using navvi_types::from_ns;
+using navvi_types::to_ns;
+
+std::vector<trial::DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg) {
+  std::vector<trial::DeviceReport> reports;
+  for (const auto& status : msg.status) {
+    for (const char* device : {"pad", "audio", "speech"}) {
+      const std::string name = std::string("navvi/") + device;
+      const auto at = status.name.rfind(name);
+      if (at == std::string::npos || at + name.size() != status.name.size()) continue;
+      reports.push_back(
+          {to_ns(msg.header.stamp), device, status.level == diagnostic_msgs::DiagnosticStatus::OK});
+    }
+  }
+  return reports;
+}
+
+std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good) {
+  std::vector<trial::Correction> corrections;
+  for (const auto& entry : msg.transforms) {
+    if (entry.header.frame_id != "map" || entry.child_frame_id != "odom") continue;
+    if (const auto odom = from_msg(entry.transform))
+      corrections.push_back(
+          {for_good ? trial::Correction::kForGood : to_ns(entry.header.stamp), *odom});
+  }
+  return corrections;
+}
+
+navvi_msgs::TrialEvent to_msg(const record::Row& row) {
+  navvi_msgs::TrialEvent msg;
+  msg.header.stamp = from_ns(row.sim_ns);
+  msg.trial = row.trial;
+  msg.seq = row.seq;
+  msg.type = row.type;
+  msg.fields = row.fields.format();
+  return msg;
+}
+
+std::optional<record::Row> from_msg(const navvi_msgs::TrialEvent& msg) {
+  const auto fields = record::Fields::parse(msg.fields);
+  if (!fields) return std::nullopt;
+  return record::Row{msg.trial, msg.seq, to_ns(msg.header.stamp), 0, msg.type, *fields};
+}
+
+sensor_msgs::Joy to_msg(const people::StickAndButtons& hand, const ros::Time& stamp) {
+  sensor_msgs::Joy msg;
+  msg.header.stamp = stamp;
+  msg.axes = {static_cast<float>(hand.left), static_cast<float>(hand.forward)};
+  msg.buttons = {hand.repeat ? 1 : 0, 0};
+  return msg;
+}
+
+}  // namespace navvi_study::node

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <navvi_msgs/TrialEvent.h>
+#include <sensor_msgs/Joy.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <navvi_types/msg_conversion.hpp>
+#include <optional>
+#include <vector>
+
+#include "people/simulated_operator.hpp"
+#include "trial/odometry_in_map.hpp"
+#include "trial/trial_monitor.hpp"
+
+namespace navvi_study::node {
+
+using navvi_types::from_msg;
+using navvi_types::to_msg;
+
+/// Only the devices of feedback_node.
+[[nodiscard]] std::vector<trial::DeviceReport> from_msg(
+    const diagnostic_msgs::DiagnosticArray& msg);
+/// Only map -> odom; one that is not finite or out of range is left out.
+/// \param for_good  the message is one of /tf_static
+[[nodiscard]] std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg,
+                                                      bool for_good);
+
+[[nodiscard]] navvi_msgs::TrialEvent to_msg(const record::Row& row);
+/// nullopt if its fields are not in order. mono_ns is not in the message and stays 0.
+[[nodiscard]] std::optional<record::Row> from_msg(const navvi_msgs::TrialEvent& msg);
+
+[[nodiscard]] sensor_msgs::Joy to_msg(const people::StickAndButtons& hand, const ros::Time& stamp);
+
+}  // namespace navvi_study::node

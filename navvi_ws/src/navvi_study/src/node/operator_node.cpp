@@ -1,0 +1,70 @@
+// A simulated person at the stick: hears navvi/cues, feels joy/set_feedback, and knows nothing
+// else.
+
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+#include <sensor_msgs/JoyFeedbackArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
+
+#include "node/msg_conversion.hpp"
+#include "people/simulated_operator.hpp"
+
+namespace {
+
+struct NodeConfig {
+  int seed = 0;
+  double rate = 50.0;
+  navvi_study::people::SimulatedOperatorConfig hand;
+
+  void describe(navvi_config::Visitor& visit) {
+    visit({"seed", navvi_config::Range{0, 2147483647}, "", "of reaction times and errors"}, seed);
+    visit({"rate", navvi_config::Range{10, 200}, "Hz", "of joy messages"}, rate);
+    visit.group("operator", hand);
+  }
+};
+
+double now() { return ros::Time::now().toSec(); }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
+  ros::init(argc, argv, "operator_node");
+  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
+    ros::NodeHandle node;
+    navvi_study::people::SimulatedOperator person(config.hand,
+                                                  static_cast<std::uint64_t>(config.seed));
+    double left = 0.0;
+    double right = 0.0;
+    ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);
+    const ros::Subscriber cues = navvi_config::subscribe<navvi_msgs::Cue>(
+        node, "navvi/cues", 100, navvi_types::from_msg,
+        [&](const navvi_types::CueEvent& cue) { person.hear(cue, now()); });
+    ros::Subscriber rumble = node.subscribe<sensor_msgs::JoyFeedbackArray>(
+        "joy/set_feedback", 10, [&](const sensor_msgs::JoyFeedbackArray::ConstPtr& msg) {
+          for (const auto& motor : msg->array) {
+            if (motor.type != sensor_msgs::JoyFeedback::TYPE_RUMBLE) continue;
+            if (!std::isfinite(motor.intensity)) continue;
+            (motor.id == 0 ? left : right) = std::clamp<double>(motor.intensity, 0.0, 1.0);
+          }
+          person.feel(left, right);
+        });
+    // The timer beats by the wall clock, but a turn is as long as the world's time says, also where
+    // a busy machine slows the world down.
+    double last = 0.0;
+    ros::WallTimer timer =
+        node.createWallTimer(ros::WallDuration(1.0 / config.rate), [&](const ros::WallTimerEvent&) {
+          const double time = std::max(last, now());
+          navvi_study::people::StickAndButtons hand;
+          if (last > 0.0) hand = person.update(time, time - last);
+          last = time;
+          joy.publish(navvi_study::node::to_msg(hand, ros::Time::now()));
+        });
+    ros::spin();
+    return 0;
+  });
+}

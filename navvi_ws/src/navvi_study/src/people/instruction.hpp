@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace navvi_study::people {
+
+/// What a listener makes of a spoken sentence.
+struct Instruction {
+  enum class Kind {
+    nothing,     ///< no word for the hands
+    turn,        ///< towards `hour`, then on
+    straight,    ///< on as one goes
+    turn_ahead,  ///< a turn comes in `distance`
+    near,        ///< something is close at `side`
+    bump,        ///< touched or stuck at `side`
+    halt,        ///< hands off
+    arrived
+  };
+  enum class Side { none, left, right, ahead, behind };
+
+  Kind kind = Kind::nothing;
+  int hour = 12;                   ///< 1 to 12
+  std::optional<double> distance;  ///< m
+  Side side = Side::none;
+  bool very_close = false;  ///< of what is near
+};
+
+/// Whether the words that were heard so far are enough to let go of the stick.
+[[nodiscard]] bool startles(const std::string& heard_so_far);
+
+/// Understands English sentences by their words alone.
+[[nodiscard]] Instruction understand(const std::string& text);
+
+}  // namespace navvi_study::people

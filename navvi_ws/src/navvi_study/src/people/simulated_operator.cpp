@@ -1,0 +1,311 @@
+#include "people/simulated_operator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace navvi_study::people {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kNeutralAtStart = 1.0;      // s
+constexpr double kPress = 0.15;              // s, a button is held
+constexpr double kSameBump = 15.0;           // s
+constexpr double kBackOff = 0.7;             // s
+constexpr double kCareful = 5.0;             // s, one goes slowly after hearing of something near
+constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
+constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
+constexpr double kListenFirst = 2.5;         // m, likewise
+constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
+constexpr double kBlindTurn = 3.0;  // m one goes on after "turn now", which tells no distance
+
+/// rad, clockwise, to an hour on the clock face.
+/// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
+/// passed
+double angle_of(int hour, bool from_straight) {
+  if (from_straight && hour == 1) return 0.35;
+  if (from_straight && hour == 11) return -0.35;
+  const double angle = hour * kPi / 6.0;
+  return angle > kPi + 1e-9 ? angle - 2.0 * kPi : angle;
+}
+
+}  // namespace
+
+void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"min_reaction", Range{0.0, 5.0}, "s", "quickest from the end of a sentence to the hand"},
+        min_reaction);
+  visit({"max_reaction", Range{0.0, 5.0}, "s", "slowest; not below min_reaction"}, max_reaction);
+  visit({"turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick"}, turn_rate);
+  visit({"full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick"}, full_speed);
+  visit({"dead_zone", Range{0.0, 0.5}, "", "believed, of the stick"}, dead_zone);
+  visit({"expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic"}, expo);
+  visit({"gain_error", Range{0.0, 0.5}, "", "standard deviation of how wrong these beliefs are"},
+        gain_error);
+  visit({"turn_error", Range{0.0, 1.0}, "rad", "standard deviation of each turn"}, turn_error);
+  visit({"cruise", Range{0.05, 1.0}, "", "stick on a straight way"}, cruise);
+  visit({"slow", Range{0.05, 1.0}, "", "stick when something is near"}, slow);
+  visit({"patience", Range{1.0, 60.0}, "s", "of silence while driving before asking"}, patience);
+  visit({"idle_patience", Range{0.5, 60.0}, "s", "of silence while waiting before asking"},
+        idle_patience);
+  visit({"strong_rumble", Range{0.0, 1.0}, "", "motors above this on both sides slow the hand"},
+        strong_rumble);
+}
+
+SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed)
+    : config_(config), random_(seed) {
+  std::normal_distribution<double> error(0.0, config_.gain_error);
+  turn_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
+  speed_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
+}
+
+void SimulatedOperator::hear(const CueEvent& cue, double time) {
+  using navvi_types::CueStage;
+  if (cue.modality != navvi_types::Modality::speech) return;
+  if (cue.stage == CueStage::started) {
+    hearing_[cue.id] = {cue.text, heading_, odometer_, time};
+  } else if (cue.stage == CueStage::cut) {
+    hearing_.erase(cue.id);
+  } else if (cue.stage == CueStage::ended) {
+    understood(cue.id, time);
+  }
+}
+
+void SimulatedOperator::feel(double left, double right) {
+  left_motor_ = left;
+  right_motor_ = right;
+}
+
+void SimulatedOperator::understood(std::uint32_t id, double time) {
+  const auto found = hearing_.find(id);
+  if (found == hearing_.end()) return;
+  Sentence sentence = found->second;
+  hearing_.erase(found);
+  const double unit = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
+  sentence.time = time + config_.min_reaction +
+                  unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
+  understood_.push_back(sentence);
+  // What is near or comes later is no news to who waits for where to go now.
+  const Instruction::Kind kind = understand(sentence.text).kind;
+  if (mode_ != Mode::waiting ||
+      (kind != Instruction::Kind::near && kind != Instruction::Kind::turn_ahead))
+    last_news_ = time;
+}
+
+void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction) {
+  const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
+  const double angle = angle_of(instruction.hour, straight_before_);
+  target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
+  const bool far = instruction.distance.value_or(0.0) > kListenFirst;
+  turn_speed_ = std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;
+  mode_ = Mode::turning;
+  go_for(sentence, instruction);
+  speed_ = std::min(speed_, 0.5 * (config_.slow + config_.cruise));
+}
+
+void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
+  const double distance = instruction.distance.value_or(kBlindTurn);
+  const double begun = mode_ == Mode::turning ? odometer_ : sentence.odometer;
+  stop_at_ = std::max(begun + distance, odometer_ + 0.6);
+  speed_ = stop_at_ - odometer_ > 3.0 ? config_.cruise : config_.slow;
+}
+
+void SimulatedOperator::veer(Instruction::Side side, double angle, double until) {
+  if (side != Instruction::Side::left && side != Instruction::Side::right) return;
+  veer_ = side == Instruction::Side::left ? -angle : angle;
+  veer_until_ = until;
+}
+
+void SimulatedOperator::back_off(Instruction::Side side, double time) {
+  mode_ = side == Instruction::Side::behind ? Mode::waiting : Mode::backing;
+  // Who runs into the same thing again backs off further and tries it at an angle.
+  const bool again = time - bumped_ < kSameBump;
+  bumped_ = time;
+  careful_until_ = time + 2.0 * kCareful;
+  back_until_ = time + (again ? 2.0 : 1.0) * kBackOff;
+  target_ = heading_;
+  if (side == Instruction::Side::left || side == Instruction::Side::right) {
+    veer(side, 0.25, time + 8.0);
+  } else if (again) {
+    other_side_ = !other_side_;
+    veer(other_side_ ? Instruction::Side::left : Instruction::Side::right, 0.3, time + 6.0);
+  }
+}
+
+void SimulatedOperator::ask_soon(double time) { last_news_ = time - config_.idle_patience + 0.4; }
+
+void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
+  careful_until_ = std::max(careful_until_, time + kCareful);
+  if (!instruction.very_close) return veer(instruction.side, 0.1, time + 1.5);
+  veer(instruction.side, 0.3, time + 2.0);
+  // Whoever comes very near was heading there, and does not go back to that heading.
+  if (instruction.side == Instruction::Side::left) target_ -= 0.12;
+  if (instruction.side == Instruction::Side::right) target_ += 0.12;
+}
+
+/// Some first words are enough.
+void SimulatedOperator::be_startled(double time) {
+  for (const auto& [id, sentence] : hearing_) {
+    const double heard = (time - sentence.time - config_.min_reaction) * kCharactersPerSecond;
+    if (mode_ != Mode::arrived && heard > 0.0 &&
+        startles(sentence.text.substr(0, static_cast<std::size_t>(heard))))
+      mode_ = Mode::waiting;
+  }
+}
+
+void SimulatedOperator::follow(const Sentence& sentence, double time) {
+  const Instruction instruction = understand(sentence.text);
+  switch (instruction.kind) {
+    case Instruction::Kind::nothing:
+      break;
+    case Instruction::Kind::turn:
+      turn_to(sentence, instruction);
+      straight_before_ = false;
+      break;
+    case Instruction::Kind::straight:
+      target_ = sentence.heading;
+      turn_speed_ = 0.0;
+      mode_ = std::abs(target_ - heading_) > 0.1 ? Mode::turning : Mode::driving;
+      go_for(sentence, instruction);
+      straight_before_ = true;
+      break;
+    case Instruction::Kind::turn_ahead:
+      if (mode_ == Mode::driving) {
+        stop_at_ = sentence.odometer + instruction.distance.value_or(kBlindTurn);
+        if (stop_at_ - odometer_ < 3.0) speed_ = std::min(speed_, config_.slow);
+      }
+      break;
+    case Instruction::Kind::near:
+      if (instruction.side == Instruction::Side::ahead && mode_ == Mode::driving) {
+        mode_ = Mode::waiting;
+        ask_soon(time);
+      }
+      shy_away(instruction, time);
+      break;
+    case Instruction::Kind::bump:
+      back_off(instruction.side, time);
+      break;
+    case Instruction::Kind::halt:
+      mode_ = Mode::waiting;
+      break;
+    case Instruction::Kind::arrived:
+      mode_ = Mode::arrived;
+      break;
+  }
+}
+
+double SimulatedOperator::shaped(double stick) const {
+  const double beyond = (std::abs(stick) - config_.dead_zone) / (1.0 - config_.dead_zone);
+  if (beyond <= 0.0) return 0.0;
+  const double curved = (1.0 - config_.expo) * beyond + config_.expo * beyond * beyond * beyond;
+  return std::copysign(curved, stick);
+}
+
+StickAndButtons SimulatedOperator::drive(double time) const {
+  StickAndButtons hand;
+  // Near a corner whoever is spoken to listens first.
+  const bool listening = !hearing_.empty() || !understood_.empty();
+  if (listening && stop_at_ - odometer_ < kListenFirst) return hand;
+  double speed = time < careful_until_ ? std::min(speed_, config_.slow) : speed_;
+  if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, config_.slow);
+  if (left_motor_ > config_.strong_rumble && right_motor_ > config_.strong_rumble) {
+    const double excess = (std::min(left_motor_, right_motor_) - config_.strong_rumble) /
+                          std::max(0.05, 1.0 - config_.strong_rumble);
+    speed = std::min(speed, config_.slow * (1.0 - 0.15 * excess));
+  }
+  double aim = target_ + (time < veer_until_ ? veer_ : 0.0);
+  const double lean = left_motor_ - right_motor_;
+  if (std::abs(lean) > kOneSided) aim += lean > 0.0 ? -0.07 : 0.07;
+  hand.forward = speed;
+  const double error = aim - heading_;
+  if (std::abs(error) > 0.04) {
+    hand.left = std::copysign(std::clamp(std::abs(error) * 1.5, 0.35, 0.6), error);
+  }
+  return hand;
+}
+
+StickAndButtons SimulatedOperator::act(double time, double dt) {
+  StickAndButtons hand;
+  if (mode_ == Mode::turning) {
+    const double error = target_ - heading_;
+    if (std::abs(error) < std::max(0.02, 0.6 * config_.turn_rate * dt)) {
+      mode_ = Mode::driving;
+    } else {
+      hand.left = std::copysign(1.0, error);
+      hand.forward = turn_speed_;
+    }
+  }
+  if (mode_ == Mode::driving) {
+    if (odometer_ >= stop_at_) {
+      mode_ = Mode::waiting;
+      ask_soon(time);
+    } else {
+      hand = drive(time);
+    }
+  }
+  if (mode_ == Mode::backing) {
+    hand.forward = -1.0;
+    if (time >= back_until_) {
+      mode_ = Mode::waiting;
+      ask_soon(time);
+    }
+  }
+  return hand;
+}
+
+void SimulatedOperator::ask_when_lost(double time) {
+  if (mode_ == Mode::arrived || !hearing_.empty() || !understood_.empty()) return;
+  const double patience = mode_ == Mode::waiting ? config_.idle_patience : config_.patience;
+  if (time - last_news_ >= patience && time - asked_ >= patience + kPress) asked_ = time;
+}
+
+std::string SimulatedOperator::doing() const {
+  std::array<char, 64> text{};
+  const double turn = std::remainder(heading_ - target_, 2.0 * kPi) * 180.0 / kPi;
+  switch (mode_) {
+    case Mode::waiting:
+      return "waiting";
+    case Mode::turning:
+      std::snprintf(text.data(), text.size(), "turning %+.0f", turn);
+      return text.data();
+    case Mode::driving:
+      std::snprintf(text.data(), text.size(), "driving %.1f m more, %+.0f", stop_at_ - odometer_,
+                    turn);
+      return text.data();
+    case Mode::backing:
+      return "backing";
+    case Mode::arrived:
+      return "arrived";
+  }
+  return "";
+}
+
+StickAndButtons SimulatedOperator::update(double time, double dt) {
+  if (!started_) {
+    started_ = true;
+    start_ = last_news_ = time;
+  }
+  std::vector<std::uint32_t> over;
+  for (const auto& [id, sentence] : hearing_) {
+    const double length = 1.0 + static_cast<double>(sentence.text.size()) / kCharactersPerSecond;
+    if (time - sentence.time > length) over.push_back(id);
+  }
+  for (const auto id : over) understood(id, time);
+  // What the ear took in first the hand does first, however long either took.
+  while (!understood_.empty() && understood_.front().time <= time) {
+    const Sentence sentence = understood_.front();
+    understood_.erase(understood_.begin());
+    follow(sentence, time);
+  }
+  if (time - start_ < kNeutralAtStart) return {};
+  be_startled(time);
+  StickAndButtons hand = act(time, dt);
+  ask_when_lost(time);
+  hand.repeat = time - asked_ < kPress;
+  heading_ += shaped(hand.left) * config_.turn_rate * dt;
+  odometer_ += shaped(hand.forward) * config_.full_speed * speed_gain_ * dt;
+  return hand;
+}
+
+}  // namespace navvi_study::people

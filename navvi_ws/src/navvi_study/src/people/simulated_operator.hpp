@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <navvi_types/cue_event.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+#include "people/instruction.hpp"
+
+namespace navvi_study {
+using navvi_types::CueEvent;
+}  // namespace navvi_study
+
+namespace navvi_study::people {
+
+struct SimulatedOperatorConfig {
+  double min_reaction = 0.4;
+  double max_reaction = 1.0;
+  double turn_rate = 1.2;
+  double full_speed = 0.9;
+  double dead_zone = 0.12;
+  double expo = 0.3;
+  double gain_error = 0.10;
+  double turn_error = 0.10;
+  double cruise = 0.85;
+  double slow = 0.6;
+  double patience = 6.0;
+  double idle_patience = 2.5;
+  double strong_rumble = 0.6;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What the hands do.
+struct StickAndButtons {
+  double left = 0.0;     ///< stick [-1, 1], left is positive
+  double forward = 0.0;  ///< stick [-1, 1], forward is positive
+  bool repeat = false;   ///< asks for the last direction again
+};
+
+/// Drives by ear and touch alone, as a person would who cannot see (R-TRL-5): it knows the words it
+/// heard to their end, the motors it feels, and, roughly, how its own stick turns and drives the
+/// robot. It reacts late and turns too far or too little, all drawn from the seed.
+class SimulatedOperator {
+ public:
+  SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed);
+
+  /// Only speech that begins, ends or breaks off is heard.
+  void hear(const CueEvent& cue, double time);
+  /// \param left, right  motors [0, 1]
+  void feel(double left, double right);
+  /// \param time  s, not going back \param dt  s since the last update
+  [[nodiscard]] StickAndButtons update(double time, double dt);
+
+  [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
+  /// What the hands are at, in words, for a trace.
+  [[nodiscard]] std::string doing() const;
+
+ private:
+  enum class Mode { waiting, turning, driving, backing, arrived };
+  /// A sentence, and where the operator believed to be when it began.
+  struct Sentence {
+    std::string text;
+    double heading = 0.0;
+    double odometer = 0.0;
+    double time = 0.0;  ///< s: begun, or, once understood, when the hands will follow
+  };
+
+  void understood(std::uint32_t id, double time);
+  void follow(const Sentence& sentence, double time);
+  void turn_to(const Sentence& sentence, const Instruction& instruction);
+  void go_for(const Sentence& sentence, const Instruction& instruction);
+  void veer(Instruction::Side side, double angle, double until);
+  [[nodiscard]] StickAndButtons act(double time, double dt);
+  [[nodiscard]] StickAndButtons drive(double time) const;
+  [[nodiscard]] double shaped(double stick) const;
+  void shy_away(const Instruction& instruction, double time);
+  void be_startled(double time);
+  void back_off(Instruction::Side side, double time);
+  void ask_soon(double time);
+  void ask_when_lost(double time);
+
+  SimulatedOperatorConfig config_;
+  std::mt19937_64 random_;
+  double turn_gain_;   ///< turns asked for are made this much too far
+  double speed_gain_;  ///< distances are believed this much too long
+  std::map<std::uint32_t, Sentence> hearing_;
+  std::vector<Sentence> understood_;
+  Mode mode_ = Mode::waiting;
+  bool started_ = false;
+  double start_ = 0.0;
+  double heading_ = 0.0;          ///< rad, believed, counter-clockwise
+  double odometer_ = 0.0;         ///< m, believed
+  double target_ = 0.0;           ///< rad, heading to hold
+  double stop_at_ = 0.0;          ///< m on the odometer: further is guessing
+  bool straight_before_ = false;  ///< the last direction that was followed was 12
+  double speed_ = 0.0;            ///< stick
+  double turn_speed_ = 0.0;
+  double veer_ = 0.0;  ///< rad, added to the target
+  double veer_until_ = 0.0;
+  double back_until_ = 0.0;
+  double careful_until_ = 0.0;  ///< s
+  double bumped_ = -1e9;
+  bool other_side_ = false;
+  double last_news_ = 0.0;
+  double asked_ = -1e9;
+  double left_motor_ = 0.0;
+  double right_motor_ = 0.0;
+};
+
+}  // namespace navvi_study::people

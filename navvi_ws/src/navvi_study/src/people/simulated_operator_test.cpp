@@ -1,0 +1,280 @@
+#include "people/simulated_operator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace navvi_study::people {
+namespace {
+
+using navvi_types::CueStage;
+
+constexpr double kStep = 0.02;
+constexpr double kPi = 3.14159265358979323846;
+
+/// A stick with a dead zone, finer near the centre.
+double shaped(double stick) {
+  const double beyond = std::max(0.0, (std::abs(stick) - 0.12) / 0.88);
+  return std::copysign(0.7 * beyond + 0.3 * beyond * beyond * beyond, stick);
+}
+
+struct Point {
+  double x;
+  double y;
+};
+
+/// A robot without inertia on an empty floor, and a voice that leads it from corner to corner.
+class Loop {
+ public:
+  Loop(std::uint64_t seed, std::vector<Point> corners)
+      : person(SimulatedOperatorConfig(), seed), corners_(std::move(corners)) {}
+
+  /// One step of the hand; the voice stays silent.
+  StickAndButtons step() {
+    time += kStep;
+    const auto hand = person.update(time, kStep);
+    const double speed = shaped(hand.forward) * (hand.forward > 0.0 ? 0.9 : 0.5);
+    x += speed * std::cos(yaw) * kStep;
+    y += speed * std::sin(yaw) * kStep;
+    yaw += 1.2 * shaped(hand.left) * kStep;
+    moved |= hand.forward != 0.0 || hand.left != 0.0;
+    asked |= hand.repeat;
+    return hand;
+  }
+
+  void say(const std::string& text) {
+    ++id_;
+    person.hear({id_, CueStage::started, "", text}, time);
+    speaking_until_ = time + 0.4 + static_cast<double>(text.size()) / 18.0;
+    speaking_ = true;
+  }
+
+  /// Leads to the last corner. False if it takes longer than `limit` seconds.
+  bool lead(double limit) {
+    const double end = time + limit;
+    while (time < end && !person.arrived()) {
+      const auto hand = step();
+      if (speaking_ && time >= speaking_until_) {
+        person.hear({id_, CueStage::ended}, time);
+        speaking_ = false;
+      }
+      if (distance() < 1.0 && next_ + 1 < corners_.size()) {
+        ++next_;
+        last_hour_ = 0;
+      }
+      if (!speaking_) speak(hand.repeat);
+    }
+    return person.arrived();
+  }
+
+  SimulatedOperator person;
+  double time = 100.0;
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+  bool moved = false;
+  bool asked = false;
+
+ private:
+  [[nodiscard]] double distance() const {
+    return std::hypot(corners_[next_].x - x, corners_[next_].y - y);
+  }
+
+  void speak(bool repeat) {
+    if (next_ + 1 == corners_.size() && distance() < 1.0) {
+      return say("You have reached your destination");
+    }
+    double angle = yaw - std::atan2(corners_[next_].y - y, corners_[next_].x - x);
+    while (angle < 0.0) angle += 2.0 * kPi;
+    const int hour = static_cast<int>(std::lround(angle / (kPi / 6.0))) % 12;
+    const double patience = hour == 0 ? 8.0 : 4.0;
+    if (!repeat && hour == last_hour_ && time - said_ < patience) return;
+    last_hour_ = hour;
+    said_ = time;
+    const std::string meters = std::to_string(std::lround(distance())) + " meters";
+    say(hour == 0 ? "straight ahead, " + meters : std::to_string(hour) + " o'clock, " + meters);
+  }
+
+  std::vector<Point> corners_;
+  std::size_t next_ = 0;
+  std::uint32_t id_ = 0;
+  bool speaking_ = false;
+  double speaking_until_ = 0.0;
+  int last_hour_ = -1;
+  double said_ = -1e9;
+};
+
+const std::vector<Point> kAroundACorner = {{8.0, 0.0}, {8.0, -6.0}, {2.0, -6.0}};
+
+TEST(SimulatedOperator, never_moves_before_it_has_heard_something_but_asks) {
+  Loop loop(1, kAroundACorner);
+  for (int i = 0; i < 500; ++i) (void)loop.step();
+  EXPECT_FALSE(loop.moved);
+  EXPECT_TRUE(loop.asked);
+}
+
+TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Loop loop(seed, kAroundACorner);
+    EXPECT_TRUE(loop.lead(240.0)) << "seed " << seed << ": " << loop.x << ", " << loop.y;
+  }
+}
+
+TEST(SimulatedOperator, finds_a_goal_behind_its_back) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Loop loop(seed, {{-5.0, 0.5}});
+    EXPECT_TRUE(loop.lead(120.0)) << "seed " << seed << ": " << loop.x << ", " << loop.y;
+  }
+}
+
+TEST(SimulatedOperator, does_the_same_again_with_the_same_seed) {
+  Loop first(5, kAroundACorner);
+  Loop second(5, kAroundACorner);
+  Loop other(6, kAroundACorner);
+  ASSERT_TRUE(first.lead(240.0));
+  ASSERT_TRUE(second.lead(240.0));
+  ASSERT_TRUE(other.lead(240.0));
+  EXPECT_EQ(first.time, second.time);
+  EXPECT_EQ(first.x, second.x);
+  EXPECT_NE(first.x, other.x);
+}
+
+TEST(SimulatedOperator, does_not_act_on_what_was_cut_off) {
+  Loop loop(1, kAroundACorner);
+  loop.say("straight ahead, 8 meters");
+  (void)loop.step();
+  loop.person.hear({1, CueStage::cut}, loop.time);
+  for (int i = 0; i < 250; ++i) (void)loop.step();
+  EXPECT_FALSE(loop.moved);
+}
+
+TEST(SimulatedOperator, takes_time_to_react) {
+  Loop loop(1, kAroundACorner);
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  loop.say("straight ahead, 8 meters");
+  loop.person.hear({1, CueStage::ended}, loop.time);
+  const double heard = loop.time;
+  while (!loop.moved && loop.time < heard + 3.0) (void)loop.step();
+  EXPECT_GE(loop.time - heard, 0.4);
+  EXPECT_LE(loop.time - heard, 1.1);
+}
+
+TEST(SimulatedOperator, backs_off_when_it_hears_that_it_hit_something) {
+  Loop loop(1, kAroundACorner);
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  loop.say("hit a shelf ahead");
+  loop.person.hear({1, CueStage::ended}, loop.time);
+  for (int i = 0; i < 150; ++i) (void)loop.step();
+  EXPECT_LT(loop.x, -0.1);
+}
+
+TEST(SimulatedOperator, lets_go_at_the_word_that_something_was_hit) {
+  Loop loop(1, kAroundACorner);
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  loop.say("straight ahead, 8 meters");
+  loop.person.hear({1, CueStage::ended}, loop.time);
+  for (int i = 0; i < 150; ++i) (void)loop.step();
+  loop.say("hit a pallet robot on the right");
+  for (int i = 0; i < 45; ++i) (void)loop.step();
+  EXPECT_EQ(loop.step().forward, 0.0) << "the sentence is not over yet";
+}
+
+TEST(SimulatedOperator, takes_one_o_clock_for_less_after_straight_ahead) {
+  const auto turned_by = [](std::uint64_t seed, const char* first) {
+    Loop loop(seed, kAroundACorner);
+    for (int i = 0; i < 100; ++i) (void)loop.step();
+    loop.say(first);
+    loop.person.hear({1, CueStage::ended}, loop.time);
+    for (int i = 0; i < 150; ++i) (void)loop.step();
+    const double before = loop.yaw;
+    loop.say("1 o'clock, 8 meters");
+    loop.person.hear({2, CueStage::ended}, loop.time);
+    for (int i = 0; i < 150; ++i) (void)loop.step();
+    return before - loop.yaw;
+  };
+  double after_turn = 0.0, after_straight = 0.0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    after_turn += turned_by(seed, "1 o'clock, 8 meters") / 50.0;
+    after_straight += turned_by(seed, "straight ahead, 8 meters") / 50.0;
+  }
+  EXPECT_GT(after_turn, after_straight + 0.1);
+}
+
+TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
+  Loop loop(1, kAroundACorner);
+  const auto say = [&](std::uint32_t id, const char* text) {
+    loop.say(text);
+    loop.person.hear({id, CueStage::ended}, loop.time);
+  };
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  say(1, "straight ahead, 8 meters");
+  for (int i = 0; i < 150; ++i) (void)loop.step();
+  say(2, "shelf ahead");
+  for (int i = 0; i < 60; ++i) (void)loop.step();
+  const double stopped = loop.x;
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  EXPECT_EQ(loop.x, stopped);
+  EXPECT_TRUE(loop.asked);
+  say(3, "straight ahead, 6 meters");
+  for (int i = 0; i < 100; ++i) (void)loop.step();
+  EXPECT_GT(loop.x, stopped);
+}
+
+TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
+  const auto covered = [](double motors) {
+    Loop loop(1, kAroundACorner);
+    for (int i = 0; i < 100; ++i) (void)loop.step();
+    loop.person.feel(motors, motors);
+    loop.say("straight ahead, 20 meters");
+    loop.person.hear({1, CueStage::ended}, loop.time);
+    for (int i = 0; i < 200; ++i) (void)loop.step();
+    return loop.x;
+  };
+  EXPECT_LT(covered(0.9), 0.75 * covered(0.0));
+  EXPECT_GT(covered(0.9), 0.1);
+}
+
+TEST(Listener, understands_the_sentences_of_the_voice) {
+  using Kind = Instruction::Kind;
+  const std::vector<std::pair<const char*, Kind>> sentences = {
+      {"", Kind::nothing},
+      {"2 o'clock, 5 meters", Kind::turn},
+      {"12 o'clock, 5 meters", Kind::straight},
+      {"straight ahead, 1 meter", Kind::straight},
+      {"turn to 9 o'clock now", Kind::turn},
+      {"in 6 meters, turn to 3 o'clock", Kind::turn_ahead},
+      {"new route, 4 o'clock, 3 meters", Kind::turn},
+      {"Ready. Goal 20 meters, 3 o'clock", Kind::nothing},
+      {"shelf on the left", Kind::near},
+      {"wall ahead", Kind::near},
+      {"hit a pallet robot on the right", Kind::bump},
+      {"stuck, shelf ahead", Kind::bump},
+      {"no path from here, back away", Kind::bump},
+      {"robot stopped, release the stick", Kind::halt},
+      {"no route to the goal", Kind::halt},
+      {"goal refused, it is off the map", Kind::halt},
+      {"You have reached your destination", Kind::arrived}};
+  for (const auto& [text, kind] : sentences) EXPECT_EQ(understand(text).kind, kind) << text;
+  EXPECT_EQ(understand("turn to 11 o'clock now").hour, 11);
+  EXPECT_EQ(understand("in 6 meters, turn to 3 o'clock").hour, 3);
+  EXPECT_TRUE(understand("shelf very close, on the left").very_close);
+  EXPECT_FALSE(understand("shelf on the left").very_close);
+  EXPECT_EQ(understand("stop, worker ahead").kind, Instruction::Kind::near);
+  EXPECT_EQ(understand("stop, worker ahead").side, Instruction::Side::ahead);
+  EXPECT_TRUE(startles("stop"));
+  EXPECT_FALSE(startles("worker ahead, stop"));
+  EXPECT_EQ(understand("2 o'clock, 15 meters").distance, 15.0);
+  EXPECT_EQ(understand("hit a wall on the right").side, Instruction::Side::right);
+  EXPECT_EQ(understand("no path from here, back away").side, Instruction::Side::none);
+}
+
+}  // namespace
+}  // namespace navvi_study::people
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

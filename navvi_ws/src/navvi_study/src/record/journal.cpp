@@ -1,0 +1,235 @@
+#include "record/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+
+namespace navvi_study::record {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr off_t kReserve = 1 << 20;
+
+fs::path journal_in(const fs::path& folder) { return folder / "journal.csv"; }
+fs::path reserve_in(const fs::path& folder) { return folder / "journal.reserve"; }
+
+/// errno, or 0
+int make_reserve(const fs::path& folder) {
+  const int file =
+      ::open(reserve_in(folder).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file < 0) return errno;
+  const int error = ::posix_fallocate(file, 0, kReserve);
+  ::close(file);
+  return error;
+}
+
+/// A file name for torn bytes that overwrites none but the same bytes.
+fs::path place_for(const fs::path& folder, const std::string& bytes) {
+  for (int i = 1;; ++i) {
+    const fs::path path = folder / (i == 1 ? "journal.torn" : "journal.torn." + std::to_string(i));
+    const auto there = read_file(path);
+    if (!fs::exists(path) || (there && *there == bytes)) return path;
+  }
+}
+
+/// Whether bytes set aside, now or before an earlier recovery was cut short, were more than one
+/// unfinished row.
+bool rows_were_lost(const fs::path& folder) {
+  for (int i = 1;; ++i) {
+    const auto bytes =
+        read_file(folder / (i == 1 ? "journal.torn" : "journal.torn." + std::to_string(i)));
+    if (!bytes) return false;
+    if (bytes->find('\n') != std::string::npos) return true;
+  }
+}
+
+class LockedFile {
+ public:
+  explicit LockedFile(const fs::path& path)
+      : file_(::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW)) {
+    locked_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+  }
+  ~LockedFile() {
+    if (file_ >= 0) ::close(file_);
+  }
+  LockedFile(const LockedFile&) = delete;
+  LockedFile& operator=(const LockedFile&) = delete;
+  [[nodiscard]] int get() const { return file_; }
+  [[nodiscard]] bool opened() const { return file_ >= 0; }
+  [[nodiscard]] bool locked() const { return locked_; }
+
+ private:
+  int file_;
+  bool locked_ = false;
+};
+
+}  // namespace
+
+Journal::Journal(const fs::path& folder, const std::string& trial, std::uint64_t min_free,
+                 SystemCalls calls)
+    : folder_(folder), trial_(trial), calls_(std::move(calls)) {
+  std::error_code error;
+  const auto space = fs::space(folder, error);
+  if (error) throw std::runtime_error("no trial: the folder " + folder.string() + " is not there");
+  if (space.available < min_free) {
+    throw std::runtime_error("no trial: less than " + std::to_string(min_free >> 20) +
+                             " MB are free in " + folder.string());
+  }
+  file_ = ::open(journal_in(folder).c_str(),
+                 O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644);
+  if (file_ < 0) throw std::runtime_error("no trial: " + failure("create a journal", errno));
+  int failed = ::flock(file_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  if (failed == 0) failed = make_reserve(folder);
+  std::string header = std::string(kJournalHeader) + "\n";
+  std::string_view rest = header;
+  if (failed == 0) failed = write_all(file_, rest, calls_);
+  if (failed == 0 && calls_.fdatasync(file_) != 0) failed = errno;
+  Problem problem;
+  if (failed != 0) problem = failure("write the journal", failed);
+  if (!problem) problem = sync_folder(folder, calls_);
+  if (!problem) problem = sync_folder(folder / "..", calls_);
+  if (problem) {
+    ::close(file_);
+    throw std::runtime_error("no trial: " + *problem);
+  }
+}
+
+Journal::~Journal() {
+  ::close(file_);
+  ::unlink(reserve_in(folder_).c_str());
+}
+
+int Journal::write(std::string_view line) {
+  int error = write_all(file_, line, calls_);
+  if (error == ENOSPC && !reserve_used_) {
+    reserve_used_ = true;
+    ::unlink(reserve_in(folder_).c_str());
+    error = write_all(file_, line, calls_);
+  }
+  return error;
+}
+
+std::optional<Row> Journal::append(const std::string& type, const Fields& fields,
+                                   std::int64_t sim_ns, std::int64_t mono_ns,
+                                   Durability durability) {
+  if (broken()) return std::nullopt;
+  Row row{trial_, static_cast<std::uint32_t>(rows_.size() + 1), sim_ns, mono_ns, type, fields};
+  int error = write(format_row(row));
+  // A failed sync may have thrown the bytes away: asking again would say yes to nothing.
+  if (error == 0 && durability == Durability::essential && calls_.fdatasync(file_) != 0) {
+    error = errno;
+  }
+  if (error != 0) {
+    problem_ = failure("write the journal", error);
+    return std::nullopt;
+  }
+  rows_.push_back(row);
+  return row;
+}
+
+JournalContents read_journal(std::string_view bytes) {
+  JournalContents contents;
+  const std::string header = std::string(kJournalHeader) + "\n";
+  if (bytes.substr(0, header.size()) != header) {
+    contents.torn = bytes == std::string_view(header).substr(0, bytes.size());
+    contents.damage = contents.torn ? "the journal ends within its first line"
+                                    : "the journal's first line is not that of a journal";
+    return contents;
+  }
+  contents.good_bytes = header.size();
+  while (contents.good_bytes < bytes.size()) {
+    const std::string_view rest = bytes.substr(contents.good_bytes);
+    const auto end = rest.find('\n');
+    const auto row = end == rest.npos ? std::nullopt : parse_row(rest.substr(0, end));
+    const bool follows = row && row->seq == contents.rows.size() + 1 &&
+                         (contents.rows.empty() || row->trial == contents.rows.front().trial);
+    if (!follows) {
+      contents.torn = end == rest.npos;
+      contents.damage =
+          (contents.torn ? "the journal ends within row " : "the journal is damaged at row ") +
+          std::to_string(contents.rows.size() + 1);
+      return contents;
+    }
+    contents.rows.push_back(*row);
+    contents.good_bytes += end + 1;
+  }
+  return contents;
+}
+
+namespace {
+
+/// Appends to what a crash left; `contents` has been read from `file`.
+Problem mend(const fs::path& folder, int file, const std::string& bytes, JournalContents& contents,
+             Recovery& recovery) {
+  const SystemCalls calls = SystemCalls::real();
+  if (!contents.damage.empty()) {
+    const std::string tail = bytes.substr(contents.good_bytes);
+    const fs::path aside = place_for(folder, tail);
+    if (const auto problem = write_atomically(aside, tail)) return problem;
+    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || ::fsync(file) != 0) {
+      return failure("shorten the journal", errno);
+    }
+    recovery.changed = true;
+    recovery.report +=
+        contents.damage + "; the bytes from there on are in " + aside.filename().string() + ". ";
+  }
+  std::string lines;
+  if (contents.good_bytes == 0) lines = std::string(kJournalHeader) + "\n";
+  bool open = false;
+  for (const auto& row : contents.rows) {
+    if (row.type == "TRIAL_START") open = true;
+    if (row.type == "TRIAL_END") open = false;
+  }
+  const bool damaged = rows_were_lost(folder);
+  const bool said = !contents.rows.empty() && contents.rows.back().type == "TRIAL_END" &&
+                    contents.rows.back().fields.get("reason") == "journal_damaged";
+  if (open || (damaged && !said && !contents.rows.empty())) {
+    const Row& last = contents.rows.back();
+    Fields fields;
+    fields.set("result", damaged ? "invalid" : "aborted")
+        .set("reason", damaged ? "journal_damaged" : "ended_without_a_word");
+    const Row end{last.trial, last.seq + 1, last.sim_ns, last.mono_ns, "TRIAL_END", fields};
+    lines += format_row(end);
+    contents.rows.push_back(end);
+    recovery.report += "An open trial was closed as " + fields.get("result") + ". ";
+  }
+  if (lines.empty()) return std::nullopt;
+  recovery.changed = true;
+  std::string_view rest = lines;
+  int error = write_all(file, rest, calls);
+  if (error == 0 && ::fsync(file) != 0) error = errno;
+  if (error != 0) return failure("close the journal", error);
+  return std::nullopt;
+}
+
+}  // namespace
+
+Recovery recover(const fs::path& folder) {
+  Recovery recovery;
+  const LockedFile file(journal_in(folder));
+  if (!file.opened()) {
+    recovery.problem = failure("open the journal in " + folder.string(), errno);
+    return recovery;
+  }
+  if (!file.locked()) {
+    recovery.in_use = true;
+    return recovery;
+  }
+  const auto bytes = read_file(journal_in(folder));
+  if (!bytes) {
+    recovery.problem = "cannot read the journal in " + folder.string();
+    return recovery;
+  }
+  JournalContents contents = read_journal(*bytes);
+  const auto problem = mend(folder, file.get(), *bytes, contents, recovery);
+  if (problem) recovery.problem = *problem;
+  recovery.rows = contents.rows;
+  ::unlink(reserve_in(folder).c_str());
+  return recovery;
+}
+
+}  // namespace navvi_study::record

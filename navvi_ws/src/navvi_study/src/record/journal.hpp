@@ -1,0 +1,86 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "record/files.hpp"
+#include "record/row.hpp"
+
+namespace navvi_study::record {
+
+/// How long an event may take to be safe from a power cut.
+enum class Durability {
+  essential,  ///< on the disk when append() returns
+  relaxed     ///< written, but not waited for
+};
+
+/// The one record of a trial: rows are only ever appended, each by one write. After the first error
+/// it takes nothing more, because what the disk then holds is unknown.
+class Journal {
+ public:
+  static constexpr std::uint64_t kMinFree = 50u << 20;  ///< bytes
+
+  /// Creates `folder`/journal.csv, which must not exist, a reserve of 1 MiB beside it for the day
+  /// the disk is full, and locks the journal against recovery by another process. \throws
+  /// std::runtime_error with a sentence if that cannot be done, or less than `min_free` bytes are
+  /// free
+  Journal(const std::filesystem::path& folder, const std::string& trial,
+          std::uint64_t min_free = kMinFree, SystemCalls calls = SystemCalls::real());
+  /// Gives the reserve back.
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// \return the row as written, or nullopt if it is not certainly on the disk; the journal is then
+  /// broken for good
+  [[nodiscard]] std::optional<Row> append(const std::string& type, const Fields& fields,
+                                          std::int64_t sim_ns, std::int64_t mono_ns,
+                                          Durability durability);
+
+  /// A sentence, empty while all is well.
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+  [[nodiscard]] bool broken() const { return !problem_.empty(); }
+  /// The disk was full and the reserve has been given up: end the trial.
+  [[nodiscard]] bool reserve_used() const { return reserve_used_; }
+  /// Every row that was written.
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  [[nodiscard]] int write(std::string_view line);
+
+  std::filesystem::path folder_;
+  std::string trial_;
+  SystemCalls calls_;
+  int file_ = -1;
+  bool reserve_used_ = false;
+  std::string problem_;
+  std::vector<Row> rows_;
+};
+
+/// What a journal's bytes hold.
+struct JournalContents {
+  std::vector<Row> rows;  ///< up to the first damage
+  std::size_t good_bytes = 0;
+  std::string damage;  ///< a sentence; empty if every byte is in order
+  bool torn = false;   ///< the damage is no more than an unfinished last row
+};
+
+[[nodiscard]] JournalContents read_journal(std::string_view bytes);
+
+/// What recover() found and did.
+struct Recovery {
+  bool changed = false;
+  bool in_use = false;  ///< a running trial holds it: untouched
+  std::string report;   ///< sentences, for a person
+  std::vector<Row> rows;
+  std::string problem;  ///< empty, or why it could not be done
+};
+
+/// Puts a trial's folder in order after a crash: bytes after the last good row are set aside in
+/// journal.torn*, an open trial is closed by TRIAL_END with result aborted (invalid where more than
+/// a torn last row was damaged). Nothing is deleted. Running it again changes nothing.
+[[nodiscard]] Recovery recover(const std::filesystem::path& folder);
+
+}  // namespace navvi_study::record

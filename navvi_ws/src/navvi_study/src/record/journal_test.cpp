@@ -1,0 +1,288 @@
+#include "record/journal.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "record/metrics.hpp"
+#include "record/trial_folder.hpp"
+
+namespace navvi_study::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "navvi_journal_XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(path_); }
+
+  [[nodiscard]] fs::path journal() const { return path_ / "journal.csv"; }
+  [[nodiscard]] std::string bytes() const { return read_file(journal()).value_or(""); }
+  [[nodiscard]] Journal open(SystemCalls calls = SystemCalls::real()) const {
+    return Journal(path_, "trial-1", 0, std::move(calls));
+  }
+  /// A finished trial's journal.
+  std::string finished() {
+    Journal journal = open();
+    Fields fields;
+    fields.set("world", "a;b").set("seed", std::uint64_t{3});
+    EXPECT_TRUE(journal.append("TRIAL_START", fields, 100, 1, Durability::essential));
+    fields = Fields().set("kind", "shelf").set("count", std::uint64_t{1});
+    EXPECT_TRUE(journal.append("COLLISION", fields, 200, 2, Durability::essential));
+    fields = Fields().set("result", "reached").set("reason", "goal_reached");
+    EXPECT_TRUE(journal.append("TRIAL_END", fields, 300, 3, Durability::essential));
+    return bytes();
+  }
+  void put(const std::string& text) const {
+    ASSERT_FALSE(write_atomically(journal(), text).has_value());
+  }
+
+  fs::path path_;
+};
+
+using AJournal = Folder;
+using Recovering = Folder;
+
+TEST_F(AJournal, reads_back_what_was_appended) {
+  std::vector<Row> rows;
+  {
+    Journal journal = open();
+    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+    ASSERT_TRUE(journal.append("PROGRESS", Fields().set("x", 1.5), 3, 4, Durability::relaxed));
+    rows = journal.rows();
+  }
+  const auto contents = read_journal(bytes());
+  EXPECT_EQ(contents.damage, "");
+  EXPECT_EQ(contents.rows, rows);
+  EXPECT_FALSE(fs::exists(path_ / "journal.reserve")) << "the reserve is given back";
+}
+
+TEST_F(AJournal, is_never_opened_twice) {
+  { Journal journal = open(); }
+  EXPECT_THROW(open(), std::runtime_error);
+}
+
+TEST_F(AJournal, of_a_folder_that_is_not_there_or_full_is_refused) {
+  EXPECT_THROW(Journal(path_ / "none", "t", 0), std::runtime_error);
+  EXPECT_THROW(Journal(path_, "t", std::uint64_t{1} << 60), std::runtime_error);
+  EXPECT_THROW(Journal("/proc", "t", 0), std::runtime_error);
+}
+
+TEST_F(AJournal, with_any_byte_changed_is_told_or_reads_the_same) {
+  const std::string whole = finished();
+  const auto rows = read_journal(whole).rows;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (const int flip : {1, 32, 128}) {
+      std::string changed = whole;
+      changed[at] = static_cast<char>(changed[at] ^ flip);
+      const auto contents = read_journal(changed);
+      ASSERT_FALSE(contents.damage.empty()) << "byte " << at;
+      ASSERT_LE(contents.rows.size(), rows.size());
+      for (std::size_t i = 0; i < contents.rows.size(); ++i) {
+        ASSERT_EQ(contents.rows[i], rows[i]) << "byte " << at;
+      }
+    }
+  }
+}
+
+TEST_F(AJournal, cut_anywhere_keeps_the_rows_before) {
+  const std::string whole = finished();
+  const auto rows = read_journal(whole).rows;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto contents = read_journal(std::string_view(whole).substr(0, length));
+    const bool between_rows = length > 0 && whole[length - 1] == '\n';
+    ASSERT_EQ(contents.damage.empty(), between_rows) << length;
+    ASSERT_TRUE(between_rows || contents.torn) << length;
+    for (std::size_t i = 0; i < contents.rows.size(); ++i) ASSERT_EQ(contents.rows[i], rows[i]);
+  }
+}
+
+TEST_F(AJournal, survives_interrupted_and_short_writes) {
+  SystemCalls calls = SystemCalls::real();
+  int turn = 0;
+  calls.write = [&turn](int file, const void* data, std::size_t size) -> ssize_t {
+    if (++turn % 2 == 0) {
+      errno = EINTR;
+      return -1;
+    }
+    return ::write(file, data, std::min<std::size_t>(size, 7));
+  };
+  {
+    Journal journal = open(calls);
+    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+  }
+  EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
+}
+
+TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
+  SystemCalls calls = SystemCalls::real();
+  bool fail = false;
+  int asked = 0;
+  calls.fdatasync = [&](int file) {
+    ++asked;
+    if (!fail) return ::fdatasync(file);
+    errno = EIO;
+    return -1;
+  };
+  Journal journal = open(calls);
+  ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+  fail = true;
+  EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  fail = false;
+  const int before = asked;
+  EXPECT_FALSE(journal.append("COLLISION", Fields(), 5, 6, Durability::essential));
+  EXPECT_EQ(asked, before) << "a failed sync is never asked again";
+  EXPECT_TRUE(journal.broken());
+  EXPECT_EQ(journal.rows().size(), 1u);
+}
+
+TEST_F(AJournal, on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
+  SystemCalls calls = SystemCalls::real();
+  bool full = false;
+  calls.write = [&](int file, const void* data, std::size_t size) -> ssize_t {
+    if (full && fs::exists(path_ / "journal.reserve")) {
+      errno = ENOSPC;
+      return -1;
+    }
+    return ::write(file, data, size);
+  };
+  Journal journal = open(calls);
+  full = true;
+  EXPECT_TRUE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  EXPECT_TRUE(journal.reserve_used());
+  EXPECT_FALSE(journal.broken());
+  EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
+}
+
+TEST_F(AJournal, that_may_grow_no_more_says_so_at_the_next_row) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    Journal journal = open();
+    const rlimit small{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    for (int i = 0; i < 1000; ++i) {
+      if (journal.append("PROGRESS", Fields().set("x", 1.0), i, i, Durability::relaxed)) continue;
+      ::_exit(journal.broken() ? 0 : 1);
+    }
+    ::_exit(2);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const auto contents = read_journal(bytes());
+  EXPECT_TRUE(contents.torn);
+  EXPECT_GT(contents.rows.size(), 40u);
+}
+
+TEST_F(Recovering, leaves_a_whole_trial_as_it_is) {
+  const std::string whole = finished();
+  const Recovery recovery = recover(path_);
+  EXPECT_FALSE(recovery.changed);
+  EXPECT_EQ(recovery.problem, "");
+  EXPECT_EQ(bytes(), whole);
+}
+
+TEST_F(Recovering, leaves_a_running_trial_alone) {
+  Journal journal = open();
+  ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+  EXPECT_TRUE(recover(path_).in_use);
+  EXPECT_TRUE(journal.append("TRIAL_END", Fields(), 3, 4, Durability::essential));
+}
+
+TEST_F(Recovering, closes_a_trial_cut_anywhere_and_changes_nothing_the_second_time) {
+  const std::string whole = finished();
+  const auto first_row_end = whole.find('\n', whole.find('\n') + 1) + 1;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    for (const auto& entry : fs::directory_iterator(path_)) fs::remove(entry.path());
+    put(whole.substr(0, length));
+    const Recovery first = recover(path_);
+    ASSERT_EQ(first.problem, "") << length;
+    const std::string after = bytes();
+    ASSERT_EQ(read_journal(after).damage, "") << length;
+    const auto summary = summarize(read_journal(after).rows);
+    if (length >= first_row_end) {
+      ASSERT_EQ(read_journal(after).rows.back().fields.get("result"), "aborted") << length;
+    }
+    const Recovery second = recover(path_);
+    ASSERT_FALSE(second.changed) << length;
+    ASSERT_EQ(bytes(), after) << length;
+  }
+}
+
+TEST_F(Recovering, calls_a_trial_with_damage_in_the_middle_invalid) {
+  std::string whole = finished();
+  whole[whole.find("COLLISION")] = 'X';
+  put(whole);
+  const Recovery recovery = recover(path_);
+  EXPECT_EQ(recovery.rows.back().fields.get("result"), "invalid");
+  EXPECT_TRUE(fs::exists(path_ / "journal.torn")) << "nothing is deleted";
+  EXPECT_FALSE(recover(path_).changed);
+}
+
+TEST_F(Recovering, still_calls_it_invalid_if_it_was_itself_cut_short) {
+  std::string whole = finished();
+  whole[whole.find("reached")] = 'X';
+  const std::string good = whole.substr(0, read_journal(whole).good_bytes);
+  ASSERT_FALSE(write_atomically(path_ / "journal.torn", whole.substr(good.size())).has_value());
+  put(good);
+  EXPECT_EQ(recover(path_).rows.back().fields.get("result"), "invalid");
+}
+
+TEST_F(Recovering, writes_a_missing_summary_again) {
+  const fs::path folder = path_ / "trial-1";
+  fs::create_directory(folder);
+  {
+    Journal journal(folder, "trial-1", 0);
+    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+  }
+  EXPECT_EQ(recover_trials(path_).size(), 1u);
+  EXPECT_TRUE(parse_summary(read_file(folder / "summary.csv").value_or("")));
+  EXPECT_EQ(recover_trials(path_).size(), 0u);
+}
+
+TEST_F(Folder, a_file_is_replaced_as_a_whole_or_not_at_all) {
+  const fs::path file = path_ / "summary.csv";
+  ASSERT_FALSE(write_atomically(file, "old").has_value());
+  SystemCalls calls = SystemCalls::real();
+  calls.fsync = [](int) {
+    errno = EIO;
+    return -1;
+  };
+  EXPECT_TRUE(write_atomically(file, "new", calls).has_value());
+  EXPECT_EQ(read_file(file).value(), "old");
+  calls = SystemCalls::real();
+  calls.rename = [](const char*, const char*) {
+    errno = EROFS;
+    return -1;
+  };
+  EXPECT_TRUE(write_atomically(file, "new", calls).has_value());
+  EXPECT_EQ(read_file(file).value(), "old");
+  EXPECT_FALSE(fs::exists(path_ / "summary.csv.tmp"));
+}
+
+TEST_F(Folder, two_trials_of_one_second_get_two_folders) {
+  const auto first = create_trial_folder(path_ / "new" / "trials", 0);
+  const auto second = create_trial_folder(path_ / "new" / "trials", 0);
+  EXPECT_EQ(first.filename(), "trial-19700101T000000Z");
+  EXPECT_EQ(second.filename(), "trial-19700101T000000Z-2");
+  EXPECT_THROW((void)create_trial_folder("/proc/trials", 0), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace navvi_study::record
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

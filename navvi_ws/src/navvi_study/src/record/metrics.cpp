@@ -1,0 +1,220 @@
+#include "record/metrics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+
+namespace navvi_study::record {
+namespace {
+
+std::string seconds(std::int64_t from, std::int64_t to) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", static_cast<double>(to - from) * 1e-9);
+  return text.data();
+}
+
+std::string quoted(const std::string& cell) {
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+  std::string text = "\"";
+  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
+std::string joined(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i == 0 ? "" : ",") + quoted(cells[i]);
+  return line + "\n";
+}
+
+/// The cells of one line; nullopt where quotes are not in order.
+std::optional<std::vector<std::string>> cells_of(std::string_view text) {
+  std::vector<std::string> cells(1);
+  bool open = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' && open && i + 1 < text.size() && text[i + 1] == '"') {
+      cells.back() += text[i++];
+    } else if (text[i] == '"') {
+      open = !open;
+    } else if (text[i] == ',' && !open) {
+      cells.emplace_back();
+    } else {
+      cells.back() += text[i];
+    }
+  }
+  if (open) return std::nullopt;
+  return cells;
+}
+
+const Row* first_of(const std::vector<Row>& rows, const std::string& type) {
+  for (const auto& row : rows) {
+    if (row.type == type) return &row;
+  }
+  return nullptr;
+}
+
+const Row* last_of(const std::vector<Row>& rows, const std::string& type) {
+  const Row* last = nullptr;
+  for (const auto& row : rows) {
+    if (row.type == type) last = &row;
+  }
+  return last;
+}
+
+/// What the paper's Table III calls it; the type itself for what the paper does not have.
+std::string paper_name(const Row& row) {
+  const bool shelf = row.fields.get("kind") == "shelf";
+  if (row.type == "PROXIMITY_ENTER") return shelf ? "proximity to shelf" : "proximity to obstacle";
+  if (row.type == "COLLISION") return shelf ? "collision with shelf" : "collision with obstacle";
+  if (row.type == "GOAL_REACHED") return "goal reached";
+  std::string name = row.type;
+  for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// ns, when the thing that came near in `rows[at]` left; nullopt if it stayed to the end.
+std::optional<std::int64_t> left_at(const std::vector<Row>& rows, std::size_t at) {
+  const std::string id = rows[at].fields.get("id");
+  for (std::size_t i = at + 1; i < rows.size(); ++i) {
+    if (rows[i].type == "PROXIMITY_LEAVE" && rows[i].fields.get("id") == id) return rows[i].sim_ns;
+  }
+  return std::nullopt;
+}
+
+std::string count_of(const std::vector<Row>& rows, const std::string& type,
+                     const std::string& kind = "") {
+  std::size_t count = 0;
+  for (const auto& row : rows) {
+    if (row.type == type && (kind.empty() || row.fields.get("kind") == kind)) ++count;
+  }
+  return std::to_string(count);
+}
+
+/// The newest row that carries the running figures.
+const Row* last_tally(const std::vector<Row>& rows) {
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+    if (row->fields.find("path_length")) return &*row;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string events_csv(const std::vector<Row>& rows) {
+  std::string text = joined({"onset", "duration", "trial_type", "robot_x", "robot_y",
+                             "obstacle_position", "obstacle_collision_count",
+                             "shelf_collision_count", "elapsed", "thing_class", "thing", "detail"});
+  const Row* start = first_of(rows, "TRIAL_START");
+  if (start == nullptr) return text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    if (row.type == "PROXIMITY_LEAVE" || row.type == "PROGRESS") continue;
+    std::string duration = "0";
+    if (row.type == "PROXIMITY_ENTER") {
+      const auto left = left_at(rows, i);
+      duration = left ? seconds(row.sim_ns, *left) : "n/a";
+    }
+    const bool collision = row.type == "COLLISION";
+    const bool shelf = row.fields.get("kind") == "shelf";
+    const bool zoned = row.type == "PROXIMITY_ENTER" && !shelf;
+    std::string detail = row.fields.get("reason", "");
+    if (detail.empty()) detail = row.fields.get("state", "");
+    if (detail.empty()) detail = row.fields.get("device", "");
+    if (detail.empty()) detail = row.fields.get("result", "n/a");
+    text +=
+        joined({seconds(start->sim_ns, row.sim_ns), duration, paper_name(row), row.fields.get("x"),
+                row.fields.get("y"), zoned ? row.fields.get("zone") : "n/a",
+                collision && !shelf ? row.fields.get("count") : "n/a",
+                collision && shelf ? row.fields.get("count") : "n/a", row.fields.get("elapsed"),
+                row.fields.get("class"), row.fields.get("thing"), detail});
+  }
+  return text;
+}
+
+Summary summarize(const std::vector<Row>& rows) {
+  Summary summary;
+  const auto add = [&](const char* name, const std::string& cell) {
+    summary.emplace_back(name, cell);
+  };
+  const Row* start = first_of(rows, "TRIAL_START");
+  const Row* end = last_of(rows, "TRIAL_END");
+  const Row* tally = last_tally(rows);
+  const Row* replan = last_of(rows, "REPLAN");
+  const Row* reached = last_of(rows, "GOAL_REACHED");
+  const Row* bag = last_of(rows, "BAG_CLOSED");
+  const Row* route = first_of(rows, "ROUTE");
+  const std::string nothing = "n/a";
+  add("trial", rows.empty() ? nothing : rows.front().trial);
+  for (const char* name :
+       {"world", "world_hash", "seed", "operator", "participant", "profile", "audio", "pad"}) {
+    add(name, start ? start->fields.get(name) : nothing);
+  }
+  add("result", end ? end->fields.get("result") : "aborted");
+  add("reason", end ? end->fields.get("reason") : "no_end");
+  const Row* last = end ? end : (rows.empty() ? nullptr : &rows.back());
+  add("elapsed_s", reached ? reached->fields.get("elapsed")
+                           : (start ? seconds(start->sim_ns, last->sim_ns) : nothing));
+  add("shelf_collision_count", count_of(rows, "COLLISION", "shelf"));
+  add("obstacle_collision_count", count_of(rows, "COLLISION", "obstacle"));
+  add("path_length_m", tally ? tally->fields.get("path_length") : nothing);
+  add("first_path_length_m", route ? route->fields.get("first_path_length") : nothing);
+  add("obstacle_proximity_count", count_of(rows, "PROXIMITY_ENTER", "obstacle"));
+  add("shelf_proximity_count", count_of(rows, "PROXIMITY_ENTER", "shelf"));
+  add("stuck_count", count_of(rows, "STUCK"));
+  add("replan_count", replan ? replan->fields.get("count") : "0");
+  // Wheels that had not turned yet were held, not stopped.
+  add("safe_stop_count", std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row& row) {
+        return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes";
+      })));
+  add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
+  add("missed_messages", tally ? tally->fields.get("missed_messages") : nothing);
+  for (const char* name : {"state_step", "state_hash"})
+    add(name, tally ? tally->fields.get(name) : nothing);
+  add("bag", bag ? bag->fields.get("state") : nothing);
+  return summary;
+}
+
+std::string summary_csv(const Summary& summary) {
+  std::vector<std::string> names;
+  std::vector<std::string> cells;
+  for (const auto& [name, cell] : summary) {
+    names.push_back(name);
+    cells.push_back(cell);
+  }
+  return joined(names) + joined(cells);
+}
+
+std::optional<Summary> parse_summary(const std::string& text) {
+  // No column holds a line end: the fields that could are free text of the launch, and a cell with
+  // one would be quoted, which the count of lines below refuses.
+  const auto first = text.find('\n');
+  if (first == std::string::npos || text.find('\n', first + 1) != text.size() - 1) {
+    return std::nullopt;
+  }
+  const auto names = cells_of(std::string_view(text).substr(0, first));
+  const auto cells = cells_of(std::string_view(text).substr(first + 1, text.size() - first - 2));
+  if (!names || !cells || names->size() != cells->size()) return std::nullopt;
+  Summary summary;
+  for (std::size_t i = 0; i < names->size(); ++i) summary.emplace_back((*names)[i], (*cells)[i]);
+  if (summary_csv(summary) != text) return std::nullopt;
+  return summary;
+}
+
+std::vector<std::string> differences(const Summary& summary, const Summary& recount) {
+  const std::map<std::string, std::string> again(recount.begin(), recount.end());
+  std::vector<std::string> sentences;
+  for (const auto& [name, cell] : summary) {
+    if (name == "bag") continue;
+    const auto other = again.find(name);
+    if (other == again.end()) {
+      sentences.push_back(name + " is " + cell + " in the summary and missing in the recount");
+    } else if (other->second != cell) {
+      sentences.push_back(name + " is " + cell + " in the summary and " + other->second +
+                          " in the recount");
+    }
+  }
+  if (summary.size() != recount.size()) sentences.push_back("the columns are not the same");
+  return sentences;
+}
+
+}  // namespace navvi_study::record

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "record/row.hpp"
+
+namespace navvi_study::record {
+
+/// Column name and cell, in order; "n/a" where there is nothing to say.
+using Summary = std::vector<std::pair<std::string, std::string>>;
+
+/// The events of R-TRL-1 and whatever else happened, as CSV with a header: onset and duration in
+/// seconds since the start, then what it was, where, and the running counts.
+[[nodiscard]] std::string events_csv(const std::vector<Row>& rows);
+
+/// One line for the trial (R-TRL-2), a pure function of its journal. A journal without an end is
+/// aborted; one without a start has no figures.
+[[nodiscard]] Summary summarize(const std::vector<Row>& rows);
+
+/// A header and one row.
+[[nodiscard]] std::string summary_csv(const Summary& summary);
+/// nullopt for a text that summary_csv() does not write.
+[[nodiscard]] std::optional<Summary> parse_summary(const std::string& text);
+
+/// A sentence for each column that differs; `bag` is left out, as no bag can tell how it was
+/// closed.
+[[nodiscard]] std::vector<std::string> differences(const Summary& summary, const Summary& recount);
+
+}  // namespace navvi_study::record

@@ -1,0 +1,199 @@
+#include "record/row.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace navvi_study::record {
+namespace {
+
+constexpr std::string_view kHex = "0123456789abcdef";
+
+bool is_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+bool is_type(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; });
+}
+
+bool is_trial(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  });
+}
+
+bool stands_for_itself(char c) {
+  return c >= ' ' && c <= '~' && c != '%' && c != ';' && c != '=' && c != ',' && c != '"';
+}
+
+std::string escape(const std::string& value) {
+  std::string text;
+  for (const char c : value) {
+    if (stands_for_itself(c)) {
+      text += c;
+    } else {
+      const auto byte = static_cast<unsigned char>(c);
+      text += {'%', kHex[byte >> 4], kHex[byte & 15]};
+    }
+  }
+  return text;
+}
+
+std::optional<std::string> unescape(std::string_view text) {
+  std::string value;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      if (!stands_for_itself(text[i])) return std::nullopt;
+      value += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    const auto high = kHex.find(text[i + 1]);
+    const auto low = kHex.find(text[i + 2]);
+    if (high == kHex.npos || low == kHex.npos) return std::nullopt;
+    value += static_cast<char>(high * 16 + low);
+    if (stands_for_itself(value.back())) return std::nullopt;
+    i += 2;
+  }
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const auto at = text.find(separator);
+    parts.push_back(text.substr(0, at));
+    if (at == text.npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
+template <typename Number>
+std::optional<Number> number_from(std::string_view text) {
+  Number number{};
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string hex8(std::uint32_t value) {
+  std::array<char, 9> text{};
+  std::snprintf(text.data(), text.size(), "%08x", value);
+  return text.data();
+}
+
+}  // namespace
+
+Fields& Fields::set(const std::string& name, const std::string& value) {
+  if (!is_name(name)) throw std::invalid_argument("'" + name + "' cannot name a field");
+  if (find(name)) throw std::invalid_argument("field " + name + " is set twice");
+  pairs_.emplace_back(name, value);
+  return *this;
+}
+
+Fields& Fields::set(const std::string& name, double value, int decimals) {
+  if (!std::isfinite(value) || std::abs(value) > 1e15) return set(name, "n/a");
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return set(name, std::string(text.data()));
+}
+
+Fields& Fields::set(const std::string& name, std::uint64_t value) {
+  return set(name, std::to_string(value));
+}
+
+std::optional<std::string> Fields::find(const std::string& name) const {
+  for (const auto& pair : pairs_) {
+    if (pair.first == name) return pair.second;
+  }
+  return std::nullopt;
+}
+
+std::string Fields::get(const std::string& name, const std::string& otherwise) const {
+  return find(name).value_or(otherwise);
+}
+
+std::optional<double> Fields::number(const std::string& name) const {
+  const auto text = find(name);
+  if (!text) return std::nullopt;
+  const auto value = number_from<double>(*text);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return value;
+}
+
+std::string Fields::format() const {
+  std::string text;
+  for (const auto& [name, value] : pairs_) {
+    if (!text.empty()) text += ';';
+    text += name + "=" + escape(value);
+  }
+  return text;
+}
+
+std::optional<Fields> Fields::parse(std::string_view text) {
+  Fields fields;
+  if (text.empty()) return fields;
+  for (const auto part : split(text, ';')) {
+    const auto at = part.find('=');
+    if (at == part.npos || !is_name(part.substr(0, at))) return std::nullopt;
+    const auto value = unescape(part.substr(at + 1));
+    const std::string name(part.substr(0, at));
+    if (!value || fields.find(name)) return std::nullopt;
+    fields.set(name, *value);
+  }
+  return fields;
+}
+
+bool Row::operator==(const Row& other) const {
+  return trial == other.trial && seq == other.seq && sim_ns == other.sim_ns &&
+         mono_ns == other.mono_ns && type == other.type && fields == other.fields;
+}
+
+std::uint32_t crc32(std::string_view bytes) {
+  static const auto table = [] {
+    std::array<std::uint32_t, 256> entries{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      std::uint32_t value = i;
+      for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) ? 0xedb88320u : 0u);
+      entries[i] = value;
+    }
+    return entries;
+  }();
+  std::uint32_t value = 0xffffffffu;
+  for (const char c : bytes)
+    value = (value >> 8) ^ table[(value ^ static_cast<unsigned char>(c)) & 255];
+  return ~value;
+}
+
+std::string format_row(const Row& row) {
+  if (!is_trial(row.trial)) throw std::invalid_argument("'" + row.trial + "' cannot name a trial");
+  if (!is_type(row.type)) throw std::invalid_argument("'" + row.type + "' is no event type");
+  const std::string body = row.trial + "," + std::to_string(row.seq) + "," +
+                           std::to_string(row.sim_ns) + "," + std::to_string(row.mono_ns) + "," +
+                           row.type + "," + row.fields.format();
+  return body + "," + hex8(crc32(body)) + "\n";
+}
+
+std::optional<Row> parse_row(std::string_view line) {
+  const auto at = line.rfind(',');
+  if (at == line.npos || line.substr(at + 1) != hex8(crc32(line.substr(0, at))))
+    return std::nullopt;
+  const auto columns = split(line.substr(0, at), ',');
+  if (columns.size() != 6 || !is_trial(columns[0]) || !is_type(columns[4])) return std::nullopt;
+  const auto seq = number_from<std::uint32_t>(columns[1]);
+  const auto sim_ns = number_from<std::int64_t>(columns[2]);
+  const auto mono_ns = number_from<std::int64_t>(columns[3]);
+  const auto fields = Fields::parse(columns[5]);
+  if (!seq || !sim_ns || !mono_ns || !fields) return std::nullopt;
+  return Row{std::string(columns[0]), *seq, *sim_ns, *mono_ns, std::string(columns[4]), *fields};
+}
+
+}  // namespace navvi_study::record

@@ -1,0 +1,69 @@
+#include "record/trial_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "record/journal.hpp"
+#include "record/metrics.hpp"
+
+namespace navvi_study::record {
+namespace fs = std::filesystem;
+
+fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error || !fs::is_directory(out)) {
+    throw std::runtime_error("no trial: the folder " + out.string() + " cannot be made" +
+                             (error ? ": " + error.message() : ""));
+  }
+  std::tm calendar{};
+  gmtime_r(&utc, &calendar);
+  std::array<char, 40> name{};
+  std::strftime(name.data(), name.size(), "trial-%Y%m%dT%H%M%SZ", &calendar);
+  for (int i = 1; i < 1000; ++i) {
+    const fs::path folder = out / (name.data() + (i == 1 ? "" : "-" + std::to_string(i)));
+    const bool made = fs::create_directory(folder, error);
+    if (error) {
+      throw std::runtime_error("no trial: nothing can be written into " + out.string() + ": " +
+                               error.message());
+    }
+    if (made) return folder;
+  }
+  throw std::runtime_error("no trial: 999 trials of this second are in " + out.string());
+}
+
+Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
+                      const SystemCalls& calls) {
+  if (const auto problem = write_atomically(folder / "events.csv", events_csv(rows), calls)) {
+    return problem;
+  }
+  return write_atomically(folder / "summary.csv", summary_csv(summarize(rows)), calls);
+}
+
+std::vector<std::string> recover_trials(const fs::path& out) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator it(out, error), end; !error && it != end; it.increment(error)) {
+    if (it->is_directory(error) && !it->is_symlink(error) &&
+        fs::is_regular_file(it->path() / "journal.csv", error)) {
+      folders.push_back(it->path());
+    }
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<std::string> sentences;
+  for (const auto& folder : folders) {
+    const Recovery recovery = recover(folder);
+    if (recovery.in_use) continue;
+    std::string said = recovery.problem.empty() ? recovery.report : recovery.problem;
+    if (recovery.problem.empty() && !recovery.rows.empty() &&
+        (recovery.changed || !fs::exists(folder / "summary.csv"))) {
+      if (const auto problem = write_results(folder, recovery.rows)) said += *problem;
+      if (said.empty()) said = "Its summary was missing and is there again.";
+    }
+    if (!said.empty()) sentences.push_back(folder.filename().string() + ": " + said);
+  }
+  return sentences;
+}
+
+}  // namespace navvi_study::record

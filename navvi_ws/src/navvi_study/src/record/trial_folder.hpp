@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "record/files.hpp"
+#include "record/row.hpp"
+
+namespace navvi_study::record {
+
+/// A new folder `trial-<UTC>` under `out`, which is created where it is missing; two in one second
+/// get numbers. \throws std::runtime_error with a sentence
+[[nodiscard]] std::filesystem::path create_trial_folder(const std::filesystem::path& out,
+                                                        std::time_t utc);
+
+/// Writes events.csv and summary.csv from the journal's rows; each is replaced as a whole.
+[[nodiscard]] Problem write_results(const std::filesystem::path& folder,
+                                    const std::vector<Row>& rows,
+                                    const SystemCalls& calls = SystemCalls::real());
+
+/// Brings every trial under `out` in order that a crash left open. \return sentences, one a trial
+/// that was changed or could not be
+[[nodiscard]] std::vector<std::string> recover_trials(const std::filesystem::path& out);
+
+}  // namespace navvi_study::record

@@ -1,0 +1,175 @@
+#include "recount/recount.hpp"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "node/msg_conversion.hpp"
+#include "recount/bag_message.hpp"
+
+namespace navvi_study::recount {
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.npos, end) == 0;
+}
+
+std::uint64_t count_in(const record::Row& row, const std::string& name) {
+  return static_cast<std::uint64_t>(row.fields.number(name).value_or(0.0));
+}
+
+trial::TrialStart start_of(const record::Row& row) {
+  trial::TrialStart start;
+  start.stamp = row.sim_ns;
+  start.goal = {row.fields.number("goal_x").value_or(0.0),
+                row.fields.number("goal_y").value_or(0.0)};
+  start.contact_seq = static_cast<std::uint32_t>(count_in(row, "contact_seq"));
+  start.shelf_count = count_in(row, "shelf_contacts");
+  start.obstacle_count = count_in(row, "obstacle_contacts");
+  return start;
+}
+
+trial::TrialMonitorConfig config_of(const record::Row& row) {
+  trial::TrialMonitorConfig config;
+  config.obstacle_range = row.fields.number("obstacle_range").value_or(config.obstacle_range);
+  config.shelf_range = row.fields.number("shelf_range").value_or(config.shelf_range);
+  config.leave_margin = row.fields.number("leave_margin").value_or(config.leave_margin);
+  config.leave_time = row.fields.number("leave_time").value_or(config.leave_time);
+  config.center_range = row.fields.number("center_range").value_or(config.center_range);
+  return config;
+}
+
+/// What trial_node itself said: when the trial began and ended, and its goals.
+std::vector<record::Row> events_in(const rosbag::Bag& bag) {
+  std::vector<record::Row> rows;
+  for (const auto& item : rosbag::View(bag, rosbag::TypeQuery("navvi_msgs/TrialEvent"))) {
+    const auto msg = message_of<navvi_msgs::TrialEvent>(item);
+    const auto row = msg ? node::from_msg(*msg) : std::nullopt;
+    if (row) rows.push_back(*row);
+  }
+  return rows;
+}
+
+class Recount {
+ public:
+  explicit Recount(const std::vector<record::Row>& events) {
+    for (const auto& row : events) {
+      if (row.type == "TRIAL_START") start_ = row;
+      if (row.type == "GOAL_SET") goals_.push_back(row);
+      if (row.type == "TRIAL_END") end_ = row;
+    }
+    if (start_.type.empty()) throw std::runtime_error("the bag does not hold the trial's start");
+    if (end_.type.empty()) throw std::runtime_error("the bag does not hold the trial's end");
+  }
+
+  void replay(const rosbag::Bag& bag) {
+    monitor_ = trial::TrialMonitor(config_of(start_));
+    // Stamps decide what belongs to the trial, so what came before it sets the scene first.
+    const trial::TrialStart start = start_of(start_);
+    for (const bool before : {true, false}) {
+      if (!before) {
+        monitor_.start(start);
+        monitor_.end(end_.sim_ns);
+        push({"TRIAL_START", start_.fields, start_.sim_ns});
+        change_goals_until(start_.sim_ns);
+      }
+      places_ = trial::OdometryInMap();
+      for (const auto& item : rosbag::View(bag)) see(item, before);
+    }
+    record::Fields fields = monitor_.tally_fields();
+    const bool reached = monitor_.reached().has_value();
+    const std::string told = end_.fields.get("result");
+    // What the messages show counts; only ends that no message shows are taken on trust.
+    const bool contradicts = told != "invalid" && reached != (told == "reached");
+    fields.set("result", contradicts ? (reached ? "reached" : "not reached") : told);
+    fields.set("reason", end_.fields.get("reason"));
+    push({"TRIAL_END", fields, end_.sim_ns});
+  }
+
+  [[nodiscard]] const std::vector<record::Row>& rows() const { return rows_; }
+
+ private:
+  void push(const trial::Event& event) {
+    rows_.push_back({start_.trial, static_cast<std::uint32_t>(rows_.size() + 1), event.sim_ns, 0,
+                     event.type, event.fields});
+  }
+
+  void change_goals_until(std::int64_t stamp) {
+    while (next_goal_ < goals_.size() && goals_[next_goal_].sim_ns <= stamp) {
+      const record::Row& row = goals_[next_goal_++];
+      const trial::Event event = {"GOAL_SET", row.fields, row.sim_ns};
+      if (row.sim_ns > start_.sim_ns) {
+        (void)monitor_.change_goal(start_of(row).goal, row.sim_ns);
+      }
+      push(event);
+    }
+  }
+
+  template <typename Report>
+  void observe(const Report& report, bool before) {
+    if ((report.stamp <= start_.sim_ns) != before) return;
+    if (!before) change_goals_until(report.stamp - 1);
+    for (const auto& event : monitor_.observe(report)) push(event);
+  }
+
+  template <typename Message>
+  bool as(const rosbag::MessageInstance& item, const char* topic, bool before) {
+    if (!ends_with(item.getTopic(), topic)) return false;
+    const auto msg = message_of<Message>(item);
+    if (!msg) return false;
+    if (const auto report = node::from_msg(*msg)) observe(*report, before);
+    return true;
+  }
+
+  void see(const rosbag::MessageInstance& item, bool before) {
+    const bool for_good = ends_with(item.getTopic(), "/tf_static");
+    if (for_good || ends_with(item.getTopic(), "/tf")) {
+      const auto msg = message_of<tf2_msgs::TFMessage>(item);
+      if (!msg) return;
+      for (const auto& correction : node::from_msg(*msg, for_good))
+        for (const auto& place : places_.take(correction)) observe(place, before);
+      return;
+    }
+    if (ends_with(item.getTopic(), "/odom")) {
+      const auto msg = message_of<nav_msgs::Odometry>(item);
+      const auto report = msg ? node::from_msg(*msg) : std::nullopt;
+      if (!report) return;
+      for (const auto& place : places_.take(*report)) observe(place, before);
+      return;
+    }
+    if (ends_with(item.getTopic(), "/diagnostics")) {
+      const auto msg = message_of<diagnostic_msgs::DiagnosticArray>(item);
+      if (!msg) return;
+      for (const auto& report : node::from_msg(*msg)) observe(report, before);
+      return;
+    }
+    (void)(as<navvi_msgs::Contact>(item, "/navvi/contacts", before) ||
+           as<navvi_msgs::Proximity>(item, "/navvi/proximity", before) ||
+           as<navvi_msgs::Guidance>(item, "/navvi/guidance", before) ||
+           as<navvi_msgs::Cue>(item, "/navvi/cues", before) ||
+           as<navvi_msgs::DriveState>(item, "/navvi/drive_state", before) ||
+           as<navvi_msgs::StateHash>(item, "/navvi/state_hash", before));
+  }
+
+  trial::TrialMonitor monitor_{trial::TrialMonitorConfig()};
+  trial::OdometryInMap places_;
+  record::Row start_;
+  record::Row end_;
+  std::vector<record::Row> goals_;
+  std::size_t next_goal_ = 0;
+  std::vector<record::Row> rows_;
+};
+
+}  // namespace
+
+std::vector<record::Row> rows_from_bag(const std::filesystem::path& path) {
+  rosbag::Bag bag;
+  bag.open(path.string(), rosbag::bagmode::Read);
+  Recount recount(events_in(bag));
+  recount.replay(bag);
+  return recount.rows();
+}
+
+}  // namespace navvi_study::recount

@@ -1,0 +1,74 @@
+// check_trial TRIAL_FOLDER: steps the recorded world with the recorded commands and compares its
+// state each second. Exit 0: equal. 1: differs. 2: cannot be told.
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <navvi_sim/description/world_hash.hpp>
+#include <string>
+
+#include "record/child_process.hpp"
+#include "record/files.hpp"
+#include "record/metrics.hpp"
+#include "recount/repetition.hpp"
+
+namespace {
+
+namespace study = navvi_study;
+
+/// The summary's cell; empty where there is none.
+std::string cell_of(const study::record::Summary& summary, const std::string& name) {
+  for (const auto& [column, cell] : summary) {
+    if (column == name) return cell;
+  }
+  return "";
+}
+
+/// A sentence if the last state in the summary is not one of those in the bag.
+std::string summary_differs(const study::record::Summary& summary,
+                            const study::recount::RecordedSession& session) {
+  const std::string step = cell_of(summary, "state_step"), hash = cell_of(summary, "state_hash");
+  if (cell_of(summary, "world_hash") != session.world_hash)
+    return "The world in the summary is not the one in the bag.";
+  for (const auto& state : session.states) {
+    if (std::to_string(state.step) == step && navvi_sim::to_hex(state.hash) == hash) return "";
+  }
+  return "The summary's last state, " + hash + " after step " + step + ", is not in the bag.";
+}
+
+std::string check(const std::filesystem::path& folder, const study::record::Summary& summary) {
+  const study::recount::RecordedSession session =
+      study::recount::session_in_bag(folder / "trial.bag");
+  const std::string difference = study::recount::first_difference(session);
+  if (!difference.empty()) return difference;
+  const std::string in_summary = summary_differs(summary, session);
+  if (!in_summary.empty()) return in_summary;
+  return "equal: " + std::to_string(session.states.size()) + " states, up to step " +
+         std::to_string(session.states.back().step) + ", " +
+         std::to_string(session.commands.size()) + " commands";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: check_trial TRIAL_FOLDER\n");
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const auto text = study::record::read_file(folder / "summary.csv");
+  const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
+  if (!summary || !std::filesystem::exists(folder / "trial.bag")) {
+    std::fprintf(stderr, "%s lacks a %s.\n", folder.c_str(),
+                 summary ? "closed trial.bag" : "summary.csv in order");
+    return 2;
+  }
+  const study::record::Answer answer =
+      study::record::ask_child([&] { return check(folder, *summary); }, study::record::kBagCrashed);
+  if (!answer.good) {
+    std::fprintf(stderr, "This trial cannot be repeated: %s.\n", answer.text.c_str());
+    return 2;
+  }
+  std::printf("%s\n", answer.text.c_str());
+  return answer.text.rfind("equal", 0) == 0 ? 0 : 1;
+}

@@ -1,0 +1,103 @@
+#include "trial/bag_watch.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+namespace navvi_study::trial {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Bag : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "navvi_bag_XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A recorder that runs `script`; its third argument is the bag.
+  [[nodiscard]] std::unique_ptr<BagRecorder> recorder(const std::string& script) const {
+    const fs::path program = folder_ / "record";
+    std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(program, fs::perms::owner_all);
+    return std::make_unique<BagRecorder>(folder_ / "trial.bag", "recorder",
+                                         std::vector<std::string>{}, program.string());
+  }
+  /// The other process is waited for; no time is measured.
+  static bool becomes(const std::function<bool()>& done) {
+    for (int i = 0; i < 1000 && !done(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return done();
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Bag, that_nobody_wants_is_soon_ready_and_never_lost) {
+  BagWatch bag(nullptr, 10.0);
+  EXPECT_FALSE(bag.ready(10.1));
+  EXPECT_TRUE(bag.ready(10.6));
+  EXPECT_TRUE(bag.growing(1000.0));
+  EXPECT_TRUE(bag.close(0.0, 4.0));
+  EXPECT_EQ(bag.verdict(), "none");
+}
+
+TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_six_seconds_have_passed) {
+  BagWatch heard(recorder("exec sleep 60"), 10.0);
+  EXPECT_FALSE(heard.ready(15.0));
+  heard.hears(15.0);
+  EXPECT_FALSE(heard.ready(15.1)) << "links settle";
+  EXPECT_TRUE(heard.ready(15.6));
+  heard.kill();
+
+  BagWatch deaf(recorder("exec sleep 60"), 10.0);
+  EXPECT_FALSE(deaf.ready(15.9));
+  EXPECT_TRUE(deaf.ready(16.1)) << "without a bag";
+  EXPECT_FALSE(deaf.growing(16.2));
+  deaf.kill();
+  EXPECT_EQ(deaf.verdict(), "bad");
+}
+
+TEST_F(Bag, is_lost_when_it_stops_to_grow) {
+  BagWatch bag(recorder("echo some >\"$3.active\"; exec sleep 60"), 10.0);
+  ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.active"); }));
+  bag.expect_growth(20.0);
+  EXPECT_TRUE(bag.growing(22.9));
+  EXPECT_TRUE(bag.growing(24.0)) << "it grew just before";
+  EXPECT_FALSE(bag.growing(26.0));
+  bag.kill();
+}
+
+TEST_F(Bag, is_well_only_if_the_recorder_stopped_when_asked_and_left_something) {
+  BagWatch bag(recorder("trap 'head -c 5000 /dev/zero >\"$3\"; exit 0' INT; touch \"$3.ready\"\n"
+                        "while :; do sleep 0.01; done"),
+               10.0);
+  bag.hears(10.0);
+  ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.ready"); }));
+  EXPECT_FALSE(bag.close(3.9, 4.0)) << "the tail is not over";
+  EXPECT_TRUE(becomes([&] { return bag.close(4.1, 4.0); }));
+  EXPECT_EQ(bag.verdict(), "ok");
+}
+
+TEST_F(Bag, of_a_recorder_that_died_is_bad) {
+  BagWatch bag(recorder("exit 1"), 10.0);
+  bag.hears(10.0);
+  EXPECT_TRUE(becomes([&] { return bag.ready(11.0); }));
+  EXPECT_TRUE(becomes([&] { return !bag.growing(11.0); }));
+  EXPECT_TRUE(bag.close(4.0, 4.0));
+  EXPECT_EQ(bag.verdict(), "bad");
+}
+
+}  // namespace
+}  // namespace navvi_study::trial
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

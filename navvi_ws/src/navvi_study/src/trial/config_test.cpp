@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <navvi_config/reader.hpp>
+
+#include "people/simulated_operator.hpp"
+#include "trial/trial_node_config.hpp"
+
+namespace navvi_study::trial {
+namespace {
+
+TEST(Config, every_file_that_ships_is_read) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CONFIG_FOLDER)) {
+    TrialNodeConfig config;
+    EXPECT_NO_THROW(navvi_config::read(config, navvi_config::load_yaml(entry.path()),
+                                       entry.path().filename().string()));
+    ++files;
+  }
+  EXPECT_EQ(files, 2);
+}
+
+TEST(Config, refuses_what_it_does_not_know) {
+  TrialNodeConfig config;
+  for (const char* text : {"limits: 1", "limit: -1", "require: [smell]", "once: maybe"}) {
+    EXPECT_THROW(navvi_config::read(config, YAML::Load(text), "a test"), navvi_config::ConfigError)
+        << text;
+  }
+}
+
+TEST(Config, every_default_lies_in_its_own_range) {
+  for (const auto& row : navvi_config::table<people::SimulatedOperatorConfig>()) {
+    people::SimulatedOperatorConfig config;
+    EXPECT_NO_THROW(navvi_config::read(config, YAML::Load(row.key + ": " + row.default_value),
+                                       "its own default"))
+        << row.key;
+  }
+}
+
+}  // namespace
+}  // namespace navvi_study::trial
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

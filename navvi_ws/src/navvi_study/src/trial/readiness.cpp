@@ -1,0 +1,46 @@
+#include "trial/readiness.hpp"
+
+namespace navvi_study::trial {
+namespace {
+
+constexpr double kFresh = 1.0;  // s, age of a message that still flows
+
+}  // namespace
+
+void Readiness::saw(const Guidance& guidance, double time) {
+  guidance_ = time;
+  has_map_ = guidance.state != Guidance::State::no_map &&
+             guidance.state != Guidance::State::map_stale &&
+             guidance.state != Guidance::State::pose_stale;
+}
+
+std::vector<std::string> Readiness::missing(double time, bool clock_runs) const {
+  std::vector<std::string> words;
+  if (!clock_runs) words.push_back("the clock");
+  if (time - odometry_ > kFresh) words.push_back("odometry");
+  if (time - guidance_ > kFresh) {
+    words.push_back("guidance");
+  } else if (!has_map_) {
+    words.push_back("a map and a pose in guidance");
+  }
+  for (const auto& modality : modalities_) {
+    const std::vector<std::string> needed = modality == "rumble"
+                                                ? std::vector<std::string>{"pad"}
+                                                : std::vector<std::string>{"audio", "speech"};
+    for (const auto& device : needed) {
+      const auto known = devices_.find(device);
+      if (known == devices_.end() || !known->second) {
+        words.push_back("a working " + device + " device");
+      }
+    }
+  }
+  return words;
+}
+
+std::string Readiness::state_of(const std::string& device) const {
+  const auto known = devices_.find(device);
+  if (known == devices_.end()) return "unknown";
+  return known->second ? "works" : "missing";
+}
+
+}  // namespace navvi_study::trial

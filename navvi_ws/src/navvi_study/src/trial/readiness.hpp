@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "trial/trial_monitor.hpp"
+
+namespace navvi_study::trial {
+
+/// Whether everything is there that a trial needs. Times are s on any monotonic clock.
+class Readiness {
+ public:
+  /// \param modalities  of the condition: speech, rumble. Without them no trial begins.
+  explicit Readiness(std::vector<std::string> modalities) : modalities_(std::move(modalities)) {}
+
+  void saw_odometry(double time) { odometry_ = time; }
+  void saw(const Guidance& guidance, double time);
+  void saw(const DeviceReport& device) { devices_[device.device] = device.usable; }
+
+  /// What is not there, in words; empty when a trial can begin.
+  [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;
+  /// For the record: "works", "missing" (or switched off), or "unknown" before its first report.
+  /// \param device  pad, audio or speech
+  [[nodiscard]] std::string state_of(const std::string& device) const;
+  [[nodiscard]] bool saw_any_odometry() const { return odometry_ > kNever; }
+  /// s since the last odometry
+  [[nodiscard]] double silence(double time) const { return time - odometry_; }
+  /// s since the last guidance.
+  [[nodiscard]] double guidance_silence(double time) const { return time - guidance_; }
+
+ private:
+  std::vector<std::string> modalities_;
+  static constexpr double kNever = -1e9;
+
+  double odometry_ = kNever;
+  double guidance_ = kNever;
+  bool has_map_ = false;
+  std::map<std::string, bool> devices_;
+};
+
+}  // namespace navvi_study::trial

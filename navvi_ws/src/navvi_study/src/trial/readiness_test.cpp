@@ -1,0 +1,56 @@
+#include "trial/readiness.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_study::trial {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Guidance guidance(Guidance::State state) {
+  Guidance report;
+  report.state = state;
+  return report;
+}
+
+TEST(Readiness, of_nothing_misses_everything) {
+  EXPECT_EQ(Readiness({}).missing(0.0, false), (Words{"the clock", "odometry", "guidance"}));
+}
+
+TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
+  Readiness ready({});
+  ready.saw_odometry(10.0);
+  ready.saw(guidance(Guidance::State::no_map), 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{"a map and a pose in guidance"});
+  ready.saw(guidance(Guidance::State::no_goal), 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{});
+  EXPECT_EQ(ready.missing(12.0, true), (Words{"odometry", "guidance"}));
+  EXPECT_EQ(ready.silence(12.0), 2.0);
+}
+
+TEST(Readiness, says_of_each_device_what_was_last_reported) {
+  Readiness ready({});
+  EXPECT_EQ(ready.state_of("audio"), "unknown");
+  ready.saw({0, "audio", true});
+  EXPECT_EQ(ready.state_of("audio"), "works");
+  ready.saw({0, "audio", false});
+  EXPECT_EQ(ready.state_of("audio"), "missing");
+}
+
+TEST(Readiness, needs_the_devices_of_the_condition) {
+  Readiness ready({"speech", "rumble"});
+  ready.saw_odometry(0.0);
+  ready.saw(guidance(Guidance::State::no_goal), 0.0);
+  ready.saw({0, "audio", true});
+  ready.saw({0, "speech", true});
+  ready.saw({0, "pad", false});
+  EXPECT_EQ(ready.missing(0.1, true), Words{"a working pad device"});
+}
+
+}  // namespace
+}  // namespace navvi_study::trial
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,63 @@
+#include "trial/trial_flow.hpp"
+
+namespace navvi_study::trial {
+namespace {
+
+constexpr double kSimulatorLost = 5.0;             // s, without odometry
+constexpr double kGuidanceLost = 10.0;             // s
+constexpr double kOperatorLost = 10.0;             // s
+constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
+constexpr double kGoalAgain = 2.0;                 // s, before a goal is sent again
+constexpr int kGoalTries = 3;
+
+}  // namespace
+
+void GoalTries::begin() { *this = GoalTries(); }
+
+void GoalTries::sent_elsewhere(double time) {
+  tries_ = 1;
+  sent_ = time;
+  stood_ = false;
+}
+
+GoalTries::Next GoalTries::next(bool taken, double time) {
+  if (stood_ && !taken) tries_ = 0;
+  stood_ = taken;
+  if (taken || (tries_ > 0 && time - sent_ < kGoalAgain)) return Next::wait;
+  if (tries_ >= kGoalTries) return Next::give_up;
+  ++tries_;
+  sent_ = time;
+  return Next::send;
+}
+
+std::optional<std::int64_t> TrialFlow::deadline() const {
+  if (limit_ <= 0) return std::nullopt;
+  return start_ + limit_;
+}
+
+std::optional<Ending> TrialFlow::watch(const Signs& signs) const {
+  if (signs.disk_full) return Ending{"invalid", "disk_full", signs.latest};
+  if (signs.world_restarted) return Ending{"aborted", "simulator_restarted", signs.latest};
+  if (signs.now + kTimeBack < signs.latest)
+    return Ending{"aborted", "time_went_back", signs.latest};
+  if (signs.odometry_silence > kSimulatorLost)
+    return Ending{"aborted", "simulator_lost", signs.latest};
+  if (signs.guidance_silence > kGuidanceLost)
+    return Ending{"aborted", "guidance_lost", signs.latest};
+  if (signs.operator_silence > kOperatorLost)
+    return Ending{"aborted", "operator_lost", signs.latest};
+  const auto end = deadline();
+  if (end && signs.now >= *end) return Ending{"timeout", "limit", *end};
+  return std::nullopt;
+}
+
+Ending TrialFlow::last_word(Ending ending, bool reached, bool disk_full) {
+  if (reached && ending.result != "invalid") {
+    ending.result = "reached";
+    ending.reason = "goal_reached";
+  }
+  if (disk_full) ending.result = "invalid";
+  return ending;
+}
+
+}  // namespace navvi_study::trial

@@ -1,0 +1,331 @@
+#include "trial/trial_keeper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include "record/metrics.hpp"
+#include "record/trial_folder.hpp"
+
+namespace navvi_study::trial {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kSayAgain = 5.0;  // s, between sentences on what is missing
+constexpr double kDrain = 0.3;     // s, for reports on their way when a trial ends
+constexpr double kHurry = 1.5;     // s, for a recorder once all must stop
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string place_of(const Eigen::Vector2d& point) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << point.x() << ", " << point.y();
+  return text.str();
+}
+
+}  // namespace
+
+TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
+                         record::SystemCalls calls)
+    : config_(config),
+      outlets_(std::move(outlets)),
+      calls_(std::move(calls)),
+      now_(now),
+      readiness_(config.require),
+      monitor_(config.monitor),
+      flow_(config.limit) {
+  check(config_);
+  config_.out = fs::absolute(config_.out).lexically_normal().string();
+  for (const auto& sentence : record::recover_trials(config_.out)) tell(Tone::warning, sentence);
+  enter(Phase::waiting);
+}
+
+void TrialKeeper::enter(Phase phase) {
+  phase_ = phase;
+  phase_since_ = now_.wall();
+}
+
+void TrialKeeper::take(const Odometry& odometry, const Moment& now) {
+  now_ = now;
+  readiness_.saw_odometry(now.wall());
+  for (const auto& place : places_.take(odometry)) observe(place);
+}
+
+void TrialKeeper::take(const Correction& correction, const Moment& now) {
+  now_ = now;
+  for (const auto& place : places_.take(correction)) observe(place);
+}
+
+void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
+  now_ = now;
+  readiness_.saw(guidance, now.wall());
+  observe(guidance);
+}
+
+void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
+  now_ = now;
+  readiness_.saw(device);
+  observe(device);
+}
+
+void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
+  now_ = now;
+  scenario_ = scenario;
+  if (!active()) scenario_played_ = false;
+}
+
+void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
+  now_ = now;
+  if (phase_ == Phase::armed && (!scenario_ || scenario_played_)) {
+    start(goal);
+  } else if (phase_ == Phase::running) {
+    goal_ = goal;
+    goal_tries_.sent_elsewhere(now.wall());
+    record(monitor_.change_goal(goal, std::max(now.ros_ns, monitor_.latest())));
+  }
+}
+
+std::vector<std::string> TrialKeeper::missing() const {
+  return readiness_.missing(now_.wall(), now_.ros_ns != 0);
+}
+
+bool TrialKeeper::may_say(double pause) {
+  if (now_.wall() - said_ < pause) return false;
+  said_ = now_.wall();
+  return true;
+}
+
+void TrialKeeper::step(const Moment& now) {
+  now_ = now;
+  switch (phase_) {
+    case Phase::waiting:
+      return wait();
+    case Phase::armed:
+      return try_to_start();
+    case Phase::running:
+      return watch();
+    case Phase::draining:
+      if (now.wall() - phase_since_ >= kDrain) write_end();
+      return;
+    case Phase::closing:
+      return close();
+    case Phase::done:
+      return;
+  }
+}
+
+void TrialKeeper::wait() {
+  const auto words = missing();
+  if (words.empty()) return arm();
+  // Who drives one trial after the other may take their time, but a robot must be there at all.
+  const bool refuses = config_.once || !readiness_.saw_any_odometry();
+  if (refuses && config_.patience > 0.0 && now_.wall() - phase_since_ > config_.patience) {
+    tell(Tone::fatal, "No trial: after " + std::to_string(std::lround(config_.patience)) +
+                          " s what is missing is still " + list_of(words) + ".");
+    return leave(3);
+  }
+  if (may_say(kSayAgain)) tell(Tone::warning, "No trial yet: waiting for " + list_of(words) + ".");
+}
+
+void TrialKeeper::arm() {
+  try {
+    folder_ = record::create_trial_folder(config_.out, now_.utc);
+    journal_ = std::make_unique<record::Journal>(folder_, folder_.filename().string(),
+                                                 record::Journal::kMinFree, calls_);
+  } catch (const std::runtime_error& error) {
+    tell(Tone::fatal, error.what());
+    return leave(3);
+  }
+  bag_ = BagWatch(config_.record ? outlets_.start_recorder(folder_ / "trial.bag") : nullptr,
+                  now_.wall());
+  bag_lost_ = false;
+  enter(Phase::armed);
+  said_ = phase_since_;
+}
+
+void TrialKeeper::try_to_start() {
+  if (!bag_.ready(now_.wall())) return;
+  if (scenario_ && !scenario_played_) {
+    const auto words = missing();
+    if (words.empty()) {
+      scenario_played_ = true;
+      return start(scenario_->goal);
+    }
+    if (may_say(kSayAgain))
+      tell(Tone::warning, "No trial yet: waiting for " + list_of(words) + ".");
+  } else if (may_say(6 * kSayAgain)) {
+    tell(Tone::info, "Ready for a trial: waiting for a goal.");
+  }
+}
+
+void TrialKeeper::start(const Eigen::Vector2d& goal) {
+  goal_ = goal;
+  const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
+  monitor_.start(beginning);
+  flow_.start(beginning.stamp);
+  if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
+  ending_ = Ending();
+  goal_tries_.begin();
+  enter(Phase::running);
+  operator_seen_ = phase_since_;
+  bag_.expect_growth(phase_since_);
+  if (!record({"TRIAL_START", conditions(beginning), beginning.stamp})) return;
+  record::Fields where;
+  where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
+  if (!record({"GOAL_SET", where, beginning.stamp})) return;
+  tell(Tone::info,
+       "Trial " + folder_.filename().string() + " has begun: goal at " + place_of(goal) + ".");
+  ask_for_goal();
+}
+
+record::Fields TrialKeeper::conditions(const TrialStart& beginning) const {
+  record::Fields fields;
+  fields.set("world", scenario_ ? scenario_->world : "n/a");
+  fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
+  fields.set("seed", scenario_ ? std::to_string(scenario_->seed) : "n/a");
+  fields.set("operator", config_.operator_kind).set("participant", config_.participant);
+  fields.set("profile", config_.profile);
+  for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
+  fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
+  fields.set("limit", config_.limit);
+  fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
+  fields.set("shelf_contacts", beginning.shelf_count);
+  fields.set("obstacle_contacts", beginning.obstacle_count);
+  const TrialMonitorConfig& monitor = config_.monitor;
+  fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
+  fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);
+  fields.set("center_range", monitor.center_range);
+  return fields;
+}
+
+void TrialKeeper::ask_for_goal() {
+  switch (goal_tries_.next(monitor_.goal_taken(), now_.wall())) {
+    case GoalTries::Next::wait:
+      return;
+    case GoalTries::Next::send:
+      return outlets_.set_goal(goal_);
+    case GoalTries::Next::give_up:
+      tell(Tone::error, "The goal was set several times, but the guidance does not show it.");
+      return end({"aborted", "goal_not_taken", monitor_.latest()});
+  }
+}
+
+void TrialKeeper::watch() {
+  watch_bag();
+  Signs signs;
+  signs.now = now_.ros_ns;
+  signs.latest = monitor_.latest();
+  signs.disk_full = journal_->reserve_used();
+  signs.world_restarted = monitor_.world_restarted();
+  signs.odometry_silence = readiness_.silence(now_.wall());
+  signs.guidance_silence = readiness_.guidance_silence(now_.wall());
+  if (simulated()) signs.operator_silence = now_.wall() - operator_seen_;
+  if (const auto ending = flow_.watch(signs)) return end(*ending);
+  ask_for_goal();
+}
+
+void TrialKeeper::watch_bag() {
+  if (bag_lost_ || bag_.growing(now_.wall())) return;
+  bag_lost_ = true;
+  tell(Tone::error, "The bag does not grow. The trial goes on; its summary says bag=bad.");
+  record({"BAG_LOST", record::Fields(), monitor_.latest()});
+}
+
+void TrialKeeper::end(const Ending& ending) {
+  if (!active()) return;
+  monitor_.end(ending.stamp);
+  ending_ = ending;
+  ending_.stamp = *monitor_.ended();
+  enter(Phase::draining);
+}
+
+void TrialKeeper::write_end() {
+  // The goal may have been reached just before the end that was called first.
+  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), journal_->reserve_used());
+  record::Fields fields = monitor_.tally_fields();
+  fields.set("result", ending_.result).set("reason", ending_.reason);
+  enter(Phase::closing);
+  record({"TRIAL_END", fields, ending_.stamp});
+  write_summary();
+}
+
+bool TrialKeeper::record(const Event& event) {
+  if (journal_->broken()) return false;
+  const auto row = journal_->append(
+      event.type, event.fields, event.sim_ns, now_.mono_ns,
+      event.essential ? record::Durability::essential : record::Durability::relaxed);
+  if (row) {
+    outlets_.publish(*row);
+    return true;
+  }
+  tell(Tone::fatal, journal_->problem() + ". The trial is invalid.");
+  exit_code_ = 4;
+  enter(Phase::closing);
+  write_summary();
+  return false;
+}
+
+void TrialKeeper::write_summary() {
+  auto rows = journal_->rows();
+  if (journal_->broken()) {
+    record::Row last =
+        rows.empty() ? record::Row{folder_.filename().string(), 0, 0, 0, "", {}} : rows.back();
+    last.type = "TRIAL_END";
+    last.fields = record::Fields().set("result", "invalid").set("reason", "journal_broken");
+    rows.push_back(last);
+  }
+  if (const auto problem = record::write_results(folder_, rows)) {
+    tell(Tone::error, *problem);
+    exit_code_ = 4;
+  }
+}
+
+void TrialKeeper::close() {
+  if (stopped_ && now_.wall() - *stopped_ > kHurry) bag_.kill();
+  const double tail = stopped_ ? kDrain : std::max(kDrain, config_.tail);
+  if (bag_.close(now_.wall() - phase_since_, tail)) finish();
+}
+
+void TrialKeeper::finish() {
+  const std::string bag = bag_.verdict();
+  bag_ = BagWatch();
+  if (!journal_->broken()) {
+    record({"BAG_CLOSED", record::Fields().set("state", bag), ending_.stamp});
+    write_summary();
+  }
+  std::string screen = "Trial ended: " + folder_.string();
+  for (const auto& [name, cell] : record::summarize(journal_->rows()))
+    screen += "\n  " + name + ": " + cell;
+  tell(Tone::info, screen);
+  journal_.reset();
+  enter(Phase::waiting);
+  said_ = phase_since_;
+  if (config_.once || stopped_ || exit_code_ != 0) leave(exit_code_);
+}
+
+void TrialKeeper::leave(int exit_code) {
+  exit_code_ = exit_code;
+  enter(Phase::done);
+}
+
+void TrialKeeper::stop(const Moment& now) {
+  now_ = now;
+  if (!stopped_) stopped_ = now.wall();
+  if (phase_ == Phase::waiting) return leave(exit_code_);
+  if (phase_ == Phase::armed) {
+    bag_ = BagWatch();
+    journal_.reset();
+    std::error_code error;
+    fs::remove_all(folder_, error);  // no trial has begun: nothing is lost
+    return leave(0);
+  }
+  if (phase_ == Phase::running) end({"aborted", "stopped_by_signal", monitor_.latest()});
+}
+
+}  // namespace navvi_study::trial

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/journal.hpp"
+#include "trial/bag_watch.hpp"
+#include "trial/odometry_in_map.hpp"
+#include "trial/readiness.hpp"
+#include "trial/trial_flow.hpp"
+#include "trial/trial_monitor.hpp"
+#include "trial/trial_node_config.hpp"
+
+namespace navvi_study::trial {
+
+/// A moment on every clock that a trial knows.
+struct Moment {
+  std::int64_t mono_ns = 0;  ///< of the machine; never goes back
+  std::int64_t ros_ns = 0;   ///< ROS time; 0 while its clock has not begun
+  std::time_t utc = 0;       ///< s, only for the folder's name
+
+  [[nodiscard]] double wall() const { return 1e-9 * static_cast<double>(mono_ns); }  ///< s
+};
+
+/// Runs trials one after the other: waits until every part is there, records, sets the goal, keeps
+/// the journal, ends, and writes the results.
+class TrialKeeper {
+ public:
+  enum class Tone { info, warning, error, fatal };
+
+  /// What a keeper has done for it.
+  struct Outlets {
+    std::function<void(const record::Row&)> publish;  ///< is on the disk already
+    std::function<void(const Eigen::Vector2d&)> set_goal;
+    std::function<void(Tone, const std::string&)> tell;  ///< a person at the screen
+    /// Begins a bag at that path; nullptr where none is wanted.
+    std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
+  };
+
+  /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
+  /// \param calls  of the journals
+  TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
+              record::SystemCalls calls = record::SystemCalls::real());
+
+  /// What the other nodes report; for odometry, in odom.
+  template <typename Report>
+  void take(const Report& report, const Moment& now) {
+    now_ = now;
+    observe(report);
+  }
+  void take(const Odometry& odometry, const Moment& now);
+  void take(const Correction& correction, const Moment& now);
+  void take(const Guidance& guidance, const Moment& now);
+  void take(const DeviceReport& device, const Moment& now);
+  void take(const Scenario& scenario, const Moment& now);
+  /// Somebody else has set a goal.
+  void take_goal(const Eigen::Vector2d& goal, const Moment& now);
+  /// A simulated operator has moved its hands.
+  void saw_operator(const Moment& now) { operator_seen_ = now.wall(); }
+  /// The bag's recorder listens.
+  void recorder_listens(const Moment& now) { bag_.hears(now.wall()); }
+
+  /// Goes on; to be called every 50 ms or so.
+  void step(const Moment& now);
+  /// Ends a running trial as aborted and closes everything: done() two seconds later at the most,
+  /// if step() goes on being called.
+  void stop(const Moment& now);
+  /// There will be no other trial.
+  [[nodiscard]] bool done() const { return phase_ == Phase::done; }
+  /// What the process is to return once all is done.
+  [[nodiscard]] int exit_code() const { return exit_code_; }
+
+ private:
+  enum class Phase { waiting, armed, running, draining, closing, done };
+
+  template <typename Report>
+  void observe(const Report& report);
+  void enter(Phase phase);
+  void wait();
+  void arm();
+  void try_to_start();
+  void start(const Eigen::Vector2d& goal);
+  [[nodiscard]] record::Fields conditions(const TrialStart& beginning) const;
+  void watch();
+  void watch_bag();
+  void ask_for_goal();
+  void end(const Ending& ending);
+  void write_end();
+  void close();
+  void finish();
+  void leave(int exit_code);
+
+  /// Journals, then publishes. False when the journal is broken.
+  bool record(const Event& event);
+  void write_summary();
+  [[nodiscard]] std::vector<std::string> missing() const;
+  /// Whether so many s have passed since a person was told something; counts as telling.
+  [[nodiscard]] bool may_say(double pause);
+  void tell(Tone tone, const std::string& sentence) const { outlets_.tell(tone, sentence); }
+  [[nodiscard]] bool simulated() const { return config_.operator_kind == "simulated"; }
+  [[nodiscard]] bool active() const {
+    return phase_ == Phase::running || phase_ == Phase::draining;
+  }
+
+  TrialNodeConfig config_;
+  Outlets outlets_;
+  record::SystemCalls calls_;
+  Moment now_;
+
+  Readiness readiness_;
+  TrialMonitor monitor_;
+  OdometryInMap places_;
+  Phase phase_ = Phase::waiting;
+  double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
+  double said_ = 0.0;
+  std::optional<Scenario> scenario_;
+  bool scenario_played_ = false;
+
+  std::filesystem::path folder_;
+  std::unique_ptr<record::Journal> journal_;
+  BagWatch bag_;
+  bool bag_lost_ = false;  ///< and journalled
+  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
+  GoalTries goal_tries_;
+  TrialFlow flow_;
+  double operator_seen_ = 0.0;  ///< when a simulated one last moved its hands
+  Ending ending_;
+  std::optional<double> stopped_;  ///< when it was asked to stop
+  int exit_code_ = 0;
+};
+
+template <typename Report>
+void TrialKeeper::observe(const Report& report) {
+  for (const auto& event : monitor_.observe(report)) {
+    if (active()) record(event);
+  }
+  // At once: a report that is stamped later may be the next to come.
+  if (phase_ != Phase::running) return;
+  if (monitor_.reached()) {
+    end({"reached", "goal_reached", monitor_.latest()});
+  } else if (const auto why = monitor_.refused()) {
+    end({"refused", *why, monitor_.latest()});
+  }
+}
+
+}  // namespace navvi_study::trial

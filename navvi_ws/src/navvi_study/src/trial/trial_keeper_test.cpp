@@ -1,0 +1,288 @@
+#include "trial/trial_keeper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+namespace navvi_study::trial {
+namespace {
+
+namespace fs = std::filesystem;
+using State = Guidance::State;
+
+/// A keeper in a world of its own, whose clocks run together.
+class Trials : public testing::Test {
+ protected:
+  Trials() {
+    std::string pattern = (fs::temp_directory_path() / "navvi_keeper_XXXXXX").string();
+    config_.out = mkdtemp(pattern.data());
+    config_.record = false;
+    config_.operator_kind = "keyboard";
+  }
+  ~Trials() override { fs::remove_all(config_.out); }
+
+  void begin() {
+    TrialKeeper::Outlets outlets;
+    outlets.publish = [this](const record::Row& row) {
+      EXPECT_NE(content("journal.csv").find(row.type), std::string::npos) << "not on the disk";
+      events_.push_back(row.type);
+    };
+    outlets.set_goal = [this](const Eigen::Vector2d& goal) { goals_.push_back(goal); };
+    outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
+    outlets.start_recorder = [this](const fs::path& bag) {
+      const fs::path program = fs::path(config_.out) / "record";
+      std::ofstream(program) << "#!/bin/sh\nexec sleep 60\n";
+      fs::permissions(program, fs::perms::owner_all);
+      return std::make_unique<BagRecorder>(bag, "recorder", std::vector<std::string>{},
+                                           program.string());
+    };
+    record::SystemCalls calls = record::SystemCalls::real();
+    calls.write = [this, write = calls.write](int file, const void* bytes, std::size_t count) {
+      if (failures_ == 0) return write(file, bytes, count);
+      --failures_;
+      errno = error_;
+      return ssize_t{-1};
+    };
+    keeper_ = std::make_unique<TrialKeeper>(config_, outlets, now(), calls);
+  }
+  [[nodiscard]] Moment now() const {
+    const auto ns = static_cast<std::int64_t>(1e9 * time_);
+    return {1'000'000'000'000 + ns, ns, 1'700'000'000};
+  }
+  void guide(State state, const Eigen::Vector2d& goal) {
+    Guidance report;
+    report.stamp = now().ros_ns;
+    report.seq = ++guidance_;
+    report.state = state;
+    report.goal = goal;
+    report.plans = 1;
+    keeper_->take(report, now());
+  }
+  /// So many s in which all nodes report.
+  void live(double seconds, State state = State::no_goal,
+            const Eigen::Vector2d& goal = Eigen::Vector2d::Zero()) {
+    for (const double end = time_ + seconds; time_ < end && !keeper_->done();) {
+      time_ += 0.05;
+      keeper_->take(Odometry{now().ros_ns, {{time_, 0.0}}}, now());
+      guide(state, goal);
+      keeper_->step(now());
+    }
+  }
+  /// So many s in which none does.
+  void wait(double seconds) {
+    for (const double end = time_ + seconds; time_ < end && !keeper_->done();) {
+      time_ += 0.05;
+      keeper_->step(now());
+    }
+  }
+  [[nodiscard]] std::vector<fs::path> folders() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(config_.out))
+      if (entry.is_directory()) found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  /// Of a file of the latest trial.
+  [[nodiscard]] std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folders().back() / name).rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] bool happened(const std::string& type) const {
+    return std::find(events_.begin(), events_.end(), type) != events_.end();
+  }
+
+  TrialNodeConfig config_;
+  std::unique_ptr<TrialKeeper> keeper_;
+  double time_ = 1.0;  // s, of ROS
+  std::uint32_t guidance_ = 0;
+  std::vector<std::string> events_;
+  std::vector<Eigen::Vector2d> goals_;
+  std::string said_;
+  int failures_ = 0;  ///< writes of the journal that are still to fail
+  int error_ = 0;     ///< with this errno
+};
+
+const Scenario kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
+
+TEST_F(Trials, wait_for_every_part_and_name_what_is_missing) {
+  begin();
+  wait(6.0);
+  EXPECT_NE(said_.find("No trial yet: waiting for"), std::string::npos) << said_;
+  EXPECT_TRUE(folders().empty());
+  wait(60.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 3);
+  EXPECT_NE(said_.find("after 60 s what is missing is still"), std::string::npos) << said_;
+  EXPECT_TRUE(folders().empty());
+}
+
+TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  ASSERT_FALSE(goals_.empty());
+  EXPECT_EQ(goals_.front().x, 5.0);
+  ASSERT_GE(events_.size(), 2U);
+  EXPECT_EQ(events_[0], "TRIAL_START");
+  EXPECT_EQ(events_[1], "GOAL_SET");
+  EXPECT_NE(content("journal.csv").find("world=hall"), std::string::npos);
+  live(1.0, State::following, kScenario.goal);
+  EXPECT_FALSE(happened("TRIAL_END"));
+  live(0.1, State::arrived, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 0);
+  EXPECT_EQ(events_.back(), "BAG_CLOSED");
+  EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
+  EXPECT_NE(said_.find("result: reached"), std::string::npos) << said_;
+}
+
+TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(60.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_GT(goals_.size(), 1U);
+  EXPECT_NE(content("summary.csv").find("goal_not_taken"), std::string::npos);
+}
+
+TEST_F(Trials, are_aborted_when_the_robot_is_heard_of_no_more) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  wait(30.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_NE(content("summary.csv").find("aborted"), std::string::npos);
+}
+
+TEST_F(Trials, that_have_not_begun_leave_nothing_behind_when_stopped) {
+  begin();
+  live(1.0);
+  EXPECT_EQ(folders().size(), 1U);
+  keeper_->stop(now());
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 0);
+  EXPECT_TRUE(folders().empty());
+}
+
+TEST_F(Trials, that_run_are_closed_within_two_seconds_when_stopped) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  keeper_->stop(now());
+  EXPECT_FALSE(keeper_->done());
+  wait(2.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_NE(content("summary.csv").find("stopped_by_signal"), std::string::npos);
+}
+
+TEST_F(Trials, follow_on_one_another_where_more_than_one_is_wanted) {
+  config_.once = false;
+  begin();
+  live(1.0);
+  keeper_->take_goal({3.0, 0.0}, now());
+  live(1.0, State::following, {3.0, 0.0});
+  live(9.0, State::arrived, {3.0, 0.0});
+  EXPECT_FALSE(keeper_->done());
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_END"), 1);
+  keeper_->take_goal({8.0, 0.0}, now());
+  live(1.0, State::following, {8.0, 0.0});
+  keeper_->take_goal({9.0, 0.0}, now());
+  EXPECT_EQ(events_.back(), "GOAL_SET") << "of a trial that runs";
+  live(9.0, State::arrived, {9.0, 0.0});
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_END"), 2);
+  EXPECT_GE(folders().size(), 2U);
+}
+
+TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
+  config_.require = {"speech"};
+  begin();
+  keeper_->take(kScenario, now());
+  live(3.0);
+  EXPECT_TRUE(events_.empty());
+  for (const char* device : {"audio", "speech"})
+    keeper_->take(DeviceReport{now().ros_ns, device, true}, now());
+  live(1.0);
+  EXPECT_TRUE(happened("TRIAL_START"));
+}
+
+TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
+  config_.record = true;
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  keeper_->recorder_listens(now());
+  live(2.0);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  EXPECT_FALSE(happened("BAG_LOST"));
+  live(4.0, State::following, kScenario.goal);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "BAG_LOST"), 1);
+  EXPECT_NE(said_.find("The bag does not grow"), std::string::npos) << said_;
+  live(0.1, State::arrived, kScenario.goal);
+  for (int i = 0; i < 1000 && !keeper_->done(); ++i) {  // the recorder is another process
+    live(1.0, State::arrived, kScenario.goal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 0) << "the trial is valid";
+  EXPECT_EQ(events_.back(), "BAG_CLOSED");
+  EXPECT_NE(content("journal.csv").find("state=bad"), std::string::npos);
+  EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
+}
+
+TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_reserve) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  failures_ = 1;
+  error_ = ENOSPC;
+  keeper_->take_goal({7.0, 1.0}, now());
+  live(9.0, State::following, {7.0, 1.0});
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "GOAL_SET"), 2);
+  EXPECT_TRUE(happened("TRIAL_END"));
+  EXPECT_NE(content("summary.csv").find("invalid"), std::string::npos);
+  EXPECT_NE(content("summary.csv").find("disk_full"), std::string::npos);
+}
+
+TEST_F(Trials, are_invalid_from_the_first_row_that_may_not_be_on_the_disk) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  failures_ = 1;
+  error_ = EIO;
+  const std::size_t told = events_.size();
+  keeper_->take_goal({7.0, 1.0}, now());
+  live(9.0, State::following, {7.0, 1.0});
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 4);
+  EXPECT_EQ(events_.size(), told) << "nothing is told that is not recorded";
+  EXPECT_NE(said_.find("The trial is invalid"), std::string::npos) << said_;
+  EXPECT_NE(content("summary.csv").find("journal_broken"), std::string::npos);
+}
+
+TEST_F(Trials, with_a_text_that_would_break_the_record_are_refused) {
+  config_.participant = "a\nb";
+  EXPECT_THROW(begin(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace navvi_study::trial
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

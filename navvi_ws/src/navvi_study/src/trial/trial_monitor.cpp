@@ -1,0 +1,318 @@
+#include "trial/trial_monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace navvi_study::trial {
+namespace {
+
+using navvi_types::CueStage;
+using navvi_types::Modality;
+using navvi_types::ThingClass;
+
+constexpr double kSameGoal = 0.05;  // m
+constexpr double kMoved = 0.05;     // m, driven
+constexpr std::int64_t kOldNews =
+    2'000'000'000;  // ns in which an arrival may still be the last goal's
+
+std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
+
+bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < kSameGoal; }
+
+const char* kind_of(ThingClass thing_class) {
+  return thing_class == ThingClass::shelf ? "shelf" : "obstacle";
+}
+
+std::uint64_t shelves_in(const Contact& contact) {
+  const auto shelves = contact.counts.find(ThingClass::shelf);
+  return shelves == contact.counts.end() ? 0 : shelves->second;
+}
+
+/// Everything but shelves.
+std::uint64_t obstacles_in(const Contact& contact) {
+  std::uint64_t sum = 0;
+  for (const auto& [thing_class, count] : contact.counts)
+    if (thing_class != ThingClass::shelf) sum += count;
+  return sum;
+}
+
+}  // namespace
+
+void TrialMonitorConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit({"obstacle_range", Range{0.1, 50.0}, "m", "an obstacle this near is a proximity event"},
+        obstacle_range);
+  visit({"shelf_range", Range{0.1, 50.0}, "m", "a shelf this near is a proximity event"},
+        shelf_range);
+  visit({"leave_margin", Range{0.0, 5.0}, "m", "a near thing has left beyond its range plus this"},
+        leave_margin);
+  visit({"leave_time", Range{0.0, 10.0}, "s", "and has been there this long"}, leave_time);
+  visit({"center_range", Range{0.0, 10.0}, "m", "up to this far aside, a thing is in the centre"},
+        center_range);
+  visit({"progress_period", Range{0.1, 60.0}, "s", "between rows that only say how far one got"},
+        progress_period);
+}
+
+bool TrialMonitor::counts(std::int64_t stamp) {
+  latest_ = std::max(latest_, stamp);
+  return start_ && stamp > start_->stamp && (!end_ || stamp <= *end_);
+}
+
+TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const {
+  return {std::max(stamp, latest_), goal, contact_seq_, shelf_count_, obstacle_count_};
+}
+
+void TrialMonitor::start(const TrialStart& start) {
+  start_ = start;
+  end_.reset();
+  tally_ = Tally();
+  next_progress_ = start.stamp;
+  contact_seq_ = start.contact_seq;
+  shelf_count_ = start.shelf_count;
+  obstacle_count_ = start.obstacle_count;
+  inside_.clear();
+  odometry_.reset();
+  guidance_before_ = guidance_;
+  guidance_.reset();
+  plans_.reset();
+  stuck_cues_.clear();
+  goal_taken_ = false;
+  state_.reset();
+  reached_.reset();
+  refused_.reset();
+  world_restarted_ = false;
+}
+
+Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp) {
+  start_->goal = goal;
+  guidance_before_ = guidance_ ? guidance_ : guidance_before_;
+  goal_taken_ = false;
+  reached_.reset();
+  refused_.reset();
+  return {"GOAL_SET", record::Fields().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp,
+          true};
+}
+
+void TrialMonitor::end(std::int64_t stamp) { end_ = end_ ? std::min(*end_, stamp) : stamp; }
+
+record::Fields TrialMonitor::place() const {
+  record::Fields fields;
+  if (!odometry_) return fields.set("x", "n/a").set("y", "n/a");
+  const Eigen::Vector2d& at = odometry_->pose.position;
+  return fields.set("x", at.x()).set("y", at.y());
+}
+
+const char* TrialMonitor::zone(double lateral) const {
+  if (lateral > config_.center_range) return "left";
+  return lateral < -config_.center_range ? "right" : "center";
+}
+
+record::Fields TrialMonitor::tally_fields() const {
+  record::Fields fields = place();
+  fields.set("path_length", tally_.path_length).set("cues_spoken", tally_.cues_spoken);
+  fields.set("missed_messages", tally_.missed_messages);
+  fields.set("state_step", world_state_ ? std::to_string(world_state_->step) : "n/a");
+  return fields.set("state_hash", world_state_ ? navvi_types::to_hex(world_state_->hash) : "n/a");
+}
+
+std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
+  if (!counts(odometry.stamp)) return {};
+  if (odometry_ && odometry.stamp <= odometry_->stamp) return {};
+  if (odometry_) {
+    const Eigen::Vector2d moved = odometry.pose.position - odometry_->pose.position;
+    tally_.path_length += std::hypot(moved.x(), moved.y());
+  }
+  odometry_ = odometry;
+  if (odometry.stamp < next_progress_) return {};
+  next_progress_ = odometry.stamp + ns(config_.progress_period);
+  return {{"PROGRESS", tally_fields(), odometry.stamp, false}};
+}
+
+void TrialMonitor::collision(const Contact* contact, bool shelf, std::int64_t stamp,
+                             std::vector<Event>& events) {
+  auto& count = shelf ? tally_.shelf_collisions : tally_.obstacle_collisions;
+  ++count;
+  record::Fields fields;
+  fields.set("kind", shelf ? "shelf" : "obstacle").set("count", count);
+  if (contact != nullptr) {
+    fields.set("x", contact->robot.position.x()).set("y", contact->robot.position.y());
+    fields.set("class", to_string(contact->thing_class)).set("thing", contact->name);
+    fields.set("speed", contact->speed);
+  } else {
+    fields.set("made_good", "yes");
+  }
+  events.push_back({"COLLISION", fields, stamp, true});
+}
+
+std::vector<Event> TrialMonitor::observe(const Contact& contact) {
+  const bool inside = counts(contact.stamp);
+  const bool shelf = contact.thing_class == ThingClass::shelf;
+  const std::uint64_t shelves = shelves_in(contact), obstacles = obstacles_in(contact);
+  std::vector<Event> events;
+  if (inside && contact.seq <= contact_seq_) {
+    if (contact.seq == 1) world_restarted_ = true;
+    return {};
+  }
+  if (inside) {
+    // Running counts that jump by more than this contact tell what was lost on the way.
+    const std::uint64_t missed_shelf = shelves - std::min(shelves, shelf_count_ + (shelf ? 1 : 0));
+    const std::uint64_t missed_obstacle =
+        obstacles - std::min(obstacles, obstacle_count_ + (shelf ? 0 : 1));
+    const std::uint64_t missed = contact.seq - contact_seq_ - 1;
+    tally_.missed_messages += missed;
+    for (std::uint64_t i = 0; i < std::min(missed_shelf, missed); ++i) {
+      collision(nullptr, true, contact.stamp, events);
+    }
+    for (std::uint64_t i = 0; i < std::min(missed_obstacle, missed); ++i) {
+      collision(nullptr, false, contact.stamp, events);
+    }
+    collision(&contact, shelf, contact.stamp, events);
+  }
+  contact_seq_ = contact.seq;
+  shelf_count_ = shelves;
+  obstacle_count_ = obstacles;
+  return events;
+}
+
+std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
+  if (!counts(proximity.stamp)) return {};
+  std::vector<Event> events;
+  const auto event = [&](const char* type, const NearThing& thing) {
+    record::Fields fields;
+    fields.set("kind", kind_of(thing.thing_class));
+    fields.set("id", std::uint64_t{thing.id}).set("class", to_string(thing.thing_class));
+    fields.set("thing", thing.name).set("gap", thing.gap).set("zone", zone(thing.nearest.y()));
+    fields.set("x", odometry_ ? odometry_->pose.position.x() : NAN);
+    fields.set("y", odometry_ ? odometry_->pose.position.y() : NAN);
+    events.push_back({type, fields, proximity.stamp, true});
+  };
+  for (const auto& thing : proximity.things) {
+    const double range =
+        thing.thing_class == ThingClass::shelf ? config_.shelf_range : config_.obstacle_range;
+    const auto known = inside_.find(thing.id);
+    if (known == inside_.end()) {
+      if (thing.gap > range) continue;
+      inside_[thing.id] = {proximity.stamp, thing};
+      event("PROXIMITY_ENTER", thing);
+    } else {
+      known->second.thing = thing;
+      if (thing.gap <= range + config_.leave_margin) known->second.last_inside = proximity.stamp;
+    }
+  }
+  for (auto it = inside_.begin(); it != inside_.end();) {
+    if (proximity.stamp - it->second.last_inside > ns(config_.leave_time)) {
+      event("PROXIMITY_LEAVE", it->second.thing);
+      it = inside_.erase(it);
+    } else {
+      ++it;
+    }
+  }
+  return events;
+}
+
+bool TrialMonitor::about_this_goal(const Guidance& guidance) {
+  using State = Guidance::State;
+  if (goal_taken_) return true;
+  const bool refused = guidance.state == State::goal_refused;
+  const bool was_refused = guidance_before_ && guidance_before_->state == State::goal_refused;
+  const bool goal_matches = same(guidance.goal, start_->goal);
+  if (refused) {
+    // A refusal may be told with the goal that still stands.
+    goal_taken_ = goal_matches || !was_refused;
+  } else if (goal_matches && guidance.state == State::arrived && guidance_before_ &&
+             same(guidance_before_->goal, start_->goal) &&
+             guidance_before_->plans == guidance.plans) {
+    goal_taken_ = guidance.stamp > start_->stamp + kOldNews;
+  } else {
+    goal_taken_ = goal_matches && (guidance.leads_to_goal() || guidance.state == State::arrived ||
+                                   guidance.state == State::no_route);
+  }
+  return goal_taken_;
+}
+
+std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
+  using State = Guidance::State;
+  const bool inside = counts(guidance.stamp);
+  const auto last = guidance_;
+  guidance_ = guidance;
+  if (!inside) return {};
+  if (last && guidance.seq > last->seq) tally_.missed_messages += guidance.seq - last->seq - 1;
+  if (!about_this_goal(guidance)) return {};
+
+  std::vector<Event> events;
+  if (state_ != guidance.state) {
+    state_ = guidance.state;
+    events.push_back(
+        {"GUIDANCE", record::Fields().set("state", to_string(guidance.state)), guidance.stamp});
+  }
+  // Only a guidance that was started anew forgets a goal that it had taken.
+  if (guidance.state == State::no_goal) goal_taken_ = false;
+  if (guidance.leads_to_goal()) {
+    if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
+    if (!plans_) {
+      plans_ = guidance.plans;
+      record::Fields fields;
+      fields.set("first_path_length", guidance.goal_distance);
+      events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});
+    }
+  }
+  if (plans_ && guidance.plans < *plans_) plans_ = 0;  // a guidance that was started anew
+  if (plans_ && guidance.plans > *plans_) {
+    tally_.replans += guidance.plans - *plans_;
+    plans_ = guidance.plans;
+    record::Fields fields;
+    fields.set("count", tally_.replans).set("reason", to_string(guidance.replan_reason));
+    events.push_back(
+        {"REPLAN", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp, false});
+  }
+  if (guidance.state == State::arrived && !reached_) {
+    reached_ = guidance.stamp;
+    record::Fields fields = place();
+    fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
+    events.push_back({"GOAL_REACHED", fields, guidance.stamp});
+  }
+  if (guidance.state == State::goal_refused && !refused_) {
+    refused_ = to_string(guidance.refusal);
+    events.push_back({"GOAL_REFUSED", record::Fields().set("reason", *refused_), guidance.stamp});
+  }
+  return events;
+}
+
+std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
+  if (!counts(cue.stamp) || cue.modality != Modality::speech) return {};
+  if (cue.stage == CueStage::started) ++tally_.cues_spoken;
+  // However its speech fares, a cue that says stuck is the fact of being stuck.
+  if (cue.kind != "stuck" || !stuck_cues_.insert(cue.id).second) return {};
+  return {{"STUCK", place(), cue.stamp, true}};
+}
+
+std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
+  const bool inside = counts(drive.stamp);
+  const bool stopped = drive.state == DriveState::State::stopped;
+  const bool stopped_before = std::exchange(stopped_, stopped);
+  if (!inside || drive.reason == DriveState::Reason::none || !stopped || stopped_before) return {};
+  record::Fields fields = place();
+  fields.set("reason", to_string(drive.reason))
+      .set("moved", tally_.path_length > kMoved ? "yes" : "no");
+  return {{"SAFE_STOP", fields, drive.stamp, true}};
+}
+
+std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
+  const bool inside = counts(device.stamp);
+  const auto known = devices_.find(device.device);
+  const bool changed = known != devices_.end() && known->second != device.usable;
+  devices_[device.device] = device.usable;
+  if (!inside || !changed) return {};
+  record::Fields fields;
+  fields.set("device", device.device);
+  return {{device.usable ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp, true}};
+}
+
+std::vector<Event> TrialMonitor::observe(const StateHash& state) {
+  latest_ = std::max(latest_, state.stamp);
+  if (!end_ || state.stamp <= *end_) world_state_ = state;
+  return {};
+}
+
+}  // namespace navvi_study::trial

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <navvi_types/cue_event.hpp>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
+#include <navvi_types/scenario.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+#include "record/row.hpp"
+
+namespace navvi_study {
+using navvi_types::Contact;
+using navvi_types::CueEvent;
+using navvi_types::DriveState;
+using navvi_types::Guidance;
+using navvi_types::NearThing;
+using navvi_types::Odometry;
+using navvi_types::Proximity;
+using navvi_types::Scenario;
+using navvi_types::StateHash;
+}  // namespace navvi_study
+
+namespace navvi_study::trial {
+
+// Time stamps are ns of ROS time, as in the header of the message.
+
+struct DeviceReport {
+  std::int64_t stamp = 0;
+  std::string device;  ///< pad, audio, speech
+  bool usable = false;
+};
+
+/// Something that happened in a trial; the journal makes a row of it.
+struct Event {
+  std::string type;
+  record::Fields fields;
+  std::int64_t sim_ns = 0;
+  bool essential = true;
+};
+
+struct TrialMonitorConfig {
+  double obstacle_range = 5.0;
+  double shelf_range = 1.0;
+  double leave_margin = 0.1;
+  double leave_time = 0.5;
+  double center_range = 1.0;
+  double progress_period = 1.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What a trial's first row says, so that the same messages give the same events again.
+struct TrialStart {
+  std::int64_t stamp = 0;  ///< messages stamped later than this belong to the trial
+  Eigen::Vector2d goal = Eigen::Vector2d::Zero();
+  std::uint32_t contact_seq = 0;  ///< of the last contact before the trial
+  std::uint64_t shelf_count = 0;  ///< contacts before the trial
+  std::uint64_t obstacle_count = 0;
+};
+
+/// Running figures of a trial.
+struct Tally {
+  double path_length = 0.0;                 ///< m, driven
+  std::optional<double> first_path_length;  ///< m, of the first path
+  std::uint64_t shelf_collisions = 0;
+  std::uint64_t obstacle_collisions = 0;
+  std::uint64_t replans = 0;
+  std::uint64_t cues_spoken = 0;
+  std::uint64_t missed_messages = 0;
+};
+
+/// Turns what the other nodes report into the events of a trial (R-TRL-1). The order in which
+/// different kinds of report come does not matter to what is counted, only the order within a kind:
+/// so a bag gives the same figures as the live session.
+class TrialMonitor {
+ public:
+  explicit TrialMonitor(const TrialMonitorConfig& config) : config_(config) {}
+
+  /// Begins a trial. What was observed before is only what things are compared with.
+  void start(const TrialStart& start);
+  /// From now on another goal counts. \param stamp  when it was set
+  [[nodiscard]] Event change_goal(const Eigen::Vector2d& goal, std::int64_t stamp);
+  /// Reports stamped later than `stamp` no longer belong to the trial. Of two ends the earlier
+  /// counts. To get the same figures again from a bag, end at latest(), or say the end before it
+  /// comes.
+  void end(std::int64_t stamp);
+  [[nodiscard]] std::optional<std::int64_t> ended() const { return end_; }
+
+  [[nodiscard]] std::vector<Event> observe(const Odometry& odometry);
+  [[nodiscard]] std::vector<Event> observe(const Contact& contact);
+  [[nodiscard]] std::vector<Event> observe(const Proximity& proximity);
+  [[nodiscard]] std::vector<Event> observe(const Guidance& guidance);
+  [[nodiscard]] std::vector<Event> observe(const CueEvent& cue);
+  [[nodiscard]] std::vector<Event> observe(const DriveState& drive);
+  [[nodiscard]] std::vector<Event> observe(const DeviceReport& device);
+  [[nodiscard]] std::vector<Event> observe(const StateHash& state);
+
+  /// What start() needs to know of the past.
+  [[nodiscard]] TrialStart start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const;
+  [[nodiscard]] const Tally& tally() const { return tally_; }
+  /// The figures that no single event carries: path_length, cues_spoken, missed_messages, and the
+  /// last state of the world by step and hash (n/a where there is no simulator).
+  [[nodiscard]] record::Fields tally_fields() const;
+  /// The guide shows a path to the goal, has arrived, or refused.
+  [[nodiscard]] bool goal_taken() const { return goal_taken_; }
+  /// ns, when the goal was reached
+  [[nodiscard]] std::optional<std::int64_t> reached() const { return reached_; }
+  /// why the goal was refused
+  [[nodiscard]] std::optional<std::string> refused() const { return refused_; }
+  /// The simulator began anew in mid trial.
+  [[nodiscard]] bool world_restarted() const { return world_restarted_; }
+  /// ns, the latest stamp that was seen at all
+  [[nodiscard]] std::int64_t latest() const { return latest_; }
+
+ private:
+  struct Inside {
+    std::int64_t last_inside = 0;
+    NearThing thing;
+  };
+
+  /// Whether a report with this stamp belongs to the trial.
+  bool counts(std::int64_t stamp);
+  [[nodiscard]] record::Fields place() const;
+  [[nodiscard]] const char* zone(double lateral) const;
+  void collision(const Contact* contact, bool shelf, std::int64_t stamp,
+                 std::vector<Event>& events);
+  [[nodiscard]] bool about_this_goal(const Guidance& guidance);
+
+  TrialMonitorConfig config_;
+  std::optional<TrialStart> start_;
+  std::optional<std::int64_t> end_;
+  std::int64_t latest_ = 0;
+  Tally tally_;
+  std::optional<Odometry> odometry_;
+  std::int64_t next_progress_ = 0;
+  std::uint32_t contact_seq_ = 0;
+  std::uint64_t shelf_count_ = 0;
+  std::uint64_t obstacle_count_ = 0;
+  std::map<std::uint32_t, Inside> inside_;
+  std::optional<Guidance> guidance_;         ///< the last one
+  std::optional<Guidance> guidance_before_;  ///< the last one before the goal was set
+  std::optional<std::uint32_t> plans_;       ///< of the guidance, counted so far
+  std::set<std::uint32_t> stuck_cues_;
+  bool stopped_ = false;  ///< by the last stage before the wheels
+  std::map<std::string, bool> devices_;
+  std::optional<StateHash> world_state_;  ///< the last one, none later than the end
+  bool goal_taken_ = false;
+  std::optional<Guidance::State> state_;
+  std::optional<std::int64_t> reached_;
+  std::optional<std::string> refused_;
+  bool world_restarted_ = false;
+};
+
+}  // namespace navvi_study::trial

@@ -1,0 +1,256 @@
+#include "trial/trial_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_study::trial {
+namespace {
+
+using navvi_types::ThingClass;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class Monitor : public testing::Test {
+ protected:
+  void SetUp() override { monitor_.start({10 * kSecond, {5.0, 0.0}}); }
+
+  static Guidance guidance(double time, Guidance::State state, std::uint32_t seq = 1) {
+    Guidance report;
+    report.stamp = static_cast<std::int64_t>(time * 1e9);
+    report.state = state;
+    report.seq = seq;
+    report.goal = {5.0, 0.0};
+    report.goal_distance = 5.0;
+    report.plans = 1;
+    return report;
+  }
+  static Contact contact(double time, std::uint32_t seq, const char* what, int shelves,
+                         int others) {
+    Contact report;
+    report.stamp = static_cast<std::int64_t>(time * 1e9);
+    report.seq = seq;
+    report.thing_class = *navvi_types::from_word<ThingClass>(what);
+    report.counts[ThingClass::shelf] = static_cast<std::uint32_t>(shelves);
+    report.counts[ThingClass::worker] = static_cast<std::uint32_t>(others);
+    return report;
+  }
+  static Proximity near(double time, const char* what, double gap, double lateral = 0.0) {
+    Proximity report{static_cast<std::int64_t>(time * 1e9), {}};
+    if (gap < 5.0)
+      report.things.push_back({*navvi_types::from_word<ThingClass>(what), 1, gap, {0.0, lateral}});
+    return report;
+  }
+  static DriveState stopped(std::int64_t time) {
+    return {DriveState::State::stopped, DriveState::Reason::command_lost, 0, time * kSecond};
+  }
+  static std::vector<std::string> types(const std::vector<Event>& events) {
+    std::vector<std::string> names;
+    for (const auto& event : events) names.push_back(event.type);
+    return names;
+  }
+  using Names = std::vector<std::string>;
+  using State = Guidance::State;
+
+  TrialMonitor monitor_{TrialMonitorConfig()};
+};
+
+TEST_F(Monitor, says_nothing_of_what_was_before_the_trial) {
+  EXPECT_TRUE(monitor_.observe(contact(9.0, 1, "shelf", 1, 0)).empty());
+  EXPECT_TRUE(monitor_.observe(guidance(10.0, State::arrived)).empty());
+  EXPECT_FALSE(monitor_.reached());
+}
+
+TEST_F(Monitor, tells_shelves_from_everything_else) {
+  const auto shelf = monitor_.observe(contact(11.0, 1, "shelf", 1, 0));
+  ASSERT_EQ(types(shelf), Names{"COLLISION"});
+  EXPECT_EQ(shelf[0].fields.get("kind"), "shelf");
+  for (const char* what : {"wall", "worker", "box", "other"}) {
+    const auto seq = static_cast<std::uint32_t>(monitor_.tally().obstacle_collisions) + 2;
+    const auto events = monitor_.observe(contact(12.0, seq, what, 1, static_cast<int>(seq) - 1));
+    ASSERT_EQ(types(events), Names{"COLLISION"}) << what;
+    EXPECT_EQ(events[0].fields.get("kind"), "obstacle") << what;
+  }
+  EXPECT_EQ(monitor_.tally().shelf_collisions, 1u);
+  EXPECT_EQ(monitor_.tally().obstacle_collisions, 4u);
+}
+
+TEST_F(Monitor, keeps_the_last_state_of_the_world_that_is_not_after_the_end) {
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "n/a");
+  (void)monitor_.observe(StateHash{9 * kSecond, 900, 0xaa});
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "00000000000000aa")
+      << "before the start, but none later";
+  (void)monitor_.observe(StateHash{11 * kSecond, 1100, 0xbb});
+  monitor_.end(11 * kSecond);
+  (void)monitor_.observe(StateHash{12 * kSecond, 1200, 0xcc});
+  EXPECT_EQ(monitor_.tally_fields().get("state_hash"), "00000000000000bb");
+  EXPECT_EQ(monitor_.tally_fields().get("state_step"), "1100");
+}
+
+TEST_F(Monitor, makes_a_lost_contact_good_from_the_running_counts) {
+  (void)monitor_.observe(contact(11.0, 1, "shelf", 1, 0));
+  const auto events = monitor_.observe(contact(12.0, 4, "shelf", 2, 2));
+  EXPECT_EQ(events.size(), 3u);
+  EXPECT_EQ(monitor_.tally().shelf_collisions, 2u);
+  EXPECT_EQ(monitor_.tally().obstacle_collisions, 2u);
+  EXPECT_EQ(monitor_.tally().missed_messages, 2u);
+  EXPECT_EQ(events[0].fields.get("made_good"), "yes");
+}
+
+TEST_F(Monitor, counts_a_contact_that_comes_twice_once) {
+  (void)monitor_.observe(contact(11.0, 2, "shelf", 2, 0));
+  EXPECT_TRUE(monitor_.observe(contact(11.0, 2, "shelf", 2, 0)).empty());
+  EXPECT_FALSE(monitor_.world_restarted());
+  EXPECT_TRUE(monitor_.observe(contact(11.5, 1, "shelf", 1, 0)).empty());
+  EXPECT_TRUE(monitor_.world_restarted());
+}
+
+TEST_F(Monitor, does_not_flicker_at_the_boundary) {
+  EXPECT_EQ(types(monitor_.observe(near(11.0, "worker", 4.9, 2.0))), Names{"PROXIMITY_ENTER"});
+  for (int i = 0; i < 20; ++i) {
+    const double time = 11.1 + 0.1 * i;
+    EXPECT_TRUE(monitor_.observe(near(time, "worker", i % 2 == 0 ? 6.0 : 4.99)).empty());
+  }
+  EXPECT_TRUE(monitor_.observe(near(13.1, "worker", 6.0)).empty());
+  EXPECT_EQ(types(monitor_.observe(near(13.8, "worker", 6.0))), Names{"PROXIMITY_LEAVE"});
+  EXPECT_EQ(types(monitor_.observe(near(14.0, "worker", 1.0))), Names{"PROXIMITY_ENTER"});
+}
+
+TEST_F(Monitor, names_the_zone_of_an_obstacle) {
+  const auto zone = [&](double lateral) {
+    TrialMonitor fresh{TrialMonitorConfig()};
+    fresh.start({});
+    return fresh.observe(near(1.0, "box", 2.0, lateral)).at(0).fields.get("zone");
+  };
+  EXPECT_EQ(zone(1.5), "left");
+  EXPECT_EQ(zone(-1.5), "right");
+  EXPECT_EQ(zone(0.9), "center");
+  EXPECT_EQ(zone(-1.0), "center");
+}
+
+TEST_F(Monitor, takes_a_shelf_as_near_within_one_meter_only) {
+  EXPECT_TRUE(monitor_.observe(near(11.0, "shelf", 1.05)).empty());
+  EXPECT_EQ(types(monitor_.observe(near(11.1, "shelf", 1.0))), Names{"PROXIMITY_ENTER"});
+  EXPECT_TRUE(monitor_.observe(near(12.0, "shelf", 1.05)).empty()) << "still within the margin";
+}
+
+TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
+  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
+            (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_EQ(monitor_.tally().first_path_length, 5.0);
+  const auto events = monitor_.observe(guidance(17.25, State::arrived, 2));
+  ASSERT_EQ(types(events), (Names{"GUIDANCE", "GOAL_REACHED"}));
+  EXPECT_EQ(events[1].fields.get("elapsed"), "7.250");
+  monitor_.end(monitor_.latest());
+  EXPECT_EQ(monitor_.observe(contact(17.2, 1, "shelf", 1, 0)).size(), 1u) << "late, but in time";
+  EXPECT_TRUE(monitor_.observe(contact(17.3, 2, "shelf", 2, 0)).empty()) << "the trial is over";
+}
+
+TEST_F(Monitor, wants_its_goal_set_again_where_guidance_was_started_anew) {
+  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
+            (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_TRUE(monitor_.goal_taken());
+  EXPECT_EQ(types(monitor_.observe(guidance(12.0, State::no_goal))), Names{"GUIDANCE"});
+  EXPECT_FALSE(monitor_.goal_taken());
+  EXPECT_EQ(types(monitor_.observe(guidance(13.0, State::following))), Names{"GUIDANCE"});
+  EXPECT_TRUE(monitor_.goal_taken());
+}
+
+TEST_F(Monitor, does_not_take_the_last_goals_arrival_for_its_own) {
+  TrialMonitor monitor{TrialMonitorConfig()};
+  (void)monitor.observe(guidance(9.9, State::arrived));
+  monitor.start({10 * kSecond, {5.0, 0.0}});
+  (void)monitor.observe(guidance(10.1, State::arrived, 2));
+  EXPECT_FALSE(monitor.reached());
+  auto fresh = guidance(10.2, State::arrived, 3);
+  fresh.plans = 2;
+  (void)monitor.observe(fresh);
+  EXPECT_TRUE(monitor.reached());
+}
+
+TEST_F(Monitor, does_not_take_another_goals_path_for_its_own) {
+  auto other = guidance(10.5, State::following);
+  other.goal = {1.0, 1.0};
+  EXPECT_TRUE(monitor_.observe(other).empty());
+  EXPECT_FALSE(monitor_.goal_taken());
+}
+
+TEST_F(Monitor, tells_a_refused_goal) {
+  auto refused = guidance(10.5, State::goal_refused);
+  refused.refusal = Guidance::Refusal::inside_obstacle;
+  EXPECT_EQ(types(monitor_.observe(refused)), (Names{"GUIDANCE", "GOAL_REFUSED"}));
+  EXPECT_EQ(monitor_.refused(), "inside_obstacle");
+}
+
+TEST_F(Monitor, counts_plans_after_the_first_even_where_a_message_was_lost) {
+  (void)monitor_.observe(guidance(10.5, State::following, 1));
+  auto later = guidance(11.0, State::following, 5);
+  later.plans = 4;
+  EXPECT_EQ(types(monitor_.observe(later)), Names{"REPLAN"});
+  EXPECT_EQ(monitor_.tally().replans, 3u);
+  EXPECT_EQ(monitor_.tally().missed_messages, 3u);
+}
+
+TEST_F(Monitor, goes_on_counting_plans_when_the_guidance_was_started_anew) {
+  (void)monitor_.observe(guidance(10.5, State::following, 1));
+  auto later = guidance(11.0, State::following, 2);
+  later.plans = 4;
+  (void)monitor_.observe(later);
+  auto anew = guidance(12.0, State::no_goal, 1);
+  anew.plans = 0;
+  (void)monitor_.observe(anew);
+  anew = guidance(12.5, State::following, 2);
+  anew.plans = 1;
+  EXPECT_EQ(types(monitor_.observe(anew)), (Names{"GUIDANCE", "REPLAN"}));
+  EXPECT_EQ(monitor_.tally().replans, 4u);
+}
+
+TEST_F(Monitor, takes_a_way_that_is_blocked_for_a_moment_for_a_way) {
+  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::blocked))), (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_TRUE(monitor_.goal_taken());
+}
+
+TEST_F(Monitor, measures_the_way_driven) {
+  for (int i = 0; i <= 10; ++i) {
+    (void)monitor_.observe(Odometry{(11 + i) * kSecond, {{0.5 * i, 0.0}}});
+  }
+  EXPECT_DOUBLE_EQ(monitor_.tally().path_length, 5.0);
+}
+
+TEST_F(Monitor, counts_being_stuck_once_a_cue) {
+  using navvi_types::CueStage;
+  const auto events = [this](std::uint32_t id, CueStage stage) {
+    CueEvent cue{id, stage, "stuck"};
+    cue.stamp = 11 * kSecond;
+    return monitor_.observe(cue).size();
+  };
+  EXPECT_EQ(events(7, CueStage::queued), 1u);
+  EXPECT_EQ(events(7, CueStage::started), 0u);
+  EXPECT_EQ(events(8, CueStage::dropped), 1u);
+  EXPECT_EQ(monitor_.tally().cues_spoken, 1u);
+}
+
+TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) {
+  const auto early = monitor_.observe(stopped(11));
+  ASSERT_EQ(early.size(), 1u);
+  EXPECT_EQ(early[0].fields.get("moved"), "no");
+  (void)monitor_.observe(DriveState{DriveState::State::running, {}, 0, 12 * kSecond});
+  (void)monitor_.observe(Odometry{12 * kSecond, {}});
+  (void)monitor_.observe(Odometry{13 * kSecond, {{0.2, 0.0}}});
+  EXPECT_EQ(monitor_.observe(stopped(14))[0].fields.get("moved"), "yes");
+}
+
+TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
+  EXPECT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
+  EXPECT_TRUE(monitor_.observe(stopped(12)).empty());
+  EXPECT_TRUE(monitor_.observe(DeviceReport{11 * kSecond, "pad", true}).empty());
+  EXPECT_EQ(types(monitor_.observe(DeviceReport{12 * kSecond, "pad", false})),
+            Names{"DEVICE_LOST"});
+  EXPECT_EQ(types(monitor_.observe(DeviceReport{13 * kSecond, "pad", true})), Names{"DEVICE_BACK"});
+}
+
+}  // namespace
+}  // namespace navvi_study::trial
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,57 @@
+#include "trial/trial_node_config.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+namespace navvi_study::trial {
+namespace {
+
+void refuse_control_characters(const char* name, const std::string& text) {
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); })) {
+    throw std::runtime_error(std::string(name) + " may hold no control characters");
+  }
+}
+
+/// Letters, digits, - and _, such as sub-01, so that names do not slip into the record.
+void refuse_all_but_pseudonyms(const std::string& text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '_';
+  });
+  if (text == "n/a" || (plain && !text.empty() && text.size() <= 32)) return;
+  throw std::runtime_error("participant is \"" + text +
+                           "\"; allowed are up to 32 letters, digits, - and _, such as sub-01");
+}
+
+}  // namespace
+
+void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Any;
+  using navvi_config::OneOf;
+  using navvi_config::Range;
+  visit({"out", Any{}, "", "folder that gets a folder for each trial"}, out);
+  visit({"limit", Range{0.0, 86400.0}, "s", "a trial ends after this much ROS time; 0 for never"},
+        limit);
+  visit({"patience", Range{0.0, 86400.0}, "s",
+         "give up where a single trial cannot begin, or no robot is there, for this long; 0: wait "
+         "for ever"},
+        patience);
+  visit({"operator", Any{}, "", "what drives, as it stands in the summary: pad, simulated, ..."},
+        operator_kind);
+  visit({"participant", Any{}, "", "a pseudonym for the record, such as sub-01"}, participant);
+  visit({"profile", Any{}, "", "of the session, as it stands in the summary"}, profile);
+  visit({"require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities"}, require);
+  visit({"once", Any{}, "", "end after one trial"}, once);
+  visit({"record", Any{}, "", "keep a bag of each trial"}, record);
+  visit({"tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words"}, tail);
+  visit.group("monitor", monitor);
+}
+
+void check(const TrialNodeConfig& config) {
+  refuse_control_characters("operator", config.operator_kind);
+  refuse_control_characters("profile", config.profile);
+  refuse_all_but_pseudonyms(config.participant);
+  if (config.out.empty()) throw std::runtime_error("out names no folder");
+}
+
+}  // namespace navvi_study::trial

@@ -1,0 +1,100 @@
+"""The house is as its plan says: rooms include only the rooms that CMakeLists.txt names, and never one above them."""
+import re
+from pathlib import Path
+
+import pytest
+
+SOURCES = Path(__file__).resolve().parent.parent / "navvi_ws" / "src"
+PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/CMakeLists.txt") if "navvi_room(" in path.read_text())
+MOST_ARROWS = {"navvi_nav": 30, "navvi_sim": 42}
+
+
+def rooms_of(package):
+    """The rooms in the order of CMakeLists.txt, each with the rooms that it may use."""
+    text = re.sub(r"#.*", "", (SOURCES / package / "CMakeLists.txt").read_text())
+    rooms = {}
+    for body in re.findall(r"navvi_room\(([^()]*(?:\$<[^>]*>[^()]*)*)\)", text):
+        words = body.split()
+        used, mode = [], None
+        for word in words[1:]:
+            if word.isupper() or word == "TEST_LINK":
+                mode = word
+            elif mode == "USES":
+                used.append(word)
+        rooms[words[0]] = used
+    return rooms
+
+
+def files_of(package):
+    """Product files of the rooms: (room, path)."""
+    folder = SOURCES / package
+    for path in sorted([*folder.glob("src/*/*.[ch]pp"), *folder.glob(f"include/{package}/*/*.hpp")]):
+        if not path.name.endswith("_test.cpp"):
+            yield path.parent.name, path
+
+
+def included_by(package, path):
+    """The rooms of the package whose headers a file includes."""
+    rooms = rooms_of(package)
+    for name in re.findall(rf'#include [<"](?:{package}/)?([a-z_]+)/[a-z_0-9]+\.hpp[>"]', path.read_text()):
+        if name in rooms:
+            yield name
+
+
+def arrows_of(package):
+    return {(room, other) for room, path in files_of(package) for other in included_by(package, path) if other != room}
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_room_includes_only_rooms_that_it_says_it_uses(package):
+    rooms = rooms_of(package)
+    undeclared = sorted(f"{room} -> {other}" for room, other in arrows_of(package) if other not in rooms[room])
+    assert not undeclared
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_room_uses_only_rooms_below_it(package):
+    floors = list(rooms_of(package))
+    upward = [f"{room} -> {used}" for room, uses in rooms_of(package).items() for used in uses
+              if floors.index(used) >= floors.index(room)]
+    assert not upward
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_what_a_room_says_it_uses_it_includes(package):
+    arrows = arrows_of(package)
+    idle = [f"{room} -> {used}" for room, uses in rooms_of(package).items() for used in uses if (room, used) not in arrows]
+    assert not idle
+
+
+@pytest.mark.parametrize("package", sorted(MOST_ARROWS))
+def test_a_large_package_stays_easy_to_draw(package):
+    assert len(arrows_of(package)) <= MOST_ARROWS[package]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_header_is_public_only_if_another_package_needs_it(package):
+    public = {f"{path.parent.name}/{path.name}": path for path in (SOURCES / package / "include" / package).glob("*/*.hpp")}
+    pattern = re.compile(rf'#include [<"]{package}/([a-z_]+/[a-z_0-9]+\.hpp)[>"]')
+    needed = set()
+    for other in SOURCES.iterdir():
+        if other.name != package:
+            for path in other.rglob("*.[ch]pp"):
+                needed |= set(pattern.findall(path.read_text()))
+    seen = set()
+    while needed - seen:
+        name = (needed - seen).pop()
+        seen.add(name)
+        if name in public:
+            needed |= set(pattern.findall(public[name].read_text()))
+    assert sorted(set(public) - needed) == []
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_room_has_a_namespace_of_its_own(package):
+    strangers = []
+    for room, path in files_of(package):
+        for name in re.findall(rf"^namespace ({package}(?:::[a-z_]+)?) \{{", path.read_text(), re.M):
+            if name not in (package, f"{package}::{room}") or (name == package and room not in ("description",)):
+                strangers.append(f"{path.name}: {name}")
+    assert strangers == []
