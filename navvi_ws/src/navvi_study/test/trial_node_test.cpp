@@ -19,6 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -154,7 +155,7 @@ class World {
       guidance.state =
           goal_x_ - x_ < 1.0 ? navvi_msgs::Guidance::ARRIVED : navvi_msgs::Guidance::FOLLOWING;
       guidance.goal.x = goal_x_;
-      guidance.goal_distance = goal_x_ - x_;
+      guidance.goal_distance = std::max(0.0, goal_x_ - x_);
       guidance.plans = 1 + (x_ > 1.0 ? 1 : 0);
       guidance.replan_reason = navvi_msgs::Guidance::PERIOD;
     }

@@ -129,7 +129,7 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   keeper_->take(kScenario, now());
   live(1.0);
   ASSERT_FALSE(goals_.empty());
-  EXPECT_EQ(goals_.front().x, 5.0);
+  EXPECT_EQ(goals_.front().x(), 5.0);
   ASSERT_GE(events_.size(), 2U);
   EXPECT_EQ(events_[0], "TRIAL_START");
   EXPECT_EQ(events_[1], "GOAL_SET");
