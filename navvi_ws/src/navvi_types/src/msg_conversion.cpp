@@ -12,21 +12,6 @@
 namespace navvi_types {
 namespace {
 
-// The constants of the messages are the numbers of the enumerations: the last of each shows that
-// none is missing, and the test compares the words.
-using GuidanceMsg = navvi_msgs::Guidance;
-using CueMsg = navvi_msgs::Cue;
-using DriveMsg = navvi_msgs::DriveState;
-constexpr bool is(std::size_t constant, std::size_t value) { return constant == value; }
-static_assert(is(GuidanceMsg::MAKE_ROOM, names(Guidance::State{}).size() - 1));
-static_assert(is(GuidanceMsg::UNREACHABLE, names(Guidance::Refusal{}).size() - 1));
-static_assert(is(GuidanceMsg::MAP_CHANGED, names(Guidance::Replan{}).size() - 1));
-static_assert(is(CueMsg::DROPPED, names(CueStage{}).size() - 1));
-static_assert(is(CueMsg::RUMBLE, names(Modality{}).size() - 1));
-static_assert(is(CueMsg::IMPORTANT, names(Priority{}).size() - 1));
-static_assert(is(DriveMsg::STOPPED, names(DriveState::State{}).size() - 1));
-static_assert(is(DriveMsg::COMMAND_INVALID, names(DriveState::Reason{}).size() - 1));
-
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 bool within(double value, double limit) { return within(value, -limit, limit); }
 

@@ -5,6 +5,9 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <sstream>
+#include <utility>
 
 #include "navvi_types/limits.hpp"
 
@@ -438,39 +441,59 @@ TEST(MsgConversion, AConstantThatIsNoneDropsItsMessage) {
   using G = navvi_msgs::Guidance;
   using C = navvi_msgs::Cue;
   using D = navvi_msgs::DriveState;
-  const auto expect_dropped = [](auto msg, auto member, std::uint8_t last) {
-    msg.*member = last;
+  const auto expect_dropped = [](auto msg, auto member, auto value) {
+    msg.*member = static_cast<std::uint8_t>(names(value).size() - 1);
     EXPECT_TRUE(from_msg(msg).has_value());
-    msg.*member = static_cast<std::uint8_t>(last + 1);
+    ++(msg.*member);
     EXPECT_FALSE(from_msg(msg).has_value());
   };
-  expect_dropped(guidance(), &G::state, G::MAKE_ROOM);
-  expect_dropped(guidance(), &G::refusal, G::UNREACHABLE);
-  expect_dropped(guidance(), &G::replan_reason, G::MAP_CHANGED);
-  expect_dropped(guidance(), &G::reroute_reason, G::MAP_CHANGED);
-  expect_dropped(cue(), &C::stage, C::DROPPED);
-  expect_dropped(cue(), &C::modality, C::RUMBLE);
-  expect_dropped(cue(), &C::priority, C::IMPORTANT);
-  expect_dropped(drive_state(), &D::state, D::STOPPED);
-  expect_dropped(drive_state(), &D::reason, D::COMMAND_INVALID);
+  expect_dropped(guidance(), &G::state, Guidance::State{});
+  expect_dropped(guidance(), &G::refusal, Guidance::Refusal{});
+  expect_dropped(guidance(), &G::replan_reason, Guidance::Replan{});
+  expect_dropped(guidance(), &G::reroute_reason, Guidance::Replan{});
+  expect_dropped(cue(), &C::stage, CueStage{});
+  expect_dropped(cue(), &C::modality, Modality{});
+  expect_dropped(cue(), &C::priority, Priority{});
+  expect_dropped(drive_state(), &D::state, DriveState::State{});
+  expect_dropped(drive_state(), &D::reason, DriveState::Reason{});
 }
 
-TEST(MsgConversion, EachWordIsTheNameOfItsConstant) {
-  using G = navvi_msgs::Guidance;
-  // Each constant and its word, as the definition of the message has them.
-#define EXPECT_WORD(Enum, constant, word) \
-  EXPECT_STREQ(to_string(static_cast<Enum>(std::uint8_t{G::constant})), word)
-  EXPECT_WORD(Guidance::State, NO_GOAL, "no_goal");
-  EXPECT_WORD(Guidance::State, FOLLOWING, "following");
-  EXPECT_WORD(Guidance::State, ARRIVED, "arrived");
-  EXPECT_WORD(Guidance::State, GOAL_REFUSED, "goal_refused");
-  EXPECT_WORD(Guidance::State, NO_ROUTE, "no_route");
-  EXPECT_WORD(Guidance::State, OFF_MESH, "off_mesh");
-  EXPECT_WORD(Guidance::State, NO_MAP, "no_map");
-  EXPECT_WORD(Guidance::State, POSE_STALE, "pose_stale");
-  EXPECT_WORD(Guidance::State, MAP_STALE, "map_stale");
-  EXPECT_WORD(Guidance::State, BLOCKED, "blocked");
-  EXPECT_WORD(Guidance::State, MAKE_ROOM, "make_room");
+/// The words of the constants that stand before `field` in the definition of a message.
+template <typename Msg>
+std::vector<std::string> constants_of(const std::string& field) {
+  static const std::regex kConstant("uint8 ([A-Z_]+)=([0-9]+).*");
+  std::istringstream definition(ros::message_traits::Definition<Msg>::value());
+  std::vector<std::string> words;
+  for (std::string line; std::getline(definition, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, kConstant)) {
+      EXPECT_EQ(std::stoul(match[2]), words.size()) << line;
+      words.push_back(match[1]);
+      for (char& letter : words.back()) letter = static_cast<char>(std::tolower(letter));
+    } else if (line.rfind("uint8 ", 0) == 0) {
+      if (line.substr(6, line.find(' ', 6) - 6) == field) return words;
+      words.clear();
+    }
+  }
+  ADD_FAILURE() << "there is no " << field;
+  return {};
+}
+
+TEST(MsgConversion, EachEnumerationHasTheConstantsOfItsMessage) {
+  const auto words = [](auto none) {
+    const auto all = names(none);
+    return std::vector<std::string>(all.begin(), all.end());
+  };
+  EXPECT_EQ(words(Guidance::State{}), constants_of<navvi_msgs::Guidance>("state"));
+  EXPECT_EQ(words(Guidance::Replan{}), constants_of<navvi_msgs::Guidance>("replan_reason"));
+  std::vector<std::string> refusals = constants_of<navvi_msgs::Guidance>("refusal");
+  EXPECT_EQ(std::exchange(refusals.at(0), "none"), "not_refused");
+  EXPECT_EQ(words(Guidance::Refusal{}), refusals);
+  EXPECT_EQ(words(CueStage{}), constants_of<navvi_msgs::Cue>("stage"));
+  EXPECT_EQ(words(Modality{}), constants_of<navvi_msgs::Cue>("modality"));
+  EXPECT_EQ(words(Priority{}), constants_of<navvi_msgs::Cue>("priority"));
+  EXPECT_EQ(words(DriveState::State{}), constants_of<navvi_msgs::DriveState>("state"));
+  EXPECT_EQ(words(DriveState::Reason{}), constants_of<navvi_msgs::DriveState>("reason"));
 }
 
 TEST(MsgConversion, AnUnknownClassIsOtherAndSoIsTheFloor) {

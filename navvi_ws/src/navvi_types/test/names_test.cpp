@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "navvi_types/drive_state.hpp"
 #include "navvi_types/guidance.hpp"
 
 namespace navvi_types {
@@ -14,7 +15,6 @@ TEST(Names, EachValueIsFoundAgainByItsWordAndByItsNumber) {
     EXPECT_EQ(from_number<ThingClass>(static_cast<std::uint8_t>(i)), thing);
   }
   EXPECT_STREQ(to_string(ThingClass::pallet_robot), "pallet_robot");
-  EXPECT_STREQ(to_string(Guidance::State::make_room), "make_room");
   EXPECT_STREQ(to_string(Guidance::Refusal::unreachable), "unreachable");
   EXPECT_STREQ(to_string(Guidance::Replan::map_changed), "map_changed");
 }
@@ -22,8 +22,8 @@ TEST(Names, EachValueIsFoundAgainByItsWordAndByItsNumber) {
 TEST(Names, AnotherWordOrNumberIsNothing) {
   EXPECT_FALSE(from_word<ThingClass>("dragon"));
   EXPECT_FALSE(from_word<ThingClass>(""));
-  EXPECT_FALSE(from_number<Guidance::State>(11));
-  EXPECT_FALSE(from_number<Guidance::State>(255));
+  EXPECT_FALSE(from_number<DriveState::State>(3));
+  EXPECT_FALSE(from_number<DriveState::State>(255));
 }
 
 }  // namespace
