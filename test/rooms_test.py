@@ -94,7 +94,8 @@ def test_a_header_is_public_only_if_another_package_needs_it(package):
 def test_a_room_has_a_namespace_of_its_own(package):
     strangers = []
     for room, path in files_of(package):
-        for name in re.findall(rf"^namespace ({package}(?:::[a-z_]+)?) \{{", path.read_text(), re.M):
-            if name not in (package, f"{package}::{room}") or (name == package and room not in ("description",)):
-                strangers.append(f"{path.name}: {name}")
+        names = set(re.findall(rf"^namespace ({package}(?:::[a-z_]+)?) \{{", path.read_text(), re.M))
+        own = {package} if room == "description" else {f"{package}::{room}"}
+        if names and not own <= names <= own | {package}:
+            strangers.append(f"{room}/{path.name}: {sorted(names)}")
     assert strangers == []

@@ -1,13 +1,26 @@
 #include "navvi_nav/mesh/components.hpp"
 
 namespace navvi_nav::mesh {
+namespace {
+
+std::size_t slot(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+int DisjointSets::root(int node) {
+  while (parents_[slot(node)] != node) {
+    parents_[slot(node)] = parents_[slot(parents_[slot(node)])];
+    node = parents_[slot(node)];
+  }
+  return node;
+}
 
 void Components::number(Mesh& mesh) {
-  int next_component = 0;
+  next_ = 0;
   for (Polygon& polygon : mesh.polygons) polygon.component = -1;
   for (std::size_t seed = 0; seed < mesh.polygons.size(); ++seed) {
     if (mesh.polygons[seed].component >= 0) continue;
-    mesh.polygons[seed].component = next_component;
+    mesh.polygons[seed].component = next_;
     waiting_.push_back(static_cast<int>(seed));
     while (!waiting_.empty()) {
       const auto at = static_cast<std::size_t>(waiting_.back());
@@ -15,12 +28,59 @@ void Components::number(Mesh& mesh) {
       for (const Portal& portal : mesh.polygons[at].portals) {
         Polygon& next = mesh.polygons[static_cast<std::size_t>(portal.to)];
         if (next.component >= 0) continue;
-        next.component = next_component;
+        next.component = next_;
         waiting_.push_back(portal.to);
       }
     }
-    ++next_component;
+    ++next_;
   }
+}
+
+void Components::update(Mesh& mesh, const std::vector<Changed>& changed) {
+  bool kept = false;
+  if (3 * changed.size() <= mesh.polygons.size()) {
+    groups_.grow(mesh.polygons.size());
+    for (const Changed& here : changed) groups_.add(here.polygon);
+    for (const Changed& here : changed) {
+      for (const Portal& portal : mesh.polygon(here.polygon).portals) {
+        if (groups_.has(portal.to)) groups_.unite(here.polygon, portal.to);
+      }
+    }
+    kept = label(mesh, changed);
+    for (const Changed& here : changed) groups_.remove(here.polygon);
+  }
+  if (!kept) number(mesh);
+}
+
+/// \returns false if a component may have been split or joined
+bool Components::label(Mesh& mesh, const std::vector<Changed>& changed) {
+  witnesses_.clear();
+  labels_.resize(mesh.polygons.size());
+  for (const Changed& here : changed) {
+    labels_[slot(here.polygon)] = -1;
+    if (!here.fresh)
+      witnesses_.push_back(
+          {here.region, mesh.polygon(here.polygon).component, groups_.root(here.polygon)});
+  }
+  std::sort(witnesses_.begin(), witnesses_.end(), [](const Witness& a, const Witness& b) {
+    return a.region != b.region ? a.region < b.region : a.component < b.component;
+  });
+  for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+    const Witness& here = witnesses_[i];
+    if (i > 0 && witnesses_[i - 1].region == here.region &&
+        witnesses_[i - 1].component == here.component && witnesses_[i - 1].group != here.group)
+      return false;  // perhaps split
+    int& component = labels_[slot(here.group)];
+    if (component >= 0 && component != here.component) return false;  // joined
+    component = here.component;
+  }
+  for (const Changed& here : changed) {
+    if (!here.fresh) continue;
+    int& component = labels_[slot(groups_.root(here.polygon))];
+    if (component < 0) component = next_++;
+    mesh.polygons[slot(here.polygon)].component = component;
+  }
+  return true;
 }
 
 }  // namespace navvi_nav::mesh

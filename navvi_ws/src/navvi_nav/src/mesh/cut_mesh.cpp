@@ -193,16 +193,20 @@ void CutMesh::remove(int number) {
 int CutMesh::update() {
   const auto count = static_cast<int>(bases_.touched().size());
   if (count == 0) return 0;
+  recut();
+  non_manifold_.split(mesh_, pool_, changed_);
+  bases_.settle();
+  shrink();
+  return count;
+}
+
+void CutMesh::recut() {
   begin();
   bases_.find_borders();
   for (const int base : bases_.borders()) keep_portals(base, false);
   for (const int base : bases_.touched()) cut(base);
   connect();
-  non_manifold_.split(mesh_, pool_, changed_);
-  bases_.settle();
-  shrink();
-  components_.number(mesh_);
-  return count;
+  keep_components();
 }
 
 void CutMesh::begin() {
@@ -339,6 +343,22 @@ void CutMesh::connect() {
   }
 }
 
+void CutMesh::keep_components() {
+  regions_.grow(bases_.size());
+  for (const int base : bases_.touched()) regions_.add(base);
+  for (const int base : bases_.borders()) regions_.add(base);
+  for (const int base : bases_.touched()) {
+    for (const BasePolygon::Neighbour& next : bases_[base].neighbours)
+      regions_.unite(base, next.base);
+  }
+  changed_components_.clear();
+  for (const int index : changed_) {
+    const int base = pieces_[slot(index)].base;
+    changed_components_.push_back({index, bases_.is_touched(base), regions_.root(base)});
+  }
+  components_.update(mesh_, changed_components_);
+}
+
 /// Without holes the mesh is as it was before the first one.
 void CutMesh::shrink() {
   if (free_pieces_.size() + bases_.size() == pieces_.size()) {
@@ -346,7 +366,9 @@ void CutMesh::shrink() {
     mesh_.polygons.resize(bases_.size());
     free_pieces_.clear();
   }
-  if (pool_.in_use() == own_vertices_) pool_.shrink(mesh_.vertices, vertices_end_);
+  if (pool_.in_use() != own_vertices_) return;
+  pool_.shrink(mesh_.vertices, vertices_end_);
+  components_.number(mesh_);
 }
 
 Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {

@@ -18,7 +18,7 @@ namespace navvi_nav::mesh {
 /// holes leave of them. When a hole changes, each base polygon that it reaches is cut again from
 /// the whole, so a floor without holes is exactly the floor that was given, whatever happened
 /// before. Only these polygons and their neighbours are visited: the cost follows what changed, not
-/// the size of the floor. The components alone are numbered over the whole mesh.
+/// the size of the floor.
 class CutMesh {
  public:
   CutMesh() = default;
@@ -72,7 +72,9 @@ class CutMesh {
   void clear_pieces(int base);
   void add_piece(int base, const ExactPolygon& shape);
   int free_slot(int base);
+  void recut();
   void connect();
+  void keep_components();
   void shrink();
 
   double unit_ = 1.0;   // m
@@ -95,6 +97,8 @@ class CutMesh {
   std::vector<int> near_edges_;
   std::vector<const Hole*> holes_;
   std::vector<SidePortal> side_portals_;  // of changed polygons
+  DisjointSets regions_;                  // of touched base polygons and their neighbours
+  std::vector<Components::Changed> changed_components_;
   EdgeMatcher matcher_;
   Cutter cutter_;
 };
