@@ -9,12 +9,12 @@ int pick(std::mt19937& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
 }
 
-GridPolygon rectangle(int x0, int y0, int x1, int y1) {
+mesh::GridPolygon rectangle(int x0, int y0, int x1, int y1) {
   return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
 }
 
 /// A rectangle as one, two or four polygons.
-void add_split(std::vector<GridPolygon>& out, int x0, int y0, int x1, int y1,
+void add_split(std::vector<mesh::GridPolygon>& out, int x0, int y0, int x1, int y1,
                std::mt19937& random) {
   const int x = pick(random, x0, x1);
   const int y = pick(random, y0, y1);
@@ -55,7 +55,7 @@ void GridWorld::fill(int x, int y, int width, int height, CellKind kind) {
   }
 }
 
-std::vector<GridPolygon> GridWorld::polygons(std::uint32_t seed) const {
+std::vector<mesh::GridPolygon> GridWorld::polygons(std::uint32_t seed) const {
   std::mt19937 random(seed);
   std::vector<char> taken(cells_.size(), 0);
   std::vector<std::size_t> order(cells_.size());
@@ -73,7 +73,7 @@ std::vector<GridPolygon> GridWorld::polygons(std::uint32_t seed) const {
     }
     return true;
   };
-  std::vector<GridPolygon> out;
+  std::vector<mesh::GridPolygon> out;
   for (const std::size_t index : order) {
     const int x = static_cast<int>(index) % columns_;
     const int y = static_cast<int>(index) / columns_;

@@ -16,13 +16,13 @@ int sign(double value) { return value > kNear ? 1 : value < -kNear ? -1 : 0; }
 
 }  // namespace
 
-VisibilityGraph::VisibilityGraph(const Mesh& mesh) : mesh_(mesh) {
+VisibilityGraph::VisibilityGraph(const mesh::Mesh& mesh) : mesh_(mesh) {
   around_.resize(mesh.vertices.size());
   std::vector<std::vector<Point>> in(mesh.vertices.size()), out(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
-    const Polygon& polygon = mesh.polygons[i];
+    const mesh::Polygon& polygon = mesh.polygons[i];
     std::set<std::pair<int, int>> open;
-    for (const Portal& portal : polygon.portals) open.insert({portal.right, portal.left});
+    for (const mesh::Portal& portal : polygon.portals) open.insert({portal.right, portal.left});
     for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
       const int from = polygon.corners[k];
       const int to = polygon.corners[(k + 1) % polygon.corners.size()];
@@ -50,7 +50,7 @@ VisibilityGraph::VisibilityGraph(const Mesh& mesh) : mesh_(mesh) {
 }
 
 bool VisibilityGraph::inside(Point point) const {
-  for (const Polygon& polygon : mesh_.polygons) {
+  for (const mesh::Polygon& polygon : mesh_.polygons) {
     bool in = polygon.corners.size() > 2;
     for (std::size_t k = 0; in && k < polygon.corners.size(); ++k) {
       const Point a = mesh_.at(polygon.corners[k]);
@@ -142,7 +142,8 @@ std::vector<double> VisibilityGraph::reach(Point from) const {
   return out;
 }
 
-std::optional<double> VisibilityGraph::distance(const Mesh::Place& start, const Mesh::Place& goal) {
+std::optional<double> VisibilityGraph::distance(const mesh::Mesh::Place& start,
+                                                const mesh::Mesh::Place& goal) {
   if (mesh_.polygon(start.polygon).component != mesh_.polygon(goal.polygon).component)
     return std::nullopt;
   if (visible(start.point, goal.point)) return navvi_nav::distance(start.point, goal.point);

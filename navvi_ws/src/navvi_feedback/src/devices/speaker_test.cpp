@@ -201,9 +201,9 @@ TEST(SpeechChannel, LetsASafetyCueBeHeardAndGivesEveryCueItsEnd) {
 }  // namespace navvi_feedback::devices
 
 int main(int argc, char** argv) {
-  navvi_feedback::record_what_is_heard();
+  navvi_feedback::devices::record_what_is_heard();
   testing::InitGoogleTest(&argc, argv);
   const int result = RUN_ALL_TESTS();
-  std::filesystem::remove_all(navvi_feedback::recording().parent_path());
+  std::filesystem::remove_all(navvi_feedback::devices::recording().parent_path());
   return result;
 }

@@ -43,11 +43,11 @@ class MovingThings : public Lockstep {
   Drive drive_among(const std::function<Cylinder(double)>& thing, double longest) {
     Drive out;
     double elapsed = 0.0;
-    while (status().state != State::arrived && elapsed < longest) {
+    while (status().state != plan::State::arrived && elapsed < longest) {
       elapsed += kTick;
       obstacles_ = {thing(elapsed)};
       const Status now = status();
-      const bool drives = now.state == State::following;
+      const bool drives = now.state == plan::State::following;
       speed_ = drives ? kPace : 0.0;
       const double x = robot_.position.x;
       if (drives)
@@ -55,15 +55,15 @@ class MovingThings : public Lockstep {
       else
         tick();
       out.backwards += std::max(0.0, x - robot_.position.x);
-      out.waited += now.state == State::blocked ? kTick : 0.0;
-      out.lost += now.state == State::no_route ? kTick : 0.0;
+      out.waited += now.state == plan::State::blocked ? kTick : 0.0;
+      out.lost += now.state == plan::State::no_route ? kTick : 0.0;
       const double gap =
           distance(robot_.position, obstacles_[0].center) - obstacles_[0].radius - 0.35;
       out.least = std::min(out.least, gap);
       if (status().reroutes > out.reroutes && out.reroutes == 0) out.rerouted = gap;
       out.reroutes = std::max(out.reroutes, status().reroutes);
     }
-    EXPECT_EQ(status().state, State::arrived);
+    EXPECT_EQ(status().state, plan::State::arrived);
     return out;
   }
 };
@@ -152,12 +152,12 @@ TEST_F(MovingThings, a_way_that_is_closed_for_good_is_told_and_found_again) {
   robot_.position = {5.9, 8};
   obstacles_ = {{1, {10, 1.7}, 1.6, {}}, {2, {10, 8}, 1.4, {}}, {3, {10, 14.3}, 1.6, {}}};
   tick(200);
-  EXPECT_EQ(status().state, State::blocked);
+  EXPECT_EQ(status().state, plan::State::blocked);
   ASSERT_TRUE(status().blocked);
   EXPECT_EQ(status().blocked->by, 2U);
   obstacles_.pop_back();
   tick(60);
-  EXPECT_EQ(status().state, State::following);
+  EXPECT_EQ(status().state, plan::State::following);
   EXPECT_GT(navigator_.path()[1].y, 8.0);
 }
 
@@ -199,8 +199,8 @@ class OpenHall : public Lockstep {
     for (double elapsed = 0.0; elapsed < seconds; elapsed += kTick) {
       things_ = {forklift_at(elapsed)};
       const Status now = status();
-      const bool drives = now.state == State::following;
-      out.waited += now.state == State::blocked ? kTick : 0.0;
+      const bool drives = now.state == plan::State::following;
+      out.waited += now.state == plan::State::blocked ? kTick : 0.0;
       speed_ = drives ? kPace : 0.0;
       if (drives)
         drive(kPace * kTick);
@@ -246,7 +246,7 @@ TEST_F(OpenHall, a_forklift_that_crosses_right_before_the_robot_is_waited_for) {
     EXPECT_GT(drive.waited, 0.5) << start;
     EXPECT_LT(drive.waited, 6.0) << start;
     EXPECT_GT(drive.least, 0.1) << start;
-    EXPECT_EQ(status().state, State::following);
+    EXPECT_EQ(status().state, plan::State::following);
   }
 }
 
@@ -272,7 +272,7 @@ TEST_F(OpenHall, nobody_is_told_to_wait_for_what_comes_from_behind_but_led_out_o
     double waited = 0.0;
     for (double elapsed = 0.0; elapsed < 12.0; elapsed += kTick) {
       obstacles_ = {{3, {10 - 1.25 - behind + 1.5 * elapsed, 8}, 0.9, {1.5, 0}}};
-      const bool waits = status().state == State::blocked;
+      const bool waits = status().state == plan::State::blocked;
       waited += waits ? kTick : 0.0;
       speed_ = waits ? 0.0 : kPace;
       if (waits)
@@ -310,7 +310,7 @@ TEST_F(ClosedCorridor, what_crosses_is_waited_for_though_the_way_is_closed_farth
     for (double elapsed = 0.0; elapsed < 25.0; elapsed += kTick) {
       obstacles_ = {{1, {24, 8}, 1.4, {}},
                     {2, {13.5, 14.5 - 1.5 * (elapsed - delay)}, 0.8, {0, -1.5}}};
-      const bool drives = status().state == State::following;
+      const bool drives = status().state == plan::State::following;
       speed_ = drives ? kPace : 0.0;
       if (drives)
         drive(kPace * kTick);
@@ -341,21 +341,21 @@ TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_pas
   double waited = 0.0;  // s, told to wait
   double elapsed = 0.0;
   bool named = true;
-  while (status().state != State::arrived && elapsed < 120.0) {
+  while (status().state != plan::State::arrived && elapsed < 120.0) {
     elapsed += kTick;
     const Status now = status();
     named = named && (!now.blocked || now.blocked->by == 9U);
-    away += now.state == State::make_room ? kTick : 0.0;
-    waited += now.state == State::blocked ? kTick : 0.0;
-    EXPECT_NE(now.state, State::no_route);
-    EXPECT_NE(now.state, State::off_mesh);
+    away += now.state == plan::State::make_room ? kTick : 0.0;
+    waited += now.state == plan::State::blocked ? kTick : 0.0;
+    EXPECT_NE(now.state, plan::State::no_route);
+    EXPECT_NE(now.state, plan::State::off_mesh);
     // It goes on while the robot is 0.4 m off its straight way, and leaves by the lower left.
     const Point at = robot_.position;
     const bool clear = std::abs(at.y - 4.0) > 0.55 + 0.35 || at.x > x || at.x < x - 1.2 - 0.75;
     if (clear && x > -30.0) x -= 0.6 * kTick;
     things_ = {forklift({x, 4.0}, M_PI, clear ? 0.6 : 0.0)};
     if (x < 3.0) things_.clear();
-    const bool drives = now.state == State::following || now.state == State::make_room;
+    const bool drives = now.state == plan::State::following || now.state == plan::State::make_room;
     speed_ = drives ? kPace : 0.0;
     if (drives) {
       drive(kPace * kTick);
@@ -363,7 +363,7 @@ TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_pas
       tick();
     }
   }
-  EXPECT_EQ(status().state, State::arrived);
+  EXPECT_EQ(status().state, plan::State::arrived);
   EXPECT_TRUE(named);
   EXPECT_GT(away, 2.0);
   EXPECT_GT(waited, 10.0);
@@ -375,16 +375,16 @@ TEST_F(NarrowAisle, what_crosses_is_waited_for_on_the_way_aside_too) {
   bool waited = false;
   for (double elapsed = 0.0; elapsed < 40.0; elapsed += kTick) {
     const Status now = status();
-    if (now.state == State::make_room && robot_.position.x < 6.9 && !since) since = elapsed;
+    if (now.state == plan::State::make_room && robot_.position.x < 6.9 && !since) since = elapsed;
     things_ = {forklift({12.0, 4.0}, M_PI)};
     obstacles_.clear();
     if (since) {
       const double y = 7.5 - 1.5 * (elapsed - *since);
       if (y > -3.0) obstacles_ = {{2, {4.2, y}, 0.6, {0, -1.5}}};
       least = std::min(least, distance(robot_.position, {4.2, y}) - 0.6 - 0.35);
-      waited = waited || (now.state == State::blocked && now.blocked->by == 2U);
+      waited = waited || (now.state == plan::State::blocked && now.blocked->by == 2U);
     }
-    const bool drives = now.state == State::following || now.state == State::make_room;
+    const bool drives = now.state == plan::State::following || now.state == plan::State::make_room;
     speed_ = drives ? kPace : 0.0;
     if (drives)
       drive(kPace * kTick);
@@ -400,10 +400,10 @@ TEST_F(NarrowAisle, a_robot_within_the_circle_of_a_forklift_is_led_out_of_it) {
   robot_.position = {4.2, 3.4};  // within 1.35 m and the robot's radius of it
   navigator_.set_goal({20, 4});
   tick(20);
-  EXPECT_EQ(status().state, State::following);
+  EXPECT_EQ(status().state, plan::State::following);
   robot_.position = {4.15, 3.2};  // beside it, within the hole of the row
   tick(60);
-  EXPECT_EQ(status().state, State::following);
+  EXPECT_EQ(status().state, plan::State::following);
 }
 
 }  // namespace

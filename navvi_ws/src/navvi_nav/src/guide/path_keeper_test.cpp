@@ -166,11 +166,11 @@ TEST_F(Holding, tells_to_wait_until_it_has_been_clear_for_a_while) {
 
 TEST_F(Holding, names_what_closes_the_only_path_once_it_is_near_or_comes) {
   const PathKeeper keeper(config_);
-  using plan::State = Conflict::State;
-  EXPECT_FALSE(keeper.blocker(std::nullopt, plan::State::oncoming));
-  EXPECT_FALSE(keeper.blocker(Conflict::Cut{7, 5.0}, plan::State::stationary));
-  EXPECT_TRUE(keeper.blocker(Conflict::Cut{7, 5.0}, plan::State::oncoming));
-  const auto near = keeper.blocker(Conflict::Cut{7, 2.5}, plan::State::stationary);
+  using State = Conflict::State;
+  EXPECT_FALSE(keeper.blocker(std::nullopt, State::oncoming));
+  EXPECT_FALSE(keeper.blocker(Conflict::Cut{7, 5.0}, State::stationary));
+  EXPECT_TRUE(keeper.blocker(Conflict::Cut{7, 5.0}, State::oncoming));
+  const auto near = keeper.blocker(Conflict::Cut{7, 2.5}, State::stationary);
   ASSERT_TRUE(near);
   EXPECT_EQ(near->by, 7U);
   EXPECT_EQ(near->at, 2.5);

@@ -132,19 +132,19 @@ TEST(MsgConversion, agrees_with_the_message_on_every_state_refusal_and_reason) {
   status.state = plan::State::pose_stale;
   status.refusal = plan::Refusal::unreachable;
   status.reason = plan::Reason::map_changed;
-  const guide::Guidance msg = to_msg(status, 0.0, "map", ros::Time(1));
-  EXPECT_EQ(msg.state, guide::Guidance::POSE_STALE);
-  EXPECT_EQ(msg.refusal, guide::Guidance::UNREACHABLE);
-  EXPECT_EQ(msg.replan_reason, guide::Guidance::MAP_CHANGED);
+  const Guidance msg = to_msg(status, 0.0, "map", ros::Time(1));
+  EXPECT_EQ(msg.state, Guidance::POSE_STALE);
+  EXPECT_EQ(msg.refusal, Guidance::UNREACHABLE);
+  EXPECT_EQ(msg.replan_reason, Guidance::MAP_CHANGED);
   EXPECT_EQ(msg.mesh_age, -1.0);
   EXPECT_EQ(msg.map_age, -1.0);
   EXPECT_EQ(msg.blocked_for, 0.0);
-  EXPECT_EQ(static_cast<int>(plan::State::off_mesh), guide::Guidance::OFF_MESH);
-  EXPECT_EQ(static_cast<int>(plan::State::map_stale), guide::Guidance::MAP_STALE);
-  EXPECT_EQ(static_cast<int>(plan::State::blocked), guide::Guidance::BLOCKED);
-  EXPECT_EQ(static_cast<int>(plan::State::make_room), guide::Guidance::MAKE_ROOM);
-  EXPECT_EQ(static_cast<int>(plan::Refusal::inside_obstacle), guide::Guidance::INSIDE_OBSTACLE);
-  EXPECT_EQ(static_cast<int>(plan::Reason::waypoint_blocked), guide::Guidance::WAYPOINT_BLOCKED);
+  EXPECT_EQ(static_cast<int>(plan::State::off_mesh), Guidance::OFF_MESH);
+  EXPECT_EQ(static_cast<int>(plan::State::map_stale), Guidance::MAP_STALE);
+  EXPECT_EQ(static_cast<int>(plan::State::blocked), Guidance::BLOCKED);
+  EXPECT_EQ(static_cast<int>(plan::State::make_room), Guidance::MAKE_ROOM);
+  EXPECT_EQ(static_cast<int>(plan::Refusal::inside_obstacle), Guidance::INSIDE_OBSTACLE);
+  EXPECT_EQ(static_cast<int>(plan::Reason::waypoint_blocked), Guidance::WAYPOINT_BLOCKED);
 }
 
 }  // namespace

@@ -33,12 +33,12 @@ Path path_between(const mesh::Mesh& mesh, Point start, Point goal) {
   return search.find(mesh, *from, *to).path;
 }
 
-TEST(mesh::Mesh, of_no_triangles_locates_nothing) {
+TEST(Mesh, of_no_triangles_locates_nothing) {
   EXPECT_FALSE(mesh::Mesh{}.locate({0, 0}, 100.0));
   EXPECT_TRUE(mesh::join({}, 0.05).polygons.empty());
 }
 
-TEST(mesh::Mesh, connects_triangles_that_share_only_a_part_of_an_edge) {
+TEST(Mesh, connects_triangles_that_share_only_a_part_of_an_edge) {
   const mesh::Mesh mesh =
       mesh::join({triangle(0, 0, 4, 0, 0, 4), triangle(1, 0, 0, -2, 3, 0)}, 0.5);
   ASSERT_EQ(mesh.polygons[0].portals.size(), 1U);
@@ -48,14 +48,14 @@ TEST(mesh::Mesh, connects_triangles_that_share_only_a_part_of_an_edge) {
   EXPECT_EQ(mesh.at(portal.right), (Point{0.5, 0}));
 }
 
-TEST(mesh::Mesh, makes_the_end_of_a_link_a_corner_of_both_polygons) {
+TEST(Mesh, makes_the_end_of_a_link_a_corner_of_both_polygons) {
   const mesh::Mesh mesh =
       mesh::join({{{{0, 0}, {4, 0}, {4, 2}, {0, 2}}}, {{{1, 2}, {3, 2}, {2, 4}}}}, 1.0);
   EXPECT_EQ(mesh.outline(0), (Path{{0, 0}, {4, 0}, {4, 2}, {3, 2}, {1, 2}, {0, 2}}));
   EXPECT_EQ(mesh.outline(1), (Path{{1, 2}, {3, 2}, {2, 4}}));
 }
 
-TEST(mesh::Mesh, knows_where_a_path_may_turn) {
+TEST(Mesh, knows_where_a_path_may_turn) {
   // An L of three squares, its long side in one piece, with the square above split by a T.
   const mesh::Mesh mesh =
       mesh::join({{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}}, 1.0);
@@ -63,7 +63,7 @@ TEST(mesh::Mesh, knows_where_a_path_may_turn) {
     EXPECT_EQ(vertex.corner, vertex.at == (Point{1, 1})) << vertex.at.x << " " << vertex.at.y;
 }
 
-TEST(mesh::Mesh, takes_neither_open_floor_nor_a_straight_wall_for_a_corner) {
+TEST(Mesh, takes_neither_open_floor_nor_a_straight_wall_for_a_corner) {
   std::vector<mesh::GridPolygon> squares;
   for (int x = 0; x < 3; ++x) {
     for (int y = 0; y < 3; ++y)
@@ -72,7 +72,7 @@ TEST(mesh::Mesh, takes_neither_open_floor_nor_a_straight_wall_for_a_corner) {
   for (const mesh::Vertex& vertex : mesh::join(squares, 0.05).vertices) EXPECT_FALSE(vertex.corner);
 }
 
-TEST(mesh::Mesh, gives_each_side_of_a_non_manifold_vertex_its_own) {
+TEST(Mesh, gives_each_side_of_a_non_manifold_vertex_its_own) {
   const auto square = [](int x, int y) {
     return mesh::GridPolygon{{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
   };
@@ -88,13 +88,13 @@ TEST(mesh::Mesh, gives_each_side_of_a_non_manifold_vertex_its_own) {
   EXPECT_EQ(there, 2);
 }
 
-TEST(mesh::Mesh, does_not_link_triangles_that_touch_in_a_point) {
+TEST(Mesh, does_not_link_triangles_that_touch_in_a_point) {
   const mesh::Mesh mesh = mesh::join({triangle(0, 0, 1, 0, 0, 1), triangle(1, 0, 2, 0, 2, 1)}, 1.0);
   EXPECT_TRUE(mesh.polygons[0].portals.empty());
   EXPECT_NE(mesh.polygons[0].component, mesh.polygons[1].component);
 }
 
-TEST(mesh::Mesh, locates_the_nearest_point_within_reach_only) {
+TEST(Mesh, locates_the_nearest_point_within_reach_only) {
   const mesh::Mesh mesh = mesh::join({triangle(0, 0, 2, 0, 0, 2)}, 1.0);
   EXPECT_TRUE(mesh.locate({0.5, 0.5}, 0.0));
   EXPECT_FALSE(mesh.locate({1, -1}, 0.9));

@@ -10,14 +10,14 @@ namespace {
 /// A hall with a pillar on the straight way through it.
 class Pillar : public testing::Test {
  protected:
-  Pillar() : mesh_(NavMeshConfig{}), channel_(below_, hall(), room_) {}
+  Pillar() : mesh_(plan::NavMeshConfig{}), channel_(below_, hall(), room_) {}
   map::Space hall() {
     SmallWorld world;
     world.room(12, 8).box(5.8, 3.8, 0, 6.2, 4.2, 1.0);
     EXPECT_EQ(mesh_.set_map(world.voxels()).error, "");
     return mesh_.space();
   }
-  NavMesh mesh_;
+  plan::NavMesh mesh_;
   Room room_;
   const Path below_{{2, 4}, {5.7, 3.4}, {6.3, 3.4}, {10, 4}};
   const Channel channel_;

@@ -26,7 +26,7 @@ class LayoutFile : public testing::Test {
     return (folder_ / "hall.yaml").string();
   }
   WorldDescription world(const std::string& text) const {
-    return setup::load_world(write(text), "", 1, {}).world;
+    return read::load_world(write(text), "", 1, {}).world;
   }
   std::string sentence_of(const std::string& text) const {
     try {
@@ -50,20 +50,20 @@ TEST_F(LayoutFile, starts_from_its_preset_and_changes_what_it_names) {
   EXPECT_EQ(source.config.pallet_robots, preset("busy")->pallet_robots);
   EXPECT_EQ(world("preset: busy").name, "hall");
   EXPECT_EQ(world("layout:\n  length: 34\n").things.size(),
-            setup::load_world("easy", "", 1, {}).world.things.size());
+            read::load_world("easy", "", 1, {}).world.things.size());
 }
 
 TEST_F(LayoutFile, depends_on_the_seed_as_a_preset_does) {
   const std::string file = write("preset: narrow\nname: narrow\n");
-  EXPECT_EQ(world_hash(setup::load_world(file, "", 4, {}).world),
-            world_hash(setup::load_world("narrow", "", 4, {}).world));
-  EXPECT_NE(world_hash(setup::load_world(file, "", 4, {}).world),
-            world_hash(setup::load_world(file, "", 5, {}).world));
+  EXPECT_EQ(world_hash(read::load_world(file, "", 4, {}).world),
+            world_hash(read::load_world("narrow", "", 4, {}).world));
+  EXPECT_NE(world_hash(read::load_world(file, "", 4, {}).world),
+            world_hash(read::load_world(file, "", 5, {}).world));
 }
 
 TEST_F(LayoutFile, has_workers_who_stand_where_all_are_told_to) {
   for (const char* name : {"busy", "warehouse"})
-    for (const Thing& thing : setup::load_world(name, "", 1, read::Workers::standing).world.things)
+    for (const Thing& thing : read::load_world(name, "", 1, read::Workers::standing).world.things)
       EXPECT_FALSE(thing.thing_class == ThingClass::worker && thing.route) << thing.name;
 }
 

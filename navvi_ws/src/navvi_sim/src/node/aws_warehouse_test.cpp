@@ -18,7 +18,7 @@ class AwsWarehouse : public testing::Test {
                                        "worlds/aws_small_warehouse/no_roof_small_warehouse.world";
     if (!std::filesystem::exists(file))
       GTEST_SKIP() << "the world " << file << " is not on this machine";
-    loaded_ = setup::load_world(file.string(), "", 1, {});
+    loaded_ = read::load_world(file.string(), "", 1, {});
   }
   read::LoadedWorld loaded_;
 };
@@ -27,9 +27,9 @@ TEST_F(AwsWarehouse, has_all_models_at_their_size) {
   const WorldDescription& world = loaded_.world;
   EXPECT_EQ(world.things.size(), 25U);
   const auto size_of = [&](const std::string& name) -> Eigen::Vector3d {
-    const Thing* thing = thing_named(world, "aws_robomaker_warehouse_" + name);
+    const Thing* thing = read::thing_named(world, "aws_robomaker_warehouse_" + name);
     if (!thing) return Eigen::Vector3d::Zero();
-    return bounds(*thing).sizes();
+    return read::bounds(*thing).sizes();
   };
   EXPECT_LT((size_of("WallB_01_001") - Eigen::Vector3d(14.0, 20.9, 9.0)).norm(), 0.1);
   EXPECT_LT((size_of("ShelfD_01_001") - Eigen::Vector3d(3.92, 0.88, 2.61)).norm(), 0.1);
@@ -40,10 +40,10 @@ TEST_F(AwsWarehouse, has_all_models_at_their_size) {
 }
 
 TEST_F(AwsWarehouse, has_the_floor_where_its_ground_mesh_is_level) {
-  const Thing* ground = thing_named(loaded_.world, "aws_robomaker_warehouse_GroundB_01_001");
+  const Thing* ground = read::thing_named(loaded_.world, "aws_robomaker_warehouse_GroundB_01_001");
   ASSERT_NE(ground, nullptr);
   EXPECT_EQ(ground->thing_class, ThingClass::floor);
-  EXPECT_NEAR(loaded_.world.floor_height, bounds(*ground).max().z(), 0.01);
+  EXPECT_NEAR(loaded_.world.floor_height, read::bounds(*ground).max().z(), 0.01);
 }
 
 TEST_F(AwsWarehouse, lets_a_robot_go_from_the_south_to_the_north) {

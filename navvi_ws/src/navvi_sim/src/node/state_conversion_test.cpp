@@ -116,7 +116,7 @@ TEST(StateConversion, contacts_carry_their_counts) {
   EXPECT_EQ(msg.counts[0].count, 2u);
 }
 
-TEST(setup::SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
+TEST(SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
   setup::SimNodeConfig config;
   EXPECT_FALSE(config.start_pose());
   EXPECT_FALSE(config.goal_point());
@@ -131,7 +131,7 @@ TEST(setup::SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
   }
 }
 
-TEST(setup::SimNodeConfig, describes_itself_within_its_own_ranges) {
+TEST(SimNodeConfig, describes_itself_within_its_own_ranges) {
   setup::SimNodeConfig config;
   navvi_config::read(config,
                      YAML::Load("{workers: standing, movers: {yield: false}, "
@@ -145,7 +145,7 @@ TEST(setup::SimNodeConfig, describes_itself_within_its_own_ranges) {
                navvi_config::ConfigError);
 }
 
-TEST(setup::SimNodeConfig, reads_every_profile_that_ships) {
+TEST(SimNodeConfig, reads_every_profile_that_ships) {
   for (const char* profile : {"default", "paper"}) {
     setup::SimNodeConfig config;
     const std::string path = std::string(NAVVI_SIM_DIR) + "/config/" + profile + ".yaml";

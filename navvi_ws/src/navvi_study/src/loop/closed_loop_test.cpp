@@ -131,7 +131,7 @@ TEST(ClosedLoopConfig, namesEachPartAndRefusesAnUnknownOne) {
   ClosedLoopConfig config;
   navvi_config::read(config, navvi_config::read_words({"nav/replan/period:=3", "sim/seed:=4"}),
                      "test");
-  EXPECT_EQ(config.nav.replan.period, 3.0);
+  EXPECT_EQ(config.nav.replan.trigger.period, 3.0);
   EXPECT_EQ(config.sim.seed, 4);
   EXPECT_THROW(navvi_config::read(config, navvi_config::read_words({"eyes/open:=1"}), "test"),
                navvi_config::ConfigError);
