@@ -18,7 +18,7 @@ endfunction()
 #   USES      rooms of this package, declared before it, whose headers it may include
 #   LINK      other targets and libraries
 #   SYSTEM    include folders of third parties
-#   PROGRAMS  source files with a main(), each a program that links the room
+#   PROGRAMS  source files with a main(), each a program that links the room and is installed
 #   TEST_LINK what its tests link besides
 # Inside the package a header is included as "<room>/<file>.hpp". Headers that other packages need are in
 # include/<package>/<room>.
@@ -37,12 +37,15 @@ function(navvi_room room)
     add_library(${target} STATIC ${sources})
     navvi_own_code(${target})
     navvi_precompiled_headers(${target} navvi_library_headers)
+    install(TARGETS ${target} ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
     set(visibility PUBLIC)
   else()
     add_library(${target} INTERFACE)
     set(visibility INTERFACE)
   endif()
-  target_include_directories(${target} ${visibility} ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    target_include_directories(${target} ${visibility} ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  endif()
   target_include_directories(${target} SYSTEM ${visibility} ${ROOM_SYSTEM})
   list(TRANSFORM ROOM_USES PREPEND ${PROJECT_NAME}_)
   target_link_libraries(${target} ${visibility} ${ROOM_USES} ${ROOM_LINK})
@@ -50,6 +53,7 @@ function(navvi_room room)
     add_executable(${program} ${folder}/${program}.cpp)
     target_link_libraries(${program} ${target})
     navvi_own_code(${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   endforeach()
   if(CATKIN_ENABLE_TESTING)
     foreach(test ${tests})

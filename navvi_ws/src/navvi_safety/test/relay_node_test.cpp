@@ -33,6 +33,8 @@ class Relay : public testing::Test {
     return spin_until([] {}, done);
   }
   void start() {
+    // What is sent before the relay has connected is lost, the neutral stick with it.
+    ASSERT_TRUE(wait_until([&] { return commands_.getNumSubscribers() > 0; }));
     const ros::WallTime begin = ros::WallTime::now();
     ASSERT_TRUE(drive_until(0.0, [&] { return (ros::WallTime::now() - begin).toSec() > 0.6; }));
     ASSERT_TRUE(drive_until(0.7, [&] { return speed_ == 0.7; }));

@@ -92,7 +92,7 @@ std::string svg_of(const PictureOf& what) {
   Canvas canvas(*what.floor);
   draw_ground(canvas, *what.floor, map::Ground::floor, "#f2f2ee");
   draw_ground(canvas, *what.floor, map::Ground::obstacle, "#30343a");
-  draw_mesh(canvas, *what.mesh);
+  if (what.mesh != nullptr) draw_mesh(canvas, *what.mesh);
   for (const Cylinder& cylinder : what.cylinders)
     draw_dot(canvas, cylinder.center, kScale * cylinder.radius,
              "fill=\"#ff9a3c\" stroke=\"#7a3d00\" stroke-width=\"1\"");

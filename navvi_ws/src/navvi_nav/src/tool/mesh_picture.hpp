@@ -12,14 +12,14 @@ namespace navvi_nav::tool {
 /// What is drawn besides the floor and its mesh.
 struct PictureOf {
   const map::Floor* floor = nullptr;
-  const mesh::Mesh* mesh = nullptr;
+  const mesh::Mesh* mesh = nullptr;  ///< null: not drawn
   std::vector<Cylinder> cylinders;
   Path path;  ///< the guide path; may be empty
 };
 
 /// An SVG picture, x to the right and y up, a metre 20 units wide: obstacles dark, floor light, the
-/// mesh in cyan with each part in a shade of its own and its polygons outlined, cylinders orange,
-/// the guide path purple with a dot at each way-point, start green and goal red.
+/// mesh in cyan with each component in a shade of its own and its polygons outlined, cylinders
+/// orange, the guide path purple with a dot at each way-point, start green and goal red.
 [[nodiscard]] std::string svg_of(const PictureOf& what);
 
 }  // namespace navvi_nav::tool

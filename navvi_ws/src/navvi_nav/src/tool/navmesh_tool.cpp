@@ -1,5 +1,7 @@
 // A map in; its mesh in numbers, as a picture, and a path over it.
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -24,10 +26,12 @@ using namespace navvi_nav::tool;
 
 constexpr const char* kUsage =
     R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
+        [--stage STAGE]
   MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
   -o          draw the map, its mesh, the cylinders and the path; ./navvi also takes FILE.png
   --from --to search a path, m in map
   --cylinder  cut a hole around something that moves, m in map
+  --stage     stop after map, bake, mesh (holes), search (shortest path) or smooth (the default)
   --config    parameters that differ from the defaults, as in nav_node's config files
 )";
 
@@ -36,10 +40,23 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The stages of a query, in their order.
+enum class Stage { map, bake, mesh, search, smooth };
+constexpr std::array<const char*, 5> kStages = {"map", "bake", "mesh", "search", "smooth"};
+
+Stage stage_named(const std::string& word) {
+  const auto found = std::find(kStages.begin(), kStages.end(), word);
+  if (found == kStages.end())
+    throw UsageError("\"" + word +
+                     "\" is no stage; map, bake, mesh, search and smooth are allowed");
+  return static_cast<Stage>(found - kStages.begin());
+}
+
 struct Options {
   std::string map;
   std::string picture;
   std::string config;
+  Stage stage = Stage::smooth;
   std::optional<Point> from;
   std::optional<Point> to;
   std::vector<Cylinder> cylinders;
@@ -82,6 +99,8 @@ Options read_options(const std::vector<std::string>& words) {
       if (std::filesystem::path(out.picture).extension() != ".svg")
         throw UsageError("\"" + out.picture +
                          "\" is no picture that can be drawn; allowed is .svg");
+    } else if (word == "--stage") {
+      out.stage = stage_named(value());
     } else if (word == "--config") {
       out.config = value();
     } else if (word == "--from") {
@@ -122,27 +141,27 @@ class Stopwatch {
 
 struct Size {
   double area = 0.0;  ///< m^2
-  std::size_t polygons = 0, links = 0, parts = 0, bytes = 0;
+  std::size_t polygons = 0, portals = 0, components = 0, bytes = 0;
 };
 
 Size size_of(const mesh::Mesh& mesh) {
   Size out;
-  std::set<int> parts;
+  std::set<int> components;
   out.bytes =
       mesh.vertices.size() * sizeof(mesh::Vertex) + mesh.polygons.size() * sizeof(mesh::Polygon);
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const mesh::Polygon& polygon = mesh.polygons[i];
     if (polygon.corners.empty()) continue;
     ++out.polygons;
-    out.links += polygon.portals.size();
-    parts.insert(polygon.component);
+    out.portals += polygon.portals.size();
+    components.insert(polygon.component);
     out.bytes +=
         polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
     const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
     for (std::size_t k = 2; k < corners.size(); ++k)
       out.area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
   }
-  out.parts = parts.size();
+  out.components = components.size();
   return out;
 }
 
@@ -152,9 +171,10 @@ void print_mesh(const plan::NavMesh& nav_mesh, const plan::MeshUpdate& update) {
   std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
               floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
               floor.cell_size(), floor.height());
-  std::printf("mesh        %.1f m^2, %zu polygons, %zu vertices, %zu links, %d tiles, %zu parts\n",
-              size.area, size.polygons, nav_mesh.mesh().vertices.size(), size.links / 2,
-              update.tiles, size.parts);
+  std::printf(
+      "mesh        %.1f m^2, %zu polygons, %zu vertices, %zu portals, %d tiles, %zu components\n",
+      size.area, size.polygons, nav_mesh.mesh().vertices.size(), size.portals / 2, update.tiles,
+      size.components);
   std::printf("memory      %zu bytes, %.1f a square metre\n", size.bytes,
               static_cast<double>(size.bytes) / size.area);
 }
@@ -182,6 +202,7 @@ int run(const Options& options) {
     file.open(options.picture);
     if (!file) throw UsageError(options.picture + ": the picture cannot be written");
   }
+  if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
   Stopwatch watch;
   const map::MapSurvey survey =
       map::survey_file(options.map, plan::survey_config(config.planner.mesh));
@@ -191,7 +212,7 @@ int run(const Options& options) {
   const plan::MeshUpdate update = planner.set_map(survey);
   if (!update.error.empty()) throw UsageError(options.map + ": " + update.error);
   const double baked = watch.lap();
-  planner.carve(options.cylinders);
+  if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
   const double carved = watch.lap();
   print_mesh(planner.nav_mesh(), update);
   std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
@@ -199,10 +220,10 @@ int run(const Options& options) {
 
   PictureOf picture;
   picture.floor = planner.nav_mesh().shared_floor().get();
-  picture.mesh = &planner.nav_mesh().mesh();
-  picture.cylinders = options.cylinders;
+  if (options.stage >= Stage::bake) picture.mesh = &planner.nav_mesh().mesh();
+  if (options.stage >= Stage::mesh) picture.cylinders = options.cylinders;
   std::string refusal;
-  if (options.from) {
+  if (options.from && options.stage >= Stage::search) {
     watch.lap();
     const plan::Plan plan = planner.plan(*options.from, *options.to);
     const double planned = watch.lap();

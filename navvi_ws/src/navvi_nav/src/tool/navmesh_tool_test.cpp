@@ -50,7 +50,7 @@ TEST_F(NavmeshTool, tells_what_a_mesh_is_like_and_draws_it) {
   const Answer answer =
       ask(path("map.bt") + " --picture " + path("map.svg") + " --cylinder 5.5,3,0.4");
   EXPECT_EQ(answer.code, 0) << answer.text;
-  EXPECT_NE(answer.text.find(", 2 parts"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find(", 2 components"), std::string::npos) << answer.text;
   std::ostringstream svg;
   svg << std::ifstream(path("map.svg")).rdbuf();
   EXPECT_EQ(svg.str().rfind("<svg", 0), 0U);
