@@ -50,8 +50,8 @@ class YamlReader : public Visitor {
     push(node, "");
   }
 
-  void operator()(const Field& field, bool& value) override { take(field, value, "true or false"); }
-  void operator()(const Field& field, int& value) override {
+  void visit(const Field& field, bool& value) override { take(field, value, "true or false"); }
+  void visit(const Field& field, int& value) override {
     const YAML::Node node = find(field.name);
     if (!node) return;
     std::string whole = "a whole number";
@@ -64,16 +64,16 @@ class YamlReader : public Visitor {
     check(field, node, number, text);
     value = number;
   }
-  void operator()(const Field& field, double& value) override {
+  void visit(const Field& field, double& value) override {
     if (const YAML::Node node = find(field.name)) value = number(field, node);
   }
-  void operator()(const Field& field, std::string& value) override {
+  void visit(const Field& field, std::string& value) override {
     if (const YAML::Node node = find(field.name)) value = word(field, node);
   }
-  void operator()(const Field& field, std::vector<double>& value) override {
+  void visit(const Field& field, std::vector<double>& value) override {
     take_list(field, value, [&](const YAML::Node& item) { return number(field, item); });
   }
-  void operator()(const Field& field, std::vector<std::string>& value) override {
+  void visit(const Field& field, std::vector<std::string>& value) override {
     take_list(field, value, [&](const YAML::Node& item) { return word(field, item); });
   }
 
@@ -195,17 +195,17 @@ class YamlReader : public Visitor {
 
 class TableWriter : public Visitor {
  public:
-  void operator()(const Field& field, bool& value) override {
+  void visit(const Field& field, bool& value) override {
     add(field, value ? "true" : "false");
     rows.back().allowed = "true or false";
   }
-  void operator()(const Field& field, int& value) override { add(field, std::to_string(value)); }
-  void operator()(const Field& field, double& value) override { add(field, to_text(value)); }
-  void operator()(const Field& field, std::string& value) override { add(field, value); }
-  void operator()(const Field& field, std::vector<double>& value) override {
+  void visit(const Field& field, int& value) override { add(field, std::to_string(value)); }
+  void visit(const Field& field, double& value) override { add(field, to_text(value)); }
+  void visit(const Field& field, std::string& value) override { add(field, value); }
+  void visit(const Field& field, std::vector<double>& value) override {
     add(field, "[" + join(value) + "]");
   }
-  void operator()(const Field& field, std::vector<std::string>& value) override {
+  void visit(const Field& field, std::vector<std::string>& value) override {
     add(field, "[" + join(value) + "]");
   }
 

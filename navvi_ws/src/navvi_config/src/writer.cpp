@@ -19,18 +19,18 @@ class YamlWriter : public Visitor {
  public:
   YamlWriter() { out_ << YAML::BeginMap; }
 
-  void operator()(const Field& field, bool& value) override { key(field.name) << value; }
-  void operator()(const Field& field, int& value) override { key(field.name) << value; }
-  void operator()(const Field& field, double& value) override { key(field.name) << exact(value); }
-  void operator()(const Field& field, std::string& value) override {
+  void visit(const Field& field, bool& value) override { key(field.name) << value; }
+  void visit(const Field& field, int& value) override { key(field.name) << value; }
+  void visit(const Field& field, double& value) override { key(field.name) << exact(value); }
+  void visit(const Field& field, std::string& value) override {
     key(field.name) << YAML::DoubleQuoted << value;
   }
-  void operator()(const Field& field, std::vector<double>& value) override {
+  void visit(const Field& field, std::vector<double>& value) override {
     key(field.name) << YAML::Flow << YAML::BeginSeq;
     for (const double number : value) out_ << exact(number);
     out_ << YAML::EndSeq;
   }
-  void operator()(const Field& field, std::vector<std::string>& value) override {
+  void visit(const Field& field, std::vector<std::string>& value) override {
     key(field.name) << YAML::Flow << YAML::BeginSeq;
     for (const std::string& word : value) out_ << YAML::DoubleQuoted << word;
     out_ << YAML::EndSeq;

@@ -11,8 +11,8 @@ struct Inner {
   std::string curve = "log";
   std::vector<std::string> classes = {"box"};
   void describe(Visitor& visit) {
-    visit({"curve", OneOf{{"log", "linear"}}, "", "shape"}, curve);
-    visit({"classes", OneOf{{"box", "shelf"}}, "", "what rumbles"}, classes);
+    visit(curve, "curve", OneOf{{"log", "linear"}}, "", "shape");
+    visit(classes, "classes", OneOf{{"box", "shelf"}}, "", "what rumbles");
   }
 };
 
@@ -22,9 +22,9 @@ struct Config {
   bool on = false;
   Inner inner;
   void describe(Visitor& visit) {
-    visit({"speed", Range{0.1, 3.0}, "m/s", "speed at full stick"}, speed);
-    visit({"count", Range{0, 10}, "", "how many"}, count);
-    visit({"on", Any{}, "", "whether"}, on);
+    visit(speed, "speed", Range{0.1, 3.0}, "m/s", "speed at full stick");
+    visit(count, "count", Range{0, 10}, "", "how many");
+    visit(on, "on", Any{}, "", "whether");
     visit.group("inner", inner);
   }
 };

@@ -11,8 +11,8 @@ struct Inner {
   std::string text;
   std::vector<double> numbers;
   void describe(Visitor& visit) {
-    visit({"text", Any{}, "", "any"}, text);
-    visit({"numbers", Any{}, "", "some"}, numbers);
+    visit(text, "text", Any{}, "", "any");
+    visit(numbers, "numbers", Any{}, "", "some");
   }
 };
 
@@ -23,10 +23,10 @@ struct Config {
   std::vector<std::string> words;
   Inner inner;
   void describe(Visitor& visit) {
-    visit({"number", Any{}, "", "any"}, number);
-    visit({"count", Any{}, "", "any"}, count);
-    visit({"on", Any{}, "", "whether"}, on);
-    visit({"words", Any{}, "", "some"}, words);
+    visit(number, "number", Any{}, "", "any");
+    visit(count, "count", Any{}, "", "any");
+    visit(on, "on", Any{}, "", "whether");
+    visit(words, "words", Any{}, "", "some");
     visit.group("inner", inner);
   }
 };

@@ -19,23 +19,20 @@ bool younger_than(double span, const Instant& then, const Instant& now) {
 
 void CommandGateConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"timeout", Range{0.05, 0.25}, "s",
-         "longest age of the last valid command, by wall clock and by sim clock"},
-        timeout);
-  visit({"neutral_hold", Range{0.3, 5.0}, "s",
-         "how long the command must be neutral before the wheels move again"},
-        neutral_hold);
-  visit({"neutral_linear", Range{0.0, 0.1}, "m/s", "a slower command counts as neutral"},
-        neutral_linear);
-  visit({"neutral_angular", Range{0.0, 0.1}, "rad/s", "a slower command counts as neutral"},
-        neutral_angular);
-  visit({"max_linear", Range{0.1, 3.0}, "m/s", "commands beyond are clamped and counted"},
-        max_linear);
-  visit({"max_angular", Range{0.1, 6.0}, "rad/s", "commands beyond are clamped and counted"},
-        max_angular);
-  visit({"absurd_factor", Range{1.0, 100.0}, "",
-         "commands beyond this many times a limit are rejected"},
-        absurd_factor);
+  visit(timeout, "timeout", Range{0.05, 0.25}, "s",
+        "longest age of the last valid command, by wall clock and by sim clock");
+  visit(neutral_hold, "neutral_hold", Range{0.3, 5.0}, "s",
+        "how long the command must be neutral before the wheels move again");
+  visit(neutral_linear, "neutral_linear", Range{0.0, 0.1}, "m/s",
+        "a slower command counts as neutral");
+  visit(neutral_angular, "neutral_angular", Range{0.0, 0.1}, "rad/s",
+        "a slower command counts as neutral");
+  visit(max_linear, "max_linear", Range{0.1, 3.0}, "m/s",
+        "commands beyond are clamped and counted");
+  visit(max_angular, "max_angular", Range{0.1, 6.0}, "rad/s",
+        "commands beyond are clamped and counted");
+  visit(absurd_factor, "absurd_factor", Range{1.0, 100.0}, "",
+        "commands beyond this many times a limit are rejected");
 }
 
 void CommandGate::receive(const std::optional<Velocity>& command, const Instant& now) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,20 +38,19 @@ struct Field {
 ///     struct DriveConfig {
 ///       double max_speed = 1.0;
 ///       void describe(navvi_config::Visitor& visit) {
-///         visit({"max_speed", navvi_config::Range{0.05, 3.0}, "m/s", "speed at full stick"},
-///         max_speed);
+///         visit(max_speed, "max_speed", navvi_config::Range{0.05, 3.0}, "m/s", "at full stick");
 ///       }
 ///     };
 class Visitor {
  public:
   virtual ~Visitor() = default;
 
-  virtual void operator()(const Field& field, bool& value) = 0;
-  virtual void operator()(const Field& field, int& value) = 0;
-  virtual void operator()(const Field& field, double& value) = 0;
-  virtual void operator()(const Field& field, std::string& value) = 0;
-  virtual void operator()(const Field& field, std::vector<double>& value) = 0;
-  virtual void operator()(const Field& field, std::vector<std::string>& value) = 0;
+  /// `value` may be a bool, an int, a double, a string, or a vector of doubles or strings.
+  template <typename Value>
+  void operator()(Value& value, std::string name, Allowed allowed, std::string unit,
+                  std::string help) {
+    visit({std::move(name), std::move(allowed), std::move(unit), std::move(help)}, value);
+  }
 
   /// A struct within the struct: its fields stand under `name`.
   template <typename Config>
@@ -61,6 +61,12 @@ class Visitor {
   }
 
  protected:
+  virtual void visit(const Field& field, bool& value) = 0;
+  virtual void visit(const Field& field, int& value) = 0;
+  virtual void visit(const Field& field, double& value) = 0;
+  virtual void visit(const Field& field, std::string& value) = 0;
+  virtual void visit(const Field& field, std::vector<double>& value) = 0;
+  virtual void visit(const Field& field, std::vector<std::string>& value) = 0;
   virtual void enter(const std::string& name) = 0;
   virtual void leave() = 0;
 };

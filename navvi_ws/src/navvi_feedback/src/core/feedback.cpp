@@ -15,9 +15,8 @@ bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 
 }  // namespace
 
 void FeedbackConfig::describe(navvi_config::Visitor& visit) {
-  visit({"stale", navvi_config::Range{0.2, 10.0}, "s",
-         "guidance, proximity or odometry older than this (wall clock) is lost"},
-        stale);
+  visit(stale, "stale", navvi_config::Range{0.2, 10.0}, "s",
+        "guidance, proximity or odometry older than this (wall clock) is lost");
   visit.group("drive", drive);
   visit.group("haptics", haptics);
   visit.group("cues", cues);

@@ -79,23 +79,21 @@ Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
 void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::OneOf;
   using navvi_config::Range;
-  visit({"stuck_time", Range{0.2, 30.0}, "s", "commanded without moving for longer is stuck"},
-        stuck_time);
-  visit({"stuck_linear", Range{0.0, 1.0}, "m/s", "slower counts as not moving"}, stuck_linear);
-  visit({"stuck_angular", Range{0.0, 1.0}, "rad/s", "slower counts as not turning"}, stuck_angular);
-  visit({"stuck_repeat", Range{1.0, 60.0}, "s", "repeats while the robot stays stuck"},
-        stuck_repeat);
-  visit({"blocker_gap", Range{0.0, 5.0}, "m", "a thing farther away is not what blocks"},
-        blocker_gap);
-  visit({"state_hold", Range{0.0, 5.0}, "s",
-         "a state of the guidance shorter than this is passed over"},
-        state_hold);
-  visit({"problem_repeat", Range{1.0, 300.0}, "s", "repeats while the guidance does not lead"},
-        problem_repeat);
-  visit({"patience", Range{1.0, 300.0}, "s", "a link that never lived for so long counts as lost"},
-        patience);
-  visit({"direction_words", OneOf{{"clock", "left_right"}}, "", "how directions are worded"},
-        direction_words);
+  visit(stuck_time, "stuck_time", Range{0.2, 30.0}, "s",
+        "commanded without moving for longer is stuck");
+  visit(stuck_linear, "stuck_linear", Range{0.0, 1.0}, "m/s", "slower counts as not moving");
+  visit(stuck_angular, "stuck_angular", Range{0.0, 1.0}, "rad/s", "slower counts as not turning");
+  visit(stuck_repeat, "stuck_repeat", Range{1.0, 60.0}, "s", "repeats while the robot stays stuck");
+  visit(blocker_gap, "blocker_gap", Range{0.0, 5.0}, "m",
+        "a thing farther away is not what blocks");
+  visit(state_hold, "state_hold", Range{0.0, 5.0}, "s",
+        "a state of the guidance shorter than this is passed over");
+  visit(problem_repeat, "problem_repeat", Range{1.0, 300.0}, "s",
+        "repeats while the guidance does not lead");
+  visit(patience, "patience", Range{1.0, 300.0}, "s",
+        "a link that never lived for so long counts as lost");
+  visit(direction_words, "direction_words", OneOf{{"clock", "left_right"}}, "",
+        "how directions are worded");
   visit.group("route", route);
   visit.group("near", near);
 }

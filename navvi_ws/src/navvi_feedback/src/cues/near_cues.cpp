@@ -34,16 +34,13 @@ Utterance utterance(const char* kind, ThingClass thing, Side side, bool urgent) 
 
 void NearConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"distance", Range{0.1, 5.0}, "m", "gap at which a shelf or a wall is announced"},
-        distance);
-  visit({"close", Range{0.0, 5.0}, "m", "gap at which it is announced once more"}, close);
-  visit({"hysteresis", Range{0.0, 1.0}, "m", "how much farther it must be to count as gone"},
-        hysteresis);
-  visit({"forget", Range{0.0, 30.0}, "s", "how long it must be gone to be announced again"},
-        forget);
-  visit({"obstacles", navvi_config::Any{}, "",
-         "also name any other thing that the robot drives towards"},
-        obstacles);
+  visit(distance, "distance", Range{0.1, 5.0}, "m", "gap at which a shelf or a wall is announced");
+  visit(close, "close", Range{0.0, 5.0}, "m", "gap at which it is announced once more");
+  visit(hysteresis, "hysteresis", Range{0.0, 1.0}, "m",
+        "how much farther it must be to count as gone");
+  visit(forget, "forget", Range{0.0, 30.0}, "s", "how long it must be gone to be announced again");
+  visit(obstacles, "obstacles", navvi_config::Any{}, "",
+        "also name any other thing that the robot drives towards");
 }
 
 NearCues::Level NearCues::level(double gap, Level said) const {

@@ -33,13 +33,12 @@ constexpr auto kFade = std::chrono::milliseconds(25);
 void SpeakerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::Range;
-  visit({"rate", Range{80.0, 449.0}, "words/min", "rate of speech"}, rate);
-  visit({"volume", Range{0.0, 1.0}, "", "gain of the voice"}, volume);
-  visit({"voice", Any{}, "", "a voice of espeak-ng, such as en or en-us"}, voice);
-  visit({"device", Any{}, "", "name of the OpenAL device; empty for the default one"}, device);
-  visit({"reopen", Range{0.5, 60.0}, "s",
-         "between attempts to open a lost device; ten times that if there never was one"},
-        reopen);
+  visit(rate, "rate", Range{80.0, 449.0}, "words/min", "rate of speech");
+  visit(volume, "volume", Range{0.0, 1.0}, "", "gain of the voice");
+  visit(voice, "voice", Any{}, "", "a voice of espeak-ng, such as en or en-us");
+  visit(device, "device", Any{}, "", "name of the OpenAL device; empty for the default one");
+  visit(reopen, "reopen", Range{0.5, 60.0}, "s",
+        "between attempts to open a lost device; ten times that if there never was one");
 }
 
 /// Runs the voice and the device in their one thread.

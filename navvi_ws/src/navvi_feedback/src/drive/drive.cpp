@@ -18,20 +18,19 @@ double approach(double value, double wanted, double speed_up, double slow_down, 
 
 void DriveConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"dead_zone", Range{0.02, 0.5}, "", "deflection of the stick that counts as neutral"},
-        dead_zone);
-  visit({"expo", Range{0.0, 1.0}, "", "0: linear; 1: cubic, finer near the centre"}, expo);
-  visit({"max_forward", Range{0.1, 1.5}, "m/s", "speed at full stick forward"}, max_forward);
-  visit({"max_reverse", Range{0.0, 1.5}, "m/s", "speed at full stick back"}, max_reverse);
-  visit({"max_turn", Range{0.1, 2.5}, "rad/s", "turning speed at full stick left or right"},
-        max_turn);
-  visit({"acceleration", Range{0.1, 10.0}, "m/s^2", "limit on speeding up"}, acceleration);
-  visit({"deceleration", Range{0.5, 20.0}, "m/s^2", "limit on slowing down"}, deceleration);
-  visit({"turn_acceleration", Range{0.5, 40.0}, "rad/s^2", "limit on changes of turning speed"},
-        turn_acceleration);
-  visit({"arm_hold", Range{0.3, 5.0}, "s",
-         "how long the stick must be neutral before it moves anything"},
-        arm_hold);
+  visit(dead_zone, "dead_zone", Range{0.02, 0.5}, "",
+        "deflection of the stick that counts as neutral");
+  visit(expo, "expo", Range{0.0, 1.0}, "", "0: linear; 1: cubic, finer near the centre");
+  visit(max_forward, "max_forward", Range{0.1, 1.5}, "m/s", "speed at full stick forward");
+  visit(max_reverse, "max_reverse", Range{0.0, 1.5}, "m/s", "speed at full stick back");
+  visit(max_turn, "max_turn", Range{0.1, 2.5}, "rad/s",
+        "turning speed at full stick left or right");
+  visit(acceleration, "acceleration", Range{0.1, 10.0}, "m/s^2", "limit on speeding up");
+  visit(deceleration, "deceleration", Range{0.5, 20.0}, "m/s^2", "limit on slowing down");
+  visit(turn_acceleration, "turn_acceleration", Range{0.5, 40.0}, "rad/s^2",
+        "limit on changes of turning speed");
+  visit(arm_hold, "arm_hold", Range{0.3, 5.0}, "s",
+        "how long the stick must be neutral before it moves anything");
 }
 
 Stick Drive::shaped(const Stick& stick) const {

@@ -24,33 +24,28 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::OneOf;
   using navvi_config::Range;
-  visit({"enabled", Any{}, "", "false: the motors stay off"}, enabled);
-  visit({"range", Range{0.5, 20.0}, "m", "a thing is felt if its gap is less than this"}, range);
-  visit({"center", Range{0.0, 5.0}, "m",
-         "a thing whose nearest point lies less far to the side is felt in both motors"},
-        center);
-  visit({"curve", OneOf{{"log", "linear", "power"}}, "", "force over distance"}, curve);
-  visit({"exponent", Range{0.2, 5.0}, "", "of the power curve"}, exponent);
-  visit({"normalize", Any{}, "", "log curve: divide by ln 2, so that touching gives full force"},
-        normalize);
-  visit({"classes",
-         OneOf{{"shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other"}},
-         "", "the classes of things that are felt"},
-        classes);
-  visit({"onset", Range{0.0, 5.0}, "s", "from nothing to the full force; 0: at once"}, onset);
-  visit({"slew", Range{0.0, 1000.0}, "1/s", "largest change of a motor's force; 0: no limit"},
-        slew);
-  visit({"range_hysteresis", Range{0.0, 1.0}, "m",
-         "a thing must come this much nearer than range to be felt first"},
-        range_hysteresis);
-  visit({"zone_hysteresis", Range{0.0, 1.0}, "m",
-         "a thing must be this far across the border between two zones to change zone"},
-        zone_hysteresis);
-  visit({"start_left", Range{0.0, 0.5}, "", "least command that turns the left motor"}, start_left);
-  visit({"start_right", Range{0.0, 0.5}, "", "least command that turns the right motor"},
-        start_right);
-  visit({"gain_left", Range{0.0, 1.0}, "", "left motor's command at full force"}, gain_left);
-  visit({"gain_right", Range{0.0, 1.0}, "", "right motor's command at full force"}, gain_right);
+  visit(enabled, "enabled", Any{}, "", "false: the motors stay off");
+  visit(range, "range", Range{0.5, 20.0}, "m", "a thing is felt if its gap is less than this");
+  visit(center, "center", Range{0.0, 5.0}, "m",
+        "a thing whose nearest point lies less far to the side is felt in both motors");
+  visit(curve, "curve", OneOf{{"log", "linear", "power"}}, "", "force over distance");
+  visit(exponent, "exponent", Range{0.2, 5.0}, "", "of the power curve");
+  visit(normalize, "normalize", Any{}, "",
+        "log curve: divide by ln 2, so that touching gives full force");
+  visit(classes, "classes",
+        OneOf{{"shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other"}},
+        "", "the classes of things that are felt");
+  visit(onset, "onset", Range{0.0, 5.0}, "s", "from nothing to the full force; 0: at once");
+  visit(slew, "slew", Range{0.0, 1000.0}, "1/s", "largest change of a motor's force; 0: no limit");
+  visit(range_hysteresis, "range_hysteresis", Range{0.0, 1.0}, "m",
+        "a thing must come this much nearer than range to be felt first");
+  visit(zone_hysteresis, "zone_hysteresis", Range{0.0, 1.0}, "m",
+        "a thing must be this far across the border between two zones to change zone");
+  visit(start_left, "start_left", Range{0.0, 0.5}, "", "least command that turns the left motor");
+  visit(start_right, "start_right", Range{0.0, 0.5}, "",
+        "least command that turns the right motor");
+  visit(gain_left, "gain_left", Range{0.0, 1.0}, "", "left motor's command at full force");
+  visit(gain_right, "gain_right", Range{0.0, 1.0}, "", "right motor's command at full force");
 }
 
 double rumble_force(const HapticsConfig& config, double gap) {

@@ -23,7 +23,7 @@ struct PlayerConfig {
   devices::SpeakerConfig speaker;
 
   void describe(navvi_config::Visitor& visit) {
-    visit({"speech", navvi_config::Any{}, "", "false: nothing is heard"}, speech);
+    visit(speech, "speech", navvi_config::Any{}, "", "false: nothing is heard");
     visit.group("speaker", speaker);
   }
 };

@@ -40,13 +40,11 @@ struct NodeConfig {
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Any;
     using navvi_config::OneOf;
-    visit({"input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
-           "where the stick comes from; topic: joy from another driver"},
-          input);
-    visit({"speech", Any{}, "", "false: cues are timed and published, but nothing is heard"},
-          speech);
-    visit({"phrases", Any{}, "", "file of the spoken phrases; empty for the English that ships"},
-          phrases);
+    visit(input, "input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
+          "where the stick comes from; topic: joy from another driver");
+    visit(speech, "speech", Any{}, "", "false: cues are timed and published, but nothing is heard");
+    visit(phrases, "phrases", Any{}, "",
+          "file of the spoken phrases; empty for the English that ships");
     feedback.describe(visit);
     visit.group("speaker", speaker);
     visit.group("markers", markers);

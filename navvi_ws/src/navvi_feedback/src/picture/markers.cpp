@@ -142,13 +142,13 @@ void add_turn(const MarkersConfig& config, const Guidance& guidance,
 
 void MarkersConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"path_width", Range{0.05, 1.0}, "m", "width of the path's line"}, path_width);
-  visit({"outline", Range{0.0, 0.5}, "m", "width of the white edge on each side of it"}, outline);
-  visit({"path_height", Range{0.0, 1.0}, "m", "of the line above the floor"}, path_height);
-  visit({"goal_height", Range{0.5, 10.0}, "m", "height of the goal's pole"}, goal_height);
-  visit({"goal_radius", Range{0.1, 5.0}, "m", "of the ring within which the goal is reached"},
-        goal_radius);
-  visit({"label_height", Range{0.1, 3.0}, "m", "height of the letters"}, label_height);
+  visit(path_width, "path_width", Range{0.05, 1.0}, "m", "width of the path's line");
+  visit(outline, "outline", Range{0.0, 0.5}, "m", "width of the white edge on each side of it");
+  visit(path_height, "path_height", Range{0.0, 1.0}, "m", "of the line above the floor");
+  visit(goal_height, "goal_height", Range{0.5, 10.0}, "m", "height of the goal's pole");
+  visit(goal_radius, "goal_radius", Range{0.1, 5.0}, "m",
+        "of the ring within which the goal is reached");
+  visit(label_height, "label_height", Range{0.1, 3.0}, "m", "height of the letters");
 }
 
 visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,

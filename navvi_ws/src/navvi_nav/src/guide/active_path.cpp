@@ -9,9 +9,8 @@ constexpr double kElsewhere = 2.0;  // m of a path that a new one leaves: the pe
 
 void ActivePathConfig::describe(navvi_config::Visitor& visit) {
   visit.group("guidance", guidance);
-  visit({"off_path", navvi_config::Range{0.1, 10.0}, "m",
-         "a robot farther off its path gets a new one at the next plan"},
-        off_path);
+  visit(off_path, "off_path", navvi_config::Range{0.1, 10.0}, "m",
+        "a robot farther off its path gets a new one at the next plan");
 }
 
 double ActivePath::follow(const plan::Plan& plan, plan::Reason reason, double time,

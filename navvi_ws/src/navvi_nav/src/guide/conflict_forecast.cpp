@@ -65,43 +65,36 @@ struct ConflictForecast::Encounter {
 
 void ConflictForecastConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"tolerance", Range{0.0, 0.5}, "m", "how far an obstacle may reach into the path's room"},
-        tolerance);
-  visit({"look_ahead", Range{0.5, 1e6}, "m",
-         "obstacles on the path farther ahead than this are left to move away"},
-        look_ahead);
-  visit({"standing_speed", Range{0.0, 2.0}, "m/s", "a slower obstacle counts as standing"},
-        standing_speed);
-  visit({"pause", Range{0.0, 60.0}, "s",
-         "what moved and has stood for less, or for less than it takes to get there, may go on"},
-        pause);
-  visit({"foresight", Range{0.0, 20.0}, "s",
-         "what will have left the path within this time, keeping its velocity, only crosses"},
-        foresight);
-  visit({"forecast_step", Range{0.05, 2.0}, "s", "time step of the forecast"}, forecast_step);
-  visit({"notice_time", Range{0.0, 20.0}, "s",
-         "an obstacle that will cut the path within this time counts as cutting it"},
-        notice_time);
-  visit({"late_time", Range{0.0, 20.0}, "s", "how late the robot may be against its pace"},
-        late_time);
+  visit(tolerance, "tolerance", Range{0.0, 0.5}, "m",
+        "how far an obstacle may reach into the path's room");
+  visit(look_ahead, "look_ahead", Range{0.5, 1e6}, "m",
+        "obstacles on the path farther ahead than this are left to move away");
+  visit(standing_speed, "standing_speed", Range{0.0, 2.0}, "m/s",
+        "a slower obstacle counts as standing");
+  visit(pause, "pause", Range{0.0, 60.0}, "s",
+        "what moved and has stood for less, or for less than it takes to get there, may go on");
+  visit(foresight, "foresight", Range{0.0, 20.0}, "s",
+        "what will have left the path within this time, keeping its velocity, only crosses");
+  visit(forecast_step, "forecast_step", Range{0.05, 2.0}, "s", "time step of the forecast");
+  visit(notice_time, "notice_time", Range{0.0, 20.0}, "s",
+        "an obstacle that will cut the path within this time counts as cutting it");
+  visit(late_time, "late_time", Range{0.0, 20.0}, "s",
+        "how late the robot may be against its pace");
   visit(
-      {"chase_time", Range{0.0, 20.0}, "s",
-       "an obstacle from behind that would hit a waiting robot later than this may still turn off"},
-      chase_time);
-  visit({"stop_room", Range{0.0, 2.0}, "m", "least gap from a waiting robot to what passes it"},
-        stop_room);
-  visit({"elbow_room", Range{0.0, 2.0}, "m", "least gap between a driving robot and an obstacle"},
-        elbow_room);
-  visit({"spare_room", Range{0.0, 2.0}, "m",
-         "added to predicted obstacles, for paths that are not followed exactly"},
-        spare_room);
-  visit({"headway", Range{0.0, 20.0}, "m",
-         "an obstacle that drives on ahead is no conflict if it stays so far ahead of the robot"},
-        headway);
-  visit({"headway_gain", Range{0.0, 20.0}, "m", "and has moved so far along the path by foresight"},
-        headway_gain);
-  visit({"most_places", Range{1.0, 1000.0}, "", "most predicted places of one obstacle"},
-        most_places);
+      chase_time, "chase_time", Range{0.0, 20.0}, "s",
+      "an obstacle from behind that would hit a waiting robot later than this may still turn off");
+  visit(stop_room, "stop_room", Range{0.0, 2.0}, "m",
+        "least gap from a waiting robot to what passes it");
+  visit(elbow_room, "elbow_room", Range{0.0, 2.0}, "m",
+        "least gap between a driving robot and an obstacle");
+  visit(spare_room, "spare_room", Range{0.0, 2.0}, "m",
+        "added to predicted obstacles, for paths that are not followed exactly");
+  visit(headway, "headway", Range{0.0, 20.0}, "m",
+        "an obstacle that drives on ahead is no conflict if it stays so far ahead of the robot");
+  visit(headway_gain, "headway_gain", Range{0.0, 20.0}, "m",
+        "and has moved so far along the path by foresight");
+  visit(most_places, "most_places", Range{1.0, 1000.0}, "",
+        "most predicted places of one obstacle");
 }
 
 /// Neither driving on nor waiting is safe, and it was not seen to come.

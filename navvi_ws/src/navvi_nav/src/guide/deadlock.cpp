@@ -23,10 +23,9 @@ bool faces(const MovingThing& thing, Point robot) {
 
 void DeadlockConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"make_room_after", Range{0.0, 600.0}, "s",
-         "what closes the only way and faces the robot for so long is made room for; 0: never"},
-        make_room_after);
-  visit({"wait_aside", Range{0.0, 600.0}, "s", "how long it is then given to pass"}, wait_aside);
+  visit(make_room_after, "make_room_after", Range{0.0, 600.0}, "s",
+        "what closes the only way and faces the robot for so long is made room for; 0: never");
+  visit(wait_aside, "wait_aside", Range{0.0, 600.0}, "s", "how long it is then given to pass");
 }
 
 std::vector<Cylinder> area_swept_by(const MovingThing& thing) {

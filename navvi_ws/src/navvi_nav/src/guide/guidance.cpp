@@ -22,20 +22,18 @@ double least_room(Point a, Point b, const map::Space& space) {
 
 void GuidanceConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"waypoint_reached", Range{0.1, 5.0}, "m", "a way-point counts as reached (R-NAV-8)"},
-        waypoint_reached);
-  visit({"goal_reached", Range{0.1, 5.0}, "m", "the goal counts as reached (R-NAV-11)"},
-        goal_reached);
-  visit({"sight_radius", Range{0.0, 1.0}, "m",
-         "room that the straight way to a way-point must have before the one before is given up"},
-        sight_radius);
-  visit({"easy_radius", Range{0.0, 2.0}, "m", "the same while the robot is not yet close"},
-        easy_radius);
-  visit({"close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close"}, close);
+  visit(waypoint_reached, "waypoint_reached", Range{0.1, 5.0}, "m",
+        "a way-point counts as reached (R-NAV-8)");
+  visit(goal_reached, "goal_reached", Range{0.1, 5.0}, "m",
+        "the goal counts as reached (R-NAV-11)");
+  visit(sight_radius, "sight_radius", Range{0.0, 1.0}, "m",
+        "room that the straight way to a way-point must have before the one before is given up");
+  visit(easy_radius, "easy_radius", Range{0.0, 2.0}, "m",
+        "the same while the robot is not yet close");
+  visit(close, "close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close");
   visit(
-      {"steer_ahead", Range{0.5, 1e6}, "m",
-       "directions are to the path so far ahead of the robot, or to the way-point if it is nearer"},
-      steer_ahead);
+      steer_ahead, "steer_ahead", Range{0.5, 1e6}, "m",
+      "directions are to the path so far ahead of the robot, or to the way-point if it is nearer");
 }
 
 double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }

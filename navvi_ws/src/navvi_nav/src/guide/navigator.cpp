@@ -33,15 +33,12 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   path.describe(visit);
   visit.group("stand_off", deadlock);
   observation.describe(visit);
-  visit({"carve_period", Range{0.05, 60.0}, "s",
-         "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)"},
-        carve_period);
-  visit({"plan_timeout", Range{0.1, 10.0}, "s",
-         "a path that must change is hidden when no plan came for so long"},
-        plan_timeout);
-  visit({"map_timeout", Range{0.0, 3600.0}, "s",
-         "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age"},
-        map_timeout);
+  visit(carve_period, "carve_period", Range{0.05, 60.0}, "s",
+        "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)");
+  visit(plan_timeout, "plan_timeout", Range{0.1, 10.0}, "s",
+        "a path that must change is hidden when no plan came for so long");
+  visit(map_timeout, "map_timeout", Range{0.0, 3600.0}, "s",
+        "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age");
 }
 
 Navigator::Navigator(const NavigatorConfig& config)

@@ -4,13 +4,11 @@ namespace navvi_nav::guide {
 
 void ObservationConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"most_cylinders", Range{1.0, 4.0}, "",
-         "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)"},
-        most_cylinders);
-  visit({"pose_timeout", Range{0.1, 10.0}, "s", "an older pose of the robot is stale"},
-        pose_timeout);
-  visit({"obstacle_timeout", Range{0.1, 10.0}, "s", "older obstacles are forgotten"},
-        obstacle_timeout);
+  visit(most_cylinders, "most_cylinders", Range{1.0, 4.0}, "",
+        "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)");
+  visit(pose_timeout, "pose_timeout", Range{0.1, 10.0}, "s", "an older pose of the robot is stale");
+  visit(obstacle_timeout, "obstacle_timeout", Range{0.1, 10.0}, "s",
+        "older obstacles are forgotten");
 }
 
 void Observation::set_obstacles(const std::vector<MovingThing>& things, double time) {

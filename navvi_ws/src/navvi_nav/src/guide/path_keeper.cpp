@@ -29,28 +29,22 @@ bool leads_back(const Path& followed, const Path& fresh) {
 
 void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"gain", Range{0.0, 1.0}, "",
-         "share by which a new path must be shorter to replace one that is still free"},
-        gain);
-  visit({"gain_length", Range{0.0, 10.0}, "m", "length by which it must be shorter besides"},
-        gain_length);
-  visit({"gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back"}, gain_back);
-  visit({"hold_time", Range{0.0, 60.0}, "s",
-         "a path cut by moving things is kept so long at most; 0: never kept"},
-        hold_time);
-  visit({"hold_choice", Range{0.0, 60.0}, "s",
-         "a path that was chosen because of what moves is kept so long at least, if nothing is run "
-         "into within as long"},
-        hold_choice);
-  visit({"hold_meeting", Range{0.0, 60.0}, "s",
-         "what comes along the path is evaded only when it is so close: it may turn off"},
-        hold_meeting);
-  visit({"hold_detour", Range{0.0, 100.0}, "m",
-         "nobody is led round farther than this for what moves while the path may be kept"},
-        hold_detour);
-  visit({"wait_distance", Range{0.0, 100.0}, "m",
-         "nearer than this a person is told to wait for what crosses, or closes the only way"},
-        wait_distance);
+  visit(gain, "gain", Range{0.0, 1.0}, "",
+        "share by which a new path must be shorter to replace one that is still free");
+  visit(gain_length, "gain_length", Range{0.0, 10.0}, "m",
+        "length by which it must be shorter besides");
+  visit(gain_back, "gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back");
+  visit(hold_time, "hold_time", Range{0.0, 60.0}, "s",
+        "a path cut by moving things is kept so long at most; 0: never kept");
+  visit(hold_choice, "hold_choice", Range{0.0, 60.0}, "s",
+        "a path that was chosen because of what moves is kept so long at least, if nothing is run "
+        "into within as long");
+  visit(hold_meeting, "hold_meeting", Range{0.0, 60.0}, "s",
+        "what comes along the path is evaded only when it is so close: it may turn off");
+  visit(hold_detour, "hold_detour", Range{0.0, 100.0}, "m",
+        "nobody is led round farther than this for what moves while the path may be kept");
+  visit(wait_distance, "wait_distance", Range{0.0, 100.0}, "m",
+        "nearer than this a person is told to wait for what crosses, or closes the only way");
 }
 
 bool PathKeeper::update(double time, const Conflict& conflict) {

@@ -10,20 +10,18 @@ constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robo
 
 void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"period", Range{0.1, 60.0}, "s", "tau: a plan is made again at least so often (R-NAV-9)"},
-        period);
-  visit({"slow_speed", Range{0.0, 1.0}, "m/s", "slower than this counts as too slow"}, slow_speed);
-  visit({"slow_time", Range{0.0, 60.0}, "s", "how long the robot must be too slow"}, slow_time);
-  visit({"near_range", Range{0.0, 20.0}, "m",
-         "R_threshold: a new obstacle within this distance of the robot is a reason"},
-        near_range);
-  visit({"min_interval", Range{0.0, 10.0}, "s", "least time between plans because of obstacles"},
-        min_interval);
-  visit({"only_if_it_matters", navvi_config::Any{}, "",
-         "search for a path that is still free only if something left a place through which a "
-         "better one could lead, or the robot strayed"},
-        only_if_it_matters);
-  visit({"stray", Range{0.0, 10.0}, "m", "a robot so far off its path strayed"}, stray);
+  visit(period, "period", Range{0.1, 60.0}, "s",
+        "tau: a plan is made again at least so often (R-NAV-9)");
+  visit(slow_speed, "slow_speed", Range{0.0, 1.0}, "m/s", "slower than this counts as too slow");
+  visit(slow_time, "slow_time", Range{0.0, 60.0}, "s", "how long the robot must be too slow");
+  visit(near_range, "near_range", Range{0.0, 20.0}, "m",
+        "R_threshold: a new obstacle within this distance of the robot is a reason");
+  visit(min_interval, "min_interval", Range{0.0, 10.0}, "s",
+        "least time between plans because of obstacles");
+  visit(only_if_it_matters, "only_if_it_matters", navvi_config::Any{}, "",
+        "search for a path that is still free only if something left a place through which a "
+        "better one could lead, or the robot strayed");
+  visit(stray, "stray", Range{0.0, 10.0}, "m", "a robot so far off its path strayed");
 }
 
 void ReplanTrigger::reset() {

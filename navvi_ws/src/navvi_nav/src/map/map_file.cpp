@@ -156,14 +156,13 @@ struct GridDescription {
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Range;
-    visit({"image", navvi_config::Any{}, "", "a PGM picture"}, image);
-    visit({"resolution", Range{kMinResolution, kMaxResolution}, "m", "side of a pixel"},
-          resolution);
-    visit({"origin", navvi_config::Any{}, "m, m, rad", "lower left corner: x, y, yaw"}, origin);
-    visit({"negate", Range{0.0, 1.0}, "", "1: white is occupied"}, negate);
-    visit({"occupied_thresh", Range{0.0, 1.0}, "", "darker is occupied"}, occupied_thresh);
-    visit({"free_thresh", Range{0.0, 1.0}, "", "lighter is free"}, free_thresh);
-    visit({"mode", navvi_config::OneOf{{"trinary"}}, "", "how grey is understood"}, mode);
+    visit(image, "image", navvi_config::Any{}, "", "a PGM picture");
+    visit(resolution, "resolution", Range{kMinResolution, kMaxResolution}, "m", "side of a pixel");
+    visit(origin, "origin", navvi_config::Any{}, "m, m, rad", "lower left corner: x, y, yaw");
+    visit(negate, "negate", Range{0.0, 1.0}, "", "1: white is occupied");
+    visit(occupied_thresh, "occupied_thresh", Range{0.0, 1.0}, "", "darker is occupied");
+    visit(free_thresh, "free_thresh", Range{0.0, 1.0}, "", "lighter is free");
+    visit(mode, "mode", navvi_config::OneOf{{"trinary"}}, "", "how grey is understood");
   }
 };
 

@@ -26,12 +26,11 @@ struct NodeConfig {
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Range;
     navigator.describe(visit);
-    visit({"map_frame", navvi_config::Any{}, "", "frame of the map and of all that is published"},
-          map_frame);
-    visit({"base_frame", navvi_config::Any{}, "", "frame of the robot"}, base_frame);
-    visit({"mesh_period", Range{0.1, 60.0}, "s",
-           "least time between two pictures of the mesh; a large mesh waits longer"},
-          mesh_period);
+    visit(map_frame, "map_frame", navvi_config::Any{}, "",
+          "frame of the map and of all that is published");
+    visit(base_frame, "base_frame", navvi_config::Any{}, "", "frame of the robot");
+    visit(mesh_period, "mesh_period", Range{0.1, 60.0}, "s",
+          "least time between two pictures of the mesh; a large mesh waits longer");
   }
 };
 

@@ -14,39 +14,32 @@ bool same_frame(const map::Floor& a, const map::Floor& b) {
 
 void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"robot_radius", Range{0.05, 2.0}, "m", "radius of the robot's hull"}, robot_radius);
-  visit({"robot_height", Range{0.1, 5.0}, "m", "what hangs higher over the floor does not block"},
-        robot_height);
-  visit({"cell_size", Range{0.0, 1.0}, "m", "edge of a cell of the mesh; 0: the map's voxel"},
-        cell_size);
-  visit({"climb", Range{0.0, 0.5}, "m",
-         "highest step that is driven over; steps below 0.05 m are no obstacles (R-NAV-12)"},
-        climb);
-  visit({"floor_height", Range{map::kAnyFloor, 1000.0}, "m",
-         "z of the floor in map; -1000: the lowest that is at least half as large as the largest"},
-        floor_height);
-  visit({"whole_cell_erosion", navvi_config::Any{}, "",
-         "round the eroded width up to whole cells (R-NAV-2)"},
-        whole_cell_erosion);
-  visit({"contour_error", Range{0.0, 2.0}, "cells",
-         "how deep a notch in a wall may be that is filled to draw the wall straight"},
-        contour_error);
-  visit({"tile_size", Range{2.0, 64.0}, "m", "edge of a tile"}, tile_size);
-  visit({"max_edge", Range{0.0, 100.0}, "m", "longer edges along walls are split; 0: never"},
-        max_edge);
-  visit({"polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon"}, polygon_corners);
-  visit({"threads", Range{1.0, 64.0}, "", "that share the work on a new map"}, threads);
-  visit({"preferred_clearance", Range{0.0, 2.0}, "m",
-         "room a guide path leaves beyond the robot's radius where there is room"},
-        preferred_clearance);
-  visit({"carve_moved", Range{0.0, 1.0}, "m", "an obstacle that moved less keeps its hole"},
-        carve_moved);
-  visit({"carve_changed", Range{0.0, 1.0}, "",
-         "fraction of the carved area that must have changed before holes follow (R-NAV-5)"},
-        carve_changed);
-  visit({"hole_sides", Range{4.0, 64.0}, "",
-         "sides of a hole; 8 lose nothing along axes and diagonals and 8 % at most between"},
-        hole_sides);
+  visit(robot_radius, "robot_radius", Range{0.05, 2.0}, "m", "radius of the robot's hull");
+  visit(robot_height, "robot_height", Range{0.1, 5.0}, "m",
+        "what hangs higher over the floor does not block");
+  visit(cell_size, "cell_size", Range{0.0, 1.0}, "m",
+        "edge of a cell of the mesh; 0: the map's voxel");
+  visit(climb, "climb", Range{0.0, 0.5}, "m",
+        "highest step that is driven over; steps below 0.05 m are no obstacles (R-NAV-12)");
+  visit(floor_height, "floor_height", Range{map::kAnyFloor, 1000.0}, "m",
+        "z of the floor in map; -1000: the lowest that is at least half as large as the largest");
+  visit(whole_cell_erosion, "whole_cell_erosion", navvi_config::Any{}, "",
+        "round the eroded width up to whole cells (R-NAV-2)");
+  visit(contour_error, "contour_error", Range{0.0, 2.0}, "cells",
+        "how deep a notch in a wall may be that is filled to draw the wall straight");
+  visit(tile_size, "tile_size", Range{2.0, 64.0}, "m", "edge of a tile");
+  visit(max_edge, "max_edge", Range{0.0, 100.0}, "m",
+        "longer edges along walls are split; 0: never");
+  visit(polygon_corners, "polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon");
+  visit(threads, "threads", Range{1.0, 64.0}, "", "that share the work on a new map");
+  visit(preferred_clearance, "preferred_clearance", Range{0.0, 2.0}, "m",
+        "room a guide path leaves beyond the robot's radius where there is room");
+  visit(carve_moved, "carve_moved", Range{0.0, 1.0}, "m",
+        "an obstacle that moved less keeps its hole");
+  visit(carve_changed, "carve_changed", Range{0.0, 1.0}, "",
+        "fraction of the carved area that must have changed before holes follow (R-NAV-5)");
+  visit(hole_sides, "hole_sides", Range{4.0, 64.0}, "",
+        "sides of a hole; 8 lose nothing along axes and diagonals and 8 % at most between");
 }
 
 double NavMesh::margin(double cell) const {

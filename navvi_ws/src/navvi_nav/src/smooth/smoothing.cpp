@@ -184,19 +184,16 @@ std::vector<Cylinder> cylinders_near(const Path& path, const map::Space& space, 
 
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"enabled", navvi_config::Any{}, "", "false: the path is the funnel's"}, enabled);
-  visit({"steps", Range{0, 10000}, "", "upper limit of each of OMPL's two loops"}, steps);
-  visit({"clearance_weight", Range{0.0, 100.0}, "",
-         "how much dearer a metre without any preferred clearance is"},
-        clearance_weight);
-  visit({"turn_price", Range{0.0, 20.0}, "m", "length a path may gain to save one turn"},
-        turn_price);
-  visit({"short_leg", Range{0.1, 10.0}, "m",
-         "a leg shorter than this costs up to one turn_price more"},
-        short_leg);
-  visit({"max_stretch", Range{1.0, 5.0}, "", "longest smoothed path, times the shortest"},
-        max_stretch);
-  visit({"max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest"}, max_detour);
+  visit(enabled, "enabled", navvi_config::Any{}, "", "false: the path is the funnel's");
+  visit(steps, "steps", Range{0, 10000}, "", "upper limit of each of OMPL's two loops");
+  visit(clearance_weight, "clearance_weight", Range{0.0, 100.0}, "",
+        "how much dearer a metre without any preferred clearance is");
+  visit(turn_price, "turn_price", Range{0.0, 20.0}, "m", "length a path may gain to save one turn");
+  visit(short_leg, "short_leg", Range{0.1, 10.0}, "m",
+        "a leg shorter than this costs up to one turn_price more");
+  visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "",
+        "longest smoothed path, times the shortest");
+  visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
 }
 
 double guide_cost(const Path& path, const map::Space& space, const Room& room,

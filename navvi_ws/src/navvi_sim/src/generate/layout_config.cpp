@@ -109,41 +109,36 @@ void LayoutConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   const Range share{0.0, 1.0};
   const Range speed{0.05, 5.0};
-  visit({"length", Range{10.0, 300.0}, "m", "of the hall along the dock wall, inside"}, length);
-  visit({"width", Range{10.0, 300.0}, "m", "of the hall away from the dock wall, inside"}, width);
-  visit({"rows", Range{0, 200}, "", "shelf rows, each of two racks back to back; 0: as fit"}, rows);
-  visit({"blocks", Range{0, 100}, "", "shelf blocks behind each other; 0: as fit"}, blocks);
-  visit({"bays", Range{0, 150}, "", "of 2 m in a rack of a block; 0: as fit"}, bays);
-  visit({"aisle", Range{1.4, 20.0}, "m", "between two rows; the outermost two may be wider"},
-        aisle);
-  visit({"cross_aisle", Range{1.4, 20.0}, "m", "before, between and behind the blocks"},
-        cross_aisle);
-  visit({"dead_ends", share, "",
-         "share closed of the ways that can be, with nothing cut off; 1: a "
-         "maze with one way between any two places"},
-        dead_ends);
-  visit({"docks", Range{0, 201}, "", "doors in the southern wall, each at the end of an aisle"},
-        docks);
-  visit({"walls", Range{0, 200}, "", "through the hall from front to back, between two racks"},
-        walls);
-  visit({"door", Range{1.4, 20.0}, "m", "width of the doors of the walls, one a cross-aisle"},
-        door);
-  visit({"fill", share, "", "share of shelf places that hold a box"}, fill);
-  visit({"staged", share, "", "share of places at the docks that hold a loaded pallet"}, staged);
-  visit({"pallets", share, "", "share of places in quiet aisles where a pallet was left"}, pallets);
-  visit({"pedestals", share, "", "share of places in quiet aisles with a pedestal"}, pedestals);
-  visit({"clutter", share, "", "share of places in quiet aisles with boxes on the floor"}, clutter);
-  visit({"pedestal_min", Range{0.05, 0.30}, "m", "least height of a pedestal"}, pedestal_min);
-  visit({"pedestal_max", Range{0.05, 0.30}, "m", "greatest height of a pedestal"}, pedestal_max);
-  visit({"forklifts", Range{0, 1000}, "", "on routes"}, forklifts);
-  visit({"pallet_robots", Range{0, 1000}, "", "on routes"}, pallet_robots);
-  visit({"walking_workers", Range{0, 1000}, "", "on routes"}, walking_workers);
-  visit({"standing_workers", Range{0, 1000}, "", "who stand"}, standing_workers);
-  visit({"forklift_speed", speed, "m/s", "of forklifts on their routes"}, forklift_speed);
-  visit({"pallet_robot_speed", speed, "m/s", "of pallet robots on their routes"},
-        pallet_robot_speed);
-  visit({"worker_speed", speed, "m/s", "of workers who walk"}, worker_speed);
-  visit({"pause", Range{0.0, 600.0}, "s", "of what moves, at docks and shelves"}, pause);
+  visit(length, "length", Range{10.0, 300.0}, "m", "of the hall along the dock wall, inside");
+  visit(width, "width", Range{10.0, 300.0}, "m", "of the hall away from the dock wall, inside");
+  visit(rows, "rows", Range{0, 200}, "", "shelf rows, each of two racks back to back; 0: as fit");
+  visit(blocks, "blocks", Range{0, 100}, "", "shelf blocks behind each other; 0: as fit");
+  visit(bays, "bays", Range{0, 150}, "", "of 2 m in a rack of a block; 0: as fit");
+  visit(aisle, "aisle", Range{1.4, 20.0}, "m", "between two rows; the outermost two may be wider");
+  visit(cross_aisle, "cross_aisle", Range{1.4, 20.0}, "m", "before, between and behind the blocks");
+  visit(dead_ends, "dead_ends", share, "",
+        "share closed of the ways that can be, with nothing cut off; 1: a "
+        "maze with one way between any two places");
+  visit(docks, "docks", Range{0, 201}, "",
+        "doors in the southern wall, each at the end of an aisle");
+  visit(walls, "walls", Range{0, 200}, "",
+        "through the hall from front to back, between two racks");
+  visit(door, "door", Range{1.4, 20.0}, "m", "width of the doors of the walls, one a cross-aisle");
+  visit(fill, "fill", share, "", "share of shelf places that hold a box");
+  visit(staged, "staged", share, "", "share of places at the docks that hold a loaded pallet");
+  visit(pallets, "pallets", share, "", "share of places in quiet aisles where a pallet was left");
+  visit(pedestals, "pedestals", share, "", "share of places in quiet aisles with a pedestal");
+  visit(clutter, "clutter", share, "", "share of places in quiet aisles with boxes on the floor");
+  visit(pedestal_min, "pedestal_min", Range{0.05, 0.30}, "m", "least height of a pedestal");
+  visit(pedestal_max, "pedestal_max", Range{0.05, 0.30}, "m", "greatest height of a pedestal");
+  visit(forklifts, "forklifts", Range{0, 1000}, "", "on routes");
+  visit(pallet_robots, "pallet_robots", Range{0, 1000}, "", "on routes");
+  visit(walking_workers, "walking_workers", Range{0, 1000}, "", "on routes");
+  visit(standing_workers, "standing_workers", Range{0, 1000}, "", "who stand");
+  visit(forklift_speed, "forklift_speed", speed, "m/s", "of forklifts on their routes");
+  visit(pallet_robot_speed, "pallet_robot_speed", speed, "m/s", "of pallet robots on their routes");
+  visit(worker_speed, "worker_speed", speed, "m/s", "of workers who walk");
+  visit(pause, "pause", Range{0.0, 600.0}, "s", "of what moves, at docks and shelves");
 }
 
 const std::vector<Preset>& presets() {

@@ -16,8 +16,8 @@ struct LayoutFile {
   void describe(navvi_config::Visitor& visit) {
     navvi_config::OneOf words;
     for (const Preset& known : presets()) words.words.push_back(known.name);
-    visit({"name", navvi_config::Any{}, "", "of the world; empty: the file's"}, name);
-    visit({"preset", words, "", "what the layout starts from"}, start);
+    visit(name, "name", navvi_config::Any{}, "", "of the world; empty: the file's");
+    visit(start, "preset", words, "", "what the layout starts from");
     visit.group("layout", config);
   }
 };

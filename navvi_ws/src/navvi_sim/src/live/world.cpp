@@ -17,10 +17,9 @@ bool is_finite(const Eigen::Vector2d& v) { return v.allFinite(); }
 
 void WorldConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"step", Range{0.001, 0.01}, "s", "fixed time step"}, step);
-  visit({"ceiling", Range{0.5, 10.0}, "m",
-         "what begins higher above the floor is not near the robot"},
-        ceiling);
+  visit(step, "step", Range{0.001, 0.01}, "s", "fixed time step");
+  visit(ceiling, "ceiling", Range{0.5, 10.0}, "m",
+        "what begins higher above the floor is not near the robot");
   visit.group("robot", robot);
   visit.group("movers", movers);
 }

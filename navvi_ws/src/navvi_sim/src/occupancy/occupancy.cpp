@@ -114,8 +114,8 @@ void check_reach(const Thing& thing, const Shape& shape, double resolution) {
 }  // namespace
 
 void OccupancyConfig::describe(navvi_config::Visitor& visit) {
-  visit({"resolution", navvi_config::Range{0.01, 1.0}, "m", "edge of a voxel of the OctoMap"},
-        resolution);
+  visit(resolution, "resolution", navvi_config::Range{0.01, 1.0}, "m",
+        "edge of a voxel of the OctoMap");
 }
 
 OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {

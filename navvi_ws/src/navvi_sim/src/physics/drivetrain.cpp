@@ -19,27 +19,22 @@ double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle
 
 void ImperfectionsConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"wheel_base", Range{0.1, 2.0}, "m", "between the two wheels"}, wheel_base);
-  visit({"slip_left", Range{0.0, 0.9}, "", "share of its turning that the left wheel loses"},
-        slip_left);
-  visit({"slip_right", Range{0.0, 0.9}, "", "share of its turning that the right wheel loses"},
-        slip_right);
-  visit({"slip_noise", Range{0.0, 0.5}, "",
-         "standard deviation of what comes on top and goes, each wheel by itself"},
-        slip_noise);
-  visit({"slip_time", Range{0.05, 10.0}, "s", "in which that comes and goes"}, slip_time);
-  visit({"command_delay", Range{0.0, 2.0}, "s",
-         "from a command to the wheels; an emergency stop is never late"},
-        command_delay);
-  visit({"odometry_left", Range{-0.2, 0.2}, "",
-         "share by which odometry counts the left wheel's way too long"},
-        odometry_left);
-  visit({"odometry_right", Range{-0.2, 0.2}, "",
-         "share by which odometry counts the right wheel's way too long"},
-        odometry_right);
-  visit({"odometry_noise", Range{0.0, 0.1}, "m per root of a metre",
-         "standard deviation of each wheel's counted way; grows with the root of the way"},
-        odometry_noise);
+  visit(wheel_base, "wheel_base", Range{0.1, 2.0}, "m", "between the two wheels");
+  visit(slip_left, "slip_left", Range{0.0, 0.9}, "",
+        "share of its turning that the left wheel loses");
+  visit(slip_right, "slip_right", Range{0.0, 0.9}, "",
+        "share of its turning that the right wheel loses");
+  visit(slip_noise, "slip_noise", Range{0.0, 0.5}, "",
+        "standard deviation of what comes on top and goes, each wheel by itself");
+  visit(slip_time, "slip_time", Range{0.05, 10.0}, "s", "in which that comes and goes");
+  visit(command_delay, "command_delay", Range{0.0, 2.0}, "s",
+        "from a command to the wheels; an emergency stop is never late");
+  visit(odometry_left, "odometry_left", Range{-0.2, 0.2}, "",
+        "share by which odometry counts the left wheel's way too long");
+  visit(odometry_right, "odometry_right", Range{-0.2, 0.2}, "",
+        "share by which odometry counts the right wheel's way too long");
+  visit(odometry_noise, "odometry_noise", Range{0.0, 0.1}, "m per root of a metre",
+        "standard deviation of each wheel's counted way; grows with the root of the way");
 }
 
 Drivetrain::Drivetrain(const RobotConfig& config, double step, const RobotState& start,

@@ -57,32 +57,26 @@ std::string absolute(const std::string& path, std::filesystem::file_type type) {
 void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::Range;
-  visit({"world", Any{}, "",
-         "training, easy, warehouse, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
-         "file"},
-        world);
-  visit({"models", Any{}, "",
-         "folders for SDF's model://, separated by colons; those beside the world are always "
-         "searched"},
-        models);
-  visit({"classes", Any{}, "",
-         "a YAML file of class rules for SDF's models; empty: navvi_sim's config/classes.yaml"},
-        classes);
-  visit({"seed", Range{0, std::numeric_limits<int>::max()}, "",
-         "draws the world's fill, the movers' pauses, and start and goal where not given"},
-        seed);
-  visit({"start", Any{}, "m, m, rad", "x,y,yaw of the robot; empty: drawn from the seed"}, start);
-  visit({"goal", Any{}, "m, m", "x,y of the goal; empty: drawn from the seed"}, goal);
-  visit({"rate", Range{0.05, 50.0}, "", "simulated seconds per second of wall time"}, rate);
-  visit({"max_catch_up", Range{1, 1000}, "",
-         "most steps at once after a delay; beyond it the simulation slows down"},
-        max_catch_up);
-  visit({"detection_radius", Range{0.5, 20.0}, "m", "gap up to which things are reported as near"},
-        detection_radius);
+  visit(world, "world", Any{}, "",
+        "training, easy, warehouse, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
+        "file");
+  visit(models, "models", Any{}, "",
+        "folders for SDF's model://, separated by colons; those beside the world are always "
+        "searched");
+  visit(classes, "classes", Any{}, "",
+        "a YAML file of class rules for SDF's models; empty: navvi_sim's config/classes.yaml");
+  visit(seed, "seed", Range{0, std::numeric_limits<int>::max()}, "",
+        "draws the world's fill, the movers' pauses, and start and goal where not given");
+  visit(start, "start", Any{}, "m, m, rad", "x,y,yaw of the robot; empty: drawn from the seed");
+  visit(goal, "goal", Any{}, "m, m", "x,y of the goal; empty: drawn from the seed");
+  visit(rate, "rate", Range{0.05, 50.0}, "", "simulated seconds per second of wall time");
+  visit(max_catch_up, "max_catch_up", Range{1, 1000}, "",
+        "most steps at once after a delay; beyond it the simulation slows down");
+  visit(detection_radius, "detection_radius", Range{0.5, 20.0}, "m",
+        "gap up to which things are reported as near");
   life.describe(visit);
-  visit({"workers", navvi_config::OneOf{{"standing", "walking", "both"}}, "",
-         "whether all workers of a layout stand, all walk a route, or both as the layout says"},
-        workers);
+  visit(workers, "workers", navvi_config::OneOf{{"standing", "walking", "both"}}, "",
+        "whether all workers of a layout stand, all walk a route, or both as the layout says");
   visit.group("scenario", scenario);
   visit.group("octomap", octomap);
   visit.group("gate", gate);

@@ -246,26 +246,20 @@ void Surveyor::place_users() {
 void MoversConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::Range;
-  visit({"yield", Any{}, "",
-         "movers stop for the robot unless their route says otherwise; false: none does"},
-        yield);
-  visit({"acceleration", Range{0.1, 5.0}, "m/s^2",
-         "of movers, to faster and to slower, and sideways in curves"},
-        acceleration);
-  visit({"turn_rate", Range{0.1, 6.0}, "rad/s", "of movers, on the spot and in curves"}, turn_rate);
-  visit({"corner_radius", Range{0.0, 10.0}, "m",
-         "at which forklifts round corners where there is room; pallet robots half, workers a "
-         "quarter of it; 0: all turn on the spot"},
-        corner_radius);
-  visit({"clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot"},
-        clearance);
-  visit({"patience", Range{4.0, 3600.0}, "s",
-         "after which a mover that the robot keeps from going on backs out, to let it pass"},
-        patience);
-  visit({"back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover that backs out"}, back_speed);
-  visit({"pause_spread", Range{0.0, 1.0}, "",
-         "share by which pauses at way-points vary either way, drawn from the seed"},
-        pause_spread);
+  visit(yield, "yield", Any{}, "",
+        "movers stop for the robot unless their route says otherwise; false: none does");
+  visit(acceleration, "acceleration", Range{0.1, 5.0}, "m/s^2",
+        "of movers, to faster and to slower, and sideways in curves");
+  visit(turn_rate, "turn_rate", Range{0.1, 6.0}, "rad/s", "of movers, on the spot and in curves");
+  visit(corner_radius, "corner_radius", Range{0.0, 10.0}, "m",
+        "at which forklifts round corners where there is room; pallet robots half, workers a "
+        "quarter of it; 0: all turn on the spot");
+  visit(clearance, "clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot");
+  visit(patience, "patience", Range{4.0, 3600.0}, "s",
+        "after which a mover that the robot keeps from going on backs out, to let it pass");
+  visit(back_speed, "back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover that backs out");
+  visit(pause_spread, "pause_spread", Range{0.0, 1.0}, "",
+        "share by which pauses at way-points vary either way, drawn from the seed");
 }
 
 std::size_t Lane::leg_after(double s) const {

@@ -21,8 +21,8 @@ struct NodeConfig {
   navvi_study::people::SimulatedOperatorConfig hand;
 
   void describe(navvi_config::Visitor& visit) {
-    visit({"seed", navvi_config::Range{0, 2147483647}, "", "of reaction times and errors"}, seed);
-    visit({"rate", navvi_config::Range{10, 200}, "Hz", "of joy messages"}, rate);
+    visit(seed, "seed", navvi_config::Range{0, 2147483647}, "", "of reaction times and errors");
+    visit(rate, "rate", navvi_config::Range{10, 200}, "Hz", "of joy messages");
     visit.group("operator", hand);
   }
 };

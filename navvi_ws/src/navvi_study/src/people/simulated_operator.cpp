@@ -34,23 +34,23 @@ double angle_of(int hour, bool from_straight) {
 
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"min_reaction", Range{0.0, 5.0}, "s", "quickest from the end of a sentence to the hand"},
-        min_reaction);
-  visit({"max_reaction", Range{0.0, 5.0}, "s", "slowest; not below min_reaction"}, max_reaction);
-  visit({"turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick"}, turn_rate);
-  visit({"full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick"}, full_speed);
-  visit({"dead_zone", Range{0.0, 0.5}, "", "believed, of the stick"}, dead_zone);
-  visit({"expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic"}, expo);
-  visit({"gain_error", Range{0.0, 0.5}, "", "standard deviation of how wrong these beliefs are"},
-        gain_error);
-  visit({"turn_error", Range{0.0, 1.0}, "rad", "standard deviation of each turn"}, turn_error);
-  visit({"cruise", Range{0.05, 1.0}, "", "stick on a straight way"}, cruise);
-  visit({"slow", Range{0.05, 1.0}, "", "stick when something is near"}, slow);
-  visit({"patience", Range{1.0, 60.0}, "s", "of silence while driving before asking"}, patience);
-  visit({"idle_patience", Range{0.5, 60.0}, "s", "of silence while waiting before asking"},
-        idle_patience);
-  visit({"strong_rumble", Range{0.0, 1.0}, "", "motors above this on both sides slow the hand"},
-        strong_rumble);
+  visit(min_reaction, "min_reaction", Range{0.0, 5.0}, "s",
+        "quickest from the end of a sentence to the hand");
+  visit(max_reaction, "max_reaction", Range{0.0, 5.0}, "s", "slowest; not below min_reaction");
+  visit(turn_rate, "turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick");
+  visit(full_speed, "full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick");
+  visit(dead_zone, "dead_zone", Range{0.0, 0.5}, "", "believed, of the stick");
+  visit(expo, "expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic");
+  visit(gain_error, "gain_error", Range{0.0, 0.5}, "",
+        "standard deviation of how wrong these beliefs are");
+  visit(turn_error, "turn_error", Range{0.0, 1.0}, "rad", "standard deviation of each turn");
+  visit(cruise, "cruise", Range{0.05, 1.0}, "", "stick on a straight way");
+  visit(slow, "slow", Range{0.05, 1.0}, "", "stick when something is near");
+  visit(patience, "patience", Range{1.0, 60.0}, "s", "of silence while driving before asking");
+  visit(idle_patience, "idle_patience", Range{0.5, 60.0}, "s",
+        "of silence while waiting before asking");
+  visit(strong_rumble, "strong_rumble", Range{0.0, 1.0}, "",
+        "motors above this on both sides slow the hand");
 }
 
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed)

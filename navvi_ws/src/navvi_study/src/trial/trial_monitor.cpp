@@ -41,17 +41,17 @@ std::uint64_t obstacles_in(const Contact& contact) {
 
 void TrialMonitorConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit({"obstacle_range", Range{0.1, 50.0}, "m", "an obstacle this near is a proximity event"},
-        obstacle_range);
-  visit({"shelf_range", Range{0.1, 50.0}, "m", "a shelf this near is a proximity event"},
-        shelf_range);
-  visit({"leave_margin", Range{0.0, 5.0}, "m", "a near thing has left beyond its range plus this"},
-        leave_margin);
-  visit({"leave_time", Range{0.0, 10.0}, "s", "and has been there this long"}, leave_time);
-  visit({"center_range", Range{0.0, 10.0}, "m", "up to this far aside, a thing is in the centre"},
-        center_range);
-  visit({"progress_period", Range{0.1, 60.0}, "s", "between rows that only say how far one got"},
-        progress_period);
+  visit(obstacle_range, "obstacle_range", Range{0.1, 50.0}, "m",
+        "an obstacle this near is a proximity event");
+  visit(shelf_range, "shelf_range", Range{0.1, 50.0}, "m",
+        "a shelf this near is a proximity event");
+  visit(leave_margin, "leave_margin", Range{0.0, 5.0}, "m",
+        "a near thing has left beyond its range plus this");
+  visit(leave_time, "leave_time", Range{0.0, 10.0}, "s", "and has been there this long");
+  visit(center_range, "center_range", Range{0.0, 10.0}, "m",
+        "up to this far aside, a thing is in the centre");
+  visit(progress_period, "progress_period", Range{0.1, 60.0}, "s",
+        "between rows that only say how far one got");
 }
 
 bool TrialMonitor::counts(std::int64_t stamp) {

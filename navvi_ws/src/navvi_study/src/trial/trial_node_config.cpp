@@ -29,21 +29,20 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
   using navvi_config::OneOf;
   using navvi_config::Range;
-  visit({"out", Any{}, "", "folder that gets a folder for each trial"}, out);
-  visit({"limit", Range{0.0, 86400.0}, "s", "a trial ends after this much ROS time; 0 for never"},
-        limit);
-  visit({"patience", Range{0.0, 86400.0}, "s",
-         "give up where a single trial cannot begin, or no robot is there, for this long; 0: wait "
-         "for ever"},
-        patience);
-  visit({"operator", Any{}, "", "what drives, as it stands in the summary: pad, simulated, ..."},
-        operator_kind);
-  visit({"participant", Any{}, "", "a pseudonym for the record, such as sub-01"}, participant);
-  visit({"profile", Any{}, "", "of the session, as it stands in the summary"}, profile);
-  visit({"require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities"}, require);
-  visit({"once", Any{}, "", "end after one trial"}, once);
-  visit({"record", Any{}, "", "keep a bag of each trial"}, record);
-  visit({"tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words"}, tail);
+  visit(out, "out", Any{}, "", "folder that gets a folder for each trial");
+  visit(limit, "limit", Range{0.0, 86400.0}, "s",
+        "a trial ends after this much ROS time; 0 for never");
+  visit(patience, "patience", Range{0.0, 86400.0}, "s",
+        "give up where a single trial cannot begin, or no robot is there, for this long; 0: wait "
+        "for ever");
+  visit(operator_kind, "operator", Any{}, "",
+        "what drives, as it stands in the summary: pad, simulated, ...");
+  visit(participant, "participant", Any{}, "", "a pseudonym for the record, such as sub-01");
+  visit(profile, "profile", Any{}, "", "of the session, as it stands in the summary");
+  visit(require, "require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities");
+  visit(once, "once", Any{}, "", "end after one trial");
+  visit(record, "record", Any{}, "", "keep a bag of each trial");
+  visit(tail, "tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words");
   visit.group("monitor", monitor);
 }
 
