@@ -35,7 +35,7 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
         "commands beyond this many times a limit are rejected");
 }
 
-void CommandGate::receive(const std::optional<Velocity>& command, const Instant& now) {
+void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, const Instant& now) {
   if (!command || !within(command->linear, config_.max_linear * config_.absurd_factor) ||
       !within(command->angular, config_.max_angular * config_.absurd_factor)) {
     ++rejected_;
@@ -60,7 +60,7 @@ void CommandGate::receive(const std::optional<Velocity>& command, const Instant&
   bad_since_valid_ = false;
 }
 
-Velocity CommandGate::update(const Instant& now) {
+navvi_types::Velocity CommandGate::update(const Instant& now) {
   if (!last_valid_) return {};
   if (!fresh(now)) {
     if (state_ == State::running) {

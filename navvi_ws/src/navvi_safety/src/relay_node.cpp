@@ -4,7 +4,8 @@
 #include <ros/ros.h>
 
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_safety/msg_conversion.hpp>
+#include <navvi_safety/now.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 int main(int argc, char** argv) {
   using navvi_safety::CommandGateConfig;
@@ -17,17 +18,19 @@ int main(int argc, char** argv) {
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
     ros::Subscriber commands = node.subscribe<geometry_msgs::Twist>(
         "cmd_vel", 1, [&](const geometry_msgs::Twist::ConstPtr& msg) {
-          gate.receive(navvi_safety::from_msg(*msg), navvi_safety::now());
+          gate.receive(navvi_types::from_msg(*msg), navvi_safety::now());
         });
-    state.publish(navvi_safety::state_msg(gate, ros::Time::now()));
+    const auto publish_state = [&] {
+      state.publish(navvi_types::to_msg(gate.drive_state(navvi_types::to_ns(ros::Time::now()))));
+    };
+    publish_state();
 
     // By wall clock, so that a stopped simulation clock cannot stop the stopping.
     ros::WallTimer timer =
         node.createWallTimer(ros::WallDuration(0.02), [&](const ros::WallTimerEvent&) {
           const auto before = gate.state();
-          wheels.publish(navvi_safety::to_msg(gate.update(navvi_safety::now())));
-          if (gate.state() != before)
-            state.publish(navvi_safety::state_msg(gate, ros::Time::now()));
+          wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
+          if (gate.state() != before) publish_state();
         });
     ros::spin();
     wheels.publish(geometry_msgs::Twist());

@@ -8,6 +8,8 @@
 namespace navvi_safety {
 namespace {
 
+using navvi_types::Velocity;
+
 constexpr double kStep = 0.02;  // s
 
 /// A gate with a stick before it, and a clock that both hands advance together.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <navvi_safety/msg_conversion.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 namespace {
 

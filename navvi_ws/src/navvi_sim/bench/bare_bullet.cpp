@@ -26,7 +26,7 @@ std::unique_ptr<btBroadphaseInterface> broadphase(BareBullet::Settings settings)
 }  // namespace
 
 BareBullet::BareBullet(const WorldDescription& description, const RobotConfig& robot,
-                       const FloorPose& start, Settings settings)
+                       const Pose2& start, Settings settings)
     : settings_(settings), broadphase_(broadphase(settings)) {
   world_.setGravity(btVector3(0, 0, 0));
   world_.setForceUpdateAllAabbs(settings == Settings::as_they_come);
@@ -35,8 +35,8 @@ BareBullet::BareBullet(const WorldDescription& description, const RobotConfig& r
 
   const double half = 0.5 * (robot.height - robot.clearance);
   Eigen::Isometry3d pose(Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()));
-  pose.translation() =
-      Eigen::Vector3d(start.x, start.y, description.floor_height + robot.clearance + half);
+  pose.translation() = Eigen::Vector3d(start.position.x(), start.position.y(),
+                                       description.floor_height + robot.clearance + half);
   robot_ = &add_body(
       robot.mass, keep<btCylinderShapeZ>(to_bt(Eigen::Vector3d(robot.radius, robot.radius, half))),
       to_bt(pose), kRobot, kThing);

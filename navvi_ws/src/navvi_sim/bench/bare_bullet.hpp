@@ -23,7 +23,7 @@ class BareBullet {
 
   /// Boxes, cylinders and spheres only; floors have no body.
   BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
-             const FloorPose& start, Settings settings);
+             const Pose2& start, Settings settings);
   ~BareBullet();
   BareBullet(const BareBullet&) = delete;
   BareBullet& operator=(const BareBullet&) = delete;

@@ -8,12 +8,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <navvi_types/msg_conversion.hpp>
 
 #include "bare_bullet.hpp"
 #include "hall.hpp"
 #include "medians.hpp"
 #include "navvi_sim/live/world.hpp"
-#include "navvi_sim/node/state_conversion.hpp"
+#include "navvi_sim/node/msg_conversion.hpp"
 #include "navvi_sim/read/world_source.hpp"
 #include "scene/scene.hpp"
 
@@ -34,13 +35,13 @@ constexpr auto kUnit = benchmark::kMicrosecond;
 /// the same.
 struct Scenery {
   WorldDescription world;
-  FloorPose start;
-  navvi_safety::Velocity command;
+  Pose2 start;
+  navvi_types::Velocity command;
 };
 
 const Scenery& warehouse() {
   static const Scenery scenery{
-      setup::load_world("warehouse", "", 1, {}).world, {6.5, -12.8, 1.57}, {0.45, 0.45}};
+      setup::load_world("warehouse", "", 1, {}).world, {{6.5, -12.8}, 1.57}, {0.45, 0.45}};
   return scenery;
 }
 
@@ -48,7 +49,7 @@ const Scenery& crowded(int cells, std::size_t shelves, std::size_t movers) {
   static std::map<std::tuple<int, std::size_t, std::size_t>, Scenery> made;
   Scenery& scenery = made[{cells, shelves, movers}];
   if (scenery.world.things.empty())
-    scenery = {hall(cells, shelves, movers), {0.5, 4.5, 1.57}, {0.3, 0.6}};
+    scenery = {hall(cells, shelves, movers), {{0.5, 4.5}, 1.57}, {0.3, 0.6}};
   return scenery;
 }
 
@@ -65,22 +66,19 @@ std::size_t bytes_of(const Message& message) {
 }
 
 /// Everything that sim_node publishes after a step, made and serialized but not sent.
-std::size_t state_bytes(const WorldDescription& description, const live::World& world,
-                        scene::Scene& looks, std::uint64_t steps) {
+std::size_t state_bytes(const live::World& world, scene::Scene& looks, std::uint64_t steps) {
   const live::Snapshot& now = world.now();
-  const double floor = description.floor_height;
   const ros::Time stamp(now.time);
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
-  std::size_t bytes = bytes_of(clock) + bytes_of(node::base_link_msg(now.robot, floor, stamp)) +
-                      bytes_of(node::odometry_msg(now.robot, floor, stamp));
-  for (const physics::ContactEvent& contact : now.contacts)
-    bytes += bytes_of(node::contact_msg(description, now.robot, contact, stamp));
+  std::size_t bytes = bytes_of(clock) + bytes_of(node::base_link_msg(world.odometry())) +
+                      bytes_of(navvi_types::to_msg(world.odometry()));
+  for (const navvi_types::Contact& contact : now.contacts)
+    bytes += bytes_of(navvi_types::to_msg(contact));
   if (steps % kProximityEach == 0)
-    bytes += bytes_of(node::proximity_msg(description, now.robot, world.proximity(kDetectionRadius),
-                                          kDetectionRadius, stamp));
+    bytes += bytes_of(navvi_types::to_msg(world.proximity(kDetectionRadius)));
   if (steps % kObstaclesEach == 0) {
-    bytes += bytes_of(node::obstacles_msg(description, now, stamp));
+    bytes += bytes_of(navvi_types::to_msg(world.obstacles()));
     bytes += bytes_of(looks.moving(now, stamp));
   }
   return bytes;
@@ -96,7 +94,7 @@ void run_world(benchmark::State& state, const Scenery& scenery, bool publishing)
   for (auto _ : state) {
     if (world.step(scenery.command) != live::World::Status::running)
       state.SkipWithError("the world stopped");
-    if (publishing) bytes += state_bytes(scenery.world, world, looks, ++steps);
+    if (publishing) bytes += state_bytes(world, looks, ++steps);
   }
   count_steps(state, config.step);
   if (publishing) state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
@@ -113,16 +111,15 @@ void run_bullet(benchmark::State& state, const Scenery& scenery, BareBullet::Set
   count_steps(state, config.step);
 }
 
-void run_proximity(benchmark::State& state, const WorldDescription& description,
-                   const FloorPose& at) {
+void run_proximity(benchmark::State& state, const WorldDescription& description, const Pose2& at) {
   const live::World world(description, {}, at, 1);
   std::size_t near = 0;
-  for (auto _ : state) near = world.proximity(kDetectionRadius).size();
+  for (auto _ : state) near = world.proximity(kDetectionRadius).things.size();
   state.counters["near"] = static_cast<double>(near);
 }
 
 /// kB of memory that a world of these takes, once made and stepped.
-double kilobytes_of(const WorldDescription& description, const FloorPose& start) {
+double kilobytes_of(const WorldDescription& description, const Pose2& start) {
   const std::size_t before = mallinfo2().uordblks;
   live::World world(description, {}, start, 1);
   for (int i = 0; i < kWarmUp; ++i) (void)world.step({});
@@ -200,7 +197,7 @@ int main(int argc, char** argv) {
   if (std::filesystem::exists(meshes)) {
     static const WorldDescription aws = setup::load_world(meshes.string(), "", 1, {}).world;
     RegisterBenchmark("proximity among the meshes of AWS", run_proximity, aws,
-                      FloorPose{1.0, -9.0, 0.0})
+                      Pose2{{1.0, -9.0}, 0.0})
         ->Unit(kUnit);
   }
   const Medians medians(argc, argv, Medians::Print::medians);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/motion.hpp>
 #include <optional>
@@ -7,9 +8,6 @@
 #include "navvi_config/field.hpp"
 
 namespace navvi_safety {
-
-using navvi_types::DriveState;
-using navvi_types::Velocity;
 
 /// One instant on both clocks, so that neither a stopped simulation nor a changed wall clock can
 /// keep wheels turning.
@@ -35,21 +33,23 @@ struct CommandGateConfig {
 /// neutral stick.
 class CommandGate {
  public:
-  using State = DriveState::State;
-  using Reason = DriveState::Reason;
+  using State = navvi_types::DriveState::State;
+  using Reason = navvi_types::DriveState::Reason;
 
   explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
 
   /// Takes a command as it came. \param command  nullopt for a message that was malformed. A
   /// command that is not finite or `absurd_factor` beyond the limits is rejected whole and extends
   /// nothing; one beyond the limits is clamped.
-  void receive(const std::optional<Velocity>& command, const Instant& now);
+  void receive(const std::optional<navvi_types::Velocity>& command, const Instant& now);
 
   /// The velocity for the wheels at `now`. Call it at every control step.
-  [[nodiscard]] Velocity update(const Instant& now);
+  [[nodiscard]] navvi_types::Velocity update(const Instant& now);
 
-  /// As of the last update(), without a stamp.
-  [[nodiscard]] DriveState drive_state() const { return {state_, reason_, rejected_}; }
+  /// As of the last update(). \param stamp  ns, of the value
+  [[nodiscard]] navvi_types::DriveState drive_state(std::int64_t stamp) const {
+    return {state_, reason_, rejected_, stamp};
+  }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] Reason reason() const { return reason_; }
   [[nodiscard]] unsigned rejected() const { return rejected_; }
@@ -59,7 +59,7 @@ class CommandGate {
   [[nodiscard]] bool fresh(const Instant& now) const;
 
   CommandGateConfig config_;
-  Velocity command_;
+  navvi_types::Velocity command_;
   std::optional<Instant> last_valid_;
   std::optional<Instant> neutral_since_;
   bool bad_since_valid_ = false;

@@ -127,11 +127,16 @@ Footprint footprint_of(const Thing& thing, const Eigen::Quaterniond& tilt) {
   return print;
 }
 
-Extent extent_of(const Footprint& print) {
+navvi_types::MovingThing extent_of(const Footprint& print) {
+  navvi_types::MovingThing extent;
+  extent.radius = print.radius;
   const double length = 2.0 * std::max(print.front, print.back);
   const double width = 2.0 * print.side;
-  if (length * width >= kPi * print.radius * print.radius) return {print.radius};
-  return {std::max(print.radius, 0.5 * std::hypot(length, width)), length, width};
+  if (length * width >= kPi * print.radius * print.radius) return extent;
+  extent.radius = std::max(print.radius, 0.5 * std::hypot(length, width));
+  extent.length = length;
+  extent.width = width;
+  return extent;
 }
 
 }  // namespace navvi_sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <navvi_types/thing.hpp>
 #include <sstream>
 #include <string>
 
@@ -10,6 +11,14 @@ namespace navvi_sim {
   std::ostringstream stream;
   stream << value;
   return stream.str();
+}
+
+/// The classes of things, with commas between.
+[[nodiscard]] inline std::string thing_class_words() {
+  std::string words;
+  for (const char* word : navvi_types::names(navvi_types::ThingClass{}))
+    words += (words.empty() ? "" : ", ") + std::string(word);
+  return words;
 }
 
 }  // namespace navvi_sim

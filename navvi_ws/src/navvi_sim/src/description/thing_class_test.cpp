@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "navvi_sim/description/world_description.hpp"
+#include "description/sentence.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -8,13 +8,13 @@ namespace {
 TEST(ThingClassNames, come_back_as_the_class_they_name) {
   for (int i = 0; i <= static_cast<int>(ThingClass::other); ++i) {
     const auto thing_class = static_cast<ThingClass>(i);
-    EXPECT_EQ(thing_class_from(to_string(thing_class)), thing_class);
+    EXPECT_EQ(navvi_types::from_word<ThingClass>(to_string(thing_class)), thing_class);
   }
 }
 
 TEST(ThingClassNames, are_the_only_words_taken) {
   for (const char* word : {"", "Shelf", "shelf ", "robot", "pallet robot"})
-    EXPECT_FALSE(thing_class_from(word).has_value()) << word;
+    EXPECT_FALSE(navvi_types::from_word<ThingClass>(word).has_value()) << word;
 }
 
 }  // namespace

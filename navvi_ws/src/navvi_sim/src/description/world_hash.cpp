@@ -1,7 +1,7 @@
 #include "navvi_sim/description/world_hash.hpp"
 
 #include <cstdint>
-#include <cstdio>
+#include <navvi_types/scenario.hpp>
 
 #include "description/hash.hpp"
 
@@ -62,12 +62,6 @@ void add(WorldHash& hash, const Route& route) {
 
 }  // namespace
 
-std::string to_hex(std::uint64_t number) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
-  return text;
-}
-
 std::string world_hash(const WorldDescription& world) {
   WorldHash hash;
   hash.add(world.name);
@@ -87,7 +81,7 @@ std::string world_hash(const WorldDescription& world) {
     hash.add(static_cast<std::uint64_t>(thing.route.has_value()));
     if (thing.route) add(hash, *thing.route);
   }
-  return to_hex(hash.state());
+  return navvi_types::to_hex(hash.state());
 }
 
 }  // namespace navvi_sim

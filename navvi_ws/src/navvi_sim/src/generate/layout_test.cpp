@@ -269,7 +269,7 @@ TEST(Layouts, of_two_hundred_and_forty_each_has_a_start_connected_to_a_goal) {
     scenario::ScenarioConfig drawing;
     drawing.min_route = 0.4 * one.config.length;
     const occupancy::OccupancyConfig voxels{one.config.length > 50.0 ? 0.2 : 0.1};
-    const scenario::Scenario scenario =
+    const scenario::StartAndGoal scenario =
         scenario::draw_scenario(world, occupancy::occupancy_of(world, voxels), drawing, one.seed);
     EXPECT_GE(scenario.route_length, drawing.min_route) << one.name;
     EXPECT_GE(scenario.route.size(), 2u) << one.name;
@@ -313,7 +313,7 @@ TEST(Layouts, live_for_two_minutes_in_which_all_that_moves_gets_on_and_enters_no
       std::vector<Body> standing;
       for (const Body& one : bodies(description))
         if (!description.things[one.thing].route) standing.push_back(one);
-      const scenario::Scenario scenario = scenario::draw_scenario(
+      const scenario::StartAndGoal scenario = scenario::draw_scenario(
           description, occupancy::occupancy_of(description, occupancy::OccupancyConfig{0.1}), {},
           seed);
       live::World world(description, {}, scenario.start, seed);
@@ -321,13 +321,13 @@ TEST(Layouts, live_for_two_minutes_in_which_all_that_moves_gets_on_and_enters_no
       for (int step = 0; step < 12000; ++step) {
         ASSERT_EQ(world.step({}), live::World::Status::running);
         for (std::size_t i = 0; i < way.size(); ++i)
-          way[i] += 0.01 * world.now().movers[i].velocity.norm();
+          way[i] += 0.01 * world.now().movers[i].thing.velocity.norm();
         if (step % 100 != 0) continue;
         for (const MoverState& mover : world.now().movers) {
-          Thing thing = description.things[mover.thing];
+          Thing thing = description.things[mover.thing.id];
           thing.pose = mover.pose;
           for (const Shape& shape : thing.shapes) {
-            const Body part = body(mover.thing, thing, shape);
+            const Body part = body(mover.thing.id, thing, shape);
             const Eigen::AlignedBox2d bounds = part.bounds();
             for (const Body& other : standing)
               ASSERT_FALSE(bounds.intersects(other.bounds()) && overlap(part, other))
@@ -337,7 +337,7 @@ TEST(Layouts, live_for_two_minutes_in_which_all_that_moves_gets_on_and_enters_no
         }
       }
       for (std::size_t i = 0; i < way.size(); ++i)
-        EXPECT_GE(way[i], 10.0) << description.things[world.now().movers[i].thing].name << " in "
+        EXPECT_GE(way[i], 10.0) << description.things[world.now().movers[i].thing.id].name << " in "
                                 << known.name << ' ' << seed;
     }
 }
@@ -359,7 +359,7 @@ TEST(Layouts, of_every_preset_start_and_end_a_route_where_no_mover_comes) {
   for (const Preset& known : presets())
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       const WorldDescription world = layout(known.name, known.config, seed);
-      const scenario::Scenario scenario = scenario::draw_scenario(
+      const scenario::StartAndGoal scenario = scenario::draw_scenario(
           world, occupancy::occupancy_of(world, occupancy::OccupancyConfig{0.1}), {}, seed);
       EXPECT_GE(scenario.route_length, 10.0);
       traffic::Traffic traffic(world, {}, seed);
@@ -367,14 +367,13 @@ TEST(Layouts, of_every_preset_start_and_end_a_route_where_no_mover_comes) {
         traffic.step({{1e4, 1e4}, 0.35}, {}, 0.1);
         for (std::size_t i = 0; i < traffic.size(); ++i) {
           const Thing& thing = world.things[traffic.thing(i)];
-          const traffic::Place& place = traffic.mover(i).place();
+          const Pose2& place = traffic.mover(i).place();
           const Footprint print = footprint_of(thing, tilt_of(thing.pose));
-          for (const Eigen::Vector2d& end :
-               {Eigen::Vector2d(scenario.start.x, scenario.start.y), scenario.goal}) {
-            const Eigen::Vector2d seen = Eigen::Rotation2Dd(-place.yaw) * (end - place.at);
+          for (const Eigen::Vector2d& end : {scenario.start.position, scenario.goal}) {
+            const Eigen::Vector2d seen = Eigen::Rotation2Dd(-place.yaw) * (end - place.position);
             if (seen.norm() > print.radius + 0.65) continue;
             ASSERT_GT(distance(seen, print.hull), 0.6)
-                << thing.name << " at " << place.at.transpose() << " in " << known.name << ' '
+                << thing.name << " at " << place.position.transpose() << " in " << known.name << ' '
                 << seed;
           }
         }

@@ -145,10 +145,9 @@ TEST(Warehouse, gives_every_seed_a_free_and_connected_scenario) {
     const WorldDescription world = warehouse(seed);
     const occupancy::OccupancyMap map = occupancy::occupancy_of(world, {});
     const octomap::OcTree tree = tree_of(map);
-    const scenario::Scenario scenario = scenario::draw_scenario(world, map, {}, seed);
+    const scenario::StartAndGoal scenario = scenario::draw_scenario(world, map, {}, seed);
     EXPECT_GE(scenario.route_length, 10.0) << "seed " << seed;
-    for (const Eigen::Vector2d& place :
-         {Eigen::Vector2d(scenario.start.x, scenario.start.y), scenario.goal})
+    for (const Eigen::Vector2d& place : {scenario.start.position, scenario.goal})
       for (double angle = 0.0; angle < 6.3; angle += 0.2)
         for (const double z : {0.02, 0.07, 0.5, 1.1})
           EXPECT_FALSE(occupied(tree, place.x() + 0.45 * std::cos(angle),

@@ -10,7 +10,7 @@ namespace {
 /// Bit for bit: 0 and -0 are not the same.
 bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-bool same(const AppliedCommand& last, const navvi_safety::Velocity& velocity,
+bool same(const AppliedCommand& last, const navvi_types::Velocity& velocity,
           physics::Braking braking) {
   return same(last.velocity.linear, velocity.linear) &&
          same(last.velocity.angular, velocity.angular) && last.braking == braking;
@@ -18,19 +18,19 @@ bool same(const AppliedCommand& last, const navvi_safety::Velocity& velocity,
 
 }  // namespace
 
-Session::Session(const WorldDescription& description, const WorldConfig& config,
-                 const FloorPose& start, std::uint64_t seed)
+Session::Session(const WorldDescription& description, const WorldConfig& config, const Pose2& start,
+                 std::uint64_t seed)
     : world_(description, config, start, seed),
       step_(config.step),
-      hashes_{{0, world_.state_hash()}} {}
+      hashes_{{0, 0, world_.state_hash()}} {}
 
-World::Status Session::step(const navvi_safety::Velocity& command, physics::Braking braking) {
+World::Status Session::step(const navvi_types::Velocity& command, physics::Braking braking) {
   const World::Status status = world_.step(command, braking);
   if (status != World::Status::running) return status;
   if (commands_.empty() || !same(commands_.back(), command, braking))
     commands_.push_back({steps_, command, braking});
   ++steps_;
-  if (due(1.0)) hashes_.push_back({steps_, world_.state_hash()});
+  if (due(1.0)) hashes_.push_back({world_.now().stamp(), steps_, world_.state_hash()});
   return status;
 }
 

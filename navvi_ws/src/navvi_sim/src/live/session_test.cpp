@@ -18,7 +18,7 @@ namespace navvi_sim::live {
 namespace {
 
 struct Record {
-  std::vector<StateHash> hashes;
+  std::vector<navvi_types::StateHash> hashes;
   std::vector<AppliedCommand> commands;
 };
 
@@ -26,7 +26,7 @@ struct Record {
 struct Drive {
   setup::SimNodeConfig config;
   WorldDescription world;
-  scenario::Scenario scenario;
+  scenario::StartAndGoal scenario;
 
   explicit Drive(int seed) {
     config.seed = seed;
@@ -42,7 +42,7 @@ struct Drive {
     for (int i = 0; i < steps; ++i) {
       const double t = 0.02 * (i / 2);
       const bool stop = i % 700 > 640;
-      const navvi_safety::Velocity command{stop ? 0.0 : 0.7 + 0.3 * std::sin(t), std::sin(0.4 * t)};
+      const navvi_types::Velocity command{stop ? 0.0 : 0.7 + 0.3 * std::sin(t), std::sin(0.4 * t)};
       EXPECT_EQ(
           session.step(command, stop ? physics::Braking::emergency : physics::Braking::normal),
           World::Status::running);
@@ -89,7 +89,7 @@ TEST(Session, its_record_repeats_it) {
 
 TEST(Session, repeats_after_fifty_other_trials_in_the_same_process) {
   const Drive drive(3);
-  const std::vector<StateHash> first = drive.driven(kSteps).hashes;
+  const std::vector<navvi_types::StateHash> first = drive.driven(kSteps).hashes;
   for (int trial = 0; trial < 50; ++trial) {
     Drive other = drive;
     other.config.seed = trial;
@@ -100,13 +100,13 @@ TEST(Session, repeats_after_fifty_other_trials_in_the_same_process) {
 }
 
 /// What another process says of the same drive.
-std::vector<StateHash> in_another_process(const std::filesystem::path& folder) {
+std::vector<navvi_types::StateHash> in_another_process(const std::filesystem::path& folder) {
   const std::string command = std::string(LOCKSTEP) + " " + (folder / "parameters.yaml").string() +
                               " " + (folder / "commands.csv").string() + " 20";
-  std::vector<StateHash> hashes;
+  std::vector<navvi_types::StateHash> hashes;
   FILE* pipe = popen(command.c_str(), "r");
   unsigned long long step = 0, hash = 0;
-  while (std::fscanf(pipe, "%llu %llx", &step, &hash) == 2) hashes.push_back({step, hash});
+  while (std::fscanf(pipe, "%llu %llx", &step, &hash) == 2) hashes.push_back({0, step, hash});
   EXPECT_EQ(pclose(pipe), 0);
   return hashes;
 }
@@ -137,8 +137,7 @@ TEST(Recipe, gives_start_and_goal_back_bit_for_bit) {
   setup::SimNodeConfig again;
   navvi_config::read(again, YAML::Load(setup::recipe(drive.config, drive.scenario)), "the recipe");
   ASSERT_TRUE(again.start_pose() && again.goal_point());
-  EXPECT_EQ(again.start_pose()->x, drive.scenario.start.x);
-  EXPECT_EQ(again.start_pose()->y, drive.scenario.start.y);
+  EXPECT_EQ(again.start_pose()->position, drive.scenario.start.position);
   EXPECT_EQ(again.start_pose()->yaw, drive.scenario.start.yaw);
   EXPECT_EQ(*again.goal_point(), drive.scenario.goal);
   EXPECT_EQ(world_hash(setup::load_world(again).world), world_hash(drive.world));

@@ -35,10 +35,10 @@ Thing mover_thing(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double
 }
 
 /// Steps for `seconds`; returns every contact that began.
-std::vector<physics::ContactEvent> drive(World& world, double seconds,
-                                         const navvi_safety::Velocity& command,
-                                         physics::Braking braking = physics::Braking::normal) {
-  std::vector<physics::ContactEvent> contacts;
+std::vector<navvi_types::Contact> drive(World& world, double seconds,
+                                        const navvi_types::Velocity& command,
+                                        physics::Braking braking = physics::Braking::normal) {
+  std::vector<navvi_types::Contact> contacts;
   const int steps = static_cast<int>(std::lround(seconds / 0.01));
   for (int i = 0; i < steps; ++i) {
     EXPECT_EQ(world.step(command, braking), World::Status::running);
@@ -47,13 +47,13 @@ std::vector<physics::ContactEvent> drive(World& world, double seconds,
   return contacts;
 }
 
-World make(const WorldDescription& description, const FloorPose& start = {},
+World make(const WorldDescription& description, const Pose2& start = {},
            const WorldConfig& config = {}) {
   return World(description, config, start, 1);
 }
 
 TEST(World, stands_still_without_a_command) {
-  World world = make(floor_only(), {1.0, 2.0, 0.5});
+  World world = make(floor_only(), {{1.0, 2.0}, 0.5});
   drive(world, 1.0, {});
   EXPECT_NEAR(world.now().robot.position.x(), 1.0, 1e-9);
   EXPECT_NEAR(world.now().robot.position.y(), 2.0, 1e-9);
@@ -127,7 +127,7 @@ TEST(World, a_mesh_wall_stops_it_as_well) {
 TEST(World, slides_along_a_wall_but_never_through_it) {
   WorldDescription description = floor_only();
   description.things.push_back(box_thing("wall", ThingClass::wall, {0, 1.05, 1}, {30, 0.1, 2}));
-  World world = make(description, {0, 0, kPi / 6});
+  World world = make(description, {{0, 0}, kPi / 6});
   for (int i = 0; i < 1000; ++i) {
     ASSERT_EQ(world.step({0.9, 0.0}), World::Status::running);
     ASSERT_LT(world.now().robot.position.y(), 1.0 - 0.35 + 0.005);
@@ -165,7 +165,7 @@ TEST(World, a_contact_counts_once_while_pushing_and_again_after_parting) {
   const auto first = drive(world, 6.0, {0.9, 0.0});
   ASSERT_EQ(first.size(), 1u);
   EXPECT_EQ(first[0].seq, 1u);
-  EXPECT_EQ(first[0].thing, 1u);
+  EXPECT_EQ(first[0].id, 1u);
   EXPECT_NEAR(first[0].point.x(), 2.0, 0.01);
   EXPECT_NEAR(first[0].speed, 0.9, 0.05);
   EXPECT_EQ(first[0].counts.at(ThingClass::shelf), 1u);
@@ -186,14 +186,14 @@ TEST(World, a_mover_follows_its_route_for_ever) {
     const MoverState& mover = world.now().movers.at(0);
     EXPECT_NEAR(mover.pose.translation().y(), 5.0, 0.01);
     EXPECT_NEAR(mover.pose.translation().z(), 0.25, 1e-9);
-    EXPECT_LT(mover.velocity.norm(), 1.0 + 1e-9);
+    EXPECT_LT(mover.thing.velocity.norm(), 1.0 + 1e-9);
     low = std::min(low, mover.pose.translation().x());
     high = std::max(high, mover.pose.translation().x());
   }
   EXPECT_NEAR(low, -3.0, 1e-6);
   EXPECT_NEAR(high, 3.0, 1e-6);
-  EXPECT_NEAR(world.now().movers[0].extent.radius, 0.5, 1e-6);
-  EXPECT_NEAR(world.now().movers[0].height, 0.5, 1e-6);
+  EXPECT_NEAR(world.now().movers[0].thing.radius, 0.5, 1e-6);
+  EXPECT_NEAR(world.now().movers[0].thing.height, 0.5, 1e-6);
 }
 
 TEST(World, a_yielding_mover_stops_before_the_robot) {
@@ -214,10 +214,11 @@ TEST(World, a_yielding_mover_touches_no_robot_that_stands_anywhere_on_its_way) {
     const double angle = 2.0 * kPi * i / 40.0;
     WorldDescription description = floor_only();
     description.things.push_back(mover);
-    const FloorPose start{4.2 * std::cos(angle), 3.2 * std::sin(angle), 0.0};
-    if (Eigen::Vector2d(start.x + 4, start.y + 3).norm() < 2.5) continue;
+    const Pose2 start{{4.2 * std::cos(angle), 3.2 * std::sin(angle)}, 0.0};
+    if (Eigen::Vector2d(start.position.x() + 4, start.position.y() + 3).norm() < 2.5) continue;
     World world = make(description, start);
-    EXPECT_TRUE(drive(world, 60.0, {}).empty()) << "robot at " << start.x << ", " << start.y;
+    EXPECT_TRUE(drive(world, 60.0, {}).empty())
+        << "robot at " << start.position.x() << ", " << start.position.y();
   }
 }
 
@@ -226,7 +227,7 @@ TEST(World, a_mover_that_does_not_yield_pushes_the_robot_and_is_counted) {
   description.things.push_back(mover_thing({-4, 0}, {4, 0}, 1.0));
   WorldConfig config;
   config.movers.yield = false;
-  World world = make(description, {0, 0, kPi / 2}, config);
+  World world = make(description, {{0, 0}, kPi / 2}, config);
   const auto contacts = drive(world, 7.0, {});
   ASSERT_FALSE(contacts.empty());
   EXPECT_EQ(contacts[0].counts.at(ThingClass::pallet_robot), 1u);
@@ -240,7 +241,7 @@ TEST(World, a_pushing_mover_does_not_press_the_robot_through_a_wall) {
   description.things.push_back(mover_thing({-4, 0}, {1.45, 0}, 1.0));
   WorldConfig config;
   config.movers.yield = false;
-  World world = make(description, {1, 0, kPi / 2}, config);
+  World world = make(description, {{1, 0}, kPi / 2}, config);
   drive(world, 20.0, {});
   EXPECT_LT(world.now().robot.position.x(), 2.0 - 0.35 + 0.05);
 }
@@ -261,7 +262,7 @@ TEST(World, repeats_bit_for_bit_though_other_worlds_lived_between) {
                                            {0.5, 0.7, 1.0}));
   description.things.push_back(mover_thing({-1, -4}, {-1, 4}, 1.0));
   const auto history = [&](std::uint64_t seed) {
-    World world(description, {}, {-1, 0, 0.1}, seed);
+    World world(description, {}, {{-1, 0}, 0.1}, seed);
     std::vector<std::uint64_t> hashes;
     for (int i = 0; i < 2000; ++i) {
       const double t = 0.01 * i;
@@ -274,7 +275,7 @@ TEST(World, repeats_bit_for_bit_though_other_worlds_lived_between) {
   std::vector<std::unique_ptr<World>> others;
   for (int i = 0; i < 10; ++i) {
     others.push_back(
-        std::make_unique<World>(description, WorldConfig{}, FloorPose{-1, 0, 0.2 * i}, 3));
+        std::make_unique<World>(description, WorldConfig{}, Pose2{{-1, 0}, 0.2 * i}, 3));
     drive(*others.back(), 0.5, {0.5, 0.1});
   }
   EXPECT_EQ(first, history(7));
@@ -294,13 +295,48 @@ TEST(World, is_the_same_to_the_robot_whatever_is_far_away) {
   World one = make(near), other = make(crowded);
   std::size_t contacts = 0;
   for (int i = 0; i < 3000; ++i) {
-    const navvi_safety::Velocity command{0.9, 0.1 * std::sin(0.004 * i)};
+    const navvi_types::Velocity command{0.9, 0.1 * std::sin(0.004 * i)};
     ASSERT_EQ(one.step(command), World::Status::running);
     ASSERT_EQ(other.step(command), World::Status::running);
     ASSERT_EQ(one.now().robot.position, other.now().robot.position) << i;
     contacts += one.now().contacts.size();
   }
   EXPECT_GT(contacts, 0u);
+}
+
+TEST(World, gives_near_points_in_base_link_and_movers_and_contacts_on_the_floor) {
+  WorldDescription description = floor_only();
+  description.floor_height = -0.09;
+  description.things.push_back(box_thing("shelf", ThingClass::shelf, {1.0, 4.0, 1.0}, {1, 1, 2}));
+  description.things.push_back(mover_thing({-6, -6}, {6, -6}, 1.0));
+  World world = make(description, {{1.0, 2.0}, kPi / 2});
+  const navvi_types::Proximity near = world.proximity(2.0);
+  ASSERT_EQ(near.things.size(), 1u);
+  EXPECT_EQ(near.detection_radius, 2.0);
+  EXPECT_EQ(near.things[0].name, "shelf");
+  EXPECT_EQ(near.things[0].thing_class, ThingClass::shelf);
+  EXPECT_FALSE(near.things[0].moving);
+  EXPECT_NEAR(near.things[0].gap, 1.5 - 0.35, 1e-9);
+  EXPECT_NEAR((near.things[0].nearest - Eigen::Vector2d(1.5, 0.0)).norm(), 0.0, 1e-9);
+  EXPECT_GT(near.things[0].height, 0.0) << "above the floor";
+  EXPECT_TRUE(world.proximity(20.0).things.back().moving);
+
+  const navvi_types::Obstacles movers = world.obstacles();
+  ASSERT_EQ(movers.things.size(), 1u);
+  EXPECT_EQ(movers.things[0].id, 2u);
+  EXPECT_EQ(movers.things[0].thing_class, ThingClass::pallet_robot);
+  EXPECT_EQ(movers.things[0].floor, -0.09);
+  EXPECT_NEAR(movers.things[0].length, 0.8, 1e-9);
+  EXPECT_TRUE(movers.things[0].sound());
+  EXPECT_EQ(world.odometry().floor, -0.09);
+  EXPECT_NEAR(world.odometry().pose.yaw, kPi / 2, 1e-12);
+
+  const auto contacts = drive(world, 3.0, {0.9, 0.0});
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].name, "shelf");
+  EXPECT_EQ(contacts[0].floor, -0.09);
+  EXPECT_NEAR(contacts[0].robot.yaw, kPi / 2, 1e-3);
+  EXPECT_GT(contacts[0].stamp, 0);
 }
 
 TEST(World, refuses_a_command_that_is_no_number_and_lives_on) {
@@ -315,7 +351,7 @@ TEST(World, refuses_a_command_that_is_no_number_and_lives_on) {
 }
 
 TEST(World, a_state_that_is_no_number_stops_the_world_for_good) {
-  World world = make(floor_only(), {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+  World world = make(floor_only(), {{std::numeric_limits<double>::quiet_NaN(), 0.0}, 0.0});
   EXPECT_EQ(world.step({}), World::Status::numeric_failure);
   EXPECT_EQ(world.step({}), World::Status::numeric_failure);
 }

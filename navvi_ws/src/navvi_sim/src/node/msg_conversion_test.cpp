@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "octomap_tree.hpp"
 #include "warehouse.hpp"
@@ -13,6 +17,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 const ros::Time kStamp(12.5);
+constexpr double kPi = 3.14159265358979323846;
 
 Thing box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   Thing thing;
@@ -74,6 +79,74 @@ TEST(OccupiedCells, of_a_large_map_are_drawn_coarser_and_cover_the_same) {
   }
   EXPECT_LE(points, 100U);
   EXPECT_GE(points, 50U);
+}
+
+TEST(Transforms, put_the_robot_at_floor_height) {
+  const auto msg = base_link_msg({3'000'000'000, {{1.0, 2.0}, 0.5 * kPi}, {}, 0.0, -0.09});
+  EXPECT_EQ(msg.header.frame_id, "odom");
+  EXPECT_EQ(msg.header.stamp, ros::Time(3.0));
+  EXPECT_EQ(msg.child_frame_id, "base_link");
+  EXPECT_EQ(msg.transform.translation.y, 2.0);
+  EXPECT_EQ(msg.transform.translation.z, -0.09);
+  EXPECT_NEAR(2.0 * std::atan2(msg.transform.rotation.z, msg.transform.rotation.w), kPi / 2, 1e-12);
+}
+
+TEST(Transforms, the_correction_brings_a_drifted_odometry_back_to_the_truth) {
+  live::Snapshot now;
+  now.robot.position = now.odometry.position = {1.0, 2.0};
+  now.robot.yaw = now.odometry.yaw = kPi / 2;
+  const auto same = odom_msg(now).transform;
+  EXPECT_EQ(same.translation.x, 0.0);
+  EXPECT_EQ(same.translation.y, 0.0);
+  EXPECT_EQ(same.rotation.w, 1.0);
+
+  now.odometry.position = {4.0, -3.0};
+  now.odometry.yaw = -2.5;
+  const auto isometry = [](const geometry_msgs::Transform& msg) {
+    return Eigen::Translation3d(msg.translation.x, msg.translation.y, msg.translation.z) *
+           Eigen::Quaterniond(msg.rotation.w, msg.rotation.x, msg.rotation.y, msg.rotation.z);
+  };
+  const Eigen::Isometry3d map_to_base =
+      isometry(odom_msg(now).transform) *
+      isometry(base_link_msg(now.odometry.odometry(-0.09, now.stamp())).transform);
+  EXPECT_NEAR((map_to_base.translation() - Eigen::Vector3d(1.0, 2.0, -0.09)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((map_to_base.linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-12);
+}
+
+const std::vector<live::AppliedCommand> kThree{{0, {0.0, 0.0}, physics::Braking::emergency},
+                                               {5, {0.1, 1.0 / 3.0}, physics::Braking::normal},
+                                               {6, {-0.0, 0.2}, physics::Braking::normal}};
+
+bool equal(const std::vector<live::AppliedCommand>& a, const std::vector<live::AppliedCommand>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.step == y.step && x.velocity.linear == y.velocity.linear &&
+           x.velocity.angular == y.velocity.angular && x.braking == y.braking;
+  });
+}
+
+TEST(AppliedCommands, come_back_whole_however_they_are_cut_and_repeated) {
+  for (const std::vector<std::size_t>& begins :
+       {std::vector<std::size_t>{0}, {0, 1, 2}, {0, 0}, {1, 0}}) {
+    std::vector<live::AppliedCommand> commands;
+    for (const std::size_t first : begins) {
+      const bool ok = append(applied_commands_msg(kThree, first, ros::Time(1.0)), commands);
+      EXPECT_EQ(ok, first == 0 || !commands.empty()) << first;
+    }
+    EXPECT_TRUE(equal(commands, kThree));
+  }
+}
+
+TEST(AppliedCommands, out_of_order_or_not_finite_are_refused_whole) {
+  const auto good = applied_commands_msg(kThree, 0, ros::Time(1.0));
+  for (const auto& spoil : std::vector<std::function<void(navvi_msgs::AppliedCommand&)>>{
+           [](auto& last) { last.step = 5; }, [](auto& last) { last.linear = NAN; },
+           [](auto& last) { last.angular = INFINITY; }}) {
+    auto bad = good;
+    spoil(bad.commands.back());
+    std::vector<live::AppliedCommand> commands;
+    EXPECT_FALSE(append(bad, commands));
+    EXPECT_TRUE(commands.empty());
+  }
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int hits = 0;
-  const FloorPose stand = scenario::draw_scenario(world, voxels, {}, seed).start;
+  const Pose2 stand = scenario::draw_scenario(world, voxels, {}, seed).start;
   for (int place = 0; place < 60;) {
     const Eigen::Vector3d eye(stand.x + 8.0 * unit(random), stand.y + 8.0 * unit(random),
                               world.floor_height + 0.3 + 0.2 * (1.0 + unit(random)));

@@ -9,13 +9,12 @@
 #include <csignal>
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_safety/msg_conversion.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 #include "live/pacer.hpp"
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/live/session.hpp"
 #include "navvi_sim/node/msg_conversion.hpp"
-#include "navvi_sim/node/state_conversion.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 #include "read/thing_table.hpp"
 #include "scene/scene.hpp"
@@ -34,9 +33,9 @@ class SimNode {
 
  private:
   void advertise();
-  void publish_what_stands(const scenario::Scenario& scenario);
+  void publish_what_stands(const scenario::StartAndGoal& scenario);
   void tell_what_there_is(const std::vector<std::string>& notes,
-                          const scenario::Scenario& scenario) const;
+                          const scenario::StartAndGoal& scenario) const;
   void receive(const geometry_msgs::Twist::ConstPtr& msg);
   void tick(const ros::WallTimerEvent& event);
   [[nodiscard]] bool step();
@@ -45,7 +44,7 @@ class SimNode {
   void publish_record();
   [[nodiscard]] const live::World& world() const { return session_->world(); }
   [[nodiscard]] ros::Time stamp() const { return ros::Time(world().now().time); }
-  /// The gate is told simulated time by the world itself, not by a clock that lags behind it.
+  /// Simulated time comes from the world itself, not from a clock that lags behind it.
   [[nodiscard]] navvi_safety::Instant instant() const {
     return {ros::SteadyTime::now().toSec(), world().now().time};
   }
@@ -63,7 +62,7 @@ class SimNode {
   std::size_t hashes_told_ = 0;
   double last_tick_ = 0.0;  // s, monotonic wall clock
   int exit_code_ = 0;
-  std::optional<navvi_msgs::DriveState> drive_state_;
+  std::optional<navvi_types::DriveState> drive_state_;
 
   ros::Publisher clock_, odom_, octomap_, cells_, scene_, moving_, obstacles_, proximity_,
       contacts_, scenario_, drive_, applied_, hash_;
@@ -80,7 +79,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
       looks_(description_, config.life.robot),
       gate_(config.gate),
       pacer_(config.life.step, config.rate, config.max_catch_up) {
-  const scenario::Scenario scenario = setup::scenario_of(config_, description_, map_);
+  const scenario::StartAndGoal scenario = setup::scenario_of(config_, description_, map_);
   session_.emplace(description_, config_.life, scenario.start,
                    static_cast<std::uint64_t>(config_.seed));
 
@@ -90,11 +89,10 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
   publish_drive_state();
   publish_record();
 
-  ros::SubscribeOptions commands = ros::SubscribeOptions::create<geometry_msgs::Twist>(
-      "cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) { receive(msg); },
-      ros::VoidPtr(), &commands_queue_);
-  commands.transport_hints = ros::TransportHints().tcpNoDelay();
-  commands_ = node_.subscribe(commands);
+  ros::NodeHandle commands_node;
+  commands_node.setCallbackQueue(&commands_queue_);
+  commands_ = commands_node.subscribe("cmd_vel", 1, &SimNode::receive, this,
+                                      ros::TransportHints().tcpNoDelay());
   timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
 }
 
@@ -122,21 +120,19 @@ void SimNode::advertise() {
   hash_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
 }
 
-void SimNode::publish_what_stands(const scenario::Scenario& scenario) {
+void SimNode::publish_what_stands(const scenario::StartAndGoal& scenario) {
   if (!config_.life.robot.imperfections.odometry_drifts())
-    static_transforms_.sendTransform(
-        odom_msg(world().now().robot, world().now().odometry, stamp()));
+    static_transforms_.sendTransform(odom_msg(world().now()));
   octomap_.publish(to_msg(map_, ros::Time()));
   scene_.publish(looks_.standing(stamp()));
-  navvi_msgs::Scenario played =
-      scenario_msg(description_, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
-                   scenario, stamp());
-  played.parameters = setup::recipe(config_, scenario);
-  scenario_.publish(played);
+  scenario_.publish(navvi_types::to_msg(navvi_types::Scenario{
+      description_.name, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
+      scenario.goal, scenario.start, description_.floor_height, setup::recipe(config_, scenario),
+      world().now().stamp()}));
 }
 
 void SimNode::tell_what_there_is(const std::vector<std::string>& notes,
-                                 const scenario::Scenario& scenario) const {
+                                 const scenario::StartAndGoal& scenario) const {
   for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
   std::map<std::string, int> standing, moving;
   for (const Thing& thing : description_.things)
@@ -146,13 +142,13 @@ void SimNode::tell_what_there_is(const std::vector<std::string>& notes,
     ROS_INFO("  %4d %s standing", count, thing_class.c_str());
   for (const auto& [thing_class, count] : moving)
     ROS_INFO("  %4d %s on routes", count, thing_class.c_str());
-  ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.x, scenario.start.y,
-           scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
+  ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.position.x(),
+           scenario.start.position.y(), scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
 }
 
 void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
   const unsigned before = gate_.rejected();
-  gate_.receive(navvi_safety::from_msg(*msg), instant());
+  gate_.receive(navvi_types::from_msg(*msg), instant());
   if (gate_.rejected() != before)
     ROS_WARN_THROTTLE(1.0, "cmd_vel: %u commands rejected, not finite or absurdly large",
                       gate_.rejected());
@@ -179,7 +175,7 @@ void SimNode::tick(const ros::WallTimerEvent&) {
 }
 
 bool SimNode::step() {
-  const navvi_safety::Velocity wheels = gate_.update(instant());
+  const navvi_types::Velocity wheels = gate_.update(instant());
   const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
   const live::World::Status status =
       session_->step(wheels, running ? physics::Braking::normal : physics::Braking::emergency);
@@ -199,35 +195,31 @@ bool SimNode::step() {
 
 void SimNode::publish_state() {
   const live::Snapshot& now = world().now();
-  const double floor = description_.floor_height;
   rosgraph_msgs::Clock clock;
   clock.clock = stamp();
   clock_.publish(clock);
-  std::vector<geometry_msgs::TransformStamped> frames{base_link_msg(now.odometry, floor, stamp())};
-  if (config_.life.robot.imperfections.odometry_drifts())
-    frames.push_back(odom_msg(now.robot, now.odometry, stamp()));
+  const navvi_types::Odometry odometry = world().odometry();
+  std::vector<geometry_msgs::TransformStamped> frames{base_link_msg(odometry)};
+  if (config_.life.robot.imperfections.odometry_drifts()) frames.push_back(odom_msg(now));
   transforms_.sendTransform(frames);
-  odom_.publish(odometry_msg(now.odometry, floor, stamp()));
-  for (const physics::ContactEvent& contact : now.contacts)
-    contacts_.publish(contact_msg(description_, now.robot, contact, stamp()));
-  if (session_->due(kProximityRate)) {
-    proximity_.publish(proximity_msg(description_, now.robot,
-                                     world().proximity(config_.detection_radius),
-                                     config_.detection_radius, stamp()));
-  }
-  if (session_->due(kObstaclesRate)) {
-    obstacles_.publish(obstacles_msg(description_, now, stamp()));
+  odom_.publish(navvi_types::to_msg(odometry));
+  for (const navvi_types::Contact& contact : now.contacts)
+    contacts_.publish(navvi_types::to_msg(contact));
+  if (session_->due(live::kProximityRate))
+    proximity_.publish(navvi_types::to_msg(world().proximity(config_.detection_radius)));
+  if (session_->due(live::kObstaclesRate)) {
+    obstacles_.publish(navvi_types::to_msg(world().obstacles()));
     moving_.publish(looks_.moving(now, stamp()));
   }
 }
 
 void SimNode::publish_drive_state() {
-  const navvi_msgs::DriveState msg = navvi_safety::state_msg(gate_, stamp());
-  if (drive_state_ && drive_state_->state == msg.state && drive_state_->reason == msg.reason &&
-      drive_state_->rejected == msg.rejected)
+  const navvi_types::DriveState now = gate_.drive_state(world().now().stamp());
+  if (drive_state_ && drive_state_->state == now.state && drive_state_->reason == now.reason &&
+      drive_state_->rejected == now.rejected)
     return;
-  drive_.publish(msg);
-  drive_state_ = msg;
+  drive_.publish(navvi_types::to_msg(now));
+  drive_state_ = now;
 }
 
 /// What repeats this world, and what proves that the repetition is the same.
@@ -237,7 +229,7 @@ void SimNode::publish_record() {
     commands_told_ = session_->commands().size();
   }
   if (hashes_told_ < session_->hashes().size()) {
-    hash_.publish(state_hash_msg(session_->hashes().back(), stamp()));
+    hash_.publish(navvi_types::to_msg(session_->hashes().back()));
     hashes_told_ = session_->hashes().size();
   }
 }

@@ -28,10 +28,10 @@ struct Life {
         world(description, {}, start(seed, off_routes), seed) {}
 
   /// A drawn start that is farther than `distance` from every route.
-  [[nodiscard]] FloorPose start(std::uint64_t seed, double distance) const {
+  [[nodiscard]] Pose2 start(std::uint64_t seed, double distance) const {
     for (;; ++seed) {
-      const FloorPose pose = scenario::draw_scenario(description, map, {}, seed).start;
-      if (distance_to_routes({pose.x, pose.y}) > distance) return pose;
+      const Pose2 pose = scenario::draw_scenario(description, map, {}, seed).start;
+      if (distance_to_routes(pose.position) > distance) return pose;
     }
   }
   [[nodiscard]] double distance_to_routes(const Eigen::Vector2d& point) const {
@@ -64,16 +64,16 @@ TEST(WarehouseLife, its_movers_keep_moving_and_never_meet) {
     ASSERT_EQ(life.world.step({}), live::World::Status::running);
     const auto& movers = life.world.now().movers;
     for (std::size_t a = 0; a < count; ++a) {
-      minute[a] += movers[a].velocity.norm() * 0.01;
+      minute[a] += movers[a].thing.velocity.norm() * 0.01;
       for (std::size_t b = 0; b < a; ++b)
         ASSERT_GT((movers[a].pose.translation() - movers[b].pose.translation()).head<2>().norm(),
                   0.6)
-            << life.description.things[movers[a].thing].name << " in "
-            << life.description.things[movers[b].thing].name << " at " << life.world.now().time;
+            << life.description.things[movers[a].thing.id].name << " in "
+            << life.description.things[movers[b].thing.id].name << " at " << life.world.now().time;
     }
     if (step % 6000 != 0) continue;
     for (std::size_t a = 0; a < count; ++a)
-      EXPECT_GT(minute[a], 2.0) << life.description.things[movers[a].thing].name << " by "
+      EXPECT_GT(minute[a], 2.0) << life.description.things[movers[a].thing.id].name << " by "
                                 << life.world.now().time << " s, at "
                                 << movers[a].pose.translation().transpose() << ", the robot at "
                                 << life.world.now().robot.position.transpose();
@@ -89,7 +89,7 @@ TEST(WarehouseLife, its_movers_pass_through_nothing_that_stands) {
     for (const MoverState& mover : life.world.now().movers) {
       const Eigen::Vector3d at = mover.pose.translation();
       ASSERT_FALSE(occupied(life.tree, at.x(), at.y(), life.description.floor_height + 0.35))
-          << life.description.things[mover.thing].name << " at " << at.transpose();
+          << life.description.things[mover.thing.id].name << " at " << at.transpose();
     }
   }
 }
@@ -124,15 +124,15 @@ TEST(WarehouseLife, a_robot_that_drives_blindly_among_meshes_enters_none) {
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const WorldDescription description = read::load_world(path, "", 1, {}).world;
   for (const double yaw : {0.0, 1.57, 3.14, -1.57}) {
-    live::World world(description, {}, {1.0, -9.0, yaw}, 1);
+    live::World world(description, {}, {{1.0, -9.0}, yaw}, 1);
     std::size_t contacts = 0;
     for (int step = 0; step < 6000; ++step) {
       ASSERT_EQ(world.step({0.9, 0.6 * std::sin(0.0011 * step)}), live::World::Status::running);
       contacts += world.now().contacts.size();
       if (step % 10 != 0) continue;
-      for (const physics::NearThing& near : world.proximity(0.1))
-        ASSERT_GT(near.gap, -0.01) << description.things[near.thing].name << " after " << step
-                                   << " steps at " << world.now().robot.position.transpose();
+      for (const navvi_types::NearThing& near : world.proximity(0.1).things)
+        ASSERT_GT(near.gap, -0.01) << near.name << " after " << step << " steps at "
+                                   << world.now().robot.position.transpose();
     }
     EXPECT_GT(contacts, 0u);
     EXPECT_LT(world.now().robot.position.norm(), 15.0);

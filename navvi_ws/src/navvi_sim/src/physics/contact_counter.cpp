@@ -4,9 +4,9 @@
 
 namespace navvi_sim::physics {
 
-std::vector<ContactEvent> ContactCounter::update(const std::vector<Touch>& touches,
-                                                 const std::vector<ThingClass>& classes,
-                                                 double speed, double dt) {
+std::vector<navvi_types::Contact> ContactCounter::update(
+    const std::vector<Touch>& touches, const std::vector<navvi_types::ThingClass>& classes,
+    double speed, double dt) {
   for (auto held = held_.begin(); held != held_.end();) {
     const bool near = std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
       return touch.thing == held->first && touch.distance <= kApart;
@@ -14,11 +14,18 @@ std::vector<ContactEvent> ContactCounter::update(const std::vector<Touch>& touch
     held->second = near ? 0.0 : held->second + dt;
     held = held->second >= kApartFor ? held_.erase(held) : std::next(held);
   }
-  std::vector<ContactEvent> begun;
+  std::vector<navvi_types::Contact> begun;
   for (const Touch& touch : touches) {
     if (touch.distance > kTouching || !held_.emplace(touch.thing, 0.0).second) continue;
     ++counts_[classes[touch.thing]];
-    begun.push_back({++seq_, touch.thing, touch.point, speed, counts_});
+    navvi_types::Contact& contact = begun.emplace_back();
+    contact.thing_class = classes[touch.thing];
+    contact.point = touch.point.head<2>();
+    contact.id = static_cast<std::uint32_t>(touch.thing);
+    contact.height = touch.point.z();
+    contact.speed = speed;
+    contact.counts = counts_;
+    contact.seq = ++seq_;
   }
   return begun;
 }

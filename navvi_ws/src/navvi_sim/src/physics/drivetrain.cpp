@@ -48,14 +48,14 @@ Drivetrain::Drivetrain(const RobotConfig& config, double step, const RobotState&
   draw_slip();
 }
 
-navvi_safety::Velocity Drivetrain::drive(const navvi_safety::Velocity& body,
-                                         const navvi_safety::Velocity& command, Braking braking) {
-  const navvi_safety::Velocity asked = late(command, braking);
+navvi_types::Velocity Drivetrain::drive(const navvi_types::Velocity& body,
+                                        const navvi_types::Velocity& command, Braking braking) {
+  const navvi_types::Velocity asked = late(command, braking);
   if (!flaws_.slips()) return servo(config_, body, asked, braking, step_);
   // The servo feels the wheels, not the floor.
   const Pair floor = wheels_of(body.linear, body.angular);
   const Pair turning{floor.left / grip_.left, floor.right / grip_.right};
-  const navvi_safety::Velocity next = servo(config_, body_of(turning), asked, braking, step_);
+  const navvi_types::Velocity next = servo(config_, body_of(turning), asked, braking, step_);
   draw_slip();
   const Pair wheels = wheels_of(next.linear, next.angular);
   return body_of({wheels.left * grip_.left, wheels.right * grip_.right});
@@ -72,12 +72,12 @@ void Drivetrain::count(const RobotState& before, const RobotState& after) {
   const Pair floor = wheels_of(way, turned);
   Pair counted{floor.left / grip_.left * (1.0 + flaws_.odometry_left),
                floor.right / grip_.right * (1.0 + flaws_.odometry_right)};
-  const navvi_safety::Velocity speed = body_of({counted.left / step_, counted.right / step_});
+  const navvi_types::Velocity speed = body_of({counted.left / step_, counted.right / step_});
   if (flaws_.odometry_noise > 0.0) {
     counted.left += flaws_.odometry_noise * std::sqrt(std::abs(counted.left)) * normal();
     counted.right += flaws_.odometry_noise * std::sqrt(std::abs(counted.right)) * normal();
   }
-  const navvi_safety::Velocity moved = body_of(counted);
+  const navvi_types::Velocity moved = body_of(counted);
   odometry_.position += moved.linear * heading(odometry_.yaw + 0.5 * moved.angular);
   odometry_.yaw = wrapped(odometry_.yaw + moved.angular);
   odometry_.velocity = speed.linear * heading(odometry_.yaw);
@@ -85,7 +85,7 @@ void Drivetrain::count(const RobotState& before, const RobotState& after) {
 }
 
 std::uint64_t Drivetrain::hash(std::uint64_t hash) const {
-  for (const navvi_safety::Velocity& command : under_way_)
+  for (const navvi_types::Velocity& command : under_way_)
     hash = mix(mix(hash, command.linear), command.angular);
   if (flaws_.slips())
     for (const double value : {noise_.left, noise_.right, grip_.left, grip_.right})
@@ -101,18 +101,18 @@ Drivetrain::Pair Drivetrain::wheels_of(double forward, double turn) const {
   return {forward - apart, forward + apart};
 }
 
-navvi_safety::Velocity Drivetrain::body_of(const Pair& wheels) const {
+navvi_types::Velocity Drivetrain::body_of(const Pair& wheels) const {
   return {0.5 * (wheels.left + wheels.right), (wheels.right - wheels.left) / flaws_.wheel_base};
 }
 
-navvi_safety::Velocity Drivetrain::late(const navvi_safety::Velocity& command, Braking braking) {
+navvi_types::Velocity Drivetrain::late(const navvi_types::Velocity& command, Braking braking) {
   if (under_way_.empty()) return command;
   if (braking == Braking::emergency) {
-    std::fill(under_way_.begin(), under_way_.end(), navvi_safety::Velocity{});
+    std::fill(under_way_.begin(), under_way_.end(), navvi_types::Velocity{});
     return command;
   }
   under_way_.push_back(command);
-  const navvi_safety::Velocity due = under_way_.front();
+  const navvi_types::Velocity due = under_way_.front();
   under_way_.pop_front();
   return due;
 }

@@ -24,13 +24,13 @@ WorldDescription hall() {
   return world;
 }
 
-live::Session begin(const Set& set, std::uint64_t seed = 1, const FloorPose& start = {}) {
+live::Session begin(const Set& set, std::uint64_t seed = 1, const Pose2& start = {}) {
   live::WorldConfig config;
   set(config.robot.imperfections);
   return live::Session(hall(), config, start, seed);
 }
 
-void drive(live::Session& session, double seconds, const navvi_safety::Velocity& command) {
+void drive(live::Session& session, double seconds, const navvi_types::Velocity& command) {
   for (int i = 0; i < std::lround(seconds / 0.01); ++i)
     ASSERT_EQ(session.step(command), live::World::Status::running);
 }

@@ -215,10 +215,10 @@ TEST(Proximity, of_many_things_is_that_of_each_alone) {
   for (std::size_t i = 0; i < world.things.size(); ++i) {
     WorldDescription one;
     one.things = {world.things[i]};
-    for (const NearThing& alone : things_near(kHull, 5.0, 2.0, Bodies(one, kHull.bottom), {})) {
+    for (const ThingGap& alone : things_near(kHull, 5.0, 2.0, Bodies(one, kHull.bottom), {})) {
       ++found;
       const auto same = std::find_if(together.begin(), together.end(),
-                                     [&](const NearThing& near) { return near.thing == i; });
+                                     [&](const ThingGap& near) { return near.thing == i; });
       ASSERT_NE(same, together.end());
       EXPECT_EQ(same->gap, alone.gap);
     }
@@ -233,8 +233,9 @@ TEST(Proximity, of_what_moves_follows_it) {
   thing.shapes.push_back({Box{{1, 1, 1}}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.5))});
   world.things = {thing};
   const Bodies bodies(world, kHull.bottom);
-  MoverState mover{
-      0, Eigen::Isometry3d(Eigen::Translation3d(3.3, -0.2, 0)), 0, {0, 0}, 0, {0.71, 0, 0}, 1};
+  MoverState mover;
+  mover.thing.radius = 0.71;
+  mover.pose = Eigen::Translation3d(3.3, -0.2, 0);
   const auto near = things_near(kHull, 5.0, 2.0, bodies, {mover});
   ASSERT_EQ(near.size(), 1u);
   EXPECT_NEAR(near[0].gap, 3.0 - 0.5 - 0.35, 1e-9);

@@ -200,10 +200,10 @@ void Physics::Impl::gather(const std::vector<MoverState>& movers) {
                        });
   const double radius = around.max().x();
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    const double reach = kLeave + radius + movers[i].extent.radius;
+    const double reach = kLeave + radius + movers[i].thing.radius;
     const Eigen::Vector2d away = movers[i].pose.translation().head<2>() - centre.head<2>();
     if (away.squaredNorm() < reach * reach)
-      consider(movers[i].thing, i, away.norm() - radius - movers[i].extent.radius);
+      consider(movers[i].thing.id, i, away.norm() - radius - movers[i].thing.radius);
   }
   std::sort(wanted.begin(), wanted.end());
   for (auto entry = present.begin(); entry != present.end();) {

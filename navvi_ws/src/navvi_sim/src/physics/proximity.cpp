@@ -80,12 +80,11 @@ class NearestPoint {
 
 }  // namespace
 
-std::vector<NearThing> things_near(const Hull& hull, double radius, double ceiling,
-                                   const Bodies& bodies, const std::vector<MoverState>& movers) {
-  std::vector<NearThing> near;
+std::vector<ThingGap> things_near(const Hull& hull, double radius, double ceiling,
+                                  const Bodies& bodies, const std::vector<MoverState>& movers) {
+  std::vector<ThingGap> near;
   const auto add = [&](const Body& body, const NearestPoint& nearest) {
-    if (const auto found = nearest.found())
-      near.push_back({body.thing, found->gap, found->nearest});
+    if (const auto found = nearest.found()) near.push_back({*found, body.thing});
   };
   bodies.tree().search([&](const Eigen::AlignedBox3d& box) { return hull.bound(box); },
                        [&] { return radius; },
@@ -99,16 +98,16 @@ std::vector<NearThing> things_near(const Hull& hull, double radius, double ceili
                          add(body, nearest);
                        });
   for (const MoverState& mover : movers) {
-    const double reach = radius + hull.radius + mover.extent.radius;
+    const double reach = radius + hull.radius + mover.thing.radius;
     const Eigen::Vector2d away = mover.pose.translation().head<2>() - hull.centre;
     if (away.squaredNorm() > reach * reach) continue;
-    const Body* body = bodies.of(mover.thing);
+    const Body* body = bodies.of(mover.thing.id);
     if (!body) continue;
     NearestPoint nearest(hull, radius, ceiling);
     for (const Part& part : body->parts) nearest.consider(part, mover.pose * part.pose);
     add(*body, nearest);
   }
-  std::sort(near.begin(), near.end(), [](const NearThing& a, const NearThing& b) {
+  std::sort(near.begin(), near.end(), [](const ThingGap& a, const ThingGap& b) {
     return a.gap != b.gap ? a.gap < b.gap : a.thing < b.thing;
   });
   return near;

@@ -21,8 +21,8 @@ Thing thing_of(const Geometry& geometry, const Eigen::Vector3d& centre, double y
   return thing;
 }
 
-std::vector<NearThing> near(const std::vector<Thing>& things, double radius = 5.0,
-                            const Eigen::Vector2d& robot = Eigen::Vector2d::Zero()) {
+std::vector<ThingGap> near(const std::vector<Thing>& things, double radius = 5.0,
+                           const Eigen::Vector2d& robot = Eigen::Vector2d::Zero()) {
   WorldDescription world;
   world.things = things;
   const RobotConfig config;

@@ -44,8 +44,12 @@ double RobotState::sideways_speed() const {
   return velocity.dot(Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)));
 }
 
-navvi_safety::Velocity servo(const RobotConfig& config, const navvi_safety::Velocity& now,
-                             const navvi_safety::Velocity& command, Braking braking, double dt) {
+navvi_types::Odometry RobotState::odometry(double floor, std::int64_t stamp) const {
+  return {stamp, {position, yaw}, {forward_speed(), turn_rate}, sideways_speed(), floor};
+}
+
+navvi_types::Velocity servo(const RobotConfig& config, const navvi_types::Velocity& now,
+                            const navvi_types::Velocity& command, Braking braking, double dt) {
   const bool hard = braking == Braking::emergency;
   const double linear = std::clamp(command.linear, -config.max_speed, config.max_speed);
   const double angular = std::clamp(command.angular, -config.max_turn_rate, config.max_turn_rate);

@@ -75,7 +75,7 @@ void label(MapCanvas& canvas, const Eigen::Vector2d& p, const std::string& text)
               "font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"4\" paint-order=\"stroke\"");
 }
 
-void draw_scenario(MapCanvas& canvas, const scenario::Scenario& scenario) {
+void draw_scenario(MapCanvas& canvas, const scenario::StartAndGoal& scenario) {
   if (!scenario.route.empty()) {
     canvas.svg()
         << "<path d=\"" << canvas.path(scenario.route, false)
@@ -83,9 +83,9 @@ void draw_scenario(MapCanvas& canvas, const scenario::Scenario& scenario) {
            "opacity=\"0.75\"/>\n";
   }
   canvas.goal(canvas.px(scenario.goal));
-  canvas.start(canvas.px({scenario.start.x, scenario.start.y}), scenario.start.yaw,
+  canvas.start(canvas.px(scenario.start.position), scenario.start.yaw,
                std::max(0.35 * canvas.scale(), 7.0));
-  label(canvas, canvas.px({scenario.start.x, scenario.start.y}), "start");
+  label(canvas, canvas.px(scenario.start.position), "start");
   label(canvas, canvas.px(scenario.goal), "goal");
 }
 
@@ -200,7 +200,7 @@ void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scen
 }  // namespace
 
 std::string world_picture(const WorldDescription& world,
-                          const std::optional<scenario::Scenario>& scenario,
+                          const std::optional<scenario::StartAndGoal>& scenario,
                           const std::string& caption) {
   const Outlines outlines = all_outlines(world);
   const double scale =

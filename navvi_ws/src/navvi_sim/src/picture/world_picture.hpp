@@ -14,7 +14,7 @@ namespace navvi_sim::picture {
 /// \param scenario  nullopt: without start and goal
 /// \param caption   one line under the name of the world, such as its seed; may be empty
 [[nodiscard]] std::string world_picture(const WorldDescription& world,
-                                        const std::optional<scenario::Scenario>& scenario,
+                                        const std::optional<scenario::StartAndGoal>& scenario,
                                         const std::string& caption);
 
 }  // namespace navvi_sim::picture

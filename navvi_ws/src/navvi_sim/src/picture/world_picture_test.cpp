@@ -16,8 +16,8 @@ std::size_t count(const std::string& text, const std::string& word) {
   return found;
 }
 
-scenario::Scenario somewhere() {
-  return {{1.0, 2.0, 0.5}, {4.0, 2.0}, 3.0, {{1.0, 2.0}, {4.0, 2.0}}};
+scenario::StartAndGoal somewhere() {
+  return {{{1.0, 2.0}, 0.5}, {4.0, 2.0}, 3.0, {{1.0, 2.0}, {4.0, 2.0}}};
 }
 
 TEST(WorldPicture, names_the_world_its_classes_start_goal_and_scale) {

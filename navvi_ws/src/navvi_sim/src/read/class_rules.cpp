@@ -6,6 +6,7 @@
 #include <cctype>
 #include <navvi_config/reader.hpp>
 
+#include "description/sentence.hpp"
 #include "standard_classes.hpp"
 
 namespace navvi_sim::read {
@@ -67,7 +68,8 @@ class RuleReader {
     if (!item.IsMap() || item.size() != 2 || !item["class"] || !item["names"])
       refuse(item, "a rule has other keys than class and names; allowed are these two, once each");
     const YAML::Node word = item["class"];
-    const auto thing_class = thing_class_from(word.IsScalar() ? word.Scalar() : "");
+    const auto thing_class =
+        navvi_types::from_word<ThingClass>(word.IsScalar() ? word.Scalar() : "");
     if (!thing_class)
       refuse(word, "'" + (word.IsScalar() ? word.Scalar() : "") + "' is no class; allowed are " +
                        thing_class_words());

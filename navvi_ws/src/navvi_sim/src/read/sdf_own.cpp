@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "description/sentence.hpp"
 #include "description/validate.hpp"
 #include "read/sdf_value.hpp"
 
@@ -36,7 +37,7 @@ bool is_own(const XmlElement& element) { return element.name.rfind("navvi:", 0) 
 std::optional<ThingClass> own_class(const XmlElement& element, const std::string& name) {
   const XmlElement* word = element.child("navvi:" + name);
   if (word == nullptr) return std::nullopt;
-  const auto thing_class = thing_class_from(word->text);
+  const auto thing_class = navvi_types::from_word<ThingClass>(word->text);
   if (!thing_class)
     refuse(*word,
            "'" + word->text.substr(0, 40) + "' is no class; allowed are " + thing_class_words());

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "description/sentence.hpp"
 #include "description/validate.hpp"
 
 namespace navvi_sim::read {
@@ -188,7 +189,7 @@ class Reader {
     Thing result;
     result.name = text(required(node, "name"), "the name of a thing");
     const YAML::Node word = required(node, "class");
-    const auto thing_class = thing_class_from(text(word, "a class"));
+    const auto thing_class = navvi_types::from_word<ThingClass>(text(word, "a class"));
     if (!thing_class)
       refuse(word, "'" + word.Scalar() + "' is no class; allowed are " + thing_class_words());
     result.thing_class = *thing_class;

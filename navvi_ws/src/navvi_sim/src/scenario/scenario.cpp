@@ -37,16 +37,16 @@ class ScenarioSampler {
         places_(world, grid_, config),
         random_(seed) {}
 
-  [[nodiscard]] Scenario with_start(const FloorPose& start,
-                                    const std::optional<Eigen::Vector2d>& goal);
-  [[nodiscard]] Scenario with_goal(const Eigen::Vector2d& goal);
-  [[nodiscard]] Scenario with_nothing();
+  [[nodiscard]] StartAndGoal with_start(const Pose2& start,
+                                        const std::optional<Eigen::Vector2d>& goal);
+  [[nodiscard]] StartAndGoal with_goal(const Eigen::Vector2d& goal);
+  [[nodiscard]] StartAndGoal with_nothing();
 
  private:
   using Places = FreePlaces::Places;
 
   /// Both ends drawn from `places`; nullopt if no route leads between any that were tried.
-  [[nodiscard]] std::optional<Scenario> between(const Places& places);
+  [[nodiscard]] std::optional<StartAndGoal> between(const Places& places);
   /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
   /// is asked for, a small world has some at 0.8 of the longest way to a free place.
   [[nodiscard]] Places ends_of(const FloorGrid::Ways& ways, const Places& places);
@@ -58,9 +58,9 @@ class ScenarioSampler {
                                  const std::string& what, double least);
 
   /// The cell of a start that was given. \throws WorldError if no robot can stand there
-  [[nodiscard]] std::size_t checked(const FloorPose& start) const;
+  [[nodiscard]] std::size_t checked(const Pose2& start) const;
   /// The pose in `cell` that looks along the way back to where the ways begin.
-  [[nodiscard]] FloorPose looking_back(const FloorGrid::Ways& ways, std::size_t cell) const;
+  [[nodiscard]] Pose2 looking_back(const FloorGrid::Ways& ways, std::size_t cell) const;
   /// What was asked of the route, for a sentence.
   [[nodiscard]] std::string asked_for() const;
   [[nodiscard]] bool asks_for_turns() const {
@@ -85,8 +85,8 @@ class ScenarioSampler {
   int most_turns_ = 0;    ///< of the ways seen so far
 };
 
-Scenario ScenarioSampler::with_start(const FloorPose& start,
-                                     const std::optional<Eigen::Vector2d>& goal) {
+StartAndGoal ScenarioSampler::with_start(const Pose2& start,
+                                         const std::optional<Eigen::Vector2d>& goal) {
   const std::size_t root = checked(start);
   const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
   if (goal) {
@@ -99,13 +99,13 @@ Scenario ScenarioSampler::with_start(const FloorPose& start,
           reversed(grid_.way_back(ways, end, passable(root)))};
 }
 
-Scenario ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
+StartAndGoal ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
   const Places starts = places_.away_from_movers(places_.all());
   const std::size_t root = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
   if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
     // Navigation refuses such a goal; the start may then be anywhere.
     const Eigen::Vector2d place = grid_.centre(starts[random_.below(starts.size())]);
-    return {{place.x(), place.y(), 0.0}, goal, 0.0, {}};
+    return {{place, 0.0}, goal, 0.0, {}};
   }
   const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
   const std::size_t start =
@@ -114,8 +114,8 @@ Scenario ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
           grid_.way_back(ways, start, passable(root))};
 }
 
-Scenario ScenarioSampler::with_nothing() {
-  std::optional<Scenario> scenario = between(places_.quiet());
+StartAndGoal ScenarioSampler::with_nothing() {
+  std::optional<StartAndGoal> scenario = between(places_.quiet());
   if (!scenario && places_.quiet().size() < places_.all().size()) scenario = between(places_.all());
   if (!scenario)
     throw WorldError("world '" + world_.name +
@@ -124,10 +124,10 @@ Scenario ScenarioSampler::with_nothing() {
   return *scenario;
 }
 
-std::optional<Scenario> ScenarioSampler::between(const Places& places) {
+std::optional<StartAndGoal> ScenarioSampler::between(const Places& places) {
   if (places.empty()) return std::nullopt;
   const Places starts = places_.away_from_movers(places);
-  std::optional<Scenario> best;
+  std::optional<StartAndGoal> best;
   const double enough = asks_for_route() ? 0.0 : kUsualRoute;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const std::size_t root = places[random_.below(places.size())];
@@ -141,12 +141,12 @@ std::optional<Scenario> ScenarioSampler::between(const Places& places) {
   return best;
 }
 
-std::size_t ScenarioSampler::checked(const FloorPose& start) const {
-  const std::string who =
-      "start (" + text(start.x) + ", " + text(start.y) + ", " + text(start.yaw) + ")";
-  if (!std::isfinite(start.x) || !std::isfinite(start.y) || !std::isfinite(start.yaw))
+std::size_t ScenarioSampler::checked(const Pose2& start) const {
+  const std::string who = "start (" + text(start.position.x()) + ", " + text(start.position.y()) +
+                          ", " + text(start.yaw) + ")";
+  if (!start.position.allFinite() || !std::isfinite(start.yaw))
     throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
-  const std::size_t cell = grid_.cell_at({start.x, start.y});
+  const std::size_t cell = grid_.cell_at(start.position);
   if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0)
     throw WorldError(who + " is in a thing or off the floor of world '" + world_.name +
                      "'; allowed is free floor");
@@ -208,14 +208,14 @@ std::size_t ScenarioSampler::draw(const FloorGrid::Ways& ways, const std::vector
                    " that is connected to what was given" + asked_for());
 }
 
-FloorPose ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
+Pose2 ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
   const Eigen::Vector2d place = grid_.centre(cell);
   std::size_t ahead = cell;
   while (ways.before[ahead] != FloorGrid::kNone &&
          static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead)
     ahead = ways.before[ahead];
   const Eigen::Vector2d view = grid_.centre(ahead) - place;
-  return {place.x(), place.y(), std::atan2(view.y(), view.x())};
+  return {place, std::atan2(view.y(), view.x())};
 }
 
 }  // namespace
@@ -244,10 +244,10 @@ int turns(const std::vector<Eigen::Vector2d>& polyline) {
   return count;
 }
 
-Scenario draw_scenario(const WorldDescription& world, const occupancy::OccupancyMap& map,
-                       const ScenarioConfig& config, std::uint64_t seed,
-                       const std::optional<FloorPose>& start,
-                       const std::optional<Eigen::Vector2d>& goal) {
+StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::OccupancyMap& map,
+                           const ScenarioConfig& config, std::uint64_t seed,
+                           const std::optional<Pose2>& start,
+                           const std::optional<Eigen::Vector2d>& goal) {
   if (config.max_route > 0.0 && config.max_route < config.min_route)
     throw WorldError("max_route is " + text(config.max_route) +
                      " m, less than min_route; allowed are " + text(config.min_route) +

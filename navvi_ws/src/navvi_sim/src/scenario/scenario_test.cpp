@@ -36,8 +36,8 @@ class ScenarioIn : public testing::Test {
     world_ = std::move(world);
     map_ = occupancy::occupancy_of(world_, occupancy::OccupancyConfig{});
   }
-  Scenario draw(std::uint64_t seed, const std::optional<FloorPose>& start = std::nullopt,
-                const std::optional<Eigen::Vector2d>& goal = std::nullopt) {
+  StartAndGoal draw(std::uint64_t seed, const std::optional<Pose2>& start = std::nullopt,
+                    const std::optional<Eigen::Vector2d>& goal = std::nullopt) {
     return draw_scenario(world_, map_, ScenarioConfig{}, seed, start, goal);
   }
   WorldDescription world_;
@@ -46,10 +46,10 @@ class ScenarioIn : public testing::Test {
 
 TEST_F(ScenarioIn, is_the_same_for_the_same_seed_and_another_for_another) {
   enter(two_rooms(2.0));
-  const Scenario one = draw(7);
-  const Scenario again = draw(7);
-  const Scenario other = draw(8);
-  EXPECT_EQ(one.start.x, again.start.x);
+  const StartAndGoal one = draw(7);
+  const StartAndGoal again = draw(7);
+  const StartAndGoal other = draw(8);
+  EXPECT_EQ(one.start.position.x(), again.start.position.x());
   EXPECT_EQ(one.start.yaw, again.start.yaw);
   EXPECT_EQ(one.goal, again.goal);
   EXPECT_NE(one.goal, other.goal);
@@ -58,10 +58,9 @@ TEST_F(ScenarioIn, is_the_same_for_the_same_seed_and_another_for_another) {
 TEST_F(ScenarioIn, keeps_clear_of_things_and_goes_far) {
   enter(two_rooms(2.0));
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Scenario scenario = draw(seed);
+    const StartAndGoal scenario = draw(seed);
     EXPECT_GE(scenario.route_length, 10.0);
-    for (const Eigen::Vector2d& place :
-         {Eigen::Vector2d(scenario.start.x, scenario.start.y), scenario.goal}) {
+    for (const Eigen::Vector2d& place : {scenario.start.position, scenario.goal}) {
       EXPECT_LT(std::abs(place.x()), 8.0 - 0.5 + 0.05);
       EXPECT_LT(std::abs(place.y()), 4.0 - 0.5 + 0.05);
       if (place.y() > -2.0) {
@@ -74,14 +73,14 @@ TEST_F(ScenarioIn, keeps_clear_of_things_and_goes_far) {
 TEST_F(ScenarioIn, never_leads_through_a_wall) {
   enter(two_rooms(0.0));
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Scenario scenario = draw(seed);
-    EXPECT_GT(scenario.start.x * scenario.goal.x(), 0.0) << "seed " << seed;
+    const StartAndGoal scenario = draw(seed);
+    EXPECT_GT(scenario.start.position.x() * scenario.goal.x(), 0.0) << "seed " << seed;
   }
 }
 
 TEST_F(ScenarioIn, takes_a_given_start_and_goal_as_they_are) {
   enter(two_rooms(2.0));
-  const Scenario scenario = draw(1, FloorPose{-5.0, 1.0, 0.5}, Eigen::Vector2d(5.0, 1.0));
+  const StartAndGoal scenario = draw(1, Pose2{{-5.0, 1.0}, 0.5}, Eigen::Vector2d(5.0, 1.0));
   EXPECT_EQ(scenario.start.yaw, 0.5);
   EXPECT_EQ(scenario.goal, Eigen::Vector2d(5.0, 1.0));
   EXPECT_GT(scenario.route_length, 10.0);
@@ -89,13 +88,13 @@ TEST_F(ScenarioIn, takes_a_given_start_and_goal_as_they_are) {
 
 TEST_F(ScenarioIn, passes_on_a_goal_in_a_wall_and_refuses_a_start_there) {
   enter(two_rooms(2.0));
-  EXPECT_EQ(draw(1, FloorPose{-5.0, 1.0, 0.0}, Eigen::Vector2d(0.0, 1.0)).route_length, 0.0);
+  EXPECT_EQ(draw(1, Pose2{{-5.0, 1.0}, 0.0}, Eigen::Vector2d(0.0, 1.0)).route_length, 0.0);
   EXPECT_EQ(draw(1, std::nullopt, Eigen::Vector2d(0.0, 1.0)).goal, Eigen::Vector2d(0.0, 1.0));
-  for (const FloorPose& start :
-       {FloorPose{0.0, 1.0, 0.0}, FloorPose{0.3, 1.0, 0.0}, FloorPose{50.0, 1.0, 0.0},
-        FloorPose{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0},
-        FloorPose{-5.0, 0.0, std::numeric_limits<double>::infinity()}})
-    EXPECT_THROW(static_cast<void>(draw(1, start)), WorldError) << start.x;
+  for (const Pose2& start :
+       {Pose2{{0.0, 1.0}, 0.0}, Pose2{{0.3, 1.0}, 0.0}, Pose2{{50.0, 1.0}, 0.0},
+        Pose2{{std::numeric_limits<double>::quiet_NaN(), 0.0}, 0.0},
+        Pose2{{-5.0, 0.0}, std::numeric_limits<double>::infinity()}})
+    EXPECT_THROW(static_cast<void>(draw(1, start)), WorldError) << start.position.x();
 }
 
 TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
@@ -105,10 +104,10 @@ TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
   world.things.push_back(mover);
   enter(world);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scenario scenario = draw(seed);
-    EXPECT_GE(std::hypot(scenario.start.x + 4.0, scenario.start.y), 2.0);
+    const StartAndGoal scenario = draw(seed);
+    EXPECT_GE(std::hypot(scenario.start.position.x() + 4.0, scenario.start.position.y()), 2.0);
   }
-  const Scenario to_east = draw(3, std::nullopt, Eigen::Vector2d(-1.0, 2.0));
+  const StartAndGoal to_east = draw(3, std::nullopt, Eigen::Vector2d(-1.0, 2.0));
   EXPECT_LT(std::abs(to_east.start.yaw), M_PI);
 }
 
@@ -129,15 +128,15 @@ TEST_F(ScenarioIn, is_drawn_off_the_lanes_of_what_moves_and_given_anywhere) {
     return place.x() > 0.0 || std::abs(place.y() - 2.0) > 0.4 + 0.35 + 0.25;
   };
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scenario scenario = draw(seed);
-    EXPECT_TRUE(off_lane({scenario.start.x, scenario.start.y})) << seed;
+    const StartAndGoal scenario = draw(seed);
+    EXPECT_TRUE(off_lane(scenario.start.position)) << seed;
     EXPECT_TRUE(off_lane(scenario.goal)) << seed;
     EXPECT_GE(scenario.route_length, 10.0);
-    EXPECT_TRUE(off_lane(draw(seed, FloorPose{-4.0, 2.0, 0.0}).goal)) << seed;
-    const FloorPose start = draw(seed, std::nullopt, on_lane).start;
-    EXPECT_TRUE(off_lane({start.x, start.y})) << seed;
+    EXPECT_TRUE(off_lane(draw(seed, Pose2{{-4.0, 2.0}, 0.0}).goal)) << seed;
+    const Pose2 start = draw(seed, std::nullopt, on_lane).start;
+    EXPECT_TRUE(off_lane(start.position)) << seed;
   }
-  EXPECT_EQ(draw(1, FloorPose{-4.0, 2.0, 0.0}, on_lane).goal, on_lane);
+  EXPECT_EQ(draw(1, Pose2{{-4.0, 2.0}, 0.0}, on_lane).goal, on_lane);
 }
 
 TEST_F(ScenarioIn, is_drawn_on_the_lanes_where_there_is_nothing_else) {
@@ -146,9 +145,9 @@ TEST_F(ScenarioIn, is_drawn_on_the_lanes_where_there_is_nothing_else) {
   world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {20.0, 2.2, 0.1}));
   world.things.push_back(shuttle({-8.0, 0.0}, {8.0, 0.0}));
   enter(world);
-  const Scenario scenario = draw(1);
+  const StartAndGoal scenario = draw(1);
   EXPECT_GE(scenario.route_length, 10.0);
-  EXPECT_GE(std::hypot(scenario.start.x + 8.0, scenario.start.y), 2.0);
+  EXPECT_GE(std::hypot(scenario.start.position.x() + 8.0, scenario.start.position.y()), 2.0);
 }
 
 TEST_F(ScenarioIn, is_refused_where_nothing_is_free) {
@@ -168,14 +167,14 @@ TEST_F(ScenarioIn, has_the_length_and_the_turns_that_were_asked_for) {
   config.min_turns = 1;
   config.max_turns = 2;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Scenario scenario = draw_scenario(world_, map_, config, seed);
+    const StartAndGoal scenario = draw_scenario(world_, map_, config, seed);
     EXPECT_GE(scenario.route_length, 12.0);
     EXPECT_LE(scenario.route_length, 14.0);
     EXPECT_GE(turns(scenario.route), 1);
     EXPECT_LE(turns(scenario.route), 2);
     ASSERT_GE(scenario.route.size(), 3u);
     EXPECT_EQ(scenario.route.back(), scenario.goal);
-    EXPECT_EQ(scenario.route.front(), Eigen::Vector2d(scenario.start.x, scenario.start.y));
+    EXPECT_EQ(scenario.route.front(), scenario.start.position);
     double length = 0.0;
     for (std::size_t i = 1; i < scenario.route.size(); ++i)
       length += (scenario.route[i] - scenario.route[i - 1]).norm();

@@ -240,7 +240,7 @@ const MarkerArray& Scene::moving(const live::Snapshot& now, const ros::Time& sta
     const MoverState& mover = now.movers[i];
     const Eigen::Vector2d away = mover.pose.translation().head<2>() - now.robot.position;
     const bool has_turn = now.movers.size() <= kMany || (turn_ + i) % kTurns == 0;
-    if (has_turn || away.norm() <= kFar) tell(movers_.at(mover.thing), mover.pose);
+    if (has_turn || away.norm() <= kFar) tell(movers_.at(mover.thing.id), mover.pose);
   }
   Eigen::Isometry3d base(Eigen::AngleAxisd(now.robot.yaw, Eigen::Vector3d::UnitZ()));
   base.translation() << now.robot.position, world_.floor_height;

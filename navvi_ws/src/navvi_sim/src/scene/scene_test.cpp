@@ -252,7 +252,7 @@ live::Snapshot snapshot_of(const WorldDescription& world) {
   for (std::size_t id = 0; id < world.things.size(); ++id) {
     if (!world.things[id].route) continue;
     now.movers.push_back(
-        {id, world.things[id].pose, 0.0, Eigen::Vector2d::Zero(), 0.0, {0.5}, 1.0});
+        {navvi_types::MovingThing{static_cast<std::uint32_t>(id)}, world.things[id].pose});
   }
   return now;
 }

@@ -87,10 +87,10 @@ read::Workers SimNodeConfig::worker_choice() const {
   return workers == "walking" ? read::Workers::walking : read::Workers::as_laid_out;
 }
 
-std::optional<FloorPose> SimNodeConfig::start_pose() const {
+std::optional<Pose2> SimNodeConfig::start_pose() const {
   if (start.empty()) return std::nullopt;
   const auto values = numbers(start, 3, "start", "x,y,yaw");
-  return FloorPose{values[0], values[1], values[2]};
+  return Pose2{{values[0], values[1]}, values[2]};
 }
 
 std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
@@ -104,8 +104,8 @@ read::LoadedWorld load_world(const SimNodeConfig& config) {
                     config.worker_choice(), config.classes);
 }
 
-scenario::Scenario scenario_of(const SimNodeConfig& config, const WorldDescription& world,
-                               const occupancy::OccupancyMap& map) {
+scenario::StartAndGoal scenario_of(const SimNodeConfig& config, const WorldDescription& world,
+                                   const occupancy::OccupancyMap& map) {
   scenario::ScenarioConfig drawing = config.scenario;
   drawing.robot_radius = config.life.robot.radius;
   drawing.movers = config.life.movers;
@@ -113,8 +113,9 @@ scenario::Scenario scenario_of(const SimNodeConfig& config, const WorldDescripti
                                  config.start_pose(), config.goal_point());
 }
 
-std::string recipe(SimNodeConfig config, const scenario::Scenario& scenario) {
-  config.start = exact({scenario.start.x, scenario.start.y, scenario.start.yaw});
+std::string recipe(SimNodeConfig config, const scenario::StartAndGoal& scenario) {
+  config.start =
+      exact({scenario.start.position.x(), scenario.start.position.y(), scenario.start.yaw});
   config.goal = exact({scenario.goal.x(), scenario.goal.y()});
   for (std::string* path : {&config.world, &config.classes})
     *path = absolute(*path, std::filesystem::file_type::regular);

@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/live/session.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 
@@ -62,15 +61,15 @@ int play(const std::string& parameters, const std::string& commands, const std::
   const double duration = read_seconds(seconds);
   const std::vector<live::AppliedCommand> script = read_commands(commands);
   const WorldDescription world = setup::load_world(config).world;
-  const scenario::Scenario scenario =
+  const scenario::StartAndGoal scenario =
       setup::scenario_of(config, world, occupancy::occupancy_of(world, config.octomap));
   live::Session session(world, config.life, scenario.start,
                         static_cast<std::uint64_t>(config.seed));
   const auto steps = static_cast<std::uint64_t>(std::llround(duration / config.life.step));
   const live::World::Status status = live::replay(session, script, steps);
-  for (const live::StateHash& state : session.hashes())
+  for (const navvi_types::StateHash& state : session.hashes())
     std::printf("%llu %s\n", static_cast<unsigned long long>(state.step),
-                to_hex(state.hash).c_str());
+                navvi_types::to_hex(state.hash).c_str());
   if (status == live::World::Status::running) return 0;
   std::fprintf(stderr, "The world has stopped after step %llu: a number in it is not finite.\n",
                static_cast<unsigned long long>(session.steps()));

@@ -97,7 +97,7 @@ Request load(const Words& words) {
   return request;
 }
 
-scenario::Scenario scenario_of(const Request& request) {
+scenario::StartAndGoal scenario_of(const Request& request) {
   const setup::SimNodeConfig& session = request.config.session;
   const WorldDescription& world = request.loaded.world;
   return scenario_of(session, world, occupancy::occupancy_of(world, session.octomap));
@@ -117,7 +117,7 @@ std::string rounded(double value, int digits) {
   return text.str();
 }
 
-std::string caption_of(const Request& request, const scenario::Scenario& scenario) {
+std::string caption_of(const Request& request, const scenario::StartAndGoal& scenario) {
   const int count = scenario::turns(scenario.route);
   return "seed " + std::to_string(request.config.session.seed) + ", world " +
          world_hash(request.loaded.world) +
@@ -126,7 +126,7 @@ std::string caption_of(const Request& request, const scenario::Scenario& scenari
                                        std::to_string(count) + (count == 1 ? " turn" : " turns"));
 }
 
-void tell(const Request& request, const scenario::Scenario& scenario) {
+void tell(const Request& request, const scenario::StartAndGoal& scenario) {
   const WorldDescription& world = request.loaded.world;
   for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
   std::map<std::string, int> counts;
@@ -134,9 +134,10 @@ void tell(const Request& request, const scenario::Scenario& scenario) {
     ++counts[std::string(to_string(thing.thing_class)) + (thing.route ? " on routes" : "")];
   for (const auto& [what, number] : counts) std::cout << number << ' ' << what << '\n';
   std::cout << world.name << ", " << caption_of(request, scenario) << "\nstart "
-            << rounded(scenario.start.x, 2) << "," << rounded(scenario.start.y, 2) << ","
-            << rounded(scenario.start.yaw, 3) << " goal " << rounded(scenario.goal.x(), 2) << ","
-            << rounded(scenario.goal.y(), 2) << '\n';
+            << rounded(scenario.start.position.x(), 2) << ","
+            << rounded(scenario.start.position.y(), 2) << "," << rounded(scenario.start.yaw, 3)
+            << " goal " << rounded(scenario.goal.x(), 2) << "," << rounded(scenario.goal.y(), 2)
+            << '\n';
 }
 
 void check(const Words& words) {
@@ -149,7 +150,7 @@ void show(const Words& words) {
   if (path.extension() != ".svg")
     throw UsageError("'" + path.string() + "' is no picture that can be drawn; allowed is .svg");
   const Request request = load(words);
-  const scenario::Scenario scenario = scenario_of(request);
+  const scenario::StartAndGoal scenario = scenario_of(request);
   write_file(path,
              picture::world_picture(request.loaded.world, scenario, caption_of(request, scenario)));
   tell(request, scenario);

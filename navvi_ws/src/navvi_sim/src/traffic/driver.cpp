@@ -57,7 +57,7 @@ Driver::Driver(const Lane& track, const LaneUser& entry, const Route& route,
     next = (next + 1) % lane->legs.size();
   }
   const Eigen::Vector2d& first = route.waypoints[0].at;
-  if (route.delay > 0.0 && (lane->track.place(start_).at - first).norm() < kAtFirst)
+  if (route.delay > 0.0 && (lane->track.place(start_).position - first).norm() < kAtFirst)
     mover.wait(route.delay);
 }
 

@@ -15,9 +15,10 @@ Polygon swept(const Track& track, const Footprint& print, double from, double to
   std::vector<Eigen::Vector2d> points;
   double wider = 0.0;
   const auto stand = [&](const Track::Element& element, double s) {
-    const Place place = element.place(s);
+    const Pose2 place = element.place(s);
     const Eigen::Rotation2Dd rotation(place.yaw);
-    for (const Eigen::Vector2d& corner : print.hull) points.push_back(place.at + rotation * corner);
+    for (const Eigen::Vector2d& corner : print.hull)
+      points.push_back(place.position + rotation * corner);
   };
   for (std::size_t e = track.element_at(from); e < track.elements().size(); ++e) {
     const Track::Element& element = track.elements()[e];

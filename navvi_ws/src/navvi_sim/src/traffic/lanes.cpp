@@ -206,8 +206,9 @@ void Surveyor::avoid_what_stands() {
         if (corners.empty())
           refuse("thing " + quoted(world_.things[plan.things[0]]) + " would drive through " +
                  quoted(world_.things[standing.thing]) + " near " +
-                 place_text(
-                     lanes_.lanes[lane].track.place(block * lanes_.lanes[lane].block_length).at) +
+                 place_text(lanes_.lanes[lane]
+                                .track.place(block * lanes_.lanes[lane].block_length)
+                                .position) +
                  "; allowed is a route that keeps its whole body clear of what stands");
       }
     });
@@ -228,7 +229,7 @@ void Surveyor::place_users() {
     const Thing& thing = world_.things[entry.thing];
     const Eigen::Vector2d at = thing.pose.translation().head<2>();
     entry.start = lane.track.nearest({at, yaw_of(thing.pose)});
-    const double off = (lane.track.place(entry.start).at - at).norm();
+    const double off = (lane.track.place(entry.start).position - at).norm();
     const double cut = plans_[entry.lane].limits.corner_radius;
     if (off > kOffRoute + cut)
       refuse("thing " + quoted(thing) + " stands " + std::to_string(off).substr(0, 4) +

@@ -17,8 +17,8 @@ constexpr int kMostForeseen = 8;      // places of a disc
 constexpr double kThere = 1e-9;       // m, nearer is there
 
 /// m, from the disc to the box around a body that stands at `place`.
-double gap_to(const Disc& disc, const Place& place, const Footprint& print) {
-  const Eigen::Vector2d away = disc.centre - place.at;
+double gap_to(const Disc& disc, const Pose2& place, const Footprint& print) {
+  const Eigen::Vector2d away = disc.centre - place.position;
   const double c = std::cos(place.yaw), s = std::sin(place.yaw);
   const double x = c * away.x() + s * away.y();
   const double y = c * away.y() - s * away.x();
@@ -54,8 +54,6 @@ Eigen::Vector2d Mover::velocity() const {
   if (here.curvature == 0.0) return speed_ * here.along;
   return speed_ * Eigen::Vector2d(std::cos(place_.yaw), std::sin(place_.yaw));
 }
-
-double Mover::turn_rate() const { return speed_ * (element().curvature + element().spin); }
 
 void Mover::stop_dead() {
   speed_ = 0.0;
@@ -182,7 +180,7 @@ double Mover::room_behind(const Disc& disc, double clearance) const {
 /// Quick, for most movers are far from the robot at all times.
 bool Mover::may_meet(const Disc& disc, double look) const {
   const double near = reach_ + disc.radius + look + foresight_ * disc.velocity.lpNorm<1>();
-  return (disc.centre - place_.at).squaredNorm() <= near * near;
+  return (disc.centre - place_.position).squaredNorm() <= near * near;
 }
 
 /// The least room before the places where the disc will be.

@@ -31,7 +31,7 @@ class Alone {
       traffic_.step(robot, pressing, 0.01);
   }
   [[nodiscard]] const Mover& mover() const { return traffic_.mover(0); }
-  [[nodiscard]] const Eigen::Vector2d& at() const { return mover().place().at; }
+  [[nodiscard]] const Eigen::Vector2d& at() const { return mover().place().position; }
 
   static WorldDescription world(const Eigen::Vector2d& at, double yaw, const Route& route) {
     Thing thing;
@@ -75,7 +75,7 @@ TEST(Extent, holds_the_whole_footprint_in_a_rectangle_within_a_disc) {
   ASSERT_GT(things.size(), 3u);
   for (const Thing& thing : things) {
     const Footprint print = footprint_of(thing, tilt_of(thing.pose));
-    const Extent extent = extent_of(print);
+    const navvi_types::MovingThing extent = extent_of(print);
     EXPECT_GT(extent.length, 0.0);
     EXPECT_LE(std::hypot(extent.length, extent.width), 2.0 * extent.radius + 1e-9);
     for (const Eigen::Vector2d& corner : print.hull) {
@@ -89,7 +89,7 @@ TEST(Extent, holds_the_whole_footprint_in_a_rectangle_within_a_disc) {
 TEST(Extent, of_a_forklift_has_the_width_of_the_forklift_and_the_length_with_its_forks) {
   for (const Thing& thing : warehouse(1).things) {
     if (!thing.route || thing.thing_class != ThingClass::forklift) continue;
-    const Extent extent = extent_of(footprint_of(thing, tilt_of(thing.pose)));
+    const navvi_types::MovingThing extent = extent_of(footprint_of(thing, tilt_of(thing.pose)));
     EXPECT_NEAR(extent.length, 2.5, 1e-9);
     EXPECT_NEAR(extent.width, 1.0, 1e-9);
     EXPECT_LT(extent.radius, 1.4);
@@ -101,7 +101,8 @@ TEST(Extent, of_a_forklift_has_the_width_of_the_forklift_and_the_length_with_its
 TEST(Extent, of_what_is_round_is_its_disc_alone) {
   Thing worker;
   worker.shapes = {{Cylinder{0.24, 1.45}, Eigen::Isometry3d::Identity()}};
-  const Extent extent = extent_of(footprint_of(worker, Eigen::Quaterniond::Identity()));
+  const navvi_types::MovingThing extent =
+      extent_of(footprint_of(worker, Eigen::Quaterniond::Identity()));
   EXPECT_EQ(extent.radius, 0.24);
   EXPECT_EQ(extent.length, 0.0);
   EXPECT_EQ(extent.width, 0.0);
@@ -185,9 +186,9 @@ TEST(Mover, backs_out_along_its_track_slowly_and_smoothly_and_tells_how_it_moves
     mover.back_out(to);
     double speed = 0.0;
     for (int i = 0; i < 10000 && mover.backs_out(); ++i) {
-      const Place before = mover.place();
+      const Pose2 before = mover.place();
       mover.step(Mover::kFree, 0.01);
-      const Eigen::Vector2d moved = mover.place().at - before.at;
+      const Eigen::Vector2d moved = mover.place().position - before.position;
       ASSERT_LE(mover.speed(), 0.0);
       ASSERT_GE(mover.speed(), -config.back_speed - 1e-9);
       ASSERT_LE(std::abs(mover.speed() - speed), 2.0 * config.acceleration * 0.01 + 0.02);
@@ -199,8 +200,8 @@ TEST(Mover, backs_out_along_its_track_slowly_and_smoothly_and_tells_how_it_moves
     }
     EXPECT_FALSE(mover.backs_out());
     EXPECT_EQ(mover.speed(), 0.0);
-    const Place end = lane.track.place(to < 0.0 ? to + length : to);
-    EXPECT_NEAR((mover.place().at - end.at).norm(), 0.0, 1e-6) << from;
+    const Pose2 end = lane.track.place(to < 0.0 ? to + length : to);
+    EXPECT_NEAR((mover.place().position - end.position).norm(), 0.0, 1e-6) << from;
     mover.allow(mover.s() + 0.3 * length);
     for (int i = 0; i < 6000; ++i) mover.step(Mover::kFree, 0.01);
     EXPECT_NEAR(mover.s(), mover.allowed(), 1e-6) << "it goes on again";

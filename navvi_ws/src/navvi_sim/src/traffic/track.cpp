@@ -21,7 +21,7 @@ Eigen::Vector2d direction(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
 
 }  // namespace
 
-Place Track::Element::place(double s) const {
+Pose2 Track::Element::place(double s) const {
   const double distance = s - begin;
   if (spin != 0.0) return {from, wrap(yaw + spin * distance)};
   if (curvature == 0.0) return {from + distance * along, yaw};
@@ -152,13 +152,13 @@ std::size_t Track::element_at(double s) const {
   return after == elements_.begin() ? 0 : static_cast<std::size_t>(after - elements_.begin()) - 1;
 }
 
-double Track::nearest(const Place& pose) const {
+double Track::nearest(const Pose2& pose) const {
   double best = std::numeric_limits<double>::max();
   double found = 0.0;
   const auto consider = [&](const Element& element, double s) {
-    const Place place = element.place(s);
+    const Pose2 place = element.place(s);
     const double cost =
-        (place.at - pose.at).norm() + kTurned * std::abs(wrap(place.yaw - pose.yaw));
+        (place.position - pose.position).norm() + kTurned * std::abs(wrap(place.yaw - pose.yaw));
     if (cost < best - 1e-9) {
       best = cost;
       found = s;
@@ -167,7 +167,7 @@ double Track::nearest(const Place& pose) const {
   for (const Element& element : elements_) {
     if (element.curvature == 0.0 && element.spin == 0.0) {
       // On a line the heading is the same everywhere: the foot of the perpendicular is nearest.
-      const double foot = direction(element.yaw).dot(pose.at - element.from);
+      const double foot = direction(element.yaw).dot(pose.position - element.from);
       consider(element, element.begin + std::clamp(foot, 0.0, element.length * (1.0 - 1e-9)));
       continue;
     }

@@ -60,7 +60,7 @@ class Street {
         if (traffic_.mover(i).has_moved()) moved_at_[i] = time_;
         if (patience && time_ - moved_at_[i] > *patience) {
           FAIL() << name(i) << " stands since " << moved_at_[i] << " s at "
-                 << traffic_.mover(i).place().at.transpose();
+                 << traffic_.mover(i).place().position.transpose();
         }
       }
     }
@@ -71,19 +71,20 @@ class Street {
   void expect_apart() const {
     std::vector<Polygon> bodies;
     for (std::size_t i = 0; i < traffic_.size(); ++i) {
-      const Place& place = traffic_.mover(i).place();
+      const Pose2& place = traffic_.mover(i).place();
       Polygon body;
       for (const Eigen::Vector2d& corner : prints_[i].hull)
-        body.push_back(place.at + Eigen::Rotation2Dd(place.yaw) * corner);
+        body.push_back(place.position + Eigen::Rotation2Dd(place.yaw) * corner);
       bodies.push_back(std::move(body));
     }
     for (std::size_t a = 0; a < bodies.size(); ++a)
       for (std::size_t b = 0; b < a; ++b) {
         const double reach = prints_[a].radius + prints_[b].radius;
-        const Eigen::Vector2d away = traffic_.mover(a).place().at - traffic_.mover(b).place().at;
+        const Eigen::Vector2d away =
+            traffic_.mover(a).place().position - traffic_.mover(b).place().position;
         if (away.squaredNorm() < reach * reach && overlap(bodies[a], bodies[b], 0.0)) {
           FAIL() << name(a) << " in " << name(b) << " at " << time_ << " s, "
-                 << traffic_.mover(a).place().at.transpose();
+                 << traffic_.mover(a).place().position.transpose();
         }
       }
   }
@@ -204,14 +205,15 @@ TEST(Traffic, goes_on_after_a_robot_that_stood_in_its_way) {
     for (int visit = 0; visit < 12; ++visit) {
       // Just where somebody is about to go.
       const std::size_t victim = random() % street.traffic().size();
-      const Place place = street.traffic().mover(victim).place();
-      const Disc robot{place.at + Eigen::Rotation2Dd(place.yaw) * Eigen::Vector2d(2.5, 0.2), 0.35};
+      const Pose2 place = street.traffic().mover(victim).place();
+      const Disc robot{place.position + Eigen::Rotation2Dd(place.yaw) * Eigen::Vector2d(2.5, 0.2),
+                       0.35};
       street.run(40.0, std::nullopt, robot);
-      street.run(20.0, std::nullopt, {place.at, 0.35});
+      street.run(20.0, std::nullopt, {place.position, 0.35});
       // Behind whoever backs out.
-      const Place now = street.traffic().mover(victim).place();
+      const Pose2 now = street.traffic().mover(victim).place();
       const Eigen::Vector2d behind = Eigen::Rotation2Dd(now.yaw) * Eigen::Vector2d(-2.2, 0.0);
-      street.run(20.0, std::nullopt, {now.at + behind, 0.35});
+      street.run(20.0, std::nullopt, {now.position + behind, 0.35});
     }
     street.forgive();
     street.run(900.0, 400.0);
@@ -266,10 +268,10 @@ TEST(Traffic, on_shared_loops_that_cross_goes_on_after_a_robot) {
   Street street(world_of(things));
   std::mt19937_64 random(1);
   for (int visit = 0; visit < 60; ++visit) {
-    const Place place = street.traffic().mover(random() % things.size()).place();
+    const Pose2 place = street.traffic().mover(random() % things.size()).place();
     const double ahead = 1.0 + 0.1 * static_cast<double>(random() % 20);
     const Eigen::Rotation2Dd turned(place.yaw);
-    street.run(25.0, std::nullopt, {place.at + turned * Eigen::Vector2d(ahead, 0.1), 0.35});
+    street.run(25.0, std::nullopt, {place.position + turned * Eigen::Vector2d(ahead, 0.1), 0.35});
     if (visit % 3 != 0) continue;
     street.forgive();
     street.run(240.0, 120.0);
@@ -301,8 +303,8 @@ TEST(Traffic, of_every_preset_keeps_going) {
 
 /// m, from a thing's body to the robot's; less than 0 in contact.
 double gap(const Street& street, std::size_t i, const Disc& robot) {
-  const Place& place = street.traffic().mover(i).place();
-  const Eigen::Vector2d at = Eigen::Rotation2Dd(-place.yaw) * (robot.centre - place.at);
+  const Pose2& place = street.traffic().mover(i).place();
+  const Eigen::Vector2d at = Eigen::Rotation2Dd(-place.yaw) * (robot.centre - place.position);
   const Polygon& hull = street.print(i).hull;
   if (overlap(hull, {at}, 0.0)) return -robot.radius;
   double least = 1e9;
@@ -316,9 +318,9 @@ double gap(const Street& street, std::size_t i, const Disc& robot) {
 
 /// A robot that stands on the floor ahead of a mover.
 Disc robot_before(const Street& street, std::size_t i) {
-  const Place& place = street.traffic().mover(i).place();
+  const Pose2& place = street.traffic().mover(i).place();
   const Eigen::Vector2d ahead(street.print(i).front + 1.5, 0.1);
-  return {place.at + Eigen::Rotation2Dd(place.yaw) * ahead, 0.35};
+  return {place.position + Eigen::Rotation2Dd(place.yaw) * ahead, 0.35};
 }
 
 TEST(Traffic, of_every_preset_makes_room_for_a_robot_that_stands_in_its_way_and_never_hits_it) {
@@ -352,7 +354,7 @@ TEST(Traffic, of_every_preset_makes_room_for_a_robot_that_stands_in_its_way_and_
         ++rounds;
         EXPECT_GT(gap(street, victim, robot), 3.0)
             << street.name(victim) << " in " << preset.name << " at "
-            << street.traffic().mover(victim).place().at.transpose();
+            << street.traffic().mover(victim).place().position.transpose();
       }
       street.forgive();
       street.run(300.0, 200.0);

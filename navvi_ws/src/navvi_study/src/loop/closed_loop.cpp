@@ -2,9 +2,7 @@
 
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_nav/node/msg_conversion.hpp>
-#include <navvi_safety/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
-#include <navvi_sim/node/state_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <utility>
 
@@ -65,7 +63,7 @@ bool ClosedLoop::step() {
 
 bool ClosedLoop::turn_wheels() {
   using navvi_safety::CommandGate;
-  const navvi_safety::Velocity wheels = gate_.update(instant());
+  const navvi_types::Velocity wheels = gate_.update(instant());
   const bool running = gate_.state() == CommandGate::State::running;
   return session_.step(wheels, running ? navvi_sim::physics::Braking::normal
                                        : navvi_sim::physics::Braking::emergency) ==
@@ -74,26 +72,22 @@ bool ClosedLoop::turn_wheels() {
 
 void ClosedLoop::sense() {
   const navvi_sim::live::Snapshot& now = session_.world().now();
-  told_.odometry =
-      navvi_sim::node::odometry_msg(now.odometry, setting_.world.floor_height, stamp());
+  told_.odometry = navvi_types::to_msg(session_.world().odometry());
   if (const auto odometry = node::from_msg(told_.odometry)) feedback_.take(*odometry, time());
   if (const auto speed = navvi_nav::node::speed_from_msg(told_.odometry))
     navigator_.set_speed(*speed);
-  if (const auto gate = node::from_msg(navvi_safety::state_msg(gate_, stamp())))
+  if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
     feedback_.take(*gate, time());
-  for (const navvi_sim::physics::ContactEvent& contact : now.contacts) {
-    told_.contacts.push_back(
-        navvi_sim::node::contact_msg(setting_.world, now.robot, contact, stamp()));
+  for (const navvi_types::Contact& contact : now.contacts) {
+    told_.contacts.push_back(navvi_types::to_msg(contact));
     if (const auto felt = node::from_msg(told_.contacts.back())) feedback_.take(*felt);
   }
-  if (session_.due(navvi_sim::node::kProximityRate)) {
-    const double radius = config_.sim.detection_radius;
-    told_.proximity = navvi_sim::node::proximity_msg(
-        setting_.world, now.robot, session_.world().proximity(radius), radius, stamp());
+  if (session_.due(navvi_sim::live::kProximityRate)) {
+    told_.proximity = navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
     if (const auto proximity = node::from_msg(*told_.proximity)) feedback_.take(*proximity, time());
   }
-  if (session_.due(navvi_sim::node::kObstaclesRate)) {
-    told_.obstacles = navvi_sim::node::obstacles_msg(setting_.world, now, stamp());
+  if (session_.due(navvi_sim::live::kObstaclesRate)) {
+    told_.obstacles = navvi_types::to_msg(session_.world().obstacles());
     classes_.clear();
     for (const auto& obstacle : told_.obstacles->obstacles)
       classes_[obstacle.id] = obstacle.thing_class;
@@ -103,8 +97,10 @@ void ClosedLoop::sense() {
 }
 
 geometry_msgs::Transform ClosedLoop::pose() const {
-  const navvi_sim::physics::RobotState& robot = session_.world().now().robot;
-  return navvi_sim::node::base_link_msg(robot, setting_.world.floor_height, stamp()).transform;
+  const navvi_sim::live::Snapshot& now = session_.world().now();
+  return navvi_sim::node::base_link_msg(
+             now.robot.odometry(setting_.world.floor_height, now.stamp()))
+      .transform;
 }
 
 void ClosedLoop::navigate() {

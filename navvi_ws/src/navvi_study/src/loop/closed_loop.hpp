@@ -65,7 +65,9 @@ class ClosedLoop {
   [[nodiscard]] double dt() const { return config_.sim.life.step; }
   /// True once navigation has been given the goal.
   [[nodiscard]] bool begun() const { return begun_; }
-  [[nodiscard]] const navvi_sim::scenario::Scenario& scenario() const { return setting_.scenario; }
+  [[nodiscard]] const navvi_sim::scenario::StartAndGoal& scenario() const {
+    return setting_.scenario;
+  }
   [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
   [[nodiscard]] const Messages& told() const { return told_; }
   /// As now planned, m, in map; empty where there is none.
@@ -77,7 +79,7 @@ class ClosedLoop {
   /// What is there before anything moves.
   struct Setting {
     navvi_sim::WorldDescription world;
-    navvi_sim::scenario::Scenario scenario;
+    navvi_sim::scenario::StartAndGoal scenario;
     navvi_nav::plan::MapMessage map;
 
     explicit Setting(const navvi_sim::setup::SimNodeConfig& config);

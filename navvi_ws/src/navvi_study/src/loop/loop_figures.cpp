@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <navvi_sim/description/world_hash.hpp>
-#include <navvi_sim/node/state_conversion.hpp>
 
 #include "node/msg_conversion.hpp"
 
@@ -38,8 +36,8 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   if (!begun_ && loop.begun()) begin(loop);
   const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
   // Where the robot truly is, which the odometry may not know.
-  if (const auto place =
-          node::from_msg(navvi_sim::node::odometry_msg(robot, 0.0, told.odometry.header.stamp)))
+  if (const auto place = node::from_msg(
+          navvi_types::to_msg(robot.odometry(0.0, loop.session().world().now().stamp()))))
     (void)monitor_.observe(*place);
   for (const auto& contact : told.contacts) {
     if (const auto report = node::from_msg(contact)) (void)monitor_.observe(*report);
@@ -159,7 +157,7 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
   }
   row.set("other", std::max(0.0, time_ - known), 1);
   row.set("still", still_, 1).set("still_at", still_at_, 1).set("why", why_);
-  return row.set("hash", navvi_sim::to_hex(loop.session().world().state_hash()));
+  return row.set("hash", navvi_types::to_hex(loop.session().world().state_hash()));
 }
 
 }  // namespace navvi_study::loop

@@ -6,8 +6,9 @@
 
 #include <navvi_config/reader.hpp>
 #include <navvi_sim/description/world_hash.hpp>
-#include <navvi_sim/node/state_conversion.hpp>
+#include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
+#include <navvi_types/msg_conversion.hpp>
 #include <stdexcept>
 
 #include "recount/bag_message.hpp"
@@ -41,7 +42,7 @@ RecordedSession session_in_bag(const std::filesystem::path& path) {
                                std::to_string(session.commands.size()));
   });
   for_each<navvi_msgs::StateHash>(bag, [&](const navvi_msgs::StateHash& msg) {
-    const auto state = navvi_sim::node::from_msg(msg);
+    const auto state = navvi_types::from_msg(msg);
     if (!state) throw std::runtime_error("a state in the bag has no hash");
     if (!session.states.empty() && state->step <= session.states.back().step)
       throw std::runtime_error("the simulator was started anew while the bag was open");
@@ -68,7 +69,7 @@ std::string first_difference(const RecordedSession& recorded) {
   navvi_sim::live::Session session(world, config.life, *start,
                                    static_cast<std::uint64_t>(config.seed));
   double equal_until = -1.0;
-  for (const navvi_sim::live::StateHash& state : recorded.states) {
+  for (const navvi_types::StateHash& state : recorded.states) {
     if (navvi_sim::live::replay(session, recorded.commands, state.step) !=
         navvi_sim::live::World::Status::running)
       return "The repetition stopped after step " + std::to_string(session.steps()) + ".";
@@ -76,8 +77,8 @@ std::string first_difference(const RecordedSession& recorded) {
     const std::uint64_t hash = session.world().state_hash();
     if (hash != state.hash) {
       std::string text = "They differ at " + std::to_string(time) + " s: the record says " +
-                         navvi_sim::to_hex(state.hash) + ", the repetition " +
-                         navvi_sim::to_hex(hash);
+                         navvi_types::to_hex(state.hash) + ", the repetition " +
+                         navvi_types::to_hex(hash);
       return text + (equal_until < 0.0 ? ". No recorded state was equal."
                                        : "; equal up to " + std::to_string(equal_until) + " s.");
     }

@@ -12,7 +12,7 @@ struct RecordedSession {
   std::string parameters;  ///< YAML, of sim_node
   std::string world_hash;
   std::vector<navvi_sim::live::AppliedCommand> commands;
-  std::vector<navvi_sim::live::StateHash> states;  ///< one each second while the bag was open
+  std::vector<navvi_types::StateHash> states;  ///< one each second while the bag was open
 };
 
 /// \throws std::runtime_error with a sentence on what the bag lacks. Rosbag's reader can crash on a

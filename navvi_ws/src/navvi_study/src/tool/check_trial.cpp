@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <navvi_sim/description/world_hash.hpp>
+#include <navvi_types/scenario.hpp>
 #include <string>
 
 #include "record/child_process.hpp"
@@ -31,7 +31,7 @@ std::string summary_differs(const study::record::Summary& summary,
   if (cell_of(summary, "world_hash") != session.world_hash)
     return "The world in the summary is not the one in the bag.";
   for (const auto& state : session.states) {
-    if (std::to_string(state.step) == step && navvi_sim::to_hex(state.hash) == hash) return "";
+    if (std::to_string(state.step) == step && navvi_types::to_hex(state.hash) == hash) return "";
   }
   return "The summary's last state, " + hash + " after step " + step + ", is not in the bag.";
 }

@@ -24,6 +24,11 @@ struct StateHash {
   std::int64_t stamp = 0;  ///< ns, ROS time
   std::uint64_t step = 0;
   std::uint64_t hash = 0;  ///< over every state so far
+
+  /// Whenever the two were published.
+  [[nodiscard]] bool operator==(const StateHash& other) const {
+    return step == other.step && hash == other.hash;
+  }
 };
 
 /// 16 hexadecimal digits.

@@ -41,16 +41,10 @@ struct Footprint {
 /// \param tilt  of the thing's shapes: its orientation without its yaw
 [[nodiscard]] Footprint footprint_of(const Thing& thing, const Eigen::Quaterniond& tilt);
 
-/// What is said of a thing's footprint to those who must keep clear of it.
-struct Extent {
-  double radius;        ///< m, of the disc about the origin
-  double length = 0.0;  ///< m, along x, of the rectangle about the origin
-  double width = 0.0;   ///< m, along y
-};
-
-/// The disc and the rectangle both hold the whole footprint, and the disc holds the rectangle. Of
-/// what is so round that the disc is the smaller of the two, the rectangle is left out: 0 and 0.
-[[nodiscard]] Extent extent_of(const Footprint& print);
+/// Radius, length and width of a moving thing. The disc and the rectangle both hold the whole
+/// footprint, and the disc holds the rectangle. Of what is so round that the disc is the smaller of
+/// the two, the rectangle is left out: 0 and 0.
+[[nodiscard]] navvi_types::MovingThing extent_of(const Footprint& print);
 
 /// The thing's heading: rad, the direction of its x axis seen from above.
 [[nodiscard]] double yaw_of(const Eigen::Isometry3d& pose);

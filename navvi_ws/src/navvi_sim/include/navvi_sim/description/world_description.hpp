@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,16 +12,8 @@
 
 namespace navvi_sim {
 
-/// What a thing is to the person who drives. `floor` is what one drives on; everything else is an
-/// obstacle.
-enum class ThingClass { floor, shelf, wall, box, pedestal, worker, forklift, pallet_robot, other };
-
-/// Lower-case name as in the messages: "shelf", "pallet_robot", ...
-[[nodiscard]] const char* to_string(ThingClass thing_class);
-/// nullopt for a word that is no class.
-[[nodiscard]] std::optional<ThingClass> thing_class_from(const std::string& word);
-/// All of them, with commas between, for sentences.
-[[nodiscard]] std::string thing_class_words();
+using navvi_types::Pose2;
+using navvi_types::ThingClass;
 
 struct Box {
   Eigen::Vector3d size;  ///< m, full extents, > 0

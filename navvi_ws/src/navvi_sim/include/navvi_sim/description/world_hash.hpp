@@ -1,14 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim {
-
-/// 16 hexadecimal digits.
-[[nodiscard]] std::string to_hex(std::uint64_t number);
 
 /// 64-bit FNV-1a over every name and number of `world`, as 16 hexadecimal digits. Two worlds with
 /// the same hash are, for a trial, the same world.

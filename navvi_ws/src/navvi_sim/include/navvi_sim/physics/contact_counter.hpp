@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <navvi_types/thing.hpp>
 #include <vector>
-
-#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::physics {
 
@@ -17,16 +16,7 @@ struct Touch {
   Eigen::Vector3d point;  ///< m, on the thing, in map
 };
 
-using ContactCounts = std::map<ThingClass, std::uint32_t>;
-
-/// The begin of a contact (R-SIM-6).
-struct ContactEvent {
-  std::uint32_t seq;      ///< 1 for the first of the world, no gaps
-  std::size_t thing;      ///< index in WorldDescription::things
-  Eigen::Vector3d point;  ///< m, in map
-  double speed;           ///< m/s, the robot's speed just before
-  ContactCounts counts;   ///< so far by class, this one included
-};
+using ContactCounts = std::map<navvi_types::ThingClass, std::uint32_t>;
 
 /// Counts each contact once, at its begin. A thing counts again only after it was apart from the
 /// robot for a while.
@@ -40,9 +30,10 @@ class ContactCounter {
   /// \param classes  of all things
   /// \param speed    m/s, the robot's before any contact that begins now
   /// \param dt       s, since the last call
-  [[nodiscard]] std::vector<ContactEvent> update(const std::vector<Touch>& touches,
-                                                 const std::vector<ThingClass>& classes,
-                                                 double speed, double dt);
+  /// \return contacts that began, without the thing's name, the robot's pose and a stamp
+  [[nodiscard]] std::vector<navvi_types::Contact> update(
+      const std::vector<Touch>& touches, const std::vector<navvi_types::ThingClass>& classes,
+      double speed, double dt);
 
   [[nodiscard]] const ContactCounts& counts() const { return counts_; }
   /// Things in contact, or not long enough apart, with the time they have been apart in s.

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <deque>
-#include <navvi_safety/command_gate.hpp>
+#include <navvi_types/motion.hpp>
 #include <random>
 
 #include "navvi_sim/physics/robot.hpp"
@@ -23,9 +23,8 @@ class Drivetrain {
   /// The velocity that the wheels give the body in the next step.
   /// \param body  what contact left of the last one
   /// \param braking  an emergency is never late, and forgets what was under way
-  [[nodiscard]] navvi_safety::Velocity drive(const navvi_safety::Velocity& body,
-                                             const navvi_safety::Velocity& command,
-                                             Braking braking);
+  [[nodiscard]] navvi_types::Velocity drive(const navvi_types::Velocity& body,
+                                            const navvi_types::Velocity& command, Braking braking);
   /// Counts how far the wheels turned in the step that led from `before` to `after`.
   void count(const RobotState& before, const RobotState& after);
 
@@ -42,8 +41,8 @@ class Drivetrain {
   };
 
   [[nodiscard]] Pair wheels_of(double forward, double turn) const;
-  [[nodiscard]] navvi_safety::Velocity body_of(const Pair& wheels) const;
-  [[nodiscard]] navvi_safety::Velocity late(const navvi_safety::Velocity& command, Braking braking);
+  [[nodiscard]] navvi_types::Velocity body_of(const Pair& wheels) const;
+  [[nodiscard]] navvi_types::Velocity late(const navvi_types::Velocity& command, Braking braking);
   void draw_slip();
   [[nodiscard]] double normal();
 
@@ -51,8 +50,8 @@ class Drivetrain {
   ImperfectionsConfig flaws_;
   double step_;
   std::mt19937_64 random_;
-  std::deque<navvi_safety::Velocity> under_way_;  ///< commands, the oldest first
-  Pair noise_;                                    ///< of the slip
+  std::deque<navvi_types::Velocity> under_way_;  ///< commands, the oldest first
+  Pair noise_;                                   ///< of the slip
   Pair grip_;  ///< what of a wheel's turning becomes way on the floor
   RobotState odometry_;
 };

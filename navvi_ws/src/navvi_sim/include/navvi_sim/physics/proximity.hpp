@@ -10,19 +10,17 @@
 
 namespace navvi_sim::physics {
 
-/// A thing near the robot (R-SIM-7).
-struct NearThing {
-  std::size_t thing;        ///< index in WorldDescription::things
-  double gap;               ///< m, hull to surface; 0 or less when touching
-  Eigen::Vector3d nearest;  ///< m, nearest point of its surface, in map
+/// How near a thing is, in map.
+struct ThingGap : Gap {
+  std::size_t thing = 0;  ///< index in WorldDescription::things
 };
 
 /// The nearest surface point of each thing whose gap to the robot's hull is at most `radius` m,
 /// nearest first. Shapes and triangles wholly below the hull, or whose underside is above
 /// `ceiling`, m, z in map, are left out. The time taken follows what is near.
 /// \param movers  everything that moves, where it is now
-[[nodiscard]] std::vector<NearThing> things_near(const Hull& hull, double radius, double ceiling,
-                                                 const Bodies& bodies,
-                                                 const std::vector<MoverState>& movers);
+[[nodiscard]] std::vector<ThingGap> things_near(const Hull& hull, double radius, double ceiling,
+                                                const Bodies& bodies,
+                                                const std::vector<MoverState>& movers);
 
 }  // namespace navvi_sim::physics

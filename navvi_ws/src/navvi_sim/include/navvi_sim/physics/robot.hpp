@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <navvi_config/field.hpp>
-#include <navvi_safety/command_gate.hpp>
+#include <navvi_types/motion.hpp>
 
 namespace navvi_sim::physics {
 
@@ -61,15 +61,17 @@ struct RobotState {
   [[nodiscard]] double forward_speed() const;
   /// m/s along the robot's own y: only a push makes it other than 0
   [[nodiscard]] double sideways_speed() const;
+  /// As the robot's wheels would report it. \param floor  m, z \param stamp  ns
+  [[nodiscard]] navvi_types::Odometry odometry(double floor, std::int64_t stamp) const;
 };
 
 /// How hard the wheels may slow down.
 enum class Braking { normal, emergency };
 
 /// The wheels' speed after `dt`, from what they do now towards `command`, within the limits.
-[[nodiscard]] navvi_safety::Velocity servo(const RobotConfig& config,
-                                           const navvi_safety::Velocity& now,
-                                           const navvi_safety::Velocity& command, Braking braking,
-                                           double dt);
+[[nodiscard]] navvi_types::Velocity servo(const RobotConfig& config,
+                                          const navvi_types::Velocity& now,
+                                          const navvi_types::Velocity& command, Braking braking,
+                                          double dt);
 
 }  // namespace navvi_sim::physics

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "navvi_sim/description/floor_pose.hpp"
 #include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/description/world_error.hpp"
 #include "navvi_sim/occupancy/occupancy_map.hpp"
@@ -33,8 +32,8 @@ struct ScenarioConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-struct Scenario {
-  FloorPose start;
+struct StartAndGoal {
+  Pose2 start;
   Eigen::Vector2d goal;       ///< m, in map
   double route_length = 0.0;  ///< m, along a grid of the map; 0 if the goal was given and cannot
                               ///< be reached
@@ -54,10 +53,10 @@ struct Scenario {
 /// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
 /// floor, or if the world has no free place, or none for a route as long and with as many turns as
 /// asked for
-[[nodiscard]] Scenario draw_scenario(const WorldDescription& world,
-                                     const occupancy::OccupancyMap& map,
-                                     const ScenarioConfig& config, std::uint64_t seed,
-                                     const std::optional<FloorPose>& start = std::nullopt,
-                                     const std::optional<Eigen::Vector2d>& goal = std::nullopt);
+[[nodiscard]] StartAndGoal draw_scenario(const WorldDescription& world,
+                                         const occupancy::OccupancyMap& map,
+                                         const ScenarioConfig& config, std::uint64_t seed,
+                                         const std::optional<Pose2>& start = std::nullopt,
+                                         const std::optional<Eigen::Vector2d>& goal = std::nullopt);
 
 }  // namespace navvi_sim::scenario

@@ -38,7 +38,7 @@ struct SimNodeConfig {
   [[nodiscard]] read::Workers worker_choice() const;
   /// nullopt where nothing is given.
   /// \throws navvi_config::ConfigError with a sentence if it is not three finite numbers
-  [[nodiscard]] std::optional<FloorPose> start_pose() const;
+  [[nodiscard]] std::optional<Pose2> start_pose() const;
   /// nullopt where nothing is given.
   /// \throws navvi_config::ConfigError with a sentence if it is not two finite numbers
   [[nodiscard]] std::optional<Eigen::Vector2d> goal_point() const;
@@ -50,12 +50,12 @@ struct SimNodeConfig {
 /// Start and goal: as given, and drawn from the seed where they are not.
 /// \param map  of `world` (occupancy.hpp)
 /// \throws ConfigError or WorldError with a sentence
-[[nodiscard]] scenario::Scenario scenario_of(const SimNodeConfig& config,
-                                             const WorldDescription& world,
-                                             const occupancy::OccupancyMap& map);
+[[nodiscard]] scenario::StartAndGoal scenario_of(const SimNodeConfig& config,
+                                                 const WorldDescription& world,
+                                                 const occupancy::OccupancyMap& map);
 
 /// Every parameter as YAML, with the scenario's start and goal written exactly and the world's path
 /// absolute: who reads this plays the same world again and needs to draw nothing.
-[[nodiscard]] std::string recipe(SimNodeConfig config, const scenario::Scenario& scenario);
+[[nodiscard]] std::string recipe(SimNodeConfig config, const scenario::StartAndGoal& scenario);
 
 }  // namespace navvi_sim::setup

@@ -2,29 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <navvi_config/field.hpp>
 #include <vector>
 
 #include "navvi_sim/description/footprint.hpp"
 #include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/traffic/movers_config.hpp"
 #include "navvi_sim/traffic/track.hpp"
 
 namespace navvi_sim::traffic {
-
-/// How things with a route behave (R-SIM-3).
-struct MoversConfig {
-  bool yield = true;           ///< stop for the robot ahead, where the route says so too
-  double acceleration = 0.8;   ///< m/s^2, to faster and to slower, and sideways in curves
-  double turn_rate = 1.0;      ///< rad/s
-  double corner_radius = 1.2;  ///< m, at which forklifts round corners where there is room
-  double clearance = 0.4;      ///< m, at which they stop before the robot
-  double patience = 8.0;       ///< s, after which one that the robot keeps from going on backs out
-  double back_speed = 0.5;     ///< m/s, at most, backing out
-  double pause_spread = 0.3;   ///< share by which a pause varies either way, drawn from the seed
-
-  void describe(navvi_config::Visitor& visit);
-};
 
 /// Ground of another lane that a leg touches: its blocks from first to last.
 struct Crossing {

@@ -50,12 +50,11 @@ class Mover {
   /// Where it backs out to; s() if it does not.
   [[nodiscard]] double rear() const { return rear_; }
   [[nodiscard]] bool backs_out() const { return rear_ < s_; }
-  [[nodiscard]] const Place& place() const { return place_; }
+  [[nodiscard]] const Pose2& place() const { return place_; }
   /// m/s along the track, also in turning; less than 0 backing out.
   [[nodiscard]] double speed() const { return speed_; }
   [[nodiscard]] double pause_left() const { return pause_left_; }
   [[nodiscard]] Eigen::Vector2d velocity() const;  ///< m/s, in map
-  [[nodiscard]] double turn_rate() const;          ///< rad/s
   /// True if the place changed in the last step.
   [[nodiscard]] bool has_moved() const { return moved_; }
   /// True at the end of a track that does not come round.
@@ -89,7 +88,7 @@ class Mover {
   double speed_ = 0.0;
   double pause_left_ = 0.0;
   std::size_t element_;
-  Place place_;
+  Pose2 place_;
   bool moved_ = false;
 };
 

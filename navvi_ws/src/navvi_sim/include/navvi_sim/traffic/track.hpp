@@ -15,12 +15,6 @@ struct TrackLimits {
   double corner_radius = 1.2;  ///< m, at which corners are rounded where there is room
 };
 
-/// Where a thing is on its track.
-struct Place {
-  Eigen::Vector2d at;  ///< m, in map
-  double yaw;          ///< rad, heading
-};
-
 /// A route as one smooth way, measured along it: straight lines; arcs that round the corners; and
 /// turns on the spot where the route stops or leaves no room to round a corner. A turn on the spot
 /// counts kSpinArm metres a radian, so that all motion is along one coordinate: `s`, m. The speed
@@ -43,7 +37,7 @@ class Track {
     Eigen::Vector2d along = Eigen::Vector2d::Zero();  ///< unit vector of yaw, set by Track
     std::size_t corner = 0;                           ///< way-point that it rounds or leads to
     [[nodiscard]] double end() const { return begin + length; }
-    [[nodiscard]] Place place(double s) const;
+    [[nodiscard]] Pose2 place(double s) const;
   };
 
   /// \param route  valid (validate.hpp)
@@ -56,9 +50,9 @@ class Track {
   [[nodiscard]] const std::vector<Element>& elements() const { return elements_; }
   /// The element that holds s.
   [[nodiscard]] std::size_t element_at(double s) const;
-  [[nodiscard]] Place place(double s) const { return elements_[element_at(s)].place(s); }
+  [[nodiscard]] Pose2 place(double s) const { return elements_[element_at(s)].place(s); }
   /// The s of the place nearest to a pose; of equal ones, that with the nearer heading.
-  [[nodiscard]] double nearest(const Place& pose) const;
+  [[nodiscard]] double nearest(const Pose2& pose) const;
 
  private:
   struct Corner {

@@ -1,0 +1,53 @@
+#include "navvi_sim/setup/sim_node_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <navvi_config/reader.hpp>
+
+namespace navvi_sim::setup {
+namespace {
+
+TEST(SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
+  SimNodeConfig config;
+  EXPECT_FALSE(config.start_pose());
+  EXPECT_FALSE(config.goal_point());
+  config.start = "1,-9, 1.57";
+  config.goal = "1,6";
+  EXPECT_EQ(config.start_pose()->position.y(), -9.0);
+  EXPECT_EQ(config.start_pose()->position.y() aw, 1.57);
+  EXPECT_EQ(config.goal_point()->y(), 6.0);
+  for (const char* bad : {"1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,3x", "1,,3", "1,2,3,", ","}) {
+    config.start = bad;
+    EXPECT_THROW((void)config.start_pose(), navvi_config::ConfigError) << bad;
+  }
+}
+
+TEST(SimNodeConfig, describes_itself_within_its_own_ranges) {
+  SimNodeConfig config;
+  navvi_config::read(config,
+                     YAML::Load("{workers: standing, movers: {yield: false}, "
+                                "robot: {radius: 0.3}, gate: {timeout: 0.1}}"),
+                     "test");
+  EXPECT_FALSE(config.life.movers.yield);
+  EXPECT_EQ(config.gate.timeout, 0.1);
+  EXPECT_THROW(navvi_config::read(config, YAML::Load("{robot: {radius: .nan}}"), "test"),
+               navvi_config::ConfigError);
+  EXPECT_THROW(navvi_config::read(config, YAML::Load("{no_such: 1}"), "test"),
+               navvi_config::ConfigError);
+}
+
+TEST(SimNodeConfig, reads_every_profile_that_ships) {
+  for (const char* profile : {"default", "paper"}) {
+    SimNodeConfig config;
+    const std::string path = std::string(NAVVI_SIM_DIR) + "/config/" + profile + ".yaml";
+    EXPECT_NO_THROW(navvi_config::read(config, navvi_config::load_yaml(path), path)) << path;
+  }
+}
+
+}  // namespace
+}  // namespace navvi_sim::setup
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
