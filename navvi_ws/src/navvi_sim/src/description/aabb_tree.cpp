@@ -1,4 +1,4 @@
-#include "navvi_sim/description/aabb_tree.hpp"
+#include "description/aabb_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

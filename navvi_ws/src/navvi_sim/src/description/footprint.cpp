@@ -1,4 +1,4 @@
-#include "navvi_sim/description/footprint.hpp"
+#include "description/footprint.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/description/world_error.hpp"
 
 namespace navvi_sim {
 

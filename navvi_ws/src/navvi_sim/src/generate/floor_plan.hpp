@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "description/random.hpp"
-#include "navvi_sim/generate/layout_config.hpp"
+#include "generate/layout_config.hpp"
 
 namespace navvi_sim::generate {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/generate/layout_config.hpp"
+#include "generate/layout_config.hpp"
 
 namespace navvi_sim::generate {
 

@@ -1,4 +1,4 @@
-#include "navvi_sim/generate/layout_config.hpp"
+#include "generate/layout_config.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "navvi_sim/generate/layout_source.hpp"
+#include "generate/layout_source.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include "navvi_sim/live/world.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/lanes.hpp"
 #include "scenario/floor_grid.hpp"
 
 namespace navvi_sim::generate {

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "description/hash.hpp"
-#include "navvi_sim/description/footprint.hpp"
-#include "navvi_sim/physics/contact_counter.hpp"
-#include "navvi_sim/physics/drivetrain.hpp"
-#include "navvi_sim/physics/physics.hpp"
-#include "navvi_sim/physics/proximity.hpp"
-#include "navvi_sim/traffic/traffic.hpp"
+#include "description/footprint.hpp"
+#include "physics/contact_counter.hpp"
+#include "physics/drivetrain.hpp"
+#include "physics/physics.hpp"
+#include "physics/proximity.hpp"
+#include "traffic/traffic.hpp"
 
 namespace navvi_sim::live {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <string>
 
-#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/occupancy/occupancy_map.hpp"
 
 namespace navvi_sim::occupancy {

@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/bodies.hpp"
+#include "physics/bodies.hpp"
 
 #include <algorithm>
 #include <cmath>

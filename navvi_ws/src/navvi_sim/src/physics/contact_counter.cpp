@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/contact_counter.hpp"
+#include "physics/contact_counter.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/drivetrain.hpp"
+#include "physics/drivetrain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/hull_gap.hpp"
+#include "physics/hull_gap.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/hull_gap.hpp"
+#include "physics/hull_gap.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "navvi_sim/physics/proximity.hpp"
+#include "physics/proximity.hpp"
 
 namespace navvi_sim::physics {
 namespace {

@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/physics.hpp"
+#include "physics/physics.hpp"
 
 #include <btBulletDynamicsCommon.h>
 

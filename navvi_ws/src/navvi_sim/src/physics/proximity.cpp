@@ -1,4 +1,4 @@
-#include "navvi_sim/physics/proximity.hpp"
+#include "physics/proximity.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/description/world_error.hpp"
 
 namespace navvi_sim::read {
 

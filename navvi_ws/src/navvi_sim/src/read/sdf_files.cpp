@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "description/validate.hpp"
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/lanes.hpp"
 #include "sdf_folder.hpp"
 
 namespace navvi_sim::read {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::read {
 namespace {

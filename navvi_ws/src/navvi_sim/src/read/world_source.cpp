@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "description/validate.hpp"
-#include "navvi_sim/generate/layout_source.hpp"
+#include "read/layout_world.hpp"
 #include "read/sdf_world.hpp"
 #include "read/yaml_world.hpp"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::read {
 namespace {

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/description/world_error.hpp"
 
 namespace navvi_sim::read {
 

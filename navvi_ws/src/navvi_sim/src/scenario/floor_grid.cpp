@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::scenario {
 namespace {

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "description/sentence.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::scenario {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "navvi_sim/physics/bodies.hpp"
+#include "physics/bodies.hpp"
 #include "scene/block_lists.hpp"
 #include "scene/painter.hpp"
 #include "scene/rack_drawing.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "navvi_sim/physics/bodies.hpp"
+#include "physics/bodies.hpp"
 #include "warehouse.hpp"
 
 namespace navvi_sim::scene {

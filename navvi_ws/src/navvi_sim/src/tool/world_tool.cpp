@@ -7,10 +7,10 @@
 #include <navvi_config/reader.hpp>
 #include <sstream>
 
-#include "description/validate.hpp"
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 #include "picture/world_picture.hpp"
+#include "read/layout_world.hpp"
 #include "read/sdf_writer.hpp"
 #include "read/xml_element.hpp"
 

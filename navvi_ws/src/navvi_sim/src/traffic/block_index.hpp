@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "navvi_sim/description/footprint.hpp"
+#include "description/footprint.hpp"
 
 namespace navvi_sim::traffic {
 

@@ -1,4 +1,4 @@
-#include "navvi_sim/traffic/driver.hpp"
+#include "traffic/driver.hpp"
 
 #include <algorithm>
 #include <cmath>

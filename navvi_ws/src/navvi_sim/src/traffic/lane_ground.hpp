@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::traffic {
 

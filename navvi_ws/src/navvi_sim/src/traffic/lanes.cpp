@@ -1,4 +1,4 @@
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/lanes.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "navvi_sim/traffic/mover.hpp"
+#include "traffic/mover.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "navvi_sim/traffic/mover.hpp"
+#include "traffic/mover.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "navvi_sim/traffic/traffic.hpp"
+#include "traffic/traffic.hpp"
 #include "warehouse.hpp"
 
 namespace navvi_sim::traffic {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::traffic {
 

@@ -1,4 +1,4 @@
-#include "navvi_sim/traffic/track.hpp"
+#include "traffic/track.hpp"
 
 #include <algorithm>
 #include <cmath>

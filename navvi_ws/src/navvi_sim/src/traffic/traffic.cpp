@@ -1,4 +1,4 @@
-#include "navvi_sim/traffic/traffic.hpp"
+#include "traffic/traffic.hpp"
 
 #include <algorithm>
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <navvi_types/thing.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -74,6 +75,12 @@ struct WorldDescription {
   std::string name;
   double floor_height = 0.0;  ///< m, z of the surface the robot drives on
   std::vector<Thing> things;  ///< a thing's id in the messages is its index here
+};
+
+/// A sentence that says which file or thing is wrong, what is wrong with it, and what is allowed.
+class WorldError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 }  // namespace navvi_sim

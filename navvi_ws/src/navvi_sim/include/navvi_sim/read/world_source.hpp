@@ -3,13 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/description/world_error.hpp"
-#include "navvi_sim/generate/layout_source.hpp"
 
 namespace navvi_sim::read {
 
@@ -41,14 +38,6 @@ enum class Workers {
 [[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
                                      std::uint64_t seed, Workers workers,
                                      const std::string& classes = "");
-
-/// The same of a layout that was read, and perhaps changed, before.
-[[nodiscard]] LoadedWorld load_world(const generate::LayoutSource& source, std::uint64_t seed,
-                                     Workers workers);
-
-/// The layout that `spec` names, not built yet; nullopt if it names another kind of world.
-/// \throws WorldError as load_world does
-[[nodiscard]] std::optional<generate::LayoutSource> layout_source(const std::string& spec);
 
 /// The folders of a colon separated list; empty items are left out.
 [[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& colon_separated);

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/description/world_error.hpp"
 #include "navvi_sim/occupancy/occupancy_map.hpp"
-#include "navvi_sim/traffic/lanes.hpp"
+#include "navvi_sim/traffic/movers_config.hpp"
 
 namespace navvi_sim::scenario {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "navvi_sim/description/mover_state.hpp"
-#include "navvi_sim/physics/bodies.hpp"
-#include "navvi_sim/physics/hull_gap.hpp"
+#include "physics/bodies.hpp"
+#include "physics/hull_gap.hpp"
 
 namespace navvi_sim::physics {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "navvi_sim/description/world_error.hpp"
+#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::generate {
 

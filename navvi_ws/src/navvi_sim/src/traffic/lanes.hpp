@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "navvi_sim/description/footprint.hpp"
+#include "description/footprint.hpp"
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/description/world_error.hpp"
 #include "navvi_sim/traffic/movers_config.hpp"
-#include "navvi_sim/traffic/track.hpp"
+#include "traffic/track.hpp"
 
 namespace navvi_sim::traffic {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "navvi_sim/traffic/driver.hpp"
-#include "navvi_sim/traffic/lanes.hpp"
+#include "traffic/driver.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::traffic {
 

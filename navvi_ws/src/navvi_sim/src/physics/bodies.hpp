@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "navvi_sim/description/aabb_tree.hpp"
+#include "description/aabb_tree.hpp"
 #include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::physics {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "navvi_sim/description/mover_state.hpp"
-#include "navvi_sim/physics/bodies.hpp"
-#include "navvi_sim/physics/contact_counter.hpp"
+#include "physics/bodies.hpp"
+#include "physics/contact_counter.hpp"
 #include "navvi_sim/physics/robot.hpp"
 
 namespace navvi_sim::physics {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
-#include "navvi_sim/traffic/lanes.hpp"
-#include "navvi_sim/traffic/mover.hpp"
+#include "traffic/lanes.hpp"
+#include "traffic/mover.hpp"
 
 namespace navvi_sim::traffic {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "navvi_sim/description/footprint.hpp"
-#include "navvi_sim/traffic/lanes.hpp"
+#include "description/footprint.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::traffic {
 
