@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "traffic/block_index.hpp"
+#include "traffic/polygon_index.hpp"
 #include "traffic/lane_ground.hpp"
 #include "traffic/refuges.hpp"
 
@@ -193,7 +193,7 @@ void Surveyor::avoid_what_stands() {
     for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane)
       for (int i = 0; i < lanes_.lanes[lane].blocks; ++i) blocks.emplace_back(lane, i);
     std::set<std::pair<std::size_t, std::size_t>> tight;  // lane, way-point
-    const BlockIndex index(ground_, 0.0);
+    const PolygonIndex index(ground_, 0.0);
     for_each_standing(world_, kDrivenOver, [&](const Standing& standing) {
       for (const std::size_t number : index.touching(standing.polygon)) {
         const auto [lane, block] = blocks[number];

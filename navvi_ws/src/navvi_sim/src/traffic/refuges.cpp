@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "traffic/block_index.hpp"
+#include "traffic/polygon_index.hpp"
 
 namespace navvi_sim::traffic {
 namespace {
@@ -91,12 +91,12 @@ void Planner::forget_ground_behind() {
 void Planner::find_shared_ground() {
   std::vector<std::size_t> lane_of(ground_.size());
   for (std::size_t i = 0; i < ground_.size(); ++i) lane_of[i] = block(i).lane;
-  const auto wanted = [&](const BlockIndex::Pair& pair) {
+  const auto wanted = [&](const PolygonIndex::Pair& pair) {
     return lane_of[pair.first] != lane_of[pair.second] ||
            is_shared(lanes_.lanes[lane_of[pair.first]]);
   };
   std::vector<std::map<int, std::set<int>>> own(lanes_.lanes.size());
-  for (const auto& [a, b] : BlockIndex(ground_, kGap).pairs(wanted)) {
+  for (const auto& [a, b] : PolygonIndex(ground_, kGap).pairs(wanted)) {
     const Block first = block(a), second = block(b);
     if (first.lane == second.lane) {
       own[first.lane][first.index].insert(second.index);
