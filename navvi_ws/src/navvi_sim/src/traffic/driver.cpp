@@ -8,10 +8,10 @@
 namespace navvi_sim::traffic {
 namespace {
 
-constexpr double kForesight = 0.5;  // s, that a mover asks before it would have to brake
-constexpr double kRoom = 3.0;       // m, that who backs out leaves the robot more than before
-constexpr double kLeastRoom = 0.5;  // m, for less it does not back out
-constexpr double kFarthest = 25.0;  // m, that it backs out in all
+constexpr double kForesight = 0.5;  // s, before it would have to brake, it asks
+constexpr double kRoom = 3.0;       // m, that a reversing mover leaves the robot more than before
+constexpr double kLeastRoom = 0.5;  // m, for less it does not reverse
+constexpr double kFarthest = 25.0;  // m, that it reverses in all
 constexpr double kGone = 3.0;       // s that the robot is gone before it goes on
 constexpr double kAtFirst = 0.1;    // m, nearer to its first way-point a round begins
 constexpr double kThere = 1e-9;     // m, nearer is there
@@ -23,9 +23,9 @@ double onwards(double from, double to, double length) {
 
 }  // namespace
 
-bool Way::meets(const Crossing& crossing, int count) const {
+bool BlockRange::overlaps(const Conflict& conflict, int count) const {
   for (const int round : {0, count})
-    if (first <= crossing.last + round && crossing.first + round <= last) return true;
+    if (first <= conflict.last + round && conflict.first + round <= last) return true;
   return false;
 }
 
@@ -41,20 +41,23 @@ Driver::Driver(const Lane& track, const LaneUser& entry, const Route& route,
     if (element.spin == 0.0) fastest = std::max(fastest, element.speed);
   ask_at_ = fastest * fastest / (2.0 * config.acceleration) + kForesight * fastest;
   const int block = lane->block_at(start_);
-  const auto leg = std::find_if(lane->legs.begin(), lane->legs.end(), [&](const Leg& candidate) {
-    return lane->users.size() > 1 ? candidate.end > block : candidate.end >= block;
-  });
-  next = leg == lane->legs.end() ? 0 : static_cast<std::size_t>(leg - lane->legs.begin());
-  if (lane->legs.empty()) {
+  const auto segment =
+      std::find_if(lane->segments.begin(), lane->segments.end(), [&](const Segment& candidate) {
+        return lane->users.size() > 1 ? candidate.end > block : candidate.end >= block;
+      });
+  next = segment == lane->segments.end()
+             ? 0
+             : static_cast<std::size_t>(segment - lane->segments.begin());
+  if (lane->segments.empty()) {
     mover.allow(lane->track.closed() ? Mover::kFree : lane->track.length());
   } else if (!lane->is_private[static_cast<std::size_t>(block)]) {
-    stranded = true;
+    on_shared_ground = true;
   } else if (lane->users.size() == 1) {
     // On private ground it may go to the end of it.
-    double refuge = lane->refuge(lane->legs[next].end);
-    if (leg == lane->legs.end()) refuge += lane->track.length();
-    mover.allow(std::max(start_, refuge));
-    next = (next + 1) % lane->legs.size();
+    double zone = lane->waiting_place(lane->segments[next].end);
+    if (segment == lane->segments.end()) zone += lane->track.length();
+    mover.allow(std::max(start_, zone));
+    next = (next + 1) % lane->segments.size();
   }
   const Eigen::Vector2d& first = route.waypoints[0].at;
   if (route.delay > 0.0 && (lane->track.place(start_).position - first).norm() < kAtFirst)
@@ -67,7 +70,7 @@ void Driver::drive(const Disc& robot, double dt) {
   const bool is_kept =
       (backing ? robot_behind : robot_ahead) && mover.speed() == 0.0 && mover.pause_left() <= 0.0;
   kept = is_kept ? kept + dt : 0.0;
-  if (goes_back ? !mover.backs_out() && !stranded : !is_kept) stay();
+  if (goes_back ? !mover.backs_out() && !on_shared_ground : !is_kept) stay();
 }
 
 void Driver::press(const Disc& robot, double dt) {
@@ -80,8 +83,8 @@ void Driver::press(const Disc& robot, double dt) {
   kept += dt;
 }
 
-/// m it can go, the way it goes. Backing out, it stops for the robot even where its route does not
-/// yield, for it is the robot that it makes room for. Who backed out goes on when the robot has
+/// m it can go in its present direction. Reversing, it stops for the robot even if its route does
+/// not yield, because it makes room for the robot. After reversing it drives on when the robot has
 /// been gone for a while from all the ground that it gave up.
 double Driver::room(const Disc& robot, double dt) {
   robot_ahead = robot_behind = false;
@@ -101,22 +104,22 @@ double Driver::room(const Disc& robot, double dt) {
   free_since_ = robot_ahead ? 0.0 : free_since_ + dt;
   if (free_since_ < kGone) return 0.0;
   gave_up.reset();
-  if (lane->legs.empty()) mover.allow(lane->track.closed() ? Mover::kFree : length);
+  if (lane->segments.empty()) mover.allow(lane->track.closed() ? Mover::kFree : length);
   return ahead;
 }
 
-/// It does not mean to back out any more.
+/// It no longer wants to reverse.
 void Driver::stay() {
   back_to.reset();
   goes_back = false;
 }
 
 void Driver::go_on() {
-  double refuge = lane->refuge(lane->legs[next].end);
-  while (refuge <= mover.allowed() + kThere) refuge += lane->track.length();
-  mover.allow(refuge);
-  next = (next + 1) % lane->legs.size();
-  stranded = false;
+  double zone = lane->waiting_place(lane->segments[next].end);
+  while (zone <= mover.allowed() + kThere) zone += lane->track.length();
+  mover.allow(zone);
+  next = (next + 1) % lane->segments.size();
+  on_shared_ground = false;
   stay();
 }
 
@@ -124,27 +127,27 @@ void Driver::go_back() {
   const double s = mover.s();
   mover.back_out(*back_to < s ? *back_to : *back_to - lane->track.length());
   goes_back = true;
-  next = lane->leg_after(*back_to);
-  stranded = false;
+  next = lane->segment_after(*back_to);
+  on_shared_ground = false;
   if (!gave_up) gave_up = s;
   free_since_ = 0.0;
   kept = 0.0;
 }
 
-bool Driver::strand() {
+bool Driver::release_ahead() {
   if (mover.backs_out()) {
     kept = 0.0;
-    if (lane->legs.empty()) stay();
+    if (lane->segments.empty()) stay();
   } else {
-    if (lane->legs.empty() || stranded) return false;
+    if (lane->segments.empty() || on_shared_ground) return false;
     const int block = lane->block_at(mover.s());
     if (lane->block_at(std::min(mover.allowed(), lane->track.length())) == block &&
         mover.allowed() <= lane->track.length())
       return false;
   }
   mover.halt();
-  next = lane->leg_after(mover.s());
-  stranded = !lane->legs.empty();
+  next = lane->segment_after(mover.s());
+  on_shared_ground = !lane->segments.empty();
   return true;
 }
 
@@ -164,20 +167,20 @@ std::optional<double> Driver::place_behind(const Disc& robot,
     if (!lane->is_private[static_cast<std::size_t>(block)]) continue;
     if (lane->users.size() > 1) {
       if (!may_stand(block)) break;
-      if (std::none_of(lane->legs.begin(), lane->legs.end(),
-                       [&](const Leg& leg) { return leg.end == block; }))
+      if (std::none_of(lane->segments.begin(), lane->segments.end(),
+                       [&](const Segment& segment) { return segment.end == block; }))
         continue;
     }
-    const double gain = mover.gap_at(lane->refuge(block), robot) - gap;
+    const double gain = mover.gap_at(lane->waiting_place(block), robot) - gap;
     if (gain < best) continue;
     best = gain;
-    found = lane->refuge(block);
+    found = lane->waiting_place(block);
     if (gain >= kRoom) break;
   }
   return found;
 }
 
-Way Driver::held() const {
+BlockRange Driver::reserved() const {
   const double length = lane->track.length();
   const double round = mover.rear() < 0.0 ? length : 0.0;
   const double allowed = mover.allowed() + round;
@@ -186,12 +189,12 @@ Way Driver::held() const {
   return {lane->block_at(mover.rear() + round), last};
 }
 
-Way Driver::way_on() const {
-  const Leg& leg = lane->legs[next];
-  return {leg.begin, leg.end >= leg.begin ? leg.end : leg.end + lane->blocks};
+BlockRange Driver::range_ahead() const {
+  const Segment& segment = lane->segments[next];
+  return {segment.begin, segment.end >= segment.begin ? segment.end : segment.end + lane->blocks};
 }
 
-Way Driver::way_back() const {
+BlockRange Driver::range_behind() const {
   const int first = lane->block_at(*back_to);
   const int last = lane->block_at(mover.s());
   return {first, last >= first ? last : last + lane->blocks};
@@ -201,7 +204,7 @@ std::uint64_t Driver::hash(std::uint64_t hash) const {
   hash = mover.hash(hash);
   for (const double value : {kept, back_to.value_or(-1.0), gave_up.value_or(-1.0), free_since_})
     hash = mix(hash, value);
-  for (const bool flag : {stranded, goes_back, robot_ahead, robot_behind})
+  for (const bool flag : {on_shared_ground, goes_back, robot_ahead, robot_behind})
     hash = mix(hash, std::uint64_t{flag});
   return mix(hash, std::uint64_t{next});
 }

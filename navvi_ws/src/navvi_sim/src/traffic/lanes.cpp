@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include "traffic/polygon_index.hpp"
 #include "traffic/lane_ground.hpp"
-#include "traffic/refuges.hpp"
+#include "traffic/polygon_index.hpp"
+#include "traffic/waiting_zones.hpp"
 
 namespace navvi_sim::traffic {
 namespace {
@@ -55,7 +55,7 @@ struct RoundKey {
   ThingClass thing_class;
   double speed;
   std::vector<Waypoint> waypoints;  ///< beginning with the least
-  std::size_t alone;                ///< for what shares with nobody
+  std::size_t alone;                ///< for a thing that shares its track with none
 
   bool operator<(const RoundKey& other) const {
     if (thing_class != other.thing_class) return thing_class < other.thing_class;
@@ -91,12 +91,12 @@ void grow(Footprint& print, const Footprint& other) {
   print.hull = convex_hull(std::move(points));
 }
 
-class Surveyor {
+class LaneBuilder {
  public:
-  Surveyor(const WorldDescription& world, const MoversConfig& config)
+  LaneBuilder(const WorldDescription& world, const MoversConfig& config)
       : world_(world), config_(config) {}
 
-  Lanes survey();
+  Lanes build();
   std::vector<Polygon> ground();
 
  private:
@@ -108,7 +108,7 @@ class Surveyor {
     TrackLimits limits;
     std::vector<double> radii;
   };
-  void gather();
+  void group_by_route();
   void lay();
   void avoid_what_stands();
   [[nodiscard]] std::vector<std::size_t> rounded_corners(std::size_t lane, int block) const;
@@ -121,22 +121,22 @@ class Surveyor {
   std::vector<Polygon> ground_;  ///< of all blocks, lane by lane
 };
 
-Lanes Surveyor::survey() {
-  gather();
+Lanes LaneBuilder::build() {
+  group_by_route();
   if (plans_.empty()) return {};
   avoid_what_stands();
   place_users();
-  find_refuges(world_, std::move(ground_), lanes_);
+  find_waiting_zones(world_, std::move(ground_), lanes_);
   return std::move(lanes_);
 }
 
-std::vector<Polygon> Surveyor::ground() {
-  gather();
+std::vector<Polygon> LaneBuilder::ground() {
+  group_by_route();
   if (!plans_.empty()) avoid_what_stands();
   return std::move(ground_);
 }
 
-void Surveyor::gather() {
+void LaneBuilder::group_by_route() {
   std::map<RoundKey, std::size_t> rounds;
   for (std::size_t id = 0; id < world_.things.size(); ++id) {
     const Thing& thing = world_.things[id];
@@ -160,7 +160,7 @@ void Surveyor::gather() {
   }
 }
 
-void Surveyor::lay() {
+void LaneBuilder::lay() {
   lanes_.lanes.clear();
   ground_.clear();
   for (const Plan& plan : plans_) {
@@ -173,7 +173,7 @@ void Surveyor::lay() {
 }
 
 /// The way-points whose rounded corners lie in a block.
-std::vector<std::size_t> Surveyor::rounded_corners(std::size_t lane, int block) const {
+std::vector<std::size_t> LaneBuilder::rounded_corners(std::size_t lane, int block) const {
   const Lane& here = lanes_.lanes[lane];
   const auto& elements = here.track.elements();
   const double begin = block * here.block_length;
@@ -184,9 +184,9 @@ std::vector<std::size_t> Surveyor::rounded_corners(std::size_t lane, int block) 
   return corners;
 }
 
-/// Where a rounded corner touches what stands, its radius is halved, and in the end it is turned on
-/// the spot. What then still touches is refused.
-void Surveyor::avoid_what_stands() {
+/// Halves the radius of a rounded corner that touches what stands, and in the end turns it on the
+/// spot. \throws WorldError for what still touches then
+void LaneBuilder::avoid_what_stands() {
   for (int halving = 0;; ++halving) {
     lay();
     std::vector<std::pair<std::size_t, int>> blocks;  // lane and block, as in ground_
@@ -218,7 +218,7 @@ void Surveyor::avoid_what_stands() {
   }
 }
 
-void Surveyor::place_users() {
+void LaneBuilder::place_users() {
   for (std::size_t lane = 0; lane < plans_.size(); ++lane)
     for (const std::size_t thing : plans_[lane].things) lanes_.users.push_back({thing, lane, 0.0});
   std::sort(lanes_.users.begin(), lanes_.users.end(),
@@ -257,27 +257,27 @@ void MoversConfig::describe(navvi_config::Visitor& visit) {
         "quarter of it; 0: all turn on the spot");
   visit(clearance, "clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot");
   visit(patience, "patience", Range{4.0, 3600.0}, "s",
-        "after which a mover that the robot keeps from going on backs out, to let it pass");
-  visit(back_speed, "back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover that backs out");
+        "after which a mover that the robot blocks reverses, to let it pass");
+  visit(back_speed, "back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover in reverse");
   visit(pause_spread, "pause_spread", Range{0.0, 1.0}, "",
         "share by which pauses at way-points vary either way, drawn from the seed");
 }
 
-std::size_t Lane::leg_after(double s) const {
-  const auto leg = std::find_if(legs.begin(), legs.end(), [&](const Leg& candidate) {
-    return refuge(candidate.end) > s + kThere;
-  });
-  return leg == legs.end() ? 0 : static_cast<std::size_t>(leg - legs.begin());
+std::size_t Lane::segment_after(double s) const {
+  const auto segment = std::find_if(
+      segments.begin(), segments.end(),
+      [&](const Segment& candidate) { return waiting_place(candidate.end) > s + kThere; });
+  return segment == segments.end() ? 0 : static_cast<std::size_t>(segment - segments.begin());
 }
 
-std::vector<Crossing> Lane::crossings(int first, int last) const {
+std::vector<Conflict> Lane::conflicts(int first, int last) const {
   std::set<std::pair<std::size_t, int>> touched;
   const auto gather = [&](int from, int to) {
-    auto meeting =
-        std::lower_bound(meetings.begin(), meetings.end(), from,
-                         [](const Meeting& entry, int block) { return entry.block < block; });
-    for (; meeting != meetings.end() && meeting->block <= to; ++meeting)
-      touched.emplace(meeting->lane, meeting->other);
+    auto shared_block =
+        std::lower_bound(shared_blocks.begin(), shared_blocks.end(), from,
+                         [](const SharedBlock& entry, int block) { return entry.block < block; });
+    for (; shared_block != shared_blocks.end() && shared_block->block <= to; ++shared_block)
+      touched.emplace(shared_block->lane, shared_block->other);
   };
   if (first <= last) {
     gather(first, last);
@@ -285,7 +285,7 @@ std::vector<Crossing> Lane::crossings(int first, int last) const {
     gather(first, blocks - 1);
     gather(0, last);
   }
-  std::vector<Crossing> found;
+  std::vector<Conflict> found;
   for (const auto& [lane, other] : touched) {
     if (!found.empty() && found.back().lane == lane && found.back().last + 1 == other)
       found.back().last = other;
@@ -296,11 +296,11 @@ std::vector<Crossing> Lane::crossings(int first, int last) const {
 }
 
 Lanes lay_lanes(const WorldDescription& world, const MoversConfig& config) {
-  return Surveyor(world, config).survey();
+  return LaneBuilder(world, config).build();
 }
 
 std::vector<Polygon> swept_ground(const WorldDescription& world, const MoversConfig& config) {
-  return Surveyor(world, config).ground();
+  return LaneBuilder(world, config).ground();
 }
 
 }  // namespace navvi_sim::traffic

@@ -11,55 +11,55 @@
 
 namespace navvi_sim::traffic {
 
-/// Ground of another lane that a leg touches: its blocks from first to last.
-struct Crossing {
+/// Ground of another lane that a segment touches: its blocks from first to last.
+struct Conflict {
   std::size_t lane;
   int first;
   int last;
 };
 
 /// A block of a lane whose ground touches a block of another lane, or of its own far along it.
-struct Meeting {
+struct SharedBlock {
   int block;
   std::uint32_t lane;
   int other;
 };
 
-/// The way from one refuge to the next, in blocks.
-struct Leg {
-  int begin;  ///< the block after the refuge before
-  int end;    ///< the refuge; may be less than begin where the track comes round
-  std::vector<Crossing> crossings;
+/// The way from one waiting zone to the next, in blocks.
+struct Segment {
+  int begin;  ///< the block after the last zone
+  int end;    ///< the next zone; may be less than begin where the track comes round
+  std::vector<Conflict> conflicts;
 };
 
-/// A track and all who drive it. It is cut into blocks of about half a metre, numbered along it. A
-/// body whose place is in a block lies within the ground of that block: the hull of all that the
-/// body sweeps there. Blocks that touch the ground of no other lane are private; a refuge is a
-/// place in the middle of a private block.
+/// A track and its users. It is cut into blocks of about half a metre, numbered along it. A body
+/// whose place is in a block lies within the ground of that block: the hull of all that the body
+/// sweeps there. Blocks that touch the ground of no other lane are private; a waiting zone is a
+/// private block, in whose middle a mover waits.
 struct Lane {
   Track track;
-  Footprint footprint;  ///< around all who drive here
+  Footprint footprint;  ///< around all users
   int blocks;
-  double block_length;             ///< m
-  int spacing = 0;                 ///< blocks between two bodies that surely do not touch
-  std::vector<Meeting> meetings;   ///< ordered by block, lane and other
-  std::vector<bool> is_private;    ///< by block
-  std::vector<Leg> legs;           ///< in order of their ends; none if all ground is private
+  double block_length;                     ///< m
+  int spacing = 0;                         ///< blocks between two bodies that surely do not touch
+  std::vector<SharedBlock> shared_blocks;  ///< ordered by block, lane and other
+  std::vector<bool> is_private;            ///< by block
+  std::vector<Segment> segments;   ///< in order of their ends; none if all ground is private
   std::vector<std::size_t> users;  ///< indices of Lanes::users, in the order they drive in
 
   [[nodiscard]] int block_at(double s) const {
     const int block = static_cast<int>(s / block_length);
     return block < blocks ? block : blocks - 1;
   }
-  /// m, where to stand in a block that is a refuge.
-  [[nodiscard]] double refuge(int block) const {
+  /// m, where to stand in a waiting zone.
+  [[nodiscard]] double waiting_place(int block) const {
     return !track.closed() && block + 1 == blocks ? track.length() : (block + 0.5) * block_length;
   }
-  /// Number of the first leg that ends ahead of s.
-  [[nodiscard]] std::size_t leg_after(double s) const;
+  /// Number of the first segment that ends ahead of s.
+  [[nodiscard]] std::size_t segment_after(double s) const;
   /// What the ground of its blocks from `first` to `last` touches; last may be less than first
   /// where the track comes round.
-  [[nodiscard]] std::vector<Crossing> crossings(int first, int last) const;
+  [[nodiscard]] std::vector<Conflict> conflicts(int first, int last) const;
 };
 
 /// A thing with a route, on its lane.
@@ -69,14 +69,14 @@ struct LaneUser {
   double start;  ///< m along the track
 };
 
-/// Where everything that moves in a world drives, laid out once so that traffic can keep going
-/// (traffic.hpp says why it does).
+/// Where everything that moves in a world drives, laid out once so that traffic never stops for
+/// good (traffic.hpp says why).
 struct Lanes {
   std::vector<Lane> lanes;
   std::vector<LaneUser> users;  ///< ordered by thing
 };
 
-/// Lays the lanes of a world. Corners are rounded where the thing then passes everything that
+/// Lays the lanes of a world. Corners are rounded where the thing then clears everything that
 /// stands.
 /// \throws WorldError naming the things, if one would pass through what stands, stands off its
 ///         route, or has no place to wait out of the way of the others

@@ -10,8 +10,8 @@
 
 namespace navvi_sim::traffic {
 
-/// Drives along a track, smoothly and as fast as it may, up to where it was allowed to go, or backs
-/// out along it, slowly, to where it was sent. Pure: the same calls give the same places.
+/// Drives along a track, smoothly and as fast as allowed, up to where it was allowed to go, or
+/// reverses along it, slowly, to where it was sent. Pure: the same calls give the same places.
 class Mover {
  public:
   static constexpr double kFree = std::numeric_limits<double>::infinity();

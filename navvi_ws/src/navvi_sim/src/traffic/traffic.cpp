@@ -32,7 +32,7 @@ void Traffic::step(const Disc& robot, const std::vector<std::size_t>& pressing, 
                                                                  lanes_.users[user].thing);
     step(user, robot, presses, dt);
   }
-  if (!line_.empty() && steps_ % kServeEach == 0) serve_line();
+  if (!queue_.empty() && steps_ % kServeEach == 0) serve_queue();
   ++steps_;
 }
 
@@ -42,51 +42,51 @@ void Traffic::step(std::size_t user, const Disc& robot, bool presses, double dt)
     driver.press(robot, dt);
   else
     driver.drive(robot, dt);
-  if (driver.has_waited() && driver.strand()) leave_line(user);
+  if (driver.has_waited() && driver.release_ahead()) leave_queue(user);
   if (driver.kept > patience_ && !driver.back_to && steps_ % kServeEach == 0) {
     driver.back_to =
         driver.place_behind(robot, [&](int block) { return clear_of_one_behind(user, block); });
-    // Who meets nobody need not ask.
-    if (driver.back_to && driver.lane->legs.empty()) driver.go_back();
+    // A mover without conflicts need not ask.
+    if (driver.back_to && driver.lane->segments.empty()) driver.go_back();
   }
   if (!users_[user].asking && driver.wants_more()) {
     users_[user].asking = true;
-    line_.push_back(user);
+    queue_.push_back(user);
   }
 }
 
-void Traffic::leave_line(std::size_t user) {
-  line_.erase(std::remove(line_.begin(), line_.end(), user), line_.end());
+void Traffic::leave_queue(std::size_t user) {
+  queue_.erase(std::remove(queue_.begin(), queue_.end(), user), queue_.end());
   users_[user].asking = false;
   users_[user].claim.reset();
 }
 
-void Traffic::serve_line() {
-  for (const std::size_t user : line_) users_[user].claim.reset();
-  for (std::size_t i = 0; i < line_.size();)
-    if (serve(line_[i]))
-      leave_line(line_[i]);
+void Traffic::serve_queue() {
+  for (const std::size_t user : queue_) users_[user].claim.reset();
+  for (std::size_t i = 0; i < queue_.size();)
+    if (serve(queue_[i]))
+      leave_queue(queue_[i]);
     else
       ++i;
 }
 
-/// Gives a user that is in the line the way on or the way back. False if neither is free.
+/// Grants a user in the queue the range ahead or the range behind. False if neither is free.
 bool Traffic::serve(std::size_t user) {
   Driver& driver = users_[user].driver;
-  std::optional<Way>& claim = users_[user].claim;
+  std::optional<BlockRange>& claim = users_[user].claim;
   const Lane& lane = *driver.lane;
-  const bool is_kept = driver.robot_ahead && (driver.stranded || driver.gave_up);
+  const bool is_kept = driver.robot_ahead && (driver.on_shared_ground || driver.gave_up);
   const Obstacle ahead = is_kept || !clear_of_one_ahead(user)
                              ? Obstacle::waiting
-                             : obstacle(user, lane.legs[driver.next].crossings);
+                             : obstacle(user, lane.segments[driver.next].conflicts);
   if (ahead == Obstacle::none) {
     driver.go_on();
     return true;
   }
-  if (ahead == Obstacle::driving) claim = driver.way_on();
+  if (ahead == Obstacle::driving) claim = driver.range_ahead();
   if (!driver.back_to || driver.robot_behind) return false;
-  const Way back = driver.way_back();
-  const Obstacle behind = obstacle(user, lane.crossings(back.first, back.last % lane.blocks));
+  const BlockRange back = driver.range_behind();
+  const Obstacle behind = obstacle(user, lane.conflicts(back.first, back.last % lane.blocks));
   if (behind == Obstacle::none) {
     driver.go_back();
     return true;
@@ -95,28 +95,28 @@ bool Traffic::serve(std::size_t user) {
   return false;
 }
 
-/// What is in the way of ground that touches the crossings: who holds it, or somebody further ahead
-/// in the line who wants it, for whoever claims now was looked at before.
+/// What is in the way of ground that touches the conflicts: a mover that has reserved it, or one
+/// further ahead in the queue that wants it; claims of this round are of users served before.
 Traffic::Obstacle Traffic::obstacle(std::size_t user,
-                                    const std::vector<Crossing>& crossings) const {
+                                    const std::vector<Conflict>& conflicts) const {
   Obstacle found = Obstacle::none;
-  for (const Crossing& crossing : crossings) {
-    const Lane& lane = lanes_.lanes[crossing.lane];
+  for (const Conflict& conflict : conflicts) {
+    const Lane& lane = lanes_.lanes[conflict.lane];
     for (const std::size_t other : lane.users) {
       if (other == user) continue;
       const User& rival = users_[other];
-      // Who is free to go anywhere touches nobody.
+      // A mover that may go anywhere touches none.
       const bool holds = rival.driver.mover.allowed() != Mover::kFree &&
-                         rival.driver.held().meets(crossing, lane.blocks);
-      if (holds && rival.driver.stranded) return Obstacle::waiting;
-      if (holds || (rival.claim && rival.claim->meets(crossing, lane.blocks)))
+                         rival.driver.reserved().overlaps(conflict, lane.blocks);
+      if (holds && rival.driver.on_shared_ground) return Obstacle::waiting;
+      if (holds || (rival.claim && rival.claim->overlaps(conflict, lane.blocks)))
         found = Obstacle::driving;
     }
   }
   return found;
 }
 
-/// Also of the ground that it means to back out over.
+/// Also of the ground that the mover ahead wants to reverse over.
 bool Traffic::clear_of_one_ahead(std::size_t user) const {
   if (users_[user].ahead == user) return true;
   const Driver& driver = users_[user].driver;
@@ -126,11 +126,11 @@ bool Traffic::clear_of_one_ahead(std::size_t user) const {
     return (block - here + lane.blocks) % lane.blocks;
   };
   const int there = lane.block_at(ahead.back_to ? *ahead.back_to : ahead.mover.s());
-  return from_here(there) >= from_here(lane.legs[driver.next].end) + lane.spacing;
+  return from_here(there) >= from_here(lane.segments[driver.next].end) + lane.spacing;
 }
 
-/// Whether the one behind on a shared track was given nothing that is too near to `block`, and
-/// needs nothing there to leave shared ground.
+/// Whether the mover behind on a shared track has reserved nothing too near to `block`, and needs
+/// nothing there to leave shared ground.
 bool Traffic::clear_of_one_behind(std::size_t user, int block) const {
   if (users_[user].behind == user) return true;
   const Driver& driver = users_[user].driver;
@@ -139,8 +139,8 @@ bool Traffic::clear_of_one_behind(std::size_t user, int block) const {
   const auto from_there = [&, there = lane.block_at(behind.mover.s())](int other) {
     return (other - there + lane.blocks) % lane.blocks;
   };
-  int reach = from_there(behind.held().last % lane.blocks);
-  if (behind.stranded) reach = std::max(reach, from_there(lane.legs[behind.next].end));
+  int reach = from_there(behind.reserved().last % lane.blocks);
+  if (behind.on_shared_ground) reach = std::max(reach, from_there(lane.segments[behind.next].end));
   return from_there(block) >= reach + lane.spacing &&
          from_there(block) < from_there(lane.block_at(driver.mover.s()));
 }
@@ -148,11 +148,11 @@ bool Traffic::clear_of_one_behind(std::size_t user, int block) const {
 std::uint64_t Traffic::hash(std::uint64_t hash) const {
   for (const User& user : users_) {
     hash = user.driver.hash(hash);
-    const Way claim = user.claim.value_or(Way{-1, -1});
+    const BlockRange claim = user.claim.value_or(BlockRange{-1, -1});
     hash = mix(hash, std::uint64_t{static_cast<std::uint32_t>(claim.first)} << 32 |
                          static_cast<std::uint32_t>(claim.last));
   }
-  for (const std::size_t user : line_) hash = mix(hash, user);  // these are asking
+  for (const std::size_t user : queue_) hash = mix(hash, user);
   return mix(hash, steps_);
 }
 

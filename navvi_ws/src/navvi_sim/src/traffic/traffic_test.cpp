@@ -183,18 +183,18 @@ WorldDescription drawn_world(std::uint64_t seed, std::size_t count, double side)
 }
 
 TEST(Traffic, drawn_at_random_never_meets_and_never_stops_for_good) {
-  std::size_t movers = 0, crossings = 0;
+  std::size_t movers = 0, conflicts = 0;
   for (std::uint64_t seed = 1; seed <= 14; ++seed) {
     const WorldDescription world = drawn_world(seed, 14, 24.0);
     for (const Lane& lane : lay_lanes(world, {}).lanes)
-      for (const Leg& leg : lane.legs) crossings += leg.crossings.size();
+      for (const Segment& segment : lane.segments) conflicts += segment.conflicts.size();
     movers += world.things.size();
     Street street(world, seed);
     street.run(1800.0, 400.0);
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }
   EXPECT_GT(movers, 100u);
-  EXPECT_GT(crossings, movers) << "they must have something to agree upon";
+  EXPECT_GT(conflicts, movers) << "they must have something to agree upon";
 }
 
 TEST(Traffic, goes_on_after_a_robot_that_stood_in_its_way) {

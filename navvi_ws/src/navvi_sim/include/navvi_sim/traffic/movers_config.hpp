@@ -11,8 +11,8 @@ struct MoversConfig {
   double turn_rate = 1.0;      ///< rad/s
   double corner_radius = 1.2;  ///< m, at which forklifts round corners where there is room
   double clearance = 0.4;      ///< m, at which they stop before the robot
-  double patience = 8.0;       ///< s, after which one that the robot keeps from going on backs out
-  double back_speed = 0.5;     ///< m/s, at most, backing out
+  double patience = 8.0;       ///< s, after which a mover that the robot blocks reverses
+  double back_speed = 0.5;     ///< m/s, at most, in reverse
   double pause_spread = 0.3;   ///< share by which a pause varies either way, drawn from the seed
 
   void describe(navvi_config::Visitor& visit);

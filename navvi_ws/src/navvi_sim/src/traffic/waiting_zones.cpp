@@ -1,4 +1,4 @@
-#include "traffic/refuges.hpp"
+#include "traffic/waiting_zones.hpp"
 
 #include <algorithm>
 #include <map>
@@ -16,9 +16,9 @@ constexpr double kGap = 0.1;  // m, nearer lanes touch
 
 std::string quoted(const Thing& thing) { return "'" + thing.name + "'"; }
 
-class Planner {
+class ZonePlanner {
  public:
-  Planner(const WorldDescription& world, std::vector<Polygon> ground, Lanes& lanes)
+  ZonePlanner(const WorldDescription& world, std::vector<Polygon> ground, Lanes& lanes)
       : world_(world), lanes_(lanes), ground_(std::move(ground)) {
     std::size_t offset = 0;
     for (const Lane& lane : lanes.lanes) {
@@ -30,7 +30,7 @@ class Planner {
   void plan() {
     forget_ground_behind();
     find_shared_ground();
-    for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane) choose_refuges(lane);
+    for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane) choose_waiting_zones(lane);
     check_spacing();
     check_start();
   }
@@ -45,17 +45,17 @@ class Planner {
   void forget_ground_behind();
   void find_shared_ground();
   void find_spacing(std::size_t lane, std::vector<std::set<int>> touched);
-  void choose_refuges(std::size_t lane);
-  [[nodiscard]] std::vector<int> refuges_of(std::size_t lane) const;
+  void choose_waiting_zones(std::size_t lane);
+  [[nodiscard]] std::vector<int> waiting_zones_of(std::size_t lane) const;
   void check_spacing() const;
   void check_start() const;
-  /// The leg that a user on shared ground starts on.
-  [[nodiscard]] const Leg& first_leg(std::size_t user) const;
+  /// The segment that a user on shared ground starts on.
+  [[nodiscard]] const Segment& first_segment(std::size_t user) const;
   [[nodiscard]] bool starts_in_way(std::size_t user, std::size_t other) const;
   [[nodiscard]] int start_block(std::size_t user) const {
     return lanes_.lanes[lanes_.users[user].lane].block_at(lanes_.users[user].start);
   }
-  [[nodiscard]] static Meeting meeting(int block, const Block& other) {
+  [[nodiscard]] static SharedBlock shared_block(int block, const Block& other) {
     return {block, static_cast<std::uint32_t>(other.lane), other.index};
   }
   [[nodiscard]] bool is_shared(const Lane& lane) const { return lane.users.size() > 1; }
@@ -78,8 +78,8 @@ class Planner {
   std::vector<std::size_t> offsets_;  ///< of each lane's blocks in ground_
 };
 
-/// Who drives to an end and stays there never comes back to what lies behind where it starts.
-void Planner::forget_ground_behind() {
+/// A thing whose track ends never comes back to the ground behind its start.
+void ZonePlanner::forget_ground_behind() {
   for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane) {
     const Lane& here = lanes_.lanes[lane];
     if (here.track.closed()) continue;
@@ -88,7 +88,7 @@ void Planner::forget_ground_behind() {
   }
 }
 
-void Planner::find_shared_ground() {
+void ZonePlanner::find_shared_ground() {
   std::vector<std::size_t> lane_of(ground_.size());
   for (std::size_t i = 0; i < ground_.size(); ++i) lane_of[i] = block(i).lane;
   const auto wanted = [&](const PolygonIndex::Pair& pair) {
@@ -102,8 +102,8 @@ void Planner::find_shared_ground() {
       own[first.lane][first.index].insert(second.index);
       own[first.lane][second.index].insert(first.index);
     } else {
-      lanes_.lanes[first.lane].meetings.push_back(meeting(first.index, second));
-      lanes_.lanes[second.lane].meetings.push_back(meeting(second.index, first));
+      lanes_.lanes[first.lane].shared_blocks.push_back(shared_block(first.index, second));
+      lanes_.lanes[second.lane].shared_blocks.push_back(shared_block(second.index, first));
     }
   }
   for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane) {
@@ -114,20 +114,21 @@ void Planner::find_shared_ground() {
         touched[static_cast<std::size_t>(index)] = std::move(others);
       find_spacing(lane, std::move(touched));
     }
-    std::sort(here.meetings.begin(), here.meetings.end(), [](const Meeting& a, const Meeting& b) {
-      return std::tie(a.block, a.lane, a.other) < std::tie(b.block, b.lane, b.other);
-    });
-    here.meetings.shrink_to_fit();
+    std::sort(here.shared_blocks.begin(), here.shared_blocks.end(),
+              [](const SharedBlock& a, const SharedBlock& b) {
+                return std::tie(a.block, a.lane, a.other) < std::tie(b.block, b.lane, b.other);
+              });
+    here.shared_blocks.shrink_to_fit();
     here.is_private.assign(static_cast<std::size_t>(here.blocks), true);
-    for (const Meeting& meeting : here.meetings)
-      here.is_private[static_cast<std::size_t>(meeting.block)] = false;
+    for (const SharedBlock& shared_block : here.shared_blocks)
+      here.is_private[static_cast<std::size_t>(shared_block.block)] = false;
   }
 }
 
 /// Bodies on one track touch where their blocks follow each other closely; `spacing` blocks apart
 /// they do not. Where the track comes back to its own ground from elsewhere, it crosses itself as
 /// if it were another lane.
-void Planner::find_spacing(std::size_t lane, std::vector<std::set<int>> touched) {
+void ZonePlanner::find_spacing(std::size_t lane, std::vector<std::set<int>> touched) {
   Lane& here = lanes_.lanes[lane];
   const int count = here.blocks;
   here.spacing = 1;
@@ -142,14 +143,14 @@ void Planner::find_spacing(std::size_t lane, std::vector<std::set<int>> touched)
         here.spacing = std::max(here.spacing, k + 1);
       }
     for (const int other : others)
-      if (near.count(other) == 0) here.meetings.push_back(meeting(i, {lane, other}));
+      if (near.count(other) == 0) here.shared_blocks.push_back(shared_block(i, {lane, other}));
   }
 }
 
-std::string Planner::others_on(std::size_t lane) const {
+std::string ZonePlanner::others_on(std::size_t lane) const {
   std::map<std::size_t, std::size_t> shared;  // blocks, by lane
-  for (const Meeting& meeting : lanes_.lanes[lane].meetings)
-    if (meeting.lane != lane) ++shared[meeting.lane];
+  for (const SharedBlock& shared_block : lanes_.lanes[lane].shared_blocks)
+    if (shared_block.lane != lane) ++shared[shared_block.lane];
   std::vector<std::pair<std::size_t, std::size_t>> order;
   for (const auto& [other, count] : shared) order.emplace_back(count, other);
   std::sort(order.rbegin(), order.rend());
@@ -160,9 +161,9 @@ std::string Planner::others_on(std::size_t lane) const {
   return names;
 }
 
-/// A lone user waits at the end of each private stretch. Those who share a track need a chain of
-/// refuges to move up in, `spacing` apart; stretches are filled from their ends.
-std::vector<int> Planner::refuges_of(std::size_t lane) const {
+/// A lone user waits at the end of each private stretch. Users of a shared track need a chain of
+/// zones to move up in, `spacing` apart; stretches are filled from their ends.
+std::vector<int> ZonePlanner::waiting_zones_of(std::size_t lane) const {
   const Lane& here = lanes_.lanes[lane];
   const int count = here.blocks;
   const auto is_private = [&](int i) {
@@ -174,22 +175,22 @@ std::vector<int> Planner::refuges_of(std::size_t lane) const {
   int last = count - 1;
   while (last > 0 && !ends_stretch(last)) --last;
   if (!ends_stretch(last)) last = count - 1;  // all is private
-  std::vector<int> refuges;
+  std::vector<int> zones;
   int latest = 0;  // how far back the last one was found
   for (int back = 0; back < count; ++back) {
     const int i = (last - back + count) % count;
     if (!is_private(i) || ground_[number(lane, i)].empty()) continue;
     const bool has_room =
-        refuges.empty() || (back - latest >= here.spacing && count - back >= here.spacing);
+        zones.empty() || (back - latest >= here.spacing && count - back >= here.spacing);
     if (is_shared(here) ? !has_room : !ends_stretch(i)) continue;
-    refuges.push_back(i);
+    zones.push_back(i);
     latest = back;
   }
-  std::sort(refuges.begin(), refuges.end());
-  return refuges;
+  std::sort(zones.begin(), zones.end());
+  return zones;
 }
 
-void Planner::choose_refuges(std::size_t lane) {
+void ZonePlanner::choose_waiting_zones(std::size_t lane) {
   Lane& here = lanes_.lanes[lane];
   const std::string who = quoted(thing_of(here.users[0]));
   if (!here.track.closed() && !here.is_private.back())
@@ -200,27 +201,27 @@ void Planner::choose_refuges(std::size_t lane) {
       std::all_of(here.is_private.begin(), here.is_private.end(), [](bool alone) { return alone; });
   if (meets_nobody) return;
 
-  const std::vector<int> refuges = refuges_of(lane);
-  if (!is_shared(here) && refuges.empty())
+  const std::vector<int> zones = waiting_zones_of(lane);
+  if (!is_shared(here) && zones.empty())
     refuse("thing " + who + " has no place on its route where it is out of the way of " +
            others_on(lane) + "; each thing that moves needs one to wait in");
-  if (is_shared(here) && refuges.size() <= here.users.size()) {
+  if (is_shared(here) && zones.size() <= here.users.size()) {
     const std::string others = others_on(lane);
     refuse("the track of " + who + " is shared by " + std::to_string(here.users.size()) +
-           " things and has " + std::to_string(refuges.size()) + " places to wait in" +
+           " things and has " + std::to_string(zones.size()) + " places to wait in" +
            (others.empty() ? "" : " out of the way of " + others) +
            "; allowed are fewer things than places");
   }
-  for (std::size_t i = 0; i < refuges.size(); ++i) {
-    const int before = i > 0 ? refuges[i - 1] : (here.track.closed() ? refuges.back() : -1);
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    const int before = i > 0 ? zones[i - 1] : (here.track.closed() ? zones.back() : -1);
     const int begin = (before + 1) % here.blocks;
-    here.legs.push_back({begin, refuges[i], here.crossings(begin, refuges[i])});
+    here.segments.push_back({begin, zones[i], here.conflicts(begin, zones[i])});
   }
 }
 
-/// Who shares a track starts with room to the one ahead, and on ground that other lanes touch with
-/// room to drive out of their way.
-void Planner::check_spacing() const {
+/// Users of a shared track start with room to the one ahead, and on ground that other lanes touch
+/// with room to leave it.
+void ZonePlanner::check_spacing() const {
   for (const Lane& lane : lanes_.lanes) {
     if (!is_shared(lane)) continue;
     for (std::size_t i = 0; i < lane.users.size(); ++i) {
@@ -232,7 +233,7 @@ void Planner::check_spacing() const {
                " start too close to each other on the track they share; allowed are " +
                std::to_string(lane.spacing * lane.block_length).substr(0, 4) + " m or more");
       if (lane.is_private[static_cast<std::size_t>(block)]) continue;
-      const int way = (first_leg(user).end - block + lane.blocks) % lane.blocks;
+      const int way = (first_segment(user).end - block + lane.blocks) % lane.blocks;
       if (gap < way + lane.spacing)
         refuse("thing " + quoted(thing_of(user)) + " starts in the way of " +
                others_on(lanes_.users[user].lane) + ", and " + quoted(thing_of(next)) +
@@ -243,25 +244,26 @@ void Planner::check_spacing() const {
   }
 }
 
-const Leg& Planner::first_leg(std::size_t user) const {
-  const std::vector<Leg>& legs = lanes_.lanes[lanes_.users[user].lane].legs;
-  const auto found = std::find_if(legs.begin(), legs.end(),
-                                  [&](const Leg& leg) { return leg.end >= start_block(user); });
-  return found == legs.end() ? legs.front() : *found;
+const Segment& ZonePlanner::first_segment(std::size_t user) const {
+  const std::vector<Segment>& segments = lanes_.lanes[lanes_.users[user].lane].segments;
+  const auto found = std::find_if(segments.begin(), segments.end(), [&](const Segment& segment) {
+    return segment.end >= start_block(user);
+  });
+  return found == segments.end() ? segments.front() : *found;
 }
 
-/// True if the first leg of one touches the ground that the other starts on.
-bool Planner::starts_in_way(std::size_t user, std::size_t other) const {
+/// True if the first segment of one touches the ground that the other starts on.
+bool ZonePlanner::starts_in_way(std::size_t user, std::size_t other) const {
   const int taken = start_block(other);
-  const Leg& first = first_leg(user);
-  return std::any_of(first.crossings.begin(), first.crossings.end(), [&](const Crossing& crossing) {
-    return crossing.lane == lanes_.users[other].lane && crossing.first <= taken &&
-           taken <= crossing.last;
+  const Segment& first = first_segment(user);
+  return std::any_of(first.conflicts.begin(), first.conflicts.end(), [&](const Conflict& conflict) {
+    return conflict.lane == lanes_.users[other].lane && conflict.first <= taken &&
+           taken <= conflict.last;
   });
 }
 
 /// Users may start on shared ground if they can leave it one after another.
-void Planner::check_start() const {
+void ZonePlanner::check_start() const {
   std::vector<std::size_t> waiting;
   for (std::size_t user = 0; user < lanes_.users.size(); ++user) {
     const Lane& lane = lanes_.lanes[lanes_.users[user].lane];
@@ -287,8 +289,8 @@ void Planner::check_start() const {
 
 }  // namespace
 
-void find_refuges(const WorldDescription& world, std::vector<Polygon> ground, Lanes& lanes) {
-  Planner(world, std::move(ground), lanes).plan();
+void find_waiting_zones(const WorldDescription& world, std::vector<Polygon> ground, Lanes& lanes) {
+  ZonePlanner(world, std::move(ground), lanes).plan();
 }
 
 }  // namespace navvi_sim::traffic
