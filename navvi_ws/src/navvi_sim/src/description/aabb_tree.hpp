@@ -16,8 +16,8 @@ class AabbTree {
 
   /// Visits the boxes that may matter, nearer halves of the tree first.
   /// \param bound  of a box: no less for what lies within it
-  /// \param limit  what is above it is passed over; it may fall while visiting
-  /// \param visit  is told the index of a box; its own bound is not asked for
+  /// \param limit  larger bounds are skipped; it may fall while visiting
+  /// \param visit  gets the index of a box; its own bound is not computed
   template <typename Bound, typename Limit, typename Visit>
   void search(Bound bound, Limit limit, Visit visit) const {
     if (nodes_.empty() || bound(nodes_[0].box) > limit()) return;

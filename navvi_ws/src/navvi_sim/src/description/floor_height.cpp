@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "description/footprint.hpp"
+
 namespace navvi_sim {
 namespace {
 
@@ -55,32 +57,20 @@ void add_level(Surfaces& surfaces, const Mesh& mesh, const Eigen::Isometry3d& po
   }
 }
 
-struct Corners {
-  std::vector<Eigen::Vector3d> operator()(const Box& box) const { return cube(box.size / 2.0); }
-  std::vector<Eigen::Vector3d> operator()(const Cylinder& cylinder) const {
-    return cube({cylinder.radius, cylinder.radius, cylinder.length / 2.0});
+/// Corners of a box around a geometry, or a mesh's vertices.
+std::vector<Eigen::Vector3d> corners_of(const Geometry& geometry) {
+  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    const double width = 2.0 * cylinder->radius;
+    return hull_points(Box{{width, width, cylinder->length}});
   }
-  std::vector<Eigen::Vector3d> operator()(const Sphere& sphere) const {
-    return cube(Eigen::Vector3d::Constant(sphere.radius));
-  }
-  std::vector<Eigen::Vector3d> operator()(const std::shared_ptr<const Mesh>& mesh) const {
-    std::vector<Eigen::Vector3d> corners;
-    for (const Eigen::Vector3f& vertex : mesh->vertices) corners.push_back(vertex.cast<double>());
-    return corners;
-  }
-  static std::vector<Eigen::Vector3d> cube(const Eigen::Vector3d& half) {
-    std::vector<Eigen::Vector3d> corners;
-    for (const double x : {-1.0, 1.0})
-      for (const double y : {-1.0, 1.0})
-        for (const double z : {-1.0, 1.0})
-          corners.push_back(half.cwiseProduct(Eigen::Vector3d(x, y, z)));
-    return corners;
-  }
-};
+  if (const auto* sphere = std::get_if<Sphere>(&geometry))
+    return hull_points(Box{Eigen::Vector3d::Constant(2.0 * sphere->radius)});
+  return hull_points(geometry);
+}
 
 void extend(Eigen::AlignedBox3d& bounds, const Thing& thing) {
   for (const Shape& shape : thing.shapes)
-    for (const Eigen::Vector3d& corner : std::visit(Corners{}, shape.geometry))
+    for (const Eigen::Vector3d& corner : corners_of(shape.geometry))
       bounds.extend(thing.pose * (shape.pose * corner));
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace navvi_sim {
 
@@ -24,8 +26,13 @@ class Random {
   }
   /// In [0, count); count > 0. The bias is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(next() % count); }
-  /// Whoever is made of it goes on from here.
+  /// A generator with this seed continues this one.
   [[nodiscard]] std::uint64_t state() const { return state_; }
+  /// Into an order drawn at random (Fisher and Yates, 1938).
+  template <typename Item>
+  void shuffle(std::vector<Item>& items) {
+    for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[below(i)]);
+  }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
 
  private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <navvi_types/thing.hpp>
 #include <sstream>
 #include <string>
@@ -11,6 +13,12 @@ namespace navvi_sim {
   std::ostringstream stream;
   stream << value;
   return stream.str();
+}
+
+[[nodiscard]] inline std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 /// The classes of things, with commas between.

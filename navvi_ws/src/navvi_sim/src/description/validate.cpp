@@ -1,8 +1,9 @@
 #include "description/validate.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <unordered_set>
+
+#include "description/sentence.hpp"
 
 namespace navvi_sim {
 namespace {
@@ -13,22 +14,16 @@ using Limits = WorldLimits;
   throw WorldError(who + " " + what);
 }
 
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 void check_coordinate(double value, const std::string& who, const std::string& what) {
   if (!(std::abs(value) <= Limits::extent))  // also refuses NaN
-    refuse(who, "has " + what + " " + number(value) + "; allowed are -" + number(Limits::extent) +
-                    " to " + number(Limits::extent) + " m");
+    refuse(who, "has " + what + " " + text(value) + "; allowed are -" + text(Limits::extent) +
+                    " to " + text(Limits::extent) + " m");
 }
 
 void check_size(double value, const std::string& who, const std::string& what) {
   if (!(value > 0.0 && value < Limits::extent))
-    refuse(who, "has " + what + " " + number(value) + "; allowed is more than 0 and less than " +
-                    number(Limits::extent) + " m");
+    refuse(who, "has " + what + " " + text(value) + "; allowed is more than 0 and less than " +
+                    text(Limits::extent) + " m");
 }
 
 void check_pose(const Eigen::Isometry3d& pose, const std::string& who) {
@@ -85,8 +80,8 @@ class GeometryCheck {
 
 void check_pause(double seconds, const std::string& who, const std::string& what) {
   if (!(seconds >= 0.0 && seconds <= Limits::pause))
-    refuse(who, "has " + what + " " + number(seconds) + "; allowed are 0 to " +
-                    number(Limits::pause) + " s");
+    refuse(who, "has " + what + " " + text(seconds) + "; allowed are 0 to " + text(Limits::pause) +
+                    " s");
 }
 
 void check_route(const Route& route, const std::string& who) {
@@ -102,14 +97,14 @@ void check_route(const Route& route, const std::string& who) {
     check_pause(route.waypoints[i].pause, who, "a way-point with pause");
     const double speed = route.waypoints[i].speed;
     if (!(speed >= 0.0 && speed <= Limits::speed))
-      refuse(who, "has a way-point with speed " + number(speed) + "; allowed are 0, for the " +
-                      "route's, to " + number(Limits::speed) + " m/s");
+      refuse(who, "has a way-point with speed " + text(speed) + "; allowed are 0, for the " +
+                      "route's, to " + text(Limits::speed) + " m/s");
   }
   if (!(length > 0.01))
     refuse(who, "has a route that leads nowhere; allowed is a length of 0.01 m or more");
   if (!(route.speed > 0.0 && route.speed <= Limits::speed))
-    refuse(who, "has a route with speed " + number(route.speed) +
-                    "; allowed is more than 0 and up to " + number(Limits::speed) + " m/s");
+    refuse(who, "has a route with speed " + text(route.speed) +
+                    "; allowed is more than 0 and up to " + text(Limits::speed) + " m/s");
   check_pause(route.delay, who, "a route with delay");
 }
 

@@ -137,7 +137,7 @@ void FloorPlan::close_ways(double share, Random& random) {
       ways.push_back({false, row, crossing});
   for (int lane = 0; lane < lanes(); ++lane)
     for (int block = 0; block < blocks_; ++block) ways.push_back({true, lane, block});
-  for (std::size_t i = ways.size(); i > 1; --i) std::swap(ways[i - 1], ways[random.below(i)]);
+  random.shuffle(ways);
 
   aisles_.assign(static_cast<std::size_t>(lanes()) * static_cast<std::size_t>(blocks_), true);
   passages_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(crossings()), true);

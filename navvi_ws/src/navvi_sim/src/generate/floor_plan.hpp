@@ -13,7 +13,7 @@ using Area = Eigen::AlignedBox2d;
 
 constexpr double kFlue = 0.3;  // m, between the two racks of a row
 constexpr double kRowDepth = 2.3;
-constexpr double kPassage = 1.2;  // m, left free beside whatever stands in an aisle
+constexpr double kPassage = 1.2;  // m, left free beside things in an aisle
 
 /// Where everything of a layout goes, before there is anything: lanes along y, numbered from the
 /// west, between which the shelf rows stand; cross-aisles along x, numbered from the docks, between

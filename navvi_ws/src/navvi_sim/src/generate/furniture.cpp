@@ -46,9 +46,9 @@ std::string numbered(const std::string& word, std::size_t number) {
   return word + (number < 10 ? "_0" : "_") + std::to_string(number);
 }
 
-Thing standing(std::string name, ThingClass thing_class, const Eigen::Isometry3d& pose,
-               std::vector<Shape> shapes) {
-  return {std::move(name), thing_class, pose, std::move(shapes), std::nullopt};
+void add(std::vector<Thing>& things, std::string name, ThingClass thing_class,
+         const Eigen::Isometry3d& pose, std::vector<Shape> shapes) {
+  things.push_back({std::move(name), thing_class, pose, std::move(shapes), std::nullopt});
 }
 
 std::vector<Shape> loaded_rack(Random& random, int bays, double fill) {

@@ -26,11 +26,12 @@ constexpr double kPalletWidth = 0.8;    // m
 /// "shelf_07"
 [[nodiscard]] std::string numbered(const std::string& word, std::size_t number);
 
-[[nodiscard]] Thing standing(std::string name, ThingClass thing_class,
-                             const Eigen::Isometry3d& pose, std::vector<Shape> shapes);
+/// Adds a thing that stands.
+void add(std::vector<Thing>& things, std::string name, ThingClass thing_class,
+         const Eigen::Isometry3d& pose, std::vector<Shape> shapes);
 
-/// A rack along x with the boxes on it, which stay clear of its uprights and of each other. To who
-/// drives they are one shelf, so that it is felt and said once.
+/// A rack along x with the boxes on it, which stay clear of its uprights and of each other. To the
+/// driver they are one shelf, so that it is felt and said once.
 [[nodiscard]] std::vector<Shape> loaded_rack(Random& random, int bays, double fill);
 
 /// What moves, by how much room it takes.

@@ -1,110 +1,10 @@
 #include "generate/layout_config.hpp"
 
-#include <algorithm>
+#include <navvi_config/reader.hpp>
+
+#include "presets.hpp"
 
 namespace navvi_sim::generate {
-namespace {
-
-/// A hall with nothing in it that moves or was left.
-LayoutConfig still() {
-  LayoutConfig config;
-  config.pedestals = config.clutter = 0.0;
-  config.forklifts = config.pallet_robots = config.walking_workers = config.standing_workers = 0;
-  return config;
-}
-
-LayoutConfig training() {
-  LayoutConfig config = still();
-  config.length = 18.0;
-  config.width = 15.0;
-  config.aisle = 3.4;
-  config.cross_aisle = 3.0;
-  config.bays = 0;
-  config.docks = 2;
-  config.fill = 0.5;
-  config.staged = 0.25;
-  return config;
-}
-
-LayoutConfig warehouse() {
-  LayoutConfig config = still();
-  config.length = 50.0;
-  config.width = 30.0;
-  config.bays = 4;
-  config.aisle = 3.2;
-  config.cross_aisle = 3.0;
-  config.docks = 3;
-  config.staged = 0.4;
-  config.pedestals = 0.25;
-  config.pedestal_min = config.pedestal_max = 0.10;
-  config.clutter = 0.12;
-  config.forklifts = 2;
-  config.pallet_robots = 2;
-  config.walking_workers = 3;
-  config.standing_workers = 3;
-  return config;
-}
-
-LayoutConfig busy() {
-  LayoutConfig config = still();
-  config.length = 64.0;
-  config.width = 48.0;
-  config.bays = 4;
-  config.aisle = 3.2;
-  config.cross_aisle = 4.0;
-  config.dead_ends = 0.1;
-  config.docks = 6;
-  config.walls = 1;
-  config.door = 3.0;
-  config.fill = 0.75;
-  config.staged = 0.8;
-  config.pallets = 0.15;
-  config.pedestals = 0.10;
-  config.clutter = 0.10;
-  config.forklifts = 6;
-  config.pallet_robots = 6;
-  config.walking_workers = 14;
-  config.standing_workers = 4;
-  return config;
-}
-
-LayoutConfig narrow() {
-  LayoutConfig config = still();
-  config.length = 36.0;
-  config.width = 28.0;
-  config.bays = 4;
-  config.aisle = 1.7;
-  config.cross_aisle = 2.4;
-  config.dead_ends = 0.2;
-  config.docks = 3;
-  config.fill = 0.8;
-  config.staged = 0.7;
-  config.pallet_robots = 2;
-  config.walking_workers = 4;
-  return config;
-}
-
-LayoutConfig maze() {
-  LayoutConfig config = still();
-  config.length = 40.0;
-  config.width = 40.0;
-  config.bays = 2;
-  config.aisle = 2.2;
-  config.cross_aisle = 2.2;
-  config.dead_ends = 1.0;
-  config.docks = 2;
-  config.walls = 2;
-  config.door = 1.4;
-  config.fill = 0.7;
-  config.pedestals = 0.10;
-  config.clutter = 0.15;
-  config.walking_workers = 3;
-  config.standing_workers = 3;
-  return config;
-}
-
-}  // namespace
-
 void LayoutConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   const Range share{0.0, 1.0};
@@ -142,16 +42,16 @@ void LayoutConfig::describe(navvi_config::Visitor& visit) {
 }
 
 const std::vector<Preset>& presets() {
-  static const std::vector<Preset> all{
-      {"training", "a small hall with wide aisles where nothing moves, to learn the stick",
-       training()},
-      {"easy", "wide aisles, few obstacles, little traffic", {}},
-      {"warehouse", "the usual one: racks, pedestals, some traffic", warehouse()},
-      {"busy", "a large hall at work: docks, forklifts, pallet robots, workers, things left behind",
-       busy()},
-      {"narrow", "aisles of 1.7 m with pallet robots and workers in them", narrow()},
-      {"maze", "many dead ends, walls with doors, one way from any place to any other", maze()},
-  };
+  static const std::vector<Preset> all = [] {
+    std::vector<Preset> read;
+    for (const YAML::Node& node : YAML::Load(kPresets)) {
+      Preset& known = read.emplace_back();
+      known.name = node["name"].as<std::string>();
+      known.help = node["help"].as<std::string>();
+      navvi_config::read(known.config, node["layout"], "config/presets.yaml");
+    }
+    return read;
+  }();
   return all;
 }
 

@@ -34,8 +34,8 @@ struct LayoutConfig {
   double pedestal_max = 0.30;       ///< m, greatest
   int forklifts = 1;                ///< on routes
   int pallet_robots = 1;            ///< on routes
-  int walking_workers = 2;          ///< who walk
-  int standing_workers = 1;         ///< workers who stand
+  int walking_workers = 2;          ///< workers on routes
+  int standing_workers = 1;         ///< workers without a route
   double forklift_speed = 1.0;      ///< m/s
   double pallet_robot_speed = 0.7;  ///< m/s
   double worker_speed = 0.8;        ///< m/s
@@ -59,7 +59,7 @@ struct Preset {
 /// Two or more fields that cannot both be had, or one that asks for more than there is room for.
 class LayoutError : public WorldError {
  public:
-  /// \param key  the field that has to change, for who knows the line it stands in
+  /// \param key  the field that has to change
   LayoutError(std::string key, const std::string& sentence)
       : WorldError(sentence), key_(std::move(key)) {}
   [[nodiscard]] const std::string& key() const { return key_; }

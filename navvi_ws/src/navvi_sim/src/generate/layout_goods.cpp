@@ -17,12 +17,7 @@ constexpr double kPlace = 2.6;           // m, along an aisle, for one thing tha
 constexpr double kPalletRoom = 0.95;     // m, that a pallet set down askew takes of an aisle
 constexpr double kPedestalRoom = 0.85;   // m, likewise
 constexpr double kBoxRoom = 0.75;        // m, likewise, boxes
-constexpr double kStandRoom = 0.6;       // m, likewise, who stands
-
-void add(std::vector<Thing>& things, const std::string& name, ThingClass thing_class,
-         const Eigen::Isometry3d& pose, std::vector<Shape> shapes) {
-  things.push_back(standing(name, thing_class, pose, std::move(shapes)));
-}
+constexpr double kStandRoom = 0.6;       // m, likewise, a worker
 
 }  // namespace
 
@@ -122,7 +117,7 @@ std::vector<LayoutGoods::Place> LayoutGoods::quiet_places(Random& random,
           places.push_back({aisle, aisle.min().y() + margin + length * (i + 0.5) / count, side});
       }
     }
-  for (std::size_t i = places.size(); i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
+  random.shuffle(places);
   return places;
 }
 
@@ -152,7 +147,7 @@ void LayoutGoods::add_standing_workers(Things& things, Random& random,
       for (const double side : {-0.6, 0.6})
         spots.emplace_back(plan_.passage(row, 0).center().x() + side,
                            plan_.staging().min().y() + kDockWalk / 2.0);
-  for (std::size_t i = spots.size(); i > 1; --i) std::swap(spots[i - 1], spots[random.below(i)]);
+  random.shuffle(spots);
   for (int i = 0; i < config_.standing_workers; ++i) {
     const bool in_aisle = config_.aisle >= kPassage + kStandRoom && !places.empty();
     if (!in_aisle && spots.empty())

@@ -8,8 +8,8 @@
 
 namespace navvi_sim::generate {
 
-/// What stands in a layout's hall: racks, pallets at the docks, and in aisles where nothing moves
-/// whatever was left there, and workers.
+/// What stands in a layout's hall: racks, pallets at the docks, and, in aisles where nothing moves,
+/// goods that were left there, and workers.
 class LayoutGoods {
  public:
   /// \throws LayoutError for shares that cannot be had together, or in aisles so narrow

@@ -20,10 +20,10 @@ std::vector<Thing> LayoutHall::things() {
 }
 
 /// A wall on `area`.
-void LayoutHall::add(const std::string& name, const Area& area, double height) {
+void LayoutHall::add_wall(const std::string& name, const Area& area, double height) {
   const Eigen::Vector2d size = area.sizes();
-  things_.push_back(standing(name, ThingClass::wall, at(area.center().x(), area.center().y(), 0.0),
-                             {box_on(0.0, 0.0, 0.0, size.x(), size.y(), height)}));
+  add(things_, name, ThingClass::wall, at(area.center().x(), area.center().y(), 0.0),
+      {box_on(0.0, 0.0, 0.0, size.x(), size.y(), height)});
 }
 
 void LayoutHall::add_floor_and_walls() {
@@ -31,18 +31,18 @@ void LayoutHall::add_floor_and_walls() {
   const Eigen::Vector2d rim(kWallThickness, kWallThickness);
   const Area outside(hall.min() - rim, hall.max() + rim);
   const Eigen::Vector2d floor = outside.sizes() + 2.0 * rim;
-  things_.push_back(standing("floor", ThingClass::floor, at(0.0, 0.0, 0.0),
-                             {box_on(0.0, 0.0, -kFloorDepth, floor.x(), floor.y(), kFloorDepth)}));
-  add("wall_north", {Eigen::Vector2d(outside.min().x(), hall.max().y()), outside.max()},
-      kWallHeight);
-  add("wall_east",
-      {Eigen::Vector2d(hall.max().x(), hall.min().y()),
-       Eigen::Vector2d(outside.max().x(), hall.max().y())},
-      kWallHeight);
-  add("wall_west",
-      {Eigen::Vector2d(outside.min().x(), hall.min().y()),
-       Eigen::Vector2d(hall.min().x(), hall.max().y())},
-      kWallHeight);
+  add(things_, "floor", ThingClass::floor, at(0.0, 0.0, 0.0),
+      {box_on(0.0, 0.0, -kFloorDepth, floor.x(), floor.y(), kFloorDepth)});
+  add_wall("wall_north", {Eigen::Vector2d(outside.min().x(), hall.max().y()), outside.max()},
+           kWallHeight);
+  add_wall("wall_east",
+           {Eigen::Vector2d(hall.max().x(), hall.min().y()),
+            Eigen::Vector2d(outside.max().x(), hall.max().y())},
+           kWallHeight);
+  add_wall("wall_west",
+           {Eigen::Vector2d(outside.min().x(), hall.min().y()),
+            Eigen::Vector2d(hall.min().x(), hall.max().y())},
+           kWallHeight);
   add_dock_wall(outside);
 }
 
@@ -51,9 +51,9 @@ void LayoutHall::add_dock_wall(const Area& outside) {
   double west = outside.min().x();
   std::size_t piece = 0;
   const auto wall_to = [&](double east) {
-    add(numbered("wall_south", ++piece),
-        {Eigen::Vector2d(west, outside.min().y()), Eigen::Vector2d(east, hall.min().y())},
-        kWallHeight);
+    add_wall(numbered("wall_south", ++piece),
+             {Eigen::Vector2d(west, outside.min().y()), Eigen::Vector2d(east, hall.min().y())},
+             kWallHeight);
   };
   for (int lane = 0; lane < plan_.lanes(); ++lane) {
     if (!plan_.docked(lane)) continue;
@@ -61,10 +61,10 @@ void LayoutHall::add_dock_wall(const Area& outside) {
     const double half = std::min(kDoorWidth, way.sizes().x()) / 2.0;
     wall_to(way.center().x() - half);
     west = way.center().x() + half;
-    add(numbered("dock_door", piece),
-        {Eigen::Vector2d(way.center().x() - half, outside.min().y()),
-         Eigen::Vector2d(west, outside.min().y() + kPanel)},
-        kWallHeight);
+    add_wall(numbered("dock_door", piece),
+             {Eigen::Vector2d(way.center().x() - half, outside.min().y()),
+              Eigen::Vector2d(west, outside.min().y() + kPanel)},
+             kWallHeight);
     things_.back().shapes.front().look = ThingClass::other;
   }
   wall_to(outside.max().x());
@@ -79,10 +79,10 @@ void LayoutHall::add_inner_walls() {
     double south = plan_.hall().min().y();
     const auto wall_to = [&](double north) {
       if (north - south < 1e-6) return;
-      add(numbered("wall_inner", ++piece),
-          {Eigen::Vector2d(x - kWallThickness / 2.0, south),
-           Eigen::Vector2d(x + kWallThickness / 2.0, north)},
-          kWallHeight);
+      add_wall(numbered("wall_inner", ++piece),
+               {Eigen::Vector2d(x - kWallThickness / 2.0, south),
+                Eigen::Vector2d(x + kWallThickness / 2.0, north)},
+               kWallHeight);
     };
     for (int crossing = 0; crossing < plan_.crossings(); ++crossing) {
       if (!plan_.passage_open(row, crossing)) continue;
@@ -103,7 +103,8 @@ void LayoutHall::add_fences() {
       if (plan_.aisle_open(lane, block)) continue;
       const Area aisle = plan_.aisle(lane, block);
       const double y = random_.chance(0.5) ? aisle.min().y() : aisle.max().y() - thickness;
-      add(numbered("fence", ++number),
+      add_wall(
+          numbered("fence", ++number),
           {Eigen::Vector2d(aisle.min().x(), y), Eigen::Vector2d(aisle.max().x(), y + thickness)},
           kFenceHeight);
     }
@@ -112,10 +113,10 @@ void LayoutHall::add_fences() {
       if (plan_.walled(row) || plan_.passage_open(row, crossing)) continue;
       const Area passage = plan_.passage(row, crossing);
       const double x = passage.center().x() - thickness / 2.0;
-      add(numbered("fence", ++number),
-          {Eigen::Vector2d(x, passage.min().y()),
-           Eigen::Vector2d(x + thickness, passage.max().y())},
-          kFenceHeight);
+      add_wall(numbered("fence", ++number),
+               {Eigen::Vector2d(x, passage.min().y()),
+                Eigen::Vector2d(x + thickness, passage.max().y())},
+               kFenceHeight);
     }
 }
 

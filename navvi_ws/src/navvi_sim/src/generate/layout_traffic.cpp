@@ -10,7 +10,7 @@ constexpr double kMargin = 0.15;    // m, between what moves and what stands
 constexpr double kTwoTracks = 2.6;  // m, an aisle's least width for two
 constexpr double kWalk = 3.0;       // m, a worker's least stretch
 constexpr double kWalkGap = 1.0;    // m, between two of them
-constexpr double kFromEnds = 1.0;   // m, kept off an aisle's ends by who walks in it
+constexpr double kFromEnds = 1.0;   // m, kept off an aisle's ends by walkers
 constexpr int kLongestShuttle = 3;  // blocks
 constexpr int kWidestLoop = 3;      // rows
 constexpr int kLongestLoop = 2;     // blocks
@@ -31,8 +31,7 @@ LayoutTraffic::Places LayoutTraffic::shuffled(int lanes, int blocks) {
   Places places;
   for (int lane = 0; lane < lanes; ++lane)
     for (int block = 0; block < blocks; ++block) places.emplace_back(lane, block);
-  for (std::size_t i = places.size(); i > 1; --i)
-    std::swap(places[i - 1], places[random_.below(i)]);
+  random_.shuffle(places);
   return places;
 }
 

@@ -33,9 +33,9 @@ class SimNode {
 
  private:
   void advertise();
-  void publish_what_stands(const scenario::StartAndGoal& scenario);
-  void tell_what_there_is(const std::vector<std::string>& notes,
-                          const scenario::StartAndGoal& scenario) const;
+  void publish_static(const scenario::StartAndGoal& scenario);
+  void log_world(const std::vector<std::string>& notes,
+                 const scenario::StartAndGoal& scenario) const;
   void receive(const geometry_msgs::Twist::ConstPtr& msg);
   void tick(const ros::WallTimerEvent& event);
   [[nodiscard]] bool step();
@@ -58,8 +58,8 @@ class SimNode {
   scene::Scene looks_;
   navvi_safety::CommandGate gate_;
   live::Pacer pacer_;
-  std::size_t commands_told_ = 0;
-  std::size_t hashes_told_ = 0;
+  std::size_t commands_published_ = 0;
+  std::size_t hashes_published_ = 0;
   double last_tick_ = 0.0;  // s, monotonic wall clock
   int exit_code_ = 0;
   std::optional<navvi_types::DriveState> drive_state_;
@@ -84,8 +84,8 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
                    static_cast<std::uint64_t>(config_.seed));
 
   advertise();
-  tell_what_there_is(loaded.notes, scenario);
-  publish_what_stands(scenario);
+  log_world(loaded.notes, scenario);
+  publish_static(scenario);
   publish_drive_state();
   publish_record();
 
@@ -100,7 +100,7 @@ void SimNode::advertise() {
   clock_ = node_.advertise<rosgraph_msgs::Clock>("clock", 10);
   odom_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
   octomap_ = node_.advertise<octomap_msgs::Octomap>("octomap_binary", 1, true);
-  // Large, and seldom looked at: made for whoever asks.
+  // Large and seldom looked at: made for each subscriber.
   cells_ = node_.advertise<visualization_msgs::MarkerArray>(
       "occupied_cells_vis_array", 1, [this](const ros::SingleSubscriberPublisher& listener) {
         listener.publish(occupied_cells_msg(map_, stamp()));
@@ -112,7 +112,7 @@ void SimNode::advertise() {
   contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
   scenario_ = node_.advertise<navvi_msgs::Scenario>("navvi/scenario", 1, true);
   drive_ = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
-  // Who begins to listen in mid-session can still repeat it from its first step.
+  // A subscriber that comes in mid-session can still repeat it from its first step.
   applied_ = node_.advertise<navvi_msgs::AppliedCommands>(
       "navvi/applied_commands", 1000, [this](const ros::SingleSubscriberPublisher& listener) {
         listener.publish(applied_commands_msg(session_->commands(), 0, stamp()));
@@ -120,7 +120,7 @@ void SimNode::advertise() {
   hash_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
 }
 
-void SimNode::publish_what_stands(const scenario::StartAndGoal& scenario) {
+void SimNode::publish_static(const scenario::StartAndGoal& scenario) {
   if (!config_.life.robot.imperfections.odometry_drifts())
     static_transforms_.sendTransform(odom_msg(world().now()));
   octomap_.publish(to_msg(map_, ros::Time()));
@@ -131,8 +131,8 @@ void SimNode::publish_what_stands(const scenario::StartAndGoal& scenario) {
       world().now().stamp()}));
 }
 
-void SimNode::tell_what_there_is(const std::vector<std::string>& notes,
-                                 const scenario::StartAndGoal& scenario) const {
+void SimNode::log_world(const std::vector<std::string>& notes,
+                        const scenario::StartAndGoal& scenario) const {
   for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
   std::map<std::string, int> standing, moving;
   for (const Thing& thing : description_.things)
@@ -224,17 +224,17 @@ void SimNode::publish_drive_state() {
 
 /// What repeats this world, and what proves that the repetition is the same.
 void SimNode::publish_record() {
-  if (commands_told_ < session_->commands().size()) {
-    applied_.publish(applied_commands_msg(session_->commands(), commands_told_, stamp()));
-    commands_told_ = session_->commands().size();
+  if (commands_published_ < session_->commands().size()) {
+    applied_.publish(applied_commands_msg(session_->commands(), commands_published_, stamp()));
+    commands_published_ = session_->commands().size();
   }
-  if (hashes_told_ < session_->hashes().size()) {
+  if (hashes_published_ < session_->hashes().size()) {
     hash_.publish(navvi_types::to_msg(session_->hashes().back()));
-    hashes_told_ = session_->hashes().size();
+    hashes_published_ = session_->hashes().size();
   }
 }
 
-/// \throws ConfigError with a sentence for whoever chose the world
+/// \throws ConfigError with a sentence on the world that was chosen
 int run(const setup::SimNodeConfig& config) try {
   read::LoadedWorld loaded = setup::load_world(config);
   if (!loaded.rules.empty())

@@ -67,7 +67,7 @@ class OctreeWriter {
 
   /// Writes the cube that the candidates from these on reach into.
   Written write(const VoxelCube& cube, std::size_t first_box, std::size_t first_other) {
-    if (cube.level == kBlockLevel) return write_block(block(cube, first_box, first_other));
+    if (cube.level == kBrickLevel) return write_brick(brick(cube, first_box, first_other));
     Octants all{0, 0};
     unsigned same = others_.size() > first_other ? 0U : 7U;
     for (std::size_t i = first_box; i < boxes_.size(); ++i) {
@@ -135,35 +135,35 @@ class OctreeWriter {
       if (stack[k].touched >> eighth & 1U) stack.push_back({stack[k].body, 0});
   }
 
-  [[nodiscard]] Block block(const VoxelCube& cube, std::size_t first_box,
+  [[nodiscard]] Brick brick(const VoxelCube& cube, std::size_t first_box,
                             std::size_t first_other) const {
-    Block all = 0;
+    Brick all = 0;
     for (std::size_t i = first_box; i < boxes_.size(); ++i)
-      all |= shapes_.boxes[boxes_[i].body].block(cube);
+      all |= shapes_.boxes[boxes_[i].body].brick(cube);
     for (std::size_t i = first_other; i < others_.size() && ~all != 0; ++i)
-      all |= block_of(others_[i].body, cube);
+      all |= brick_of(others_[i].body, cube);
     return all;
   }
-  [[nodiscard]] Block block_of(std::size_t other, const VoxelCube& cube) const {
+  [[nodiscard]] Brick brick_of(std::size_t other, const VoxelCube& cube) const {
     const Octants part = octants_in(other, cell(cube));
-    Block all = 0;
+    Brick all = 0;
     for (unsigned i = 0; i < 8; ++i) {
       if (!(part.touched >> i & 1U)) continue;
-      const Block voxels =
+      const Brick voxels =
           part.full >> i & 1U ? 0xFFU : octants_in(other, cell(octant(cube, i))).touched;
       all |= voxels << (8 * i);
     }
     return all;
   }
 
-  Written write_block(Block block) {
+  Written write_brick(Brick brick) {
     const std::size_t begin = out_.size();
-    if (block == 0) return {Overlap::none, begin, begin};
-    if (~block == 0) return {Overlap::full, begin, begin};
+    if (brick == 0) return {Overlap::none, begin, begin};
+    if (~brick == 0) return {Overlap::full, begin, begin};
     grow(2);
     unsigned bits = 0;
     for (unsigned i = 0; i < 8; ++i) {
-      const auto voxels = static_cast<unsigned>(block >> (8 * i) & 0xFFU);
+      const auto voxels = static_cast<unsigned>(brick >> (8 * i) & 0xFFU);
       if (voxels == 0) continue;
       bits |= (voxels == 0xFFU ? 2U : 3U) << (2 * i);
       if (voxels != 0xFFU) put(grow(2), as_leaves(voxels));

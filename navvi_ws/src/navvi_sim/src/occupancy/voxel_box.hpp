@@ -24,8 +24,8 @@ struct VoxelCube {
 
 /// 4 x 4 x 4 voxels, one a bit, in the order in which an octree has them: bit 8 i + k is the eighth
 /// k of the eighth i.
-using Block = std::uint64_t;
-inline constexpr int kBlockLevel = 2;
+using Brick = std::uint64_t;
+inline constexpr int kBrickLevel = 2;
 
 /// Voxels along the axes, from `low` on and before `high`.
 struct VoxelBox {
@@ -62,15 +62,15 @@ struct VoxelBox {
     return axes;
   }
 
-  /// What of a cube of kBlockLevel is in this box.
-  [[nodiscard]] Block block(const VoxelCube& cube) const {
+  /// What of a cube of kBrickLevel is in this box.
+  [[nodiscard]] Brick brick(const VoxelCube& cube) const {
     // Of the voxels in each of the four layers along an axis, those of the layers below a bound.
-    constexpr std::array<std::array<Block, 5>, 3> kBelow{{
-        {0, 0x0055005500550055U, 0x00FF00FF00FF00FFU, 0x55FF55FF55FF55FFU, ~Block{0}},
-        {0, 0x0000333300003333U, 0x0000FFFF0000FFFFU, 0x3333FFFF3333FFFFU, ~Block{0}},
-        {0, 0x000000000F0F0F0FU, 0x00000000FFFFFFFFU, 0x0F0F0F0FFFFFFFFFU, ~Block{0}},
+    constexpr std::array<std::array<Brick, 5>, 3> kBelow{{
+        {0, 0x0055005500550055U, 0x00FF00FF00FF00FFU, 0x55FF55FF55FF55FFU, ~Brick{0}},
+        {0, 0x0000333300003333U, 0x0000FFFF0000FFFFU, 0x3333FFFF3333FFFFU, ~Brick{0}},
+        {0, 0x000000000F0F0F0FU, 0x00000000FFFFFFFFU, 0x0F0F0F0FFFFFFFFFU, ~Brick{0}},
     }};
-    Block all = ~Block{0};
+    Brick all = ~Brick{0};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto bound = [&](int at) {
         return kBelow[axis][static_cast<std::size_t>(std::clamp(at - cube.low[axis], 0, 4))];

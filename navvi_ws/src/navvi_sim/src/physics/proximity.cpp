@@ -12,7 +12,7 @@ namespace {
 class NearestPoint {
  public:
   NearestPoint(const Hull& hull, double radius, double ceiling)
-      : hull_(hull), ceiling_(ceiling), best_{radius, Eigen::Vector3d::Zero()} {}
+      : hull_(hull), radius_(radius), ceiling_(ceiling) {}
 
   /// \param pose  of the part, in map
   void consider(const Part& part, const Eigen::Isometry3d& pose) {
@@ -28,10 +28,8 @@ class NearestPoint {
   }
 
   /// The best gap so far, or the search radius.
-  [[nodiscard]] double gap() const { return best_.gap; }
-  [[nodiscard]] std::optional<Gap> found() const {
-    return found_ ? std::make_optional(best_) : std::nullopt;
-  }
+  [[nodiscard]] double gap() const { return found_ ? found_->gap : radius_; }
+  [[nodiscard]] const std::optional<Gap>& found() const { return found_; }
 
  private:
   [[nodiscard]] bool matters(const Eigen::AlignedBox3d& bounds) const {
@@ -39,9 +37,7 @@ class NearestPoint {
   }
 
   void take(const Gap& gap) {
-    if (gap.gap > best_.gap) return;
-    best_ = gap;
-    found_ = true;
+    if (!(gap.gap > this->gap())) found_ = gap;
   }
 
   void consider_mesh(const Mesh& mesh, const AabbTree& triangles, const Eigen::Isometry3d& pose) {
@@ -59,7 +55,7 @@ class NearestPoint {
         [&](const Eigen::AlignedBox3d& box) {
           return upright ? local.bound(box) : std::max(0.0, box.exteriorDistance(centre) - around);
         },
-        [&] { return std::max(0.0, best_.gap); },
+        [&] { return std::max(0.0, gap()); },
         [&](std::uint32_t index) {
           std::array<Eigen::Vector3d, 3> corners;
           Eigen::AlignedBox3d bounds;
@@ -67,15 +63,15 @@ class NearestPoint {
             corners[i] = pose * mesh.vertices[mesh.triangles[index][i]].cast<double>();
             bounds.extend(corners[i]);
           }
-          if (matters(bounds) && hull_.bound(bounds) <= std::max(0.0, best_.gap))
-            take(gap_to(hull_, corners, best_.gap));
+          if (matters(bounds) && hull_.bound(bounds) <= std::max(0.0, gap()))
+            take(gap_to(hull_, corners, gap()));
         });
   }
 
   const Hull& hull_;
+  double radius_;
   double ceiling_;
-  Gap best_;
-  bool found_ = false;
+  std::optional<Gap> found_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace navvi_sim::physics {
 namespace {
 
 /// `now` moved towards `target`, by at most `faster` where its size grows, `slower` where it falls.
-/// Who reverses brakes first.
+/// A change of direction brakes first.
 double approach(double now, double target, double faster, double slower) {
   const bool reverses = now * target < 0.0;
   const double goal = reverses ? 0.0 : target;

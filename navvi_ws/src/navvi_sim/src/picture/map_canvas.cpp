@@ -1,6 +1,7 @@
 #include "picture/map_canvas.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -23,27 +24,18 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 Paint paint_of(ThingClass thing_class) {
-  switch (thing_class) {
-    case ThingClass::floor:
-      return {"#f4f3ee", "#d8d6cc"};
-    case ThingClass::shelf:
-      return {"#7d9bbd", "#34506f"};
-    case ThingClass::wall:
-      return {"#4a4a4a", "#2b2b2b"};
-    case ThingClass::box:
-      return {"#f2cf3b", "#8a7000"};
-    case ThingClass::pedestal:
-      return {"#c08a55", "#6e4315"};
-    case ThingClass::worker:
-      return {"#27b04b", "#0c5a20"};
-    case ThingClass::forklift:
-      return {"#ff8a1f", "#8f4300"};
-    case ThingClass::pallet_robot:
-      return {"#17b3b3", "#005f5f"};
-    case ThingClass::other:
-      break;
-  }
-  return {"#d3c8aa", "#6b6350"};
+  static constexpr std::array<Paint, names(ThingClass{}).size()> kPaints{{
+      {"#f4f3ee", "#d8d6cc"},  // floor
+      {"#7d9bbd", "#34506f"},  // shelf
+      {"#4a4a4a", "#2b2b2b"},  // wall
+      {"#f2cf3b", "#8a7000"},  // box
+      {"#c08a55", "#6e4315"},  // pedestal
+      {"#27b04b", "#0c5a20"},  // worker
+      {"#ff8a1f", "#8f4300"},  // forklift
+      {"#17b3b3", "#005f5f"},  // pallet robot
+      {"#d3c8aa", "#6b6350"},  // other
+  }};
+  return kPaints[static_cast<std::size_t>(thing_class)];
 }
 
 std::string svg_number(double value) {

@@ -55,7 +55,7 @@ void draw_route(MapCanvas& canvas, const Thing& thing) {
   }
 }
 
-/// An arrow head over what moves says where ahead is.
+/// An arrow head over what moves shows its heading.
 void draw_heading(MapCanvas& canvas, const Thing& thing) {
   const Eigen::Vector2d centre = thing.pose.translation().head<2>();
   Eigen::Vector2d ahead = thing.pose.linear().col(0).head<2>();

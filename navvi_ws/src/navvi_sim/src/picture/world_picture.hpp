@@ -9,8 +9,8 @@
 namespace navvi_sim::picture {
 
 /// The world from above as an SVG document, north (y) up: every thing by its outline in the colour
-/// of its class, with a mark of the class where the outline does not tell; routes dashed, stops on
-/// them as diamonds; start, goal and the way between them; a scale bar and a legend.
+/// of its class, with a mark of the class where the outline alone is not clear; routes dashed,
+/// stops on them as diamonds; start, goal and the way between them; a scale bar and a legend.
 /// \param scenario  nullopt: without start and goal
 /// \param caption   one line under the name of the world, such as its seed; may be empty
 [[nodiscard]] std::string world_picture(const WorldDescription& world,

@@ -3,7 +3,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <navvi_config/reader.hpp>
 
 #include "description/sentence.hpp"
@@ -14,12 +13,6 @@ namespace {
 
 constexpr std::size_t kMaxPatterns = 1'000;
 constexpr std::size_t kMaxLength = 200;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// Whether a pattern with * and ? fits all of a text. Goes back to the last * only, so that time
 /// grows with the product of both lengths at most.
@@ -85,7 +78,7 @@ class RuleReader {
       if (result.rules_.size() >= kMaxPatterns)
         refuse(name, "there are more than " + std::to_string(kMaxPatterns) +
                          " patterns; allowed is up to that");
-      result.rules_.push_back({lower(name.Scalar()), *thing_class});
+      result.rules_.push_back({lower_case(name.Scalar()), *thing_class});
     }
   }
 
@@ -114,7 +107,7 @@ ClassRules ClassRules::read(const std::filesystem::path& file) {
 }
 
 ClassRules::Match ClassRules::match(const std::string& name) const {
-  const std::string plain = lower(name);
+  const std::string plain = lower_case(name);
   for (const Rule& rule : rules_)
     if (fits(rule.pattern, plain)) return {rule.thing_class, rule.pattern};
   return {};

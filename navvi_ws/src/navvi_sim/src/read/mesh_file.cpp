@@ -39,12 +39,12 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
 }
 
 /// Gathers the triangles of a scene, or of its parts of one name.
-class Gatherer {
+class MeshBuilder {
  public:
-  Gatherer(const aiScene& scene, const std::filesystem::path& file, const MeshPart& part)
+  MeshBuilder(const aiScene& scene, const std::filesystem::path& file, const MeshPart& part)
       : scene_(scene), file_(file), part_(part) {}
 
-  [[nodiscard]] Mesh gather() {
+  [[nodiscard]] Mesh build() {
     if (scene_.mRootNode != nullptr)
       visit(*scene_.mRootNode, Eigen::Matrix4d::Identity(), part_.name.empty(), 0);
     if (mesh_.triangles.empty() && !part_.name.empty())
@@ -141,7 +141,7 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
   }
   if (scene == nullptr)
     refuse(file, "cannot be read (" + reason + "); allowed are whole .dae, .stl and .obj files");
-  return Gatherer(*scene, file, part).gather();
+  return MeshBuilder(*scene, file, part).build();
 }
 
 }  // namespace navvi_sim::read

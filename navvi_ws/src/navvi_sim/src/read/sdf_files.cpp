@@ -1,9 +1,8 @@
 #include "read/sdf_files.hpp"
 
 #include <algorithm>
-#include <cctype>
 
-#include "navvi_sim/description/world_description.hpp"
+#include "description/sentence.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {
@@ -50,13 +49,11 @@ fs::path sdf_file_of(const fs::path& model) {
 enum class Stock { none, sun, ground_plane };
 
 Stock stock_of(const std::string& uri) {
-  std::string name =
-      uri.substr(uri.find_last_of('/') == std::string::npos ? 0 : uri.find_last_of('/') + 1);
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
-    return c == ' ' ? '_' : static_cast<char>(std::tolower(c));
-  });
+  // Without a slash, npos + 1 is 0: the whole of it.
+  const std::string name = lower_case(uri.substr(uri.find_last_of('/') + 1));
   if (name == "sun") return Stock::sun;
-  if (name == "ground_plane" || name == "ground%20plane") return Stock::ground_plane;
+  if (name == "ground_plane" || name == "ground plane" || name == "ground%20plane")
+    return Stock::ground_plane;
   return Stock::none;
 }
 
@@ -77,14 +74,14 @@ XmlElement nested(const XmlElement& place, const std::vector<std::string>& names
 
 XmlElement stock_ground(const XmlElement& include) {
   XmlElement ground = nested(include, {"model", "link", "collision", "geometry", "plane"});
-  ground.set_attribute("name", "ground_plane");
+  ground.attributes["name"] = "ground_plane";
   return ground;
 }
 
-/// What the include says of the model stands above what the model says.
+/// The include overrides what the model says of itself.
 void override_with(XmlElement& model, const XmlElement& include) {
   const std::string name = include.text_of("name");
-  if (!name.empty()) model.set_attribute("name", name);
+  if (!name.empty()) model.attributes["name"] = name;
   if (const XmlElement* pose = include.child("pose")) {
     auto& children = model.children;
     children.erase(std::remove_if(children.begin(), children.end(),
@@ -93,11 +90,11 @@ void override_with(XmlElement& model, const XmlElement& include) {
     children.push_back(*pose);
   }
   const std::string placement = include.text_of("placement_frame");
-  if (!placement.empty()) model.set_attribute("placement_frame", placement);
+  if (!placement.empty()) model.attributes["placement_frame"] = placement;
   for (const XmlElement* plugin : include.children_named("plugin"))
     model.children.push_back(*plugin);
   if (include.attribute("merge") == "true" || include.attribute("merge") == "1")
-    model.set_attribute("merge", "true");
+    model.attributes["merge"] = "true";
 }
 
 }  // namespace

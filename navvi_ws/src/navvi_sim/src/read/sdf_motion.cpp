@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "description/validate.hpp"
+#include "generate/furniture.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSamePlace = 0.01;       // m
 constexpr double kFollowerSpeed = 1.0;    // m/s, of what is pushed by a force
 constexpr double kPedestrianSpeed = 0.8;  // m/s, PedestrianSFMPlugin's own default
@@ -62,9 +62,9 @@ std::vector<Key> keys_of_script(const XmlElement& script) {
   return all;
 }
 
-/// \param tell  is called for what differs from Gazebo
-template <typename Tell>
-Route route_of(const std::vector<Key>& keys, const Tell& tell) {
+/// \param note  takes what differs from Gazebo
+template <typename Note>
+Route route_of(const std::vector<Key>& keys, const Note& note) {
   Route route;
   bool hurried = false;
   bool jumped = false;
@@ -89,18 +89,18 @@ Route route_of(const std::vector<Key>& keys, const Tell& tell) {
     route.waypoints.push_back(waypoint);
   }
   if (walked > 0.0) route.speed = way / walked;
-  if (hurried) tell("moves faster than 5 m/s, which is the most here");
-  if (jumped) tell("jumps from one trajectory to the next, and walks here");
+  if (hurried) note("moves faster than 5 m/s, which is the most here");
+  if (jumped) note("jumps from one trajectory to the next, and walks here");
   return route;
 }
 
 /// A loop ends where it begins.
-template <typename Tell>
-void close(Route& route, const Tell& tell) {
+template <typename Note>
+void close(Route& route, const Note& note) {
   Waypoint& first = route.waypoints.front();
   const Waypoint last = route.waypoints.back();
   if ((last.at - first.at).norm() >= kSamePlace) {
-    tell("jumps back to its first way-point after the last, and walks here");
+    note("jumps back to its first way-point after the last, and walks here");
     return;
   }
   first.speed = last.speed;
@@ -144,7 +144,7 @@ Route trajectory_follower(const XmlElement& plugin, const Eigen::Vector2d& start
   } else if (const XmlElement* circle = plugin.child("circle")) {
     const double radius = length(*circle, "radius");
     for (int i = 0; i < kCircleCorners; ++i) {
-      const double angle = 2.0 * kPi * i / kCircleCorners;
+      const double angle = 2.0 * M_PI * i / kCircleCorners;
       route.waypoints.push_back(
           {start + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 0.0, 0.0});
     }
@@ -177,25 +177,19 @@ bool leads_somewhere(const Route& route) {
   });
 }
 
-Eigen::Isometry3d looking(const Eigen::Vector3d& at, const Eigen::Vector2d& way) {
-  Eigen::Isometry3d pose(Eigen::AngleAxisd(std::atan2(way.y(), way.x()), Eigen::Vector3d::UnitZ()));
-  pose.translation() = at;
-  return pose;
-}
-
 }  // namespace
 
 SdfMotion actor_motion(const XmlElement& actor, const Eigen::Isometry3d& pose, SdfNotes& notes) {
-  const auto tell = [&](const std::string& what) {
+  const auto note = [&](const std::string& what) {
     notes.add(actor, "the actor '" + actor.attribute("name") + "' " + what);
   };
   const XmlElement* script = actor.child("script");
   const std::vector<Key> keys = script == nullptr ? std::vector<Key>{} : keys_of_script(*script);
   if (keys.empty()) return {pose, std::nullopt};
-  Route route = route_of(keys, tell);
+  Route route = route_of(keys, note);
   if (route.waypoints.size() < 2) return {keys.front().pose, std::nullopt};
   if (!flag(*script, "auto_start", true)) {
-    tell("waits for a plugin to start it, and stands here");
+    note("waits for a plugin to start it, and stands here");
     return {keys.front().pose, std::nullopt};
   }
   if (const XmlElement* delay = script->child("delay_start")) {
@@ -209,8 +203,9 @@ SdfMotion actor_motion(const XmlElement& actor, const Eigen::Isometry3d& pose, S
                           "' stands for more than 3600 s at one place; allowed is up to that");
   const Eigen::Vector2d way = route.waypoints[1].at - route.waypoints[0].at;
   route.loop = flag(*script, "loop", true);
-  if (route.loop) close(route, tell);
-  return {looking(keys.front().pose.translation(), way), std::move(route)};
+  if (route.loop) close(route, note);
+  const Eigen::Vector3d at = keys.front().pose.translation();
+  return {generate::at(at.x(), at.y(), at.z(), std::atan2(way.y(), way.x())), std::move(route)};
 }
 
 std::optional<SdfMotion> plugin_motion(const XmlElement& plugin, const Eigen::Isometry3d& pose,

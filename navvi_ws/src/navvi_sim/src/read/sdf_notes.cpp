@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kNamed = 3;  // of a kind, the others are counted
 
-/// Of a <world>, a <model> and a <link>: what means nothing for who drives.
+/// Of a <world>, a <model> and a <link>: what means nothing to a driver.
 const std::set<std::string> kHarmless{"animation",
                                       "atmosphere",
                                       "audio",

@@ -20,7 +20,7 @@ class SdfNotes {
   void add_harmless(const XmlElement& element);
 
   /// What a <world>, <model> or <link> holds beside what is read of it: harmless or not. Plugins of
-  /// a model are left to who looks whether they move it.
+  /// a model are left to read_plugins.
   void add_leftovers(const XmlElement& element);
   /// A plugin that is not run.
   /// \param whose  "of 'NAME' ", or empty for the world's

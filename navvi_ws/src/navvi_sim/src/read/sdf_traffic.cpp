@@ -10,18 +10,19 @@ namespace {
 
 constexpr int kMaxRounds = 4;
 
-/// Finds out which of the things with a route can keep it.
-class Settler {
+/// Finds which of the things with a route can keep it.
+class RouteFilter {
  public:
-  Settler(const WorldDescription& world, const std::vector<std::string>& places, SdfNotes& notes)
+  RouteFilter(const WorldDescription& world, const std::vector<std::string>& places,
+              SdfNotes& notes)
       : world_(world), places_(places), notes_(notes) {
     for (std::size_t i = 0; i < world.things.size(); ++i)
       if (world.things[i].route) movers_.push_back(i);
   }
 
   /// The things that must stand.
-  [[nodiscard]] std::set<std::size_t> settle() {
-    // Who gives up stands in the way of others then.
+  [[nodiscard]] std::set<std::size_t> things_without_route() {
+    // A thing without its route then stands in the way of others.
     for (int round = 0; round < kMaxRounds; ++round) {
       driving_.clear();
       std::vector<std::size_t> hopeful;
@@ -35,7 +36,7 @@ class Settler {
   }
 
  private:
-  /// Why those who drive already and `more` cannot drive together; empty if they can.
+  /// Why the driving things and `more` cannot drive together; empty if they can.
   [[nodiscard]] std::string objection(const std::vector<std::size_t>& more) const {
     WorldDescription world;
     world.name = world_.name;
@@ -90,7 +91,7 @@ class Settler {
 
 void keep_routes_that_can_be_driven(WorldDescription& world, const std::vector<std::string>& places,
                                     SdfNotes& notes) {
-  for (const std::size_t thing : Settler(world, places, notes).settle())
+  for (const std::size_t thing : RouteFilter(world, places, notes).things_without_route())
     world.things[thing].route.reset();
 }
 

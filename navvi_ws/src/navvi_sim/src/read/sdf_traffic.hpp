@@ -8,9 +8,8 @@
 
 namespace navvi_sim::read {
 
-/// In Gazebo, actors walk through whatever stands and through each other. Here a route that cannot
-/// be driven so (lanes.hpp) is taken off its thing, which then stands where it begins; a note says
-/// why.
+/// In Gazebo, actors walk through things and through each other. Here a route that collides
+/// (lanes.hpp) is taken off its thing, which then stands where the route begins; a note says why.
 /// \param places  where each of the world's things stands in its file
 void keep_routes_that_can_be_driven(WorldDescription& world, const std::vector<std::string>& places,
                                     SdfNotes& notes);

@@ -10,7 +10,6 @@
 namespace navvi_sim::read {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kMost = WorldLimits::extent;
 constexpr std::size_t kShown = 40;  // characters of a text in a sentence
 
@@ -119,7 +118,7 @@ Eigen::Isometry3d pose_value(const XmlElement& pose) {
   }
   const bool degrees = pose.attribute("degrees") == "true" || pose.attribute("degrees") == "1";
   for (std::size_t i = 3; i < 6; ++i)
-    v[i] = std::remainder(degrees ? v[i] * kPi / 180.0 : v[i], 2.0 * kPi);
+    v[i] = std::remainder(degrees ? v[i] * M_PI / 180.0 : v[i], 2.0 * M_PI);
   result.linear() = rotation({v[3], v[4], v[5]});
   return result;
 }

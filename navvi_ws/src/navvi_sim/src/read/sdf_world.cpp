@@ -5,6 +5,7 @@
 #include <map>
 
 #include "description/validate.hpp"
+#include "generate/furniture.hpp"
 #include "read/sdf_files.hpp"
 #include "read/sdf_frames.hpp"
 #include "read/sdf_geometry.hpp"
@@ -19,25 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Eigen::Isometry3d placed(const Eigen::Vector3d& at) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = at;
-  return pose;
-}
-
-/// A person of 1.75 m, standing on the origin.
-std::vector<Shape> person() {
-  return {{Cylinder{0.24, 1.45}, placed({0.0, 0.0, 0.725})},
-          {Sphere{0.15}, placed({0.0, 0.0, 1.60})}};
-}
-
 /// The same place and heading, upright.
 Eigen::Isometry3d upright(const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d ahead = pose.linear().col(0);
-  Eigen::Isometry3d result(
-      Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ()));
-  result.translation() = pose.translation();
-  return result;
+  const Eigen::Vector3d at = pose.translation();
+  return generate::at(at.x(), at.y(), at.z(), std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)));
 }
 
 bool has_collision(const XmlElement& model) {
@@ -126,7 +112,7 @@ class WorldReader {
     has_foreign_routes_ = true;
     read_plugins(actor, thing);
     if (thing.shapes.empty()) {
-      thing.shapes = person();
+      thing.shapes = generate::worker().shapes;
       thing.pose = upright(thing.pose);
       things_.add_on_floor(std::move(thing), actor.place());
     } else {

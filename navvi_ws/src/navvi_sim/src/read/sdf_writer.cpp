@@ -1,5 +1,6 @@
 #include "read/sdf_writer.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
@@ -60,29 +61,20 @@ std::string pose_element(const Eigen::Isometry3d& pose) {
   return text == "0 0 0 0 0 0" ? "" : element("pose", text);
 }
 
-/// Of the visuals, as in the scene (r g b a).
+/// Of the visuals, much as in the scene (r g b a).
 const char* color_of(ThingClass thing_class) {
-  switch (thing_class) {
-    case ThingClass::floor:
-      return "0.6 0.6 0.58 1";
-    case ThingClass::shelf:
-      return "0.33 0.45 0.58 1";
-    case ThingClass::wall:
-      return "0.78 0.78 0.78 1";
-    case ThingClass::box:
-      return "0.85 0.68 0.3 1";
-    case ThingClass::pedestal:
-      return "0.72 0.42 0.16 1";
-    case ThingClass::worker:
-      return "0.2 0.8 0.35 1";
-    case ThingClass::forklift:
-      return "1 0.5 0 1";
-    case ThingClass::pallet_robot:
-      return "0 0.8 0.8 1";
-    case ThingClass::other:
-      break;
-  }
-  return "0.55 0.55 0.5 1";
+  static constexpr std::array<const char*, names(ThingClass{}).size()> kColors{
+      "0.6 0.6 0.58 1",    // floor
+      "0.33 0.45 0.58 1",  // shelf
+      "0.78 0.78 0.78 1",  // wall
+      "0.85 0.68 0.3 1",   // box
+      "0.72 0.42 0.16 1",  // pedestal
+      "0.2 0.8 0.35 1",    // worker
+      "1 0.5 0 1",         // forklift
+      "0 0.8 0.8 1",       // pallet robot
+      "0.55 0.55 0.5 1",   // other
+  };
+  return kColors[static_cast<std::size_t>(thing_class)];
 }
 
 class GeometryWriter {

@@ -1,10 +1,9 @@
 #include "navvi_sim/read/world_source.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <sstream>
 #include <utility>
 
+#include "description/sentence.hpp"
 #include "description/validate.hpp"
 #include "read/layout_world.hpp"
 #include "read/sdf_world.hpp"
@@ -23,9 +22,7 @@ enum class Kind { yaml, sdf };
 
 /// \throws WorldError if `spec` is no file that may hold a world
 Kind kind_of(const std::string& spec) {
-  std::string ending = std::filesystem::path(spec).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_case(std::filesystem::path(spec).extension().string());
   const bool is_yaml = ending == ".yaml" || ending == ".yml";
   if (!is_yaml && ending != ".sdf" && ending != ".world")
     throw WorldError("'" + spec + "' is no world" + allowed());
@@ -35,7 +32,7 @@ Kind kind_of(const std::string& spec) {
   return is_yaml ? Kind::yaml : Kind::sdf;
 }
 
-/// Those who walk stand where their routes begin.
+/// Walking workers stand where their routes begin.
 void stop_workers(WorldDescription& world) {
   for (Thing& thing : world.things)
     if (thing.thing_class == ThingClass::worker) thing.route.reset();

@@ -39,7 +39,7 @@ XmlElement copy_of(const tinyxml2::XMLElement& source,
   element.line = source.GetLineNum();
   for (const auto* attribute = source.FirstAttribute(); attribute != nullptr;
        attribute = attribute->Next())
-    element.attributes.emplace_back(attribute->Name(), attribute->Value());
+    element.attributes.emplace(attribute->Name(), attribute->Value());
   std::string text;
   for (const auto* node = source.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) element.children.push_back(copy_of(*child, file));
@@ -84,18 +84,8 @@ std::string XmlElement::text_of(const std::string& child_name) const {
 }
 
 std::string XmlElement::attribute(const std::string& key) const {
-  for (const auto& [name_of, value] : attributes)
-    if (name_of == key) return value;
-  return "";
-}
-
-void XmlElement::set_attribute(const std::string& key, const std::string& value) {
-  for (auto& [name_of, old] : attributes) {
-    if (name_of != key) continue;
-    old = value;
-    return;
-  }
-  attributes.emplace_back(key, value);
+  const auto found = attributes.find(key);
+  return found == attributes.end() ? "" : found->second;
 }
 
 std::string XmlElement::place() const { return *file + ", line " + std::to_string(line); }

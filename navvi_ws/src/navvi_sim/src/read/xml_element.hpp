@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace navvi_sim::read {
@@ -15,7 +15,7 @@ constexpr std::uintmax_t kMaxXmlBytes = 20'000'000;  ///< of a file that is read
 struct XmlElement {
   std::string name;
   std::string text;  ///< without the space around it
-  std::vector<std::pair<std::string, std::string>> attributes;
+  std::map<std::string, std::string> attributes;
   std::vector<XmlElement> children;
   std::shared_ptr<const std::string> file;  ///< that it stands in
   int line = 0;                             ///< in that file, from 1
@@ -27,7 +27,6 @@ struct XmlElement {
   [[nodiscard]] std::string text_of(const std::string& child_name) const;
   /// Empty if there is none.
   [[nodiscard]] std::string attribute(const std::string& key) const;
-  void set_attribute(const std::string& key, const std::string& value);
   /// "a.world, line 12", for sentences.
   [[nodiscard]] std::string place() const;
 };
@@ -35,7 +34,7 @@ struct XmlElement {
 /// \throws WorldError for a file that is missing, larger than 20 MB, or no XML
 [[nodiscard]] XmlElement read_xml(const std::filesystem::path& file);
 
-/// \throws WorldError that says where the element stands
+/// \throws WorldError that begins with the file and line of the element
 [[noreturn]] void refuse(const XmlElement& element, const std::string& what);
 
 }  // namespace navvi_sim::read

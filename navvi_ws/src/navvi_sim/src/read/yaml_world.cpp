@@ -42,7 +42,7 @@ class Reader {
                      what);
   }
 
-  /// A file in which nothing tells which of the two kinds it was meant to be.
+  /// Refuses a file that is neither a layout nor a world.
   void check_kind(const YAML::Node& node) const {
     if (node.IsMap() && (node["things"] || node["floor_height"])) return;
     refuse(node,
@@ -65,8 +65,8 @@ class Reader {
     }
   }
 
-  /// An alias costs a file few bytes and the world all that it stands for: what is too much is
-  /// refused before it is read.
+  /// An alias costs a file few bytes and the world all that it stands for: too many items are
+  /// refused before they are read.
   void count(const YAML::Node& list, std::size_t most, const std::string& what) {
     if (list.size() > most)
       refuse(list, "there are " + std::to_string(list.size()) + " " + what +

@@ -7,7 +7,6 @@
 namespace navvi_sim::scene {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kRound = 16;     // corners of a circle
 constexpr int kRings = 6;      // of a sphere
 constexpr double kThin = 0.6;  // m
@@ -21,7 +20,7 @@ double width(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
 std::vector<Eigen::Vector3d> circle(const Eigen::Isometry3d& pose, double radius, double z) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < kRound; ++i) {
-    const double angle = 2.0 * kPi * i / kRound;
+    const double angle = 2.0 * M_PI * i / kRound;
     points.push_back(pose * Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z));
   }
   return points;
@@ -30,27 +29,18 @@ std::vector<Eigen::Vector3d> circle(const Eigen::Isometry3d& pose, double radius
 }  // namespace
 
 Color color_of(ThingClass thing_class) {
-  switch (thing_class) {
-    case ThingClass::floor:
-      return {0.07F, 0.08F, 0.09F};
-    case ThingClass::shelf:
-      return {0.33F, 0.45F, 0.58F};
-    case ThingClass::wall:
-      return {0.78F, 0.78F, 0.78F};
-    case ThingClass::box:
-      return {1.00F, 0.90F, 0.00F};
-    case ThingClass::pedestal:
-      return {0.72F, 0.42F, 0.16F};
-    case ThingClass::worker:
-      return {0.20F, 1.00F, 0.35F};
-    case ThingClass::forklift:
-      return {1.00F, 0.50F, 0.00F};
-    case ThingClass::pallet_robot:
-      return {0.00F, 0.80F, 0.80F};
-    case ThingClass::other:
-      return {0.55F, 0.55F, 0.50F};
-  }
-  return {0.55F, 0.55F, 0.50F};
+  static constexpr std::array<Color, names(ThingClass{}).size()> kColors{{
+      {0.07F, 0.08F, 0.09F},  // floor
+      {0.33F, 0.45F, 0.58F},  // shelf
+      {0.78F, 0.78F, 0.78F},  // wall
+      {1.00F, 0.90F, 0.00F},  // box
+      {0.72F, 0.42F, 0.16F},  // pedestal
+      {0.20F, 1.00F, 0.35F},  // worker
+      {1.00F, 0.50F, 0.00F},  // forklift
+      {0.00F, 0.80F, 0.80F},  // pallet robot
+      {0.55F, 0.55F, 0.50F},  // other
+  }};
+  return kColors[static_cast<std::size_t>(thing_class)];
 }
 
 std_msgs::ColorRGBA color_msg(const Color& color, float brightness) {
@@ -158,7 +148,7 @@ void Painter::cylinder(const Cylinder& cylinder, const Eigen::Isometry3d& pose) 
 
 void Painter::sphere(const Sphere& sphere, const Eigen::Isometry3d& pose) {
   const auto at_latitude = [&](int i) {
-    const double latitude = kPi * (static_cast<double>(i) / kRings - 0.5);
+    const double latitude = M_PI * (static_cast<double>(i) / kRings - 0.5);
     return circle(pose, sphere.radius * std::cos(latitude), sphere.radius * std::sin(latitude));
   };
   for (int i = 0; i < kRings; ++i) ring(at_latitude(i), at_latitude(i + 1));

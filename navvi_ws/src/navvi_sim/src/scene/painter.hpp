@@ -26,7 +26,7 @@ struct Color {
                                                     const Color& color);
 
 /// Adds shapes to a TRIANGLE_LIST, a colour a triangle. RViz draws such a list unlit, so that a
-/// colour is what it says from every side; a little shading by direction tells the faces apart.
+/// colour is what it says from every side; a little shading by direction makes faces distinct.
 class Painter {
  public:
   /// \param cut  m, z above which nothing is drawn; the tops of what is thin, such as walls, are

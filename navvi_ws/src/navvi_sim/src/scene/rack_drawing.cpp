@@ -10,7 +10,7 @@ constexpr double kBeam = 0.08;   // m, of uprights and rims
 constexpr double kBoard = 0.05;  // m, thickness
 constexpr Color kUpright{0.25F, 0.50F, 0.85F};
 
-/// Adds blocks along the longer side of a box, whichever it is.
+/// Adds cubes along the longer side of a box, whichever it is.
 class RackBuilder {
  public:
   explicit RackBuilder(const Eigen::Vector3d& size) : along_x_(size.x() >= size.y()) {}
@@ -19,7 +19,7 @@ class RackBuilder {
   void add(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Color& color) {
     parts_.push_back({Eigen::AlignedBox3d(turned(low), turned(high)), color});
   }
-  [[nodiscard]] const std::vector<ColoredBlock>& parts() const { return parts_; }
+  [[nodiscard]] const std::vector<ColoredCube>& parts() const { return parts_; }
 
  private:
   [[nodiscard]] Eigen::Vector3d turned(const Eigen::Vector3d& v) const {
@@ -27,11 +27,11 @@ class RackBuilder {
   }
 
   bool along_x_;
-  std::vector<ColoredBlock> parts_;
+  std::vector<ColoredCube> parts_;
 };
 
 /// The four beams around a board.
-std::vector<ColoredBlock> rim(const Eigen::Vector3d& size) {
+std::vector<ColoredCube> rim(const Eigen::Vector3d& size) {
   const Eigen::Vector3d half = 0.5 * size;
   const Color color = color_of(ThingClass::shelf);
   RackBuilder builder(size);
@@ -43,8 +43,8 @@ std::vector<ColoredBlock> rim(const Eigen::Vector3d& size) {
   return builder.parts();
 }
 
-/// An open rack in place of a block: uprights in pairs and boards, the highest one a rim.
-std::vector<ColoredBlock> rack(const Eigen::Vector3d& size) {
+/// An open rack in place of a cube: uprights in pairs and boards, the highest one a rim.
+std::vector<ColoredCube> rack(const Eigen::Vector3d& size) {
   constexpr double kBay = 2.0, kLevel = 0.7;  // m, about
   const Eigen::Vector3d half = 0.5 * size;
   const double length = std::max(half.x(), half.y()), depth = std::min(half.x(), half.y());
@@ -60,16 +60,16 @@ std::vector<ColoredBlock> rack(const Eigen::Vector3d& size) {
     const double z = -half.z() + (size.z() - kBoard) * i / levels;
     builder.add({-length, -depth, z}, {length, depth, z + kBoard}, color_of(ThingClass::shelf));
   }
-  std::vector<ColoredBlock> parts = builder.parts();
-  for (ColoredBlock part : rim({size.x(), size.y(), kBoard})) {
-    part.block.translate(Eigen::Vector3d(0.0, 0.0, half.z() - 0.5 * kBoard));
+  std::vector<ColoredCube> parts = builder.parts();
+  for (ColoredCube part : rim({size.x(), size.y(), kBoard})) {
+    part.cube.translate(Eigen::Vector3d(0.0, 0.0, half.z() - 0.5 * kBoard));
     parts.push_back(part);
   }
   return parts;
 }
 
-/// How a box of a shelf is drawn, before long blocks are cut.
-std::vector<ColoredBlock> whole_parts(const Eigen::Vector3d& size, bool highest) {
+/// How a box of a shelf is drawn, before long cubes are cut.
+std::vector<ColoredCube> whole_parts(const Eigen::Vector3d& size, bool highest) {
   const double across = size.head<2>().minCoeff();
   const bool is_post = size.z() > 4.0 * size.head<2>().maxCoeff();
   if (size.z() > 1.0 && !is_post && across > 0.3) return rack(size);
@@ -81,26 +81,25 @@ std::vector<ColoredBlock> whole_parts(const Eigen::Vector3d& size, bool highest)
   return {{Eigen::AlignedBox3d(whole.min() - out, whole.max() + out), kUpright}};
 }
 
-/// The block in equal pieces along its longer side, each short enough.
-std::vector<Eigen::AlignedBox3d> planks(const Eigen::AlignedBox3d& block) {
-  const int axis = block.sizes().x() >= block.sizes().y() ? 0 : 1;
-  const int count = std::max(1, static_cast<int>(std::ceil(block.sizes()[axis] / kLongestBlock)));
-  std::vector<Eigen::AlignedBox3d> pieces(static_cast<std::size_t>(count), block);
+/// The cube in equal pieces along its longer side, each short enough.
+std::vector<Eigen::AlignedBox3d> planks(const Eigen::AlignedBox3d& cube) {
+  const int axis = cube.sizes().x() >= cube.sizes().y() ? 0 : 1;
+  const int count = std::max(1, static_cast<int>(std::ceil(cube.sizes()[axis] / kLongestCube)));
+  std::vector<Eigen::AlignedBox3d> pieces(static_cast<std::size_t>(count), cube);
   for (int i = 0; i < count; ++i) {
     Eigen::AlignedBox3d& piece = pieces[static_cast<std::size_t>(i)];
-    piece.min()[axis] = block.min()[axis] + block.sizes()[axis] * i / count;
-    piece.max()[axis] = block.min()[axis] + block.sizes()[axis] * (i + 1) / count;
+    piece.min()[axis] = cube.min()[axis] + cube.sizes()[axis] * i / count;
+    piece.max()[axis] = cube.min()[axis] + cube.sizes()[axis] * (i + 1) / count;
   }
   return pieces;
 }
 
 }  // namespace
 
-std::vector<ColoredBlock> shelf_parts(const Eigen::Vector3d& size, bool highest) {
-  std::vector<ColoredBlock> parts;
-  for (const ColoredBlock& part : whole_parts(size, highest))
-    for (const Eigen::AlignedBox3d& plank : planks(part.block))
-      parts.push_back({plank, part.color});
+std::vector<ColoredCube> shelf_parts(const Eigen::Vector3d& size, bool highest) {
+  std::vector<ColoredCube> parts;
+  for (const ColoredCube& part : whole_parts(size, highest))
+    for (const Eigen::AlignedBox3d& plank : planks(part.cube)) parts.push_back({plank, part.color});
   return parts;
 }
 

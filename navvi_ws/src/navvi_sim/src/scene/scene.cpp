@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "physics/bodies.hpp"
-#include "scene/block_lists.hpp"
+#include "scene/cube_lists.hpp"
 #include "scene/painter.hpp"
 #include "scene/rack_drawing.hpp"
 
@@ -19,14 +19,14 @@ using visualization_msgs::MarkerArray;
 constexpr double kWallCut = 1.0;  // m above the floor, to which walls are drawn
 constexpr double kCut = 2.7;      // m above the floor, to which everything else is drawn
 constexpr double kNoCut = std::numeric_limits<double>::max();
-constexpr std::size_t kMostLists = 500;  // of blocks
+constexpr std::size_t kMostLists = 500;  // of cubes
 constexpr double kBoxGrid = 0.1;         // m, of the sizes of boxes on shelves
 constexpr double kCoarseGrid = 0.2;      // m, likewise, in worlds of very many things
 constexpr std::size_t kVeryMany = 1000;  // things
 constexpr double kFloorGrid = 5.0;       // m, between lines on the floor
 constexpr std::size_t kMany = 100;       // movers; beyond, far ones take turns
 constexpr double kFar = 30.0;            // m from the robot
-constexpr std::uint64_t kTurns = 10;     // a far mover is told in one message of these
+constexpr std::uint64_t kTurns = 10;     // a far mover is in one message of these
 
 constexpr Color kFloorLine{0.17F, 0.19F, 0.21F};
 constexpr Color kRobot{0.95F, 1.00F, 0.95F};
@@ -47,8 +47,8 @@ std::optional<std::string> model_of(ThingClass thing_class) {
 bool is_upright(const Eigen::Isometry3d& pose) { return pose.linear()(2, 2) > 1.0 - 1e-6; }
 
 /// A box whose faces look along the axes of map.
-std::optional<Eigen::AlignedBox3d> block_of(const Geometry& geometry,
-                                            const Eigen::Isometry3d& pose) {
+std::optional<Eigen::AlignedBox3d> cube_of(const Geometry& geometry,
+                                           const Eigen::Isometry3d& pose) {
   if (!std::holds_alternative<Box>(geometry) || !is_upright(pose)) return std::nullopt;
   const double x = std::abs(pose.linear()(0, 0));
   if (x > 1e-6 && x < 1.0 - 1e-6) return std::nullopt;
@@ -78,14 +78,13 @@ class StaticMarkers {
       msg.id = next_id[ns]++;
       array.markers.push_back(std::move(msg));
     }
-    for (Marker& msg : blocks_.markers(kMostLists, next_id))
-      array.markers.push_back(std::move(msg));
+    for (Marker& msg : cubes_.markers(kMostLists, next_id)) array.markers.push_back(std::move(msg));
     if (!ground_.isEmpty()) array.markers.push_back(floor_lines(next_id["floor"]++));
   }
 
  private:
   /// A rack is drawn so that it is seen into: from above through its highest board, of which only
-  /// the rim is drawn, and from aside through what is a block to whoever drives.
+  /// the rim is drawn, and from aside through what is a solid box to the driver.
   void add_shelf(const Thing& thing) {
     Eigen::AlignedBox3d bounds;
     for (const Shape& shape : thing.shapes)
@@ -99,9 +98,9 @@ class StaticMarkers {
         continue;
       }
       const double top = shape.pose.translation().z() + 0.5 * box->size.z();
-      for (const ColoredBlock& part : shelf_parts(box->size, top > bounds.max().z() - 1e-6))
-        add(look, part.color, Box{part.block.sizes()},
-            pose * Eigen::Translation3d(part.block.center()));
+      for (const ColoredCube& part : shelf_parts(box->size, top > bounds.max().z() - 1e-6))
+        add(look, part.color, Box{part.cube.sizes()},
+            pose * Eigen::Translation3d(part.cube.center()));
     }
   }
 
@@ -110,11 +109,11 @@ class StaticMarkers {
     const std::string ns = to_string(look);
     const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
     if (physics::bounds_of(geometry, pose).min().z() >= cut) return;
-    auto block = block_of(geometry, pose);
-    if (block && block->sizes().head<2>().maxCoeff() <= kLongestBlock + 1e-6) {
-      block->max().z() = std::min(block->max().z(), cut);
-      if (coarse) *block = on_grid(*block);
-      return blocks_.add(ns, color, *block);
+    auto cube = cube_of(geometry, pose);
+    if (cube && cube->sizes().head<2>().maxCoeff() <= kLongestCube + 1e-6) {
+      cube->max().z() = std::min(cube->max().z(), cut);
+      if (coarse) *cube = on_grid(*cube);
+      return cubes_.add(ns, color, *cube);
     }
     if (triangles_.count(ns) == 0)
       triangles_[ns] = marker_msg(ns, 0, Marker::TRIANGLE_LIST, color_of(look));
@@ -122,12 +121,12 @@ class StaticMarkers {
   }
 
   /// Not larger, with its centre and underside where they were: so that many have one size.
-  [[nodiscard]] Eigen::AlignedBox3d on_grid(const Eigen::AlignedBox3d& block) const {
-    const Eigen::Vector3d size = block.sizes().unaryExpr([this](double side) {
+  [[nodiscard]] Eigen::AlignedBox3d on_grid(const Eigen::AlignedBox3d& cube) const {
+    const Eigen::Vector3d size = cube.sizes().unaryExpr([this](double side) {
       return std::max(std::min(side, grid_), grid_ * std::floor(side / grid_ + 1e-6));
     });
-    Eigen::Vector3d centre = block.center();
-    centre.z() = block.min().z() + 0.5 * size.z();
+    Eigen::Vector3d centre = cube.center();
+    centre.z() = cube.min().z() + 0.5 * size.z();
     return {centre - 0.5 * size, centre + 0.5 * size};
   }
 
@@ -151,7 +150,7 @@ class StaticMarkers {
 
   double floor_;
   double grid_;
-  BlockLists blocks_;
+  CubeLists cubes_;
   std::map<std::string, Marker> triangles_;
   Eigen::AlignedBox3d ground_;
 };
@@ -224,12 +223,12 @@ MarkerArray Scene::standing(const ros::Time& stamp) const {
 }
 
 const MarkerArray& Scene::moving(const live::Snapshot& now, const ros::Time& stamp) {
-  std::size_t told = 0;
+  std::size_t count = 0;
   // Into the markers of the last call: what they hold need not be made anew.
-  const auto tell = [&](const Parts& parts, const Eigen::Isometry3d& pose) {
+  const auto show = [&](const Parts& parts, const Eigen::Isometry3d& pose) {
     for (const Part& part : parts) {
-      if (told == moving_.markers.size()) moving_.markers.emplace_back();
-      Marker& msg = moving_.markers[told++];
+      if (count == moving_.markers.size()) moving_.markers.emplace_back();
+      Marker& msg = moving_.markers[count++];
       msg = part.marker;
       msg.header.stamp = stamp;
       msg.pose = pose_msg(pose * part.pose);
@@ -240,12 +239,12 @@ const MarkerArray& Scene::moving(const live::Snapshot& now, const ros::Time& sta
     const MoverState& mover = now.movers[i];
     const Eigen::Vector2d away = mover.pose.translation().head<2>() - now.robot.position;
     const bool has_turn = now.movers.size() <= kMany || (turn_ + i) % kTurns == 0;
-    if (has_turn || away.norm() <= kFar) tell(movers_.at(mover.thing.id), mover.pose);
+    if (has_turn || away.norm() <= kFar) show(movers_.at(mover.thing.id), mover.pose);
   }
   Eigen::Isometry3d base(Eigen::AngleAxisd(now.robot.yaw, Eigen::Vector3d::UnitZ()));
   base.translation() << now.robot.position, world_.floor_height;
-  tell(robot_, base);
-  moving_.markers.resize(told);
+  show(robot_, base);
+  moving_.markers.resize(count);
   return moving_;
 }
 
@@ -254,7 +253,7 @@ Scene::Parts Scene::parts_of(const physics::RobotConfig& robot) {
   body.scale.x = body.scale.y = 2.0 * robot.radius;
   body.scale.z = robot.height;
 
-  // A flat arrow head over the lid, its tip over the rim, says where ahead is.
+  // A flat arrow head over the lid, its tip over the rim, shows the heading.
   Marker nose = marker_msg("robot", 1, Marker::TRIANGLE_LIST, kNose);
   const double r = robot.radius;
   Painter(nose, kNose, kNoCut)

@@ -14,18 +14,18 @@
 namespace navvi_sim::scene {
 
 /// A world as RViz shows it, in the frame map: one namespace a class, colours and shapes that read
-/// at a glance (R-VIS-2). Looks only: racks, for one, are drawn open where their body is a block.
+/// at a glance (R-VIS-2). Looks only: racks, for one, are drawn open where their body is a cube.
 class Scene {
  public:
   Scene(const WorldDescription& world, const physics::RobotConfig& robot);
 
   /// What stands still; to be latched. A picture cut open, so that a view from behind the robot or
   /// from above sees in: walls are drawn to 1.0 m above the floor, everything else to 2.7 m. The
-  /// number of markers does not grow with the world, but by one for each worker who stands.
+  /// number of markers does not grow with the world, but by one for each standing worker.
   [[nodiscard]] visualization_msgs::MarkerArray standing(const ros::Time& stamp) const;
 
   /// What moves, and the robot in the namespace `robot`. Ids stay the same from call to call. In
-  /// worlds with many movers, those far from the robot are told in turns. The next call writes over
+  /// worlds with many movers, those far from the robot take turns. The next call writes over
   /// what this one returns.
   [[nodiscard]] const visualization_msgs::MarkerArray& moving(const live::Snapshot& now,
                                                               const ros::Time& stamp);

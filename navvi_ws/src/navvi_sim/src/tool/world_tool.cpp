@@ -27,16 +27,16 @@ constexpr const char* kUsage =
     "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"
-    "such as length:=80; `./navvi parameters` tells them all. --config takes a file like those of "
+    "such as length:=80; `./navvi parameters` lists them all. --config takes a file like those of "
     "sim_node.\n";
 
-/// Sentences for who typed the command.
+/// A sentence on a wrong command.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What may be said on the command line.
+/// The parameters that the command line may set.
 struct ToolConfig {
   setup::SimNodeConfig session;
   std::optional<generate::LayoutConfig> layout;
@@ -126,7 +126,7 @@ std::string caption_of(const Request& request, const scenario::StartAndGoal& sce
                                        std::to_string(count) + (count == 1 ? " turn" : " turns"));
 }
 
-void tell(const Request& request, const scenario::StartAndGoal& scenario) {
+void print(const Request& request, const scenario::StartAndGoal& scenario) {
   const WorldDescription& world = request.loaded.world;
   for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
   std::map<std::string, int> counts;
@@ -142,7 +142,7 @@ void tell(const Request& request, const scenario::StartAndGoal& scenario) {
 
 void check(const Words& words) {
   const Request request = load(words);
-  tell(request, scenario_of(request));
+  print(request, scenario_of(request));
 }
 
 void show(const Words& words) {
@@ -153,7 +153,7 @@ void show(const Words& words) {
   const scenario::StartAndGoal scenario = scenario_of(request);
   write_file(path,
              picture::world_picture(request.loaded.world, scenario, caption_of(request, scenario)));
-  tell(request, scenario);
+  print(request, scenario);
   if (!words.out) std::cout << path.string() << '\n';
 }
 

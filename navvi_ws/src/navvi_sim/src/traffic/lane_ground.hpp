@@ -1,11 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "traffic/lanes.hpp"
 
 namespace navvi_sim::traffic {
+
+/// A thing's name for sentences.
+[[nodiscard]] inline std::string quoted(const Thing& thing) { return "'" + thing.name + "'"; }
 
 /// The ground that a body sweeps between two places of its track, a little wider in curves.
 [[nodiscard]] Polygon swept(const Track& track, const Footprint& print, double from, double to);

@@ -20,10 +20,6 @@ constexpr double kOffRoute = 0.1;     // m, farther from its way, corners cut, n
 constexpr double kThere = 1e-9;       // m, nearer is there
 constexpr int kHalvings = 3;          // of a corner's radius, before it is turned on the spot
 
-[[noreturn]] void refuse(const std::string& sentence) { throw WorldError(sentence); }
-
-std::string quoted(const Thing& thing) { return "'" + thing.name + "'"; }
-
 std::string place_text(const Eigen::Vector2d& at) {
   std::ostringstream text;
   text.precision(3);
@@ -204,12 +200,13 @@ void LaneBuilder::avoid_what_stands() {
         const auto corners = rounded_corners(lane, block);
         for (const std::size_t corner : corners) tight.emplace(lane, corner);
         if (corners.empty())
-          refuse("thing " + quoted(world_.things[plan.things[0]]) + " would drive through " +
-                 quoted(world_.things[standing.thing]) + " near " +
-                 place_text(lanes_.lanes[lane]
-                                .track.place(block * lanes_.lanes[lane].block_length)
-                                .position) +
-                 "; allowed is a route that keeps its whole body clear of what stands");
+          throw WorldError("thing " + quoted(world_.things[plan.things[0]]) +
+                           " would drive through " + quoted(world_.things[standing.thing]) +
+                           " near " +
+                           place_text(lanes_.lanes[lane]
+                                          .track.place(block * lanes_.lanes[lane].block_length)
+                                          .position) +
+                           "; allowed is a route that keeps its whole body clear of what stands");
       }
     });
     if (tight.empty()) return;
@@ -232,8 +229,8 @@ void LaneBuilder::place_users() {
     const double off = (lane.track.place(entry.start).position - at).norm();
     const double cut = plans_[entry.lane].limits.corner_radius;
     if (off > kOffRoute + cut)
-      refuse("thing " + quoted(thing) + " stands " + std::to_string(off).substr(0, 4) +
-             " m off its route at the start; allowed is a place on the route");
+      throw WorldError("thing " + quoted(thing) + " stands " + std::to_string(off).substr(0, 4) +
+                       " m off its route at the start; allowed is a place on the route");
     lane.users.push_back(user);
   }
   for (Lane& lane : lanes_.lanes)

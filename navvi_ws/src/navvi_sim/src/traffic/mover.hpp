@@ -57,10 +57,6 @@ class Mover {
   [[nodiscard]] Eigen::Vector2d velocity() const;  ///< m/s, in map
   /// True if the place changed in the last step.
   [[nodiscard]] bool has_moved() const { return moved_; }
-  /// True at the end of a track that does not come round.
-  [[nodiscard]] bool has_ended() const {
-    return !lane_->track.closed() && s_ >= lane_->track.length();
-  }
   /// Mixes all of its state into `hash` (FNV-1a over words).
   [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 

@@ -150,7 +150,7 @@ TEST(Mover, ends_at_the_last_way_point_of_a_route_without_loop) {
   alone.run(60.0);
   EXPECT_NEAR((alone.at() - Eigen::Vector2d(3, 0)).norm(), 0.0, 1e-9);
   EXPECT_EQ(alone.mover().speed(), 0.0);
-  EXPECT_TRUE(alone.mover().has_ended());
+  EXPECT_NEAR(alone.mover().s(), 3.0, 1e-9);
 }
 
 TEST(Mover, stands_still_before_each_round_for_as_long_as_the_delay) {

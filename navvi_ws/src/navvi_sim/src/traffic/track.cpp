@@ -7,7 +7,6 @@
 namespace navvi_sim::traffic {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kStraight = 1e-3;     // rad, a smaller turn is none
 constexpr double kSharp = 2.0;         // rad, a larger turn is not rounded
 constexpr double kLeastRadius = 0.1;   // m, smaller is a turn on the spot
@@ -15,7 +14,7 @@ constexpr double kLeastLength = 1e-6;  // m
 constexpr double kTurned = 0.3;        // m a rad, that a heading counts
 constexpr double kNearestStep = 0.05;  // m
 
-double wrap(double angle) { return std::remainder(angle, 2.0 * kPi); }
+double wrap(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
 Eigen::Vector2d direction(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
 

@@ -5,16 +5,13 @@
 #include <set>
 #include <tuple>
 
+#include "traffic/lane_ground.hpp"
 #include "traffic/polygon_index.hpp"
 
 namespace navvi_sim::traffic {
 namespace {
 
 constexpr double kGap = 0.1;  // m, nearer lanes touch
-
-[[noreturn]] void refuse(const std::string& sentence) { throw WorldError(sentence); }
-
-std::string quoted(const Thing& thing) { return "'" + thing.name + "'"; }
 
 class ZonePlanner {
  public:
@@ -194,8 +191,8 @@ void ZonePlanner::choose_waiting_zones(std::size_t lane) {
   Lane& here = lanes_.lanes[lane];
   const std::string who = quoted(thing_of(here.users[0]));
   if (!here.track.closed() && !here.is_private.back())
-    refuse("thing " + who + " ends its route in the way of " + others_on(lane) +
-           "; allowed is an end where nothing else passes");
+    throw WorldError("thing " + who + " ends its route in the way of " + others_on(lane) +
+                     "; allowed is an end where nothing else passes");
   const bool meets_nobody =
       !is_shared(here) &&
       std::all_of(here.is_private.begin(), here.is_private.end(), [](bool alone) { return alone; });
@@ -203,14 +200,14 @@ void ZonePlanner::choose_waiting_zones(std::size_t lane) {
 
   const std::vector<int> zones = waiting_zones_of(lane);
   if (!is_shared(here) && zones.empty())
-    refuse("thing " + who + " has no place on its route where it is out of the way of " +
-           others_on(lane) + "; each thing that moves needs one to wait in");
+    throw WorldError("thing " + who + " has no place on its route where it is out of the way of " +
+                     others_on(lane) + "; each thing that moves needs one to wait in");
   if (is_shared(here) && zones.size() <= here.users.size()) {
     const std::string others = others_on(lane);
-    refuse("the track of " + who + " is shared by " + std::to_string(here.users.size()) +
-           " things and has " + std::to_string(zones.size()) + " places to wait in" +
-           (others.empty() ? "" : " out of the way of " + others) +
-           "; allowed are fewer things than places");
+    throw WorldError("the track of " + who + " is shared by " + std::to_string(here.users.size()) +
+                     " things and has " + std::to_string(zones.size()) + " places to wait in" +
+                     (others.empty() ? "" : " out of the way of " + others) +
+                     "; allowed are fewer things than places");
   }
   for (std::size_t i = 0; i < zones.size(); ++i) {
     const int before = i > 0 ? zones[i - 1] : (here.track.closed() ? zones.back() : -1);
@@ -229,17 +226,18 @@ void ZonePlanner::check_spacing() const {
       const int block = start_block(user);
       const int gap = (start_block(next) - block + lane.blocks) % lane.blocks;
       if (gap < lane.spacing)
-        refuse("things " + quoted(thing_of(user)) + " and " + quoted(thing_of(next)) +
-               " start too close to each other on the track they share; allowed are " +
-               std::to_string(lane.spacing * lane.block_length).substr(0, 4) + " m or more");
+        throw WorldError("things " + quoted(thing_of(user)) + " and " + quoted(thing_of(next)) +
+                         " start too close to each other on the track they share; allowed are " +
+                         std::to_string(lane.spacing * lane.block_length).substr(0, 4) +
+                         " m or more");
       if (lane.is_private[static_cast<std::size_t>(block)]) continue;
       const int way = (first_segment(user).end - block + lane.blocks) % lane.blocks;
       if (gap < way + lane.spacing)
-        refuse("thing " + quoted(thing_of(user)) + " starts in the way of " +
-               others_on(lanes_.users[user].lane) + ", and " + quoted(thing_of(next)) +
-               " is too near ahead for it to leave; allowed are " +
-               std::to_string((way + lane.spacing) * lane.block_length).substr(0, 4) +
-               " m or more");
+        throw WorldError("thing " + quoted(thing_of(user)) + " starts in the way of " +
+                         others_on(lanes_.users[user].lane) + ", and " + quoted(thing_of(next)) +
+                         " is too near ahead for it to leave; allowed are " +
+                         std::to_string((way + lane.spacing) * lane.block_length).substr(0, 4) +
+                         " m or more");
     }
   }
 }
@@ -283,8 +281,9 @@ void ZonePlanner::check_start() const {
   std::string names;
   for (std::size_t i = 0; i < std::min<std::size_t>(waiting.size(), 4); ++i)
     names += (i > 0 ? ", " : "") + quoted(thing_of(waiting[i]));
-  refuse("things " + names + (waiting.size() > 4 ? " and others" : "") +
-         " start in each other's way; allowed are places that one of them can leave first");
+  throw WorldError(
+      "things " + names + (waiting.size() > 4 ? " and others" : "") +
+      " start in each other's way; allowed are places that one of them can leave first");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct LoadedWorld {
 /// What the workers of a layout do (R-SIM-2).
 enum class Workers {
   as_laid_out,  ///< as many walk and stand as the layout says
-  standing,     ///< all stand, those who would walk where their routes begin
+  standing,     ///< all stand; walking ones where their routes begin
   walking,      ///< all walk
 };
 

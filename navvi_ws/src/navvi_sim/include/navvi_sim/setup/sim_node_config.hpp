@@ -29,8 +29,8 @@ struct SimNodeConfig {
   occupancy::OccupancyConfig octomap;
   navvi_safety::CommandGateConfig gate;
 
-  /// The gate is quicker than it must be, so that the wheels stand still, and are not just told
-  /// to, within 250 ms of the last command.
+  /// The gate is quicker than it must be, so that the wheels stand still, and do not just begin
+  /// to brake, within 250 ms of the last command.
   SimNodeConfig() { gate.timeout = 0.20; }
 
   void describe(navvi_config::Visitor& visit);
@@ -55,7 +55,7 @@ struct SimNodeConfig {
                                                  const occupancy::OccupancyMap& map);
 
 /// Every parameter as YAML, with the scenario's start and goal written exactly and the world's path
-/// absolute: who reads this plays the same world again and needs to draw nothing.
+/// absolute: with them the same world is played again, and nothing is drawn.
 [[nodiscard]] std::string recipe(SimNodeConfig config, const scenario::StartAndGoal& scenario);
 
 }  // namespace navvi_sim::setup

@@ -1,4 +1,4 @@
-#include "scene/block_lists.hpp"
+#include "scene/cube_lists.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,32 +7,32 @@
 namespace navvi_sim::scene {
 namespace {
 
-constexpr std::size_t kVeryMany = 20000;  // blocks
-constexpr std::size_t kLongList = 2000;   // blocks
+constexpr std::size_t kVeryMany = 20000;  // cubes
+constexpr std::size_t kLongList = 2000;   // cubes
 constexpr double kTile = 50.0;            // m
 
 }  // namespace
 
 using visualization_msgs::Marker;
 
-void BlockLists::add(const std::string& ns, const Color& color, const Eigen::AlignedBox3d& block) {
-  const Eigen::Vector3d size = block.sizes();
+void CubeLists::add(const std::string& ns, const Color& color, const Eigen::AlignedBox3d& cube) {
+  const Eigen::Vector3d size = cube.sizes();
   const auto thousandths = [](double value) { return std::lround(1000.0 * value); };
   const Key key{ns,
                 {thousandths(color.r), thousandths(color.g), thousandths(color.b),
                  thousandths(size.x()), thousandths(size.y()), thousandths(size.z())}};
   List& list = lists_.try_emplace(key, List{ns, color, size, {}}).first->second;
-  list.centres.push_back(block.center());
+  list.centres.push_back(cube.center());
 }
 
-std::vector<BlockLists::List> BlockLists::tiled() const {
-  std::size_t blocks = 0;
-  for (const auto& entry : lists_) blocks += entry.second.centres.size();
+std::vector<CubeLists::List> CubeLists::tiled() const {
+  std::size_t cubes = 0;
+  for (const auto& entry : lists_) cubes += entry.second.centres.size();
   std::vector<List> lists;
   for (const auto& entry : lists_) {
     const List& list = entry.second;
     std::map<std::pair<long, long>, List> tiles;
-    const bool cut = blocks > kVeryMany && list.centres.size() > kLongList;
+    const bool cut = cubes > kVeryMany && list.centres.size() > kLongList;
     for (const Eigen::Vector3d& centre : list.centres) {
       const std::pair<long, long> tile{std::lround(centre.x() / kTile),
                                        std::lround(centre.y() / kTile)};
@@ -47,8 +47,8 @@ std::vector<BlockLists::List> BlockLists::tiled() const {
   return lists;
 }
 
-std::vector<Marker> BlockLists::markers(std::size_t most,
-                                        std::map<std::string, int>& next_id) const {
+std::vector<Marker> CubeLists::markers(std::size_t most,
+                                       std::map<std::string, int>& next_id) const {
   std::vector<List> ordered = tiled();
   std::stable_sort(ordered.begin(), ordered.end(), [](const List& a, const List& b) {
     return a.centres.size() > b.centres.size();

@@ -14,12 +14,12 @@ namespace navvi_sim::scene {
 
 /// Boxes along the axes of map, one CUBE_LIST for all of one size and colour: 24 bytes a box, and
 /// RViz outlines their edges.
-class BlockLists {
+class CubeLists {
  public:
-  /// \param block  m, in map; not empty
-  void add(const std::string& ns, const Color& color, const Eigen::AlignedBox3d& block);
+  /// \param cube  m, in map; not empty
+  void add(const std::string& ns, const Color& color, const Eigen::AlignedBox3d& cube);
 
-  /// The lists, most blocks first. Where there are very many blocks, the largest lists are cut into
+  /// The lists, most cubes first. Where there are very many cubes, the largest lists are cut into
   /// tiles, so that RViz can leave out what is not in view. What does not fit into `most` of them
   /// is drawn as triangles, one list a namespace. \param next_id  of each namespace; counted on
   [[nodiscard]] std::vector<visualization_msgs::Marker> markers(
