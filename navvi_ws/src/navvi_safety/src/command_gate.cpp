@@ -8,8 +8,7 @@ namespace {
 
 bool within(double value, double limit) { return std::isfinite(value) && std::abs(value) <= limit; }
 
-/// True if less than `span` lies between the two on both clocks. Time that ran backwards is not
-/// fresh.
+/// True if at most `span`, s, lies between the two on both clocks. False if time ran backwards.
 bool younger_than(double span, const Instant& then, const Instant& now) {
   const auto young = [span](double from, double to) { return to >= from && to - from <= span; };
   return young(then.wall, now.wall) && young(then.sim, now.sim);
@@ -36,15 +35,13 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
 }
 
 void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, const Instant& now) {
+  expire(now);
   if (!command || !within(command->linear, config_.max_linear * config_.absurd_factor) ||
       !within(command->angular, config_.max_angular * config_.absurd_factor)) {
     ++rejected_;
     bad_since_valid_ = true;
     return;
   }
-  // Whoever went silent must show a neutral stick first, even if nobody called update() in between.
-  if (!fresh(now)) neutral_since_.reset();
-
   command_.linear = std::clamp(command->linear, -config_.max_linear, config_.max_linear);
   command_.angular = std::clamp(command->angular, -config_.max_angular, config_.max_angular);
   if (command_.linear != command->linear || command_.angular != command->angular) ++clamped_;
@@ -61,15 +58,8 @@ void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, c
 }
 
 navvi_types::Velocity CommandGate::update(const Instant& now) {
+  expire(now);
   if (!last_valid_) return {};
-  if (!fresh(now)) {
-    if (state_ == State::running) {
-      state_ = State::stopped;
-      reason_ = bad_since_valid_ ? Reason::command_invalid : Reason::command_lost;
-    }
-    neutral_since_.reset();
-    return {};
-  }
   if (state_ != State::running) {
     const bool held = neutral_since_ && now.wall - neutral_since_->wall >= config_.neutral_hold &&
                       now.sim - neutral_since_->sim >= config_.neutral_hold;
@@ -80,8 +70,13 @@ navvi_types::Velocity CommandGate::update(const Instant& now) {
   return command_;
 }
 
-bool CommandGate::fresh(const Instant& now) const {
-  return last_valid_ && younger_than(config_.timeout, *last_valid_, now);
+void CommandGate::expire(const Instant& now) {
+  if (last_valid_ && younger_than(config_.timeout, *last_valid_, now)) return;
+  last_valid_.reset();
+  neutral_since_.reset();
+  if (state_ != State::running) return;
+  state_ = State::stopped;
+  reason_ = bad_since_valid_ ? Reason::command_invalid : Reason::command_lost;
 }
 
 }  // namespace navvi_safety

@@ -1,5 +1,5 @@
-// The last stage on a real robot: /cmd_vel in, the robot's own velocity topic out, stopped when in
-// doubt.
+// The last stage before a real robot's wheels: passes /cmd_vel on to the robot's own topic, or
+// stops.
 
 #include <ros/ros.h>
 
@@ -23,14 +23,16 @@ int main(int argc, char** argv) {
     const auto publish_state = [&] {
       state.publish(navvi_types::to_msg(gate.drive_state(navvi_types::to_ns(ros::Time::now()))));
     };
+    auto published = gate.state();
     publish_state();
 
-    // By wall clock, so that a stopped simulation clock cannot stop the stopping.
+    // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.
     ros::WallTimer timer =
         node.createWallTimer(ros::WallDuration(0.02), [&](const ros::WallTimerEvent&) {
-          const auto before = gate.state();
           wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
-          if (gate.state() != before) publish_state();
+          if (gate.state() == published) return;
+          published = gate.state();
+          publish_state();
         });
     ros::spin();
     wheels.publish(geometry_msgs::Twist());

@@ -28,8 +28,8 @@ struct CommandGateConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Stops the wheels when no valid command came for `timeout`, and lets them move again only after
-/// the command was neutral for `neutral_hold`. It begins stopped, so motion always starts from a
+/// Stops the wheels when no valid command came for `timeout`, and releases them only after the
+/// command was neutral for `neutral_hold`. It begins stopped, so motion always starts from a
 /// neutral stick.
 class CommandGate {
  public:
@@ -38,15 +38,15 @@ class CommandGate {
 
   explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
 
-  /// Takes a command as it came. \param command  nullopt for a message that was malformed. A
-  /// command that is not finite or `absurd_factor` beyond the limits is rejected whole and extends
-  /// nothing; one beyond the limits is clamped.
+  /// Takes a command as received. \param command  nullopt for a malformed message. A command that
+  /// is not finite or `absurd_factor` beyond the limits is rejected whole and extends nothing; one
+  /// beyond the limits is clamped. A command later than `timeout` finds the wheels stopped.
   void receive(const std::optional<navvi_types::Velocity>& command, const Instant& now);
 
   /// The velocity for the wheels at `now`. Call it at every control step.
   [[nodiscard]] navvi_types::Velocity update(const Instant& now);
 
-  /// As of the last update(). \param stamp  ns, of the value
+  /// As of the last call. \param stamp  ns, of the value
   [[nodiscard]] navvi_types::DriveState drive_state(std::int64_t stamp) const {
     return {state_, reason_, rejected_, stamp};
   }
@@ -56,7 +56,8 @@ class CommandGate {
   [[nodiscard]] unsigned clamped() const { return clamped_; }
 
  private:
-  [[nodiscard]] bool fresh(const Instant& now) const;
+  /// Drops a command that is older than the timeout; wheels that it drove are stopped.
+  void expire(const Instant& now);
 
   CommandGateConfig config_;
   navvi_types::Velocity command_;

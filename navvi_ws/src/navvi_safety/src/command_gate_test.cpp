@@ -74,6 +74,20 @@ TEST_F(Gate, stops_when_time_runs_backwards) {
   EXPECT_EQ(wheels_.linear, 0.0);
 }
 
+TEST_F(Gate, is_stopped_for_a_command_that_comes_too_late_without_an_update_before_it) {
+  start();
+  now_.wall += 0.3;
+  now_.sim += 0.3;
+  gate_.receive(Velocity{1.0, 0.0}, now_);
+  EXPECT_EQ(gate_.state(), CommandGate::State::stopped);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_lost);
+  hold(1.0, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0);
+  hold(0.4, Velocity{});
+  hold(0.1, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
 TEST_F(Gate, stays_stopped_until_the_stick_was_neutral_long_enough) {
   start();
   silence(0.3, 0.3);
