@@ -12,35 +12,30 @@
 namespace navvi_types {
 namespace {
 
-bool within(double value, double least, double most) { return value >= least && value <= most; }
-bool within(double value, double limit) { return within(value, -limit, limit); }
-
-/// Of a point or a vector.
-template <typename Vector>
-bool each_within(const Vector& vector, double limit) {
-  return within(vector.x, limit) && within(vector.y, limit) && within(vector.z, limit);
+/// False also for a value that is not finite.
+bool within(std::initializer_list<double> values, double least, double most) {
+  return std::all_of(values.begin(), values.end(),
+                     [=](double value) { return value >= least && value <= most; });
 }
-
-bool valid(const geometry_msgs::Point& point) { return each_within(point, kFarthest); }
-bool valid(const geometry_msgs::Quaternion& q) {
-  return within(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0, kUnitSlack);
+bool within(std::initializer_list<double> values, double limit) {
+  return within(values, -limit, limit);
 }
-bool valid(const geometry_msgs::Pose& pose) {
-  return valid(pose.position) && valid(pose.orientation);
-}
-bool valid(const geometry_msgs::Twist& twist) {
-  return each_within(twist.linear, kFastest) && each_within(twist.angular, kFastest);
-}
-bool is_angle(double angle) { return within(angle, M_PI + kRounding); }
-bool is_length(double length) { return within(length, 0.0, kLongest); }
-bool is_duration(double duration) { return within(duration, 0.0, kLongestTime); }
 /// -1 stands for none.
-bool is_duration_or_none(double duration) { return duration == -1.0 || is_duration(duration); }
+bool is_duration_or_none(double duration) {
+  return duration == -1.0 || within({duration}, 0.0, kLongestTime);
+}
 std::optional<double> duration_of(double duration) {
   return duration < 0.0 ? std::nullopt : std::optional(duration);
 }
-bool is_motor(float command) {
-  return within(static_cast<double>(command), -kRounding, 1.0 + kRounding);
+
+bool valid(const geometry_msgs::Point& point) {
+  return within({point.x, point.y, point.z}, kFarthest);
+}
+bool valid(const geometry_msgs::Quaternion& q) {
+  return within({q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0}, kUnitSlack);
+}
+bool valid(const geometry_msgs::Pose& pose) {
+  return valid(pose.position) && valid(pose.orientation);
 }
 
 template <typename Enum>
@@ -55,10 +50,10 @@ ThingClass class_of(const std::string& word) {
 
 Eigen::Vector2d flat(const geometry_msgs::Point& point) { return {point.x, point.y}; }
 
-Pose2 pose_of(const geometry_msgs::Point& position, const geometry_msgs::Quaternion& q) {
-  return {flat(position), tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w))};
+Pose2 pose_of(const geometry_msgs::Pose& pose) {
+  const geometry_msgs::Quaternion& q = pose.orientation;
+  return {flat(pose.position), tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w))};
 }
-Pose2 pose_of(const geometry_msgs::Pose& pose) { return pose_of(pose.position, pose.orientation); }
 
 geometry_msgs::Point point_msg(const Eigen::Vector2d& point, double z) {
   geometry_msgs::Point msg;
@@ -83,20 +78,52 @@ std_msgs::Header header(const char* frame, std::int64_t stamp) {
   return msg;
 }
 
+/// Copies each field that has one name and one meaning in message and value, one way or the other.
+template <typename From, typename To>
+void copy_guidance(const From& from, To& to) {
+  const auto copy = [](const auto& source, auto& target) {
+    target = static_cast<std::decay_t<decltype(target)>>(source);
+  };
+  copy(from.seq, to.seq);
+  copy(from.state, to.state);
+  copy(from.refusal, to.refusal);
+  copy(from.replan_reason, to.replan_reason);
+  copy(from.plans, to.plans);
+  copy(from.plan_time, to.plan_time);
+  copy(from.nodes_expanded, to.nodes_expanded);
+  copy(from.reroutes, to.reroutes);
+  copy(from.reroute_reason, to.reroute_reason);
+  copy(from.path_churn, to.path_churn);
+  copy(from.blocked_distance, to.blocked_distance);
+  copy(from.waypoint_is_goal, to.waypoint_is_goal);
+  copy(from.waypoint_distance, to.waypoint_distance);
+  copy(from.waypoint_angle, to.waypoint_angle);
+  copy(from.steer_angle, to.steer_angle);
+  copy(from.turn_angle, to.turn_angle);
+  copy(from.goal_distance, to.goal_distance);
+  copy(from.eta, to.eta);
+  copy(from.shortest_length, to.shortest_length);
+  copy(from.smoothing_price, to.smoothing_price);
+  copy(from.path_offset, to.path_offset);
+  copy(from.detail, to.detail);
+}
+
 }  // namespace
 
 std::optional<Velocity> from_msg(const geometry_msgs::Twist& msg) {
-  if (!valid(msg)) return std::nullopt;
-  return Velocity{msg.linear.x, msg.angular.z};
+  const geometry_msgs::Vector3 &linear = msg.linear, &angular = msg.angular;
+  if (!within({linear.x, linear.y, linear.z, angular.x, angular.y, angular.z}, kFastest))
+    return std::nullopt;
+  return Velocity{linear.x, angular.z};
 }
 
 std::optional<Pose2> from_msg(const geometry_msgs::Transform& msg) {
-  geometry_msgs::Point origin;
-  origin.x = msg.translation.x;
-  origin.y = msg.translation.y;
-  origin.z = msg.translation.z;
-  if (!valid(origin) || !valid(msg.rotation)) return std::nullopt;
-  return pose_of(origin, msg.rotation);
+  geometry_msgs::Pose pose;
+  pose.position.x = msg.translation.x;
+  pose.position.y = msg.translation.y;
+  pose.position.z = msg.translation.z;
+  pose.orientation = msg.rotation;
+  return valid(pose) ? std::optional(pose_of(pose)) : std::nullopt;
 }
 
 std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PoseStamped& msg) {
@@ -124,14 +151,13 @@ std::optional<std::vector<Eigen::Vector2d>> from_msg(const nav_msgs::Path& msg) 
 }
 
 std::optional<Proximity> from_msg(const navvi_msgs::Proximity& msg) {
-  if (!is_length(msg.detection_radius) || msg.detection_radius <= 0.0 ||
-      msg.things.size() > kMostThings) {
+  if (!within({msg.detection_radius}, 0.0, kLongest) || msg.detection_radius == 0.0 ||
+      msg.things.size() > kMostThings)
     return std::nullopt;
-  }
   Proximity proximity{to_ns(msg.header.stamp), {}, msg.detection_radius};
   proximity.things.reserve(msg.things.size());
   for (const navvi_msgs::ProximityThing& thing : msg.things) {
-    if (!within(thing.gap, kLongest) || !valid(thing.nearest)) return std::nullopt;
+    if (!within({thing.gap}, kLongest) || !valid(thing.nearest)) return std::nullopt;
     proximity.things.push_back({class_of(thing.thing_class), thing.id, thing.gap,
                                 flat(thing.nearest), thing.moving != 0, thing.name,
                                 thing.nearest.z});
@@ -140,21 +166,12 @@ std::optional<Proximity> from_msg(const navvi_msgs::Proximity& msg) {
 }
 
 std::optional<Contact> from_msg(const navvi_msgs::Contact& msg) {
-  if (msg.seq == 0 || !valid(msg.point) || !valid(msg.robot) || !within(msg.speed, kFastest) ||
-      msg.counts.size() > kMostThings) {
+  if (msg.seq == 0 || !valid(msg.point) || !valid(msg.robot) || !within({msg.speed}, kFastest) ||
+      msg.counts.size() > kMostThings)
     return std::nullopt;
-  }
-  Contact contact;
-  contact.stamp = to_ns(msg.header.stamp);
-  contact.seq = msg.seq;
-  contact.id = msg.id;
-  contact.thing_class = class_of(msg.thing_class);
-  contact.name = msg.name;
-  contact.point = flat(msg.point);
-  contact.height = msg.point.z;
-  contact.robot = pose_of(msg.robot);
-  contact.floor = msg.robot.position.z;
-  contact.speed = msg.speed;
+  Contact contact{class_of(msg.thing_class), flat(msg.point),      msg.id,    msg.name, msg.point.z,
+                  pose_of(msg.robot),        msg.robot.position.z, msg.speed, {},       msg.seq,
+                  to_ns(msg.header.stamp)};
   for (const navvi_msgs::ClassCount& entry : msg.counts)
     contact.counts[class_of(entry.thing_class)] += entry.count;
   return contact;
@@ -166,16 +183,15 @@ std::optional<Obstacles> from_msg(const navvi_msgs::Obstacles& msg) {
   obstacles.things.reserve(msg.obstacles.size());
   std::set<std::uint32_t> ids;
   for (const navvi_msgs::Obstacle& entry : msg.obstacles) {
-    if (!valid(entry.pose) || !each_within(entry.velocity, kFastest) ||
-        !within(entry.radius, 0.0, kLargest) || entry.radius == 0.0 ||
-        !within(entry.height, 0.0, kLargest) || entry.height == 0.0 ||
-        !ids.insert(entry.id).second) {
+    const geometry_msgs::Vector3& velocity = entry.velocity;
+    if (!valid(entry.pose) || !within({velocity.x, velocity.y, velocity.z}, kFastest) ||
+        !within({entry.radius, entry.height}, 0.0, kLargest) || entry.radius == 0.0 ||
+        entry.height == 0.0 || !ids.insert(entry.id).second)
       return std::nullopt;
-    }
     const MovingThing thing{entry.id,
                             class_of(entry.thing_class),
                             pose_of(entry.pose),
-                            {entry.velocity.x, entry.velocity.y},
+                            {velocity.x, velocity.y},
                             entry.radius,
                             entry.height,
                             entry.length,
@@ -191,54 +207,33 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
   const bool sound =
       is_constant<Guidance::State>(msg.state) && is_constant<Guidance::Refusal>(msg.refusal) &&
       is_constant<Guidance::Replan>(msg.replan_reason) &&
-      is_constant<Guidance::Replan>(msg.reroute_reason) && is_duration(msg.plan_time) &&
-      is_length(msg.path_churn) && is_duration_or_none(msg.mesh_age) &&
-      is_duration_or_none(msg.map_age) && is_length(msg.blocked_distance) &&
-      is_duration_or_none(msg.blocked_for) && valid(msg.goal) && valid(msg.waypoint) &&
-      is_length(msg.waypoint_distance) && is_angle(msg.waypoint_angle) &&
-      is_angle(msg.steer_angle) && is_angle(msg.turn_angle) && is_length(msg.goal_distance) &&
-      is_duration(msg.eta) && is_length(msg.shortest_length) &&
-      within(msg.smoothing_price, kLongest) && is_length(msg.path_offset);
+      is_constant<Guidance::Replan>(msg.reroute_reason) && valid(msg.goal) && valid(msg.waypoint) &&
+      within({msg.plan_time, msg.eta}, 0.0, kLongestTime) && is_duration_or_none(msg.mesh_age) &&
+      is_duration_or_none(msg.map_age) && is_duration_or_none(msg.blocked_for) &&
+      within({msg.path_churn, msg.blocked_distance, msg.waypoint_distance, msg.goal_distance,
+              msg.shortest_length, msg.path_offset},
+             0.0, kLongest) &&
+      within({msg.smoothing_price}, kLongest) &&
+      within({msg.waypoint_angle, msg.steer_angle, msg.turn_angle}, M_PI + kRounding);
   if (!sound) return std::nullopt;
   Guidance guidance;
+  copy_guidance(msg, guidance);
   guidance.stamp = to_ns(msg.header.stamp);
-  guidance.seq = msg.seq;
-  guidance.state = static_cast<Guidance::State>(msg.state);
-  guidance.refusal = static_cast<Guidance::Refusal>(msg.refusal);
-  guidance.replan_reason = static_cast<Guidance::Replan>(msg.replan_reason);
-  guidance.plans = msg.plans;
-  guidance.plan_time = msg.plan_time;
-  guidance.nodes_expanded = msg.nodes_expanded;
-  guidance.reroutes = msg.reroutes;
-  guidance.reroute_reason = static_cast<Guidance::Replan>(msg.reroute_reason);
-  guidance.path_churn = msg.path_churn;
   guidance.mesh_age = duration_of(msg.mesh_age);
   guidance.map_age = duration_of(msg.map_age);
   if (!msg.blocked_by.empty()) guidance.blocked_by = class_of(msg.blocked_by);
-  guidance.blocked_distance = msg.blocked_distance;
   guidance.blocked_for = duration_of(msg.blocked_for);
   guidance.goal = flat(msg.goal);
   guidance.waypoint = flat(msg.waypoint);
   guidance.floor = msg.waypoint.z;
-  guidance.waypoint_is_goal = msg.waypoint_is_goal != 0;
-  guidance.waypoint_distance = msg.waypoint_distance;
-  guidance.waypoint_angle = msg.waypoint_angle;
-  guidance.steer_angle = msg.steer_angle;
-  guidance.turn_angle = msg.turn_angle;
-  guidance.goal_distance = msg.goal_distance;
-  guidance.eta = msg.eta;
-  guidance.shortest_length = msg.shortest_length;
-  guidance.smoothing_price = msg.smoothing_price;
-  guidance.path_offset = msg.path_offset;
-  guidance.detail = msg.detail;
   return guidance;
 }
 
 std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg) {
   if (!is_constant<CueStage>(msg.stage) || !is_constant<Modality>(msg.modality) ||
-      !is_constant<Priority>(msg.priority) || !is_motor(msg.left) || !is_motor(msg.right)) {
+      !is_constant<Priority>(msg.priority) ||
+      !within({msg.left, msg.right}, -kRounding, 1.0 + kRounding))
     return std::nullopt;
-  }
   return CueEvent{msg.id,
                   static_cast<CueStage>(msg.stage),
                   msg.kind,
@@ -346,34 +341,13 @@ navvi_msgs::Obstacles to_msg(const Obstacles& obstacles) {
 navvi_msgs::Guidance to_msg(const Guidance& guidance) {
   navvi_msgs::Guidance msg;
   msg.header = header("map", guidance.stamp);
-  msg.seq = guidance.seq;
-  msg.state = static_cast<std::uint8_t>(guidance.state);
-  msg.refusal = static_cast<std::uint8_t>(guidance.refusal);
-  msg.replan_reason = static_cast<std::uint8_t>(guidance.replan_reason);
-  msg.plans = guidance.plans;
-  msg.plan_time = guidance.plan_time;
-  msg.nodes_expanded = guidance.nodes_expanded;
-  msg.reroutes = guidance.reroutes;
-  msg.reroute_reason = static_cast<std::uint8_t>(guidance.reroute_reason);
-  msg.path_churn = guidance.path_churn;
+  copy_guidance(guidance, msg);
   msg.mesh_age = guidance.mesh_age.value_or(-1.0);
   msg.map_age = guidance.map_age.value_or(-1.0);
   if (guidance.blocked_by) msg.blocked_by = to_string(*guidance.blocked_by);
-  msg.blocked_distance = guidance.blocked_distance;
   msg.blocked_for = guidance.blocked_for.value_or(-1.0);
   msg.goal = point_msg(guidance.goal, guidance.floor);
   msg.waypoint = point_msg(guidance.waypoint, guidance.floor);
-  msg.waypoint_is_goal = guidance.waypoint_is_goal;
-  msg.waypoint_distance = guidance.waypoint_distance;
-  msg.waypoint_angle = guidance.waypoint_angle;
-  msg.steer_angle = guidance.steer_angle;
-  msg.turn_angle = guidance.turn_angle;
-  msg.goal_distance = guidance.goal_distance;
-  msg.eta = guidance.eta;
-  msg.shortest_length = guidance.shortest_length;
-  msg.smoothing_price = guidance.smoothing_price;
-  msg.path_offset = guidance.path_offset;
-  msg.detail = guidance.detail;
   return msg;
 }
 

@@ -17,6 +17,8 @@ inline constexpr double kLongest = 1e6;
 inline constexpr double kFastest = 100.0;
 /// m, of the radius and the height of a moving thing: a reach stacker has 12.
 inline constexpr double kLargest = 20.0;
+/// m, by which the rectangle of a moving thing may stick out of its cylinder.
+inline constexpr double kSticksOut = 1e-3;
 /// s, of an age or a duration: 30 years, so a clock that begins in 1970 never gets there by chance.
 inline constexpr double kLongestTime = 1e9;
 /// By how much the square of a quaternion's norm may differ from 1. As in tf2's own check of

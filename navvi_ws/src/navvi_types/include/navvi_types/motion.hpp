@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 
 namespace navvi_types {
@@ -11,9 +12,13 @@ struct Pose2 {
   double yaw = 0.0;                                    ///< rad, counter-clockwise from x
 
   /// A point of the parent frame, as seen from here, m.
-  [[nodiscard]] Eigen::Vector2d to_local(const Eigen::Vector2d& point) const;
+  [[nodiscard]] Eigen::Vector2d to_local(const Eigen::Vector2d& point) const {
+    return Eigen::Rotation2Dd(-yaw) * (point - position);
+  }
   /// A point of this frame in its parent, m.
-  [[nodiscard]] Eigen::Vector2d to_parent(const Eigen::Vector2d& point) const;
+  [[nodiscard]] Eigen::Vector2d to_parent(const Eigen::Vector2d& point) const {
+    return position + Eigen::Rotation2Dd(yaw) * point;
+  }
 };
 
 /// Planar velocity of base_link (REP-103).
@@ -32,6 +37,9 @@ struct Odometry {
 };
 
 /// rad in (-pi, pi], clockwise from the nose of a robot at `robot` to `target`, m, in its frame.
-[[nodiscard]] double clockwise_angle(const Pose2& robot, const Eigen::Vector2d& target);
+[[nodiscard]] inline double clockwise_angle(const Pose2& robot, const Eigen::Vector2d& target) {
+  const Eigen::Vector2d seen = robot.to_local(target);
+  return -std::atan2(seen.y(), seen.x());
+}
 
 }  // namespace navvi_types

@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "navvi_types/limits.hpp"
 #include "navvi_types/motion.hpp"
 #include "navvi_types/names.hpp"
 
@@ -56,8 +58,8 @@ struct Contact {
   [[nodiscard]] Eigen::Vector2d seen_from_robot() const { return robot.to_local(point); }
 };
 
-/// A moving thing as a vertical cylinder on the floor and, where it is known, the rectangle that it
-/// fills of that (R-NAV-4).
+/// A moving thing as a vertical cylinder on the floor and, where it is known, its rectangle within
+/// that (R-NAV-4).
 struct MovingThing {
   std::uint32_t id = 0;  ///< the same for the life of the world
   ThingClass thing_class = ThingClass::other;
@@ -69,8 +71,11 @@ struct MovingThing {
   double width = 0.0;   ///< m
   double floor = 0.0;   ///< m, height of the floor in map
 
-  /// True if the rectangle is none, or has two sides and lies within the cylinder.
-  [[nodiscard]] bool sound() const;
+  /// True if there is no rectangle, or it has two sides and lies within the cylinder.
+  [[nodiscard]] bool sound() const {
+    if (length == 0.0 && width == 0.0) return true;
+    return length > 0.0 && width > 0.0 && std::hypot(length, width) / 2.0 <= radius + kSticksOut;
+  }
 };
 
 /// Every moving thing at one instant.
