@@ -42,42 +42,22 @@ std::string allowed_text(const Field& field) {
   return "";
 }
 
-/// Takes the value of each described field from the map that stands at the present depth, and
-/// remembers which keys it asked for, so that what nobody asked for can be refused.
+/// Takes the value of each described field from the map at the present depth, and remembers the
+/// keys that fields have, so that it can refuse all others.
 class YamlReader : public Visitor {
  public:
   YamlReader(const YAML::Node& node, std::string source) : source_(std::move(source)) {
     push(node, "");
   }
 
-  void visit(const Field& field, bool& value) override { take(field, value, "true or false"); }
-  void visit(const Field& field, int& value) override {
-    const YAML::Node node = find(field.name);
-    if (!node) return;
-    std::string whole = "a whole number";
-    if (std::holds_alternative<Range>(field.allowed)) whole += ", " + allowed_text(field);
-    const std::string text = scalar(field, node, whole);
-    const bool octal = text.size() > 1 && text.find_first_not_of("+-0") != std::string::npos &&
-                       text[text.find_first_not_of("+-")] == '0';
-    int number = 0;
-    if (octal || !YAML::convert<int>::decode(node, number)) refuse(field, node, text, whole);
-    check(field, node, number, text);
-    value = number;
-  }
-  void visit(const Field& field, double& value) override {
-    if (const YAML::Node node = find(field.name)) value = number(field, node);
-  }
-  void visit(const Field& field, std::string& value) override {
-    if (const YAML::Node node = find(field.name)) value = word(field, node);
-  }
-  void visit(const Field& field, std::vector<double>& value) override {
-    take_list(field, value, [&](const YAML::Node& item) { return number(field, item); });
-  }
-  void visit(const Field& field, std::vector<std::string>& value) override {
-    take_list(field, value, [&](const YAML::Node& item) { return word(field, item); });
-  }
+  void visit(const Field& field, bool& value) override { take(field, value); }
+  void visit(const Field& field, int& value) override { take(field, value); }
+  void visit(const Field& field, double& value) override { take(field, value); }
+  void visit(const Field& field, std::string& value) override { take(field, value); }
+  void visit(const Field& field, std::vector<double>& value) override { take(field, value); }
+  void visit(const Field& field, std::vector<std::string>& value) override { take(field, value); }
 
-  /// Refuses what no field asked for at the present depth.
+  /// Refuses keys that no field has at the present depth.
   void finish() {
     const Level& level = levels_.back();
     std::set<std::string> seen;
@@ -89,7 +69,7 @@ class YamlReader : public Visitor {
       }
       if (!seen.insert(key).second) {
         throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
-                          "\" stands there twice.");
+                          "\" is given twice.");
       }
     }
   }
@@ -134,59 +114,59 @@ class YamlReader : public Visitor {
     return YAML::Node(YAML::NodeType::Undefined);
   }
 
-  [[noreturn]] void refuse(const Field& field, const YAML::Node& node, const std::string& text,
+  [[noreturn]] void refuse(const Field& field, const YAML::Node& node,
                            const std::string& allowed) const {
-    throw ConfigError(where(node) + ": \"" + levels_.back().prefix + field.name + "\" is " + text +
+    const std::string given = node.IsScalar() ? node.Scalar()
+                              : node.IsNull() ? "nothing"
+                                              : "a list or map";
+    throw ConfigError(where(node) + ": \"" + levels_.back().prefix + field.name + "\" is " + given +
                       "; allowed is " + allowed + ".");
   }
 
-  std::string scalar(const Field& field, const YAML::Node& node, const std::string& allowed) const {
-    if (!node.IsScalar()) refuse(field, node, node.IsNull() ? "nothing" : "a list or map", allowed);
-    return node.Scalar();
-  }
-
-  void check(const Field& field, const YAML::Node& node, double number,
-             const std::string& text) const {
-    const auto* range = std::get_if<Range>(&field.allowed);
-    const Range limits = range ? *range : Range{};
-    if (!std::isfinite(number) || number < limits.min || number > limits.max) {
-      refuse(field, node, text, range ? allowed_text(field) : "a finite number");
-    }
-  }
-
-  double number(const Field& field, const YAML::Node& node) const {
-    const std::string text = scalar(field, node, "a number");
-    double number = 0.0;
-    if (!YAML::convert<double>::decode(node, number)) refuse(field, node, text, "a number");
-    check(field, node, number, text);
-    return number;
-  }
-
-  std::string word(const Field& field, const YAML::Node& node) const {
-    const std::string text = scalar(field, node, "a text");
-    if (const auto* one_of = std::get_if<OneOf>(&field.allowed)) {
-      const auto& words = one_of->words;
-      if (std::find(words.begin(), words.end(), text) == words.end())
-        refuse(field, node, text, allowed_text(field));
-    }
-    return text;
+  template <typename Value>
+  void take(const Field& field, Value& value) {
+    if (const YAML::Node node = find(field.name)) decode(field, node, value);
   }
 
   template <typename Value>
-  void take(const Field& field, Value& value, const std::string& allowed) {
-    const YAML::Node node = find(field.name);
-    if (!node) return;
-    const std::string text = scalar(field, node, allowed);
-    if (!YAML::convert<Value>::decode(node, value)) refuse(field, node, text, allowed);
+  void decode(const Field& field, const YAML::Node& node, Value& value,
+              const std::string& allowed) const {
+    if (!YAML::convert<Value>::decode(node, value)) refuse(field, node, allowed);
+  }
+  void decode(const Field& field, const YAML::Node& node, bool& value) const {
+    decode(field, node, value, "true or false");
+  }
+  void decode(const Field& field, const YAML::Node& node, int& value) const {
+    const std::string range = allowed_text(field);
+    const std::string whole = "a whole number" + (range.empty() ? "" : ", " + range);
+    decode(field, node, value, whole);
+    const std::string digits = node.Scalar().substr(node.Scalar().find_first_not_of("+-"));
+    const bool octal = digits.front() == '0' && digits.find_first_not_of('0') != digits.npos;
+    if (octal) refuse(field, node, whole);
+    check(field, node, value);
+  }
+  void decode(const Field& field, const YAML::Node& node, double& value) const {
+    decode(field, node, value, "a number");
+    check(field, node, value);
+  }
+  void decode(const Field& field, const YAML::Node& node, std::string& value) const {
+    decode(field, node, value, "a text");
+    const auto* one_of = std::get_if<OneOf>(&field.allowed);
+    if (one_of && std::count(one_of->words.begin(), one_of->words.end(), value) == 0)
+      refuse(field, node, allowed_text(field));
+  }
+  template <typename Item>
+  void decode(const Field& field, const YAML::Node& node, std::vector<Item>& value) const {
+    if (!node.IsSequence()) refuse(field, node, "a list such as [a, b]");
+    value.clear();
+    for (const auto& item : node) decode(field, item, value.emplace_back());
   }
 
-  template <typename Item, typename Take>
-  void take_list(const Field& field, std::vector<Item>& value, const Take& take_item) {
-    const YAML::Node node = find(field.name);
-    if (!node) return;
-    if (!node.IsSequence()) refuse(field, node, "no list", "a list such as [a, b]");
-    value.clear();
-    for (const auto& item : node) value.push_back(take_item(item));
+  void check(const Field& field, const YAML::Node& node, double number) const {
+    const auto* range = std::get_if<Range>(&field.allowed);
+    const Range limits = range ? *range : Range{};
+    if (!std::isfinite(number) || number < limits.min || number > limits.max)
+      refuse(field, node, range ? allowed_text(field) : "a finite number");
   }
 
   std::string source_;
@@ -212,17 +192,15 @@ class TableWriter : public Visitor {
   std::vector<Row> rows;
 
  protected:
-  void enter(const std::string& name) override { groups_.push_back(name + "/"); }
+  void enter(const std::string& name) override { groups_.push_back(groups_.back() + name + "/"); }
   void leave() override { groups_.pop_back(); }
 
  private:
   void add(const Field& field, const std::string& value) {
-    std::string key;
-    for (const std::string& group : groups_) key += group;
-    rows.push_back({key + field.name, value, allowed_text(field), field.unit, field.help});
+    rows.push_back({groups_.back() + field.name, value, allowed_text(field), field.help});
   }
 
-  std::vector<std::string> groups_;
+  std::vector<std::string> groups_ = {""};
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Any {};
 
 using Allowed = std::variant<Any, Range, OneOf>;
 
-/// What a person is told of one parameter.
+/// The description of one parameter.
 struct Field {
   std::string name;
   Allowed allowed;

@@ -33,7 +33,7 @@ using Describe = std::function<void(Visitor&)>;
 void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source);
 
 /// Overlays `config` with the keys of `node`; keys that are absent keep their value.
-/// \param source  what error sentences call the node, such as a file's path
+/// \param source  name of the node in error sentences, such as a file's path
 /// \throws ConfigError on an unknown or repeated key, a wrong type, or a value out of range;
 /// `config` is then unchanged.
 template <typename Config>
@@ -47,8 +47,7 @@ void read(Config& config, const YAML::Node& node, const std::string& source) {
 struct Row {
   std::string key;  ///< with its groups, such as haptics/range
   std::string default_value;
-  std::string allowed;
-  std::string unit;
+  std::string allowed;  ///< with the unit
   std::string help;
 };
 
@@ -64,8 +63,8 @@ template <typename Config>
   return table_of([&](Visitor& visit) { config.describe(visit); });
 }
 
-/// Prints the table of `Config` if the one argument is --parameters. \return whether it did, and so
-/// is all that is asked
+/// Prints the table of `Config` if --parameters is the only argument. \return true if it did, and
+/// the program is to end
 template <typename Config>
 [[nodiscard]] bool tells_parameters(int argc, char** argv) {
   if (argc != 2 || std::string(argv[1]) != "--parameters") return false;

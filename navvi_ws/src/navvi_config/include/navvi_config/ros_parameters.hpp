@@ -7,8 +7,7 @@
 
 namespace navvi_config {
 
-/// Everything on the parameter server under `node`'s namespace, as YAML; an empty map where there
-/// is nothing.
+/// All parameters under `node`'s namespace, as YAML; an empty map if there are none.
 [[nodiscard]] YAML::Node parameters(const ros::NodeHandle& node);
 
 /// Reads `Config` from the parameters under `node`, usually the private NodeHandle("~").
@@ -20,13 +19,13 @@ template <typename Config>
   return config;
 }
 
-/// What is left of a node's main() once ros::init was called: runs `body` with the parameters. What
-/// is thrown is told as a fatal error.
+/// The rest of a node's main() after ros::init: runs `body` with the parameters. An exception is
+/// logged as a fatal error.
 /// \param body  takes a Config, returns the exit code
-/// \return the exit code: 2 if a parameter is refused, 3 if something else cannot be used
+/// \return the exit code: 2 if a parameter is rejected, 3 after any other exception
 template <typename Config, typename Body>
 [[nodiscard]] int run_node(const Body& body) {
-  const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is told
+  const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is logged
   try {
     return body(load<Config>(ros::NodeHandle("~")));
   } catch (const ConfigError& error) {

@@ -8,8 +8,8 @@
 
 namespace navvi_config {
 
-/// Subscribes to `topic` without delay: `take` gets what `convert` makes of each message. A message
-/// that it makes nothing of is dropped whole, counted, and told at most every 5 s (safety rule 2).
+/// Subscribes to `topic` without delay: `convert` turns each message into the value for `take`. A
+/// message that it rejects is dropped whole, counted, and logged at most every 5 s (safety rule 2).
 template <typename Message, typename Value, typename Take>
 [[nodiscard]] ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic,
                                         std::uint32_t queue,
