@@ -66,7 +66,7 @@ template <typename Config>
 /// Prints the table of `Config` if --parameters is the only argument. \return true if it did, and
 /// the program is to end
 template <typename Config>
-[[nodiscard]] bool tells_parameters(int argc, char** argv) {
+[[nodiscard]] bool print_parameters(int argc, char** argv) {
   if (argc != 2 || std::string(argv[1]) != "--parameters") return false;
   std::cout << markdown(table<Config>());
   return true;

@@ -265,7 +265,7 @@ void spin(FeedbackNode& node) {
 
 int main(int argc, char** argv) {
   using navvi_feedback::node::NodeConfig;
-  if (navvi_config::tells_parameters<NodeConfig>(argc, argv)) return 0;
+  if (navvi_config::print_parameters<NodeConfig>(argc, argv)) return 0;
   // roscpp's own handler would close the topics before the last zero is out.
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})

@@ -19,7 +19,7 @@ void ask_to_stop(int) { asked_to_stop = 1; }
 
 int main(int argc, char** argv) {
   using navvi_study::trial::TrialNodeConfig;
-  if (navvi_config::tells_parameters<TrialNodeConfig>(argc, argv)) return 0;
+  if (navvi_config::print_parameters<TrialNodeConfig>(argc, argv)) return 0;
   ros::init(argc, argv, "trial_node", ros::init_options::NoSigintHandler);
   signal(SIGINT, ask_to_stop);
   signal(SIGTERM, ask_to_stop);
