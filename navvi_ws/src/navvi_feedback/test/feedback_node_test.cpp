@@ -125,7 +125,7 @@ class FeedbackNode : public testing::Test {
   std::set<std::string> statuses_;
 };
 
-TEST_F(FeedbackNode, DrivesOnlyAfterNeutralAndFallsSilentAfterAStop) {
+TEST_F(FeedbackNode, drives_only_after_neutral_and_falls_silent_after_a_stop) {
   stick_ = 1.0F;
   pass(1.0);
   EXPECT_GT(twists_, 0);
@@ -150,7 +150,7 @@ TEST_F(FeedbackNode, DrivesOnlyAfterNeutralAndFallsSilentAfterAStop) {
   EXPECT_EQ(twist_.linear.x, 0.0) << "held forward when it came back";
 }
 
-TEST_F(FeedbackNode, MakesAThingOnTheLeftFeltOnTheLeftAndStopsWhenSensingDies) {
+TEST_F(FeedbackNode, makes_a_thing_on_the_left_felt_on_the_left_and_stops_when_sensing_dies) {
   thing("box", 1.0, 0.5, 1.4);
   EXPECT_TRUE(until([this] { return left_ > 0.3 && right_ == 0.0; }));
 
@@ -160,14 +160,14 @@ TEST_F(FeedbackNode, MakesAThingOnTheLeftFeltOnTheLeftAndStopsWhenSensingDies) {
   EXPECT_TRUE(until([this] { return left_ == 0.0 && right_ == 0.0; }, 2.0));
 }
 
-TEST_F(FeedbackNode, IgnoresAProximityThatIsNotFinite) {
+TEST_F(FeedbackNode, ignores_a_proximity_that_is_not_finite) {
   EXPECT_TRUE(until([this] { return left_ == 0.0; }));
   thing("box", std::numeric_limits<double>::quiet_NaN(), 0.5, 1.4);
   pass(0.5);
   EXPECT_EQ(left_, 0.0);
 }
 
-TEST_F(FeedbackNode, SaysWhatWasHitButNothingOfAContactThatIsNotFinite) {
+TEST_F(FeedbackNode, says_what_was_hit_but_nothing_of_a_contact_that_is_not_finite) {
   pass(0.5);
   navvi_msgs::Contact contact;
   contact.seq = 1;
@@ -189,7 +189,7 @@ TEST_F(FeedbackNode, SaysWhatWasHitButNothingOfAContactThatIsNotFinite) {
   EXPECT_TRUE(until(hit));
 }
 
-TEST_F(FeedbackNode, SaysTheDirectionShowsThePathAndTakesBothBackWhenTheGuideIsLost) {
+TEST_F(FeedbackNode, says_the_direction_shows_the_path_and_takes_both_back_when_the_guide_is_lost) {
   path_msg_.poses.resize(2);
   path_msg_.poses[1].pose.position.y = -5.0;
   path_.publish(path_msg_);
@@ -213,7 +213,7 @@ TEST_F(FeedbackNode, SaysTheDirectionShowsThePathAndTakesBothBackWhenTheGuideIsL
   EXPECT_TRUE(until([this] { return heard("guidance_lost"); }));
 }
 
-TEST_F(FeedbackNode, ReportsItsHardwareOnceASecond) {
+TEST_F(FeedbackNode, reports_its_hardware_once_a_second) {
   EXPECT_TRUE(until([this] {
     return statuses_.count("navvi/pad") && statuses_.count("navvi/audio") &&
            statuses_.count("navvi/speech");

@@ -54,7 +54,7 @@ class FeedbackTest : public testing::Test {
   int alarms_ = 0;
 };
 
-TEST_F(FeedbackTest, AStickDrivesOnceItWasNeutralAndItsLossIsOneLastZero) {
+TEST_F(FeedbackTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
   pass(0.5);
   hold(0.0, 1.0);
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
@@ -66,7 +66,7 @@ TEST_F(FeedbackTest, AStickDrivesOnceItWasNeutralAndItsLossIsOneLastZero) {
   EXPECT_TRUE(said("pad_lost"));
 }
 
-TEST_F(FeedbackTest, AStickThatWasOpenedAnewMustBeNeutralAgain) {
+TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
   pass(0.5);
   hold(0.0, 1.0);
   pass(1.0);
@@ -74,7 +74,7 @@ TEST_F(FeedbackTest, AStickThatWasOpenedAnewMustBeNeutralAgain) {
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
 }
 
-TEST_F(FeedbackTest, WhatIsNearIsFeltWhileItIsFresh) {
+TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
   EXPECT_GT(pass(0.9).rumble.left, 0.5);
@@ -83,7 +83,7 @@ TEST_F(FeedbackTest, WhatIsNearIsFeltWhileItIsFresh) {
   EXPECT_EQ(stale.right, 0.0);
 }
 
-TEST_F(FeedbackTest, AMissingAudioDeviceIsToldByTheMotorsOnceThereAreSome) {
+TEST_F(FeedbackTest, the_motors_report_a_missing_audio_device_once_there_are_some) {
   for (const cues::Link missing : {cues::Link::never, cues::Link::lost}) {
     input_.audio = missing;
     input_.motors = false;
@@ -99,7 +99,8 @@ TEST_F(FeedbackTest, AMissingAudioDeviceIsToldByTheMotorsOnceThereAreSome) {
   }
 }
 
-TEST_F(FeedbackTest, AnAlarmEndsAtOnceWhenTheDeviceIsThereAndComesAgainWhenItIsLost) {
+TEST_F(FeedbackTest,
+       an_alarm_ends_at_once_when_the_device_is_there_and_comes_again_when_it_is_lost) {
   input_.audio = cues::Link::never;
   EXPECT_GT(strongest(0.3), 0.0);
   input_.audio = cues::Link::alive;
@@ -109,14 +110,14 @@ TEST_F(FeedbackTest, AnAlarmEndsAtOnceWhenTheDeviceIsThereAndComesAgainWhenItIsL
   EXPECT_EQ(alarms_, 2);
 }
 
-TEST_F(FeedbackTest, AContactIsToldOnce) {
+TEST_F(FeedbackTest, a_contact_is_said_once) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7});
   pass(3.0);
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "collision_shelf"), 1);
 }
 
-TEST_F(FeedbackTest, AButtonThatIsHeldAsksOnce) {
+TEST_F(FeedbackTest, a_button_that_is_held_asks_once) {
   pass(6.0);
   kinds_.clear();
   input_.hands.buttons = {true, false};
@@ -124,7 +125,7 @@ TEST_F(FeedbackTest, AButtonThatIsHeldAsksOnce) {
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "no_goal"), 1);
 }
 
-TEST_F(FeedbackTest, GuidanceIsKeptButNotFreshForEver) {
+TEST_F(FeedbackTest, guidance_is_kept_but_not_fresh_for_ever) {
   EXPECT_FALSE(feedback_.guidance());
   Guidance guidance;
   guidance.seq = 5;

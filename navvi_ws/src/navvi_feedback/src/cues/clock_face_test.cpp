@@ -12,14 +12,14 @@ constexpr double kPi = 3.14159265358979323846;
 
 double rad(double degrees) { return degrees * kPi / 180.0; }
 
-TEST(ClockHour, IsUnknownForWhatIsNoNumber) {
+TEST(ClockHour, is_unknown_for_an_angle_that_is_no_number) {
   for (const Rounding rounding : {Rounding::nearest, Rounding::floor}) {
     EXPECT_FALSE(clock_hour(std::nan(""), rounding));
     EXPECT_FALSE(clock_hour(std::numeric_limits<double>::infinity(), rounding));
   }
 }
 
-TEST(ClockHour, RoundsToTheNearestHour) {
+TEST(ClockHour, rounds_to_the_nearest_hour) {
   const std::vector<std::pair<double, int>> table = {
       {0.0, 12},   {14.99, 12}, {15.01, 1},  {44.99, 1},   {45.01, 2},   {90.0, 3},
       {180.0, 6},  {-180.0, 6}, {-90.0, 9},  {270.0, 9},   {-15.01, 11}, {-14.99, 12},
@@ -28,7 +28,7 @@ TEST(ClockHour, RoundsToTheNearestHour) {
     EXPECT_EQ(clock_hour(rad(degrees), Rounding::nearest), hour) << degrees;
 }
 
-TEST(ClockHour, FloorsAsThePaperPrintsIt) {
+TEST(ClockHour, floors_as_the_paper_prints_it) {
   const std::vector<std::pair<double, int>> table = {{0.0, 12},   {29.9, 12}, {30.1, 1},
                                                      {-0.1, 11},  {90.1, 3},  {179.9, 5},
                                                      {-179.9, 6}, {329.9, 10}};
@@ -36,7 +36,7 @@ TEST(ClockHour, FloorsAsThePaperPrintsIt) {
     EXPECT_EQ(clock_hour(rad(degrees), Rounding::floor), hour) << degrees;
 }
 
-TEST(SteadyHour, HoldsTheHourWhileTheAngleTremblesOnTheBorder) {
+TEST(SteadyHour, holds_the_hour_while_the_angle_trembles_on_the_border) {
   SteadyHour hour(Rounding::nearest, rad(5.0));
   EXPECT_EQ(hour.update(rad(14.0)), 12);
   EXPECT_EQ(hour.update(rad(16.0)), 12);
@@ -47,7 +47,7 @@ TEST(SteadyHour, HoldsTheHourWhileTheAngleTremblesOnTheBorder) {
   EXPECT_EQ(hour.update(rad(9.9)), 12);
 }
 
-TEST(SteadyHour, LeavesAFarHourAtOnceAndSurvivesTheTurnThroughSix) {
+TEST(SteadyHour, leaves_a_far_hour_at_once_and_survives_the_turn_through_six) {
   SteadyHour hour(Rounding::nearest, rad(5.0));
   EXPECT_EQ(hour.update(rad(0.0)), 12);
   EXPECT_EQ(hour.update(rad(178.0)), 6);
@@ -55,14 +55,14 @@ TEST(SteadyHour, LeavesAFarHourAtOnceAndSurvivesTheTurnThroughSix) {
   EXPECT_EQ(hour.update(rad(-100.0)), 9);
 }
 
-TEST(SteadyHour, HoldsNothingAcrossAnUnknownAngle) {
+TEST(SteadyHour, holds_nothing_across_an_unknown_angle) {
   SteadyHour hour(Rounding::nearest, rad(5.0));
   EXPECT_EQ(hour.update(rad(14.0)), 12);
   EXPECT_FALSE(hour.update(std::nan("")));
   EXPECT_EQ(hour.update(rad(16.0)), 1);
 }
 
-TEST(SteadyHour, FloorsWithoutHysteresisExactlyAsPrinted) {
+TEST(SteadyHour, floors_without_hysteresis_exactly_as_printed) {
   SteadyHour hour(Rounding::floor, 0.0);
   EXPECT_EQ(hour.update(rad(29.0)), 12);
   EXPECT_EQ(hour.update(rad(31.0)), 1);

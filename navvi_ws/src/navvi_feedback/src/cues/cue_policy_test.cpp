@@ -53,7 +53,7 @@ class CuePolicyTest : public testing::Test {
   double time_ = 50.0;
 };
 
-TEST(CuePolicyConfig, RefusesWhatItDoesNotKnow) {
+TEST(CuePolicyConfig, refuses_what_it_does_not_know) {
   CuePolicyConfig config;
   for (const char* text : {"stuck_time: -1", "route: {rounding: up}", "near: {distance: .nan}",
                            "direction_words: compass", "chatter: 1"})
@@ -61,7 +61,7 @@ TEST(CuePolicyConfig, RefusesWhatItDoesNotKnow) {
         << text;
 }
 
-TEST(CuePolicyConfig, FloorsTheHoursInThePapersProfile) {
+TEST(CuePolicyConfig, floors_the_hours_in_the_papers_profile) {
   const std::string file = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/paper.yaml";
   CuePolicyConfig config;
   navvi_config::read(config, navvi_config::load_yaml(file)["cues"], file);
@@ -69,23 +69,23 @@ TEST(CuePolicyConfig, FloorsTheHoursInThePapersProfile) {
   EXPECT_FALSE(config.near.obstacles);
 }
 
-TEST_F(CuePolicyTest, SaysNothingBeforeAnythingIsKnown) {
+TEST_F(CuePolicyTest, says_nothing_before_anything_is_known) {
   now_ = Situation();
   EXPECT_EQ(pass(5.0), Texts{});
 }
 
-TEST_F(CuePolicyTest, SaysWhatNeverCame) {
+TEST_F(CuePolicyTest, says_which_messages_never_came) {
   now_ = Situation();
   pass(9.0);
   EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "simulator lost"}));
 }
 
-TEST_F(CuePolicyTest, IntroducesTheGoalThenTheWay) {
+TEST_F(CuePolicyTest, introduces_the_goal_then_the_way) {
   now_.goal_angle = 1.6;
   EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters, 3 o'clock", "straight ahead, 20 meters"}));
 }
 
-TEST_F(CuePolicyTest, AnnouncesTheArrivalOnce) {
+TEST_F(CuePolicyTest, announces_the_arrival_once) {
   under_way();
   now_.guidance->state = Guidance::State::arrived;
   EXPECT_EQ(pass(60.0), Texts{"You have reached your destination"});
@@ -95,7 +95,7 @@ TEST_F(CuePolicyTest, AnnouncesTheArrivalOnce) {
   EXPECT_EQ(pass(2.0), Texts{});
 }
 
-TEST_F(CuePolicyTest, SaysWhyAGoalWasRefusedOnceAGoal) {
+TEST_F(CuePolicyTest, says_why_a_goal_was_refused_once_a_goal) {
   under_way();
   now_.guidance->state = Guidance::State::goal_refused;
   now_.guidance->refusal = Guidance::Refusal::inside_obstacle;
@@ -106,7 +106,7 @@ TEST_F(CuePolicyTest, SaysWhyAGoalWasRefusedOnceAGoal) {
   EXPECT_EQ(pass(60.0), Texts{"goal refused, it cannot be reached"});
 }
 
-TEST_F(CuePolicyTest, PassesOverAStateThatLastsNoTime) {
+TEST_F(CuePolicyTest, passes_over_a_state_that_lasts_no_time) {
   under_way();
   now_.guidance->state = Guidance::State::off_mesh;
   EXPECT_EQ(pass(0.3), Texts{});
@@ -114,7 +114,7 @@ TEST_F(CuePolicyTest, PassesOverAStateThatLastsNoTime) {
   EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
 }
 
-TEST_F(CuePolicyTest, TellsToWaitForWhatIsInTheWayAndThenToGoOn) {
+TEST_F(CuePolicyTest, says_to_wait_for_what_is_in_the_way_and_then_to_go_on) {
   under_way();
   now_.guidance->state = Guidance::State::blocked;
   now_.guidance->blocked_by = ThingClass::forklift;
@@ -123,19 +123,19 @@ TEST_F(CuePolicyTest, TellsToWaitForWhatIsInTheWayAndThenToGoOn) {
   EXPECT_EQ(pass(1.0), Texts{"straight ahead, 20 meters"});
 }
 
-TEST_F(CuePolicyTest, SaysThatTheMapIsTooOld) {
+TEST_F(CuePolicyTest, says_that_the_map_is_too_old) {
   under_way();
   now_.guidance->state = Guidance::State::map_stale;
   EXPECT_EQ(pass(5.0), Texts{"map out of date"});
 }
 
-TEST_F(CuePolicyTest, RemindsOfAProblemThatLasts) {
+TEST_F(CuePolicyTest, reminds_of_a_problem_that_lasts) {
   under_way();
   now_.guidance->state = Guidance::State::no_route;
   EXPECT_EQ(pass(31.0), Texts(3, "no route to the goal"));
 }
 
-TEST_F(CuePolicyTest, SaysThatTheGuidanceIsLostAndGoesOnWhenItIsBack) {
+TEST_F(CuePolicyTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
   under_way();
   now_.guidance_link = Link::lost;
   EXPECT_EQ(pass(1.0), Texts{"guidance lost"});
@@ -144,7 +144,7 @@ TEST_F(CuePolicyTest, SaysThatTheGuidanceIsLostAndGoesOnWhenItIsBack) {
   EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
 }
 
-TEST_F(CuePolicyTest, NamesOnlyTheSimulatorWhenAllDiesWithIt) {
+TEST_F(CuePolicyTest, names_only_the_simulator_when_all_dies_with_it) {
   under_way();
   now_.simulator_link = now_.guidance_link = now_.proximity_link = Link::lost;
   now_.gate = DriveState::State::stopped;
@@ -152,7 +152,7 @@ TEST_F(CuePolicyTest, NamesOnlyTheSimulatorWhenAllDiesWithIt) {
   EXPECT_EQ(last_.priority, Priority::important);
 }
 
-TEST_F(CuePolicyTest, TellsAStoppedRobotFromALostController) {
+TEST_F(CuePolicyTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
   under_way();
   now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(1.0), Texts{"robot stopped, release the stick"});
@@ -166,13 +166,13 @@ TEST_F(CuePolicyTest, TellsAStoppedRobotFromALostController) {
             (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
 }
 
-TEST_F(CuePolicyTest, SaysANoticeOnce) {
+TEST_F(CuePolicyTest, says_a_notice_once) {
   under_way();
   now_.notices = {"no_rumble"};
   EXPECT_EQ(pass(3.0), Texts{"this controller cannot rumble"});
 }
 
-TEST_F(CuePolicyTest, SaysWhatWasHitAndWhereAndThenTheWayOn) {
+TEST_F(CuePolicyTest, says_what_was_hit_and_where_and_then_the_way_on) {
   under_way();
   now_.contacts = {{ThingClass::shelf, {0.0, 0.35}}};
   EXPECT_EQ(pass(0.1), Texts{"hit a shelf on the left"});
@@ -183,7 +183,7 @@ TEST_F(CuePolicyTest, SaysWhatWasHitAndWhereAndThenTheWayOn) {
   EXPECT_EQ(pass(0.1), Texts{"hit a forklift ahead"});
 }
 
-TEST_F(CuePolicyTest, SaysWhatBlocksAStuckRobot) {
+TEST_F(CuePolicyTest, says_what_blocks_a_stuck_robot) {
   under_way();
   now_.nearby = {{ThingClass::box, 1, 0.0, {-0.1, -0.4}, false},
                  {ThingClass::pallet_robot, 2, 0.05, {0.4, 0.0}, true}};
@@ -195,7 +195,7 @@ TEST_F(CuePolicyTest, SaysWhatBlocksAStuckRobot) {
   EXPECT_EQ(std::count(later.begin(), later.end(), "stuck"), 1);
 }
 
-TEST_F(CuePolicyTest, CallsNobodyStuckWhoDoesNotDriveOrIsHeld) {
+TEST_F(CuePolicyTest, calls_no_robot_stuck_that_is_not_driven_or_is_held) {
   under_way();
   now_.commanded = {};
   now_.measured = Velocity{};
@@ -209,7 +209,7 @@ TEST_F(CuePolicyTest, CallsNobodyStuckWhoDoesNotDriveOrIsHeld) {
   for (const std::string& text : texts) EXPECT_EQ(text.find("stuck"), std::string::npos);
 }
 
-TEST_F(CuePolicyTest, AnswersAtOnceWhoAsks) {
+TEST_F(CuePolicyTest, answers_a_question_at_once) {
   under_way();
   now_.voice_busy = true;
   now_.repeat_pressed = true;
@@ -224,13 +224,13 @@ TEST_F(CuePolicyTest, AnswersAtOnceWhoAsks) {
   EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
 }
 
-TEST_F(CuePolicyTest, DoesNotSayThatThereIsNoGoalWhileAPathMayBeOnItsWay) {
+TEST_F(CuePolicyTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {
   now_.guidance.reset();
   now_.repeat_pressed = true;
   EXPECT_EQ(pass(4.0), Texts{});
 }
 
-TEST_F(CuePolicyTest, SpeaksOfWhatIsNearBeforeThereIsAGoalOnlyToWhoMoves) {
+TEST_F(CuePolicyTest, speaks_of_what_is_near_before_there_is_a_goal_only_while_the_robot_moves) {
   now_.guidance.reset();
   now_.nearby = {{ThingClass::shelf, 1, 0.5, {0.0, 0.9}, false}};
   EXPECT_EQ(pass(3.0), Texts{});
@@ -238,7 +238,8 @@ TEST_F(CuePolicyTest, SpeaksOfWhatIsNearBeforeThereIsAGoalOnlyToWhoMoves) {
   EXPECT_EQ(pass(1.0), Texts{"shelf on the left"});
 }
 
-TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenItIsBack) {
+TEST_F(CuePolicyTest,
+       falls_silent_about_the_way_without_a_controller_and_says_it_anew_when_it_is_back) {
   under_way();
   now_.commanded = {};
   now_.measured = Velocity{};
@@ -249,7 +250,7 @@ TEST_F(CuePolicyTest, FallsSilentAboutTheWayWithoutAControllerAndSaysItAnewWhenI
   EXPECT_EQ(pass(1.0), (Texts{"controller connected, release the stick", "3 o'clock, 20 meters"}));
 }
 
-TEST_F(CuePolicyTest, AsksToReleaseAStickThatIsHeldInVainAndThenSaysTheWay) {
+TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says_the_way) {
   under_way();
   now_.commanded = {};
   now_.measured = Velocity{};
@@ -260,7 +261,7 @@ TEST_F(CuePolicyTest, AsksToReleaseAStickThatIsHeldInVainAndThenSaysTheWay) {
   EXPECT_EQ(pass(3.0), Texts{"straight ahead, 20 meters"});
 }
 
-TEST_F(CuePolicyTest, SaysEveryThingThatIsHitButTheSameOnlyOnceInAWhile) {
+TEST_F(CuePolicyTest, says_every_thing_that_is_hit_but_the_same_only_once_in_a_while) {
   under_way();
   now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}, {ThingClass::pedestal, {0.0, -0.35}, 5}};
   EXPECT_EQ(pass(0.5), (Texts{"hit a box ahead", "hit a pedestal on the right"}));
@@ -271,7 +272,7 @@ TEST_F(CuePolicyTest, SaysEveryThingThatIsHitButTheSameOnlyOnceInAWhile) {
   EXPECT_EQ(pass(0.1), Texts{"hit a box ahead"});
 }
 
-TEST_F(CuePolicyTest, MaySayAgainAtOnceWhatWasDropped) {
+TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   under_way();
   const auto lose_and_find = [&] {
     now_.proximity_link = Link::alive;
@@ -285,7 +286,7 @@ TEST_F(CuePolicyTest, MaySayAgainAtOnceWhatWasDropped) {
   EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
 }
 
-TEST_F(CuePolicyTest, WordsDirectionsByLeftAndRightWhereThatIsWanted) {
+TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
   CuePolicyConfig config;
   config.direction_words = "left_right";
   policy_ = CuePolicy(config, Phrases(kEnglish, config.words()));
@@ -293,12 +294,12 @@ TEST_F(CuePolicyTest, WordsDirectionsByLeftAndRightWhereThatIsWanted) {
   EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters", "left, 20 meters"}));
 }
 
-TEST_F(CuePolicyTest, DoesNotChatterOnAQuietDrive) {
+TEST_F(CuePolicyTest, does_not_chatter_on_a_quiet_drive) {
   under_way();
   EXPECT_LE(pass(60.0).size(), 8U);
 }
 
-TEST_F(CuePolicyTest, SpeaksOnlyKnownKindsInAnySituation) {
+TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
   std::mt19937 random(1);
   const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto link = [&] { return static_cast<Link>(draw(3)); };

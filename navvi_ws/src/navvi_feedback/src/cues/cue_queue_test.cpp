@@ -23,7 +23,7 @@ std::vector<std::string> told(const CueQueue::Step& step) {
 
 using Words = std::vector<std::string>;
 
-TEST(CueQueue, SaysNothingOfNothing) {
+TEST(CueQueue, says_nothing_without_cues) {
   CueQueue queue;
   const auto step = queue.update({}, false, 0.0);
   EXPECT_TRUE(step.events.empty());
@@ -32,7 +32,7 @@ TEST(CueQueue, SaysNothingOfNothing) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(CueQueue, StartsACueAtOnceAndEndsItWhenTheSpeakerIsDone) {
+TEST(CueQueue, starts_a_cue_at_once_and_ends_it_when_the_speaker_is_done) {
   CueQueue queue;
   const auto first = queue.update({cue("a", Priority::text)}, false, 0.0);
   EXPECT_EQ(told(first), (Words{"queued a", "started a"}));
@@ -42,7 +42,7 @@ TEST(CueQueue, StartsACueAtOnceAndEndsItWhenTheSpeakerIsDone) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(CueQueue, LetsAHigherPriorityCutALowerOne) {
+TEST(CueQueue, lets_a_higher_priority_cut_a_lower_one) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::text)}, false, 0.0);
   const auto step = queue.update({cue("b", Priority::message)}, true, 0.1);
@@ -51,14 +51,14 @@ TEST(CueQueue, LetsAHigherPriorityCutALowerOne) {
   EXPECT_EQ(step.start, "text of b");
 }
 
-TEST(CueQueue, NeverLetsAnEqualOneCut) {
+TEST(CueQueue, never_lets_an_equal_one_cut) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::text)}, false, 0.0);
   EXPECT_EQ(told(queue.update({cue("b", Priority::text)}, true, 0.1)), (Words{"queued b"}));
   EXPECT_EQ(told(queue.update({}, false, 0.2)), (Words{"ended a", "started b"}));
 }
 
-TEST(CueQueue, NeverCutsAnImportantOne) {
+TEST(CueQueue, never_cuts_an_important_one) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::important)}, false, 0.0);
   EXPECT_EQ(
@@ -66,14 +66,14 @@ TEST(CueQueue, NeverCutsAnImportantOne) {
       (Words{"queued b", "queued c"}));
 }
 
-TEST(CueQueue, DropsWhatWaitedTooLong) {
+TEST(CueQueue, drops_what_waited_too_long) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::important)}, false, 0.0);
   (void)queue.update({cue("b", Priority::text, 1.0)}, true, 0.1);
   EXPECT_EQ(told(queue.update({}, false, 1.2)), (Words{"ended a", "dropped b"}));
 }
 
-TEST(CueQueue, ReplacesAWaitingCueByANewerOfItsKind) {
+TEST(CueQueue, replaces_a_waiting_cue_by_a_newer_of_its_kind) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::important)}, false, 0.0);
   (void)queue.update({cue("b", Priority::text)}, true, 0.1);
@@ -81,7 +81,7 @@ TEST(CueQueue, ReplacesAWaitingCueByANewerOfItsKind) {
             (Words{"queued b", "dropped b"}));
 }
 
-TEST(CueQueue, KeepsImportantCuesOfOneKindThatSayDifferentThings) {
+TEST(CueQueue, keeps_important_cues_of_one_kind_that_say_different_things) {
   CueQueue queue;
   Cue box = cue("hit", Priority::important);
   Cue shelf = box;
@@ -91,7 +91,7 @@ TEST(CueQueue, KeepsImportantCuesOfOneKindThatSayDifferentThings) {
   EXPECT_EQ(queue.update({}, false, 0.5).start, "another");
 }
 
-TEST(CueQueue, KeepsAtMostTwoWaitingBelowImportantAndTheGreatestOfThem) {
+TEST(CueQueue, keeps_at_most_two_waiting_below_important_and_the_greatest_of_them) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::important)}, false, 0.0);
   (void)queue.update({cue("b", Priority::notification), cue("c", Priority::text)}, true, 0.1);
@@ -100,7 +100,7 @@ TEST(CueQueue, KeepsAtMostTwoWaitingBelowImportantAndTheGreatestOfThem) {
   EXPECT_EQ(told(queue.update({cue("e", Priority::important)}, true, 0.3)), (Words{"queued e"}));
 }
 
-TEST(CueQueue, EndsAllAtTheShutDown) {
+TEST(CueQueue, ends_all_at_the_shut_down) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::text), cue("b", Priority::text)}, false, 0.0);
   const auto step = queue.clear();
@@ -172,7 +172,7 @@ class Witness {
   std::optional<Priority> cut_;
 };
 
-TEST(CueQueue, LosesNoCueInAnySequence) {
+TEST(CueQueue, loses_no_cue_in_any_sequence) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

@@ -22,13 +22,13 @@ class HeldStickTest : public testing::Test {
   double time_ = 10.0;
 };
 
-TEST_F(HeldStickTest, KeepsQuietWhileTheStickRestsOrDrives) {
+TEST_F(HeldStickTest, keeps_quiet_while_the_stick_rests_or_drives) {
   EXPECT_EQ(pass(5.0), 0);
   now_.commanded.linear = 0.9;
   EXPECT_EQ(pass(5.0), 0);
 }
 
-TEST_F(HeldStickTest, AsksForAStickThatIsHeldFromTheBeginningAgainAndAgain) {
+TEST_F(HeldStickTest, asks_for_a_stick_that_is_held_from_the_beginning_again_and_again) {
   now_.stick_held_unarmed = true;
   EXPECT_EQ(pass(0.4), 0);
   EXPECT_EQ(pass(0.4), 1);
@@ -37,7 +37,7 @@ TEST_F(HeldStickTest, AsksForAStickThatIsHeldFromTheBeginningAgainAndAgain) {
   EXPECT_EQ(pass(10.0), 0);
 }
 
-TEST_F(HeldStickTest, AsksWhileAShutGateIsDrivenAgainst) {
+TEST_F(HeldStickTest, asks_while_a_shut_gate_is_driven_against) {
   for (const auto gate : {DriveState::State::waiting, DriveState::State::stopped}) {
     now_.gate = gate;
     now_.commanded = {0.0, -0.5};
@@ -47,7 +47,7 @@ TEST_F(HeldStickTest, AsksWhileAShutGateIsDrivenAgainst) {
   }
 }
 
-TEST_F(HeldStickTest, PassesOverTheMomentThatAGateTakesToOpen) {
+TEST_F(HeldStickTest, passes_over_the_moment_that_a_gate_takes_to_open) {
   now_.gate = DriveState::State::waiting;
   now_.commanded.linear = 0.5;
   EXPECT_EQ(pass(0.4), 0);
@@ -55,7 +55,7 @@ TEST_F(HeldStickTest, PassesOverTheMomentThatAGateTakesToOpen) {
   EXPECT_EQ(pass(1.0), 0);
 }
 
-TEST_F(HeldStickTest, DoesNotAddToACueThatAskedForTheSame) {
+TEST_F(HeldStickTest, does_not_add_to_a_cue_that_asked_for_the_same) {
   now_.stick_held_unarmed = true;
   held_.told(time_);
   EXPECT_EQ(pass(3.9), 0);

@@ -39,18 +39,18 @@ class NearCuesTest : public testing::Test {
 
 using Sides = std::vector<Side>;
 
-TEST_F(NearCuesTest, SaysNothingWhereNothingIsNear) {
+TEST_F(NearCuesTest, says_nothing_where_nothing_is_near) {
   EXPECT_EQ(pass(1.0, {}), Sides{});
   EXPECT_EQ(pass(1.0, {shelf(1.01, kLeft)}), Sides{});
 }
 
-TEST_F(NearCuesTest, SaysOnceThatAShelfIsWithinAMetreAndOnWhichSide) {
+TEST_F(NearCuesTest, says_once_that_a_shelf_is_within_a_metre_and_on_which_side) {
   EXPECT_EQ(pass(5.0, {shelf(0.99, kLeft)}), Sides{Side::left});
   EXPECT_EQ(last_.kind, "shelf_near");
   EXPECT_FALSE(last_.priority);
 }
 
-TEST_F(NearCuesTest, HoldsItsTongueWhileTheGapTremblesOnTheBorder) {
+TEST_F(NearCuesTest, says_nothing_new_while_the_gap_trembles_on_the_border) {
   Sides said;
   for (int i = 0; i < 100; ++i)
     for (const Side side : pass(0.1, {shelf(i % 2 == 0 ? 0.98 : 1.15, kLeft)}))
@@ -58,7 +58,7 @@ TEST_F(NearCuesTest, HoldsItsTongueWhileTheGapTremblesOnTheBorder) {
   EXPECT_EQ(said, Sides{Side::left});
 }
 
-TEST_F(NearCuesTest, SaysItAgainAfterTheShelfWasGoneForAWhile) {
+TEST_F(NearCuesTest, says_it_again_after_the_shelf_was_gone_for_a_while) {
   pass(1.0, {shelf(0.9, kLeft)});
   pass(1.0, {});
   EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{});
@@ -66,7 +66,7 @@ TEST_F(NearCuesTest, SaysItAgainAfterTheShelfWasGoneForAWhile) {
   EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{Side::left});
 }
 
-TEST_F(NearCuesTest, SaysItOnceMoreWhenTheShelfIsClose) {
+TEST_F(NearCuesTest, says_it_once_more_when_the_shelf_is_close) {
   pass(1.0, {shelf(0.9, kLeft)});
   EXPECT_EQ(last_.kind, "shelf_near");
   EXPECT_EQ(pass(5.0, {shelf(0.3, kLeft)}), Sides{Side::left});
@@ -76,13 +76,13 @@ TEST_F(NearCuesTest, SaysItOnceMoreWhenTheShelfIsClose) {
   EXPECT_EQ(last_.kind, "wall_close");
 }
 
-TEST_F(NearCuesTest, SaysBothSidesOfANarrowAisleOneAfterTheOther) {
+TEST_F(NearCuesTest, says_both_sides_of_a_narrow_aisle_one_after_the_other) {
   const std::vector<NearThing> aisle = {shelf(0.8, kLeft), shelf(0.9, kRight)};
   EXPECT_EQ(pass(1.0, aisle), Sides{Side::left});
   EXPECT_EQ(pass(1.0, aisle), Sides{Side::right});
 }
 
-TEST_F(NearCuesTest, WaitsForTheVoiceUnlessTheRobotRunsIntoIt) {
+TEST_F(NearCuesTest, waits_for_the_voice_unless_the_robot_runs_into_it) {
   now_.voice_busy = true;
   EXPECT_EQ(pass(1.0, {shelf(0.9, kAhead)}), Sides{});
   now_.measured->linear = 0.5;
@@ -90,18 +90,18 @@ TEST_F(NearCuesTest, WaitsForTheVoiceUnlessTheRobotRunsIntoIt) {
   EXPECT_EQ(last_.priority, Priority::message);
 }
 
-TEST_F(NearCuesTest, TellsWhatIsBehindOnlyToWhoDrivesBack) {
+TEST_F(NearCuesTest, names_what_is_behind_only_while_the_robot_drives_back) {
   EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{});
   now_.measured->linear = -0.5;
   EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{Side::behind});
 }
 
-TEST_F(NearCuesTest, SpeaksOfWallsToo) {
+TEST_F(NearCuesTest, speaks_of_walls_too) {
   EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
   EXPECT_EQ(last_.kind, "wall_near");
 }
 
-TEST_F(NearCuesTest, NamesAThingOnceThatTheRobotDrivesTowards) {
+TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
   const NearThing pedestal{ThingClass::pedestal, 3, 0.9, kAhead, false};
   EXPECT_EQ(pass(1.0, {pedestal}), Sides{}) << "the robot stands";
   now_.measured->linear = 0.5;
@@ -114,7 +114,8 @@ TEST_F(NearCuesTest, NamesAThingOnceThatTheRobotDrivesTowards) {
   EXPECT_EQ(pass(1.0, {{ThingClass::box, 5, 1.1, kAhead, false}}), Sides{}) << "too far";
 }
 
-TEST_F(NearCuesTest, NamesAThingBehindOnlyToWhoDrivesBackAndNoneThatIsPassed) {
+TEST_F(NearCuesTest,
+       names_a_thing_behind_only_while_the_robot_drives_back_and_none_that_is_passed) {
   now_.measured->linear = 0.5;
   EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
                        {ThingClass::box, 4, 0.6, kLeft, false}}),
@@ -125,7 +126,7 @@ TEST_F(NearCuesTest, NamesAThingBehindOnlyToWhoDrivesBackAndNoneThatIsPassed) {
             Sides{Side::behind});
 }
 
-TEST_F(NearCuesTest, NamesWhatMovesAboutOnceMoreIfTheRobotMayBrushIt) {
+TEST_F(NearCuesTest, names_what_moves_about_once_more_if_the_robot_may_brush_it) {
   now_.measured->linear = 0.5;
   const auto worker = [](double gap, const Eigen::Vector2d& at) {
     return NearThing{ThingClass::worker, 3, gap, at, true};
@@ -145,7 +146,7 @@ TEST_F(NearCuesTest, NamesWhatMovesAboutOnceMoreIfTheRobotMayBrushIt) {
   EXPECT_EQ(last_.kind, "obstacle_near");
 }
 
-TEST_F(NearCuesTest, NamesAThingAgainOnlyAfterItWasGoneForAWhile) {
+TEST_F(NearCuesTest, names_a_thing_again_only_after_it_was_gone_for_a_while) {
   now_.measured->linear = 0.5;
   const auto box = [](double gap) { return NearThing{ThingClass::box, 4, gap, kAhead, false}; };
   EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
@@ -156,7 +157,7 @@ TEST_F(NearCuesTest, NamesAThingAgainOnlyAfterItWasGoneForAWhile) {
   EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
 }
 
-TEST_F(NearCuesTest, AddsNothingToACollisionWithAThing) {
+TEST_F(NearCuesTest, adds_nothing_to_a_collision_with_a_thing) {
   now_.measured->linear = 0.5;
   now_.contacts = {{ThingClass::box, kAhead, 4}};
   EXPECT_EQ(pass(0.02, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
@@ -164,7 +165,7 @@ TEST_F(NearCuesTest, AddsNothingToACollisionWithAThing) {
   EXPECT_EQ(pass(5.0, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
 }
 
-TEST_F(NearCuesTest, LeavesEverythingElseToTheHandsWhereThatIsWanted) {
+TEST_F(NearCuesTest, leaves_everything_else_to_the_hands_where_that_is_wanted) {
   NearConfig config;
   config.obstacles = false;
   cues_ = NearCues(config);
@@ -174,7 +175,7 @@ TEST_F(NearCuesTest, LeavesEverythingElseToTheHandsWhereThatIsWanted) {
             Sides{});
 }
 
-TEST_F(NearCuesTest, AddsNothingToACollision) {
+TEST_F(NearCuesTest, adds_nothing_to_a_collision) {
   now_.contacts = {{ThingClass::shelf, kLeft}};
   EXPECT_EQ(pass(0.02, {shelf(0.0, kLeft)}), Sides{});
   now_.contacts.clear();

@@ -74,7 +74,7 @@ Fillings everything() {
   return fillings;
 }
 
-TEST(Phrases, OfEveryKindCanBeSpokenInBothWordings) {
+TEST(Phrases, of_every_kind_can_be_spoken_in_both_wordings) {
   for (const DirectionWords words : {DirectionWords::clock, DirectionWords::left_right}) {
     const Phrases phrases(kEnglish, words);
     for (const CueKind& kind : cue_kinds())
@@ -82,7 +82,7 @@ TEST(Phrases, OfEveryKindCanBeSpokenInBothWordings) {
   }
 }
 
-TEST(Phrases, SayWhatPeopleAndSimulatedOperatorsListenFor) {
+TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   const Phrases phrases(kEnglish);
   EXPECT_EQ(phrases.say("direction", everything()), "3 o'clock, 8 meters");
   EXPECT_EQ(phrases.say("straight", everything()), "straight ahead, 8 meters");
@@ -100,13 +100,13 @@ TEST(Phrases, SayWhatPeopleAndSimulatedOperatorsListenFor) {
   EXPECT_EQ(phrases.say("arrived"), "You have reached your destination");
 }
 
-TEST(Phrases, OfferLeftAndRightInsteadOfTheClock) {
+TEST(Phrases, offer_left_and_right_instead_of_the_clock) {
   const Phrases phrases(kEnglish, DirectionWords::left_right);
   EXPECT_EQ(phrases.say("direction", everything()), "right, 8 meters");
   EXPECT_EQ(phrases.say("turn_now", everything()), "turn right now");
 }
 
-TEST(Phrases, RoundDistancesAsPeopleSayThem) {
+TEST(Phrases, round_distances_as_people_say_them) {
   const Phrases phrases(kEnglish);
   const std::vector<std::pair<double, std::string>> table = {
       {0.0, "0.5 meters"}, {0.6, "0.5 meters"},  {0.8, "1 meter"},    {1.2, "1 meter"},
@@ -117,7 +117,7 @@ TEST(Phrases, RoundDistancesAsPeopleSayThem) {
   EXPECT_THROW((void)phrases.distance(-1.0), std::logic_error);
 }
 
-TEST(Phrases, RefuseToSpeakWithoutWhatThePhraseNeeds) {
+TEST(Phrases, refuse_to_speak_without_what_the_phrase_needs) {
   const Phrases phrases(kEnglish);
   EXPECT_THROW((void)phrases.say("direction"), std::logic_error);
   EXPECT_THROW((void)phrases.say("no such kind"), std::logic_error);
@@ -126,7 +126,7 @@ TEST(Phrases, RefuseToSpeakWithoutWhatThePhraseNeeds) {
   EXPECT_THROW((void)phrases.say("direction", thirteen), std::logic_error);
 }
 
-TEST(Phrases, RefuseAFileThatIsMissingOrNoMap) {
+TEST(Phrases, refuse_a_file_that_is_missing_or_no_map) {
   EXPECT_THROW(Phrases(fs::path("/nowhere/en.yaml")), navvi_config::ConfigError);
   EXPECT_NE(refusal(""), "");
   EXPECT_NE(refusal("- a\n- b\n"), "");
@@ -134,14 +134,14 @@ TEST(Phrases, RefuseAFileThatIsMissingOrNoMap) {
   EXPECT_NE(refusal("phrases: {\n"), "");
 }
 
-TEST(Phrases, RefuseAFileThatLacksAKeyAndNameIt) {
+TEST(Phrases, refuse_a_file_that_lacks_a_key_and_name_it) {
   const std::string no_phrase = refusal(replaced("  arrived:", "  # arrived:"));
   EXPECT_TRUE(names(no_phrase, "arrived") && names(no_phrase, "missing")) << no_phrase;
   const std::string no_word = refusal(replaced("  forklift: forklift\n", ""));
   EXPECT_TRUE(names(no_word, "words/forklift")) << no_word;
 }
 
-TEST(Phrases, RefuseAnUnknownKeyOrPlaceholderWithItsLine) {
+TEST(Phrases, refuse_an_unknown_key_or_placeholder_with_its_line) {
   const std::string key = refusal(replaced("  no_goal:", "  typo: \"x\"\n  no_goal:"));
   EXPECT_TRUE(names(key, "phrases/typo") && names(key, "line ")) << key;
   const std::string placeholder = refusal(replaced("{clock} o'clock, {distance}", "{name} there"));
@@ -152,7 +152,7 @@ TEST(Phrases, RefuseAnUnknownKeyOrPlaceholderWithItsLine) {
   EXPECT_NE(refusal(english() + "\nmore: {}\n"), "");
 }
 
-TEST(Phrases, RefuseTextThatCouldHarmTheVoice) {
+TEST(Phrases, refuse_text_that_could_harm_the_voice) {
   std::string hostile;
   for (int i = 0; i < 68; ++i) hostile += "s'";
   const std::vector<std::string> texts = {
@@ -173,14 +173,14 @@ TEST(Phrases, RefuseTextThatCouldHarmTheVoice) {
   EXPECT_NE(refusal(replaced("forklift: forklift", "forklift: " + std::string(24, 'f') + "t")), "");
 }
 
-TEST(Phrases, RefuseAPhraseThatIsTooLongOnlyWhenFilled) {
+TEST(Phrases, refuse_a_phrase_that_is_too_long_only_when_filled) {
   const std::string sentence = refusal(
       replaced("\"hit a {thing} {where}\"",
                "\"hit a {thing} {where} and that is quite a long sentence for so small a thing\""));
   EXPECT_TRUE(names(sentence, "filled")) << sentence;
 }
 
-TEST(Phrases, CannotBeMadeToSpeakAnythingElse) {
+TEST(Phrases, cannot_be_made_to_speak_anything_else) {
   // Whatever is put in comes from fixed sets; every combination stays within the limits.
   const Phrases phrases(kEnglish);
   for (const CueKind& kind : cue_kinds())

@@ -59,7 +59,7 @@ class Drive {
 
 using Kinds = std::vector<std::string>;
 
-TEST(RouteCues, IntroduceANewGoalAndThenTheWayToIt) {
+TEST(RouteCues, introduce_a_new_goal_and_then_the_way_to_it) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
   drive.now.goal_angle = rad(-60.0);
@@ -74,13 +74,13 @@ TEST(RouteCues, IntroduceANewGoalAndThenTheWayToIt) {
   EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 8.0);
 }
 
-TEST(RouteCues, IntroduceAGoalWhoseBearingIsUnknownByItsDistance) {
+TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
 }
 
-TEST(RouteCues, SayNothingOfAnAngleThatIsNoNumber) {
+TEST(RouteCues, say_nothing_of_an_angle_that_is_no_number) {
   Drive drive;
   drive.now.guidance = following(std::nan(""), 8.0);
   EXPECT_EQ(drive.pass(10.0), Kinds{});
@@ -89,7 +89,7 @@ TEST(RouteCues, SayNothingOfAnAngleThatIsNoNumber) {
   EXPECT_FALSE(drive.cues.ask(*drive.now.guidance, drive.time));
 }
 
-TEST(RouteCues, DoNotSayByThemselvesWhatWasJustAnswered) {
+TEST(RouteCues, do_not_say_by_themselves_what_was_just_answered) {
   Drive drive;
   drive.settle(0.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
@@ -99,7 +99,7 @@ TEST(RouteCues, DoNotSayByThemselvesWhatWasJustAnswered) {
   EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
 }
 
-TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
+TEST(RouteCues, send_nobody_straight_ahead_into_a_thing_that_the_path_avoids) {
   Drive drive;
   drive.settle(10.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
@@ -113,7 +113,7 @@ TEST(RouteCues, SendNobodyStraightAheadIntoWhatTheWayLeadsRound) {
   EXPECT_EQ(drive.pass(3.0), Kinds{"direction"}) << "the way leads off from it";
 }
 
-TEST(RouteCues, SendNobodyOffIntoWhatStandsThatWay) {
+TEST(RouteCues, send_nobody_aside_into_a_thing) {
   Drive drive;
   drive.settle(8.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
@@ -122,7 +122,7 @@ TEST(RouteCues, SendNobodyOffIntoWhatStandsThatWay) {
   EXPECT_EQ(drive.pass(3.0), Kinds{}) << "30 degrees to the right is where it stands";
 }
 
-TEST(RouteCues, LeadOffAndAheadAgainOnlyOnceTheAngleHasClearlyChanged) {
+TEST(RouteCues, lead_aside_and_ahead_again_only_once_the_angle_has_clearly_changed) {
   Drive drive;
   drive.settle(7.5, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
@@ -134,7 +134,7 @@ TEST(RouteCues, LeadOffAndAheadAgainOnlyOnceTheAngleHasClearlyChanged) {
   EXPECT_EQ(drive.pass(3.0), Kinds{"straight"});
 }
 
-TEST(RouteCues, JudgeANewLegAfresh) {
+TEST(RouteCues, judge_a_new_leg_afresh) {
   Drive drive;
   drive.settle(0.0, 1.5);
   drive.now.guidance = following(17.0, 8.0);
@@ -143,7 +143,7 @@ TEST(RouteCues, JudgeANewLegAfresh) {
   EXPECT_EQ(drive.last.fillings.hour, 1) << "17 degrees would still be held as 12 on the old leg";
 }
 
-TEST(RouteCues, CallANewRouteJustBeforeACornerByItsName) {
+TEST(RouteCues, call_a_new_route_just_before_a_corner_by_its_name) {
   Drive drive;
   drive.settle(0.0, 1.5);
   drive.now.guidance = following(90.0, 8.0);
@@ -152,13 +152,13 @@ TEST(RouteCues, CallANewRouteJustBeforeACornerByItsName) {
   EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
 }
 
-TEST(RouteCues, RepeatTheDirectionWhileTheRobotFacesElsewhere) {
+TEST(RouteCues, repeat_the_direction_while_the_robot_faces_elsewhere) {
   Drive drive;
   drive.settle(90.0, 8.0);
   EXPECT_EQ(drive.pass(12.0), (Kinds{"direction", "direction", "direction"}));
 }
 
-TEST(RouteCues, RepeatHalfAsOftenWhileTheStickRests) {
+TEST(RouteCues, repeat_half_as_often_while_the_stick_rests) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.commanded = {};
@@ -166,13 +166,13 @@ TEST(RouteCues, RepeatHalfAsOftenWhileTheStickRests) {
   EXPECT_EQ(drive.pass(16.0).size(), 2U);
 }
 
-TEST(RouteCues, RepeatStraightAheadSeldom) {
+TEST(RouteCues, repeat_straight_ahead_seldom) {
   Drive drive;
   drive.settle(0.0, 30.0);
   EXPECT_EQ(drive.pass(16.0), (Kinds{"straight", "straight"}));
 }
 
-TEST(RouteCues, CorrectOnlyBeyondTheHysteresis) {
+TEST(RouteCues, correct_only_beyond_the_hysteresis) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(18.0);
@@ -182,7 +182,7 @@ TEST(RouteCues, CorrectOnlyBeyondTheHysteresis) {
   EXPECT_EQ(drive.last.fillings.hour, 1);
 }
 
-TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
+TEST(RouteCues, leave_out_the_hours_that_a_turning_robot_passes_and_say_when_to_stop) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.measured = Velocity{0.0, -1.0};
@@ -203,7 +203,7 @@ TEST(RouteCues, LeaveOutTheHoursThatATurningRobotPassesAndSayWhenToStop) {
   EXPECT_LT(angle_when_told, 60.0);
 }
 
-TEST(RouteCues, TellARobotThatTurnedTooFarOnceItHasSettled) {
+TEST(RouteCues, tell_a_robot_that_turned_too_far_once_it_has_settled) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.measured = Velocity{0.0, -1.0};
@@ -216,7 +216,7 @@ TEST(RouteCues, TellARobotThatTurnedTooFarOnceItHasSettled) {
   EXPECT_EQ(drive.last.fillings.hour, 11);
 }
 
-TEST(RouteCues, AnnounceATurnOnceAheadAndOnceWhenTheCornerIsReached) {
+TEST(RouteCues, announce_a_turn_once_ahead_and_once_when_the_corner_is_reached) {
   Drive drive;
   drive.settle(0.0, 12.0);
   Kinds said;
@@ -239,7 +239,7 @@ TEST(RouteCues, AnnounceATurnOnceAheadAndOnceWhenTheCornerIsReached) {
   EXPECT_EQ(drive.last.fillings.hour, 3);
 }
 
-TEST(RouteCues, KeepQuietAboutATurnAtTheGoal) {
+TEST(RouteCues, keep_quiet_about_a_turn_at_the_goal) {
   Drive drive;
   drive.now.guidance = following(0.0, 5.0);
   drive.now.guidance->waypoint_is_goal = true;
@@ -247,7 +247,7 @@ TEST(RouteCues, KeepQuietAboutATurnAtTheGoal) {
   EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 0);
 }
 
-TEST(RouteCues, KeepQuietAfterAReplanThatChangesNothingToDo) {
+TEST(RouteCues, keep_quiet_after_a_replan_that_changes_nothing_to_do) {
   Drive drive;
   drive.settle(0.0, 30.0);
   for (int plan = 0; plan < 3; ++plan) {
@@ -257,7 +257,7 @@ TEST(RouteCues, KeepQuietAfterAReplanThatChangesNothingToDo) {
   }
 }
 
-TEST(RouteCues, SayANewRouteIfTheNextManoeuvreChanged) {
+TEST(RouteCues, say_a_new_route_if_the_next_manoeuvre_changed) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.now.guidance->waypoint = {0.0, -12.0};
@@ -267,7 +267,7 @@ TEST(RouteCues, SayANewRouteIfTheNextManoeuvreChanged) {
   EXPECT_EQ(drive.last.fillings.hour, 5);
 }
 
-TEST(RouteCues, SayThatTheOldWayIsBlockedOnceForEachReroute) {
+TEST(RouteCues, say_that_the_old_way_is_blocked_once_for_each_reroute) {
   Drive drive;
   drive.settle(0.0, 30.0);
   const auto lead_to = [&drive](double x, double degrees) {
@@ -282,7 +282,7 @@ TEST(RouteCues, SayThatTheOldWayIsBlockedOnceForEachReroute) {
   EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
 }
 
-TEST(RouteCues, SayStraightAheadInATurnNotMoreThanAnHourTooEarly) {
+TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.commanded = {0.0, -1.2};
@@ -298,7 +298,7 @@ TEST(RouteCues, SayStraightAheadInATurnNotMoreThanAnHourTooEarly) {
   EXPECT_EQ(face(10.0), Kinds{});
 }
 
-TEST(RouteCues, LetATurnByOneHourEndByItself) {
+TEST(RouteCues, let_a_turn_by_one_hour_end_by_itself) {
   for (const double side : {1.0, -1.0}) {
     Drive drive;
     drive.settle(side * 30.0, 8.0);
@@ -313,7 +313,7 @@ TEST(RouteCues, LetATurnByOneHourEndByItself) {
   }
 }
 
-TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
+TEST(RouteCues, do_not_correct_a_robot_that_is_about_to_pass_the_corner_near_enough) {
   Drive drive;
   drive.settle(0.0, 8.0);
   drive.now.guidance->waypoint_distance = 1.4;
@@ -321,7 +321,7 @@ TEST(RouteCues, DoNotCorrectARobotThatIsAboutToPassTheCornerNearEnough) {
   EXPECT_EQ(drive.pass(1.0), Kinds{});
 }
 
-TEST(RouteCues, DoNotWaverBetweenTheHoursAheadJustBeforeTheWayPoint) {
+TEST(RouteCues, do_not_waver_between_the_hours_ahead_just_before_the_way_point) {
   Drive drive;
   drive.settle(0.0, 8.0);
   drive.now.guidance->waypoint_is_goal = true;
@@ -339,14 +339,14 @@ TEST(RouteCues, DoNotWaverBetweenTheHoursAheadJustBeforeTheWayPoint) {
   EXPECT_EQ(drive.pass(1.0), Kinds{"direction"}) << "who missed it is told";
 }
 
-TEST(RouteCues, TellWhoStandsJustBeforeTheWayPointToGoOn) {
+TEST(RouteCues, tell_a_person_who_stands_just_before_the_way_point_to_go_on) {
   Drive drive;
   drive.settle(0.0, 0.9);
   drive.now.commanded = {};
   EXPECT_FALSE(drive.pass(20.0).empty());
 }
 
-TEST(RouteCues, SayTheDirectionAgainAfterAStop) {
+TEST(RouteCues, say_the_direction_again_after_a_stop) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.cues.remind(drive.time + 1.0);
@@ -354,7 +354,7 @@ TEST(RouteCues, SayTheDirectionAgainAfterAStop) {
   EXPECT_EQ(drive.pass(0.2), Kinds{"straight"});
 }
 
-TEST(RouteCues, SayTheDirectionWhenThePathIsBackWithoutANewIntroduction) {
+TEST(RouteCues, say_the_direction_when_the_path_is_back_without_a_new_introduction) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.cues.pause();
@@ -438,7 +438,7 @@ void lead(const RouteConfig& config, double error) {
   EXPECT_LT(person.words, 45);
 }
 
-TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
+TEST(RouteCues, bring_a_person_who_only_hears_to_the_goal) {
   for (const char* rounding : {"nearest", "floor"}) {
     for (const double error : {0.8, 1.0, 1.2}) {
       SCOPED_TRACE(std::string(rounding) + ", turns by " + std::to_string(error) + " of the hour");
@@ -449,7 +449,7 @@ TEST(RouteCues, BringAPersonWhoOnlyHearsToTheGoal) {
   }
 }
 
-TEST(RouteCues, TellOnceForWhomToMakeRoomAndThenTheWay) {
+TEST(RouteCues, name_once_the_thing_to_make_room_for_and_then_the_way) {
   Drive drive;
   drive.settle(0.0, 12.0);
   drive.now.guidance = following(170.0, 3.0);

@@ -108,14 +108,14 @@ class GamepadWith : public testing::Test {
   }
 };
 
-TEST_F(GamepadWith, NoPadIsNotLive) {
+TEST_F(GamepadWith, no_pad_is_not_live) {
   Gamepad gamepad;
   EXPECT_FALSE(gamepad.status().connected);
   EXPECT_FALSE(gamepad.input().live);
   gamepad.rumble({1.0, 1.0});
 }
 
-TEST_F(GamepadWith, APadGivesItsAxesLeftAndForwardPositive) {
+TEST_F(GamepadWith, a_pad_gives_its_axes_left_and_forward_positive) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -132,7 +132,7 @@ TEST_F(GamepadWith, APadGivesItsAxesLeftAndForwardPositive) {
   }
 }
 
-TEST_F(GamepadWith, TheFirstTwoButtonsAskForTheDirectionAndTheGoal) {
+TEST_F(GamepadWith, the_first_two_buttons_ask_for_the_direction_and_the_goal) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -143,7 +143,7 @@ TEST_F(GamepadWith, TheFirstTwoButtonsAskForTheDirectionAndTheGoal) {
   EXPECT_TRUE(eventually([&] { return !gamepad.input().button(0) && gamepad.input().button(1); }));
 }
 
-TEST_F(GamepadWith, RumbleReachesTheRightMotorsAndExpiresWithoutANewWish) {
+TEST_F(GamepadWith, rumble_reaches_the_right_motors_and_expires_without_a_new_wish) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -155,7 +155,7 @@ TEST_F(GamepadWith, RumbleReachesTheRightMotorsAndExpiresWithoutANewWish) {
   EXPECT_TRUE(eventually([&] { return pad.left() == 0 && pad.right() == 0; }, 600ms));
 }
 
-TEST_F(GamepadWith, ASteadyWishKeepsTheMotorsTurningBeyondTheExpiry) {
+TEST_F(GamepadWith, a_steady_wish_keeps_the_motors_turning_beyond_the_expiry) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -168,7 +168,7 @@ TEST_F(GamepadWith, ASteadyWishKeepsTheMotorsTurningBeyondTheExpiry) {
   }
 }
 
-TEST_F(GamepadWith, TheFirstTouchOfTheMotorsIsSoft) {
+TEST_F(GamepadWith, the_first_touch_of_the_motors_is_soft) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -183,7 +183,7 @@ TEST_F(GamepadWith, TheFirstTouchOfTheMotorsIsSoft) {
   EXPECT_EQ(pad.left(), 0);
 }
 
-TEST_F(GamepadWith, AWishThatIsNotFiniteIsSilence) {
+TEST_F(GamepadWith, a_wish_that_is_not_finite_is_silence) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -192,7 +192,7 @@ TEST_F(GamepadWith, AWishThatIsNotFiniteIsSilence) {
   EXPECT_TRUE(reaches(gamepad, {nan, nan}, [&] { return pad.left() == 0 && pad.right() == 0; }));
 }
 
-TEST_F(GamepadWith, LeavingStopsTheMotors) {
+TEST_F(GamepadWith, leaving_stops_the_motors) {
   VirtualPad pad;
   {
     Gamepad gamepad;
@@ -203,7 +203,7 @@ TEST_F(GamepadWith, LeavingStopsTheMotors) {
   EXPECT_EQ(pad.right(), 0);
 }
 
-TEST_F(GamepadWith, J1ADetachedPadIsGoneWithin100ms) {
+TEST_F(GamepadWith, a_detached_pad_is_gone_within_100_ms) {
   Gamepad gamepad;
   VirtualPad pad;
   ASSERT_TRUE(connects(gamepad));
@@ -214,7 +214,7 @@ TEST_F(GamepadWith, J1ADetachedPadIsGoneWithin100ms) {
   EXPECT_FALSE(gamepad.status().connected);
 }
 
-TEST_F(GamepadWith, J3APadThatComesBackHeldForwardDoesNotArm) {
+TEST_F(GamepadWith, a_pad_that_comes_back_held_forward_does_not_arm) {
   Gamepad gamepad;
   drive::Drive drive{drive::DriveConfig{}};
   const auto tick = [&] {
@@ -245,7 +245,7 @@ TEST_F(GamepadWith, J3APadThatComesBackHeldForwardDoesNotArm) {
   EXPECT_FALSE(drive.armed());
 }
 
-TEST_F(GamepadWith, J4ASecondPadIsIgnoredUntilTheFirstIsGone) {
+TEST_F(GamepadWith, a_second_pad_is_ignored_until_the_first_is_gone) {
   Gamepad gamepad;
   VirtualPad first;
   ASSERT_TRUE(connects(gamepad));
@@ -266,7 +266,7 @@ TEST_F(GamepadWith, J4ASecondPadIsIgnoredUntilTheFirstIsGone) {
   EXPECT_TRUE(eventually([&] { return gamepad.status().instance == third.instance(); }));
 }
 
-TEST_F(GamepadWith, J5RumbleDuringAndAfterADetachIsHarmless) {
+TEST_F(GamepadWith, rumble_during_and_after_a_detach_is_harmless) {
   Gamepad gamepad;
   std::atomic<bool> quit{false};
   std::thread shaker([&] {
@@ -288,7 +288,7 @@ TEST_F(GamepadWith, J5RumbleDuringAndAfterADetachIsHarmless) {
   EXPECT_GE(gamepad.status().connections, 10u);
 }
 
-TEST_F(GamepadWith, J6APadWithoutRumbleSaysSo) {
+TEST_F(GamepadWith, a_pad_without_rumble_says_so) {
   Gamepad gamepad;
   VirtualPad pad(false);
   ASSERT_TRUE(connects(gamepad));
@@ -299,13 +299,13 @@ TEST_F(GamepadWith, J6APadWithoutRumbleSaysSo) {
   EXPECT_EQ(gamepad.status().rumble_errors, 0u);
 }
 
-TEST_F(GamepadWith, AutoTakesThePadThatIsThere) {
+TEST_F(GamepadWith, auto_takes_the_pad_that_is_there) {
   VirtualPad pad;
   InputSource source("auto");
   EXPECT_EQ(source.kind(), InputSource::Kind::pad);
 }
 
-TEST(InputSource, ATopicIsLostAfter250msOfSilence) {
+TEST(InputSource, a_topic_is_lost_after_250_ms_of_silence) {
   InputSource source("topic");
   EXPECT_FALSE(source.read(0.0).live);
   drive::InputState input;

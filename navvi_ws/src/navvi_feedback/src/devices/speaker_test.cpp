@@ -81,7 +81,7 @@ double loud_time() {
   return time;
 }
 
-TEST(SpeakerConfig, AllowsNoRateThatTheVoiceDoesNotKeep) {
+TEST(SpeakerConfig, allows_no_rate_that_the_voice_does_not_keep) {
   for (const int rate : {79, 450}) {
     SpeakerConfig config;
     EXPECT_THROW(navvi_config::read(config, YAML::Load("rate: " + std::to_string(rate)), "test"),
@@ -89,18 +89,18 @@ TEST(SpeakerConfig, AllowsNoRateThatTheVoiceDoesNotKeep) {
   }
 }
 
-TEST(Speaker, RefusesAVoiceThatThereIsNot) {
+TEST(Speaker, rejects_a_voice_that_does_not_exist) {
   SpeakerConfig config;
   config.voice = "no-such-voice";
   EXPECT_THROW(Speaker(config, Audio::off), DeviceError);
 }
 
-TEST(Speaker, IsOneAtATime) {
+TEST(Speaker, is_one_at_a_time) {
   const Speaker speaker(SpeakerConfig{}, Audio::off);
   EXPECT_THROW(Speaker(SpeakerConfig{}, Audio::off), DeviceError);
 }
 
-TEST(Speaker, KeepsQuietForAsLongAsSpeakingTakesWhenItHasNoDevice) {
+TEST(Speaker, keeps_quiet_for_as_long_as_speaking_takes_when_it_has_no_device) {
   Speaker speaker(SpeakerConfig{}, Audio::off);
   EXPECT_EQ(speaker.status().device, Speaker::Status::Device::off);
   const auto start = Clock::now();
@@ -111,7 +111,7 @@ TEST(Speaker, KeepsQuietForAsLongAsSpeakingTakesWhenItHasNoDevice) {
   EXPECT_EQ(speaker.status().spoken, 1U);
 }
 
-TEST(Speaker, SpeaksFasterAtAHigherRate) {
+TEST(Speaker, speaks_faster_at_a_higher_rate) {
   std::vector<double> times;
   for (const int rate : {160, 440}) {
     SpeakerConfig config;
@@ -125,7 +125,7 @@ TEST(Speaker, SpeaksFasterAtAHigherRate) {
   EXPECT_GT(times[0], 1.4 * times[1]);
 }
 
-TEST(Speaker, DoesNotSpeakWhatCouldHarmIt) {
+TEST(Speaker, does_not_speak_what_could_harm_it) {
   Speaker speaker(SpeakerConfig{}, Audio::off);
   std::string hostile;
   for (int i = 0; i < 68; ++i) hostile += "s'";
@@ -135,7 +135,7 @@ TEST(Speaker, DoesNotSpeakWhatCouldHarmIt) {
   EXPECT_EQ(speaker.status().failed, 4U);
 }
 
-TEST(Speaker, SurvivesManyStartsAndStops) {
+TEST(Speaker, survives_many_starts_and_stops) {
   Speaker speaker(SpeakerConfig{}, Audio::off);
   for (int i = 0; i < 500; ++i) {
     speaker.start("3 o'clock, 8 meters");
@@ -146,7 +146,7 @@ TEST(Speaker, SurvivesManyStartsAndStops) {
   EXPECT_FALSE(speaker.busy());
 }
 
-TEST(Speaker, IsHeardAndFallsSilentAtOnceWhenStopped) {
+TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   double whole = 0.0;
   {
     Speaker speaker(SpeakerConfig{}, Audio::on);
@@ -176,7 +176,7 @@ TEST(Speaker, IsHeardAndFallsSilentAtOnceWhenStopped) {
   EXPECT_LT(loud_time(), 0.75) << "went on after stop()";
 }
 
-TEST(SpeechChannel, LetsASafetyCueBeHeardAndGivesEveryCueItsEnd) {
+TEST(SpeechChannel, lets_a_safety_cue_be_heard_and_gives_every_cue_its_end) {
   SpeechChannel channel(SpeakerConfig{}, Audio::off);
   std::vector<CueEvent> events;
   const auto start = Clock::now();

@@ -24,39 +24,39 @@ class DriveOf : public testing::Test {
   Drive drive_{config_};
 };
 
-TEST_F(DriveOf, AMissingStickAsksForNothingAtAll) {
+TEST_F(DriveOf, a_missing_stick_gives_no_command) {
   EXPECT_FALSE(hold(std::nullopt, 1.0).has_value());
 }
 
-TEST_F(DriveOf, AStickThatIsNotFiniteIsAMissingStick) {
+TEST_F(DriveOf, a_stick_that_is_not_finite_is_a_missing_stick) {
   arm();
   EXPECT_FALSE(drive_.update(Stick{kNan, 0.0}, kStep).has_value());
   EXPECT_FALSE(drive_.update(Stick{0.0, std::numeric_limits<double>::infinity()}, kStep));
   EXPECT_FALSE(drive_.armed());
 }
 
-TEST_F(DriveOf, AStickThatIsHeldWhenItAppearsMovesNothing) {
+TEST_F(DriveOf, a_stick_that_is_held_when_it_appears_moves_nothing) {
   const auto velocity = hold(Stick{0.0, 1.0}, 5.0);
   ASSERT_TRUE(velocity);
   EXPECT_EQ(velocity->linear, 0.0);
   EXPECT_FALSE(drive_.armed());
 }
 
-TEST_F(DriveOf, AStickArmsAfterThreeHundredMillisecondsOfNeutral) {
+TEST_F(DriveOf, a_stick_arms_after_three_hundred_milliseconds_of_neutral) {
   hold(Stick{}, 0.28);
   EXPECT_FALSE(drive_.armed());
   hold(Stick{}, 0.04);
   EXPECT_TRUE(drive_.armed());
 }
 
-TEST_F(DriveOf, AReturningStickThatIsHeldMovesNothing) {
+TEST_F(DriveOf, a_returning_stick_that_is_held_moves_nothing) {
   arm();
   hold(Stick{0.0, 1.0}, 2.0);
   hold(std::nullopt, kStep);
   EXPECT_EQ(hold(Stick{0.0, 1.0}, 2.0)->linear, 0.0);
 }
 
-TEST_F(DriveOf, DriftWithinTheDeadZoneCountsAsNeutral) {
+TEST_F(DriveOf, drift_within_the_dead_zone_counts_as_neutral) {
   hold(Stick{0.05, -0.05}, 0.4);
   EXPECT_TRUE(drive_.armed());
   const auto velocity = hold(Stick{0.05, -0.05}, 1.0);
@@ -64,7 +64,7 @@ TEST_F(DriveOf, DriftWithinTheDeadZoneCountsAsNeutral) {
   EXPECT_EQ(velocity->angular, 0.0);
 }
 
-TEST_F(DriveOf, FullStickGivesTheMaximumsWithTheirSigns) {
+TEST_F(DriveOf, full_stick_gives_the_maximums_with_their_signs) {
   arm();
   EXPECT_NEAR(hold(Stick{0.0, 1.0}, 3.0)->linear, config_.max_forward, 1e-9);
   EXPECT_NEAR(hold(Stick{0.0, -1.0}, 3.0)->linear, -config_.max_reverse, 1e-9);
@@ -72,12 +72,12 @@ TEST_F(DriveOf, FullStickGivesTheMaximumsWithTheirSigns) {
   EXPECT_NEAR(hold(Stick{-1.0, 0.0}, 3.0)->angular, -config_.max_turn, 1e-9);
 }
 
-TEST_F(DriveOf, AnAxisBeyondOneIsOne) {
+TEST_F(DriveOf, an_axis_beyond_one_is_one) {
   EXPECT_NEAR(drive_.shaped({7.0, -9.0}).x, 1.0, 1e-12);
   EXPECT_NEAR(drive_.shaped({7.0, -9.0}).y, -1.0, 1e-12);
 }
 
-TEST_F(DriveOf, TheCurveStartsAtZeroAndOnlyRises) {
+TEST_F(DriveOf, the_curve_starts_at_zero_and_only_rises) {
   double last = 0.0;
   for (double y = 0.0; y <= 1.0; y += 0.001) {
     const double shaped = drive_.shaped({0.0, y}).y;
@@ -88,7 +88,7 @@ TEST_F(DriveOf, TheCurveStartsAtZeroAndOnlyRises) {
   }
 }
 
-TEST_F(DriveOf, NeverChangesFasterThanItsLimits) {
+TEST_F(DriveOf, never_changes_faster_than_its_limits) {
   arm();
   Velocity last;
   const double hardest = std::max(config_.acceleration, config_.deceleration) * kStep + 1e-12;
@@ -102,7 +102,7 @@ TEST_F(DriveOf, NeverChangesFasterThanItsLimits) {
   }
 }
 
-TEST_F(DriveOf, AReleasedStickComesToAFullStop) {
+TEST_F(DriveOf, a_released_stick_comes_to_a_full_stop) {
   arm();
   hold(Stick{1.0, 1.0}, 3.0);
   const Velocity velocity = *hold(Stick{}, 1.0);

@@ -36,20 +36,20 @@ Rumble settle(Haptics& haptics, const std::vector<NearThing>& things, double sec
   return rumble;
 }
 
-TEST(Haptics, ThePaperLawIsTheFormulaAsPrinted) {
+TEST(Haptics, the_paper_law_is_the_formula_as_printed) {
   for (double d = 0.0; d < 5.0; d += 0.1)
     EXPECT_NEAR(rumble_force(paper(), d), std::log(1.0 + (1.0 - d / 5.0)), 1e-12);
   EXPECT_NEAR(rumble_force(paper(), 0.0), 0.693, 1e-3);
 }
 
-TEST(Haptics, ThePaperProfileGivesTheBareFormulaAtOnce) {
+TEST(Haptics, the_paper_profile_gives_the_bare_formula_at_once) {
   Haptics haptics(paper());
   const Rumble rumble = haptics.update({thing(2.0, 2.0, 1.5)}, true, kStep);
   EXPECT_NEAR(rumble.left, std::log(1.6), 1e-12);
   EXPECT_EQ(rumble.right, 0.0);
 }
 
-TEST(Haptics, EveryCurveFallsFromOneAtTouchToZeroAtTheRange) {
+TEST(Haptics, every_curve_falls_from_one_at_touch_to_zero_at_the_range) {
   HapticsConfig config;
   for (const char* curve : {"log", "linear", "power"}) {
     config.curve = curve;
@@ -65,14 +65,14 @@ TEST(Haptics, EveryCurveFallsFromOneAtTouchToZeroAtTheRange) {
   }
 }
 
-TEST(Haptics, AGapThatIsNotFiniteIsNotFelt) {
+TEST(Haptics, a_gap_that_is_not_finite_is_not_felt) {
   EXPECT_EQ(rumble_force(HapticsConfig{}, kNan), 0.0);
   Haptics haptics{HapticsConfig{}};
   EXPECT_EQ(settle(haptics, {thing(kNan, 1.0, 2.0)}).left, 0.0);
   EXPECT_EQ(settle(haptics, {thing(1.0, kNan, kNan)}).left, 0.0);
 }
 
-TEST(Haptics, TheMotorIsOnTheSideOfTheThing) {
+TEST(Haptics, the_motor_is_on_the_side_of_the_thing) {
   struct Row {
     double y;
     bool left, right;
@@ -86,7 +86,7 @@ TEST(Haptics, TheMotorIsOnTheSideOfTheThing) {
   }
 }
 
-TEST(Haptics, AMirroredWorldFeelsMirrored) {
+TEST(Haptics, a_mirrored_world_feels_mirrored) {
   HapticsConfig config;
   config.start_right = config.start_left;
   for (double y = 0.05; y < 4.0; y += 0.1) {
@@ -99,14 +99,14 @@ TEST(Haptics, AMirroredWorldFeelsMirrored) {
   }
 }
 
-TEST(Haptics, OnlyTheNearestThingIsFelt) {
+TEST(Haptics, only_the_nearest_thing_is_felt) {
   Haptics haptics(paper());
   const Rumble rumble = settle(haptics, {thing(3.0, 0.0, 3.5), thing(1.0, 0.0, -1.5)});
   EXPECT_EQ(rumble.left, 0.0);
   EXPECT_NEAR(rumble.right, std::log(1.8), 1e-12);
 }
 
-TEST(Haptics, ShelvesAndWallsAreNotFelt) {
+TEST(Haptics, shelves_and_walls_are_not_felt) {
   Haptics haptics{HapticsConfig{}};
   const Rumble rumble = settle(
       haptics, {thing(0.1, 0.5, 0.0, ThingClass::shelf), thing(0.1, 0.5, 0.0, ThingClass::wall)});
@@ -114,13 +114,13 @@ TEST(Haptics, ShelvesAndWallsAreNotFelt) {
   EXPECT_EQ(rumble.right, 0.0);
 }
 
-TEST(Haptics, AnUnknownClassInTheListIsRefused) {
+TEST(Haptics, an_unknown_class_in_the_list_is_refused) {
   HapticsConfig config;
   config.classes = {"dragon"};
   EXPECT_THROW(Haptics{config}, navvi_config::ConfigError);
 }
 
-TEST(Haptics, StaleSensingStopsTheMotorsAtOnce) {
+TEST(Haptics, stale_sensing_stops_the_motors_at_once) {
   Haptics haptics{HapticsConfig{}};
   EXPECT_GT(settle(haptics, {thing(0.2, 0.5, 0.0)}).left, 0.5);
   const Rumble rumble = haptics.update({thing(0.2, 0.5, 0.0)}, false, kStep);
@@ -128,7 +128,7 @@ TEST(Haptics, StaleSensingStopsTheMotorsAtOnce) {
   EXPECT_EQ(rumble.right, 0.0);
 }
 
-TEST(Haptics, TheOnsetIsARampAndNoJolt) {
+TEST(Haptics, the_onset_is_a_ramp_and_no_jolt) {
   const HapticsConfig config;
   Haptics haptics(config);
   double last = 0.0;
@@ -140,7 +140,7 @@ TEST(Haptics, TheOnsetIsARampAndNoJolt) {
   EXPECT_GT(last, 0.9);
 }
 
-TEST(Haptics, AThingThatTremblesOnTheRangeIsFeltSteadilyOrNotAtAll) {
+TEST(Haptics, a_thing_that_trembles_on_the_range_is_felt_steadily_or_not_at_all) {
   Haptics haptics{HapticsConfig{}};
   int changes = 0;
   bool felt = false;
@@ -152,7 +152,7 @@ TEST(Haptics, AThingThatTremblesOnTheRangeIsFeltSteadilyOrNotAtAll) {
   EXPECT_LE(changes, 1);
 }
 
-TEST(Haptics, AThingThatTremblesOnABorderKeepsItsZone) {
+TEST(Haptics, a_thing_that_trembles_on_a_border_keeps_its_zone) {
   for (const double border : {1.0, -1.0}) {
     Haptics haptics{HapticsConfig{}};
     (void)haptics.update({thing(1.0, 1.0, border)}, true, kStep);
@@ -164,7 +164,7 @@ TEST(Haptics, AThingThatTremblesOnABorderKeepsItsZone) {
   }
 }
 
-TEST(Haptics, AMotorThatTurnsGetsAtLeastItsStartingThreshold) {
+TEST(Haptics, a_motor_that_turns_gets_at_least_its_starting_threshold) {
   HapticsConfig config;
   config.start_left = 0.2;
   config.gain_left = 0.8;
@@ -175,7 +175,7 @@ TEST(Haptics, AMotorThatTurnsGetsAtLeastItsStartingThreshold) {
   EXPECT_NEAR(settle(other, {thing(0.0, 0.35, 0.0)}).left, 0.8, 1e-9);
 }
 
-TEST(Haptics, EveryOutputIsInZeroToOne) {
+TEST(Haptics, every_output_is_in_zero_to_one) {
   Haptics haptics{HapticsConfig{}};
   for (int i = 0; i < 3000; ++i) {
     const double gap = 6.0 * std::abs(std::sin(0.37 * i)) - 0.5;
@@ -188,7 +188,7 @@ TEST(Haptics, EveryOutputIsInZeroToOne) {
   }
 }
 
-TEST(RumbleOutput, TellsChangesAtMostTwentyTimesASecondButAStopAtOnce) {
+TEST(RumbleOutput, sends_changes_at_most_twenty_times_a_second_but_a_stop_at_once) {
   RumbleOutput output;
   int changes = 0;
   for (int i = 0; i < 100; ++i) {
@@ -201,7 +201,7 @@ TEST(RumbleOutput, TellsChangesAtMostTwentyTimesASecondButAStopAtOnce) {
   EXPECT_FALSE(output.update({0.0, 0.0}, 2.002).changed);
 }
 
-TEST(RumbleOutput, RepeatsTheValuesForDriversWithoutMemory) {
+TEST(RumbleOutput, repeats_the_values_for_drivers_without_memory) {
   RumbleOutput output;
   int sent = 0;
   for (int i = 0; i < 50; ++i) {
@@ -211,7 +211,7 @@ TEST(RumbleOutput, RepeatsTheValuesForDriversWithoutMemory) {
   EXPECT_LE(sent, 11);
 }
 
-TEST(RumbleOutput, TheAlarmIsThreePulsesThatBeginAndEndSoftly) {
+TEST(RumbleOutput, the_alarm_is_three_pulses_that_begin_and_end_softly) {
   int pulses = 0;
   double last = 0.0;
   for (double t = -0.1; t < 3.0; t += 0.005) {

@@ -8,7 +8,7 @@
 namespace navvi_feedback::node {
 namespace {
 
-TEST(FromMsg, AJoyNeedsTwoAxesInRange) {
+TEST(FromMsg, a_joy_needs_two_axes_in_range) {
   sensor_msgs::Joy msg;
   EXPECT_FALSE(from_msg(msg).has_value());
   msg.axes = {0.5F, -1.0F};
@@ -19,7 +19,7 @@ TEST(FromMsg, AJoyNeedsTwoAxesInRange) {
   }
 }
 
-TEST(Joy, SurvivesTheRoundTrip) {
+TEST(Joy, survives_the_round_trip) {
   drive::InputState input;
   input.live = true;
   input.axes = {0.5, -0.25, 0.0};
@@ -30,7 +30,7 @@ TEST(Joy, SurvivesTheRoundTrip) {
   EXPECT_EQ(back->buttons, input.buttons);
 }
 
-TEST(ToMsg, RumbleNamesBothMotorsAlsoWhenTheyAreOff) {
+TEST(ToMsg, rumble_names_both_motors_also_when_they_are_off) {
   const auto msg = feedback_msg({0.0, 0.5});
   ASSERT_EQ(msg.array.size(), 2u);
   EXPECT_EQ(msg.array[0].type, sensor_msgs::JoyFeedback::TYPE_RUMBLE);
@@ -40,7 +40,7 @@ TEST(ToMsg, RumbleNamesBothMotorsAlsoWhenTheyAreOff) {
   EXPECT_EQ(msg.array[1].intensity, 0.5F);
 }
 
-TEST(ToMsg, ARumbleIsACueThatIsFelt) {
+TEST(ToMsg, a_rumble_is_a_cue_that_is_felt) {
   const navvi_types::CueEvent event = rumble_event({0.25, 0.5}, 3);
   EXPECT_EQ(event.id, 3U);
   EXPECT_EQ(event.modality, navvi_types::Modality::rumble);

@@ -53,7 +53,7 @@ double contrast(double one, double other) {
   return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
 }
 
-TEST(Markers, WithoutGuidanceEverythingIsDeleted) {
+TEST(Markers, without_guidance_everything_is_deleted) {
   for (const auto& guidance : {std::optional<Guidance>{}, std::optional<Guidance>{Guidance{}}}) {
     const MarkerArray array = guide_markers({}, guidance, kPath);
     EXPECT_EQ(names(array), names(guide_markers({}, following(), kPath)));
@@ -61,21 +61,21 @@ TEST(Markers, WithoutGuidanceEverythingIsDeleted) {
   }
 }
 
-TEST(Markers, AtTheGoalTheLineIsCleared) {
+TEST(Markers, at_the_goal_the_line_is_cleared) {
   Guidance guidance = following();
   guidance.state = Guidance::State::arrived;
   for (const Marker& marker : guide_markers({}, guidance, kPath).markers)
     EXPECT_EQ(marker.action, Marker::DELETE);
 }
 
-TEST(Markers, AnEmptyPathLeavesOnlyTheGoal) {
+TEST(Markers, an_empty_path_leaves_only_the_goal) {
   const MarkerArray array = guide_markers({}, following(), {});
   EXPECT_EQ(find(array, "path", 1)->action, Marker::DELETE);
   EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
   EXPECT_EQ(find(array, "goal", 0)->action, Marker::ADD);
 }
 
-TEST(Markers, EveryMarkerIsFiniteAndDrawable) {
+TEST(Markers, every_marker_is_finite_and_drawable) {
   for (const Marker& marker : guide_markers({}, following(), kPath).markers) {
     EXPECT_EQ(marker.header.frame_id, "map");
     EXPECT_EQ(marker.action, Marker::ADD) << marker.ns << marker.id;
@@ -87,7 +87,7 @@ TEST(Markers, EveryMarkerIsFiniteAndDrawable) {
   }
 }
 
-TEST(Markers, TheLineIsThePathWithAWiderEdgeBelow) {
+TEST(Markers, the_line_is_the_path_with_a_wider_edge_below) {
   const MarkerArray array = guide_markers({}, following(), kPath);
   const Marker& edge = *find(array, "path", 0);
   const Marker& line = *find(array, "path", 1);
@@ -97,7 +97,7 @@ TEST(Markers, TheLineIsThePathWithAWiderEdgeBelow) {
   EXPECT_EQ(line.points[2].y, -6.0);
 }
 
-TEST(Markers, TheLineAndTheGoalPassThreeToOneOnRvizGreyAndTheLineOnItsEdge) {
+TEST(Markers, the_line_and_the_goal_pass_three_to_one_on_rviz_grey_and_the_line_on_its_edge) {
   const MarkerArray array = guide_markers({}, following(), kPath);
   std_msgs::ColorRGBA grey;
   grey.r = grey.g = grey.b = 48.0F / 255.0F;
@@ -107,7 +107,7 @@ TEST(Markers, TheLineAndTheGoalPassThreeToOneOnRvizGreyAndTheLineOnItsEdge) {
   EXPECT_GE(contrast(luminance(find(array, "goal", 0)->color), luminance(grey)), 3.0);
 }
 
-TEST(Markers, TheTurnTellsHourAndDistanceAndPointsAlongTheNextLeg) {
+TEST(Markers, the_turn_shows_hour_and_distance_and_points_along_the_next_leg) {
   const MarkerArray array = guide_markers({}, following(), kPath);
   EXPECT_EQ(find(array, "turn", 1)->text, "in 4 m, 3 o'clock");
   const Marker& arrow = *find(array, "turn", 0);
@@ -120,7 +120,7 @@ TEST(Markers, TheTurnTellsHourAndDistanceAndPointsAlongTheNextLeg) {
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
 }
 
-TEST(Markers, EverythingStandsOnTheFloorOfTheMap) {
+TEST(Markers, everything_stands_on_the_floor_of_the_map) {
   Guidance guidance = following();
   const MarkerArray flat = guide_markers({}, guidance, kPath);
   guidance.floor = -5.0;
@@ -131,7 +131,7 @@ TEST(Markers, EverythingStandsOnTheFloorOfTheMap) {
   }
 }
 
-TEST(Markers, BeforeTheGoalThereIsNoTurn) {
+TEST(Markers, before_the_goal_there_is_no_turn) {
   Guidance guidance = following();
   guidance.waypoint = guidance.goal;
   guidance.waypoint_is_goal = true;
