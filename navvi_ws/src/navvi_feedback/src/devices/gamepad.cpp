@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <mutex>
+#include <utility>
 
 #include "devices/device_error.hpp"
-#include "devices/device_thread.hpp"
 
 namespace navvi_feedback::devices {
 namespace {
@@ -28,13 +27,7 @@ constexpr unsigned kSony = 0x054c;
 constexpr unsigned kDualSense = 0x0ce6;
 constexpr unsigned kFirstCalmFirmware = 0x0224;
 
-struct MotorValues {
-  Uint16 left = 0;
-  Uint16 right = 0;
-  bool operator==(const MotorValues& other) const {
-    return left == other.left && right == other.right;
-  }
-};
+using MotorValues = std::pair<Uint16, Uint16>;  // left, right
 
 Uint16 motor_value(double force) {
   return static_cast<Uint16>(std::lround(std::clamp(force, 0.0, 1.0) * 65535.0));
@@ -46,7 +39,7 @@ double axis(SDL_GameController* pad, SDL_GameControllerAxis which) {
   return std::clamp(SDL_GameControllerGetAxis(pad, which) / 32767.0, -1.0, 1.0);
 }
 
-drive::InputState read(SDL_GameController* pad) {
+drive::InputState input_of(SDL_GameController* pad) {
   drive::InputState input;
   input.live = true;
   // SDL counts right and down as positive, joy_node left and forward.
@@ -67,8 +60,9 @@ struct CloseController {
   void operator()(SDL_GameController* pad) const { SDL_GameControllerClose(pad); }
 };
 
-/// The pad that is open, and what its motors were last told. Used by the pump's thread alone.
-class Pad {
+}  // namespace
+
+class Gamepad::Pad {
  public:
   explicit Pad(SDL_GameController* pad)
       : pad_(pad),
@@ -79,7 +73,7 @@ class Pad {
   [[nodiscard]] bool attached() const {
     return SDL_GameControllerGetAttached(pad_.get()) == SDL_TRUE;
   }
-  [[nodiscard]] drive::InputState input() const { return read(pad_.get()); }
+  [[nodiscard]] drive::InputState input() const { return input_of(pad_.get()); }
   [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
 
   void describe(Gamepad::Status& status) const {
@@ -101,13 +95,13 @@ class Pad {
       const double part = std::chrono::duration<double>(now - opened_) / kPrime;
       least = kPrimeForce * (1.0 - std::abs(2.0 * part - 1.0));
     }
-    const MotorValues wanted{motor_value(std::max(wish.left, least)),
-                             motor_value(std::max(wish.right, least))};
-    const bool resend = !(wanted == MotorValues{}) && now - sent_time_ >= kResend;
+    const MotorValues wanted(motor_value(std::max(wish.left, least)),
+                             motor_value(std::max(wish.right, least)));
+    const bool resend = wanted != MotorValues() && now - sent_time_ >= kResend;
     if (wanted == sent_ && !resend) return true;
     sent_ = wanted;
     sent_time_ = now;
-    return SDL_GameControllerRumble(pad_.get(), wanted.left, wanted.right,
+    return SDL_GameControllerRumble(pad_.get(), wanted.first, wanted.second,
                                     static_cast<Uint32>(kExpiry.count())) >= 0;
   }
   void silence() {
@@ -123,111 +117,93 @@ class Pad {
   Clock::time_point sent_time_;
 };
 
-}  // namespace
-
-class Gamepad::Pump final : private ThreadedDevice {
- public:
-  drive::InputState input() const { return thread_.input(); }
-  Status status() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return status_;
-  }
-  void rumble(const haptics::Rumble& rumble) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
-    wish_time_ = Clock::now();
-  }
-
- private:
-  void open() override {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
-    SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI_PS5_RUMBLE, "1");
-    if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
-      throw DeviceError(std::string("SDL finds no game controllers: ") + SDL_GetError());
-  }
-
-  std::optional<drive::InputState> read() override {
-    SDL_GameControllerUpdate();
-    // State is polled; what piles up in the queue is for nobody.
-    SDL_FlushEvents(SDL_JOYAXISMOTION, SDL_CONTROLLERSENSORUPDATE);
-    const Clock::time_point now = Clock::now();
-    if (pad_ && !pad_->attached()) forget_pad();
-    if (now - scanned_ >= kScanPeriod) {
-      scanned_ = now;
-      scan();
-    }
-    move_motors(now);
-    drive::InputState input = pad_ ? pad_->input() : drive::InputState{};
-    const std::lock_guard<std::mutex> lock(mutex_);
-    input.session = status_.connections;
-    return input;
-  }
-
-  void close() override {
-    if (pad_) pad_->silence();
-    pad_.reset();
-    SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
-  }
-
-  void scan() {
-    unsigned others = 0;
-    for (int index = 0; index < SDL_NumJoysticks(); ++index) {
-      if (!SDL_IsGameController(index)) continue;
-      if (!pad_) take_pad(index);
-      if (!pad_ || SDL_JoystickGetDeviceInstanceID(index) != pad_->instance()) ++others;
-    }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    status_.others = others;
-  }
-
-  void take_pad(int index) {
-    SDL_GameController* controller = SDL_GameControllerOpen(index);
-    if (!controller) return;
-    pad_ = std::make_unique<Pad>(controller);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    pad_->describe(status_);
-    status_.connected = true;
-    ++status_.connections;
-  }
-
-  void forget_pad() {
-    pad_.reset();
-    scanned_ = Clock::now();  // so that the loss is seen before another pad takes over
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const Status old = status_;
-    status_ = Status{};
-    status_.rumble_errors = old.rumble_errors;
-    status_.connections = old.connections;
-  }
-
-  void move_motors(Clock::time_point now) {
-    if (!pad_) return;
-    haptics::Rumble wish;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (now - wish_time_ < kExpiry) wish = wish_;
-    }
-    if (pad_->drive(wish, now)) return;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++status_.rumble_errors;
-  }
-
-  std::unique_ptr<Pad> pad_;     // the thread's own
-  Clock::time_point scanned_{};  // the thread's own
-
-  mutable std::mutex mutex_;
-  Status status_;
-  haptics::Rumble wish_;
-  Clock::time_point wish_time_{};
-
-  DeviceThread thread_{*this, kPeriod};  // the last, for it uses all the others
-};
-
-Gamepad::Gamepad() : pump_(std::make_unique<Pump>()) {}
+Gamepad::Gamepad() : thread_(*this, kPeriod) {}
 Gamepad::~Gamepad() = default;
-drive::InputState Gamepad::input() const { return pump_->input(); }
-Gamepad::Status Gamepad::status() const { return pump_->status(); }
-void Gamepad::rumble(const haptics::Rumble& rumble) { pump_->rumble(rumble); }
+drive::InputState Gamepad::input() const { return thread_.input(); }
+
+Gamepad::Status Gamepad::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void Gamepad::rumble(const haptics::Rumble& rumble) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
+  wish_time_ = Clock::now();
+}
+
+void Gamepad::open() {
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+  SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
+  SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI_PS5_RUMBLE, "1");
+  if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
+    throw DeviceError(std::string("SDL finds no game controllers: ") + SDL_GetError());
+}
+
+std::optional<drive::InputState> Gamepad::read() {
+  SDL_GameControllerUpdate();
+  // State is polled; what piles up in the queue is for nobody.
+  SDL_FlushEvents(SDL_JOYAXISMOTION, SDL_CONTROLLERSENSORUPDATE);
+  const Clock::time_point now = Clock::now();
+  if (pad_ && !pad_->attached()) forget_pad();
+  if (now - scanned_ >= kScanPeriod) {
+    scanned_ = now;
+    scan();
+  }
+  move_motors(now);
+  drive::InputState input = pad_ ? pad_->input() : drive::InputState{};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  input.session = status_.connections;
+  return input;
+}
+
+void Gamepad::close() {
+  if (pad_) pad_->silence();
+  pad_.reset();
+  SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
+}
+
+void Gamepad::scan() {
+  unsigned others = 0;
+  for (int index = 0; index < SDL_NumJoysticks(); ++index) {
+    if (!SDL_IsGameController(index)) continue;
+    if (!pad_) take_pad(index);
+    if (!pad_ || SDL_JoystickGetDeviceInstanceID(index) != pad_->instance()) ++others;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.others = others;
+}
+
+void Gamepad::take_pad(int index) {
+  SDL_GameController* controller = SDL_GameControllerOpen(index);
+  if (!controller) return;
+  pad_ = std::make_unique<Pad>(controller);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pad_->describe(status_);
+  status_.connected = true;
+  ++status_.connections;
+}
+
+void Gamepad::forget_pad() {
+  pad_.reset();
+  scanned_ = Clock::now();  // so that the loss is seen before another pad takes over
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Status old = status_;
+  status_ = Status{};
+  status_.rumble_errors = old.rumble_errors;
+  status_.connections = old.connections;
+}
+
+void Gamepad::move_motors(Clock::time_point now) {
+  if (!pad_) return;
+  haptics::Rumble wish;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (now - wish_time_ < kExpiry) wish = wish_;
+  }
+  if (pad_->drive(wish, now)) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++status_.rumble_errors;
+}
 
 }  // namespace navvi_feedback::devices

@@ -1,17 +1,21 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 
+#include "devices/device_thread.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
 
 namespace navvi_feedback::devices {
 
 /// The first game controller that is there, or comes (R-HAP-5). It keeps control until it is
-/// detached; others are counted and ignored. One thread of its own opens, reads and pumps it: a
-/// motor stops at its expiry only while somebody pumps.
-class Gamepad {
+/// detached; others are counted and ignored. A thread of its own opens, reads and updates it: SDL
+/// stops a motor at its expiry only while it is updated.
+class Gamepad final : private ThreadedDevice {
  public:
   struct Status {
     bool connected = false;
@@ -44,8 +48,26 @@ class Gamepad {
   void rumble(const haptics::Rumble& rumble);
 
  private:
-  class Pump;
-  std::unique_ptr<Pump> pump_;
+  /// The pad that is open, and the last values of its motors. Used by the thread alone.
+  class Pad;
+
+  void open() override;
+  [[nodiscard]] std::optional<drive::InputState> read() override;
+  void close() override;
+  void scan();
+  void take_pad(int index);
+  void forget_pad();
+  void move_motors(std::chrono::steady_clock::time_point now);
+
+  std::unique_ptr<Pad> pad_;                         ///< the thread's own
+  std::chrono::steady_clock::time_point scanned_{};  ///< the thread's own
+
+  mutable std::mutex mutex_;
+  Status status_;
+  haptics::Rumble wish_;
+  std::chrono::steady_clock::time_point wish_time_{};
+
+  DeviceThread thread_;  ///< the last, for it uses all the others
 };
 
 }  // namespace navvi_feedback::devices

@@ -31,9 +31,7 @@ const char* to_string(InputSource::Kind kind) {
   return "topic";
 }
 
-InputSource::InputSource(const std::string& wanted) { choose(wanted); }
-
-void InputSource::choose(const std::string& wanted) {
+InputSource::InputSource(const std::string& wanted) {
   const bool automatic = wanted == "auto";
   if (wanted == "pad" || automatic) {
     try {

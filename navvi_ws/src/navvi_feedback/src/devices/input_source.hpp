@@ -32,8 +32,6 @@ class InputSource {
   [[nodiscard]] Gamepad* pad() const { return pad_.get(); }
 
  private:
-  void choose(const std::string& wanted);
-
   Kind kind_ = Kind::topic;
   std::unique_ptr<Gamepad> pad_;
   std::unique_ptr<Keyboard> keyboard_;

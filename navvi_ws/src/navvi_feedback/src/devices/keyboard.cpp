@@ -6,7 +6,6 @@
 #include <string>
 
 #include "devices/device_error.hpp"
-#include "devices/device_thread.hpp"
 
 namespace navvi_feedback::devices {
 namespace {
@@ -38,52 +37,40 @@ drive::InputState read_keys(bool focused) {
 
 }  // namespace
 
-class Keyboard::Window final : private ThreadedDevice {
- public:
-  drive::InputState input() const { return thread_.input(); }
+Keyboard::Keyboard() : thread_(*this, kPeriod) {}
+drive::InputState Keyboard::input() const { return thread_.input(); }
 
- private:
-  void open() override {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    const std::string no_display = "The keyboard needs a display, and there is none. ";
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) throw DeviceError(no_display + SDL_GetError());
-    if (visible()) {
-      window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 640, 80,
-                                 SDL_WINDOW_SHOWN);
-    }
-    if (!window_) {
-      const std::string why =
-          visible() ? std::string("The keyboard's window does not open: ") + SDL_GetError()
-                    : no_display + "Is DISPLAY set?";
-      SDL_QuitSubSystem(SDL_INIT_VIDEO);
-      throw DeviceError(why);
-    }
-    SDL_RaiseWindow(window_);
+void Keyboard::open() {
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+  SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+  const std::string no_display = "The keyboard needs a display, and there is none. ";
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) throw DeviceError(no_display + SDL_GetError());
+  if (visible()) {
+    window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 640, 80,
+                               SDL_WINDOW_SHOWN);
   }
-
-  /// Nothing once the window was closed.
-  std::optional<drive::InputState> read() override {
-    SDL_Event event;
-    while (SDL_PollEvent(&event)) {
-      const bool close =
-          event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
-      if (close || event.type == SDL_QUIT) return std::nullopt;
-    }
-    return read_keys((SDL_GetWindowFlags(window_) & SDL_WINDOW_INPUT_FOCUS) != 0);
-  }
-
-  void close() override {
-    SDL_DestroyWindow(window_);
+  if (!window_) {
+    const std::string why =
+        visible() ? std::string("The keyboard's window does not open: ") + SDL_GetError()
+                  : no_display + "Is DISPLAY set?";
     SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    throw DeviceError(why);
   }
+  SDL_RaiseWindow(window_);
+}
 
-  SDL_Window* window_ = nullptr;         // the thread's own
-  DeviceThread thread_{*this, kPeriod};  // the last, for it uses the window
-};
+std::optional<drive::InputState> Keyboard::read() {
+  SDL_Event event;
+  while (SDL_PollEvent(&event)) {
+    const bool close = event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
+    if (close || event.type == SDL_QUIT) return std::nullopt;
+  }
+  return read_keys((SDL_GetWindowFlags(window_) & SDL_WINDOW_INPUT_FOCUS) != 0);
+}
 
-Keyboard::Keyboard() : window_(std::make_unique<Window>()) {}
-Keyboard::~Keyboard() = default;
-drive::InputState Keyboard::input() const { return window_->input(); }
+void Keyboard::close() {
+  SDL_DestroyWindow(window_);
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+}
 
 }  // namespace navvi_feedback::devices

@@ -1,28 +1,22 @@
 #include "devices/speaker.hpp"
 
 #include <chrono>
-#include <condition_variable>
 #include <future>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
 
-#include "devices/audio_output.hpp"
-#include "devices/voice.hpp"
 #include "navvi_feedback/cues/phrases.hpp"
+#include "devices/voice.hpp"
 
 namespace navvi_feedback::devices {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
 
 Clock::duration seconds(double value) {
-  return std::chrono::duration_cast<Clock::duration>(Seconds(value));
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
 }
 
-/// How often a running sound and an idle device are looked at.
+/// Between two looks at a running sound, and at an idle device.
 constexpr auto kPoll = std::chrono::milliseconds(10);
 constexpr auto kIdlePoll = std::chrono::milliseconds(250);
 /// What the mixer needs to fade a stopped sound out.
@@ -41,192 +35,154 @@ void SpeakerConfig::describe(navvi_config::Visitor& visit) {
         "between attempts to open a lost device; ten times that if there never was one");
 }
 
-/// Runs the voice and the device in their one thread.
-class Speaker::Worker {
- public:
-  Worker(const SpeakerConfig& config, Audio audio) : config_(config), audio_(audio) {
-    std::promise<void> ready;
-    std::future<void> result = ready.get_future();
-    thread_ = std::thread([this, ready = std::move(ready)]() mutable { run(std::move(ready)); });
-    try {
-      result.get();
-    } catch (...) {
-      thread_.join();
-      throw;
-    }
-  }
-
-  ~Worker() {
-    {
-      const std::lock_guard lock(mutex_);
-      quit_ = true;
-      ++generation_;
-    }
-    changed_.notify_all();
+Speaker::Speaker(const SpeakerConfig& config, Audio audio) : config_(config), audio_(audio) {
+  std::promise<void> ready;
+  std::future<void> result = ready.get_future();
+  thread_ = std::thread([this, ready = std::move(ready)]() mutable { run(std::move(ready)); });
+  try {
+    result.get();
+  } catch (...) {
     thread_.join();
+    throw;
   }
+}
 
-  void start(const std::string& text) {
-    const bool fit = cues::speakable(text);
-    {
-      const std::lock_guard lock(mutex_);
-      ++generation_;
-      busy_ = fit;
-      request_ = fit ? std::optional(text) : std::nullopt;
-      if (!fit) ++status_.failed;
-    }
-    changed_.notify_all();
-  }
-
-  void stop() {
-    {
-      const std::lock_guard lock(mutex_);
-      ++generation_;
-      busy_ = false;
-      request_.reset();
-    }
-    changed_.notify_all();
-  }
-
-  [[nodiscard]] bool busy() const {
+Speaker::~Speaker() {
+  {
     const std::lock_guard lock(mutex_);
-    return busy_;
+    quit_ = true;
+    ++generation_;
   }
+  changed_.notify_all();
+  thread_.join();
+}
 
-  [[nodiscard]] Status status() const {
+void Speaker::start(const std::string& text) {
+  const bool fit = cues::speakable(text);
+  {
     const std::lock_guard lock(mutex_);
-    return status_;
+    ++generation_;
+    busy_ = fit;
+    request_ = fit ? std::optional(text) : std::nullopt;
+    if (!fit) ++status_.failed;
   }
+  changed_.notify_all();
+}
 
- private:
-  void run(std::promise<void> ready) {
-    std::optional<Voice> voice;
-    try {
-      voice.emplace(config_.voice, config_.rate);
-      open_device(Status::Device::missing);
-      ready.set_value();
-    } catch (...) {
-      ready.set_exception(std::current_exception());
-      return;
-    }
-    while (const auto job = next()) {
-      if (!job->text) {
-        tend_device();
-        continue;
-      }
-      const Sound sound =
-          voice->synthesize(*job->text, [&] { return superseded(job->generation); });
-      if (!superseded(job->generation)) play(sound, job->generation);
-      finish(job->generation, !sound.samples.empty());
-    }
-    output_.close();
-  }
-
-  struct Job {
-    std::optional<std::string> text;  ///< nullopt: nothing to say, look after the device
-    unsigned long generation = 0;
-  };
-
-  /// nullopt at the end.
-  std::optional<Job> next() {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
-    if (quit_) return std::nullopt;
-    return Job{std::exchange(request_, std::nullopt), generation_};
-  }
-
-  [[nodiscard]] bool superseded(unsigned long generation) const {
+void Speaker::stop() {
+  {
     const std::lock_guard lock(mutex_);
-    return generation != generation_;
-  }
-
-  /// Returns when the sound has ended, or was superseded and is silent.
-  void play(const Sound& sound, unsigned long generation) {
-    tend_device();
-    const auto end = Clock::now() + seconds(sound.duration());
-    bool audible = !sound.samples.empty() && output_.play(sound);
-    while (true) {
-      {
-        std::unique_lock lock(mutex_);
-        if (changed_.wait_for(lock, kPoll, [&] { return generation != generation_; })) break;
-      }
-      if (audible && !output_.connected()) {
-        // The rest passes in silence, so that the times stay true.
-        audible = false;
-        tend_device();
-      }
-      if (audible ? !output_.playing() : Clock::now() >= end) break;
-    }
-    if (audible && output_.playing()) {
-      output_.mute();
-      std::this_thread::sleep_for(kFade);
-    }
-    output_.stop();
-  }
-
-  void finish(unsigned long generation, bool done) {
-    const std::lock_guard lock(mutex_);
-    if (generation != generation_) return;
+    ++generation_;
     busy_ = false;
-    ++(done ? status_.spoken : status_.failed);
+    request_.reset();
   }
+  changed_.notify_all();
+}
 
-  /// Notices a device that went, and tries to get one back.
-  void tend_device() {
-    if (audio_ == Audio::off || output_.connected()) return;
-    if (output_.is_open()) {
-      output_.close();
-      report(Status::Device::lost, "the audio device disappeared");
-      next_attempt_ = Clock::now();
+bool Speaker::busy() const {
+  const std::lock_guard lock(mutex_);
+  return busy_;
+}
+
+Speaker::Status Speaker::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+void Speaker::run(std::promise<void> ready) {
+  std::optional<Voice> voice;
+  try {
+    voice.emplace(config_.voice, config_.rate);
+    open_device(Status::Device::missing);
+    ready.set_value();
+  } catch (...) {
+    ready.set_exception(std::current_exception());
+    return;
+  }
+  while (const auto job = next()) {
+    if (!job->text) {
+      tend_device();
+      continue;
     }
-    if (Clock::now() >= next_attempt_) open_device(status().device);
+    const Sound sound = voice->synthesize(*job->text, [&] { return superseded(job->generation); });
+    if (!superseded(job->generation)) play(sound, job->generation);
+    finish(job->generation, !sound.samples.empty());
   }
+  output_.close();
+}
 
-  void open_device(Status::Device otherwise) {
-    if (audio_ == Audio::off) return;
-    // Where there never was a device one is unlikely to come, and each attempt makes ALSA complain.
-    const double wait = otherwise == Status::Device::missing ? 10.0 : 1.0;
-    next_attempt_ = Clock::now() + seconds(wait * config_.reopen);
-    if (output_.open(config_.device, config_.volume)) {
-      report(Status::Device::open, "");
-    } else {
-      report(otherwise, config_.device.empty()
-                            ? "OpenAL finds no audio device"
-                            : "OpenAL cannot open the device \"" + config_.device + "\"");
+std::optional<Speaker::Job> Speaker::next() {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
+  if (quit_) return std::nullopt;
+  return Job{std::exchange(request_, std::nullopt), generation_};
+}
+
+bool Speaker::superseded(unsigned long generation) const {
+  const std::lock_guard lock(mutex_);
+  return generation != generation_;
+}
+
+void Speaker::play(const Sound& sound, unsigned long generation) {
+  tend_device();
+  const auto end = Clock::now() + seconds(sound.duration());
+  bool audible = !sound.samples.empty() && output_.play(sound);
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      if (changed_.wait_for(lock, kPoll, [&] { return generation != generation_; })) break;
     }
+    if (audible && !output_.connected()) {
+      // The rest passes in silence, so that the times stay true.
+      audible = false;
+      tend_device();
+    }
+    if (audible ? !output_.playing() : Clock::now() >= end) break;
   }
-
-  void report(Status::Device device, const std::string& detail) {
-    const std::string name = output_.name();
-    const std::lock_guard lock(mutex_);
-    status_.device = device;
-    status_.detail = detail;
-    status_.name = name;
+  if (audible && output_.playing()) {
+    output_.mute();
+    std::this_thread::sleep_for(kFade);
   }
+  output_.stop();
+}
 
-  const SpeakerConfig config_;
-  const Audio audio_;
-  AudioOutput output_;              // only the thread touches it
-  Clock::time_point next_attempt_;  // only the thread touches it
+void Speaker::finish(unsigned long generation, bool done) {
+  const std::lock_guard lock(mutex_);
+  if (generation != generation_) return;
+  busy_ = false;
+  ++(done ? status_.spoken : status_.failed);
+}
 
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::optional<std::string> request_;
-  unsigned long generation_ = 0;  ///< grows with every start and stop
-  bool busy_ = false;
-  bool quit_ = false;
-  Status status_;
-  std::thread thread_;
-};
+void Speaker::tend_device() {
+  if (audio_ == Audio::off || output_.connected()) return;
+  if (output_.is_open()) {
+    output_.close();
+    report(Status::Device::lost, "the audio device disappeared");
+    next_attempt_ = Clock::now();
+  }
+  if (Clock::now() >= next_attempt_) open_device(status().device);
+}
 
-Speaker::Speaker(const SpeakerConfig& config, Audio audio)
-    : worker_(std::make_unique<Worker>(config, audio)) {}
+void Speaker::open_device(Status::Device otherwise) {
+  if (audio_ == Audio::off) return;
+  // Where there never was a device one is unlikely to come, and each attempt makes ALSA complain.
+  const double wait = otherwise == Status::Device::missing ? 10.0 : 1.0;
+  next_attempt_ = Clock::now() + seconds(wait * config_.reopen);
+  if (output_.open(config_.device, config_.volume)) {
+    report(Status::Device::open, "");
+  } else {
+    report(otherwise, config_.device.empty()
+                          ? "OpenAL finds no audio device"
+                          : "OpenAL cannot open the device \"" + config_.device + "\"");
+  }
+}
 
-Speaker::~Speaker() = default;
-
-void Speaker::start(const std::string& text) { worker_->start(text); }
-void Speaker::stop() { worker_->stop(); }
-bool Speaker::busy() const { return worker_->busy(); }
-Speaker::Status Speaker::status() const { return worker_->status(); }
+void Speaker::report(Status::Device device, const std::string& detail) {
+  const std::string name = output_.name();
+  const std::lock_guard lock(mutex_);
+  status_.device = device;
+  status_.detail = detail;
+  status_.name = name;
+}
 
 }  // namespace navvi_feedback::devices

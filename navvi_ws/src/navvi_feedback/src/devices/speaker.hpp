@@ -1,9 +1,15 @@
 #pragma once
 
-#include <memory>
-#include <stdexcept>
+#include <chrono>
+#include <condition_variable>
+#include <future>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 
+#include "devices/audio_output.hpp"
+#include "devices/voice.hpp"
 #include "navvi_config/field.hpp"
 
 namespace navvi_feedback::devices {
@@ -59,8 +65,36 @@ class Speaker {
   [[nodiscard]] Status status() const;
 
  private:
-  class Worker;
-  std::unique_ptr<Worker> worker_;
+  struct Job {
+    std::optional<std::string> text;  ///< nullopt: nothing to say, look after the device
+    unsigned long generation = 0;
+  };
+
+  void run(std::promise<void> ready);
+  /// nullopt at the end.
+  [[nodiscard]] std::optional<Job> next();
+  [[nodiscard]] bool superseded(unsigned long generation) const;
+  /// Returns when the sound has ended, or was superseded and is silent.
+  void play(const Sound& sound, unsigned long generation);
+  void finish(unsigned long generation, bool done);
+  /// Notices the loss of the device, and tries to open one again.
+  void tend_device();
+  void open_device(Status::Device otherwise);
+  void report(Status::Device device, const std::string& detail);
+
+  const SpeakerConfig config_;
+  const Audio audio_;
+  AudioOutput output_;                                  ///< the thread's own
+  std::chrono::steady_clock::time_point next_attempt_;  ///< the thread's own
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<std::string> request_;
+  unsigned long generation_ = 0;  ///< grows with every start and stop
+  bool busy_ = false;
+  bool quit_ = false;
+  Status status_;
+  std::thread thread_;
 };
 
 }  // namespace navvi_feedback::devices
