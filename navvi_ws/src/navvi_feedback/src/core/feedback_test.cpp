@@ -47,7 +47,7 @@ class FeedbackTest : public testing::Test {
     return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
   }
 
-  Feedback feedback_{FeedbackConfig{}, cues::Phrases(kEnglish)};
+  Feedback feedback_{FeedbackConfig{}, kEnglish};
   Feedback::Input input_;
   double time_ = 10.0;
   std::vector<std::string> kinds_;

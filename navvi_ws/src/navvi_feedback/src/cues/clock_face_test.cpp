@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/clock_face.hpp"
+#include "cues/clock_face.hpp"
 
 #include <gtest/gtest.h>
 

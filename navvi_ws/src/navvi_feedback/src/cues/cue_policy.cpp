@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/cue_policy.hpp"
+#include "cues/cue_policy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,47 +18,21 @@ constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
 constexpr double kMoving = 0.05;
 
-const char* refusal_kind(Guidance::Refusal refusal) {
-  switch (refusal) {
-    case Guidance::Refusal::unknown_frame:
-      return "goal_refused_unknown_frame";
-    case Guidance::Refusal::inside_obstacle:
-      return "goal_refused_inside_obstacle";
-    case Guidance::Refusal::off_the_map:
-      return "goal_refused_off_the_map";
-    case Guidance::Refusal::unreachable:
-      return "goal_refused_unreachable";
-    default:
-      return "goal_refused_not_finite";
-  }
-}
-
 /// Why the guidance does not lead anywhere, as a kind of cue; empty if it does.
 std::string problem_of(const Guidance& guidance) {
+  const bool unexplained = guidance.refusal == Guidance::Refusal::none;
+  const auto refusal = unexplained ? Guidance::Refusal::not_finite : guidance.refusal;
   switch (guidance.state) {
     case Guidance::State::no_goal:
       return "welcome";
     case Guidance::State::following:
     case Guidance::State::make_room:
       return "";
-    case Guidance::State::arrived:
-      return "arrived";
     case Guidance::State::goal_refused:
-      return refusal_kind(guidance.refusal);
-    case Guidance::State::no_route:
-      return "no_route";
-    case Guidance::State::off_mesh:
-      return "off_mesh";
-    case Guidance::State::no_map:
-      return "no_map";
-    case Guidance::State::pose_stale:
-      return "pose_stale";
-    case Guidance::State::map_stale:
-      return "map_stale";
-    case Guidance::State::blocked:
-      return "blocked";
+      return std::string("goal_refused_") + to_string(refusal);
+    default:  // the kind has the name of the state
+      return to_string(guidance.state);
   }
-  return "";
 }
 
 bool refused(const std::string& problem) { return problem.rfind("goal_refused", 0) == 0; }
@@ -68,39 +42,10 @@ bool said_once(const std::string& problem) {
 }
 
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
-  Fillings fillings;
-  fillings.thing = thing;
-  fillings.side = side_of(point);
-  return fillings;
+  return {{}, {}, thing, side_of(point)};
 }
 
 }  // namespace
-
-void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::OneOf;
-  using navvi_config::Range;
-  visit(stuck_time, "stuck_time", Range{0.2, 30.0}, "s",
-        "commanded without moving for longer is stuck");
-  visit(stuck_linear, "stuck_linear", Range{0.0, 1.0}, "m/s", "slower counts as not moving");
-  visit(stuck_angular, "stuck_angular", Range{0.0, 1.0}, "rad/s", "slower counts as not turning");
-  visit(stuck_repeat, "stuck_repeat", Range{1.0, 60.0}, "s", "repeats while the robot stays stuck");
-  visit(blocker_gap, "blocker_gap", Range{0.0, 5.0}, "m",
-        "a thing farther away is not what blocks");
-  visit(state_hold, "state_hold", Range{0.0, 5.0}, "s",
-        "a state of the guidance shorter than this is passed over");
-  visit(problem_repeat, "problem_repeat", Range{1.0, 300.0}, "s",
-        "repeats while the guidance does not lead");
-  visit(patience, "patience", Range{1.0, 300.0}, "s",
-        "a link that never lived for so long counts as lost");
-  visit(direction_words, "direction_words", OneOf{{"clock", "left_right"}}, "",
-        "how directions are worded");
-  visit.group("route", route);
-  visit.group("near", near);
-}
-
-DirectionWords CuePolicyConfig::words() const {
-  return direction_words == "left_right" ? DirectionWords::left_right : DirectionWords::clock;
-}
 
 CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
     : config_(config), phrases_(std::move(phrases)), route_(config.route), near_(config.near) {}
@@ -126,35 +71,35 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   return phrase(utterances, time);
 }
 
-CuePolicy::Links CuePolicy::judge(const Situation& now, double time) {
+Links CuePolicy::judge(const Situation& now, double time) {
   if (!first_update_) first_update_ = time;
   const bool waited = time - *first_update_ > config_.patience;
   const auto judged = [&](Link link) { return link == Link::never && waited ? Link::lost : link; };
-  return {judged(now.pad_link), judged(now.simulator_link), judged(now.proximity_link),
-          judged(now.guidance_link), now.audio_link};
+  const Links& links = now.links;
+  return {judged(links.pad), judged(links.simulator), judged(links.proximity),
+          judged(links.guidance), links.audio};
 }
 
 CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links,
                                                 double time) {
   Utterances told;
-  const auto say = [&](const std::string& kind) { told.push_back({kind, {}, {}}); };
-  const auto lost = [](Link before, Link after) {
-    return before != Link::lost && after == Link::lost;
+  const auto say = [&](const std::string& kind) { told.push_back({kind}); };
+  const auto lost = [&](Link Links::*link) {
+    return links_.*link != Link::lost && links.*link == Link::lost;
   };
-  const auto back = [](Link before, Link after) {
-    return before == Link::lost && after == Link::alive;
+  const auto back = [&](Link Links::*link) {
+    return links_.*link == Link::lost && links.*link == Link::alive;
   };
-  if (lost(links_.pad, links.pad)) say("pad_lost");
-  if (back(links_.pad, links.pad)) say("pad_back");
-  if (lost(links_.simulator, links.simulator)) say("simulator_lost");
-  if (back(links_.audio, links.audio)) say("audio_back");
-  // What dies with the simulator, or stops with the pad, needs no word of its own.
-  if (links.simulator != Link::lost) {
-    if (lost(links_.proximity, links.proximity)) say("proximity_lost");
-    if (gate_ == DriveState::State::running && now.gate == DriveState::State::stopped &&
-        links.pad != Link::lost)
-      say("robot_stopped");
-  }
+  if (lost(&Links::pad)) say("pad_lost");
+  if (back(&Links::pad)) say("pad_back");
+  if (lost(&Links::simulator)) say("simulator_lost");
+  if (back(&Links::audio)) say("audio_back");
+  // A loss that follows from that of the simulator or the pad has no cue of its own.
+  const bool simulated = links.simulator != Link::lost;
+  if (simulated && lost(&Links::proximity)) say("proximity_lost");
+  const bool stopped =
+      gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
+  if (simulated && stopped && links.pad != Link::lost) say("robot_stopped");
   for (const Utterance& utterance : told)
     if (utterance.kind == "pad_back" || utterance.kind == "robot_stopped") held_.told(time);
   for (const std::string& notice : now.notices)
@@ -172,7 +117,7 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
     const std::string kind = contact.thing_class == ThingClass::shelf  ? "collision_shelf"
                              : contact.thing_class == ThingClass::wall ? "collision_wall"
                                                                        : "collision_obstacle";
-    told.push_back({kind, where(contact.thing_class, contact.seen_from_robot()), {}});
+    told.push_back({kind, where(contact.thing_class, contact.seen_from_robot())});
   }
   return told;
 }
@@ -216,8 +161,8 @@ CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
   for (const NearThing& thing : now.nearby)
     if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
       blocker = &thing;
-  if (!blocker) return {{"stuck_unknown", {}, {}}};
-  return {{"stuck", where(blocker->thing_class, blocker->nearest), {}}};
+  if (!blocker) return {{"stuck_unknown"}};
+  return {{"stuck", where(blocker->thing_class, blocker->nearest)}};
 }
 
 CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,
@@ -251,7 +196,7 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
 }
 
 Utterance CuePolicy::tell_problem(const Situation& now) const {
-  Utterance told{problem_, {}, {}};
+  Utterance told{problem_};
   if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
   return told;
 }

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/cue_policy.hpp"
+#include "cues/cue_policy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ using Texts = std::vector<std::string>;
 class CuePolicyTest : public testing::Test {
  protected:
   CuePolicyTest() {
-    now_.pad_link = now_.simulator_link = Link::alive;
-    now_.guidance_link = now_.proximity_link = now_.audio_link = Link::alive;
+    now_.links.pad = now_.links.simulator = Link::alive;
+    now_.links.guidance = now_.links.proximity = now_.links.audio = Link::alive;
     now_.gate = DriveState::State::running;
     now_.measured.emplace();
     now_.guidance.emplace();
@@ -89,9 +89,9 @@ TEST_F(CuePolicyTest, announces_the_arrival_once) {
   under_way();
   now_.guidance->state = Guidance::State::arrived;
   EXPECT_EQ(pass(60.0), Texts{"You have reached your destination"});
-  now_.guidance_link = Link::lost;
+  now_.links.guidance = Link::lost;
   pass(2.0);
-  now_.guidance_link = Link::alive;
+  now_.links.guidance = Link::alive;
   EXPECT_EQ(pass(2.0), Texts{});
 }
 
@@ -137,16 +137,16 @@ TEST_F(CuePolicyTest, reminds_of_a_problem_that_lasts) {
 
 TEST_F(CuePolicyTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
   under_way();
-  now_.guidance_link = Link::lost;
+  now_.links.guidance = Link::lost;
   EXPECT_EQ(pass(1.0), Texts{"guidance lost"});
   EXPECT_EQ(pass(10.0), Texts{});
-  now_.guidance_link = Link::alive;
+  now_.links.guidance = Link::alive;
   EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
 }
 
 TEST_F(CuePolicyTest, names_only_the_simulator_when_all_dies_with_it) {
   under_way();
-  now_.simulator_link = now_.guidance_link = now_.proximity_link = Link::lost;
+  now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
   now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
   EXPECT_EQ(last_.priority, Priority::important);
@@ -158,10 +158,10 @@ TEST_F(CuePolicyTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
   EXPECT_EQ(pass(1.0), Texts{"robot stopped, release the stick"});
   now_.gate = DriveState::State::running;
   pass(5.0);
-  now_.pad_link = Link::lost;
+  now_.links.pad = Link::lost;
   now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(1.0), Texts{"controller disconnected"});
-  now_.pad_link = Link::alive;
+  now_.links.pad = Link::alive;
   EXPECT_EQ(pass(1.0),
             (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
 }
@@ -244,9 +244,9 @@ TEST_F(CuePolicyTest,
   now_.commanded = {};
   now_.measured = Velocity{};
   now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
-  now_.pad_link = Link::lost;
+  now_.links.pad = Link::lost;
   EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
-  now_.pad_link = Link::alive;
+  now_.links.pad = Link::alive;
   EXPECT_EQ(pass(1.0), (Texts{"controller connected, release the stick", "3 o'clock, 20 meters"}));
 }
 
@@ -275,9 +275,9 @@ TEST_F(CuePolicyTest, says_every_thing_that_is_hit_but_the_same_only_once_in_a_w
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   under_way();
   const auto lose_and_find = [&] {
-    now_.proximity_link = Link::alive;
+    now_.links.proximity = Link::alive;
     pass(0.1);
-    now_.proximity_link = Link::lost;
+    now_.links.proximity = Link::lost;
     return pass(0.1);
   };
   EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
@@ -299,6 +299,16 @@ TEST_F(CuePolicyTest, does_not_chatter_on_a_quiet_drive) {
   EXPECT_LE(pass(60.0).size(), 8U);
 }
 
+TEST_F(CuePolicyTest, has_a_kind_for_every_state_and_refusal_of_the_guidance) {
+  for (std::size_t state = 0; state < names(Guidance::State{}).size(); ++state) {
+    for (std::size_t refusal = 0; refusal < names(Guidance::Refusal{}).size(); ++refusal) {
+      now_.guidance->state = static_cast<Guidance::State>(state);
+      now_.guidance->refusal = static_cast<Guidance::Refusal>(refusal);
+      EXPECT_NO_THROW(pass(4.0)) << to_string(now_.guidance->state);
+    }
+  }
+}
+
 TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
   std::mt19937 random(1);
   const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
@@ -306,10 +316,10 @@ TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
   const auto number = [&](double scale) { return scale * (draw(2001) - 1000) / 1000.0; };
   for (int tick = 0; tick < 20000; ++tick) {
     if (tick % 20 == 0) {
-      now_.pad_link = link();
-      now_.simulator_link = draw(4) == 0 ? link() : Link::alive;
-      now_.proximity_link = link();
-      now_.guidance_link = draw(4) == 0 ? link() : Link::alive;
+      now_.links.pad = link();
+      now_.links.simulator = draw(4) == 0 ? link() : Link::alive;
+      now_.links.proximity = link();
+      now_.links.guidance = draw(4) == 0 ? link() : Link::alive;
       now_.gate = navvi_types::from_number<DriveState::State>(static_cast<std::uint8_t>(draw(4)));
       now_.guidance->state = static_cast<Guidance::State>(draw(3) == 0 ? draw(8) : 1);
       now_.guidance->refusal = static_cast<Guidance::Refusal>(draw(6));

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/held_stick.hpp"
+#include "cues/held_stick.hpp"
 
 #include <cmath>
 
@@ -30,7 +30,7 @@ std::optional<Utterance> HeldStick::update(const Situation& now, double time) {
   if (!since_) since_ = time;
   if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return std::nullopt;
   said_ = time;
-  return Utterance{"release_stick", {}, {}};
+  return Utterance{"release_stick"};
 }
 
 }  // namespace navvi_feedback::cues

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/held_stick.hpp"
+#include "cues/held_stick.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/near_cues.hpp"
+#include "cues/near_cues.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,24 +24,10 @@ bool in_the_way(const Situation& now, const Eigen::Vector2d& point, bool close) 
 }
 
 Utterance utterance(const char* kind, ThingClass thing, Side side, bool urgent) {
-  Fillings fillings;
-  fillings.thing = thing;
-  fillings.side = side;
-  return {kind, fillings, urgent ? std::optional(Priority::message) : std::nullopt};
+  return {kind, {{}, {}, thing, side}, urgent ? std::optional(Priority::message) : std::nullopt};
 }
 
 }  // namespace
-
-void NearConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(distance, "distance", Range{0.1, 5.0}, "m", "gap at which a shelf or a wall is announced");
-  visit(close, "close", Range{0.0, 5.0}, "m", "gap at which it is announced once more");
-  visit(hysteresis, "hysteresis", Range{0.0, 1.0}, "m",
-        "how much farther it must be to count as gone");
-  visit(forget, "forget", Range{0.0, 30.0}, "s", "how long it must be gone to be announced again");
-  visit(obstacles, "obstacles", navvi_config::Any{}, "",
-        "also name any other thing that the robot drives towards");
-}
 
 NearCues::Level NearCues::level(double gap, Level said) const {
   const double close = config_.close + (said == Level::close ? config_.hysteresis : 0.0);

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/near_cues.hpp"
+#include "cues/near_cues.hpp"
 
 #include <gtest/gtest.h>
 

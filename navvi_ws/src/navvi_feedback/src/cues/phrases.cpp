@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/phrases.hpp"
+#include "cues/phrases.hpp"
 
 #include <algorithm>
 #include <array>
@@ -174,10 +174,6 @@ bool speakable(const std::string& text) {
 }
 
 Phrases::Phrases(const std::filesystem::path& file, DirectionWords directions) {
-  load(file, directions);
-}
-
-void Phrases::load(const std::filesystem::path& file, DirectionWords directions) {
   const YAML::Node root = navvi_config::load_yaml(file);
   const std::string name = file.string();
   if (!root.IsMap()) throw ConfigError(name + ": it must be a map of sections.");

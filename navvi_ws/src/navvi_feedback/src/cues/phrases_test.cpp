@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/phrases.hpp"
+#include "cues/phrases.hpp"
 
 #include <gtest/gtest.h>
 

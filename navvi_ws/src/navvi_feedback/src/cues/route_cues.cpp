@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/route_cues.hpp"
+#include "cues/route_cues.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,37 +30,6 @@ Rounding rounding_of(const std::string& word) {
 }
 
 }  // namespace
-
-void RouteConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::OneOf;
-  using navvi_config::Range;
-  visit(rounding, "rounding", OneOf{{"nearest", "floor"}}, "", "how an angle becomes an hour");
-  visit(hysteresis_degrees, "hysteresis_degrees", Range{0.0, 14.0}, "deg",
-        "how far beyond its border the announced hour still stands");
-  visit(turn_ahead, "turn_ahead", Range{0.5, 50.0}, "m", "distance from which a turn is announced");
-  visit(turn_now, "turn_now", Range{0.5, 10.0}, "m",
-        "a way-point that is replaced within this distance was reached: turn now");
-  visit(same_turn, "same_turn", Range{0.0, 60.0}, "s",
-        "the same turn is not announced again within");
-  visit(same_corner, "same_corner", Range{0.1, 10.0}, "m",
-        "a way-point that moved less is the same");
-  visit(repeat_direction, "repeat_direction", Range{1.0, 60.0}, "s",
-        "repeats while the robot faces elsewhere");
-  visit(repeat_straight, "repeat_straight", Range{1.0, 60.0}, "s",
-        "repeats while the robot faces the way-point");
-  visit(pause, "pause", Range{0.0, 10.0}, "s", "least time between two directions");
-  visit(turning_rate, "turning_rate", Range{0.05, 3.0}, "rad/s",
-        "faster turns on the spot are waited for");
-  visit(settle, "settle", Range{0.0, 3.0}, "s", "how long a turn must have ended");
-  visit(straight_lead, "straight_lead", Range{0.0, 2.0}, "s",
-        "how long before it faces the way-point a turning robot is told so");
-  visit(idle, "idle", Range{1.0, 60.0}, "s",
-        "with the stick at rest for so long, half as many repeats");
-  visit(reach, "reach", Range{0.1, 5.0}, "m",
-        "no correction while the robot heads to pass the way-point within this distance");
-  visit(at_hand, "at_hand", Range{0.0, 5.0}, "m",
-        "nearer than this a way-point roughly ahead needs no more directions");
-}
 
 RouteCues::RouteCues(const RouteConfig& config)
     : config_(config),

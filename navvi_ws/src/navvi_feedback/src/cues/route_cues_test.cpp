@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/route_cues.hpp"
+#include "cues/route_cues.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <future>
 #include <utility>
 
-#include "navvi_feedback/cues/phrases.hpp"
+#include "cues/phrases.hpp"
 #include "devices/voice.hpp"
 
 namespace navvi_feedback::devices {

@@ -63,8 +63,7 @@ class FeedbackNode {
  public:
   explicit FeedbackNode(const NodeConfig& config)
       : config_(config),
-        feedback_(config.feedback,
-                  cues::Phrases(phrases_file(config), config.feedback.cues.words())),
+        feedback_(config.feedback, phrases_file(config)),
         speech_(config.speaker, config.speech ? devices::Audio::on : devices::Audio::off),
         source_(config.input) {
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "navvi_feedback/cues/clock_face.hpp"
+#include "cues/clock_face.hpp"
 
 namespace navvi_feedback::picture {
 namespace {

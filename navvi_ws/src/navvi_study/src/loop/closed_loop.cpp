@@ -43,8 +43,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
       gate_(config.sim.gate),
       navigator_(config.nav),
       planner_(config.nav.planner),
-      feedback_(config.feedback,
-                navvi_feedback::cues::Phrases(phrases, config.feedback.cues.words())),
+      feedback_(config.feedback, phrases),
       person_(config.person, static_cast<std::uint64_t>(config.sim.seed)) {
   navigator_.set_map(std::make_shared<const navvi_nav::plan::MapMessage>(std::move(setting_.map)));
 }

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/cue_policy.hpp"
+#include "navvi_feedback/cues/cue.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
+#include "navvi_feedback/cues/link.hpp"
 #include "navvi_feedback/drive/drive.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
 
 namespace navvi_feedback {
+using navvi_types::Contact;
+using navvi_types::DriveState;
+using navvi_types::Guidance;
 using navvi_types::Odometry;
 using navvi_types::Proximity;
 }  // namespace navvi_feedback
@@ -25,28 +34,30 @@ struct FeedbackConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// What feedback_node decides, and nothing of how it is sent: what the stick asks of the wheels,
-/// what the motors do, and what is said. Times are s of one clock that does not run backwards.
+/// All decisions of feedback_node: the command for the wheels, the motors of the pad, and the cues.
+/// Times are s of one clock that does not run backwards.
 class Feedback {
  public:
-  /// The hands, and what the devices tell of themselves.
+  /// The hands, and the state of the devices.
   struct Input {
     drive::InputState hands;
     cues::Link audio = cues::Link::alive;
-    bool motors = true;                ///< false where our own pad is not connected
+    bool motors = true;                ///< false if our own pad is not connected
     bool voice_busy = false;           ///< something is being spoken or waits for it
     std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if known
     std::vector<std::string> notices;  ///< as Situation::notices
   };
   struct Output {
-    std::optional<Velocity> command;  ///< nullopt: nothing is to be sent
+    std::optional<Velocity> command;  ///< nullopt: nothing is sent
     haptics::Rumble rumble;
-    bool alarm_begins = false;    ///< from now on the motors say that nothing can be heard
+    bool alarm_begins = false;    ///< the motors begin to report that there is no sound
     std::vector<cues::Cue> cues;  ///< decided now, most urgent first
   };
 
-  /// \throws navvi_config::ConfigError as Haptics does
-  Feedback(const FeedbackConfig& config, cues::Phrases phrases);
+  /// \param phrases  file of the spoken phrases
+  /// \throws navvi_config::ConfigError if that file or the classes that are felt cannot be used
+  Feedback(const FeedbackConfig& config, const std::filesystem::path& phrases);
+  ~Feedback();
 
   void take(const Proximity& proximity, double time) { nearby_ = {proximity.things, time}; }
   void take(const Guidance& guidance, double time) { guidance_ = {guidance, time}; }
@@ -57,7 +68,7 @@ class Feedback {
   /// Call it at 50 Hz.
   [[nodiscard]] Output update(const Input& input, double time);
   /// As CuePolicy::note().
-  void note(const std::vector<CueEvent>& events) { policy_.note(events); }
+  void note(const std::vector<CueEvent>& events);
 
   /// The latest guidance, however old.
   [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
@@ -72,21 +83,22 @@ class Feedback {
     std::optional<T> value;
     std::optional<double> time;
 
-    [[nodiscard]] cues::Link link(double at, double stale) const {
-      return cues::link_state(time, at, stale);
+    [[nodiscard]] cues::Link link(double now, double stale) const {
+      if (!time) return cues::Link::never;
+      return now - *time <= stale ? cues::Link::alive : cues::Link::lost;
     }
   };
+
+  struct Deciders;
 
   [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
   [[nodiscard]] haptics::Rumble feel(double time, double dt);
   [[nodiscard]] bool alarm_begins(const Input& input, double time);
-  [[nodiscard]] cues::Situation situation(const Input& input, double time) const;
+  [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input, double time);
   [[nodiscard]] cues::Link pad_link(const drive::InputState& hands) const;
 
   FeedbackConfig config_;
-  drive::Drive drive_;
-  haptics::Haptics haptics_;
-  cues::CuePolicy policy_;
+  std::unique_ptr<Deciders> deciders_;
 
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;

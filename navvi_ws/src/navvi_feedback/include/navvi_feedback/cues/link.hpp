@@ -1,18 +1,17 @@
 #pragma once
 
-#include <optional>
-
 namespace navvi_feedback::cues {
 
-/// Whether a stream of messages, or a device, lives.
+/// State of a stream of messages, or of a device.
 enum class Link { never, alive, lost };
 
-/// \param last     s, when the last message came; nullopt if none ever did
-/// \param now      s, on the same clock
-/// \param timeout  s, the age at which a stream counts as lost
-[[nodiscard]] inline Link link_state(std::optional<double> last, double now, double timeout) {
-  if (!last) return Link::never;
-  return now - *last <= timeout ? Link::alive : Link::lost;
-}
+/// All that a person depends on.
+struct Links {
+  Link pad = Link::never;
+  Link simulator = Link::never;  ///< /clock or, on a robot, the odometry
+  Link proximity = Link::never;
+  Link guidance = Link::never;
+  Link audio = Link::never;
+};
 
 }  // namespace navvi_feedback::cues

@@ -6,8 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "cues/side.hpp"
 #include "navvi_feedback/cues/cue.hpp"
-#include "navvi_feedback/cues/side.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback {
 using navvi_types::ThingClass;
@@ -15,25 +16,19 @@ using navvi_types::ThingClass;
 
 namespace navvi_feedback::cues {
 
-/// How directions are worded.
-enum class DirectionWords {
-  clock,      ///< "3 o'clock"
-  left_right  ///< "right"
-};
-
 /// What is put into a phrase: numbers, and words of fixed sets.
 struct Fillings {
-  std::optional<int> hour;         ///< 1..12
-  std::optional<double> distance;  ///< m, >= 0
-  std::optional<ThingClass> thing;
-  std::optional<Side> side;
+  std::optional<int> hour = {};         ///< 1..12
+  std::optional<double> distance = {};  ///< m, >= 0
+  std::optional<ThingClass> thing = {};
+  std::optional<Side> side = {};
 };
 
 /// A cue that is not worded yet.
 struct Utterance {
-  std::string kind;
-  Fillings fillings;
-  std::optional<Priority> priority;  ///< instead of the kind's own
+  std::string kind = {};
+  Fillings fillings = {};
+  std::optional<Priority> priority = {};  ///< instead of the kind's own
 };
 
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and
@@ -59,7 +54,6 @@ class Phrases {
   [[nodiscard]] std::string distance(double metres) const;
 
  private:
-  void load(const std::filesystem::path& file, DirectionWords directions);
   [[nodiscard]] std::string filling(const std::string& placeholder, const Fillings& fillings) const;
 
   std::map<std::string, std::string> phrases_;

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "navvi_feedback/cues/phrases.hpp"
-#include "navvi_feedback/cues/situation.hpp"
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -18,7 +18,7 @@ using navvi_types::Velocity;
 
 namespace navvi_feedback::cues {
 
-/// Everything that is known at one instant and may have to be said. Every number is finite.
+/// All that cues are decided from, at one instant. Every number is finite.
 struct Situation {
   std::optional<Guidance> guidance;  ///< the latest
   std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if it is known
@@ -28,13 +28,7 @@ struct Situation {
   bool stick_held_unarmed = false;   ///< held since before it was neutral, so nothing is sent
   std::optional<Velocity> measured;  ///< nullopt while the odometry is missing or stale
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
-
-  Link guidance_link = Link::never;
-  Link proximity_link = Link::never;
-  Link simulator_link = Link::never;  ///< /clock or, on a robot, the odometry
-  Link pad_link = Link::never;
-  Link audio_link = Link::never;
-
+  Links links;
   bool repeat_pressed = false;  ///< the button went down since the last update
   bool goal_pressed = false;
   bool voice_busy = false;  ///< something is being spoken or waits for it

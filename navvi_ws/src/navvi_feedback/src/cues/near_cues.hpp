@@ -7,21 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "navvi_config/field.hpp"
-#include "navvi_feedback/cues/phrases.hpp"
-#include "navvi_feedback/cues/situation.hpp"
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
-
-struct NearConfig {
-  double distance = 1.0;    ///< m, gap
-  double close = 0.35;      ///< m, gap
-  double hysteresis = 0.2;  ///< m
-  double forget = 2.0;      ///< s
-  bool obstacles = true;
-
-  void describe(navvi_config::Visitor& visit);
-};
 
 /// Says when a shelf or a wall comes near (R-AUD-3): once a side at `distance`, once more at
 /// `close`. Any other thing is named once at `distance`, if the robot drives towards it: a hand

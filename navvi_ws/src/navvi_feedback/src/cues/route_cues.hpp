@@ -4,32 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "navvi_config/field.hpp"
-#include "navvi_feedback/cues/clock_face.hpp"
-#include "navvi_feedback/cues/phrases.hpp"
-#include "navvi_feedback/cues/situation.hpp"
+#include "cues/clock_face.hpp"
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
-
-struct RouteConfig {
-  std::string rounding = "nearest";
-  double hysteresis_degrees = 5.0;
-  double turn_ahead = 6.0;        ///< m
-  double turn_now = 2.0;          ///< m
-  double same_turn = 5.0;         ///< s
-  double same_corner = 1.0;       ///< m
-  double repeat_direction = 4.0;  ///< s
-  double repeat_straight = 8.0;   ///< s
-  double pause = 1.5;             ///< s
-  double turning_rate = 0.25;     ///< rad/s
-  double settle = 0.3;            ///< s
-  double straight_lead = 0.5;     ///< s
-  double idle = 5.0;              ///< s
-  double reach = 0.8;             ///< m
-  double at_hand = 1.0;           ///< m
-
-  void describe(navvi_config::Visitor& visit);
-};
 
 /// Says where to drive while there is a path (R-AUD-1, R-AUD-2), so that a person who only hears
 /// can follow it. All hours are seen from the robot's nose to where to steer. While the robot

@@ -5,31 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/held_stick.hpp"
-#include "navvi_feedback/cues/near_cues.hpp"
-#include "navvi_feedback/cues/phrases.hpp"
-#include "navvi_feedback/cues/route_cues.hpp"
-#include "navvi_feedback/cues/situation.hpp"
+#include "cues/held_stick.hpp"
+#include "cues/near_cues.hpp"
+#include "cues/phrases.hpp"
+#include "cues/route_cues.hpp"
+#include "cues/situation.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
-
-struct CuePolicyConfig {
-  double stuck_time = 1.5;       ///< s
-  double stuck_linear = 0.05;    ///< m/s
-  double stuck_angular = 0.1;    ///< rad/s
-  double stuck_repeat = 5.0;     ///< s
-  double blocker_gap = 0.5;      ///< m
-  double state_hold = 0.5;       ///< s
-  double problem_repeat = 15.0;  ///< s
-  double patience = 10.0;        ///< s
-  std::string direction_words = "clock";
-  RouteConfig route;
-  NearConfig near;
-
-  void describe(navvi_config::Visitor& visit);
-  /// direction_words as Phrases takes it.
-  [[nodiscard]] DirectionWords words() const;
-};
 
 /// Decides what is said, and when. Pure: the same situations at the same times give the same cues.
 class CuePolicy {
@@ -45,13 +28,6 @@ class CuePolicy {
 
  private:
   using Utterances = std::vector<Utterance>;
-  struct Links {
-    Link pad = Link::never;
-    Link simulator = Link::never;
-    Link proximity = Link::never;
-    Link guidance = Link::never;
-    Link audio = Link::never;
-  };
 
   [[nodiscard]] Links judge(const Situation& now, double time);
   [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links, double time);

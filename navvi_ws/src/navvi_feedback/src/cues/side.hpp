@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace navvi_feedback::cues {
 
@@ -8,6 +9,9 @@ namespace navvi_feedback::cues {
 enum class Side { ahead, left, behind, right };
 
 /// \param point  m, in base_link (x forward, y left). The robot's own centre counts as ahead.
-[[nodiscard]] Side side_of(const Eigen::Vector2d& point);
+[[nodiscard]] inline Side side_of(const Eigen::Vector2d& point) {
+  if (std::abs(point.y()) > std::abs(point.x())) return point.y() > 0.0 ? Side::left : Side::right;
+  return point.x() >= 0.0 ? Side::ahead : Side::behind;
+}
 
 }  // namespace navvi_feedback::cues

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+
+#include "navvi_config/field.hpp"
+
+namespace navvi_feedback::cues {
+
+/// How directions are worded.
+enum class DirectionWords {
+  clock,      ///< "3 o'clock"
+  left_right  ///< "right"
+};
+
+struct RouteConfig {
+  std::string rounding = "nearest";
+  double hysteresis_degrees = 5.0;
+  double turn_ahead = 6.0;        ///< m
+  double turn_now = 2.0;          ///< m
+  double same_turn = 5.0;         ///< s
+  double same_corner = 1.0;       ///< m
+  double repeat_direction = 4.0;  ///< s
+  double repeat_straight = 8.0;   ///< s
+  double pause = 1.5;             ///< s
+  double turning_rate = 0.25;     ///< rad/s
+  double settle = 0.3;            ///< s
+  double straight_lead = 0.5;     ///< s
+  double idle = 5.0;              ///< s
+  double reach = 0.8;             ///< m
+  double at_hand = 1.0;           ///< m
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+struct NearConfig {
+  double distance = 1.0;    ///< m, gap
+  double close = 0.35;      ///< m, gap
+  double hysteresis = 0.2;  ///< m
+  double forget = 2.0;      ///< s
+  bool obstacles = true;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+struct CuePolicyConfig {
+  double stuck_time = 1.5;       ///< s
+  double stuck_linear = 0.05;    ///< m/s
+  double stuck_angular = 0.1;    ///< rad/s
+  double stuck_repeat = 5.0;     ///< s
+  double blocker_gap = 0.5;      ///< m
+  double state_hold = 0.5;       ///< s
+  double problem_repeat = 15.0;  ///< s
+  double patience = 10.0;        ///< s
+  std::string direction_words = "clock";
+  RouteConfig route;
+  NearConfig near;
+
+  void describe(navvi_config::Visitor& visit);
+  /// direction_words as Phrases takes it.
+  [[nodiscard]] DirectionWords words() const;
+};
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,72 @@
+#include "navvi_feedback/cues/cue_config.hpp"
+
+namespace navvi_feedback::cues {
+
+using navvi_config::Any;
+using navvi_config::OneOf;
+using navvi_config::Range;
+
+void RouteConfig::describe(navvi_config::Visitor& visit) {
+  visit(rounding, "rounding", OneOf{{"nearest", "floor"}}, "", "how an angle becomes an hour");
+  visit(hysteresis_degrees, "hysteresis_degrees", Range{0.0, 14.0}, "deg",
+        "how far beyond its border the announced hour still stands");
+  visit(turn_ahead, "turn_ahead", Range{0.5, 50.0}, "m", "distance from which a turn is announced");
+  visit(turn_now, "turn_now", Range{0.5, 10.0}, "m",
+        "a way-point that is replaced within this distance was reached: turn now");
+  visit(same_turn, "same_turn", Range{0.0, 60.0}, "s",
+        "the same turn is not announced again within");
+  visit(same_corner, "same_corner", Range{0.1, 10.0}, "m",
+        "a way-point that moved less is the same");
+  visit(repeat_direction, "repeat_direction", Range{1.0, 60.0}, "s",
+        "repeats while the robot faces elsewhere");
+  visit(repeat_straight, "repeat_straight", Range{1.0, 60.0}, "s",
+        "repeats while the robot faces the way-point");
+  visit(pause, "pause", Range{0.0, 10.0}, "s", "least time between two directions");
+  visit(turning_rate, "turning_rate", Range{0.05, 3.0}, "rad/s",
+        "faster turns on the spot are waited for");
+  visit(settle, "settle", Range{0.0, 3.0}, "s", "how long a turn must have ended");
+  visit(straight_lead, "straight_lead", Range{0.0, 2.0}, "s",
+        "how long before it faces the way-point a turning robot is told so");
+  visit(idle, "idle", Range{1.0, 60.0}, "s",
+        "with the stick at rest for so long, half as many repeats");
+  visit(reach, "reach", Range{0.1, 5.0}, "m",
+        "no correction while the robot heads to pass the way-point within this distance");
+  visit(at_hand, "at_hand", Range{0.0, 5.0}, "m",
+        "nearer than this a way-point roughly ahead needs no more directions");
+}
+
+void NearConfig::describe(navvi_config::Visitor& visit) {
+  visit(distance, "distance", Range{0.1, 5.0}, "m", "gap at which a shelf or a wall is announced");
+  visit(close, "close", Range{0.0, 5.0}, "m", "gap at which it is announced once more");
+  visit(hysteresis, "hysteresis", Range{0.0, 1.0}, "m",
+        "how much farther it must be to count as gone");
+  visit(forget, "forget", Range{0.0, 30.0}, "s", "how long it must be gone to be announced again");
+  visit(obstacles, "obstacles", Any{}, "",
+        "also name any other thing that the robot drives towards");
+}
+
+void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
+  visit(stuck_time, "stuck_time", Range{0.2, 30.0}, "s",
+        "commanded without moving for longer is stuck");
+  visit(stuck_linear, "stuck_linear", Range{0.0, 1.0}, "m/s", "slower counts as not moving");
+  visit(stuck_angular, "stuck_angular", Range{0.0, 1.0}, "rad/s", "slower counts as not turning");
+  visit(stuck_repeat, "stuck_repeat", Range{1.0, 60.0}, "s", "repeats while the robot stays stuck");
+  visit(blocker_gap, "blocker_gap", Range{0.0, 5.0}, "m",
+        "a thing farther away is not what blocks");
+  visit(state_hold, "state_hold", Range{0.0, 5.0}, "s",
+        "a state of the guidance shorter than this is passed over");
+  visit(problem_repeat, "problem_repeat", Range{1.0, 300.0}, "s",
+        "repeats while the guidance does not lead");
+  visit(patience, "patience", Range{1.0, 300.0}, "s",
+        "a link that never lived for so long counts as lost");
+  visit(direction_words, "direction_words", OneOf{{"clock", "left_right"}}, "",
+        "how directions are worded");
+  visit.group("route", route);
+  visit.group("near", near);
+}
+
+DirectionWords CuePolicyConfig::words() const {
+  return direction_words == "left_right" ? DirectionWords::left_right : DirectionWords::clock;
+}
+
+}  // namespace navvi_feedback::cues
