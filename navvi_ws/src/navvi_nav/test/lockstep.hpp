@@ -23,6 +23,24 @@ inline std::shared_ptr<const plan::MapMessage> message_of(SmallWorld& world) {
   return std::make_shared<const plan::MapMessage>(message);
 }
 
+/// Tests tell things apart by their class: nine ids in a row have eight classes.
+inline navvi_types::ThingClass class_of(std::uint32_t id) {
+  return static_cast<navvi_types::ThingClass>(1 + id % 8);
+}
+
+/// A thing as the cylinder about it, and its rectangle along `yaw`.
+inline MovingThing moving_thing(const Cylinder& one, double yaw = 0.0, double length = 0.0,
+                                double width = 0.0) {
+  return {one.id,
+          class_of(one.id),
+          {{one.center.x, one.center.y}, yaw},
+          {one.velocity.x, one.velocity.y},
+          one.radius,
+          1.0,
+          length,
+          width};
+}
+
 /// Navigator and planner in lockstep: each request is answered within the tick.
 class Lockstep : public testing::Test {
  protected:
@@ -36,11 +54,12 @@ class Lockstep : public testing::Test {
   void tick(int times = 1) {
     for (int i = 0; i < times; ++i) {
       time_ += kTick;
-      if (has_pose_) navigator_.set_pose(robot_, time_);
+      if (has_pose_)
+        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, time_);
       navigator_.set_speed(speed_);
       if (has_obstacles_) {
         std::vector<MovingThing> things = things_;
-        for (const Cylinder& obstacle : obstacles_) things.push_back({obstacle});
+        for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
         navigator_.set_obstacles(things, time_);
       }
       if (const auto request = navigator_.update(time_)) {
@@ -51,13 +70,13 @@ class Lockstep : public testing::Test {
   }
   /// Moves the robot straight at the next way-point.
   void drive(double step) {
-    const Heading heading = status().heading;
-    robot_.yaw -= heading.waypoint_angle;
-    const double length = std::min(step, heading.waypoint_distance);
-    robot_.position = to_parent(robot_, {length, 0.0});
+    const Guidance now = status();
+    robot_.yaw -= now.waypoint_angle;
+    const double length = std::min(step, now.waypoint_distance);
+    robot_.position = robot_.position + length * Point{std::cos(robot_.yaw), std::sin(robot_.yaw)};
     tick();
   }
-  [[nodiscard]] Status status() const { return navigator_.status(time_); }
+  [[nodiscard]] Guidance status() const { return navigator_.guidance(time_); }
 
   SmallWorld world_;
   NavigatorConfig config_;
@@ -66,7 +85,10 @@ class Lockstep : public testing::Test {
   std::optional<plan::PlanAnswer> last_;
   std::vector<Cylinder> obstacles_;
   std::vector<MovingThing> things_;  ///< besides
-  Pose robot_{{2, 5}, 0.0};
+  struct {
+    Point position{2, 5};
+    double yaw = 0.0;
+  } robot_;
   bool has_pose_ = true;
   bool has_obstacles_ = true;
   double speed_ = 0.5;

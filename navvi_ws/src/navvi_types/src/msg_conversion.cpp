@@ -71,7 +71,7 @@ geometry_msgs::Pose pose_msg(const Pose2& pose, double z) {
   return msg;
 }
 
-std_msgs::Header header(const char* frame, std::int64_t stamp) {
+std_msgs::Header header(const std::string& frame, std::int64_t stamp) {
   std_msgs::Header msg;
   msg.frame_id = frame;
   msg.stamp = from_ns(stamp);
@@ -395,9 +395,9 @@ navvi_msgs::StateHash to_msg(const StateHash& state) {
 }
 
 nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
-                        std::int64_t stamp) {
+                        std::int64_t stamp, const std::string& frame) {
   nav_msgs::Path msg;
-  msg.header = header("map", stamp);
+  msg.header = header(frame, stamp);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t from = i + 1 < points.size() ? i : i - 1;
     Eigen::Vector2d leg = Eigen::Vector2d::UnitX();

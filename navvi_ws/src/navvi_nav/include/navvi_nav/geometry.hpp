@@ -57,19 +57,6 @@ inline Point nearest_in_convex(Point p, const std::vector<Point>& corners) {
   return best;
 }
 
-/// The robot on the floor: yaw counter-clockwise from x, rad.
-struct Pose {
-  Point position;
-  double yaw = 0.0;
-};
-
-/// `point` of the frame that stands at `frame`, in the frame in which `frame` is given.
-inline Point to_parent(const Pose& frame, Point point) {
-  const double c = std::cos(frame.yaw);
-  const double s = std::sin(frame.yaw);
-  return frame.position + Point{c * point.x - s * point.y, s * point.x + c * point.y};
-}
-
 /// A moving thing, or a part of a long one, as a vertical cylinder on the floor (R-NAV-4).
 struct Cylinder {
   std::uint32_t id = 0;  ///< of the thing: several cylinders may be one thing

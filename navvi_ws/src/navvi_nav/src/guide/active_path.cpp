@@ -13,19 +13,19 @@ void ActivePathConfig::describe(navvi_config::Visitor& visit) {
         "a robot farther off its path gets a new one at the next plan");
 }
 
-double ActivePath::follow(const plan::Plan& plan, plan::Reason reason, double time,
-                          const std::optional<Pose>& robot) {
+double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason, double time,
+                          std::optional<Point> robot) {
   const bool retreat = plan.status == plan::PlanStatus::retreat;
   double moved = 0.0;
   if (following() && robot) {
-    moved = PathInstability::moved(remaining(robot->position), plan.path);
+    moved = PathInstability::moved(remaining(*robot), plan.path);
     instability_.add(time, moved);
     if (moved > kElsewhere && leads_to_goal_ && !retreat) {
       ++reroutes_;
       reroute_reason_ = reason;
     }
   }
-  guidance_.follow(plan.path);
+  follower_.follow(plan.path);
   leads_to_goal_ = !retreat;
   shortest_length_ = plan.shortest;
   smoothing_price_ = length_of(plan.path) - plan.shortest;
@@ -43,30 +43,28 @@ void ActivePath::reset() {
   mode_ = PathMode::to_goal;
   instability_.reset();
   reroutes_ = 0;
-  reroute_reason_ = plan::Reason::none;
+  reroute_reason_ = Guidance::Replan::none;
 }
 
-double ActivePath::offset(const Pose& robot) const {
-  return following() ? guidance_.heading(robot).path_offset : 0.0;
-}
+double ActivePath::offset(Point robot) const { return following() ? follower_.offset(robot) : 0.0; }
 
-bool ActivePath::arrived(const Pose& robot, const map::Space& space) const {
+bool ActivePath::arrived(Point robot, const map::Space& space) const {
   return (mode_ == PathMode::to_goal || mode_ == PathMode::closed) &&
-         guidance_.arrived(robot, space);
+         follower_.arrived(robot, space);
 }
 
-void ActivePath::report(Status& status, const Pose& robot, double pace) const {
-  status.heading = guidance_.heading(robot);
-  if (!leads_to_goal_) status.heading.waypoint_is_goal = false;
-  status.eta = status.heading.goal_distance / pace;
-  status.shortest_length = shortest_length_;
-  status.smoothing_price = smoothing_price_;
+void ActivePath::report(Guidance& out, const Pose2& robot, double pace) const {
+  follower_.report(out, robot);
+  if (!leads_to_goal_) out.waypoint_is_goal = false;
+  out.eta = out.goal_distance / pace;
+  out.shortest_length = shortest_length_;
+  out.smoothing_price = smoothing_price_;
 }
 
-void ActivePath::report_changes(Status& status, double time) const {
-  status.reroutes = reroutes_;
-  status.reroute_reason = reroute_reason_;
-  status.churn = instability_.per_minute(time);
+void ActivePath::report_changes(Guidance& out, double time) const {
+  out.reroutes = reroutes_;
+  out.reroute_reason = reroute_reason_;
+  out.path_churn = instability_.per_minute(time);
 }
 
 }  // namespace navvi_nav::guide

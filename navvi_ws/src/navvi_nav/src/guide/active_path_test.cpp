@@ -19,46 +19,46 @@ plan::Plan plan(plan::PlanStatus status, const Path& path) {
 class Following : public testing::Test {
  protected:
   double follow(plan::PlanStatus status, const Path& path,
-                plan::Reason reason = plan::Reason::period) {
+                Guidance::Replan reason = Guidance::Replan::period) {
     return path_.follow(plan(status, path), reason, 100.0, robot_);
   }
-  [[nodiscard]] Status status() const {
-    Status out;
+  [[nodiscard]] Guidance status() const {
+    Guidance out;
     path_.report_changes(out, 100.0);
-    path_.report(out, robot_, 0.7);
+    path_.report(out, {{robot_.x, robot_.y}, 0.0}, 0.7);
     return out;
   }
   ActivePath path_{ActivePathConfig{}};
-  Pose robot_{{2, 5}, 0.0};
+  Point robot_{2, 5};
   const Path straight_{{2, 5}, {14, 5}};
   const Path round_{{2, 5}, {2, 1}, {14, 1}, {14, 5}};
 };
 
 TEST_F(Following, counts_as_a_reroute_what_leads_elsewhere) {
-  EXPECT_EQ(follow(plan::PlanStatus::found, round_, plan::Reason::new_goal), 0.0);
+  EXPECT_EQ(follow(plan::PlanStatus::found, round_, Guidance::Replan::new_goal), 0.0);
   EXPECT_EQ(status().reroutes, 0U);
   EXPECT_GT(follow(plan::PlanStatus::found, straight_), 5.0);
-  EXPECT_EQ(path_.guidance().path(), straight_);
+  EXPECT_EQ(path_.follower().path(), straight_);
   EXPECT_EQ(status().reroutes, 1U);
-  EXPECT_EQ(status().reroute_reason, plan::Reason::period);
-  EXPECT_GT(status().churn, 5.0);
+  EXPECT_EQ(status().reroute_reason, Guidance::Replan::period);
+  EXPECT_GT(status().path_churn, 5.0);
   EXPECT_EQ(follow(plan::PlanStatus::found, {{2, 5}, {13, 5}, {14, 5.3}}), 0.0);
   EXPECT_EQ(status().reroutes, 1U);
   path_.reset();
   EXPECT_FALSE(path_.following());
-  follow(plan::PlanStatus::found, round_, plan::Reason::new_goal);
+  follow(plan::PlanStatus::found, round_, Guidance::Replan::new_goal);
   EXPECT_EQ(status().reroutes, 0U);
-  EXPECT_EQ(status().churn, 0.0);
+  EXPECT_EQ(status().path_churn, 0.0);
 }
 
 TEST_F(Following, counts_no_reroute_on_a_retreat_or_back_from_one) {
-  follow(plan::PlanStatus::closed, straight_, plan::Reason::new_goal);
+  follow(plan::PlanStatus::closed, straight_, Guidance::Replan::new_goal);
   EXPECT_EQ(path_.mode(), PathMode::closed);
-  EXPECT_TRUE(status().heading.waypoint_is_goal);
+  EXPECT_TRUE(status().waypoint_is_goal);
   EXPECT_GT(follow(plan::PlanStatus::retreat, {{2, 5}, {2, 9}}), 2.0);
   EXPECT_EQ(path_.mode(), PathMode::retreat);
   EXPECT_FALSE(path_.closed());
-  EXPECT_FALSE(status().heading.waypoint_is_goal);
+  EXPECT_FALSE(status().waypoint_is_goal);
   EXPECT_GT(follow(plan::PlanStatus::found, straight_), 2.0);
   EXPECT_EQ(path_.mode(), PathMode::to_goal);
   EXPECT_EQ(status().reroutes, 0U);
@@ -79,7 +79,7 @@ TEST_F(Following, arrives_at_the_goal_and_not_at_the_end_of_a_retreat) {
   world.room(16, 10);
   plan::NavMesh mesh(plan::NavMeshConfig{});
   ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
-  robot_.position = {13.5, 5};
+  robot_ = {13.5, 5};
   for (const plan::PlanStatus status :
        {plan::PlanStatus::found, plan::PlanStatus::closed, plan::PlanStatus::retreat}) {
     follow(status, straight_);
@@ -96,10 +96,10 @@ TEST_F(Following, arrives_at_the_goal_and_not_at_the_end_of_a_retreat) {
 TEST_F(Following, tells_a_robot_that_strayed) {
   EXPECT_EQ(path_.offset(robot_), 0.0);
   follow(plan::PlanStatus::found, straight_);
-  robot_.position = {4, 5.9};
+  robot_ = {4, 5.9};
   EXPECT_FALSE(path_.strayed(robot_));
   EXPECT_NEAR(path_.offset(robot_), 0.9, 1e-9);
-  robot_.position = {4, 7};
+  robot_ = {4, 7};
   EXPECT_TRUE(path_.strayed(robot_));
 }
 

@@ -219,7 +219,8 @@ Conflict ConflictForecast::forecast(const Path& path, const std::vector<Cylinder
     out.hits_waiting = out.hits_waiting || one.hits_waiting();
     const bool moves = norm(thing.velocity()) > config_.standing_speed;
     if (moves && one.time_to_collision < kNever && (!out.wait_for || one.at < out.wait_for->at))
-      out.wait_for = Blocker{thing.first->id, one.at, one.ends ? one.time_to_clear : -1.0};
+      out.wait_for = Blocker{thing.first->id, one.at,
+                             one.ends ? std::optional(one.time_to_clear) : std::nullopt};
     if (one.state == Conflict::State::clear) return;
     if (out.state == Conflict::State::clear || one.at < out.at) out.at = one.at;
     if (one.state == Conflict::State::oncoming &&

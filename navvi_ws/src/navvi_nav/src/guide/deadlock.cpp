@@ -14,8 +14,8 @@ constexpr double kNear = 0.4;  // m, from the end of a retreat: near enough out 
 constexpr double kThere = 0.15;  // m, likewise: near enough anywhere
 
 bool faces(const MovingThing& thing, Point robot) {
-  const Point heading{std::cos(thing.yaw), std::sin(thing.yaw)};
-  const Point away = robot - thing.cylinder.center;
+  const Point heading{std::cos(thing.pose.yaw), std::sin(thing.pose.yaw)};
+  const Point away = robot - to_point(thing.pose.position);
   return std::abs(std::atan2(cross(heading, away), dot(heading, away))) <= kFaces;
 }
 
@@ -29,25 +29,21 @@ void DeadlockConfig::describe(navvi_config::Visitor& visit) {
 }
 
 std::vector<Cylinder> area_swept_by(const MovingThing& thing) {
-  Cylinder one = thing.cylinder;
-  const double front = thing.length > 0.0 ? thing.length / 2.0 : one.radius;
-  const double half = thing.width > 0.0 ? thing.width / 2.0 : one.radius;
-  const Pose place{thing.cylinder.center, thing.yaw};
-  std::vector<Cylinder> out;
-  one.center = to_parent(place, {front, 0.0});
-  one.radius = half + kTurn;
-  out.push_back(one);
-  one.radius = half + kBeside;
-  for (double ahead = front; ahead <= front + kAhead; ahead += one.radius) {
-    one.center = to_parent(place, {ahead, 0.0});
-    out.push_back(one);
-  }
+  const double front = thing.length > 0.0 ? thing.length / 2.0 : thing.radius;
+  const double half = thing.width > 0.0 ? thing.width / 2.0 : thing.radius;
+  const auto before = [&thing](double ahead, double radius) {
+    return Cylinder{thing.id, to_point(thing.pose.to_parent({ahead, 0.0})), radius, {}};
+  };
+  std::vector<Cylinder> out{before(front, half + kTurn)};
+  const double radius = half + kBeside;
+  for (double ahead = front; ahead <= front + kAhead; ahead += radius)
+    out.push_back(before(ahead, radius));
   return out;
 }
 
 void Deadlock::update(double time, Point robot, const std::optional<MovingThing>& blocker) {
   const std::optional<std::uint32_t> by =
-      blocker && faces(*blocker, robot) ? std::optional(blocker->cylinder.id) : std::nullopt;
+      blocker && faces(*blocker, robot) ? std::optional(blocker->id) : std::nullopt;
   if (by != blocker_) since_ = time;
   blocker_ = by;
   const bool long_enough =
@@ -58,7 +54,7 @@ void Deadlock::update(double time, Point robot, const std::optional<MovingThing>
 }
 
 void Deadlock::yield_to(const MovingThing& thing) {
-  yields_to_ = thing.cylinder.id;
+  yields_to_ = thing.id;
   swept_area_ = area_swept_by(thing);
 }
 

@@ -5,7 +5,9 @@
 namespace navvi_nav::guide {
 namespace {
 
-MovingThing forklift(double yaw) { return {{7, {5, 0}, 1.35, {}}, yaw, 2.4, 1.1}; }
+MovingThing forklift(double yaw) {
+  return {7, navvi_types::ThingClass::forklift, {{5, 0}, yaw}, {0, 0}, 1.35, 2.0, 2.4, 1.1};
+}
 
 /// \returns s after which it is due, asked every 0.5 s; 100 if never
 double due_after(Deadlock& deadlock, const MovingThing& blocker, double from = 0.0) {
@@ -33,7 +35,7 @@ TEST(Deadlock, begins_anew_when_the_way_was_free_or_another_closes_it) {
   deadlock.update(18.0, {2, 0}, forklift(M_PI));
   EXPECT_FALSE(deadlock.due());
   MovingThing other = forklift(M_PI);
-  other.cylinder.id = 8;
+  other.id = 8;
   deadlock.update(19.0, {2, 0}, other);
   deadlock.update(21.0, {2, 0}, other);
   EXPECT_FALSE(deadlock.due());
@@ -66,7 +68,11 @@ TEST(Deadlock, gives_the_thing_time_to_pass_and_then_lets_it_be) {
 
 TEST(Deadlock, has_retreated_near_the_end_only_where_it_leaves_the_area_free) {
   Deadlock deadlock{DeadlockConfig{}};
-  deadlock.yield_to({{7, {4, 5}, 0.5, {}}, M_PI, 0.8, 0.6});
+  MovingThing small = forklift(M_PI);
+  small.pose.position = {4, 5};
+  small.length = 0.8;
+  small.width = 0.6;
+  deadlock.yield_to(small);
   EXPECT_FALSE(deadlock.has_retreated({2, 5.7}, {2, 6}));  // it needs 0.5 m, the robot 0.35 m
   EXPECT_TRUE(deadlock.has_retreated({2, 5.9}, {2, 6}));
   EXPECT_TRUE(deadlock.has_retreated({2, 5.7}, {2, 5.8}));  // there is no more room

@@ -43,11 +43,11 @@ class MovingThings : public Lockstep {
   Drive drive_among(const std::function<Cylinder(double)>& thing, double longest) {
     Drive out;
     double elapsed = 0.0;
-    while (status().state != plan::State::arrived && elapsed < longest) {
+    while (status().state != Guidance::State::arrived && elapsed < longest) {
       elapsed += kTick;
       obstacles_ = {thing(elapsed)};
-      const Status now = status();
-      const bool drives = now.state == plan::State::following;
+      const Guidance now = status();
+      const bool drives = now.state == Guidance::State::following;
       speed_ = drives ? kPace : 0.0;
       const double x = robot_.position.x;
       if (drives)
@@ -55,15 +55,15 @@ class MovingThings : public Lockstep {
       else
         tick();
       out.backwards += std::max(0.0, x - robot_.position.x);
-      out.waited += now.state == plan::State::blocked ? kTick : 0.0;
-      out.lost += now.state == plan::State::no_route ? kTick : 0.0;
+      out.waited += now.state == Guidance::State::blocked ? kTick : 0.0;
+      out.lost += now.state == Guidance::State::no_route ? kTick : 0.0;
       const double gap =
           distance(robot_.position, obstacles_[0].center) - obstacles_[0].radius - 0.35;
       out.least = std::min(out.least, gap);
       if (status().reroutes > out.reroutes && out.reroutes == 0) out.rerouted = gap;
       out.reroutes = std::max(out.reroutes, status().reroutes);
     }
-    EXPECT_EQ(status().state, plan::State::arrived);
+    EXPECT_EQ(status().state, Guidance::State::arrived);
     return out;
   }
 };
@@ -85,7 +85,7 @@ TEST_F(MovingThings, a_forklift_that_crosses_is_waited_for_and_nothing_is_rerout
     EXPECT_LT(drive.waited, 5.0) << delay;
     EXPECT_GT(drive.least, 0.0) << delay;
     EXPECT_LE(status().plans - before, 3U) << delay;
-    EXPECT_EQ(status().churn, 0.0) << delay;
+    EXPECT_EQ(status().path_churn, 0.0) << delay;
     waited = std::max(waited, drive.waited);
   }
   EXPECT_GT(waited, 0.5);
@@ -152,12 +152,11 @@ TEST_F(MovingThings, a_way_that_is_closed_for_good_is_told_and_found_again) {
   robot_.position = {5.9, 8};
   obstacles_ = {{1, {10, 1.7}, 1.6, {}}, {2, {10, 8}, 1.4, {}}, {3, {10, 14.3}, 1.6, {}}};
   tick(200);
-  EXPECT_EQ(status().state, plan::State::blocked);
-  ASSERT_TRUE(status().blocked);
-  EXPECT_EQ(status().blocked->by, 2U);
+  EXPECT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(2));
   obstacles_.pop_back();
   tick(60);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   EXPECT_GT(navigator_.path()[1].y, 8.0);
 }
 
@@ -175,7 +174,7 @@ TEST_F(MovingThings, the_old_way_is_taken_again_once_it_is_much_shorter_and_free
 
 /// A forklift with a yaw, as navvi_sim tells it.
 MovingThing forklift(Point at, double yaw, double speed = 0.0) {
-  return {{9, at, 1.35, speed * Point{std::cos(yaw), std::sin(yaw)}}, yaw, 2.4, 1.1};
+  return moving_thing({9, at, 1.35, speed * Point{std::cos(yaw), std::sin(yaw)}}, yaw, 2.4, 1.1);
 }
 
 /// A hall without shelves. A person drives along its middle, and stands while told to wait.
@@ -198,9 +197,9 @@ class OpenHall : public Lockstep {
     Drive out;
     for (double elapsed = 0.0; elapsed < seconds; elapsed += kTick) {
       things_ = {forklift_at(elapsed)};
-      const Status now = status();
-      const bool drives = now.state == plan::State::following;
-      out.waited += now.state == plan::State::blocked ? kTick : 0.0;
+      const Guidance now = status();
+      const bool drives = now.state == Guidance::State::following;
+      out.waited += now.state == Guidance::State::blocked ? kTick : 0.0;
       speed_ = drives ? kPace : 0.0;
       if (drives)
         drive(kPace * kTick);
@@ -208,8 +207,8 @@ class OpenHall : public Lockstep {
         tick();
       out.changed = out.changed || !(navigator_.path() == path_);
       const MovingThing& one = things_[0];
-      const Point away = robot_.position - one.cylinder.center;
-      const Point ahead{std::cos(one.yaw), std::sin(one.yaw)};
+      const Point away = robot_.position - to_point(one.pose.position);
+      const Point ahead{std::cos(one.pose.yaw), std::sin(one.pose.yaw)};
       const double x = std::max(0.0, std::abs(dot(away, ahead)) - one.length / 2);
       const double y = std::max(0.0, std::abs(cross(ahead, away)) - one.width / 2);
       out.least = std::min(out.least, std::hypot(x, y) - 0.35);
@@ -246,7 +245,7 @@ TEST_F(OpenHall, a_forklift_that_crosses_right_before_the_robot_is_waited_for) {
     EXPECT_GT(drive.waited, 0.5) << start;
     EXPECT_LT(drive.waited, 6.0) << start;
     EXPECT_GT(drive.least, 0.1) << start;
-    EXPECT_EQ(status().state, plan::State::following);
+    EXPECT_EQ(status().state, Guidance::State::following);
   }
 }
 
@@ -272,7 +271,7 @@ TEST_F(OpenHall, nobody_is_told_to_wait_for_what_comes_from_behind_but_led_out_o
     double waited = 0.0;
     for (double elapsed = 0.0; elapsed < 12.0; elapsed += kTick) {
       obstacles_ = {{3, {10 - 1.25 - behind + 1.5 * elapsed, 8}, 0.9, {1.5, 0}}};
-      const bool waits = status().state == plan::State::blocked;
+      const bool waits = status().state == Guidance::State::blocked;
       waited += waits ? kTick : 0.0;
       speed_ = waits ? 0.0 : kPace;
       if (waits)
@@ -310,7 +309,7 @@ TEST_F(ClosedCorridor, what_crosses_is_waited_for_though_the_way_is_closed_farth
     for (double elapsed = 0.0; elapsed < 25.0; elapsed += kTick) {
       obstacles_ = {{1, {24, 8}, 1.4, {}},
                     {2, {13.5, 14.5 - 1.5 * (elapsed - delay)}, 0.8, {0, -1.5}}};
-      const bool drives = status().state == plan::State::following;
+      const bool drives = status().state == Guidance::State::following;
       speed_ = drives ? kPace : 0.0;
       if (drives)
         drive(kPace * kTick);
@@ -341,21 +340,22 @@ TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_pas
   double waited = 0.0;  // s, told to wait
   double elapsed = 0.0;
   bool named = true;
-  while (status().state != plan::State::arrived && elapsed < 120.0) {
+  while (status().state != Guidance::State::arrived && elapsed < 120.0) {
     elapsed += kTick;
-    const Status now = status();
-    named = named && (!now.blocked || now.blocked->by == 9U);
-    away += now.state == plan::State::make_room ? kTick : 0.0;
-    waited += now.state == plan::State::blocked ? kTick : 0.0;
-    EXPECT_NE(now.state, plan::State::no_route);
-    EXPECT_NE(now.state, plan::State::off_mesh);
+    const Guidance now = status();
+    named = named && (!now.blocked_by || now.blocked_by == class_of(9));
+    away += now.state == Guidance::State::make_room ? kTick : 0.0;
+    waited += now.state == Guidance::State::blocked ? kTick : 0.0;
+    EXPECT_NE(now.state, Guidance::State::no_route);
+    EXPECT_NE(now.state, Guidance::State::off_mesh);
     // It goes on while the robot is 0.4 m off its straight way, and leaves by the lower left.
     const Point at = robot_.position;
     const bool clear = std::abs(at.y - 4.0) > 0.55 + 0.35 || at.x > x || at.x < x - 1.2 - 0.75;
     if (clear && x > -30.0) x -= 0.6 * kTick;
     things_ = {forklift({x, 4.0}, M_PI, clear ? 0.6 : 0.0)};
     if (x < 3.0) things_.clear();
-    const bool drives = now.state == plan::State::following || now.state == plan::State::make_room;
+    const bool drives =
+        now.state == Guidance::State::following || now.state == Guidance::State::make_room;
     speed_ = drives ? kPace : 0.0;
     if (drives) {
       drive(kPace * kTick);
@@ -363,7 +363,7 @@ TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_pas
       tick();
     }
   }
-  EXPECT_EQ(status().state, plan::State::arrived);
+  EXPECT_EQ(status().state, Guidance::State::arrived);
   EXPECT_TRUE(named);
   EXPECT_GT(away, 2.0);
   EXPECT_GT(waited, 10.0);
@@ -374,17 +374,19 @@ TEST_F(NarrowAisle, what_crosses_is_waited_for_on_the_way_aside_too) {
   double least = 1e9;
   bool waited = false;
   for (double elapsed = 0.0; elapsed < 40.0; elapsed += kTick) {
-    const Status now = status();
-    if (now.state == plan::State::make_room && robot_.position.x < 6.9 && !since) since = elapsed;
+    const Guidance now = status();
+    if (now.state == Guidance::State::make_room && robot_.position.x < 6.9 && !since)
+      since = elapsed;
     things_ = {forklift({12.0, 4.0}, M_PI)};
     obstacles_.clear();
     if (since) {
       const double y = 7.5 - 1.5 * (elapsed - *since);
       if (y > -3.0) obstacles_ = {{2, {4.2, y}, 0.6, {0, -1.5}}};
       least = std::min(least, distance(robot_.position, {4.2, y}) - 0.6 - 0.35);
-      waited = waited || (now.state == plan::State::blocked && now.blocked->by == 2U);
+      waited = waited || (now.state == Guidance::State::blocked && now.blocked_by == class_of(2));
     }
-    const bool drives = now.state == plan::State::following || now.state == plan::State::make_room;
+    const bool drives =
+        now.state == Guidance::State::following || now.state == Guidance::State::make_room;
     speed_ = drives ? kPace : 0.0;
     if (drives)
       drive(kPace * kTick);
@@ -400,10 +402,10 @@ TEST_F(NarrowAisle, a_robot_within_the_circle_of_a_forklift_is_led_out_of_it) {
   robot_.position = {4.2, 3.4};  // within 1.35 m and the robot's radius of it
   navigator_.set_goal({20, 4});
   tick(20);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   robot_.position = {4.15, 3.2};  // beside it, within the hole of the row
   tick(60);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 }  // namespace

@@ -48,9 +48,7 @@ Navigator::Navigator(const NavigatorConfig& config)
       trigger_(config_.replan.trigger),
       keeper_(config_.replan.keeper),
       deadlock_(config_.deadlock),
-      path_(config_.path) {
-  status_.state = plan::State::no_goal;
-}
+      path_(config_.path) {}
 
 void Navigator::set_map(std::shared_ptr<const plan::MapMessage> map) {
   map_.new_map = std::move(map);
@@ -64,25 +62,25 @@ bool Navigator::set_map(std::shared_ptr<const map::OccupancyGrid> grid) {
   return true;
 }
 
-void Navigator::set_goal(Point goal) {
-  drop_goal(plan::State::no_goal);
-  goal_.place = goal;
-  goal_.last = goal;
+void Navigator::set_goal(const Eigen::Vector2d& goal) {
+  drop_goal(Guidance::State::no_goal);
+  goal_.place = to_point(goal);
+  guidance_.goal = goal;
 }
 
-bool Navigator::drop_bad_goal(plan::Refusal refusal, const std::string& detail) {
+bool Navigator::drop_bad_goal(Guidance::Refusal refusal, const std::string& detail) {
   if (goal_.place) return true;
   refuse_goal(refusal, detail);
   return false;
 }
 
-void Navigator::refuse_goal(plan::Refusal refusal, const std::string& detail) {
-  drop_goal(plan::State::goal_refused);
-  status_.refusal = refusal;
-  status_.detail = detail;
+void Navigator::refuse_goal(Guidance::Refusal refusal, const std::string& detail) {
+  drop_goal(Guidance::State::goal_refused);
+  guidance_.refusal = refusal;
+  guidance_.detail = detail;
 }
 
-void Navigator::drop_goal(plan::State state) {
+void Navigator::drop_goal(Guidance::State state) {
   goal_.place.reset();
   ++goal_.number;
   goal_.planned = false;
@@ -92,9 +90,9 @@ void Navigator::drop_goal(plan::State state) {
   deadlock_.reset();
   conflict_ = {};
   blocker_.reset();
-  status_.state = state;
-  status_.refusal = plan::Refusal::none;
-  status_.detail.clear();
+  guidance_.state = state;
+  guidance_.refusal = Guidance::Refusal::none;
+  guidance_.detail.clear();
 }
 
 void Navigator::reset_times() {
@@ -111,7 +109,7 @@ void Navigator::reset_times() {
 /// An arrival or a refusal is still true when the map is old.
 bool Navigator::map_stale(double time) const {
   return config_.map_timeout > 0.0 && map_.time && time - *map_.time > config_.map_timeout &&
-         (goal_.place || status_.state == plan::State::no_goal);
+         (goal_.place || guidance_.state == Guidance::State::no_goal);
 }
 
 bool Navigator::undecided(double time) const {
@@ -124,18 +122,18 @@ std::optional<plan::PlanRequest> Navigator::update(double time) {
   const Conflict now = follow_progress(time);
   if (sent_.since) return std::nullopt;
   if (map_.new_map || map_.new_grid) {
-    plan::PlanRequest request = send(time, plan::Reason::map_changed);
+    plan::PlanRequest request = send(time, Guidance::Replan::map_changed);
     request.map = std::exchange(map_.new_map, nullptr);
     request.grid = std::exchange(map_.new_grid, nullptr);
     return request;
   }
-  if (const std::optional<plan::Reason> reason = decide_replan(time, now)) {
+  if (const std::optional<Guidance::Replan> reason = decide_replan(time, now)) {
     plan::PlanRequest request = send(time, *reason);
-    ask_for_path(request, *pose(time));
+    ask_for_path(request, to_point(pose(time)->position));
     return request;
   }
   const bool carve = map_.floor && (!sent_.carved || time - *sent_.carved >= config_.carve_period);
-  return carve ? std::optional(send(time, plan::Reason::none)) : std::nullopt;
+  return carve ? std::optional(send(time, Guidance::Replan::none)) : std::nullopt;
 }
 
 Conflict Navigator::forecast(const Path& path) const {
@@ -144,15 +142,15 @@ Conflict Navigator::forecast(const Path& path) const {
 
 /// Goes along with the robot. \returns the conflict on what is left of the path
 Conflict Navigator::follow_progress(double time) {
-  const std::optional<Pose> robot = pose(time);
+  const std::optional<Point> robot = position_of(pose(time));
   blocker_.reset();
   if (!robot || !path_.following()) return {};
   path_.advance(*robot, space());
-  end_retreat(time, robot->position);
-  if (path_.arrived(*robot, space())) drop_goal(plan::State::arrived);
+  end_retreat(time, *robot);
+  if (path_.arrived(*robot, space())) drop_goal(Guidance::State::arrived);
   give_up_late_plan(time);
-  const Conflict now = forecast(path_.remaining(robot->position));
-  if (path_.following()) watch_deadlock(time, robot->position, now);
+  const Conflict now = forecast(path_.remaining(*robot));
+  if (path_.following()) watch_deadlock(time, *robot, now);
   return now;
 }
 
@@ -164,15 +162,15 @@ void Navigator::end_retreat(double time, Point robot) {
 }
 
 void Navigator::give_up_late_plan(double time) {
-  const bool must_change = sent_.reason == plan::Reason::path_carved ||
-                           sent_.reason == plan::Reason::waypoint_blocked ||
-                           sent_.reason == plan::Reason::map_changed;
+  const bool must_change = sent_.reason == Guidance::Replan::path_carved ||
+                           sent_.reason == Guidance::Replan::waypoint_blocked ||
+                           sent_.reason == Guidance::Replan::map_changed;
   if (!path_.following() || !sent_.since || !must_change ||
       time - *sent_.since <= config_.plan_timeout)
     return;
   path_.drop();
-  status_.state = plan::State::no_route;
-  status_.detail = "no plan came in time";
+  guidance_.state = Guidance::State::no_route;
+  guidance_.detail = "no plan came in time";
 }
 
 /// Ends the wait in a retreat, and finds out whether the robot and what closes the only path wait
@@ -188,8 +186,8 @@ void Navigator::watch_deadlock(double time, Point robot, const Conflict& now) {
   deadlock_.update(time, robot, blocker_ ? observation_.thing(blocker_->by) : std::nullopt);
 }
 
-std::optional<plan::Reason> Navigator::decide_replan(double time, const Conflict& now) {
-  const std::optional<Pose> robot = pose(time);
+std::optional<Guidance::Replan> Navigator::decide_replan(double time, const Conflict& now) {
+  const std::optional<Point> robot = position_of(pose(time));
   if (!map_.floor || !goal_.place || !robot) return std::nullopt;
   conflict_ = now;
   ReplanInput input;
@@ -198,7 +196,7 @@ std::optional<plan::Reason> Navigator::decide_replan(double time, const Conflict
   input.map_changed = map_.changed;
   input.speed = observation_.speed();
   input.robot = *robot;
-  input.remaining = path_.remaining(robot->position);
+  input.remaining = path_.remaining(*robot);
   input.path_offset = path_.offset(*robot);
   input.closed = path_.closed();
   input.obstacles = observation_.obstacles();
@@ -210,19 +208,19 @@ std::optional<plan::Reason> Navigator::decide_replan(double time, const Conflict
 }
 
 /// A request that at least brings the holes up to date.
-plan::PlanRequest Navigator::send(double time, plan::Reason reason) {
+plan::PlanRequest Navigator::send(double time, Guidance::Replan reason) {
   sent_ = {time, reason, goal_.number, time};
   plan::PlanRequest request;
   request.obstacles = observation_.obstacles();
   return request;
 }
 
-void Navigator::ask_for_path(plan::PlanRequest& request, const Pose& robot) {
+void Navigator::ask_for_path(plan::PlanRequest& request, Point robot) {
   request.goal = goal_.place;
-  request.start = robot.position;
+  request.start = robot;
   if (keeper_.holds_paths())
-    request.predicted = forecast_.predicted(path_.remaining(robot.position),
-                                            observation_.obstacles(), observation_.pace());
+    request.predicted =
+        forecast_.predicted(path_.remaining(robot), observation_.obstacles(), observation_.pace());
   const bool retreats = path_.mode() == PathMode::retreat;
   if (const std::optional<MovingThing> rival =
           observation_.thing(retreats ? deadlock_.yields_to() : deadlock_.due())) {
@@ -243,50 +241,50 @@ void Navigator::deliver(const plan::PlanAnswer& answer, double time) {
     map_.mesh_time = as_of;
   }
   if (!answer.plan || sent_.goal != goal_.number) return;
-  ++status_.plans;
-  status_.plan_time = answer.seconds;
-  status_.nodes_expanded = answer.plan->nodes_expanded;
-  status_.reason = sent_.reason;
+  ++guidance_.plans;
+  guidance_.plan_time = answer.seconds;
+  guidance_.nodes_expanded = static_cast<std::uint32_t>(answer.plan->nodes_expanded);
+  guidance_.replan_reason = sent_.reason;
   goal_.planned = true;
   take_plan(*answer.plan, sent_.reason, time);
 }
 
-void Navigator::take_plan(const plan::Plan& plan, plan::Reason reason, double time) {
+void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, double time) {
   switch (plan.status) {
     case plan::PlanStatus::found:
     case plan::PlanStatus::closed:
     case plan::PlanStatus::retreat:
       if (!keeps_path(plan, reason, time)) change_path(plan, reason, time);
-      status_.state = plan::State::following;
-      status_.detail = plan.detail;
+      guidance_.state = Guidance::State::following;
+      guidance_.detail = plan.detail;
       follow_progress(time);
       return;
     case plan::PlanStatus::refused:
       // A goal that was accepted is not refused later on because of where the robot strayed.
-      if (reason == plan::Reason::new_goal || reason == plan::Reason::map_changed) {
+      if (reason == Guidance::Replan::new_goal || reason == Guidance::Replan::map_changed) {
         refuse_goal(plan.refusal, plan.detail);
         return;
       }
-      status_.state = plan::State::no_route;
+      guidance_.state = Guidance::State::no_route;
       break;
     case plan::PlanStatus::no_map:
     case plan::PlanStatus::no_route:
       if (keeps_path(plan, reason, time)) return;
-      status_.state = plan::State::no_route;
+      guidance_.state = Guidance::State::no_route;
       break;
     case plan::PlanStatus::off_mesh:
-      status_.state = plan::State::off_mesh;
+      guidance_.state = Guidance::State::off_mesh;
       break;
   }
   path_.drop();
-  status_.detail = plan.detail;
+  guidance_.detail = plan.detail;
 }
 
-bool Navigator::keeps_path(const plan::Plan& plan, plan::Reason reason, double time) {
-  const std::optional<Pose>& robot = observation_.last_pose();
+bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, double time) {
+  const std::optional<Point> robot = position_of(observation_.last_pose());
   if (!path_.following() || !robot) return false;
   const std::vector<Cylinder> none;
-  const Path remaining = path_.remaining(robot->position);
+  const Path remaining = path_.remaining(*robot);
   PathKeeper::Choice choice;
   choice.time = time;
   choice.reason = reason;
@@ -295,33 +293,34 @@ bool Navigator::keeps_path(const plan::Plan& plan, plan::Reason reason, double t
   choice.followed = {remaining, forecast(remaining)};
   choice.fresh = {plan.path, forecast(plan.path)};
   choice.strayed = path_.strayed(*robot);
-  choice.sees_waypoint = path_.guidance().sees_next(robot->position, {map_.floor.get(), &none});
-  choice.reaches_waypoint = path_.guidance().sees_next(robot->position, space());
+  choice.sees_waypoint = path_.follower().sees_next(*robot, {map_.floor.get(), &none});
+  choice.reaches_waypoint = path_.follower().sees_next(*robot, space());
   return keeper_.decide(choice);
 }
 
-void Navigator::change_path(const plan::Plan& plan, plan::Reason reason, double time) {
-  const double moved = path_.follow(plan, reason, time, observation_.last_pose());
-  if (moved > 0.0 && reason != plan::Reason::new_goal && reason != plan::Reason::map_changed)
+void Navigator::change_path(const plan::Plan& plan, Guidance::Replan reason, double time) {
+  const double moved = path_.follow(plan, reason, time, position_of(observation_.last_pose()));
+  if (moved > 0.0 && reason != Guidance::Replan::new_goal &&
+      reason != Guidance::Replan::map_changed)
     keeper_.chose(time);
 }
 
-Status Navigator::status(double time) const {
-  Status out = status_;
+Guidance Navigator::guidance(double time) const {
+  Guidance out = guidance_;
   path_.report_changes(out, time);
   out.mesh_age = age_of(map_.mesh_time, time);
   out.map_age = age_of(map_.time, time);
-  out.goal = goal_.last;
+  out.floor = floor_height();
   if (!map_.floor) {
-    out.state = plan::State::no_map;
+    out.state = Guidance::State::no_map;
     out.detail = "no usable map came yet";
   } else if (map_stale(time)) {
-    out.state = plan::State::map_stale;
+    out.state = Guidance::State::map_stale;
     out.detail = "no fresh map came";
   } else if (goal_.place && !pose(time)) {
-    out.state = plan::State::pose_stale;
+    out.state = Guidance::State::pose_stale;
     out.detail = "no fresh pose of the robot";
-  } else if (out.state == plan::State::following) {
+  } else if (out.state == Guidance::State::following) {
     report_path(out);
   }
   if (map_.floor && goal_.place && !observation_.obstacles_fresh(time)) {
@@ -331,21 +330,27 @@ Status Navigator::status(double time) const {
   return out;
 }
 
-void Navigator::report_path(Status& out) const {
-  const std::optional<Pose>& robot = observation_.last_pose();
+void Navigator::report_path(Guidance& out) const {
+  const std::optional<Pose2>& robot = observation_.last_pose();
   if (!path_.following() || !robot) {
-    out.state = plan::State::no_route;
+    out.state = Guidance::State::no_route;
     return;
   }
   path_.report(out, *robot, observation_.pace());
-  out.blocked = blocker_ ? blocker_ : keeper_.waits_for();
-  if (path_.mode() == PathMode::waiting) out.blocked = Blocker{*deadlock_.yields_to(), 0.0, -1.0};
-  if (out.blocked) {
-    out.state = plan::State::blocked;
+  std::optional<Blocker> blocked = blocker_ ? blocker_ : keeper_.waits_for();
+  if (path_.mode() == PathMode::waiting)
+    blocked = Blocker{*deadlock_.yields_to(), 0.0, std::nullopt};
+  if (blocked) {
+    out.state = Guidance::State::blocked;
   } else if (path_.mode() == PathMode::retreat) {
-    out.state = plan::State::make_room;
-    out.blocked = Blocker{*deadlock_.yields_to(), 0.0, 0.0};
+    out.state = Guidance::State::make_room;
+    blocked = Blocker{*deadlock_.yields_to(), 0.0, 0.0};
+  } else {
+    return;
   }
+  if (const auto thing = observation_.thing(blocked->by)) out.blocked_by = thing->thing_class;
+  out.blocked_distance = blocked->at;
+  out.blocked_for = blocked->time_to_clear;
 }
 
 }  // namespace navvi_nav::guide

@@ -10,7 +10,7 @@ namespace {
 TEST_F(Lockstep, says_no_map_before_one_came) {
   navigator_.set_goal({14, 5});
   tick(3);
-  EXPECT_EQ(status().state, plan::State::no_map);
+  EXPECT_EQ(status().state, Guidance::State::no_map);
 }
 
 TEST_F(Lockstep, says_pose_stale_without_a_pose_and_recovers) {
@@ -18,13 +18,13 @@ TEST_F(Lockstep, says_pose_stale_without_a_pose_and_recovers) {
   load();
   navigator_.set_goal({14, 5});
   tick(3);
-  EXPECT_EQ(status().state, plan::State::pose_stale);
+  EXPECT_EQ(status().state, Guidance::State::pose_stale);
   has_pose_ = true;
   tick(2);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   has_pose_ = false;
   tick(25);
-  EXPECT_EQ(status().state, plan::State::pose_stale);
+  EXPECT_EQ(status().state, Guidance::State::pose_stale);
 }
 
 TEST_F(Lockstep, keeps_the_last_good_map_when_a_broken_one_comes) {
@@ -36,7 +36,7 @@ TEST_F(Lockstep, keeps_the_last_good_map_when_a_broken_one_comes) {
   EXPECT_FALSE(last_->map_error.empty());
   navigator_.set_goal({14, 5});
   tick(2);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 TEST_F(Lockstep, refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
@@ -46,25 +46,25 @@ TEST_F(Lockstep, refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
   ASSERT_FALSE(navigator_.path().empty());
   navigator_.set_goal({7, 5});
   tick(2);
-  EXPECT_EQ(status().state, plan::State::goal_refused);
-  EXPECT_EQ(status().refusal, plan::Refusal::inside_obstacle);
+  EXPECT_EQ(status().state, Guidance::State::goal_refused);
+  EXPECT_EQ(status().refusal, Guidance::Refusal::inside_obstacle);
   EXPECT_TRUE(navigator_.path().empty());
   tick(60);
-  EXPECT_EQ(status().state, plan::State::goal_refused);
+  EXPECT_EQ(status().state, Guidance::State::goal_refused);
 }
 
 TEST_F(Lockstep, keeps_a_standing_goal_when_a_goal_that_cannot_be_read_comes) {
   load();
-  EXPECT_FALSE(navigator_.drop_bad_goal(plan::Refusal::not_finite, "not finite"));
-  EXPECT_EQ(status().state, plan::State::goal_refused);
-  EXPECT_EQ(status().refusal, plan::Refusal::not_finite);
+  EXPECT_FALSE(navigator_.drop_bad_goal(Guidance::Refusal::not_finite, "not finite"));
+  EXPECT_EQ(status().state, Guidance::State::goal_refused);
+  EXPECT_EQ(status().refusal, Guidance::Refusal::not_finite);
   navigator_.set_goal({14, 5});
   tick(2);
   const Path before = navigator_.path();
-  EXPECT_TRUE(navigator_.drop_bad_goal(plan::Refusal::unknown_frame, "no such frame"));
+  EXPECT_TRUE(navigator_.drop_bad_goal(Guidance::Refusal::unknown_frame, "no such frame"));
   tick(2);
-  EXPECT_EQ(status().state, plan::State::following);
-  EXPECT_EQ(status().refusal, plan::Refusal::none);
+  EXPECT_EQ(status().state, Guidance::State::following);
+  EXPECT_EQ(status().refusal, Guidance::Refusal::none);
   EXPECT_EQ(navigator_.path(), before);
 }
 
@@ -81,7 +81,7 @@ TEST_F(Lockstep, says_while_no_fresh_obstacles_come) {
   EXPECT_EQ(status().detail, "");
   has_obstacles_ = false;
   tick(40);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   EXPECT_EQ(status().detail, said);
   EXPECT_TRUE(navigator_.obstacles_lost());
 }
@@ -91,26 +91,26 @@ TEST_F(Lockstep, without_a_goal_never_plans) {
   tick(100);
   EXPECT_EQ(status().plans, 0U);
   EXPECT_FALSE(last_->plan);
-  EXPECT_EQ(status().state, plan::State::no_goal);
+  EXPECT_EQ(status().state, Guidance::State::no_goal);
 }
 
 TEST_F(Lockstep, leads_around_the_block_and_arrives) {
   load();
   navigator_.set_goal({14, 5});
   tick(2);
-  EXPECT_EQ(status().reason, plan::Reason::new_goal);
+  EXPECT_EQ(status().replan_reason, Guidance::Replan::new_goal);
   int steps = 0;
-  while (status().state == plan::State::following && steps < 1000) {
+  while (status().state == Guidance::State::following && steps < 1000) {
     drive(0.05);
     ++steps;
     const double gap = planner_.nav_mesh().space().clearance(robot_.position);
     ASSERT_GE(gap, 0.3) << robot_.position.x << " " << robot_.position.y;
   }
-  EXPECT_EQ(status().state, plan::State::arrived);
+  EXPECT_EQ(status().state, Guidance::State::arrived);
   EXPECT_LT(distance(robot_.position, {14, 5}), 1.0);
   EXPECT_TRUE(navigator_.path().empty());
   tick(100);
-  EXPECT_EQ(status().state, plan::State::arrived);
+  EXPECT_EQ(status().state, Guidance::State::arrived);
 }
 
 TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
@@ -121,9 +121,9 @@ TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
   const Point middle = 0.5 * (before[1] + before[2]);
   obstacles_ = {{1, middle, 0.4, {}}};
   tick(2);
-  EXPECT_TRUE(status().reason == plan::Reason::path_carved ||
-              status().reason == plan::Reason::waypoint_blocked);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_TRUE(status().replan_reason == Guidance::Replan::path_carved ||
+              status().replan_reason == Guidance::Replan::waypoint_blocked);
+  EXPECT_EQ(status().state, Guidance::State::following);
   for (const Point point : points_along(navigator_.path(), 0.02))
     EXPECT_GE(distance(point, middle), 0.75 - 1e-6);
 }
@@ -147,7 +147,7 @@ TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
   tick(200);
   EXPECT_GT(status().plans, 4U);
   EXPECT_EQ(navigator_.path(), again);
-  EXPECT_EQ(status().churn, 0.0);
+  EXPECT_EQ(status().path_churn, 0.0);
 }
 
 TEST_F(Lockstep, tells_the_age_of_map_and_mesh) {
@@ -164,34 +164,34 @@ TEST_F(Lockstep, calls_the_map_stale_only_if_maps_may_age_and_recovers) {
   load();
   navigator_.set_goal({14, 5});
   tick(100);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   config_.map_timeout = 3.0;
   navigator_ = Navigator(config_);
   load();
   navigator_.set_goal({14, 5});
   tick(40);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   tick(40);
-  EXPECT_EQ(status().state, plan::State::map_stale);
+  EXPECT_EQ(status().state, Guidance::State::map_stale);
   load();
   tick(2);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 TEST_F(Lockstep, tells_what_smoothing_cost_and_how_long_the_rest_takes) {
   load();
   navigator_.set_goal({14, 5});
   tick(2);
-  const Status now = status();
+  const Guidance now = status();
   EXPECT_NEAR(now.smoothing_price, length_of(navigator_.path()) - now.shortest_length, 1e-9);
   EXPECT_GT(now.smoothing_price, 0.0);
-  EXPECT_GT(now.eta, now.heading.goal_distance / 0.75);  // at 0.7 m/s as long as nobody drove
+  EXPECT_GT(now.eta, now.goal_distance / 0.75);  // at 0.7 m/s as long as nobody drove
   speed_ = 0.3;
   tick(1000);
-  EXPECT_NEAR(status().eta, status().heading.goal_distance / 0.3, 2.0);
+  EXPECT_NEAR(status().eta, status().goal_distance / 0.3, 2.0);
   speed_ = 0.0;
   tick(1000);
-  EXPECT_NEAR(status().eta, status().heading.goal_distance / 0.3, 2.0);
+  EXPECT_NEAR(status().eta, status().goal_distance / 0.3, 2.0);
 }
 
 TEST_F(Lockstep, takes_an_occupancy_grid_until_an_octomap_came) {
@@ -204,7 +204,7 @@ TEST_F(Lockstep, takes_an_occupancy_grid_until_an_octomap_came) {
   tick();
   navigator_.set_goal({14, 5});
   tick(2);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   EXPECT_EQ(navigator_.path().size(), 2U);
   load();
   tick(2);
@@ -220,23 +220,23 @@ TEST_F(Lockstep, leads_on_to_what_closes_the_only_way_and_waits_before_it) {
   tick(2);
   obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
   tick(50);
-  EXPECT_EQ(status().state, plan::State::following);
-  EXPECT_FALSE(status().blocked);
-  for (int i = 0; i < 400 && status().state == plan::State::following; ++i) drive(0.035);
-  ASSERT_EQ(status().state, plan::State::blocked);
-  EXPECT_EQ(status().blocked->by, robot_.position.y < 5 ? 1U : 2U);
-  EXPECT_NEAR(status().blocked->at, 3.0, 0.3);
-  EXPECT_EQ(status().blocked->time_to_clear, -1.0);
-  EXPECT_GT(status().heading.goal_distance, 8.0);
+  EXPECT_EQ(status().state, Guidance::State::following);
+  EXPECT_FALSE(status().blocked_by);
+  for (int i = 0; i < 400 && status().state == Guidance::State::following; ++i) drive(0.035);
+  ASSERT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(robot_.position.y < 5 ? 1 : 2));
+  EXPECT_NEAR(status().blocked_distance, 3.0, 0.3);
+  EXPECT_FALSE(status().blocked_for);
+  EXPECT_GT(status().goal_distance, 8.0);
   const Path path = navigator_.path();
   tick(100);
-  EXPECT_EQ(status().state, plan::State::blocked);
+  EXPECT_EQ(status().state, Guidance::State::blocked);
   EXPECT_TRUE(navigator_.path() == path);
   obstacles_.clear();
   tick();
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   tick(50);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 TEST_F(Lockstep, names_what_stands_on_the_goal) {
@@ -245,21 +245,21 @@ TEST_F(Lockstep, names_what_stands_on_the_goal) {
   robot_.position = {11.5, 5};
   navigator_.set_goal({14, 5});
   tick(2);
-  ASSERT_EQ(status().state, plan::State::blocked);
-  EXPECT_EQ(status().blocked->by, 5U);
+  ASSERT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(5));
   obstacles_[0].center = {14, 8};
   tick(50);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
   load();
   navigator_.set_goal({14, 5});
   tick(2);
-  ASSERT_EQ(status().state, plan::State::following);
+  ASSERT_EQ(status().state, Guidance::State::following);
   robot_.position = {7.5, 5};  // within the box
   tick(100);
-  EXPECT_EQ(status().state, plan::State::off_mesh);
+  EXPECT_EQ(status().state, Guidance::State::off_mesh);
 }
 
 TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
@@ -270,10 +270,10 @@ TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
   tick(2);
   obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
   tick(100);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   robot_.position = navigator_.path()[1];
   tick(100);
-  EXPECT_EQ(status().state, plan::State::blocked);
+  EXPECT_EQ(status().state, Guidance::State::blocked);
 }
 
 TEST_F(Lockstep, plans_again_when_the_map_changed) {
@@ -283,8 +283,8 @@ TEST_F(Lockstep, plans_again_when_the_map_changed) {
   world_.box(6, 7, 0, 9, 10, 1.0);
   navigator_.set_map(message_of(world_));
   tick(2);
-  EXPECT_EQ(status().reason, plan::Reason::map_changed);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().replan_reason, Guidance::Replan::map_changed);
+  EXPECT_EQ(status().state, Guidance::State::following);
   for (const Point point : navigator_.path()) EXPECT_LT(point.y, 6.0);
 }
 
@@ -294,9 +294,9 @@ TEST_F(Lockstep, survives_time_jumping_back) {
   tick(2);
   time_ = 1.0;
   navigator_.reset_times();
-  EXPECT_EQ(status().state, plan::State::pose_stale);
+  EXPECT_EQ(status().state, Guidance::State::pose_stale);
   tick(60);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 /// A room of 16 x 10 m; the robot is to go along y = 5 from x = 2 to x = 14. What the planner finds
@@ -310,15 +310,15 @@ class Guided : public Lockstep {
     navigator_.set_goal({14, 5});
   }
   /// Something 0.8 m long that stands at (x, 5) and faces the robot.
-  void put_before(double x) { things_ = {{{7, {x, 5}, 0.5, {}}, M_PI, 0.8, 0.6}}; }
+  void put_before(double x) { things_ = {moving_thing({7, {x, 5}, 0.5, {}}, M_PI, 0.8, 0.6)}; }
   /// Lets time pass; each search finds `path`.
   void finds(plan::PlanStatus status, const Path& path, double seconds) {
     const double end = time_ + seconds - 1e-9;
     while (time_ < end) {
       time_ += kTick;
-      navigator_.set_pose(robot_, time_);
+      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, time_);
       std::vector<MovingThing> things = things_;
-      for (const Cylinder& obstacle : obstacles_) things.push_back({obstacle});
+      for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
       navigator_.set_obstacles(things, time_);
       const auto request = navigator_.update(time_);
       if (!request) continue;
@@ -356,7 +356,7 @@ TEST_F(Guided, stays_with_a_path_that_serves_and_leaves_it_for_one_that_is_much_
   finds(plan::PlanStatus::found, straight_, 2.5);
   EXPECT_EQ(navigator_.path(), straight_);
   EXPECT_EQ(status().reroutes, 1U);
-  EXPECT_GT(status().churn, 5.0);
+  EXPECT_GT(status().path_churn, 5.0);
 }
 
 TEST_F(Guided, leaves_a_path_that_serves_for_a_new_goal_or_from_far_off_it) {
@@ -374,36 +374,36 @@ TEST_F(Guided, leaves_a_path_that_serves_for_a_new_goal_or_from_far_off_it) {
 TEST_F(Guided, names_what_closes_the_only_path_once_it_is_near) {
   put_before(8.0);
   finds(plan::PlanStatus::closed, straight_, 0.2);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   robot_.position = {5.5, 5};
   finds(plan::PlanStatus::closed, straight_, 0.2);
-  ASSERT_EQ(status().state, plan::State::blocked);
-  EXPECT_EQ(status().blocked->by, 7U);
+  ASSERT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(7));
   EXPECT_TRUE(swept_area_.empty());
 }
 
 TEST_F(Guided, retreats_from_what_it_faces_waits_there_and_arrives_nowhere) {
   const Path path{{2, 5}, {2, 7}};
   retreat(path);
-  EXPECT_EQ(status().state, plan::State::make_room);
-  EXPECT_EQ(status().blocked->by, 7U);
-  EXPECT_FALSE(status().heading.waypoint_is_goal);
+  EXPECT_EQ(status().state, Guidance::State::make_room);
+  EXPECT_EQ(status().blocked_by, class_of(7));
+  EXPECT_FALSE(status().waypoint_is_goal);
   robot_.position = {2, 5.75};
   finds(plan::PlanStatus::retreat, path, 1.0);
-  EXPECT_EQ(status().state, plan::State::make_room);
+  EXPECT_EQ(status().state, Guidance::State::make_room);
   robot_.position = {2, 6.9};
   finds(plan::PlanStatus::closed, {{2, 6.9}, {14, 5}}, 3.0);
-  EXPECT_EQ(status().state, plan::State::blocked);
-  EXPECT_EQ(status().blocked->by, 7U);
-  EXPECT_EQ(status().blocked->time_to_clear, -1.0);
+  EXPECT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(7));
+  EXPECT_FALSE(status().blocked_for);
   EXPECT_EQ(status().reroutes, 0U);
   EXPECT_TRUE(swept_area_.empty());
   things_.clear();
   finds(plan::PlanStatus::found, {{2, 6.9}, {14, 5}}, 2.5);
-  EXPECT_EQ(status().state, plan::State::following);
+  EXPECT_EQ(status().state, Guidance::State::following);
   robot_.position = {13.5, 5};
   finds(plan::PlanStatus::found, {{13.5, 5}, {14, 5}}, 0.1);
-  EXPECT_EQ(status().state, plan::State::arrived);
+  EXPECT_EQ(status().state, Guidance::State::arrived);
 }
 
 TEST_F(Guided, has_retreated_only_where_it_leaves_the_area_free) {
@@ -411,10 +411,10 @@ TEST_F(Guided, has_retreated_only_where_it_leaves_the_area_free) {
   retreat(path);
   robot_.position = {2, 5.7};  // the thing needs 0.5 m to the side, the robot 0.35 m
   finds(plan::PlanStatus::retreat, path, 1.0);
-  EXPECT_EQ(status().state, plan::State::make_room);
+  EXPECT_EQ(status().state, Guidance::State::make_room);
   robot_.position = {2, 5.9};
   finds(plan::PlanStatus::retreat, path, 0.1);
-  EXPECT_EQ(status().state, plan::State::blocked);
+  EXPECT_EQ(status().state, Guidance::State::blocked);
 }
 
 TEST_F(Guided, leaves_the_end_of_a_retreat_where_something_hits_it) {
@@ -426,80 +426,86 @@ TEST_F(Guided, leaves_the_end_of_a_retreat_where_something_hits_it) {
   for (const double speed : {0.0, 1.0}) {
     obstacles_ = {{9, {2, 2.5}, 0.3, {0, speed}}};
     finds(plan::PlanStatus::closed, along, 0.1);
-    EXPECT_EQ(status().state, speed > 0.0 ? plan::State::following : plan::State::blocked) << speed;
+    EXPECT_EQ(status().state, speed > 0.0 ? Guidance::State::following : Guidance::State::blocked)
+        << speed;
   }
 }
 
-TEST(Guidance, measures_angles_clockwise_from_the_nose) {
+TEST(PathFollower, measures_angles_clockwise_from_the_nose) {
   EXPECT_NEAR(clockwise({1, 0}, {0, -1}), M_PI / 2, 1e-12);
   EXPECT_NEAR(clockwise({1, 0}, {0, 1}), -M_PI / 2, 1e-12);
-  Guidance guidance{GuidanceConfig{}};
-  guidance.follow({{0, 0}, {4, 0}, {4, -4}});
-  const Heading heading = guidance.heading({{0, 1}, 0.0});
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{0, 0}, {4, 0}, {4, -4}});
+  Guidance heading;
+  follower.report(heading, {{0, 1}, 0.0});
   EXPECT_NEAR(heading.turn_angle, M_PI / 2 - std::atan2(1, 4), 1e-12);
   EXPECT_NEAR(heading.waypoint_angle, std::atan2(1, 4), 1e-12);
   EXPECT_NEAR(heading.path_offset, 1.0, 1e-12);
   EXPECT_NEAR(heading.goal_distance, std::hypot(4, 1) + 4, 1e-12);
 }
 
-TEST(Guidance, steers_to_the_path_ahead_so_that_a_drift_shows_early) {
-  Guidance guidance{GuidanceConfig{}};
-  guidance.follow({{0, 0}, {20, 0}, {20, 5}});
-  const auto steer = [&](Point at) { return guidance.heading({at, 0.0}).steer_angle; };
-  EXPECT_NEAR(steer({5, 0}), 0.0, 1e-12);
-  EXPECT_NEAR(steer({5, 0.5}), std::atan2(0.5, 3.0), 1e-12);
-  EXPECT_NEAR(guidance.heading({{5, 0.5}, 0.0}).waypoint_angle, std::atan2(0.5, 15.0), 1e-12);
-  EXPECT_NEAR(steer({18, 0.5}), std::atan2(0.5, 2.0), 1e-12);  // not past the way-point
-  EXPECT_NEAR(steer({5, 4}), std::atan2(4, 15.0), 1e-12);      // far off: to the way-point
+TEST(PathFollower, steers_to_the_path_ahead_so_that_a_drift_shows_early) {
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{0, 0}, {20, 0}, {20, 5}});
+  Guidance heading;
+  const auto steer = [&](double x, double y) {
+    follower.report(heading, {{x, y}, 0.0});
+    return heading.steer_angle;
+  };
+  EXPECT_NEAR(steer(5, 0), 0.0, 1e-12);
+  EXPECT_NEAR(steer(5, 0.5), std::atan2(0.5, 3.0), 1e-12);
+  EXPECT_NEAR(heading.waypoint_angle, std::atan2(0.5, 15.0), 1e-12);
+  EXPECT_NEAR(steer(18, 0.5), std::atan2(0.5, 2.0), 1e-12);  // not past the way-point
+  EXPECT_NEAR(steer(5, 4), std::atan2(4, 15.0), 1e-12);      // far off: to the way-point
 }
 
-TEST(Guidance, keeps_a_corner_that_would_be_cut_through_a_shelf) {
+TEST(PathFollower, keeps_a_corner_that_would_be_cut_through_a_shelf) {
   SmallWorld world;
   world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
   plan::NavMesh mesh(plan::NavMeshConfig{});
   ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
-  Guidance guidance{GuidanceConfig{}};
-  guidance.follow({{1.2, 1.0}, {1.2, 6.6}, {4.6, 6.6}, {4.6, 1.0}});
-  guidance.advance({{1.2, 5.7}, 0.0}, mesh.space());
-  EXPECT_EQ(guidance.next_waypoint(), (Point{1.2, 6.6}));  // within 1 m, but round the corner
-  guidance.advance({{1.2, 6.5}, 0.0}, mesh.space());
-  EXPECT_EQ(guidance.next_waypoint(), (Point{4.6, 6.6}));
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{1.2, 1.0}, {1.2, 6.6}, {4.6, 6.6}, {4.6, 1.0}});
+  follower.advance({1.2, 5.7}, mesh.space());
+  EXPECT_EQ(follower.next_waypoint(), (Point{1.2, 6.6}));  // within 1 m, but round the corner
+  follower.advance({1.2, 6.5}, mesh.space());
+  EXPECT_EQ(follower.next_waypoint(), (Point{4.6, 6.6}));
 }
 
-TEST(Guidance, passes_a_corner_whose_next_leg_has_no_more_room_than_the_robot_needs) {
+TEST(PathFollower, passes_a_corner_whose_next_leg_has_no_more_room_than_the_robot_needs) {
   SmallWorld world;
   world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
   plan::NavMesh mesh(plan::NavMeshConfig{});
   ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
-  Guidance guidance{GuidanceConfig{}};
-  guidance.follow({{1.0, 1.0}, {1.0, 6.36}, {4.4, 6.36}, {4.4, 1.0}});
-  guidance.advance({{1.1, 6.4}, 0.0}, mesh.space());
-  EXPECT_EQ(guidance.next_waypoint(), (Point{4.4, 6.36}));
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{1.0, 1.0}, {1.0, 6.36}, {4.4, 6.36}, {4.4, 1.0}});
+  follower.advance({1.1, 6.4}, mesh.space());
+  EXPECT_EQ(follower.next_waypoint(), (Point{4.4, 6.36}));
 }
 
-TEST(Guidance, passes_a_corner_though_something_moving_stands_in_the_next_leg) {
+TEST(PathFollower, passes_a_corner_though_something_moving_stands_in_the_next_leg) {
   SmallWorld world;
   world.room(8, 8);
   plan::NavMesh mesh(plan::NavMeshConfig{});
   ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
   mesh.carve({{1, {4, 6}, 0.5, {}}});
-  Guidance guidance{GuidanceConfig{}};
-  guidance.follow({{1, 1}, {1, 6}, {7, 6}});
-  guidance.advance({{1.0, 5.2}, 0.0}, mesh.space());
-  EXPECT_EQ(guidance.next_waypoint(), (Point{1, 6}));
-  guidance.advance({{1.1, 5.8}, 0.0}, mesh.space());
-  EXPECT_EQ(guidance.next_waypoint(), (Point{7, 6}));
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{1, 1}, {1, 6}, {7, 6}});
+  follower.advance({1.0, 5.2}, mesh.space());
+  EXPECT_EQ(follower.next_waypoint(), (Point{1, 6}));
+  follower.advance({1.1, 5.8}, mesh.space());
+  EXPECT_EQ(follower.next_waypoint(), (Point{7, 6}));
 }
 
-TEST(Guidance, does_not_arrive_through_a_wall) {
+TEST(PathFollower, does_not_arrive_through_a_wall) {
   SmallWorld world;
   world.room(8, 8).box(4, 0, 0, 4.05, 6, 1.0);
   plan::NavMesh mesh(plan::NavMeshConfig{});
   ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
-  Guidance guidance{GuidanceConfig{}};
-  guidance.follow({{3.58, 2}, {4, 7}, {4.47, 2}});
-  EXPECT_FALSE(guidance.arrived({{3.58, 2}, 0.0}, mesh.space()));
-  EXPECT_TRUE(guidance.arrived({{4.47, 2.8}, 0.0}, mesh.space()));
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{3.58, 2}, {4, 7}, {4.47, 2}});
+  EXPECT_FALSE(follower.arrived({3.58, 2}, mesh.space()));
+  EXPECT_TRUE(follower.arrived({4.47, 2.8}, mesh.space()));
 }
 
 }  // namespace

@@ -11,26 +11,28 @@ void ObservationConfig::describe(navvi_config::Visitor& visit) {
         "older obstacles are forgotten");
 }
 
-void Observation::set_obstacles(const std::vector<MovingThing>& things, double time) {
+void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
   std::map<std::uint32_t, double> moved;
-  things_ = things;
-  for (MovingThing& thing : things_) {
-    Cylinder& one = thing.cylinder;
-    const auto before = moved_.find(one.id);
-    if (norm(one.velocity) > config_.standing_speed)
-      moved[one.id] = time;
+  obstacles_.clear();
+  for (const MovingThing& thing : things) {
+    const auto before = moved_.find(thing.id);
+    if (norm(to_point(thing.velocity)) > config_.standing_speed)
+      moved[thing.id] = time;
     else if (before != moved_.end())
-      moved[one.id] = before->second;
-    const auto last = moved.find(one.id);
-    if (last != moved.end()) one.stood = time - last->second;
+      moved.insert(*before);
+    const auto last = moved.find(thing.id);
+    for (Cylinder part : cylinders_of(thing, config_.most_cylinders)) {
+      if (last != moved.end()) part.stood = time - last->second;
+      obstacles_.push_back(part);
+    }
   }
+  things_ = std::move(things);
   moved_ = std::move(moved);
-  obstacles_ = cylinders_of(things_, config_.most_cylinders);
   obstacles_time_ = time;
   obstacles_lost_ = false;
 }
 
-void Observation::set_pose(const Pose& pose, double time) {
+void Observation::set_pose(const Pose2& pose, double time) {
   pose_ = pose;
   pose_time_ = time;
 }
@@ -53,13 +55,13 @@ void Observation::reset_times() {
   obstacles_lost_ = false;
 }
 
-std::optional<Pose> Observation::pose(double time) const {
+std::optional<Pose2> Observation::pose(double time) const {
   return time - pose_time_ <= config_.pose_timeout ? pose_ : std::nullopt;
 }
 
 std::optional<MovingThing> Observation::thing(std::optional<std::uint32_t> id) const {
   for (const MovingThing& one : things_) {
-    if (id && one.cylinder.id == *id) return one;
+    if (id && one.id == *id) return one;
   }
   return std::nullopt;
 }

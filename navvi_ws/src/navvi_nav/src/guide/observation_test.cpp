@@ -7,7 +7,9 @@
 namespace navvi_nav::guide {
 namespace {
 
-MovingThing thing(double speed) { return {{7, {3, 4}, 0.5, {speed, 0}}, 0.0, 0.0, 0.0}; }
+MovingThing thing(double speed) {
+  return {7, navvi_types::ThingClass::other, {{3, 4}, 0.0}, {speed, 0}, 0.5, 1.0};
+}
 
 TEST(Observation, remembers_since_when_a_thing_stands) {
   Observation observation{ObservationConfig{}};

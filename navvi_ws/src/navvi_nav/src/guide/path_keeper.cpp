@@ -65,8 +65,8 @@ bool PathKeeper::decide(const Choice& choice) {
   const Candidate none;
   const Candidate& fresh = choice.found == plan::PlanStatus::found ? choice.fresh : none;
   const bool held = choice.mode == PathMode::to_goal && holds(choice.time, choice.followed, fresh);
-  if (choice.reason == plan::Reason::new_goal || choice.reason == plan::Reason::map_changed ||
-      choice.strayed)
+  if (choice.reason == Guidance::Replan::new_goal ||
+      choice.reason == Guidance::Replan::map_changed || choice.strayed)
     return false;
   if (held) return choice.sees_waypoint;
   const bool cut = choice.followed.conflict.cut.has_value();
@@ -74,7 +74,7 @@ bool PathKeeper::decide(const Choice& choice) {
     return choice.mode == PathMode::retreat && !cut && choice.sees_waypoint;
   if (choice.found == plan::PlanStatus::closed)
     return choice.mode == PathMode::closed && choice.sees_waypoint &&
-           !worth_changing(plan::Reason::period, choice.followed.path, choice.fresh.path);
+           !worth_changing(Guidance::Replan::period, choice.followed.path, choice.fresh.path);
   return choice.mode == PathMode::to_goal && !cut && choice.reaches_waypoint &&
          !worth_changing(choice.reason, choice.followed.path, fresh.path);
 }
@@ -117,7 +117,7 @@ void PathKeeper::reset() {
 std::optional<Blocker> PathKeeper::blocker(const std::optional<Conflict::Cut>& cut,
                                            Conflict::State state) const {
   if (!cut || (state != Conflict::State::oncoming && !is_near(cut->at))) return std::nullopt;
-  return Blocker{cut->by, cut->at, -1.0};
+  return Blocker{cut->by, cut->at, std::nullopt};
 }
 
 bool PathKeeper::evades(const Conflict& conflict) const {
@@ -125,10 +125,10 @@ bool PathKeeper::evades(const Conflict& conflict) const {
          (conflict.state == Conflict::State::oncoming || conflict.hits_either_way());
 }
 
-bool PathKeeper::worth_changing(plan::Reason reason, const Path& followed,
+bool PathKeeper::worth_changing(Guidance::Replan reason, const Path& followed,
                                 const Path& fresh) const {
-  if (reason != plan::Reason::period && reason != plan::Reason::too_slow &&
-      reason != plan::Reason::obstacle_near)
+  if (reason != Guidance::Replan::period && reason != Guidance::Replan::too_slow &&
+      reason != Guidance::Replan::obstacle_near)
     return true;
   if (fresh.size() < 2) return false;
   const double back = leads_back(followed, fresh) ? config_.gain_back : 0.0;

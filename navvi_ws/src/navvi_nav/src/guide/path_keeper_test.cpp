@@ -26,7 +26,7 @@ class Holding : public testing::Test {
                                    const PathKeeper::Candidate& fresh) {
     PathKeeper::Choice out;
     out.time = time;
-    out.reason = plan::Reason::path_carved;
+    out.reason = Guidance::Replan::path_carved;
     out.found = fresh.path.empty() ? plan::PlanStatus::no_route : plan::PlanStatus::found;
     out.followed = followed;
     out.fresh = fresh;
@@ -68,7 +68,7 @@ TEST_F(Holding, leads_nobody_a_long_way_round_at_once_for_what_comes) {
 
 TEST_F(Holding, changes_nothing_while_somebody_waits_in_safety) {
   Conflict waited = conflict(Conflict::State::oncoming, 3.0);
-  waited.wait_for = Blocker{1, 2.0, -1.0};
+  waited.wait_for = Blocker{1, 2.0, std::nullopt};
   EXPECT_DOUBLE_EQ(kept(slight_, waited), config_.hold_time);
   waited.hits_waiting = true;
   waited.time_to_collision = 2.0;
@@ -174,7 +174,7 @@ TEST_F(Holding, names_what_closes_the_only_path_once_it_is_near_or_comes) {
   ASSERT_TRUE(near);
   EXPECT_EQ(near->by, 7U);
   EXPECT_EQ(near->at, 2.5);
-  EXPECT_EQ(near->time_to_clear, -1.0);
+  EXPECT_FALSE(near->time_to_clear);
 }
 
 TEST_F(Holding, wants_to_evade_what_comes_or_hits_either_way) {
@@ -192,7 +192,7 @@ TEST_F(Holding, wants_to_evade_what_comes_or_hits_either_way) {
 class Keeping : public testing::Test {
  protected:
   bool keeps(plan::PlanStatus found, const Path& fresh,
-             plan::Reason reason = plan::Reason::period) {
+             Guidance::Replan reason = Guidance::Replan::period) {
     choice_.time += 2.0;
     choice_.reason = reason;
     choice_.found = found;
@@ -213,14 +213,14 @@ class Keeping : public testing::Test {
 TEST_F(Keeping, keeps_a_path_that_is_hardly_longer) {
   const PathKeeper& keeper = keeper_;
   const auto on = [](double length) { return Path{{0, 0}, {length, 0}}; };
-  EXPECT_FALSE(keeper.worth_changing(plan::Reason::period, on(10.0), on(9.5)));
-  EXPECT_FALSE(keeper.worth_changing(plan::Reason::too_slow, on(10.0), on(11.0)));
-  EXPECT_TRUE(keeper.worth_changing(plan::Reason::period, on(10.0), on(8.0)));
-  EXPECT_FALSE(keeper.worth_changing(plan::Reason::period, on(10.0), on(-8.0)));  // back
-  EXPECT_TRUE(keeper.worth_changing(plan::Reason::period, on(10.0), on(-4.0)));
-  EXPECT_FALSE(keeper.worth_changing(plan::Reason::period, on(10.0), {}));
-  EXPECT_TRUE(keeper.worth_changing(plan::Reason::path_carved, on(10.0), on(12.0)));
-  EXPECT_TRUE(keeper.worth_changing(plan::Reason::new_goal, on(10.0), on(12.0)));
+  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(9.5)));
+  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::too_slow, on(10.0), on(11.0)));
+  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(8.0)));
+  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(-8.0)));  // back
+  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(-4.0)));
+  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::period, on(10.0), {}));
+  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::path_carved, on(10.0), on(12.0)));
+  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::new_goal, on(10.0), on(12.0)));
 }
 
 TEST_F(Keeping, keeps_a_path_that_serves_and_leaves_it_for_one_that_is_much_shorter) {
@@ -230,8 +230,8 @@ TEST_F(Keeping, keeps_a_path_that_serves_and_leaves_it_for_one_that_is_much_shor
 }
 
 TEST_F(Keeping, leaves_a_path_for_a_new_goal_or_map_or_from_far_off_it) {
-  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_, plan::Reason::new_goal));
-  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_, plan::Reason::map_changed));
+  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_, Guidance::Replan::new_goal));
+  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_, Guidance::Replan::map_changed));
   choice_.strayed = true;
   EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
 }

@@ -8,16 +8,16 @@ namespace {
 constexpr double kPeriod = 0.09;  // s; a little less than 0.1, so that no tick of 20 Hz is missed
 constexpr double kPolygonsPerSecond = 4000.0;  // of pictures of the mesh, some 200 bytes each
 
-bool leads_elsewhere(const Status& a, const Status& b) {
+bool leads_elsewhere(const Guidance& a, const Guidance& b) {
   return a.state != b.state || a.refusal != b.refusal || a.plans != b.plans ||
-         !(a.heading.waypoint == b.heading.waypoint);
+         a.waypoint != b.waypoint;
 }
 
 }  // namespace
 
-bool PublishThrottle::due(const Status& status, double time) {
-  if (last_ && !leads_elsewhere(*last_, status) && time - last_time_ < kPeriod) return false;
-  last_ = status;
+bool PublishThrottle::due(const Guidance& guidance, double time) {
+  if (last_ && !leads_elsewhere(*last_, guidance) && time - last_time_ < kPeriod) return false;
+  last_ = guidance;
   last_time_ = time;
   return true;
 }

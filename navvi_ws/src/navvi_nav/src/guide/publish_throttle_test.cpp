@@ -5,10 +5,10 @@
 namespace navvi_nav::guide {
 namespace {
 
-Status following() {
-  Status status;
-  status.state = plan::State::following;
-  status.heading.waypoint = {3.0, 4.0};
+Guidance following() {
+  Guidance status;
+  status.state = Guidance::State::following;
+  status.waypoint = {3.0, 4.0};
   return status;
 }
 
@@ -21,20 +21,20 @@ TEST(PublishThrottle, publishes_what_stays_the_same_ten_times_a_second) {
 
 TEST(PublishThrottle, publishes_another_state_or_way_point_at_once_and_once) {
   PublishThrottle throttle;
-  Status status = following();
+  Guidance status = following();
   EXPECT_TRUE(throttle.due(status, 1.0));
-  status.heading.waypoint.x = 3.1;
+  status.waypoint.x() = 3.1;
   EXPECT_TRUE(throttle.due(status, 1.01));
   EXPECT_FALSE(throttle.due(status, 1.02));
-  status.state = plan::State::blocked;
+  status.state = Guidance::State::blocked;
   EXPECT_TRUE(throttle.due(status, 1.03));
 }
 
 TEST(PublishThrottle, does_not_hurry_for_another_distance) {
   PublishThrottle throttle;
-  Status status = following();
+  Guidance status = following();
   EXPECT_TRUE(throttle.due(status, 1.0));
-  status.heading.waypoint_distance = 2.0;
+  status.waypoint_distance = 2.0;
   EXPECT_FALSE(throttle.due(status, 1.05));
 }
 

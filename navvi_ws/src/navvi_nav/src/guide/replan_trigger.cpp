@@ -32,10 +32,10 @@ void ReplanTrigger::reset() {
   near_pending_ = false;
 }
 
-std::optional<plan::Reason> ReplanTrigger::update(const ReplanInput& input) {
+std::optional<Guidance::Replan> ReplanTrigger::update(const ReplanInput& input) {
   const bool slow = is_slow(input);
   near_pending_ = note_near(input) || near_pending_;
-  const std::optional<plan::Reason> reason = choose(input, slow);
+  const std::optional<Guidance::Replan> reason = choose(input, slow);
   if (!reason) return reason;
   last_plan_ = input.time;
   near_pending_ = false;
@@ -60,8 +60,7 @@ bool ReplanTrigger::note_near(const ReplanInput& input) {
   std::set<std::uint32_t> near;
   bool fresh = false;
   for (const Cylinder& obstacle : input.obstacles) {
-    if (distance(obstacle.center, input.robot.position) > config_.near_range + obstacle.radius)
-      continue;
+    if (distance(obstacle.center, input.robot) > config_.near_range + obstacle.radius) continue;
     near.insert(obstacle.id);
     fresh = fresh || near_.count(obstacle.id) == 0;
   }
@@ -74,29 +73,29 @@ bool ReplanTrigger::matters(const ReplanInput& input) const {
   if (!config_.only_if_it_matters || input.remaining.size() < 2 ||
       input.path_offset > config_.stray)
     return true;
-  return informed_set_.better_path(input.robot.position, input.remaining.back(), input.worthwhile,
+  return informed_set_.better_path(input.robot, input.remaining.back(), input.worthwhile,
                                    input.obstacles, kMoved, config_.robot_radius + kHole);
 }
 
-std::optional<plan::Reason> ReplanTrigger::choose(const ReplanInput& input, bool slow) {
-  if (input.new_goal || !last_plan_) return plan::Reason::new_goal;
-  if (input.map_changed) return plan::Reason::map_changed;
+std::optional<Guidance::Replan> ReplanTrigger::choose(const ReplanInput& input, bool slow) {
+  if (input.new_goal || !last_plan_) return Guidance::Replan::new_goal;
+  if (input.map_changed) return Guidance::Replan::map_changed;
   const double since = input.time - *last_plan_;
   if (since < std::min(config_.min_interval, config_.period)) return std::nullopt;
   if (since >= config_.min_interval && !input.kept && !input.closed &&
       input.remaining.size() >= 2) {
-    if (input.conflict.waypoint_taken) return plan::Reason::waypoint_blocked;
+    if (input.conflict.waypoint_taken) return Guidance::Replan::waypoint_blocked;
     if ((input.evades && since >= config_.period) || input.conflict.cut)
-      return plan::Reason::path_carved;
+      return Guidance::Replan::path_carved;
   }
   if (!near_pending_ && !slow && since < config_.period) return std::nullopt;
   if (!input.closed && !matters(input)) {
     near_pending_ = false;
     return std::nullopt;
   }
-  if (since >= config_.min_interval && near_pending_) return plan::Reason::obstacle_near;
-  if (since >= config_.min_interval && slow) return plan::Reason::too_slow;
-  if (since >= config_.period) return plan::Reason::period;
+  if (since >= config_.min_interval && near_pending_) return Guidance::Replan::obstacle_near;
+  if (since >= config_.min_interval && slow) return Guidance::Replan::too_slow;
+  if (since >= config_.period) return Guidance::Replan::period;
   return std::nullopt;
 }
 

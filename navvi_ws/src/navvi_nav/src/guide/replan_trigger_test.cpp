@@ -22,7 +22,7 @@ Cylinder obstacle(std::uint32_t id, Point center) { return {id, center, 0.3, {}}
 class Deciders {
  public:
   explicit Deciders(const ReplanTriggerConfig& config) : trigger_(config) {}
-  std::optional<plan::Reason> update(ReplanInput input) {
+  std::optional<Guidance::Replan> update(ReplanInput input) {
     input.conflict = forecast_.forecast(input.remaining, input.obstacles, 0.7);
     input.kept = keeper_.update(input.time, input.conflict);
     input.evades = keeper_.evades(input.conflict);
@@ -38,7 +38,7 @@ class Deciders {
 
 class Trigger : public testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(trigger_.update(driving(0.0)), plan::Reason::new_goal); }
+  void SetUp() override { ASSERT_EQ(trigger_.update(driving(0.0)), Guidance::Replan::new_goal); }
   static ReplanTriggerConfig always() {
     ReplanTriggerConfig config;
     config.only_if_it_matters = false;
@@ -49,24 +49,24 @@ class Trigger : public testing::Test {
 
 TEST_F(Trigger, plans_every_period_and_not_before) {
   EXPECT_FALSE(trigger_.update(driving(1.9)));
-  EXPECT_EQ(trigger_.update(driving(2.0)), plan::Reason::period);
+  EXPECT_EQ(trigger_.update(driving(2.0)), Guidance::Replan::period);
   EXPECT_FALSE(trigger_.update(driving(3.9)));
-  EXPECT_EQ(trigger_.update(driving(4.0)), plan::Reason::period);
+  EXPECT_EQ(trigger_.update(driving(4.0)), Guidance::Replan::period);
 }
 
 TEST_F(Trigger, plans_at_once_for_a_new_goal_or_map) {
   ReplanInput input = driving(0.05);
   input.new_goal = true;
-  EXPECT_EQ(trigger_.update(input), plan::Reason::new_goal);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::new_goal);
   input = driving(0.1);
   input.map_changed = true;
-  EXPECT_EQ(trigger_.update(input), plan::Reason::map_changed);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::map_changed);
 }
 
 TEST_F(Trigger, plans_when_a_hole_cuts_the_path) {
   ReplanInput input = driving(0.6);
   input.obstacles = {obstacle(1, {3.5, 0.5})};
-  EXPECT_EQ(trigger_.update(input), plan::Reason::path_carved);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::path_carved);
   input.time = 0.7;  // not again within min_interval
   EXPECT_FALSE(trigger_.update(input));
 }
@@ -74,7 +74,7 @@ TEST_F(Trigger, plans_when_a_hole_cuts_the_path) {
 TEST_F(Trigger, plans_when_the_next_waypoint_is_blocked) {
   ReplanInput input = driving(0.6);
   input.obstacles = {obstacle(1, {5.2, -0.2})};
-  EXPECT_EQ(trigger_.update(input), plan::Reason::waypoint_blocked);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::waypoint_blocked);
 }
 
 TEST_F(Trigger, leaves_obstacles_far_ahead_to_move_away) {
@@ -87,12 +87,12 @@ TEST_F(Trigger, leaves_obstacles_far_ahead_to_move_away) {
 TEST_F(Trigger, plans_once_for_each_obstacle_that_comes_near) {
   ReplanInput input = driving(0.6);
   input.obstacles = {obstacle(1, {-1, 2})};
-  EXPECT_EQ(trigger_.update(input), plan::Reason::obstacle_near);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::obstacle_near);
   input.time = 1.2;
   EXPECT_FALSE(trigger_.update(input));
   input.time = 1.8;
   input.obstacles.push_back(obstacle(2, {-2, -1}));
-  EXPECT_EQ(trigger_.update(input), plan::Reason::obstacle_near);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::obstacle_near);
 }
 
 TEST_F(Trigger, remembers_an_obstacle_that_came_near_just_after_a_plan) {
@@ -100,7 +100,7 @@ TEST_F(Trigger, remembers_an_obstacle_that_came_near_just_after_a_plan) {
   input.obstacles = {obstacle(1, {-1, 2})};
   EXPECT_FALSE(trigger_.update(input));
   input.time = 0.6;
-  EXPECT_EQ(trigger_.update(input), plan::Reason::obstacle_near);
+  EXPECT_EQ(trigger_.update(input), Guidance::Replan::obstacle_near);
 }
 
 TEST(ReplanTrigger, plans_when_the_robot_is_too_slow_for_too_long) {
@@ -109,20 +109,20 @@ TEST(ReplanTrigger, plans_when_the_robot_is_too_slow_for_too_long) {
   config.period = 3.0;
   Deciders trigger(config);
   ReplanInput input = driving(0.0);
-  ASSERT_EQ(trigger.update(input), plan::Reason::new_goal);
+  ASSERT_EQ(trigger.update(input), Guidance::Replan::new_goal);
   input.speed = 0.05;
   for (const double time : {0.5, 1.0, 1.5}) {
     input.time = time;
     EXPECT_FALSE(trigger.update(input)) << time;
   }
   input.time = 1.6;
-  EXPECT_EQ(trigger.update(input), plan::Reason::too_slow);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::too_slow);
   for (const double time : {2.0, 3.0, 4.0}) {  // never faster than tau
     input.time = time;
     EXPECT_FALSE(trigger.update(input)) << time;
   }
   input.time = 4.7;
-  EXPECT_EQ(trigger.update(input), plan::Reason::too_slow);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::too_slow);
 }
 
 TEST(ReplanTrigger, searches_for_a_free_path_only_if_something_left_a_place_that_matters) {
@@ -131,22 +131,22 @@ TEST(ReplanTrigger, searches_for_a_free_path_only_if_something_left_a_place_that
   const Cylinder gone = obstacle(1, {2.5, 4});     // on the straight way from end to end
   const Cylinder far = obstacle(2, {-6.0, 10.0});  // no way through there is short enough
   input.obstacles = {gone, far};
-  ASSERT_EQ(trigger.update(input), plan::Reason::new_goal);
+  ASSERT_EQ(trigger.update(input), Guidance::Replan::new_goal);
   input.time = 10.0;
   EXPECT_FALSE(trigger.update(input));
   input.obstacles = {gone};
   EXPECT_FALSE(trigger.update(input));
   input.obstacles = {};
-  EXPECT_EQ(trigger.update(input), plan::Reason::period);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::period);
   input.time = 20.0;
   EXPECT_FALSE(trigger.update(input));
   input.path_offset = 0.8;
-  EXPECT_EQ(trigger.update(input), plan::Reason::period);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::period);
 }
 
 TEST(ReplanTrigger, does_not_search_for_what_comes_near_beside_the_path) {
   Deciders trigger{ReplanTriggerConfig{}};
-  ASSERT_EQ(trigger.update(driving(0.0)), plan::Reason::new_goal);
+  ASSERT_EQ(trigger.update(driving(0.0)), Guidance::Replan::new_goal);
   ReplanInput input = driving(0.6);
   input.obstacles = {obstacle(1, {-1, 2})};
   EXPECT_FALSE(trigger.update(input));
@@ -159,7 +159,7 @@ TEST(ReplanTrigger, does_not_search_for_what_comes_near_beside_the_path) {
 
 TEST(ReplanTrigger, does_not_search_while_what_cuts_the_path_only_crosses_it) {
   Deciders trigger{ReplanTriggerConfig{}};
-  ASSERT_EQ(trigger.update(driving(0.0)), plan::Reason::new_goal);
+  ASSERT_EQ(trigger.update(driving(0.0)), Guidance::Replan::new_goal);
   ReplanInput input = driving(0.6);
   Cylinder forklift = obstacle(1, {2.5, 0.3});
   forklift.velocity = {0.0, 1.0};
@@ -168,12 +168,12 @@ TEST(ReplanTrigger, does_not_search_while_what_cuts_the_path_only_crosses_it) {
   forklift.velocity = {};
   input.time = 0.7;
   input.obstacles = {forklift};
-  EXPECT_EQ(trigger.update(input), plan::Reason::path_carved);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::path_carved);
 }
 
 TEST(ReplanTrigger, takes_the_word_of_others_on_what_cuts_the_path) {
   ReplanTrigger trigger{ReplanTriggerConfig{}};
-  ASSERT_EQ(trigger.update(driving(0.0)), plan::Reason::new_goal);
+  ASSERT_EQ(trigger.update(driving(0.0)), Guidance::Replan::new_goal);
   ReplanInput input = driving(0.6);
   input.conflict.cut = Conflict::Cut{1, 4.0};
   input.kept = true;
@@ -182,13 +182,13 @@ TEST(ReplanTrigger, takes_the_word_of_others_on_what_cuts_the_path) {
   input.closed = true;
   EXPECT_FALSE(trigger.update(input));
   input.closed = false;
-  EXPECT_EQ(trigger.update(input), plan::Reason::path_carved);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::path_carved);
   input.conflict = {};
   input.evades = true;
   input.time = 2.5;  // not before a period is over
   EXPECT_FALSE(trigger.update(input));
   input.time = 2.6;
-  EXPECT_EQ(trigger.update(input), plan::Reason::path_carved);
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::path_carved);
 }
 
 }  // namespace

@@ -4,16 +4,20 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <algorithm>
-#include <map>
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_config/subscribe.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
+#include "navvi_nav/guide/navigator.hpp"
 #include "navvi_nav/guide/publish_throttle.hpp"
 #include "navvi_nav/node/msg_conversion.hpp"
 #include "plan/worker.hpp"
 
 namespace navvi_nav::node {
 namespace {
+
+using navvi_types::Guidance;
+using navvi_types::Pose2;
 
 constexpr double kServicePatience = 1.0;  // s
 
@@ -46,8 +50,17 @@ class NavNode {
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
     subscribers_ = {node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
                     node.subscribe("map", 1, &NavNode::on_grid, this),
-                    node.subscribe("navvi/obstacles", 1, &NavNode::on_obstacles, this),
-                    node.subscribe("odom", 1, &NavNode::on_odometry, this),
+                    navvi_config::subscribe<navvi_msgs::Obstacles>(
+                        node, "navvi/obstacles", 1, navvi_types::from_msg,
+                        [this](const navvi_types::Obstacles& obstacles) {
+                          navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
+                        },
+                        config.map_frame),
+                    navvi_config::subscribe<nav_msgs::Odometry>(
+                        node, "odom", 1, navvi_types::from_msg,
+                        [this](const navvi_types::Odometry& odometry) {
+                          navigator_.set_speed(odometry.velocity.linear);
+                        }),
                     node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(0.05), &NavNode::on_timer, this);
@@ -73,54 +86,30 @@ class NavNode {
     }
   }
 
-  void on_obstacles(const navvi_msgs::Obstacles::ConstPtr& msg) {
-    const std::optional<std::vector<guide::MovingThing>> obstacles = from_msg(*msg);
-    if (!obstacles || msg->header.frame_id != config_.map_frame) {
-      ++bad_messages_;
-      ROS_WARN_THROTTLE(5.0, "Obstacles with a bad number or frame are dropped (%u bad messages).",
-                        bad_messages_);
-      return;
-    }
-    classes_.clear();
-    for (const auto& obstacle : msg->obstacles) classes_[obstacle.id] = obstacle.thing_class;
-    navigator_.set_obstacles(*obstacles, ros::Time::now().toSec());
-  }
-
-  void on_odometry(const nav_msgs::Odometry::ConstPtr& msg) {
-    const std::optional<double> speed = speed_from_msg(*msg);
-    if (speed) {
-      navigator_.set_speed(*speed);
-      return;
-    }
-    ++bad_messages_;
-    ROS_WARN_THROTTLE(5.0, "Odometry with a bad number is dropped (%u bad messages).",
-                      bad_messages_);
-  }
-
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
-    const std::optional<Point> goal = from_msg(*msg);
+    const std::optional<Eigen::Vector2d> goal = navvi_types::from_msg(*msg);
     if (!goal) {
-      drop_goal(plan::Refusal::not_finite, "the goal is not a finite point");
-    } else if (const std::optional<Point> there = in_map_frame(*goal, msg->header)) {
+      drop_goal(Guidance::Refusal::not_finite, "the goal is not a finite point");
+    } else if (const std::optional<Eigen::Vector2d> there = in_map_frame(*goal, msg->header)) {
       navigator_.set_goal(*there);
     } else {
-      drop_goal(plan::Refusal::unknown_frame, "the goal's frame is not known");
+      drop_goal(Guidance::Refusal::unknown_frame, "the goal's frame is not known");
     }
     publish_all();
   }
 
-  void drop_goal(plan::Refusal refusal, const char* what) {
-    ++bad_messages_;
+  void drop_goal(Guidance::Refusal refusal, const char* what) {
+    ++bad_goals_;
     const bool stands = navigator_.drop_bad_goal(refusal, what);
-    ROS_WARN("A goal message is dropped: %s%s (%u bad messages).", what,
-             stands ? "; the goal before it stands" : "", bad_messages_);
+    ROS_WARN("A goal message is dropped: %s%s (%u so far).", what,
+             stands ? "; the goal before it stands" : "", bad_goals_);
   }
 
   /// As move_base: without a frame the plan starts at the robot; where nothing leads to the goal or
   /// within the tolerance of it, the plan is empty; false means that nothing could be planned.
   bool on_make_plan(nav_msgs::GetPlan::Request& request, nav_msgs::GetPlan::Response& response) {
     const ros::Time now = ros::Time::now();
-    const std::optional<Pose> robot = navigator_.pose(now.toSec());
+    const std::optional<Pose2> robot = navigator_.pose(now.toSec());
     const bool from_robot = request.start.header.frame_id.empty();
     if (!navigator_.has_map() || (from_robot && !robot)) {
       ROS_ERROR("No plan can be made: there is no %s.", robot ? "map yet" : "map or pose");
@@ -129,30 +118,37 @@ class NavNode {
     response.plan.header.frame_id = config_.map_frame;
     response.plan.header.stamp = now;
     const auto place = [this](const geometry_msgs::PoseStamped& pose) {
-      const std::optional<Point> point = from_msg(pose);
+      const std::optional<Eigen::Vector2d> point = navvi_types::from_msg(pose);
       return point ? in_map_frame(*point, pose.header) : std::nullopt;
     };
-    const std::optional<Point> start = from_robot ? robot->position : place(request.start);
-    const std::optional<Point> goal = place(request.goal);
+    const std::optional<Eigen::Vector2d> start =
+        from_robot ? robot->position : place(request.start);
+    const std::optional<Eigen::Vector2d> goal = place(request.goal);
     if (!start || !goal) return true;
     const std::optional<plan::Plan> plan =
-        worker_.ask(*start, *goal, static_cast<double>(request.tolerance), kServicePatience);
+        worker_.ask(guide::to_point(*start), guide::to_point(*goal),
+                    static_cast<double>(request.tolerance), kServicePatience);
     if (!plan) {
       ROS_ERROR("No plan can be made: the planner is busy with a map.");
       return false;
     }
     ROS_DEBUG("make_plan: %s", plan->detail.c_str());
-    response.plan = to_msg(plan->path, navigator_.floor_height(), config_.map_frame, now);
+    response.plan = path_msg(plan->path, now);
     return true;
   }
 
-  std::optional<Point> in_map_frame(Point point, const std_msgs::Header& header) const {
+  nav_msgs::Path path_msg(const Path& path, const ros::Time& now) const {
+    return navvi_types::path_msg(guide::to_vectors(path), navigator_.floor_height(),
+                                 navvi_types::to_ns(now), config_.map_frame);
+  }
+
+  std::optional<Eigen::Vector2d> in_map_frame(const Eigen::Vector2d& point,
+                                              const std_msgs::Header& header) const {
     if (header.frame_id == config_.map_frame) return point;
     try {
-      const std::optional<Pose> frame = from_msg(
+      const std::optional<Pose2> frame = navvi_types::from_msg(
           buffer_.lookupTransform(config_.map_frame, header.frame_id, ros::Time(0)).transform);
-      if (!frame) return std::nullopt;
-      return to_parent(*frame, point);
+      return frame ? std::optional(frame->to_parent(point)) : std::nullopt;
     } catch (const tf2::TransformException& error) {
       ROS_WARN("Goal: %s", error.what());
       return std::nullopt;
@@ -163,7 +159,7 @@ class NavNode {
     try {
       const geometry_msgs::TransformStamped transform =
           buffer_.lookupTransform(config_.map_frame, config_.base_frame, ros::Time(0));
-      if (const std::optional<Pose> pose = from_msg(transform.transform))
+      if (const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform))
         navigator_.set_pose(*pose, transform.header.stamp.toSec());
     } catch (const tf2::TransformException&) {
       // The age of the pose shows it.
@@ -207,20 +203,19 @@ class NavNode {
     const double now = ros::Time::now().toSec();
     publish_path();
     if (navigator_.undecided(now)) return;
-    const guide::Status status = navigator_.status(now);
-    if (!throttle_.due(status, ros::SteadyTime::now().toSec())) return;
-    navvi_msgs::Guidance msg =
-        to_msg(status, navigator_.floor_height(), config_.map_frame, ros::Time::now());
-    msg.seq = ++seq_;
-    if (status.blocked) msg.blocked_by = classes_[status.blocked->by];
+    Guidance guidance = navigator_.guidance(now);
+    if (!throttle_.due(guidance, ros::SteadyTime::now().toSec())) return;
+    guidance.stamp = navvi_types::to_ns(ros::Time::now());
+    guidance.seq = ++seq_;
+    navvi_msgs::Guidance msg = navvi_types::to_msg(guidance);
+    msg.header.frame_id = config_.map_frame;
     guidance_.publish(msg);
   }
 
   void publish_path() {
     if (shown_path_ && *shown_path_ == navigator_.path()) return;
     shown_path_ = navigator_.path();
-    path_.publish(
-        to_msg(*shown_path_, navigator_.floor_height(), config_.map_frame, ros::Time::now()));
+    path_.publish(path_msg(*shown_path_, ros::Time::now()));
   }
 
   void publish_mesh(const plan::PlanAnswer& answer) {
@@ -242,14 +237,13 @@ class NavNode {
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer make_plan_;
   ros::WallTimer timer_;
-  std::map<std::uint32_t, std::string> classes_;  // of the obstacles, by id
   std::optional<Path> shown_path_;
   std::shared_ptr<const mesh::Mesh> shown_mesh_;
   guide::PublishThrottle throttle_;
   guide::MeshThrottle mesh_throttle_;
   double last_time_ = 0.0;
-  unsigned seq_ = 0;
-  unsigned bad_messages_ = 0;
+  std::uint32_t seq_ = 0;
+  unsigned bad_goals_ = 0;
 };
 
 }  // namespace

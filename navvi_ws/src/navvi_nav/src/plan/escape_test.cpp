@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "navvi_nav/guide/moving_thing.hpp"
+#include "navvi_nav/guide/cylinders.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav::plan {

@@ -13,7 +13,8 @@ constexpr double kRetreatSpare = 0.2;      // m, that a robot keeps from the are
 constexpr int kRetreatDirections = 16;
 constexpr int kRetreatSearches = 200;
 
-Plan failure(PlanStatus status, Refusal refusal, std::string detail) {
+Plan failure(PlanStatus status, std::string detail,
+             Guidance::Refusal refusal = Guidance::Refusal::none) {
   Plan plan;
   plan.status = status;
   plan.refusal = refusal;
@@ -21,17 +22,17 @@ Plan failure(PlanStatus status, Refusal refusal, std::string detail) {
   return plan;
 }
 
-Plan refused(Refusal refusal) {
+Plan refused(Guidance::Refusal refusal) {
   switch (refusal) {
-    case Refusal::not_finite:
-      return failure(PlanStatus::refused, refusal, "the goal is not a finite point");
-    case Refusal::off_the_map:
-      return failure(PlanStatus::refused, refusal, "the map shows no floor at the goal");
-    case Refusal::unreachable:
-      return failure(PlanStatus::refused, refusal, "no floor joins the goal with the robot");
+    case Guidance::Refusal::not_finite:
+      return failure(PlanStatus::refused, "the goal is not a finite point", refusal);
+    case Guidance::Refusal::off_the_map:
+      return failure(PlanStatus::refused, "the map shows no floor at the goal", refusal);
+    case Guidance::Refusal::unreachable:
+      return failure(PlanStatus::refused, "no floor joins the goal with the robot", refusal);
     default:
-      return failure(PlanStatus::refused, refusal,
-                     "the goal is within the robot's radius of an obstacle");
+      return failure(PlanStatus::refused, "the goal is within the robot's radius of an obstacle",
+                     refusal);
   }
 }
 
@@ -90,7 +91,7 @@ PlanAnswer Planner::answer(const PlanRequest& request) {
     }
   } catch (const std::exception& error) {
     if (request.brings_map()) out.map_error = error.what();
-    if (request.goal) out.plan = failure(PlanStatus::no_route, Refusal::none, error.what());
+    if (request.goal) out.plan = failure(PlanStatus::no_route, error.what());
   }
   if (request.show_mesh) out.navmesh = nav_mesh_.shared_mesh();
   out.polygons = nav_mesh_.mesh().polygons.size();
@@ -115,28 +116,26 @@ Planner::Route Planner::search(const PlanRequest& request) {
 }
 
 Planner::Route Planner::search(Point start, Point goal) const {
-  if (nav_mesh_.empty()) return {failure(PlanStatus::no_map, Refusal::none, "there is no map yet")};
-  const Refusal refusal = refusal_of(goal);
-  if (refusal != Refusal::none) return {refused(refusal)};
+  if (nav_mesh_.empty()) return {failure(PlanStatus::no_map, "there is no map yet")};
+  const Guidance::Refusal refusal = refusal_of(goal);
+  if (refusal != Guidance::Refusal::none) return {refused(refusal)};
   const double cell = nav_mesh_.shared_floor()->cell_size();
   const double near_goal = (config_.mesh.contour_error + 4.0) * cell;
   const std::set<int> goal_parts = components_near(goal, near_goal);
   const std::set<int> start_parts = components_near(start, config_.start_snap);
-  if (goal_parts.empty()) return {refused(Refusal::inside_obstacle)};
+  if (goal_parts.empty()) return {refused(Guidance::Refusal::inside_obstacle)};
   if (!start_parts.empty() && !share(start_parts, goal_parts))
-    return {refused(Refusal::unreachable)};
+    return {refused(Guidance::Refusal::unreachable)};
 
   if (!begin(start, goal, std::nullopt).place)
-    return {
-        failure(PlanStatus::off_mesh, Refusal::none, "the robot stands where no path can begin")};
+    return {failure(PlanStatus::off_mesh, "the robot stands where no path can begin")};
   const Anchor to = anchor(goal, near_goal, std::nullopt);
   if (!to.place || !to.joined)
-    return {failure(PlanStatus::no_route, Refusal::none, "a moving thing stands on the goal")};
+    return {failure(PlanStatus::no_route, "a moving thing stands on the goal")};
   const int part = nav_mesh_.mesh().polygon(to.place->polygon).component;
   const Anchor from = begin(start, goal, part);
   if (!from.place)
-    return {
-        failure(PlanStatus::no_route, Refusal::none, "nothing joins the robot with the goal now")};
+    return {failure(PlanStatus::no_route, "nothing joins the robot with the goal now")};
   return joined_route(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
 }
 
@@ -206,8 +205,7 @@ Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, 
       best_from = from;
     }
   }
-  if (!best.found)
-    return {failure(PlanStatus::no_route, Refusal::none, "there is no room to be made")};
+  if (!best.found) return {failure(PlanStatus::no_route, "there is no room to be made")};
   Route out = joined_route(best, best_from, start, best.path.back());
   out.plan.status = PlanStatus::retreat;
   return out;
@@ -257,12 +255,13 @@ Plan Planner::plan_near(Point start, Point goal, double tolerance) const {
   return exact;
 }
 
-Refusal Planner::refusal_of(Point goal) const {
-  if (!finite(goal)) return Refusal::not_finite;
+Guidance::Refusal Planner::refusal_of(Point goal) const {
+  if (!finite(goal)) return Guidance::Refusal::not_finite;
   const map::Floor& floor = *nav_mesh_.shared_floor();
-  if (floor.ground(floor.cell_at(goal)) == map::Ground::none) return Refusal::off_the_map;
-  if (!floor.segment_clear(goal, goal, config_.mesh.robot_radius)) return Refusal::inside_obstacle;
-  return Refusal::none;
+  if (floor.ground(floor.cell_at(goal)) == map::Ground::none) return Guidance::Refusal::off_the_map;
+  if (!floor.segment_clear(goal, goal, config_.mesh.robot_radius))
+    return Guidance::Refusal::inside_obstacle;
+  return Guidance::Refusal::none;
 }
 
 Planner::Anchor Planner::anchor(Point point, double within, std::optional<int> part) const {

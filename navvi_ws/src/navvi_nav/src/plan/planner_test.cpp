@@ -46,7 +46,7 @@ TEST(Planner, refuses_a_goal_that_is_not_finite) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Plan plan = planner.plan({3, 3}, {bad, 3});
     EXPECT_EQ(plan.status, PlanStatus::refused);
-    EXPECT_EQ(plan.refusal, Refusal::not_finite);
+    EXPECT_EQ(plan.refusal, Guidance::Refusal::not_finite);
   }
 }
 
@@ -54,11 +54,11 @@ TEST(Planner, tells_the_refusals_apart) {
   SmallWorld world;
   world.room(12, 6).box(6, 0, 0, 6.1, 6, 1).box(2, 2, 0, 3, 3, 1);
   const Planner planner = planner_on(world);
-  EXPECT_EQ(planner.plan({1, 1}, {2.5, 2.5}).refusal, Refusal::inside_obstacle);
-  EXPECT_EQ(planner.plan({1, 1}, {3.2, 2.5}).refusal, Refusal::inside_obstacle);
-  EXPECT_EQ(planner.plan({1, 1}, {40, 2}).refusal, Refusal::off_the_map);
-  EXPECT_EQ(planner.plan({1, 1}, {1e9, 2}).refusal, Refusal::off_the_map);
-  EXPECT_EQ(planner.plan({1, 1}, {9, 3}).refusal, Refusal::unreachable);
+  EXPECT_EQ(planner.plan({1, 1}, {2.5, 2.5}).refusal, Guidance::Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({1, 1}, {3.2, 2.5}).refusal, Guidance::Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({1, 1}, {40, 2}).refusal, Guidance::Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({1, 1}, {1e9, 2}).refusal, Guidance::Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({1, 1}, {9, 3}).refusal, Guidance::Refusal::unreachable);
   EXPECT_EQ(planner.plan({1, 1}, {5, 5}).status, PlanStatus::found);
 }
 
@@ -177,7 +177,7 @@ TEST(Planner, tells_a_way_that_only_moving_things_close_from_one_that_is_none) {
   }
   world.box(8, 2, 0, 8.1, 4, 1);
   planner.set_map(world.voxels());
-  EXPECT_EQ(answer(planner, {}, {4.2, 3}, {12.8, 3}).refusal, Refusal::unreachable);
+  EXPECT_EQ(answer(planner, {}, {4.2, 3}, {12.8, 3}).refusal, Guidance::Refusal::unreachable);
 }
 
 TEST(Planner, steps_aside_to_the_nearest_place_off_the_ground_that_is_needed) {

@@ -89,10 +89,15 @@ bool on_non_manifold_vertex(const mesh::Mesh& mesh, Point point) {
   return joined.size() < there.size();
 }
 
+Point turned(Point point, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * point.x - s * point.y, s * point.x + c * point.y};
+}
+
 /// Turned, stretched and shifted, so that what was in line is so but for rounding.
 void move(mesh::Mesh& mesh, double angle, double scale, Point shift) {
-  const Pose frame{shift, angle};
-  for (mesh::Vertex& vertex : mesh.vertices) vertex.at = to_parent(frame, scale * vertex.at);
+  for (mesh::Vertex& vertex : mesh.vertices) vertex.at = shift + turned(scale * vertex.at, angle);
 }
 
 void judge_worlds(WorldKind kind, double angle, Judge& judge) {
@@ -107,7 +112,7 @@ void judge_worlds(WorldKind kind, double angle, Judge& judge) {
     std::mt19937 random(seed);
     const auto somewhere = [&] {
       for (;;) {
-        const Point point = to_parent({shift, angle}, scale * world.somewhere(random));
+        const Point point = shift + turned(scale * world.somewhere(random), angle);
         if (!on_non_manifold_vertex(mesh, point)) return *place_of(mesh, point);
       }
     };

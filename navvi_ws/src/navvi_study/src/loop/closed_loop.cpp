@@ -72,9 +72,10 @@ bool ClosedLoop::turn_wheels() {
 void ClosedLoop::sense() {
   const navvi_sim::live::Snapshot& now = session_.world().now();
   told_.odometry = navvi_types::to_msg(session_.world().odometry());
-  if (const auto odometry = node::from_msg(told_.odometry)) feedback_.take(*odometry, time());
-  if (const auto speed = navvi_nav::node::speed_from_msg(told_.odometry))
-    navigator_.set_speed(*speed);
+  if (const auto odometry = node::from_msg(told_.odometry)) {
+    feedback_.take(*odometry, time());
+    navigator_.set_speed(odometry->velocity.linear);
+  }
   if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
     feedback_.take(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
@@ -87,11 +88,8 @@ void ClosedLoop::sense() {
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
     told_.obstacles = navvi_types::to_msg(session_.world().obstacles());
-    classes_.clear();
-    for (const auto& obstacle : told_.obstacles->obstacles)
-      classes_[obstacle.id] = obstacle.thing_class;
-    if (const auto obstacles = navvi_nav::node::from_msg(*told_.obstacles))
-      navigator_.set_obstacles(*obstacles, time());
+    if (const auto obstacles = node::from_msg(*told_.obstacles))
+      navigator_.set_obstacles(obstacles->things, time());
   }
 }
 
@@ -105,20 +103,18 @@ geometry_msgs::Transform ClosedLoop::pose() const {
 void ClosedLoop::navigate() {
   if (!begun_ && navigator_.has_map() && time() >= kGoalAt) {
     begun_ = true;
-    navigator_.set_goal({setting_.scenario.goal.x(), setting_.scenario.goal.y()});
+    navigator_.set_goal(setting_.scenario.goal);
   }
-  if (const auto at = navvi_nav::node::from_msg(pose())) navigator_.set_pose(*at, time());
+  if (const auto at = node::from_msg(pose())) navigator_.set_pose(*at, time());
   if (const auto answer = std::exchange(answer_, std::nullopt)) navigator_.deliver(*answer, time());
   if (const auto request = navigator_.update(time())) answer_ = planner_.answer(*request);
   if (navigator_.undecided(time())) return;
-  const navvi_nav::guide::Status status = navigator_.status(time());
-  if (!throttle_.due(status, time())) return;
-  navvi_msgs::Guidance msg =
-      navvi_nav::node::to_msg(status, navigator_.floor_height(), "map", stamp());
-  msg.seq = ++guidance_seq_;
-  if (status.blocked) msg.blocked_by = classes_[status.blocked->by];
-  if (const auto guidance = node::from_msg(msg)) feedback_.take(*guidance, time());
-  told_.guidance = std::move(msg);
+  navvi_types::Guidance guidance = navigator_.guidance(time());
+  if (!throttle_.due(guidance, time())) return;
+  guidance.stamp = navvi_types::to_ns(stamp());
+  guidance.seq = ++guidance_seq_;
+  feedback_.take(guidance, time());
+  told_.guidance = navvi_types::to_msg(guidance);
 }
 
 void ClosedLoop::feed_back() {

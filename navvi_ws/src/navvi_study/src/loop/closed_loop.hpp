@@ -8,7 +8,6 @@
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
 
-#include <map>
 #include <navvi_feedback/core/feedback.hpp>
 #include <navvi_feedback/cues/cue_queue.hpp>
 #include <navvi_feedback/haptics/rumble_output.hpp>
@@ -104,7 +103,6 @@ class ClosedLoop {
   navvi_nav::plan::Planner planner_;
   std::optional<navvi_nav::plan::PlanAnswer> answer_;  ///< to the request of the last beat
   navvi_nav::guide::PublishThrottle throttle_;
-  std::map<std::uint32_t, std::string> classes_;  ///< of the moving things, by id
   navvi_feedback::core::Feedback feedback_;
   navvi_feedback::cues::CueQueue queue_;
   navvi_feedback::haptics::RumbleOutput rumble_output_;

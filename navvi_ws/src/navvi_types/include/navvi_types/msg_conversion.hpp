@@ -63,7 +63,7 @@ namespace navvi_types {
 
 /// A path whose poses look along it; the last one as the one before it. \param floor  m, z
 [[nodiscard]] nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
-                                      std::int64_t stamp);
+                                      std::int64_t stamp, const std::string& frame = "map");
 /// A goal in map.
 [[nodiscard]] geometry_msgs::PoseStamped goal_msg(const Eigen::Vector2d& goal, std::int64_t stamp);
 

@@ -2,15 +2,14 @@
 
 #include <optional>
 
-#include "navvi_nav/guide/guidance.hpp"
+#include "navvi_nav/guide/path_follower.hpp"
 #include "navvi_nav/guide/path_instability.hpp"
-#include "navvi_nav/guide/status.hpp"
 #include "navvi_nav/plan/plan_request.hpp"
 
 namespace navvi_nav::guide {
 
 struct ActivePathConfig {
-  GuidanceConfig guidance;
+  PathFollowerConfig guidance;
   double off_path = 1.0;
 
   void describe(navvi_config::Visitor& visit);
@@ -28,48 +27,48 @@ enum class PathMode {
 class ActivePath {
  public:
   explicit ActivePath(const ActivePathConfig& config)
-      : config_(config), guidance_(config.guidance) {}
+      : config_(config), follower_(config.guidance) {}
 
   /// Follows what a search found. \param plan  found, closed or retreat
   /// \returns m of the path so far, if one was followed by a `robot` whose place is known, that the
   /// new one leaves
-  double follow(const plan::Plan& plan, plan::Reason reason, double time,
-                const std::optional<Pose>& robot);
+  double follow(const plan::Plan& plan, Guidance::Replan reason, double time,
+                std::optional<Point> robot);
   /// There is no path to follow.
-  void drop() { guidance_.follow({}); }
+  void drop() { follower_.follow({}); }
   /// A new goal, or none.
   void reset();
   void reset_times() { instability_.reset(); }
 
-  void advance(const Pose& robot, const map::Space& space) { guidance_.advance(robot, space); }
+  void advance(Point robot, const map::Space& space) { follower_.advance(robot, space); }
   void set_mode(PathMode mode) { mode_ = mode; }
   [[nodiscard]] PathMode mode() const { return mode_; }
   /// True if only obstacles close the path to the goal, and there is no other.
   [[nodiscard]] bool closed() const {
     return mode_ == PathMode::closed || mode_ == PathMode::waiting;
   }
-  [[nodiscard]] bool following() const { return guidance_.following(); }
-  [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-  [[nodiscard]] Path remaining(Point robot) const { return guidance_.remaining(robot); }
+  [[nodiscard]] bool following() const { return follower_.following(); }
+  [[nodiscard]] const PathFollower& follower() const { return follower_; }
+  [[nodiscard]] Path remaining(Point robot) const { return follower_.remaining(robot); }
   /// m, from the robot to its path; 0 if there is none
-  [[nodiscard]] double offset(const Pose& robot) const;
+  [[nodiscard]] double offset(Point robot) const;
   /// True if the robot needs a new path at the next plan. \pre following()
-  [[nodiscard]] bool strayed(const Pose& robot) const { return offset(robot) > config_.off_path; }
+  [[nodiscard]] bool strayed(Point robot) const { return offset(robot) > config_.off_path; }
   /// True if the robot is at the goal.
-  [[nodiscard]] bool arrived(const Pose& robot, const map::Space& space) const;
+  [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
 
   /// Fills in where the path leads. \pre following()
-  void report(Status& status, const Pose& robot, double pace) const;
+  void report(Guidance& out, const Pose2& robot, double pace) const;
   /// Fills in how often it changed, followed or not.
-  void report_changes(Status& status, double time) const;
+  void report_changes(Guidance& out, double time) const;
 
  private:
   ActivePathConfig config_;
-  Guidance guidance_;
+  PathFollower follower_;
   PathMode mode_ = PathMode::to_goal;
   bool leads_to_goal_ = true;
   unsigned reroutes_ = 0;
-  plan::Reason reroute_reason_ = plan::Reason::none;
+  Guidance::Replan reroute_reason_ = Guidance::Replan::none;
   double shortest_length_ = 0.0;
   double smoothing_price_ = 0.0;
   PathInstability instability_;

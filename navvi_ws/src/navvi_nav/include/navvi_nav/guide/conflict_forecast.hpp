@@ -33,9 +33,9 @@ struct ConflictForecastConfig {
 
 /// What blocks a path.
 struct Blocker {
-  std::uint32_t by = 0;        ///< id of the obstacle
-  double at = 0.0;             ///< m, along the path to where
-  double time_to_clear = 0.0;  ///< s, until it has left the path; -1: not known
+  std::uint32_t by = 0;                       ///< id of the obstacle
+  double at = 0.0;                            ///< m, along the path to where
+  std::optional<double> time_to_clear = 0.0;  ///< s, until it has left the path; nullopt: unknown
 };
 
 /// What obstacles will do to the robot on a path, by their velocities.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "navvi_nav/guide/moving_thing.hpp"
+#include "navvi_nav/guide/cylinders.hpp"
 
 namespace navvi_nav::guide {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>
 
@@ -10,7 +11,6 @@
 #include "navvi_nav/guide/observation.hpp"
 #include "navvi_nav/guide/path_keeper.hpp"
 #include "navvi_nav/guide/replan_trigger.hpp"
-#include "navvi_nav/guide/status.hpp"
 #include "navvi_nav/plan/planner.hpp"
 
 namespace navvi_nav::guide {
@@ -49,16 +49,16 @@ class Navigator {
   /// A map where there is no OctoMap. \returns false if it is ignored because an OctoMap came
   /// before
   bool set_map(std::shared_ptr<const map::OccupancyGrid> grid);
-  void set_obstacles(const std::vector<MovingThing>& things, double time) {
-    observation_.set_obstacles(things, time);
+  void set_obstacles(std::vector<MovingThing> things, double time) {
+    observation_.set_obstacles(std::move(things), time);
   }
-  void set_pose(const Pose& pose, double time) { observation_.set_pose(pose, time); }
+  void set_pose(const Pose2& pose, double time) { observation_.set_pose(pose, time); }
   void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.
-  void set_goal(Point goal);
+  void set_goal(const Eigen::Vector2d& goal);
   /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
   /// without one the refusal is reported. \returns true if a goal stands
-  bool drop_bad_goal(plan::Refusal refusal, const std::string& detail);
+  bool drop_bad_goal(Guidance::Refusal refusal, const std::string& detail);
   void reset_times();
 
   /// Brings everything up to `time`. \returns the next request to the planner, if one is due and
@@ -66,13 +66,14 @@ class Navigator {
   [[nodiscard]] std::optional<plan::PlanRequest> update(double time);
   void deliver(const plan::PlanAnswer& answer, double time);
 
-  [[nodiscard]] Status status(double time) const;
+  /// All but its stamp and number.
+  [[nodiscard]] Guidance guidance(double time) const;
   /// The path as planned; empty when there is none to show.
-  [[nodiscard]] const Path& path() const { return path_.guidance().path(); }
+  [[nodiscard]] const Path& path() const { return path_.follower().path(); }
   /// True while a first plan for a goal is on its way: nothing new can be said yet.
   [[nodiscard]] bool undecided(double time) const;
   /// Where the robot is; nullopt without a fresh pose.
-  [[nodiscard]] std::optional<Pose> pose(double time) const { return observation_.pose(time); }
+  [[nodiscard]] std::optional<Pose2> pose(double time) const { return observation_.pose(time); }
   [[nodiscard]] bool has_map() const { return map_.floor != nullptr; }
   /// True if the obstacles were given up as too old; cleared by the next ones.
   [[nodiscard]] bool obstacles_lost() const { return observation_.obstacles_lost(); }
@@ -82,7 +83,6 @@ class Navigator {
  private:
   struct Goal {
     std::optional<Point> place;
-    Point last;           ///< the place, also after it was dropped
     unsigned number = 0;  ///< changes with each goal
     bool planned = false;
   };
@@ -98,7 +98,7 @@ class Navigator {
   /// The last request: what it was for, and whether it is answered.
   struct Sent {
     std::optional<double> since;  ///< s; nullopt: answered
-    plan::Reason reason = plan::Reason::none;
+    Guidance::Replan reason = Guidance::Replan::none;
     unsigned goal = 0;             ///< its number
     std::optional<double> carved;  ///< s, when the holes were last brought up to date
   };
@@ -110,15 +110,15 @@ class Navigator {
   void end_retreat(double time, Point robot);
   void give_up_late_plan(double time);
   void watch_deadlock(double time, Point robot, const Conflict& now);
-  [[nodiscard]] std::optional<plan::Reason> decide_replan(double time, const Conflict& now);
-  [[nodiscard]] plan::PlanRequest send(double time, plan::Reason reason);
-  void ask_for_path(plan::PlanRequest& request, const Pose& robot);
-  void take_plan(const plan::Plan& plan, plan::Reason reason, double time);
-  [[nodiscard]] bool keeps_path(const plan::Plan& plan, plan::Reason reason, double time);
-  void change_path(const plan::Plan& plan, plan::Reason reason, double time);
-  void drop_goal(plan::State state);
-  void refuse_goal(plan::Refusal refusal, const std::string& detail);
-  void report_path(Status& out) const;
+  [[nodiscard]] std::optional<Guidance::Replan> decide_replan(double time, const Conflict& now);
+  [[nodiscard]] plan::PlanRequest send(double time, Guidance::Replan reason);
+  void ask_for_path(plan::PlanRequest& request, Point robot);
+  void take_plan(const plan::Plan& plan, Guidance::Replan reason, double time);
+  [[nodiscard]] bool keeps_path(const plan::Plan& plan, Guidance::Replan reason, double time);
+  void change_path(const plan::Plan& plan, Guidance::Replan reason, double time);
+  void drop_goal(Guidance::State state);
+  void refuse_goal(Guidance::Refusal refusal, const std::string& detail);
+  void report_path(Guidance& out) const;
 
   NavigatorConfig config_;
   Observation observation_;
@@ -132,7 +132,7 @@ class Navigator {
   Sent sent_;
   Conflict conflict_;               ///< as of the last tick on which a replan was decided
   std::optional<Blocker> blocker_;  ///< of the only path, if near
-  Status status_;                   ///< but what changes with time
+  Guidance guidance_;               ///< but what changes with time
 };
 
 }  // namespace navvi_nav::guide

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "navvi_nav/guide/cylinders.hpp"
 #include "navvi_nav/guide/mean_speed.hpp"
-#include "navvi_nav/guide/moving_thing.hpp"
 
 namespace navvi_nav::guide {
 
@@ -24,16 +24,16 @@ class Observation {
  public:
   explicit Observation(const ObservationConfig& config) : config_(config) {}
 
-  void set_obstacles(const std::vector<MovingThing>& things, double time);
-  void set_pose(const Pose& pose, double time);
+  void set_obstacles(std::vector<MovingThing> things, double time);
+  void set_pose(const Pose2& pose, double time);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// Drops obstacles that are too old, and measures the pace.
   void update(double time);
   void reset_times();
 
   /// Where the robot is; nullopt without a fresh pose.
-  [[nodiscard]] std::optional<Pose> pose(double time) const;
-  [[nodiscard]] const std::optional<Pose>& last_pose() const { return pose_; }
+  [[nodiscard]] std::optional<Pose2> pose(double time) const;
+  [[nodiscard]] const std::optional<Pose2>& last_pose() const { return pose_; }
   [[nodiscard]] double speed() const { return speed_; }        ///< m/s, forward
   [[nodiscard]] double pace() const { return pace_.value(); }  ///< m/s, when it drives, > 0
   [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
@@ -49,7 +49,7 @@ class Observation {
   std::vector<Cylinder> obstacles_;        ///< the things, as navigation sees them
   std::optional<double> obstacles_time_;   ///< nullopt: none came yet
   bool obstacles_lost_ = false;
-  std::optional<Pose> pose_;
+  std::optional<Pose2> pose_;
   double pose_time_ = 0.0;
   double speed_ = 0.0;
   MeanSpeed pace_;

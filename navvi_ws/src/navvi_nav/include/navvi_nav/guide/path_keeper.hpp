@@ -5,7 +5,6 @@
 
 #include "navvi_nav/guide/active_path.hpp"
 #include "navvi_nav/guide/conflict_forecast.hpp"
-#include "navvi_nav/plan/guidance_enums.hpp"
 #include "navvi_nav/plan/plan_request.hpp"
 
 namespace navvi_nav::guide {
@@ -40,7 +39,7 @@ class PathKeeper {
   };
   struct Choice {
     double time = 0.0;  ///< s
-    plan::Reason reason = plan::Reason::none;
+    Guidance::Replan reason = Guidance::Replan::none;
     PathMode mode = PathMode::to_goal;  ///< of the path that is followed
     plan::PlanStatus found = plan::PlanStatus::no_route;
     Candidate followed;             ///< what is left of it, from the robot
@@ -71,7 +70,7 @@ class PathKeeper {
     return followed * (1.0 - config_.gain) - config_.gain_length;
   }
   /// False if `fresh` is not shorter by enough.
-  [[nodiscard]] bool worth_changing(plan::Reason reason, const Path& followed,
+  [[nodiscard]] bool worth_changing(Guidance::Replan reason, const Path& followed,
                                     const Path& fresh) const;
   /// True if a person should wait for what moves right in front of them.
   [[nodiscard]] bool must_wait(const Conflict& conflict) const;

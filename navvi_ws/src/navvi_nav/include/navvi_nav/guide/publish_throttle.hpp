@@ -1,21 +1,22 @@
 #pragma once
 
+#include <navvi_types/guidance.hpp>
 #include <optional>
 
-#include "navvi_nav/guide/status.hpp"
-
 namespace navvi_nav::guide {
+
+using navvi_types::Guidance;
 
 /// Decides when the guidance is published: at once when it leads elsewhere than the last message,
 /// otherwise 10 times a second.
 class PublishThrottle {
  public:
-  /// Call it as often as the guidance may change. If it returns true, `status` counts as published.
-  /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] bool due(const Status& status, double time);
+  /// Call it as often as the guidance may change. If it returns true, `guidance` counts as
+  /// published. \param time  s, of a clock that does not run backwards
+  [[nodiscard]] bool due(const Guidance& guidance, double time);
 
  private:
-  std::optional<Status> last_;
+  std::optional<Guidance> last_;
   double last_time_ = 0.0;  ///< s
 };
 

@@ -1,15 +1,17 @@
 #pragma once
 
 #include <navvi_config/field.hpp>
+#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <set>
 #include <vector>
 
 #include "navvi_nav/guide/conflict_forecast.hpp"
 #include "navvi_nav/guide/informed_set.hpp"
-#include "navvi_nav/plan/guidance_enums.hpp"
 
 namespace navvi_nav::guide {
+
+using navvi_types::Guidance;
 
 struct ReplanTriggerConfig {
   double robot_radius = 0.35;  ///< m, set from the mesh's
@@ -30,7 +32,7 @@ struct ReplanInput {
   bool new_goal = false;     ///< not planned for yet
   bool map_changed = false;  ///< since the last plan
   double speed = 0.0;        ///< m/s, forward
-  Pose robot;
+  Point robot;
   Path remaining;            ///< from the robot over the next way-point to the goal; may be empty
   double path_offset = 0.0;  ///< m, from the robot to its path
   bool closed = false;       ///< the path is known to be cut and there was no other
@@ -47,12 +49,12 @@ class ReplanTrigger {
   explicit ReplanTrigger(const ReplanTriggerConfig& config) : config_(config) {}
 
   /// The most telling reason to plan now, or none. A reason that is returned counts as acted on.
-  [[nodiscard]] std::optional<plan::Reason> update(const ReplanInput& input);
+  [[nodiscard]] std::optional<Guidance::Replan> update(const ReplanInput& input);
   /// Forgets all times, after the clock jumped.
   void reset();
 
  private:
-  [[nodiscard]] std::optional<plan::Reason> choose(const ReplanInput& input, bool slow);
+  [[nodiscard]] std::optional<Guidance::Replan> choose(const ReplanInput& input, bool slow);
   [[nodiscard]] bool is_slow(const ReplanInput& input);
   [[nodiscard]] bool note_near(const ReplanInput& input);
   [[nodiscard]] bool matters(const ReplanInput& input) const;

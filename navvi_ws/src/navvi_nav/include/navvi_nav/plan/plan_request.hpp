@@ -1,14 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "navvi_nav/plan/guidance_enums.hpp"
 #include "navvi_nav/plan/nav_mesh.hpp"
 
 namespace navvi_nav::plan {
+
+using navvi_types::Guidance;
 
 /// An OctoMap as received.
 struct MapMessage {
@@ -44,7 +46,7 @@ enum class PlanStatus {
 
 struct Plan {
   PlanStatus status = PlanStatus::no_map;
-  Refusal refusal = Refusal::none;
+  Guidance::Refusal refusal = Guidance::Refusal::none;
   Path path;              ///< from the robot (or the mesh next to it) to the goal
   double shortest = 0.0;  ///< m, of the path before smoothing
   std::size_t nodes_expanded = 0;

@@ -70,7 +70,7 @@ class Planner {
   [[nodiscard]] static Route joined_route(const search::Found& found, const Anchor& from,
                                           Point start, Point goal);
   [[nodiscard]] Plan smoothed(Route route) const;
-  [[nodiscard]] Refusal refusal_of(Point goal) const;
+  [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
   [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
   [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;
   [[nodiscard]] std::set<int> components_near(Point point, double within) const;

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <navvi_config/field.hpp>
+#include <navvi_types/guidance.hpp>
 
+#include "navvi_nav/guide/cylinders.hpp"
 #include "navvi_nav/map/floor.hpp"
 
 namespace navvi_nav::guide {
 
-struct GuidanceConfig {
+using navvi_types::Guidance;
+
+struct PathFollowerConfig {
   double waypoint_reached = 1.0;
   double goal_reached = 1.0;
   double sight_radius = 0.4;
@@ -17,22 +21,10 @@ struct GuidanceConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Where the path leads from the robot. Angles clockwise seen from above, rad, [-pi, pi].
-struct Heading {
-  Point waypoint;  ///< m, map: the next corner, or the goal
-  bool waypoint_is_goal = false;
-  double waypoint_distance = 0.0;  ///< m, straight
-  double waypoint_angle = 0.0;     ///< from the robot's heading to the way-point
-  double steer_angle = 0.0;        ///< the same to the path steer_ahead m on, if that is nearer
-  double turn_angle = 0.0;         ///< change of course at the way-point; 0 at the goal
-  double goal_distance = 0.0;      ///< m, along the path
-  double path_offset = 0.0;        ///< m, to the nearest point of the path
-};
-
 /// Follows one path way-point by way-point (R-NAV-8, R-NAV-11).
-class Guidance {
+class PathFollower {
  public:
-  explicit Guidance(const GuidanceConfig& config) : config_(config) {}
+  explicit PathFollower(const PathFollowerConfig& config) : config_(config) {}
 
   /// Starts `path` (from the robot to the goal); an empty path clears.
   void follow(const Path& path);
@@ -45,14 +37,17 @@ class Guidance {
   /// Passes on to the next way-point where the robot is near enough and the straight way to the
   /// one after has easy_radius of room, or sight_radius, or what the leg has, once it is `close`; a
   /// corner that it could only cut through something stays. following() must hold.
-  void advance(const Pose& robot, const map::Space& space);
+  void advance(Point robot, const map::Space& space);
   /// True if the robot is near enough to the goal and nothing stands in between.
-  [[nodiscard]] bool arrived(const Pose& robot, const map::Space& space) const;
+  [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
   /// True if nothing stands between the robot and the next way-point. following() must hold.
   [[nodiscard]] bool sees_next(Point robot, const map::Space& space) const {
     return sees(robot, path_[next_], space);
   }
-  [[nodiscard]] Heading heading(const Pose& robot) const;
+  /// m, from the robot to the nearest point of the path. following() must hold.
+  [[nodiscard]] double offset(Point robot) const;
+  /// Fills in where the path leads, from the way-point to the path's offset. following() must hold.
+  void report(Guidance& out, const Pose2& robot) const;
 
  private:
   [[nodiscard]] bool sees(Point robot, Point target, const map::Space& space) const;
@@ -60,7 +55,7 @@ class Guidance {
   [[nodiscard]] bool leaves_corner(Point robot, const map::Space& space) const;
   [[nodiscard]] bool reached(Point robot, const map::Space& space) const;
 
-  GuidanceConfig config_;
+  PathFollowerConfig config_;
   Path path_;
   std::size_t next_ = 0;
 };

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/guidance.hpp"
+#include "navvi_nav/guide/path_follower.hpp"
 
 namespace navvi_nav::guide {
 namespace {
@@ -20,7 +20,7 @@ double least_room(Point a, Point b, const map::Space& space) {
 
 }  // namespace
 
-void GuidanceConfig::describe(navvi_config::Visitor& visit) {
+void PathFollowerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(waypoint_reached, "waypoint_reached", Range{0.1, 5.0}, "m",
         "a way-point counts as reached (R-NAV-8)");
@@ -38,12 +38,12 @@ void GuidanceConfig::describe(navvi_config::Visitor& visit) {
 
 double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
 
-void Guidance::follow(const Path& path) {
+void PathFollower::follow(const Path& path) {
   path_ = path.size() >= 2 ? path : Path{};
   next_ = path_.empty() ? 0 : 1;
 }
 
-Path Guidance::remaining(Point robot) const {
+Path PathFollower::remaining(Point robot) const {
   Path out;
   if (!following()) return out;
   out.push_back(robot);
@@ -51,13 +51,13 @@ Path Guidance::remaining(Point robot) const {
   return out;
 }
 
-bool Guidance::sees(Point robot, Point target, const map::Space& space) const {
+bool PathFollower::sees(Point robot, Point target, const map::Space& space) const {
   // A robot that already stands nearer to something must still be able to go on.
   const double own = space.clearance(robot) - kSlack;
   return space.segment_clear(robot, target, std::max(0.0, std::min(config_.sight_radius, own)));
 }
 
-bool Guidance::reached(Point robot, const map::Space& space) const {
+bool PathFollower::reached(Point robot, const map::Space& space) const {
   const double away = distance(robot, path_[next_]);
   if (away > config_.waypoint_reached) return false;
   const Point after = path_[next_ + 1];
@@ -68,7 +68,7 @@ bool Guidance::reached(Point robot, const map::Space& space) const {
 /// True if a robot close to the next way-point may turn to the one after. More room than the leg
 /// between them has is not asked for, and where an obstacle stands in that leg, the robot can wait
 /// for it at the corner as well as anywhere.
-bool Guidance::leaves_corner(Point robot, const map::Space& space) const {
+bool PathFollower::leaves_corner(Point robot, const map::Space& space) const {
   const Point corner = path_[next_];
   const Point after = path_[next_ + 1];
   if (sees(robot, after, space)) return true;
@@ -80,8 +80,7 @@ bool Guidance::leaves_corner(Point robot, const map::Space& space) const {
   return room > 0.0 && known.segment_clear(robot, after, std::min(room, config_.sight_radius));
 }
 
-void Guidance::advance(const Pose& robot, const map::Space& space) {
-  const Point at = robot.position;
+void PathFollower::advance(Point at, const map::Space& space) {
   while (next_ + 1 < path_.size() && reached(at, space)) ++next_;
 
   std::size_t nearest = next_ - 1;  // leg
@@ -97,14 +96,14 @@ void Guidance::advance(const Pose& robot, const map::Space& space) {
     next_ = nearest + 1;
 }
 
-bool Guidance::arrived(const Pose& robot, const map::Space& space) const {
-  if (!following() || distance(robot.position, path_.back()) > config_.goal_reached) return false;
-  return space.floor->segment_clear(robot.position, path_.back(), 0.0);
+bool PathFollower::arrived(Point robot, const map::Space& space) const {
+  if (!following() || distance(robot, path_.back()) > config_.goal_reached) return false;
+  return space.floor->segment_clear(robot, path_.back(), 0.0);
 }
 
 /// Towards a far way-point a drift off the path shows too late; a nearer point turns the same drift
 /// into a larger angle.
-Point Guidance::steer_point(Point robot) const {
+Point PathFollower::steer_point(Point robot) const {
   const Point start = path_[next_ - 1];
   const Point leg = path_[next_] - start;
   const Point nearest = nearest_on_segment(robot, start, path_[next_]);
@@ -113,23 +112,25 @@ Point Guidance::steer_point(Point robot) const {
   return nearest + (config_.steer_ahead / norm(leg)) * leg;
 }
 
-Heading Guidance::heading(const Pose& robot) const {
-  Heading out;
-  const Point at = robot.position;
+double PathFollower::offset(Point robot) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i)
+    least = std::min(least, distance(robot, nearest_on_segment(robot, path_[i], path_[i + 1])));
+  return least;
+}
+
+void PathFollower::report(Guidance& out, const Pose2& robot) const {
+  const Point at = to_point(robot.position);
   const Point ahead{std::cos(robot.yaw), std::sin(robot.yaw)};
   const Point leg = path_[next_] - at;
-  out.waypoint = path_[next_];
+  out.waypoint = {path_[next_].x, path_[next_].y};
   out.waypoint_is_goal = next_ + 1 == path_.size();
   out.waypoint_distance = norm(leg);
   out.waypoint_angle = clockwise(ahead, leg);
   out.steer_angle = clockwise(ahead, steer_point(at) - at);
-  if (!out.waypoint_is_goal) out.turn_angle = clockwise(leg, path_[next_ + 1] - path_[next_]);
+  out.turn_angle = out.waypoint_is_goal ? 0.0 : clockwise(leg, path_[next_ + 1] - path_[next_]);
   out.goal_distance = length_of(remaining(at));
-  out.path_offset = distance(at, nearest_on_segment(at, path_[0], path_[1]));
-  for (std::size_t i = 1; i + 1 < path_.size(); ++i)
-    out.path_offset =
-        std::min(out.path_offset, distance(at, nearest_on_segment(at, path_[i], path_[i + 1])));
-  return out;
+  out.path_offset = offset(at);
 }
 
 }  // namespace navvi_nav::guide
