@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "navvi_nav/search/search.hpp"
+#include "search/search.hpp"
 
 namespace navvi_nav::bench {
 namespace {

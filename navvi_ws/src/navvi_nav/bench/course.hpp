@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "hall.hpp"
-#include "navvi_nav/plan/planner.hpp"
 #include "plain_detour.hpp"
 #include "plain_tile_cache.hpp"
+#include "plan/planner.hpp"
 
 namespace navvi_nav::bench {
 

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "contestant.hpp"
+#include "map/octomap_reader.hpp"
 #include "medians.hpp"
-#include "navvi_nav/map/octomap_reader.hpp"
-#include "navvi_nav/search/search.hpp"
 #include "octomap_tree.hpp"
+#include "search/search.hpp"
 #include "visibility_graph.hpp"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "navvi_nav/geometry.hpp"
+#include "geometry.hpp"
 
 /// What the plain uses of Recast and Detour in these benchmarks share.
 namespace navvi_nav::plain {

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "navvi_nav/mesh/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace navvi_nav {
 

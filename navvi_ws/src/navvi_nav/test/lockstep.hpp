@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "navvi_nav/guide/navigator.hpp"
+#include "guide/navigator.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav::guide {

@@ -2,7 +2,7 @@
 
 #include <octomap/OcTree.h>
 
-#include "navvi_nav/map/octomap_reader.hpp"
+#include "map/octomap_reader.hpp"
 
 namespace navvi_nav {
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "navvi_nav/plan/nav_mesh.hpp"
 #include "octomap_tree.hpp"
+#include "plan/nav_mesh.hpp"
 
 namespace navvi_nav {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "navvi_nav/mesh/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace navvi_nav {
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/bake/map_bake.hpp"
+#include "bake/map_bake.hpp"
 
 #include <algorithm>
 #include <cmath>

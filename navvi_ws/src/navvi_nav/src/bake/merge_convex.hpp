@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "navvi_nav/mesh/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace navvi_nav::bake {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "navvi_nav/bake/tile_bake.hpp"
+#include "bake/tile_bake.hpp"
 
 namespace navvi_nav::bake {
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/bake/tile_bake.hpp"
+#include "bake/tile_bake.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/active_path.hpp"
+#include "guide/active_path.hpp"
 
 namespace navvi_nav::guide {
 namespace {

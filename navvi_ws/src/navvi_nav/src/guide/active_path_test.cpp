@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/active_path.hpp"
+#include "guide/active_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <navvi_config/reader.hpp>
 
-#include "navvi_nav/guide/navigator.hpp"
+#include "guide/navigator.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav::guide {

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/conflict_forecast.hpp"
+#include "guide/conflict_forecast.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
-#include "navvi_nav/guide/conflict_forecast.hpp"
+#include "guide/conflict_forecast.hpp"
 
 #include <gtest/gtest.h>
 
-#include "navvi_nav/guide/cylinders.hpp"
+#include "guide/cylinders.hpp"
 
 namespace navvi_nav::guide {
 namespace {

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/cylinders.hpp"
+#include "guide/cylinders.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/deadlock.hpp"
+#include "guide/deadlock.hpp"
 
 #include "plan/escape.hpp"
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/informed_set.hpp"
+#include "guide/informed_set.hpp"
 
 namespace navvi_nav::guide {
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/navigator.hpp"
+#include "guide/navigator.hpp"
 
 namespace navvi_nav::guide {
 namespace {

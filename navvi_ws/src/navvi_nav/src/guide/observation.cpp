@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/observation.hpp"
+#include "guide/observation.hpp"
 
 namespace navvi_nav::guide {
 

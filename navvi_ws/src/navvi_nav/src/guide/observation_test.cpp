@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/observation.hpp"
+#include "guide/observation.hpp"
 
 #include <gtest/gtest.h>
 

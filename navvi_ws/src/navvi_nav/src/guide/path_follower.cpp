@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/path_follower.hpp"
+#include "guide/path_follower.hpp"
 
 namespace navvi_nav::guide {
 namespace {

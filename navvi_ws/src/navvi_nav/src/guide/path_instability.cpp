@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/path_instability.hpp"
+#include "guide/path_instability.hpp"
 
 namespace navvi_nav::guide {
 namespace {

@@ -1,8 +1,8 @@
-#include "navvi_nav/guide/path_instability.hpp"
+#include "guide/path_instability.hpp"
 
 #include <gtest/gtest.h>
 
-#include "navvi_nav/guide/informed_set.hpp"
+#include "guide/informed_set.hpp"
 
 namespace navvi_nav::guide {
 namespace {

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/path_keeper.hpp"
+#include "guide/path_keeper.hpp"
 
 #include <gtest/gtest.h>
 

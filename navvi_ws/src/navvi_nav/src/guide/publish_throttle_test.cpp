@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/publish_throttle.hpp"
+#include "guide/publish_throttle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/guide/replan_trigger.hpp"
+#include "guide/replan_trigger.hpp"
 
 namespace navvi_nav::guide {
 namespace {

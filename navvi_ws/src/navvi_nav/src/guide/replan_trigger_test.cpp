@@ -1,8 +1,8 @@
-#include "navvi_nav/guide/replan_trigger.hpp"
+#include "guide/replan_trigger.hpp"
 
 #include <gtest/gtest.h>
 
-#include "navvi_nav/guide/path_keeper.hpp"
+#include "guide/path_keeper.hpp"
 
 namespace navvi_nav::guide {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "navvi_nav/map/octomap_reader.hpp"
+#include "map/octomap_reader.hpp"
 
 namespace navvi_nav::map {
 

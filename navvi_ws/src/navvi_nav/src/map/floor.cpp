@@ -1,4 +1,4 @@
-#include "navvi_nav/map/floor.hpp"
+#include "map/floor.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "map/columns.hpp"
-#include "navvi_nav/map/floor.hpp"
+#include "map/floor.hpp"
 
 namespace navvi_nav::map {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "navvi_nav/map/map_survey.hpp"
-#include "navvi_nav/map/octomap_reader.hpp"
+#include "map/map_survey.hpp"
+#include "map/octomap_reader.hpp"
 
 namespace navvi_nav::map {
 

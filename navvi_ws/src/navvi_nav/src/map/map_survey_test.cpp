@@ -1,4 +1,4 @@
-#include "navvi_nav/map/map_survey.hpp"
+#include "map/map_survey.hpp"
 
 #include <gtest/gtest.h>
 

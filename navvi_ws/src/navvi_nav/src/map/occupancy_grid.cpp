@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "map/map_survey.hpp"
 #include "map/resample.hpp"
-#include "navvi_nav/map/map_survey.hpp"
 
 namespace navvi_nav::map {
 namespace {

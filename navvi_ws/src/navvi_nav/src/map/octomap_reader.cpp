@@ -1,4 +1,4 @@
-#include "navvi_nav/map/octomap_reader.hpp"
+#include "map/octomap_reader.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "navvi_nav/map/octomap_reader.hpp"
+#include "map/octomap_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "navvi_nav/map/map_survey.hpp"
+#include "map/map_survey.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav::map {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "navvi_nav/map/map_survey.hpp"
+#include "map/map_survey.hpp"
 
 namespace navvi_nav::map {
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/base_polygons.hpp"
+#include "mesh/base_polygons.hpp"
 
 namespace navvi_nav::mesh {
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/components.hpp"
+#include "mesh/components.hpp"
 
 namespace navvi_nav::mesh {
 namespace {

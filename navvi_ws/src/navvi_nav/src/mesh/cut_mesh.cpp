@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/cut_mesh.hpp"
+#include "mesh/cut_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/cut_mesh.hpp"
+#include "mesh/cut_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 
 #include "allocations.hpp"
-#include "navvi_nav/plan/carving.hpp"
-#include "navvi_nav/search/search.hpp"
+#include "plan/carving.hpp"
+#include "search/search.hpp"
 
 namespace navvi_nav::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/edge_matcher.hpp"
+#include "mesh/edge_matcher.hpp"
 
 #include <algorithm>
 

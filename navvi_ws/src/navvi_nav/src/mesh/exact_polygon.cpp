@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/exact_polygon.hpp"
+#include "mesh/exact_polygon.hpp"
 
 #include <algorithm>
 #include <cmath>

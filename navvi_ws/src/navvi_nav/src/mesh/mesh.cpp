@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 #include <limits>
 

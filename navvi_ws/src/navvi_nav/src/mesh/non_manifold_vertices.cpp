@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/non_manifold_vertices.hpp"
+#include "mesh/non_manifold_vertices.hpp"
 
 #include <algorithm>
 #include <cmath>

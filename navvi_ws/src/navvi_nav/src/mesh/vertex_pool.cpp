@@ -1,4 +1,4 @@
-#include "navvi_nav/mesh/vertex_pool.hpp"
+#include "mesh/vertex_pool.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "navvi_nav/node/msg_conversion.hpp"
+#include "node/msg_conversion.hpp"
 
 #include <gtest/gtest.h>
 

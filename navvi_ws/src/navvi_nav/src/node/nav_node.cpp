@@ -8,9 +8,9 @@
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
-#include "navvi_nav/guide/navigator.hpp"
-#include "navvi_nav/guide/publish_throttle.hpp"
-#include "navvi_nav/node/msg_conversion.hpp"
+#include "guide/navigator.hpp"
+#include "guide/publish_throttle.hpp"
+#include "node/msg_conversion.hpp"
 #include "plan/worker.hpp"
 
 namespace navvi_nav::node {

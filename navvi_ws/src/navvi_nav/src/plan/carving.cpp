@@ -1,4 +1,4 @@
-#include "navvi_nav/plan/carving.hpp"
+#include "plan/carving.hpp"
 
 #include <algorithm>
 #include <cmath>

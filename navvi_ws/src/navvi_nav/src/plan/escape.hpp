@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "navvi_nav/map/floor.hpp"
-#include "navvi_nav/mesh/mesh.hpp"
+#include "map/floor.hpp"
+#include "mesh/mesh.hpp"
 
 namespace navvi_nav::plan {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "navvi_nav/guide/cylinders.hpp"
+#include "guide/cylinders.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav::plan {

@@ -1,4 +1,4 @@
-#include "navvi_nav/plan/nav_mesh.hpp"
+#include "plan/nav_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/plan/planner.hpp"
+#include "plan/planner.hpp"
 
 #include <exception>
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-#include "navvi_nav/plan/planner.hpp"
+#include "plan/planner.hpp"
 
 namespace navvi_nav::plan {
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/search/open_list.hpp"
+#include "search/open_list.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/search/polyanya.hpp"
+#include "search/polyanya.hpp"
 
 namespace navvi_nav::search {
 namespace {

@@ -1,4 +1,4 @@
-#include "navvi_nav/search/search.hpp"
+#include "search/search.hpp"
 
 #include "search/centroid_astar.hpp"
 #include "search/funnel.hpp"

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "navvi_nav/search/search.hpp"
 #include "search/centroid_astar.hpp"
 #include "search/funnel.hpp"
+#include "search/search.hpp"
 
 namespace navvi_nav::search {
 namespace {

@@ -1,10 +1,10 @@
-#include "navvi_nav/search/search.hpp"
+#include "search/search.hpp"
 
 #include <gtest/gtest.h>
 
 #include "allocations.hpp"
 #include "grid_world.hpp"
-#include "navvi_nav/mesh/cut_mesh.hpp"
+#include "mesh/cut_mesh.hpp"
 #include "visibility_graph.hpp"
 
 namespace navvi_nav::search {

@@ -1,4 +1,4 @@
-#include "navvi_nav/smooth/channel.hpp"
+#include "smooth/channel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_nav/smooth/smoothing.hpp"
+#include "smooth/smoothing.hpp"
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/OptimizationObjective.h>

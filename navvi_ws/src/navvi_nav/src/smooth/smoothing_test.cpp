@@ -1,8 +1,8 @@
-#include "navvi_nav/smooth/smoothing.hpp"
+#include "smooth/smoothing.hpp"
 
 #include <gtest/gtest.h>
 
-#include "navvi_nav/plan/planner.hpp"
+#include "plan/planner.hpp"
 #include "small_world.hpp"
 #include "smooth/waypoints.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "navvi_nav/smooth/channel.hpp"
-#include "navvi_nav/smooth/smoothing.hpp"
+#include "smooth/channel.hpp"
+#include "smooth/smoothing.hpp"
 
 namespace navvi_nav::smooth {
 

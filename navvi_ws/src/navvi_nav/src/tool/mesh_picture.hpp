@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "navvi_nav/geometry.hpp"
-#include "navvi_nav/map/floor.hpp"
-#include "navvi_nav/mesh/mesh.hpp"
+#include "geometry.hpp"
+#include "map/floor.hpp"
+#include "mesh/mesh.hpp"
 
 namespace navvi_nav::tool {
 

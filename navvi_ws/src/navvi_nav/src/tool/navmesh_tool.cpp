@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "guide/navigator.hpp"
 #include "map/map_file.hpp"
-#include "navvi_nav/guide/navigator.hpp"
 #include "tool/mesh_picture.hpp"
 
 namespace {

@@ -1,7 +1,6 @@
 #include "loop/closed_loop.hpp"
 
 #include <navvi_feedback/node/msg_conversion.hpp>
-#include <navvi_nav/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <utility>
@@ -32,7 +31,7 @@ ClosedLoop::Setting::Setting(const navvi_sim::setup::SimNodeConfig& config)
   const navvi_sim::occupancy::OccupancyMap occupancy =
       navvi_sim::occupancy::occupancy_of(world, config.octomap);
   scenario = navvi_sim::setup::scenario_of(config, world, occupancy);
-  map = navvi_nav::node::from_msg(navvi_sim::node::to_msg(occupancy, ros::Time()));
+  map = navvi_sim::node::to_msg(occupancy, ros::Time());
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases)
@@ -41,11 +40,10 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
       session_(setting_.world, config.sim.life, setting_.scenario.start,
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
-      navigator_(config.nav),
-      planner_(config.nav.planner),
+      navigation_(config.nav),
       feedback_(config.feedback, phrases),
       person_(config.person, static_cast<std::uint64_t>(config.sim.seed)) {
-  navigator_.set_map(std::make_shared<const navvi_nav::plan::MapMessage>(std::move(setting_.map)));
+  navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
 }
 
 bool ClosedLoop::step() {
@@ -74,7 +72,7 @@ void ClosedLoop::sense() {
   told_.odometry = navvi_types::to_msg(session_.world().odometry());
   if (const auto odometry = node::from_msg(told_.odometry)) {
     feedback_.take(*odometry, time());
-    navigator_.set_speed(odometry->velocity.linear);
+    navigation_.set_speed(odometry->velocity.linear);
   }
   if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
     feedback_.take(*gate, time());
@@ -89,7 +87,7 @@ void ClosedLoop::sense() {
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
     told_.obstacles = navvi_types::to_msg(session_.world().obstacles());
     if (const auto obstacles = node::from_msg(*told_.obstacles))
-      navigator_.set_obstacles(obstacles->things, time());
+      navigation_.set_obstacles(*obstacles, time());
   }
 }
 
@@ -101,20 +99,16 @@ geometry_msgs::Transform ClosedLoop::pose() const {
 }
 
 void ClosedLoop::navigate() {
-  if (!begun_ && navigator_.has_map() && time() >= kGoalAt) {
+  if (!begun_ && navigation_.has_map() && time() >= kGoalAt) {
     begun_ = true;
-    navigator_.set_goal(setting_.scenario.goal);
+    navigation_.set_goal(setting_.scenario.goal);
   }
-  if (const auto at = node::from_msg(pose())) navigator_.set_pose(*at, time());
-  if (const auto answer = std::exchange(answer_, std::nullopt)) navigator_.deliver(*answer, time());
-  if (const auto request = navigator_.update(time())) answer_ = planner_.answer(*request);
-  if (navigator_.undecided(time())) return;
-  navvi_types::Guidance guidance = navigator_.guidance(time());
-  if (!throttle_.due(guidance, time())) return;
-  guidance.stamp = navvi_types::to_ns(stamp());
-  guidance.seq = ++guidance_seq_;
-  feedback_.take(guidance, time());
-  told_.guidance = navvi_types::to_msg(guidance);
+  if (const auto at = node::from_msg(pose())) navigation_.set_pose(*at, time());
+  std::optional<navvi_types::Guidance> guidance = navigation_.update(time());
+  if (!guidance) return;
+  guidance->stamp = navvi_types::to_ns(stamp());
+  feedback_.take(*guidance, time());
+  told_.guidance = navvi_types::to_msg(*guidance);
 }
 
 void ClosedLoop::feed_back() {

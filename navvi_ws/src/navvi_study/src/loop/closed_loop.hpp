@@ -7,12 +7,12 @@
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
+#include <octomap_msgs/Octomap.h>
 
 #include <navvi_feedback/core/feedback.hpp>
 #include <navvi_feedback/cues/cue_queue.hpp>
 #include <navvi_feedback/haptics/rumble_output.hpp>
-#include <navvi_nav/guide/navigator.hpp>
-#include <navvi_nav/guide/publish_throttle.hpp>
+#include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
 #include <optional>
@@ -26,7 +26,7 @@ namespace navvi_study::loop {
 /// The parameters of all nodes of a session with a simulated operator, each under its part's name.
 struct ClosedLoopConfig {
   navvi_sim::setup::SimNodeConfig sim;
-  navvi_nav::guide::NavigatorConfig nav;
+  navvi_nav::lockstep::NavigationConfig nav;
   navvi_feedback::core::FeedbackConfig feedback;
   people::SimulatedOperatorConfig person;
 
@@ -69,8 +69,6 @@ class ClosedLoop {
   }
   [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
   [[nodiscard]] const Messages& told() const { return told_; }
-  /// As now planned, m, in map; empty where there is none.
-  [[nodiscard]] const navvi_nav::Path& path() const { return navigator_.path(); }
   [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
   [[nodiscard]] const people::StickAndButtons& hand() const { return hand_; }
 
@@ -79,7 +77,7 @@ class ClosedLoop {
   struct Setting {
     navvi_sim::WorldDescription world;
     navvi_sim::scenario::StartAndGoal scenario;
-    navvi_nav::plan::MapMessage map;
+    octomap_msgs::Octomap map;
 
     explicit Setting(const navvi_sim::setup::SimNodeConfig& config);
   };
@@ -99,17 +97,13 @@ class ClosedLoop {
   Setting setting_;
   navvi_sim::live::Session session_;
   navvi_safety::CommandGate gate_;
-  navvi_nav::guide::Navigator navigator_;
-  navvi_nav::plan::Planner planner_;
-  std::optional<navvi_nav::plan::PlanAnswer> answer_;  ///< to the request of the last beat
-  navvi_nav::guide::PublishThrottle throttle_;
+  navvi_nav::lockstep::Navigation navigation_;
   navvi_feedback::core::Feedback feedback_;
   navvi_feedback::cues::CueQueue queue_;
   navvi_feedback::haptics::RumbleOutput rumble_output_;
   double speaks_until_ = 0.0;  ///< s
   people::SimulatedOperator person_;
   people::StickAndButtons hand_;
-  std::uint32_t guidance_seq_ = 0;
   bool begun_ = false;
   Messages told_;
 };

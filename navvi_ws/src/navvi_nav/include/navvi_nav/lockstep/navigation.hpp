@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <navvi_types/guidance.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace navvi_nav::lockstep {
+
+/// The parameters of nav_node's core.
+class NavigationConfig {
+ public:
+  NavigationConfig();
+  NavigationConfig(const NavigationConfig& other);
+  NavigationConfig& operator=(const NavigationConfig& other);
+  ~NavigationConfig();
+
+  void describe(navvi_config::Visitor& visit);
+
+ private:
+  friend class Navigation;
+  struct Values;
+  std::unique_ptr<Values> values_;
+};
+
+/// The core of nav_node without threads and without a clock: a plan is there at the next beat. The
+/// same values give the same guidance, bit for bit. Times are s on one clock that only goes
+/// forward; places are m, in map.
+class Navigation {
+ public:
+  explicit Navigation(const NavigationConfig& config);
+  ~Navigation();
+
+  /// \param data  of a binary OctoMap message, as are `id` and `resolution`, m
+  void set_map(std::vector<std::int8_t> data, const std::string& id, double resolution);
+  void set_obstacles(const navvi_types::Obstacles& obstacles, double time);
+  void set_pose(const navvi_types::Pose2& pose, double time);
+  void set_speed(double forward);  ///< m/s
+  /// A new goal replaces the old one. It is judged by the next plan.
+  void set_goal(const Eigen::Vector2d& goal);
+  [[nodiscard]] bool has_map() const;
+
+  /// One beat. \returns the guidance if it is to be published now, numbered, without a stamp
+  [[nodiscard]] std::optional<navvi_types::Guidance> update(double time);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace navvi_nav::lockstep

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bake/tile_bake.hpp"
+#include "map/floor.hpp"
+#include "map/map_survey.hpp"
+
+namespace navvi_nav::bake {
+
+/// Column and row of a tile; (0, 0) has its lower corner at the origin of map.
+using TileIndex = std::pair<int, int>;
+
+struct MapBakeConfig {
+  double margin = 0.35;        ///< m, that the mesh keeps from everything that blocks
+  double reach = 1.0;          ///< m, beyond the margin, that distances are known
+  double tile_size = 32.0;     ///< m, taken in steps of 16 cells up to 1024
+  double contour_error = 1.0;  ///< cells, as BakeConfig's
+  double max_edge = 0.0;       ///< m, longer walls are split; 0: never
+  int max_corners = 12;        ///< of a polygon
+  int threads = 2;             ///< that may share the work; the result is the same
+};
+
+/// A map's floor and its mesh without holes.
+struct BakedMap {
+  std::string error;  ///< a sentence if the survey shows no floor for the robot
+  std::shared_ptr<const map::Floor> floor;
+  int tile_cells = 0;  ///< cells along a tile's side
+  /// Corners in steps of the floor's cell size / kStepsPerCellSide. Tiles without floor are left
+  /// out.
+  std::map<TileIndex, std::vector<mesh::GridPolygon>> tiles;
+  std::vector<TileIndex> rebuilt;  ///< tiles that are not as in the map before, gone ones included
+};
+
+/// Bakes a survey. Tiles whose open cells (and those beside them) are as in `before` are taken over
+/// from there, not baked again: same cells, same polygons.
+[[nodiscard]] BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config,
+                                const BakedMap* before = nullptr);
+
+/// The open cells of one tile.
+[[nodiscard]] TileCells cells_of(const map::Floor& floor, TileIndex tile, int tile_cells);
+
+}  // namespace navvi_nav::bake

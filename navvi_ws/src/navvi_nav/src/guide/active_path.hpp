@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+
+#include "guide/path_follower.hpp"
+#include "guide/path_instability.hpp"
+#include "plan/plan_request.hpp"
+
+namespace navvi_nav::guide {
+
+struct ActivePathConfig {
+  PathFollowerConfig guidance;
+  double off_path = 1.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What the path that is followed is for.
+enum class PathMode {
+  to_goal,  ///< it leads to the goal and is free, as far as is known
+  closed,   ///< it leads to the goal, only obstacles close it, and there is no other
+  retreat,  ///< it leads out of the area that a thing will sweep
+  waiting,  ///< it was a retreat or is closed, while the robot waits at the end of a retreat
+};
+
+/// The path that is followed, its mode, and how often it changed.
+class ActivePath {
+ public:
+  explicit ActivePath(const ActivePathConfig& config)
+      : config_(config), follower_(config.guidance) {}
+
+  /// Follows what a search found. \param plan  found, closed or retreat
+  /// \returns m of the path so far, if one was followed by a `robot` whose place is known, that the
+  /// new one leaves
+  double follow(const plan::Plan& plan, Guidance::Replan reason, double time,
+                std::optional<Point> robot);
+  /// There is no path to follow.
+  void drop() { follower_.follow({}); }
+  /// A new goal, or none.
+  void reset();
+  void reset_times() { instability_.reset(); }
+
+  void advance(Point robot, const map::Space& space) { follower_.advance(robot, space); }
+  void set_mode(PathMode mode) { mode_ = mode; }
+  [[nodiscard]] PathMode mode() const { return mode_; }
+  /// True if only obstacles close the path to the goal, and there is no other.
+  [[nodiscard]] bool closed() const {
+    return mode_ == PathMode::closed || mode_ == PathMode::waiting;
+  }
+  [[nodiscard]] bool following() const { return follower_.following(); }
+  [[nodiscard]] const PathFollower& follower() const { return follower_; }
+  [[nodiscard]] Path remaining(Point robot) const { return follower_.remaining(robot); }
+  /// m, from the robot to its path; 0 if there is none
+  [[nodiscard]] double offset(Point robot) const;
+  /// True if the robot needs a new path at the next plan. \pre following()
+  [[nodiscard]] bool strayed(Point robot) const { return offset(robot) > config_.off_path; }
+  /// True if the robot is at the goal.
+  [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
+
+  /// Fills in where the path leads. \pre following()
+  void report(Guidance& out, const Pose2& robot, double pace) const;
+  /// Fills in how often it changed, followed or not.
+  void report_changes(Guidance& out, double time) const;
+
+ private:
+  ActivePathConfig config_;
+  PathFollower follower_;
+  PathMode mode_ = PathMode::to_goal;
+  bool leads_to_goal_ = true;
+  unsigned reroutes_ = 0;
+  Guidance::Replan reroute_reason_ = Guidance::Replan::none;
+  double shortest_length_ = 0.0;
+  double smoothing_price_ = 0.0;
+  PathInstability instability_;
+};
+
+}  // namespace navvi_nav::guide

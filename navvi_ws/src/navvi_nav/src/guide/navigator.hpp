@@ -1,0 +1,138 @@
+#pragma once
+
+#include <memory>
+#include <navvi_types/guidance.hpp>
+#include <optional>
+#include <string>
+
+#include "guide/active_path.hpp"
+#include "guide/conflict_forecast.hpp"
+#include "guide/deadlock.hpp"
+#include "guide/observation.hpp"
+#include "guide/path_keeper.hpp"
+#include "guide/replan_trigger.hpp"
+#include "plan/planner.hpp"
+
+namespace navvi_nav::guide {
+
+/// What the deciders are set by: one group of parameters.
+struct ReplanConfig {
+  ReplanTriggerConfig trigger;
+  PathKeeperConfig keeper;
+  ConflictForecastConfig forecast;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+struct NavigatorConfig {
+  plan::PlannerConfig planner;
+  ReplanConfig replan;
+  ActivePathConfig path;
+  DeadlockConfig deadlock;
+  ObservationConfig observation;
+  double carve_period = 0.5;
+  double plan_timeout = 1.0;
+  double map_timeout = 0.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What nav_node decides: what the planner does next, which path is followed, what the person is
+/// told. It hands one forecast a tick to three deciders that do not know each other: ReplanTrigger
+/// (when to plan), PathKeeper (keep or change the path), Deadlock (when to yield). Times are s on
+/// one clock; after a jump back call reset_times().
+class Navigator {
+ public:
+  explicit Navigator(const NavigatorConfig& config);
+
+  void set_map(std::shared_ptr<const plan::MapMessage> map);
+  /// A map where there is no OctoMap. \returns false if it is ignored because an OctoMap came
+  /// before
+  bool set_map(std::shared_ptr<const map::OccupancyGrid> grid);
+  void set_obstacles(std::vector<MovingThing> things, double time) {
+    observation_.set_obstacles(std::move(things), time);
+  }
+  void set_pose(const Pose2& pose, double time) { observation_.set_pose(pose, time); }
+  void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
+  /// A new goal replaces the old one. It is judged by the next plan.
+  void set_goal(const Eigen::Vector2d& goal);
+  /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
+  /// without one the refusal is reported. \returns true if a goal stands
+  bool drop_bad_goal(Guidance::Refusal refusal, const std::string& detail);
+  void reset_times();
+
+  /// Brings everything up to `time`. \returns the next request to the planner, if one is due and
+  /// none is being answered
+  [[nodiscard]] std::optional<plan::PlanRequest> update(double time);
+  void deliver(const plan::PlanAnswer& answer, double time);
+
+  /// All but its stamp and number.
+  [[nodiscard]] Guidance guidance(double time) const;
+  /// The path as planned; empty when there is none to show.
+  [[nodiscard]] const Path& path() const { return path_.follower().path(); }
+  /// True while a first plan for a goal is on its way: nothing new can be said yet.
+  [[nodiscard]] bool undecided(double time) const;
+  /// Where the robot is; nullopt without a fresh pose.
+  [[nodiscard]] std::optional<Pose2> pose(double time) const { return observation_.pose(time); }
+  [[nodiscard]] bool has_map() const { return map_.floor != nullptr; }
+  /// True if the obstacles were given up as too old; cleared by the next ones.
+  [[nodiscard]] bool obstacles_lost() const { return observation_.obstacles_lost(); }
+  /// m, z of the floor in map; 0 before there is a map.
+  [[nodiscard]] double floor_height() const { return map_.floor ? map_.floor->height() : 0.0; }
+
+ private:
+  struct Goal {
+    std::optional<Point> place;
+    unsigned number = 0;  ///< changes with each goal
+    bool planned = false;
+  };
+  struct MapState {
+    std::shared_ptr<const map::Floor> floor;  ///< null: no map yet
+    std::shared_ptr<const plan::MapMessage> new_map;
+    std::shared_ptr<const map::OccupancyGrid> new_grid;
+    bool octomap_came = false;
+    bool changed = false;             ///< since the last plan
+    std::optional<double> time;       ///< s, when the map in use came
+    std::optional<double> mesh_time;  ///< s, as of which the mesh shows what moves
+  };
+  /// The last request: what it was for, and whether it is answered.
+  struct Sent {
+    std::optional<double> since;  ///< s; nullopt: answered
+    Guidance::Replan reason = Guidance::Replan::none;
+    unsigned goal = 0;             ///< its number
+    std::optional<double> carved;  ///< s, when the holes were last brought up to date
+  };
+
+  [[nodiscard]] map::Space space() const { return {map_.floor.get(), &observation_.obstacles()}; }
+  [[nodiscard]] bool map_stale(double time) const;
+  [[nodiscard]] Conflict forecast(const Path& path) const;
+  Conflict follow_progress(double time);
+  void end_retreat(double time, Point robot);
+  void give_up_late_plan(double time);
+  void watch_deadlock(double time, Point robot, const Conflict& now);
+  [[nodiscard]] std::optional<Guidance::Replan> decide_replan(double time, const Conflict& now);
+  [[nodiscard]] plan::PlanRequest send(double time, Guidance::Replan reason);
+  void ask_for_path(plan::PlanRequest& request, Point robot);
+  void take_plan(const plan::Plan& plan, Guidance::Replan reason, double time);
+  [[nodiscard]] bool keeps_path(const plan::Plan& plan, Guidance::Replan reason, double time);
+  void change_path(const plan::Plan& plan, Guidance::Replan reason, double time);
+  void drop_goal(Guidance::State state);
+  void refuse_goal(Guidance::Refusal refusal, const std::string& detail);
+  void report_path(Guidance& out) const;
+
+  NavigatorConfig config_;
+  Observation observation_;
+  ConflictForecast forecast_;
+  ReplanTrigger trigger_;
+  PathKeeper keeper_;
+  Deadlock deadlock_;
+  ActivePath path_;
+  MapState map_;
+  Goal goal_;
+  Sent sent_;
+  Conflict conflict_;               ///< as of the last tick on which a replan was decided
+  std::optional<Blocker> blocker_;  ///< of the only path, if near
+  Guidance guidance_;               ///< but what changes with time
+};
+
+}  // namespace navvi_nav::guide

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <navvi_config/field.hpp>
+#include <optional>
+#include <vector>
+
+#include "guide/cylinders.hpp"
+#include "guide/mean_speed.hpp"
+
+namespace navvi_nav::guide {
+
+struct ObservationConfig {
+  double standing_speed = 0.2;  ///< m/s, set from the forecast's
+  int most_cylinders = 4;
+  double pose_timeout = 1.0;
+  double obstacle_timeout = 1.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What is known of the robot and of moving things, and how fresh it is. Times are s on one clock.
+class Observation {
+ public:
+  explicit Observation(const ObservationConfig& config) : config_(config) {}
+
+  void set_obstacles(std::vector<MovingThing> things, double time);
+  void set_pose(const Pose2& pose, double time);
+  void set_speed(double forward) { speed_ = forward; }  ///< m/s
+  /// Drops obstacles that are too old, and measures the pace.
+  void update(double time);
+  void reset_times();
+
+  /// Where the robot is; nullopt without a fresh pose.
+  [[nodiscard]] std::optional<Pose2> pose(double time) const;
+  [[nodiscard]] const std::optional<Pose2>& last_pose() const { return pose_; }
+  [[nodiscard]] double speed() const { return speed_; }        ///< m/s, forward
+  [[nodiscard]] double pace() const { return pace_.value(); }  ///< m/s, when it drives, > 0
+  [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
+  [[nodiscard]] std::optional<MovingThing> thing(std::optional<std::uint32_t> id) const;
+  [[nodiscard]] bool obstacles_fresh(double time) const;
+  /// True if the obstacles were dropped as too old; cleared by the next ones.
+  [[nodiscard]] bool obstacles_lost() const { return obstacles_lost_; }
+
+ private:
+  ObservationConfig config_;
+  std::vector<MovingThing> things_;
+  std::map<std::uint32_t, double> moved_;  ///< s, when each was last seen to move
+  std::vector<Cylinder> obstacles_;        ///< the things, as navigation sees them
+  std::optional<double> obstacles_time_;   ///< nullopt: none came yet
+  bool obstacles_lost_ = false;
+  std::optional<Pose2> pose_;
+  double pose_time_ = 0.0;
+  double speed_ = 0.0;
+  MeanSpeed pace_;
+};
+
+}  // namespace navvi_nav::guide

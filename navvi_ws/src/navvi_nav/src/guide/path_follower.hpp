@@ -1,0 +1,66 @@
+#pragma once
+
+#include <navvi_config/field.hpp>
+#include <navvi_types/guidance.hpp>
+
+#include "guide/cylinders.hpp"
+#include "map/floor.hpp"
+
+namespace navvi_nav::guide {
+
+using navvi_types::Guidance;
+
+struct PathFollowerConfig {
+  double waypoint_reached = 1.0;
+  double goal_reached = 1.0;
+  double sight_radius = 0.4;
+  double easy_radius = 0.6;
+  double close = 0.4;
+  double steer_ahead = 3.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Follows one path way-point by way-point (R-NAV-8, R-NAV-11).
+class PathFollower {
+ public:
+  explicit PathFollower(const PathFollowerConfig& config) : config_(config) {}
+
+  /// Starts `path` (from the robot to the goal); an empty path clears.
+  void follow(const Path& path);
+  [[nodiscard]] bool following() const { return path_.size() >= 2; }
+  [[nodiscard]] const Path& path() const { return path_; }
+  /// What is left of the path: the robot, the next way-point, and on to the goal.
+  [[nodiscard]] Path remaining(Point robot) const;
+  [[nodiscard]] Point next_waypoint() const { return path_[next_]; }
+
+  /// Passes on to the next way-point where the robot is near enough and the straight way to the
+  /// one after has easy_radius of room, or sight_radius, or what the leg has, once it is `close`; a
+  /// corner that it could only cut through something stays. following() must hold.
+  void advance(Point robot, const map::Space& space);
+  /// True if the robot is near enough to the goal and nothing stands in between.
+  [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
+  /// True if nothing stands between the robot and the next way-point. following() must hold.
+  [[nodiscard]] bool sees_next(Point robot, const map::Space& space) const {
+    return sees(robot, path_[next_], space);
+  }
+  /// m, from the robot to the nearest point of the path. following() must hold.
+  [[nodiscard]] double offset(Point robot) const;
+  /// Fills in where the path leads, from the way-point to the path's offset. following() must hold.
+  void report(Guidance& out, const Pose2& robot) const;
+
+ private:
+  [[nodiscard]] bool sees(Point robot, Point target, const map::Space& space) const;
+  [[nodiscard]] Point steer_point(Point robot) const;
+  [[nodiscard]] bool leaves_corner(Point robot, const map::Space& space) const;
+  [[nodiscard]] bool reached(Point robot, const map::Space& space) const;
+
+  PathFollowerConfig config_;
+  Path path_;
+  std::size_t next_ = 0;
+};
+
+/// Clockwise angle in [-pi, pi] by which to turn from direction `from` to direction `to`.
+[[nodiscard]] double clockwise(Point from, Point to);
+
+}  // namespace navvi_nav::guide

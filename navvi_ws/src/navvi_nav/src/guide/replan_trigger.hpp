@@ -1,0 +1,71 @@
+#pragma once
+
+#include <navvi_config/field.hpp>
+#include <navvi_types/guidance.hpp>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "guide/conflict_forecast.hpp"
+#include "guide/informed_set.hpp"
+
+namespace navvi_nav::guide {
+
+using navvi_types::Guidance;
+
+struct ReplanTriggerConfig {
+  double robot_radius = 0.35;  ///< m, set from the mesh's
+  double period = 2.0;
+  double slow_speed = 0.1;
+  double slow_time = 1.0;
+  double near_range = 3.0;
+  double min_interval = 0.5;
+  bool only_if_it_matters = true;
+  double stray = 0.5;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What the trigger looks at.
+struct ReplanInput {
+  double time = 0.0;         ///< s
+  bool new_goal = false;     ///< not planned for yet
+  bool map_changed = false;  ///< since the last plan
+  double speed = 0.0;        ///< m/s, forward
+  Point robot;
+  Path remaining;            ///< from the robot over the next way-point to the goal; may be empty
+  double path_offset = 0.0;  ///< m, from the robot to its path
+  bool closed = false;       ///< the path is known to be cut and there was no other
+  std::vector<Cylinder> obstacles;
+  Conflict conflict;        ///< with them on that path
+  bool kept = false;        ///< the path is kept, whatever obstacles do
+  bool evades = false;      ///< a path that avoids the conflict is wanted
+  double worthwhile = 0.0;  ///< m, only a path shorter than this would replace a free one
+};
+
+/// Decides when to plan again, and why (R-NAV-9).
+class ReplanTrigger {
+ public:
+  explicit ReplanTrigger(const ReplanTriggerConfig& config) : config_(config) {}
+
+  /// The most telling reason to plan now, or none. A reason that is returned counts as acted on.
+  [[nodiscard]] std::optional<Guidance::Replan> update(const ReplanInput& input);
+  /// Forgets all times, after the clock jumped.
+  void reset();
+
+ private:
+  [[nodiscard]] std::optional<Guidance::Replan> choose(const ReplanInput& input, bool slow);
+  [[nodiscard]] bool is_slow(const ReplanInput& input);
+  [[nodiscard]] bool note_near(const ReplanInput& input);
+  [[nodiscard]] bool matters(const ReplanInput& input) const;
+
+  ReplanTriggerConfig config_;
+  InformedSet informed_set_;
+  std::optional<double> last_plan_;
+  std::optional<double> last_slow_;
+  std::optional<double> slow_since_;
+  std::set<std::uint32_t> near_;
+  bool near_pending_ = false;
+};
+
+}  // namespace navvi_nav::guide

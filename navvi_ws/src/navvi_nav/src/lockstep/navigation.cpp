@@ -1,0 +1,71 @@
+#include "navvi_nav/lockstep/navigation.hpp"
+
+#include <utility>
+
+#include "guide/navigator.hpp"
+#include "guide/publish_throttle.hpp"
+#include "plan/planner.hpp"
+
+namespace navvi_nav::lockstep {
+
+struct NavigationConfig::Values : guide::NavigatorConfig {};
+
+NavigationConfig::NavigationConfig() : values_(std::make_unique<Values>()) {}
+NavigationConfig::NavigationConfig(const NavigationConfig& other)
+    : values_(std::make_unique<Values>(*other.values_)) {}
+NavigationConfig& NavigationConfig::operator=(const NavigationConfig& other) {
+  *values_ = *other.values_;
+  return *this;
+}
+NavigationConfig::~NavigationConfig() = default;
+
+void NavigationConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
+
+struct Navigation::Parts {
+  explicit Parts(const guide::NavigatorConfig& config)
+      : navigator(config), planner(config.planner) {}
+
+  guide::Navigator navigator;
+  plan::Planner planner;
+  std::optional<plan::PlanAnswer> answer = {};  ///< to the request of the last beat
+  guide::PublishThrottle throttle = {};
+  std::uint32_t published = 0;
+};
+
+Navigation::Navigation(const NavigationConfig& config)
+    : parts_(std::make_unique<Parts>(*config.values_)) {}
+Navigation::~Navigation() = default;
+
+void Navigation::set_map(std::vector<std::int8_t> data, const std::string& id, double resolution) {
+  parts_->navigator.set_map(std::make_shared<const plan::MapMessage>(
+      plan::MapMessage{std::move(data), true, id, resolution}));
+}
+
+void Navigation::set_obstacles(const navvi_types::Obstacles& obstacles, double time) {
+  parts_->navigator.set_obstacles(obstacles.things, time);
+}
+
+void Navigation::set_pose(const navvi_types::Pose2& pose, double time) {
+  parts_->navigator.set_pose(pose, time);
+}
+
+void Navigation::set_speed(double forward) { parts_->navigator.set_speed(forward); }
+
+void Navigation::set_goal(const Eigen::Vector2d& goal) { parts_->navigator.set_goal(goal); }
+
+bool Navigation::has_map() const { return parts_->navigator.has_map(); }
+
+std::optional<navvi_types::Guidance> Navigation::update(double time) {
+  guide::Navigator& navigator = parts_->navigator;
+  if (const auto answer = std::exchange(parts_->answer, std::nullopt))
+    navigator.deliver(*answer, time);
+  if (const auto request = navigator.update(time))
+    parts_->answer = parts_->planner.answer(*request);
+  if (navigator.undecided(time)) return std::nullopt;
+  navvi_types::Guidance guidance = navigator.guidance(time);
+  if (!parts_->throttle.due(guidance, time)) return std::nullopt;
+  guidance.seq = ++parts_->published;
+  return guidance;
+}
+
+}  // namespace navvi_nav::lockstep

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry.hpp"
+
+namespace navvi_nav::map {
+
+/// Places finer than cells are told in steps, so many to a cell, (0, 0) at the origin of map.
+inline constexpr int kStepsPerCellSide = 16;
+
+/// A square of the floor; cell (0, 0) has its lower corner at the origin of map.
+struct Cell {
+  int x = 0;
+  int y = 0;
+};
+
+enum class Ground : std::uint8_t {
+  none,      ///< the map shows no floor here
+  floor,     ///< floor with head room for the robot
+  obstacle,  ///< something stands on the floor or hangs too low
+};
+
+/// The floor of a map as a grid: what blocks it, how far each cell is from that, and which cells
+/// join. Everything that is not floor blocks. Distances run from square to square, so they are
+/// never more than the true distance between any two points of the cells.
+class Floor {
+ public:
+  static constexpr int kMaxReach = 180;  ///< cells: squares of distances fit 16 bits
+
+  Floor() = default;
+  /// \param reach  m, distances are known up to here, but never farther than kMaxReach - 1 cells
+  /// \param margin  m, an open cell, grown, is at least so far from everything that blocks; at most
+  ///                kMaxReach - 2 cells
+  /// \param threads  that may share the work
+  Floor(Cell origin, int columns, int rows, double cell_size, double height,
+        std::vector<Ground> ground, double reach, double margin, int threads = 1);
+
+  [[nodiscard]] bool empty() const { return ground_.empty(); }
+  [[nodiscard]] double cell_size() const { return cell_size_; }  ///< m
+  [[nodiscard]] double height() const { return height_; }        ///< m, z of the floor in map
+  [[nodiscard]] Cell origin() const { return origin_; }
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] double reach() const { return reach_; }  ///< m
+
+  [[nodiscard]] Cell cell_at(Point point) const;
+  [[nodiscard]] Point center_of(Cell cell) const;
+  [[nodiscard]] Ground ground(Cell cell) const;
+  /// True if the whole cell, and grow() steps around it along each axis, keeps the margin from
+  /// everything that blocks.
+  [[nodiscard]] bool open(Cell cell) const { return contains(cell) && open_[index(cell)] != 0; }
+  /// Whole cells would round the margin up along walls; this gives back what they took too much.
+  [[nodiscard]] int grow() const { return grow_; }
+  /// The open cells of a row that exists, 1 or 0, columns() of them from origin() on.
+  [[nodiscard]] const std::uint8_t* open_row(int y) const {
+    return open_.data() + index({origin_.x, y});
+  }
+  [[nodiscard]] bool any_open() const;
+  /// Connected component of an open cell (neighbours share an edge), else -1.
+  [[nodiscard]] int component(Cell cell) const;
+  /// m, at most the distance from any point of the cell to what blocks; capped at reach().
+  [[nodiscard]] double gap(Cell cell) const;
+  /// m, exact distance from the point to what blocks; capped at reach().
+  [[nodiscard]] double clearance(Point point) const;
+  /// True if every point of the segment is at least `radius` (m, <= reach()) from what blocks,
+  /// to 1e-9 m. Exact.
+  [[nodiscard]] bool segment_clear(Point a, Point b, double radius) const;
+  /// Every cell whose square the segment touches, in order; unlimited by the grid.
+  [[nodiscard]] std::vector<Cell> cells_along(Point a, Point b) const;
+
+ private:
+  [[nodiscard]] std::size_t index(Cell cell) const;
+  [[nodiscard]] bool contains(Cell cell) const;
+  [[nodiscard]] int gap2(Cell cell) const;
+  void measure(double margin, int threads);
+  void find_components();
+
+  Cell origin_;
+  int columns_ = 0;
+  int rows_ = 0;
+  double cell_size_ = 0.05;
+  double height_ = 0.0;
+  double reach_ = 0.0;
+  int reach_cells_ = 0;
+  int grow_ = 0;  // steps
+  std::vector<Ground> ground_;
+  std::vector<std::uint16_t> gap2_;  // cells squared, capped
+  std::vector<std::uint8_t> open_;
+  std::vector<std::int32_t> component_;
+};
+
+/// The floor with the holes that moving things make in it, at one instant.
+struct Space {
+  const Floor* floor = nullptr;
+  const std::vector<Cylinder>* cylinders = nullptr;
+
+  /// m, as Floor::clearance, cylinders included.
+  [[nodiscard]] double clearance(Point point) const;
+  /// As Floor::segment_clear, cylinders included.
+  [[nodiscard]] bool segment_clear(Point a, Point b, double radius) const;
+};
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "map/floor.hpp"
+#include "map/octomap_reader.hpp"
+
+namespace navvi_nav::map {
+
+inline constexpr double kAnyFloor = -1000.0;  ///< m, SurveyConfig::floor_height: choose by area
+
+struct SurveyConfig {
+  double cell_size = 0.0;           ///< m, edge of a cell; 0: the map's own
+  double robot_height = 0.8;        ///< m, what hangs higher over the floor does not block
+  double climb = 0.04;              ///< m, the highest step that is driven over
+  double floor_height = kAnyFloor;  ///< m, z of the floor to take
+  int threads = 2;                  ///< that may share the work; the result is the same
+};
+
+/// What a map shows, seen from above: which squares are floor, row by row.
+struct MapSurvey {
+  std::string error;          ///< a sentence if the map cannot be surveyed
+  double cell_size = 0.0;     ///< m
+  double floor_height = 0.0;  ///< m, z of the floor's most common level in map
+  Cell low;                   ///< lower cell
+  int columns = 0;
+  int rows = 0;
+  std::vector<Ground> ground;
+};
+
+/// Chooses a floor and says of each cell what stands on it (R-NAV-12).
+///
+/// A voxel's top is a place to stand if `robot_height` above it is free. The floor is the lowest
+/// level that shows at least half as many such places as the largest does, or the largest level
+/// within 0.25 m of `floor_height`. From there the floor spreads to neighbours that are at most
+/// `climb` higher or lower, one height a cell, the floor's own level first: so a ramp in the map is
+/// floor, and so is what it leads to. Slopes of 45 degrees and more over a few cells (R-NAV-1), and
+/// the upper side of a step higher than `climb`, are obstacles, like all else that rises above the
+/// floor and hangs lower than `robot_height`. Where the map shows nothing there is no floor.
+///
+/// All this is done in the map's own voxels. If `cell_size` differs, a cell is floor only if all of
+/// it is, and an obstacle if a part is.
+[[nodiscard]] MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config);
+
+/// nav_msgs/OccupancyGrid without ROS: a map for a robot that has no OctoMap.
+struct OccupancyGrid {
+  int width = 0;                   ///< cells along x
+  int height = 0;                  ///< cells along y
+  double resolution = 0.0;         ///< m
+  Point origin;                    ///< m, lower corner of cell (0, 0) in map
+  double yaw = 0.0;                ///< rad, of the grid in map; only 0 can be read
+  std::vector<std::int8_t> cells;  ///< row by row: -1 unknown, else 0 (free) to 100 (occupied)
+};
+
+inline constexpr double kFreeBelow = 0.196;     ///< of occupancy, as map_server's free_thresh
+inline constexpr double kOccupiedAbove = 0.65;  ///< of occupancy, as map_server's occupied_thresh
+
+/// What lies between free and occupied is unknown, and what is unknown is no floor. Everything
+/// occupied is an obstacle of unknown height; the floor is at z = 0.
+[[nodiscard]] MapSurvey read_grid(const OccupancyGrid& grid, double cell_size);
+
+}  // namespace navvi_nav::map

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace navvi_nav::mesh {
+
+/// Nodes in sets that can be united.
+class DisjointSets {
+ public:
+  /// Makes room; nodes are in no set until add().
+  void grow(std::size_t count) { parents_.resize(count, -1); }
+  void add(int node) { parents_[static_cast<std::size_t>(node)] = node; }
+  void remove(int node) { parents_[static_cast<std::size_t>(node)] = -1; }
+  [[nodiscard]] bool has(int node) const { return parents_[static_cast<std::size_t>(node)] >= 0; }
+  void unite(int a, int b) { parents_[static_cast<std::size_t>(root(a))] = root(b); }
+  /// The same for all nodes of a set.
+  int root(int node);
+
+ private:
+  std::vector<int> parents_;
+};
+
+/// Keeps the polygons' component numbers up to date while parts of the mesh change.
+class Components {
+ public:
+  /// A polygon that got new portals.
+  struct Changed {
+    int polygon = 0;
+    bool fresh = false;  ///< it is new and has no component yet
+    int region = 0;      ///< polygons that changed in different regions do not touch
+  };
+
+  /// Numbers all again.
+  void number(Mesh& mesh);
+  /// Looks only at what changed if that shows that no component was split or joined: around each
+  /// region, the polygons of a component are still joined by new ones. Else numbers all again.
+  void update(Mesh& mesh, const std::vector<Changed>& changed);
+
+ private:
+  bool label(Mesh& mesh, const std::vector<Changed>& changed);
+
+  /// A changed polygon that kept its component.
+  struct Witness {
+    int region = 0;
+    int component = 0;
+    int group = 0;
+  };
+  int next_ = 0;
+  DisjointSets groups_;  // of changed polygons that portals among them join
+  std::vector<Witness> witnesses_;
+  std::vector<int> waiting_;
+  std::vector<int> labels_;  // component of each group
+};
+
+}  // namespace navvi_nav::mesh

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <string>
+#include <vector>
+
+#include "bake/map_bake.hpp"
+#include "map/floor.hpp"
+#include "map/map_survey.hpp"
+#include "mesh/cut_mesh.hpp"
+#include "mesh/mesh.hpp"
+#include "plan/carving.hpp"
+
+namespace navvi_nav::plan {
+
+struct NavMeshConfig {
+  double robot_radius = 0.35;
+  double robot_height = 0.8;
+  double cell_size = 0.0;
+  double climb = 0.04;
+  double floor_height = map::kAnyFloor;
+  bool whole_cell_erosion = false;
+  double contour_error = 1.0;
+  double tile_size = 32.0;
+  double max_edge = 0.0;
+  int polygon_corners = 12;
+  int threads = 2;
+  double preferred_clearance = 0.6;
+  double carve_moved = 0.0;
+  double carve_changed = 0.0;
+  int hole_sides = 8;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// How a map is surveyed for this mesh.
+[[nodiscard]] map::SurveyConfig survey_config(const NavMeshConfig& config);
+
+/// What one change of the mesh did.
+struct MeshUpdate {
+  std::string error;      ///< a sentence if the map was refused; the mesh is then unchanged
+  int tiles = 0;          ///< in the map
+  int tiles_rebuilt = 0;  ///< by this change
+  int polygons_cut = 0;   ///< polygons of the floor that were cut anew because holes changed
+};
+
+/// The floor that an OctoMap shows, as tiles of convex polygons (R-NAV-1..5). Clear by
+/// construction: no point of the mesh is nearer than the robot's radius to an occupied voxel that
+/// rises above the floor (or hangs lower than the robot's height), to the edge of the floor, or to
+/// a carved cylinder. survey_map() says what floor is.
+class NavMesh {
+ public:
+  explicit NavMesh(const NavMeshConfig& config) : config_(config) {}
+
+  /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
+  /// changed keep their polygons.
+  MeshUpdate set_map(map::MapSurvey survey);
+  MeshUpdate set_map(const map::MapBytes& bytes) {
+    map::MapSurvey survey = map::survey_map(map::read_voxels(bytes), survey_config(config_));
+    return set_map(std::move(survey));  // when the voxels are gone: they are many
+  }
+  MeshUpdate set_map(const map::Voxels& voxels) {
+    return set_map(map::survey_map(voxels, survey_config(config_)));
+  }
+  MeshUpdate set_map(const map::OccupancyGrid& grid) {
+    return set_map(map::read_grid(grid, config_.cell_size));
+  }
+  /// Makes the holes those of `cylinders`: the hole of one whose id is gone heals. One that moved
+  /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
+  /// `carve_changed` of the carved area changed (R-NAV-5).
+  MeshUpdate carve(const std::vector<Cylinder>& cylinders);
+
+  [[nodiscard]] bool empty() const { return !floor_ || floor_->empty(); }
+  [[nodiscard]] const mesh::Mesh& mesh() const { return mesh_.mesh(); }
+  /// These two never change once handed out, so another thread may keep them. The mesh is copied
+  /// when it is asked for, once after each change.
+  [[nodiscard]] std::shared_ptr<const mesh::Mesh> shared_mesh() const;
+  [[nodiscard]] std::shared_ptr<const map::Floor> shared_floor() const { return floor_; }
+  /// The cylinders as carved.
+  [[nodiscard]] const std::vector<Cylinder>& carved() const { return carving_.carved(); }
+  [[nodiscard]] map::Space space() const { return {floor_.get(), &carved()}; }
+  [[nodiscard]] const NavMeshConfig& config() const { return config_; }
+
+ private:
+  [[nodiscard]] double margin(double cell) const;
+  [[nodiscard]] CarvingRules rules() const;
+  void join_tiles();
+  void change_tiles();
+
+  NavMeshConfig config_;
+  bake::BakedMap baked_;
+  std::shared_ptr<const map::Floor> floor_ = std::make_shared<map::Floor>();
+  std::map<bake::TileIndex, std::vector<int>> tile_polygons_;  // numbers in the mesh's floor
+  mesh::CutMesh mesh_;
+  Carving carving_;
+  mutable std::shared_ptr<const mesh::Mesh> shown_;  // a copy of the mesh as it is; null: none yet
+};
+
+}  // namespace navvi_nav::plan

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "plan/nav_mesh.hpp"
+#include "plan/plan_request.hpp"
+#include "search/search.hpp"
+#include "smooth/smoothing.hpp"
+
+namespace navvi_nav::plan {
+
+struct PlannerConfig {
+  NavMeshConfig mesh;
+  smooth::SmoothingConfig smoothing;
+  std::string search = "exact";
+  double alpha = 1.0;
+  double start_snap = 0.5;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// From a map and obstacles to a path: the package in one function, answer().
+class Planner {
+ public:
+  explicit Planner(const PlannerConfig& config);
+
+  /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
+  /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
+  /// there is room outside of it. No exception leaves it.
+  [[nodiscard]] PlanAnswer answer(const PlanRequest& request);
+
+  /// \param map  anything that NavMesh::set_map takes
+  template <typename Map>
+  MeshUpdate set_map(const Map& map) {
+    return nav_mesh_.set_map(map);
+  }
+  MeshUpdate carve(const std::vector<Cylinder>& cylinders) { return nav_mesh_.carve(cylinders); }
+  /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
+  /// off the mesh is taken to the nearest point of it, at most `start_snap` away, and from within
+  /// an obstacle's hole the path begins with a straight leg out of it: see escape().
+  [[nodiscard]] Plan plan(Point start, Point goal) const { return smoothed(search(start, goal)); }
+  /// The shortest path to a place outside of `swept_area`, with some room to it where there is, or
+  /// no_route.
+  [[nodiscard]] Plan retreat(const std::vector<Cylinder>& swept_area, Point start) const {
+    return smoothed(search_retreat(swept_area, start));
+  }
+  /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
+  /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
+  /// 10 steps of that grid) along x and y. For callers that accept such a place.
+  [[nodiscard]] Plan plan_near(Point start, Point goal, double tolerance) const;
+  [[nodiscard]] const NavMesh& nav_mesh() const { return nav_mesh_; }
+
+ private:
+  struct Anchor;
+  /// A plan before smoothing.
+  struct Route {
+    Plan plan;
+    std::optional<Point> escapes_from = {};  ///< a straight leg from here comes before the path
+  };
+  [[nodiscard]] MeshUpdate take_map(const PlanRequest& request);
+  [[nodiscard]] Route search(const PlanRequest& request);
+  [[nodiscard]] Route search(Point start, Point goal) const;
+  [[nodiscard]] Route search_without_obstacles(const PlanRequest& request, const Route& blocked);
+  [[nodiscard]] Route retreat_if_possible(const PlanRequest& request, Route closed) const;
+  [[nodiscard]] Route search_retreat(const std::vector<Cylinder>& swept_area, Point start) const;
+  [[nodiscard]] Route search_retreat(const std::vector<Cylinder>& swept_area, Point start,
+                                     double spare) const;
+  [[nodiscard]] static Route joined_route(const search::Found& found, const Anchor& from,
+                                          Point start, Point goal);
+  [[nodiscard]] Plan smoothed(Route route) const;
+  [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
+  [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
+  [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;
+  [[nodiscard]] std::set<int> components_near(Point point, double within) const;
+
+  PlannerConfig config_;
+  NavMesh nav_mesh_;
+  mutable search::Search search_;  ///< its memory
+};
+
+}  // namespace navvi_nav::plan

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+
+#include "mesh/mesh.hpp"
+#include "search/polyanya.hpp"
+
+namespace navvi_nav::search {
+
+enum class SearchMethod {
+  exact,           ///< the shortest path: Polyanya
+  centroid_astar,  ///< the paper's: A* on centroids, then the funnel (R-NAV-6, R-NAV-7)
+};
+
+struct Found {
+  bool found = false;
+  Path path;            ///< from start to goal; one point if they are the same
+  double length = 0.0;  ///< m
+  std::size_t nodes_expanded = 0;
+};
+
+/// Finds paths between places on a mesh. Keeps its memory: the exact method allocates nothing once
+/// it has answered queries as hard. Not thread-safe.
+class Search {
+ public:
+  /// \param alpha  0 to 1, weight of the heuristic of centroid_astar
+  explicit Search(SearchMethod method, double alpha = 1.0) : method_(method), alpha_(alpha) {}
+
+  /// The mesh may have changed since the last query. \returns valid until the next query
+  const Found& find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
+                    const mesh::Mesh::Place& goal);
+
+ private:
+  SearchMethod method_;
+  double alpha_;
+  Polyanya polyanya_;
+  Found found_;
+};
+
+}  // namespace navvi_nav::search
