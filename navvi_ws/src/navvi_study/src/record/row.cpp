@@ -1,6 +1,7 @@
 #include "record/row.hpp"
 
-#include <algorithm>
+#include <zlib.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,26 +13,20 @@ namespace {
 
 constexpr std::string_view kHex = "0123456789abcdef";
 
+/// True if there are bytes, and each is one of `allowed`.
+bool holds_only(std::string_view allowed, std::string_view text) {
+  return !text.empty() && text.find_first_not_of(allowed) == text.npos;
+}
 bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  });
+  return holds_only("abcdefghijklmnopqrstuvwxyz0123456789_", text);
 }
-
-bool is_type(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(),
-                                      [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; });
-}
-
+bool is_type(std::string_view text) { return holds_only("ABCDEFGHIJKLMNOPQRSTUVWXYZ_", text); }
 bool is_trial(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  });
+  return holds_only("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-", text);
 }
 
 bool stands_for_itself(char c) {
-  return c >= ' ' && c <= '~' && c != '%' && c != ';' && c != '=' && c != ',' && c != '"';
+  return c >= ' ' && c <= '~' && std::string_view("%;=,\"").find(c) == std::string_view::npos;
 }
 
 std::string escape(const std::string& value) {
@@ -158,19 +153,8 @@ bool Row::operator==(const Row& other) const {
 }
 
 std::uint32_t crc32(std::string_view bytes) {
-  static const auto table = [] {
-    std::array<std::uint32_t, 256> entries{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) ? 0xedb88320u : 0u);
-      entries[i] = value;
-    }
-    return entries;
-  }();
-  std::uint32_t value = 0xffffffffu;
-  for (const char c : bytes)
-    value = (value >> 8) ^ table[(value ^ static_cast<unsigned char>(c)) & 255];
-  return ~value;
+  return static_cast<std::uint32_t>(
+      ::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 std::string format_row(const Row& row) {
