@@ -1,45 +1,51 @@
-#include "node/trial_node.hpp"
+// Runs trials: sets the goal, keeps the journal, the bag and the results.
 
 #include <navvi_msgs/TrialEvent.h>
 #include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <ctime>
+#include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 
 #include "node/msg_conversion.hpp"
+#include "trial/trial_keeper.hpp"
 
 namespace navvi_study::node {
 namespace {
 
+volatile sig_atomic_t g_stop = 0;
+
 constexpr double kStep = 0.05;  // s, of the wall timer
 constexpr std::uint32_t kQueue = 1000;
 
-const std::vector<std::string> kRecorded = {"/clock",
-                                            "/tf",
-                                            "/tf_static",
-                                            "odom",
-                                            "octomap_binary",
-                                            "navvi/scene",
-                                            "navvi/scene_moving",
-                                            "navvi/obstacles",
-                                            "navvi/proximity",
-                                            "navvi/contacts",
-                                            "navvi/path",
-                                            "navvi/guidance",
-                                            "navvi/navmesh",
-                                            "navvi/markers",
-                                            "navvi/cues",
-                                            "navvi/scenario",
-                                            "navvi/drive_state",
-                                            "navvi/applied_commands",
-                                            "navvi/state_hash",
-                                            "cmd_vel",
-                                            "joy",
-                                            "joy/set_feedback",
-                                            "move_base_simple/goal",
-                                            "/diagnostics",
-                                            "navvi/events"};
+constexpr const char* kRecorded[] = {"/clock",
+                                     "/tf",
+                                     "/tf_static",
+                                     "odom",
+                                     "octomap_binary",
+                                     "navvi/scene",
+                                     "navvi/scene_moving",
+                                     "navvi/obstacles",
+                                     "navvi/proximity",
+                                     "navvi/contacts",
+                                     "navvi/path",
+                                     "navvi/guidance",
+                                     "navvi/navmesh",
+                                     "navvi/markers",
+                                     "navvi/cues",
+                                     "navvi/scenario",
+                                     "navvi/drive_state",
+                                     "navvi/applied_commands",
+                                     "navvi/state_hash",
+                                     "cmd_vel",
+                                     "joy",
+                                     "joy/set_feedback",
+                                     "move_base_simple/goal",
+                                     "/diagnostics",
+                                     "navvi/events"};
 
 trial::Moment now() {
   return {static_cast<std::int64_t>(ros::SteadyTime::now().toNSec()),
@@ -47,20 +53,9 @@ trial::Moment now() {
 }
 
 void tell(trial::TrialKeeper::Tone tone, const std::string& sentence) {
-  switch (tone) {
-    case trial::TrialKeeper::Tone::info:
-      ROS_INFO("%s", sentence.c_str());
-      break;
-    case trial::TrialKeeper::Tone::warning:
-      ROS_WARN("%s", sentence.c_str());
-      break;
-    case trial::TrialKeeper::Tone::error:
-      ROS_ERROR("%s", sentence.c_str());
-      break;
-    case trial::TrialKeeper::Tone::fatal:
-      ROS_FATAL("%s", sentence.c_str());
-      break;
-  }
+  using namespace ros::console::levels;
+  constexpr Level kLevels[] = {Info, Warn, Error, Fatal};
+  ROS_LOG(kLevels[static_cast<std::size_t>(tone)], ROSCONSOLE_DEFAULT_NAME, "%s", sentence.c_str());
 }
 
 /// The node's name without slashes, as a child of it may bear it.
@@ -75,92 +70,119 @@ bool ends_with(const std::string& text, const std::string& end) {
          text.compare(text.size() - end.size(), std::string::npos, end) == 0;
 }
 
-}  // namespace
-
-TrialNode::TrialNode(const trial::TrialNodeConfig& config)
-    : recorder_name_(name_of_recorder()), keeper_(config, outlets(), now()) {
-  events_ = node_.advertise<navvi_msgs::TrialEvent>(
-      "navvi/events", kQueue, [this](const ros::SingleSubscriberPublisher& link) {
-        if (ends_with(link.getSubscriberName(), recorder_name_)) keeper_.recorder_listens(now());
-      });
-  goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
-  subscribe(config);
-  timer_ = node_.createWallTimer(ros::WallDuration(kStep), [this](auto&) { step(); });
-}
-
-trial::TrialKeeper::Outlets TrialNode::outlets() {
-  trial::TrialKeeper::Outlets out;
-  out.publish = [this](const record::Row& row) { events_.publish(to_msg(row)); };
-  out.set_goal = [this](const Eigen::Vector2d& goal) {
-    goals_.publish(navvi_types::goal_msg(goal, navvi_types::to_ns(ros::Time::now())));
-  };
-  out.tell = tell;
-  out.start_recorder = [this](const std::filesystem::path& bag) {
-    std::vector<std::string> topics;
-    for (const auto& topic : kRecorded) topics.push_back(node_.resolveName(topic));
-    return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
-  };
-  return out;
-}
-
-template <typename Message, typename Callback>
-void TrialNode::listen(const std::string& topic, const Callback& callback) {
-  subscribers_.push_back(node_.subscribe<Message>(
-      topic, kQueue, [callback](const typename Message::ConstPtr& msg) { callback(*msg); },
-      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
-}
-
-template <typename Message>
-void TrialNode::take(const std::string& topic) {
-  subscribers_.push_back(
-      navvi_config::subscribe<Message>(node_, topic, kQueue, navvi_types::from_msg,
-                                       [this](const auto& value) { keeper_.take(value, now()); }));
-}
-
-void TrialNode::subscribe(const trial::TrialNodeConfig& config) {
-  take<nav_msgs::Odometry>("odom");
-  take<navvi_msgs::Contact>("navvi/contacts");
-  take<navvi_msgs::Proximity>("navvi/proximity");
-  take<navvi_msgs::Cue>("navvi/cues");
-  take<navvi_msgs::DriveState>("navvi/drive_state");
-  take<navvi_msgs::Guidance>("navvi/guidance");
-  take<navvi_msgs::Scenario>("navvi/scenario");
-  take<navvi_msgs::StateHash>("navvi/state_hash");
-  for (const bool for_good : {false, true})
-    listen<tf2_msgs::TFMessage>(for_good ? "/tf_static" : "/tf",
-                                [this, for_good](const tf2_msgs::TFMessage& msg) {
-                                  for (const auto& correction : from_msg(msg, for_good))
-                                    keeper_.take(correction, now());
-                                });
-  listen<diagnostic_msgs::DiagnosticArray>("/diagnostics",
-                                           [this](const diagnostic_msgs::DiagnosticArray& msg) {
-                                             for (const auto& report : from_msg(msg))
-                                               keeper_.take(report, now());
-                                           });
-  if (config.operator_kind == "simulated")
-    listen<sensor_msgs::Joy>("joy",
-                             [this](const sensor_msgs::Joy&) { keeper_.saw_operator(now()); });
-  subscribers_.push_back(node_.subscribe("move_base_simple/goal", 10, &TrialNode::on_goal, this));
-}
-
-void TrialNode::on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
-  if (event.getPublisherName() == ros::this_node::getName()) return;
-  if (const auto goal = from_msg(*event.getConstMessage())) {
-    keeper_.take_goal(*goal, now());
-  } else {
-    ROS_WARN_THROTTLE(5.0, "a bad goal was dropped");
+/// Runs trials (TrialKeeper) on what the topics say. Everything happens in the thread that spins.
+class TrialNode {
+ public:
+  /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
+  explicit TrialNode(const trial::TrialNodeConfig& config)
+      : recorder_name_(name_of_recorder()), keeper_(config, outlets(), now()) {
+    events_ = node_.advertise<navvi_msgs::TrialEvent>(
+        "navvi/events", kQueue, [this](const ros::SingleSubscriberPublisher& link) {
+          if (ends_with(link.getSubscriberName(), recorder_name_)) keeper_.recorder_listens(now());
+        });
+    goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
+    subscribe(config.operator_kind == "simulated");
+    timer_ = node_.createWallTimer(ros::WallDuration(kStep), [this](auto&) {
+      keeper_.step(now());
+      if (keeper_.done()) ros::shutdown();
+    });
   }
-}
 
-void TrialNode::step() {
-  keeper_.step(now());
-  if (keeper_.done()) ros::shutdown();
-}
+  /// Ends a running trial as aborted and closes everything. Takes two seconds at most.
+  void shut_down() {
+    for (keeper_.stop(now()); !keeper_.done(); keeper_.step(now()))
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+    ros::shutdown();
+  }
+  /// Of the process, once ROS has been shut down.
+  [[nodiscard]] int exit_code() const { return keeper_.exit_code(); }
 
-void TrialNode::shut_down() {
-  for (keeper_.stop(now()); !keeper_.done(); keeper_.step(now()))
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-  ros::shutdown();
-}
+ private:
+  [[nodiscard]] trial::TrialKeeper::Outlets outlets() {
+    trial::TrialKeeper::Outlets out;
+    out.publish = [this](const record::Row& row) { events_.publish(to_msg(row)); };
+    out.set_goal = [this](const Eigen::Vector2d& goal) {
+      goals_.publish(navvi_types::goal_msg(goal, navvi_types::to_ns(ros::Time::now())));
+    };
+    out.tell = tell;
+    out.start_recorder = [this](const std::filesystem::path& bag) {
+      std::vector<std::string> topics;
+      for (const char* topic : kRecorded) topics.push_back(node_.resolveName(topic));
+      return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
+    };
+    return out;
+  }
 
+  void subscribe(bool simulated) {
+    take<nav_msgs::Odometry>("odom");
+    take<navvi_msgs::Contact>("navvi/contacts");
+    take<navvi_msgs::Proximity>("navvi/proximity");
+    take<navvi_msgs::Cue>("navvi/cues");
+    take<navvi_msgs::DriveState>("navvi/drive_state");
+    take<navvi_msgs::Guidance>("navvi/guidance");
+    take<navvi_msgs::Scenario>("navvi/scenario");
+    take<navvi_msgs::StateHash>("navvi/state_hash");
+    for (const bool for_good : {false, true}) {
+      listen<tf2_msgs::TFMessage>(for_good ? "/tf_static" : "/tf", [this, for_good](auto& msg) {
+        for (const auto& correction : from_msg(msg, for_good)) keeper_.take(correction, now());
+      });
+    }
+    listen<diagnostic_msgs::DiagnosticArray>("/diagnostics", [this](auto& msg) {
+      for (const auto& report : from_msg(msg)) keeper_.take(report, now());
+    });
+    if (simulated) listen<sensor_msgs::Joy>("joy", [this](auto&) { keeper_.saw_operator(now()); });
+    subscribers_.push_back(node_.subscribe("move_base_simple/goal", 10, &TrialNode::on_goal, this));
+  }
+
+  template <typename Message, typename Callback>
+  void listen(const std::string& topic, const Callback& callback) {
+    subscribers_.push_back(node_.subscribe<Message>(
+        topic, kQueue, [callback](const typename Message::ConstPtr& msg) { callback(*msg); },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  }
+
+  /// The keeper takes the messages of `topic`; bad ones are dropped and counted.
+  template <typename Message>
+  void take(const std::string& topic) {
+    subscribers_.push_back(navvi_config::subscribe<Message>(
+        node_, topic, kQueue, navvi_types::from_msg,
+        [this](const auto& value) { keeper_.take(value, now()); }));
+  }
+
+  void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
+    if (event.getPublisherName() == ros::this_node::getName()) return;
+    if (const auto goal = from_msg(*event.getConstMessage())) {
+      keeper_.take_goal(*goal, now());
+    } else {
+      ROS_WARN_THROTTLE(5.0, "A goal is malformed and was dropped.");
+    }
+  }
+
+  ros::NodeHandle node_;
+  std::string recorder_name_;
+  ros::Publisher events_;
+  ros::Publisher goals_;
+  trial::TrialKeeper keeper_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace
 }  // namespace navvi_study::node
+
+int main(int argc, char** argv) {
+  using navvi_study::trial::TrialNodeConfig;
+  if (navvi_config::print_parameters<TrialNodeConfig>(argc, argv)) return 0;
+  ros::init(argc, argv, "trial_node", ros::init_options::NoSigintHandler);
+  for (const int signal : {SIGINT, SIGTERM})
+    ::signal(signal, [](int) { navvi_study::node::g_stop = 1; });
+  ::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error of write(), as any other
+  return navvi_config::run_node<TrialNodeConfig>([](const TrialNodeConfig& config) {
+    navvi_study::node::TrialNode trials(config);
+    while (ros::ok()) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+      if (navvi_study::node::g_stop != 0) trials.shut_down();
+    }
+    return trials.exit_code();
+  });
+}
