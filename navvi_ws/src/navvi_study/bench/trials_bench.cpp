@@ -265,7 +265,7 @@ int run(const Options& options) {
   int failed = 0;
   print_titles();
   // A child a trial: a crash takes only its own trial away.
-  record::ask_children(
+  record::run_in_children(
       options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
       [&](std::size_t index) {
         const std::string text = run_trial(options, config, task_of(index)).format();
@@ -293,7 +293,8 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    const navvi_study::bench::Options options = navvi_study::bench::read_options({argv + 1, argv + argc});
+    const navvi_study::bench::Options options =
+        navvi_study::bench::read_options({argv + 1, argv + argc});
     if (options.help) {
       std::cout << navvi_study::bench::kUsage;
       return 0;

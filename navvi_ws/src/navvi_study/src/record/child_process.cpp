@@ -1,24 +1,29 @@
 #include "record/child_process.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <map>
-#include <vector>
+#include <memory>
 
 #include "record/files.hpp"
 
 namespace navvi_study::record {
 namespace {
 
-int answer_into(int pipe, const std::function<std::string()>& work) {
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+/// A file without a name, which a child fills with its answer.
+using AnswerFile = std::unique_ptr<std::FILE, CloseFile>;
+
+/// \return the exit code
+int answer_into(std::FILE* file, const std::function<std::string()>& work) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   std::string answer;
@@ -30,94 +35,65 @@ int answer_into(int pipe, const std::function<std::string()>& work) {
     code = 2;
   }
   std::string_view rest = answer;
-  return write_all(pipe, rest, SystemCalls::real()) == 0 ? code : 2;
+  return write_all(::fileno(file), rest, SystemCalls::real()) == 0 ? code : 2;
 }
 
-struct Child {
-  pid_t id = -1;
-  int pipe = -1;  // -1: has answered, or was never there
-  Answer answer;
-};
-
-Child start(const std::function<std::string()>& work) {
-  Child child;
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) {
-    child.answer.text = "no pipe can be opened";
-    return child;
-  }
+/// \return the child's id, or -1
+pid_t start(const std::function<std::string()>& work, std::FILE* file) {
   std::cout.flush();
-  std::fflush(nullptr);  // or the child would write out what waits here once more
-  child.id = ::fork();
-  if (child.id == 0) {
-    ::close(ends[0]);
-    ::_exit(answer_into(ends[1], work));
-  }
-  ::close(ends[1]);
-  child.pipe = ends[0];
-  if (child.id < 0) {
-    ::close(child.pipe);
-    child.pipe = -1;
-    child.answer.text = "no process can be started";
-  }
-  return child;
+  std::fflush(nullptr);  // or the child would write out once more what waits here
+  const pid_t id = file == nullptr ? -1 : ::fork();
+  if (id == 0) ::_exit(answer_into(file, work));
+  return id;
 }
 
-/// Takes what has come; at the end of it, the child's last word.
-void take(Child& child, const std::string& crashed) {
-  char buffer[4096];
-  const ssize_t count = ::read(child.pipe, buffer, sizeof buffer);
-  if (count > 0) {
-    child.answer.text.append(buffer, static_cast<std::size_t>(count));
-    return;
-  }
-  if (count < 0 && errno == EINTR) return;
-  ::close(child.pipe);
-  child.pipe = -1;
-  int status = 0;
-  while (::waitpid(child.id, &status, 0) < 0 && errno == EINTR) continue;
-  child.answer.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!WIFEXITED(status)) child.answer.text = crashed;
-}
-
-/// Waits until one of the children says something.
-void listen(std::map<std::size_t, Child>& children, const std::string& crashed) {
-  std::vector<pollfd> pipes;
-  std::vector<Child*> speakers;
-  for (auto& [index, child] : children) {
-    if (child.pipe < 0) continue;
-    pipes.push_back({child.pipe, POLLIN, 0});
-    speakers.push_back(&child);
-  }
-  if (pipes.empty() || ::poll(pipes.data(), pipes.size(), -1) <= 0) return;
-  for (std::size_t i = 0; i < pipes.size(); ++i)
-    if (pipes[i].revents != 0) take(*speakers[i], crashed);
+/// \param status  of the child, as waitpid() gives it
+Answer read_answer(std::FILE* file, int status, const std::string& crashed) {
+  if (!WIFEXITED(status)) return {false, crashed};
+  Answer answer{WEXITSTATUS(status) == 0, ""};
+  std::rewind(file);
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file))
+    answer.text.append(buffer.data(), count);
+  return answer;
 }
 
 }  // namespace
 
-void ask_children(std::size_t count, std::size_t at_once,
-                  const std::function<std::string(std::size_t)>& work, const std::string& crashed,
-                  const std::function<void(std::size_t, const Answer&)>& answered) {
-  std::map<std::size_t, Child> children;  // whose answers have not been handed over
+void run_in_children(std::size_t count, std::size_t at_once,
+                     const std::function<std::string(std::size_t)>& work,
+                     const std::string& crashed,
+                     const std::function<void(std::size_t, const Answer&)>& answered) {
+  std::map<pid_t, std::pair<std::size_t, AnswerFile>> running;
+  std::map<std::size_t, Answer> finished;  // that wait for an answer before theirs
   std::size_t started = 0;
   for (std::size_t next = 0; next < count;) {
-    std::size_t busy = 0;
-    for (const auto& [index, child] : children) busy += child.pipe >= 0 ? 1 : 0;
-    for (; started < count && busy < at_once; ++started, ++busy)
-      children[started] = start([&work, started] { return work(started); });
-    listen(children, crashed);
-    for (auto first = children.find(next); first != children.end() && first->second.pipe < 0;
-         first = children.find(next)) {
-      answered(next++, first->second.answer);
-      children.erase(first);
+    if (started < count && running.size() < at_once) {
+      AnswerFile file(std::tmpfile());
+      const pid_t id = start([&] { return work(started); }, file.get());
+      if (id < 0)
+        finished[started] = {false, "no process can be started"};
+      else
+        running[id] = {started, std::move(file)};
+      ++started;
+    } else {
+      int status = 0;
+      const auto child = running.find(::waitpid(-1, &status, 0));
+      if (child == running.end()) continue;  // a signal came
+      const auto& [index, file] = child->second;
+      finished[index] = read_answer(file.get(), status, crashed);
+      running.erase(child);
+    }
+    for (; finished.count(next) > 0; ++next) {
+      answered(next, finished[next]);
+      finished.erase(next);
     }
   }
 }
 
-Answer ask_child(const std::function<std::string()>& work, const std::string& crashed) {
+Answer run_in_child(const std::function<std::string()>& work, const std::string& crashed) {
   Answer out;
-  ask_children(
+  run_in_children(
       1, 1, [&work](std::size_t) { return work(); }, crashed,
       [&out](std::size_t, const Answer& answer) { out = answer; });
   return out;

@@ -16,7 +16,7 @@ namespace {
 std::vector<Answer> answers(std::size_t count, std::size_t at_once,
                             const std::function<std::string(std::size_t)>& work) {
   std::vector<Answer> out;
-  ask_children(count, at_once, work, "it crashed", [&](std::size_t index, const Answer& answer) {
+  run_in_children(count, at_once, work, "it crashed", [&](std::size_t index, const Answer& answer) {
     EXPECT_EQ(index, out.size()) << "in order";
     out.push_back(answer);
   });

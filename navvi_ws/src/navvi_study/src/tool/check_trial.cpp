@@ -1,5 +1,5 @@
 // check_trial TRIAL_FOLDER: steps the recorded world with the recorded commands and compares its
-// state each second. Exit 0: equal. 1: differs. 2: cannot be told.
+// state each second. Exit 0: equal. 1: differs. 2: cannot be compared.
 
 #include <cmath>
 #include <cstdio>
@@ -63,8 +63,8 @@ int main(int argc, char** argv) {
                  summary ? "closed trial.bag" : "summary.csv in order");
     return 2;
   }
-  const study::record::Answer answer =
-      study::record::ask_child([&] { return check(folder, *summary); }, study::record::kBagCrashed);
+  const study::record::Answer answer = study::record::run_in_child(
+      [&] { return check(folder, *summary); }, study::record::kBagCrashed);
   if (!answer.good) {
     std::fprintf(stderr, "This trial cannot be repeated: %s.\n", answer.text.c_str());
     return 2;

@@ -1,5 +1,5 @@
 // summary_from_bag TRIAL_FOLDER: recounts a trial from its bag and compares with summary.csv.
-// Exit 0: equal. 1: differs. 2: cannot be told.
+// Exit 0: equal. 1: differs. 2: cannot be compared.
 
 #include <cstdio>
 #include <string>
@@ -35,8 +35,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "There is no closed trial.bag in %s.\n", folder.c_str());
     return 2;
   }
-  const study::record::Answer answer =
-      study::record::ask_child([&] { return recount(folder / "trial.bag"); }, study::record::kBagCrashed);
+  const study::record::Answer answer = study::record::run_in_child(
+      [&] { return recount(folder / "trial.bag"); }, study::record::kBagCrashed);
   const auto recounted = answer.good ? study::record::parse_summary(answer.text) : std::nullopt;
   if (!recounted) {
     std::fprintf(stderr, "Nothing can be recounted from the bag: %s.\n", answer.text.c_str());
