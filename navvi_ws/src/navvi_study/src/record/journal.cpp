@@ -27,44 +27,39 @@ int make_reserve(const fs::path& folder) {
   return error;
 }
 
-/// A file name for torn bytes that overwrites none but the same bytes.
+/// The place of the torn bytes that were set aside as the `i`-th. \param i  from 1
+fs::path torn_in(const fs::path& folder, int i) {
+  return folder / (i == 1 ? "journal.torn" : "journal.torn." + std::to_string(i));
+}
+
+/// A place for torn bytes that overwrites none but the same bytes.
 fs::path place_for(const fs::path& folder, const std::string& bytes) {
   for (int i = 1;; ++i) {
-    const fs::path path = folder / (i == 1 ? "journal.torn" : "journal.torn." + std::to_string(i));
-    const auto there = read_file(path);
-    if (!fs::exists(path) || (there && *there == bytes)) return path;
+    const auto there = read_file(torn_in(folder, i));
+    if (!fs::exists(torn_in(folder, i)) || (there && *there == bytes)) return torn_in(folder, i);
   }
 }
 
-/// Whether bytes set aside, now or before an earlier recovery was cut short, were more than one
+/// True if bytes set aside, now or before an earlier recovery was cut short, were more than one
 /// unfinished row.
 bool rows_were_lost(const fs::path& folder) {
   for (int i = 1;; ++i) {
-    const auto bytes =
-        read_file(folder / (i == 1 ? "journal.torn" : "journal.torn." + std::to_string(i)));
+    const auto bytes = read_file(torn_in(folder, i));
     if (!bytes) return false;
     if (bytes->find('\n') != std::string::npos) return true;
   }
 }
 
-class LockedFile {
- public:
-  explicit LockedFile(const fs::path& path)
-      : file_(::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW)) {
-    locked_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+/// An open file, closed at the end of its life; -1 if it could not be opened.
+struct OpenFile {
+  explicit OpenFile(int descriptor) : descriptor(descriptor) {}
+  ~OpenFile() {
+    if (descriptor >= 0) ::close(descriptor);
   }
-  ~LockedFile() {
-    if (file_ >= 0) ::close(file_);
-  }
-  LockedFile(const LockedFile&) = delete;
-  LockedFile& operator=(const LockedFile&) = delete;
-  [[nodiscard]] int get() const { return file_; }
-  [[nodiscard]] bool opened() const { return file_ >= 0; }
-  [[nodiscard]] bool locked() const { return locked_; }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
 
- private:
-  int file_;
-  bool locked_ = false;
+  const int descriptor;
 };
 
 }  // namespace
@@ -210,12 +205,13 @@ Problem mend(const fs::path& folder, int file, const std::string& bytes, Journal
 
 Recovery recover(const fs::path& folder) {
   Recovery recovery;
-  const LockedFile file(journal_in(folder));
-  if (!file.opened()) {
+  const OpenFile file(
+      ::open(journal_in(folder).c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW));
+  if (file.descriptor < 0) {
     recovery.problem = failure("open the journal in " + folder.string(), errno);
     return recovery;
   }
-  if (!file.locked()) {
+  if (::flock(file.descriptor, LOCK_EX | LOCK_NB) != 0) {
     recovery.in_use = true;
     return recovery;
   }
@@ -225,7 +221,7 @@ Recovery recover(const fs::path& folder) {
     return recovery;
   }
   JournalContents contents = read_journal(*bytes);
-  const auto problem = mend(folder, file.get(), *bytes, contents, recovery);
+  const auto problem = mend(folder, file.descriptor, *bytes, contents, recovery);
   if (problem) recovery.problem = *problem;
   recovery.rows = contents.rows;
   ::unlink(reserve_in(folder).c_str());

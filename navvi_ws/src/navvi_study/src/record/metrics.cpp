@@ -47,18 +47,19 @@ std::optional<std::vector<std::string>> cells_of(std::string_view text) {
 }
 
 const Row* first_of(const std::vector<Row>& rows, const std::string& type) {
-  for (const auto& row : rows) {
-    if (row.type == type) return &row;
-  }
-  return nullptr;
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& one) { return one.type == type; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+template <typename Test>
+const Row* last_that(const std::vector<Row>& rows, const Test& test) {
+  const auto row = std::find_if(rows.rbegin(), rows.rend(), test);
+  return row == rows.rend() ? nullptr : &*row;
 }
 
 const Row* last_of(const std::vector<Row>& rows, const std::string& type) {
-  const Row* last = nullptr;
-  for (const auto& row : rows) {
-    if (row.type == type) last = &row;
-  }
-  return last;
+  return last_that(rows, [&](const Row& row) { return row.type == type; });
 }
 
 /// What the paper's Table III calls it; the type itself for what the paper does not have.
@@ -83,19 +84,9 @@ std::optional<std::int64_t> left_at(const std::vector<Row>& rows, std::size_t at
 
 std::string count_of(const std::vector<Row>& rows, const std::string& type,
                      const std::string& kind = "") {
-  std::size_t count = 0;
-  for (const auto& row : rows) {
-    if (row.type == type && (kind.empty() || row.fields.get("kind") == kind)) ++count;
-  }
-  return std::to_string(count);
-}
-
-/// The newest row that carries the running figures.
-const Row* last_tally(const std::vector<Row>& rows) {
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    if (row->fields.find("path_length")) return &*row;
-  }
-  return nullptr;
+  return std::to_string(std::count_if(rows.begin(), rows.end(), [&](const Row& row) {
+    return row.type == type && (kind.empty() || row.fields.get("kind") == kind);
+  }));
 }
 
 }  // namespace
@@ -138,7 +129,8 @@ Summary summarize(const std::vector<Row>& rows) {
   };
   const Row* start = first_of(rows, "TRIAL_START");
   const Row* end = last_of(rows, "TRIAL_END");
-  const Row* tally = last_tally(rows);
+  const Row* tally =
+      last_that(rows, [](const Row& row) { return row.fields.find("path_length").has_value(); });
   const Row* replan = last_of(rows, "REPLAN");
   const Row* reached = last_of(rows, "GOAL_REACHED");
   const Row* bag = last_of(rows, "BAG_CLOSED");

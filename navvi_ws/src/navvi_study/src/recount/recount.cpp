@@ -114,43 +114,37 @@ class Recount {
     for (const auto& event : monitor_.observe(report)) push(event);
   }
 
-  template <typename Message>
-  bool as(const rosbag::MessageInstance& item, const char* topic, bool before) {
-    if (!ends_with(item.getTopic(), topic)) return false;
-    const auto msg = message_of<Message>(item);
-    if (!msg) return false;
-    if (const auto report = node::from_msg(*msg)) observe(*report, before);
-    return true;
+  /// Calls `take` with the message if it is a `Message` on `topic`.
+  template <typename Message, typename Take>
+  static void with(const rosbag::MessageInstance& item, const char* topic, const Take& take) {
+    if (!ends_with(item.getTopic(), topic)) return;
+    if (const auto msg = message_of<Message>(item)) take(*msg);
   }
 
   void see(const rosbag::MessageInstance& item, bool before) {
-    const bool for_good = ends_with(item.getTopic(), "/tf_static");
-    if (for_good || ends_with(item.getTopic(), "/tf")) {
-      const auto msg = message_of<tf2_msgs::TFMessage>(item);
-      if (!msg) return;
-      for (const auto& correction : node::from_msg(*msg, for_good))
-        for (const auto& place : places_.take(correction)) observe(place, before);
-      return;
+    const auto observe_all = [&](const auto& reports) {
+      for (const auto& report : reports) observe(report, before);
+    };
+    for (const bool for_good : {false, true}) {
+      with<tf2_msgs::TFMessage>(item, for_good ? "/tf_static" : "/tf", [&](const auto& msg) {
+        for (const auto& correction : node::from_msg(msg, for_good))
+          observe_all(places_.take(correction));
+      });
     }
-    if (ends_with(item.getTopic(), "/odom")) {
-      const auto msg = message_of<nav_msgs::Odometry>(item);
-      const auto report = msg ? node::from_msg(*msg) : std::nullopt;
-      if (!report) return;
-      for (const auto& place : places_.take(*report)) observe(place, before);
-      return;
-    }
-    if (ends_with(item.getTopic(), "/diagnostics")) {
-      const auto msg = message_of<diagnostic_msgs::DiagnosticArray>(item);
-      if (!msg) return;
-      for (const auto& report : node::from_msg(*msg)) observe(report, before);
-      return;
-    }
-    (void)(as<navvi_msgs::Contact>(item, "/navvi/contacts", before) ||
-           as<navvi_msgs::Proximity>(item, "/navvi/proximity", before) ||
-           as<navvi_msgs::Guidance>(item, "/navvi/guidance", before) ||
-           as<navvi_msgs::Cue>(item, "/navvi/cues", before) ||
-           as<navvi_msgs::DriveState>(item, "/navvi/drive_state", before) ||
-           as<navvi_msgs::StateHash>(item, "/navvi/state_hash", before));
+    with<nav_msgs::Odometry>(item, "/odom", [&](const auto& msg) {
+      if (const auto report = node::from_msg(msg)) observe_all(places_.take(*report));
+    });
+    with<diagnostic_msgs::DiagnosticArray>(
+        item, "/diagnostics", [&](const auto& msg) { observe_all(node::from_msg(msg)); });
+    const auto observe_one = [&](const auto& msg) {
+      if (const auto report = node::from_msg(msg)) observe(*report, before);
+    };
+    with<navvi_msgs::Contact>(item, "/navvi/contacts", observe_one);
+    with<navvi_msgs::Proximity>(item, "/navvi/proximity", observe_one);
+    with<navvi_msgs::Guidance>(item, "/navvi/guidance", observe_one);
+    with<navvi_msgs::Cue>(item, "/navvi/cues", observe_one);
+    with<navvi_msgs::DriveState>(item, "/navvi/drive_state", observe_one);
+    with<navvi_msgs::StateHash>(item, "/navvi/state_hash", observe_one);
   }
 
   trial::TrialMonitor monitor_{trial::TrialMonitorConfig()};

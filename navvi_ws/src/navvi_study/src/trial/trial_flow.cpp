@@ -12,8 +12,6 @@ constexpr int kGoalTries = 3;
 
 }  // namespace
 
-void GoalTries::begin() { *this = GoalTries(); }
-
 void GoalTries::sent_elsewhere(double time) {
   tries_ = 1;
   sent_ = time;

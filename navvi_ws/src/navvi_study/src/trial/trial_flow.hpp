@@ -13,7 +13,8 @@ struct Ending {
   std::int64_t stamp = 0;  ///< ns, ROS time
 };
 
-/// What tells whether a trial goes on. Silences are s of the wall clock, stamps ns of ROS time.
+/// Signs that a trial may continue, or must end. Silences are s of the wall clock, stamps ns of ROS
+/// time.
 struct Signs {
   std::int64_t now = 0;
   std::int64_t latest = 0;  ///< of any report
@@ -21,7 +22,7 @@ struct Signs {
   bool world_restarted = false;
   double odometry_silence = 0.0;
   double guidance_silence = 0.0;
-  double operator_silence = 0.0;  ///< of a simulated one; 0 for a person, who may rest
+  double operator_silence = 0.0;  ///< of a simulated one; 0 for a person, as they may rest
 };
 
 /// Sets a goal until the guidance shows it. Times are s, monotonic.
@@ -29,8 +30,7 @@ class GoalTries {
  public:
   enum class Next { wait, send, give_up };
 
-  void begin();
-  /// Somebody else has sent another goal: the first try.
+  /// Another node has sent another goal: the first try.
   void sent_elsewhere(double time);
   /// What to do now; `send` counts as a try. A goal that stood and is forgotten, as by a guidance
   /// that was started anew, is sent again with all tries.

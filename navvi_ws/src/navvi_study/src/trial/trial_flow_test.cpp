@@ -64,7 +64,6 @@ TEST(TrialFlow, a_goal_reached_just_before_another_end_counts_but_not_with_holes
 
 TEST(GoalTries, sends_a_goal_three_times_two_seconds_apart_then_gives_up) {
   GoalTries tries;
-  tries.begin();
   EXPECT_EQ(tries.next(false, 0.0), Next::send);
   EXPECT_EQ(tries.next(false, 1.9), Next::wait);
   EXPECT_EQ(tries.next(false, 2.0), Next::send);

@@ -123,7 +123,7 @@ void TrialKeeper::step(const Moment& now) {
 void TrialKeeper::wait() {
   const auto words = missing();
   if (words.empty()) return arm();
-  // Who drives one trial after the other may take their time, but a robot must be there at all.
+  // Between trials of a series a pause is allowed, but there must be a robot at all.
   const bool refuses = config_.once || !readiness_.saw_any_odometry();
   if (refuses && config_.patience > 0.0 && now_.wall() - phase_since_ > config_.patience) {
     tell(Tone::fatal, "No trial: after " + std::to_string(std::lround(config_.patience)) +
@@ -171,7 +171,7 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
   flow_.start(beginning.stamp);
   if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
   ending_ = Ending();
-  goal_tries_.begin();
+  goal_tries_ = GoalTries();
   enter(Phase::running);
   operator_seen_ = phase_since_;
   bag_.expect_growth(phase_since_);
