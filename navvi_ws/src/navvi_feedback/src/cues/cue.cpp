@@ -8,7 +8,7 @@ const std::vector<CueKind>& cue_kinds() {
   using P = Priority;
   // kind, priority, least interval in s, largest age in s
   static const std::vector<CueKind> kinds = {
-      // Safety: nothing cuts these. A thing that is hit is told by itself, see CuePolicy.
+      // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy.
       {"collision_shelf", P::important, 0.0, 3.0},
       {"collision_wall", P::important, 0.0, 3.0},
       {"collision_obstacle", P::important, 0.0, 3.0},

@@ -7,7 +7,7 @@
 namespace navvi_feedback::cues {
 namespace {
 
-/// s, after a collision or a stop until the person is told where to go on.
+/// s, from a collision or a stop to the next direction.
 constexpr double kRecover = 2.0;
 /// s, what a start may take before it is a problem.
 constexpr double kStarting = 3.0;
@@ -101,7 +101,7 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
       gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
   if (simulated && stopped && links.pad != Link::lost) say("robot_stopped");
   for (const Utterance& utterance : told)
-    if (utterance.kind == "pad_back" || utterance.kind == "robot_stopped") held_.told(time);
+    if (utterance.kind == "pad_back" || utterance.kind == "robot_stopped") held_.said(time);
   for (const std::string& notice : now.notices)
     if (noticed_.insert(notice).second) say(notice);
   return told;
@@ -207,14 +207,14 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
                                       std::abs(now.measured->angular) > kMoving);
   if (!follows_ && !moves) return {};
   const Utterances told = near_.update(now, time);
-  // Who hears of something ahead stops, and needs to hear where to go on.
+  // A person stops for a thing ahead, and then needs a direction.
   for (const Utterance& utterance : told)
     if (utterance.fillings.side == Side::ahead) route_.remind(time + kRecover);
   return told;
 }
 
 CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
-  // Nobody can follow without a stick; once it is back, that is told first, then the way.
+  // Without a stick no path can be followed. Its return is said first, then the direction.
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
   if (follows_ && steered) return route_.update(now, time);
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
@@ -238,7 +238,7 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
     if (problem_.empty() || problem_ == "welcome") answer.kind = "no_goal";
     if (answer.kind == "no_goal" && time - *first_update_ < kFirstPath) return {};
   }
-  // Who asks wants it now.
+  // An answer is wanted at once.
   answer.priority = Priority::message;
   return {answer};
 }

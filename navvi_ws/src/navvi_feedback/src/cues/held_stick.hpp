@@ -15,7 +15,7 @@ class HeldStick {
   [[nodiscard]] std::optional<Utterance> update(const Situation& now, double time);
 
   /// Another cue has just asked for the same.
-  void told(double time) { said_ = time; }
+  void said(double time) { said_ = time; }
   /// There is no stick, or nothing to be moved.
   void forget() { since_.reset(); }
 

@@ -57,7 +57,7 @@ TEST_F(HeldStickTest, passes_over_the_moment_that_a_gate_takes_to_open) {
 
 TEST_F(HeldStickTest, does_not_add_to_a_cue_that_asked_for_the_same) {
   now_.stick_held_unarmed = true;
-  held_.told(time_);
+  held_.said(time_);
   EXPECT_EQ(pass(3.9), 0);
   EXPECT_EQ(pass(0.4), 1);
 }

@@ -14,9 +14,9 @@
 namespace navvi_feedback::cues {
 
 /// Says when a shelf or a wall comes near (R-AUD-3): once a side at `distance`, once more at
-/// `close`. Any other thing is named once at `distance`, if the robot drives towards it: a hand
-/// that feels it cannot tell what it is; and once more at `close`, if it moves about. Who is about
-/// to run into that hears first that they must stop.
+/// `close`. Any other thing is named once at `distance`, if the robot drives towards it,
+/// because rumble does not say what it is; and once more at `close`, if it moves about. If the
+/// robot is about to run into it, the first word is to stop.
 class NearCues {
  public:
   explicit NearCues(const NearConfig& config) : config_(config) {}

@@ -12,7 +12,7 @@ constexpr double kHour = kHourDegrees * kDegree;
 constexpr double kHalfHour = kHour / 2.0;
 /// m; a goal that moved less is the same goal.
 constexpr double kSameGoal = 0.5;
-/// rad; whoever is told to turn by less turns too far.
+/// rad; a person who hears of a smaller turn turns too far.
 constexpr double kWorthSaying = 7.0 * kDegree;
 /// m; what is farther ahead than this need not be passed yet.
 constexpr double kInTheWay = 1.0;
@@ -145,7 +145,7 @@ bool RouteCues::new_goal(const Guidance& guidance) const {
   return !goal_ || (guidance.goal - *goal_).norm() > kSameGoal;
 }
 
-/// True if a reroute that was not told yet was made because something stands in the old way.
+/// True if a reroute that was not said yet was made because something blocks the old path.
 bool RouteCues::closed_way(const Guidance& guidance) const {
   return guidance.reroutes != reroutes_ &&
          (guidance.reroute_reason == Guidance::Replan::path_carved ||
@@ -175,9 +175,9 @@ void RouteCues::observe(const Situation& now, double time) {
   turning_ = last_turning_ && time - *last_turning_ < config_.settle;
 }
 
-/// Who hears "straight ahead" drives on as they look. Where that is into something, or along
-/// something that the way leads off from, the hour on the way's side is nearer to the truth,
-/// however small the angle; unless something stands that way, too. Held like any hour.
+/// After "straight ahead" a person drives on along the robot's heading. If that leads into a thing,
+/// or along one that the path leaves, the hour on the path's side is nearer to the truth, however
+/// small the angle; unless something blocks that side, too. Held like any hour.
 int RouteCues::clear_of_things(const Situation& now, bool held) const {
   const double angle = now.guidance->steer_angle;
   if (std::abs(angle) < (held ? 0.5 : 1.0) * kWorthSaying) return 12;
@@ -206,7 +206,7 @@ bool RouteCues::about_to_face(const Situation& now) const {
   const double soon = angle + now.measured->angular * config_.straight_lead;
   const bool faces = std::abs(std::remainder(soon, 2.0 * kPi)) <= kHalfHour;
   const bool crosses = angle * soon < 0.0;
-  // Who is told more than an hour too early stops short of it, and has to be told again.
+  // A person who hears it more than an hour too early stops short and needs another cue.
   return std::abs(angle) <= 2.0 * kHalfHour && (faces || crosses);
 }
 

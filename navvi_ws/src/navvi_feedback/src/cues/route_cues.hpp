@@ -59,9 +59,9 @@ class RouteCues {
   std::optional<int> hour_;              ///< to the way-point, now
   bool leads_off_ = false;               ///< it is no 12 only for what is near
   std::optional<int> said_hour_;         ///< what the person last heard
-  Change pending_ = Change::none;        ///< still to be told
-  std::uint32_t reroutes_ = 0;           ///< of this goal, those told or passed over
-  bool made_room_ = false;               ///< it was said for whom room is made
+  Change pending_ = Change::none;        ///< not said yet
+  std::uint32_t reroutes_ = 0;           ///< of this goal, said or skipped
+  bool made_room_ = false;               ///< the thing to make room for was named
   bool ahead_told_ = false;              ///< this corner's turn_ahead was said
   std::optional<int> turn_said_;         ///< hour of the last turn_ahead
   double turn_said_time_ = 0.0;          ///< s

@@ -15,7 +15,7 @@ class ThreadedDevice {
  public:
   /// \throws DeviceError if it cannot be used
   virtual void open() = 0;
-  /// Nothing once the device has gone for good.
+  /// nullopt once the device is gone for good.
   [[nodiscard]] virtual std::optional<drive::InputState> read() = 0;
   virtual void close() = 0;
 
@@ -34,7 +34,7 @@ class DeviceThread {
   DeviceThread& operator=(const DeviceThread&) = delete;
 
   /// What was read last. Not live if that is more than 250 ms ago: a thread that hangs has frozen
-  /// values, and they must not go on driving.
+  /// values, and they must not drive the robot.
   [[nodiscard]] drive::InputState input() const;
 
  private:

@@ -19,7 +19,7 @@ constexpr auto kPeriod = 8ms;
 constexpr auto kScanPeriod = 100ms;
 constexpr auto kExpiry = 300ms;
 constexpr auto kResend = 100ms;
-// The first command wakes the motors and, on some pads, jolts: a soft pulse takes it on itself.
+// The first command wakes the motors and, on some pads, jolts: a soft pulse takes that jolt.
 constexpr auto kPrime = 400ms;
 constexpr double kPrimeForce = 0.06;
 
@@ -142,7 +142,7 @@ void Gamepad::open() {
 
 std::optional<drive::InputState> Gamepad::read() {
   SDL_GameControllerUpdate();
-  // State is polled; what piles up in the queue is for nobody.
+  // State is polled; nothing reads the queue of events.
   SDL_FlushEvents(SDL_JOYAXISMOTION, SDL_CONTROLLERSENSORUPDATE);
   const Clock::time_point now = Clock::now();
   if (pad_ && !pad_->attached()) forget_pad();

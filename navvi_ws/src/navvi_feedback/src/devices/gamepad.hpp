@@ -19,7 +19,7 @@ class Gamepad final : private ThreadedDevice {
  public:
   struct Status {
     bool connected = false;
-    std::string name;   ///< as the pad tells it; empty if there is none
+    std::string name;   ///< as the pad reports it; empty if there is none
     int instance = -1;  ///< SDL's instance id; another pad, another id
     bool has_rumble = false;
     unsigned firmware = 0;          ///< 0 if unknown

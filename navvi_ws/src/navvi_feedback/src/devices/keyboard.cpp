@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 constexpr auto kPeriod = 10ms;
 constexpr const char* kTitle = "NavVI - arrow keys drive, space repeats, G says where the goal is";
 
-/// SDL also has video drivers that nobody sees, and falls back on them.
+/// SDL also has invisible video drivers, and falls back on them.
 bool visible() {
   const char* driver = SDL_GetCurrentVideoDriver();
   return driver && (std::string(driver) == "x11" || std::string(driver) == "wayland");

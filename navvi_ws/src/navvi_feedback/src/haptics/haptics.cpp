@@ -81,7 +81,7 @@ const NearThing* Haptics::nearest(const std::vector<NearThing>& things) const {
 }
 
 Zone Haptics::zone_of(double lateral) const {
-  // Whoever is in a zone leaves it only some way behind the border.
+  // A thing leaves its zone only some way behind the border.
   const double bias = zone_ ? config_.zone_hysteresis : 0.0;
   const double to_left = config_.center + (zone_ == Zone::left ? -bias : bias);
   const double to_right = config_.center + (zone_ == Zone::right ? -bias : bias);

@@ -56,7 +56,7 @@ std::string phrases_file(const NodeConfig& config) {
   return ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
 }
 
-/// The person lives in wall time: a simulation that stops must not stop what tells of it.
+/// Wall time, so that the person hears of a simulation that has stopped.
 double now() { return ros::SteadyTime::now().toSec(); }
 
 class FeedbackNode {

@@ -28,7 +28,7 @@ struct MarkersConfig {
 
 /// What is drawn of the guidance (R-VIS-1, 2): the path as a purple strip on a wider white one, the
 /// goal as a red pole in a white ring with the word GOAL, and the next turn as an arrow with the
-/// hour and the distance. Nothing is told apart by colour alone. Namespaces path, goal, turn.
+/// hour and the distance. No two things differ by colour alone. Namespaces path, goal, turn.
 ///
 /// Every call names every marker, with DELETE for what is not there: without guidance that follows
 /// a path, nothing is.

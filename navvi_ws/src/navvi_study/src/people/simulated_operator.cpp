@@ -18,7 +18,7 @@ constexpr double kCharactersPerSecond = 14;  // at which a sentence without an e
 constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
 constexpr double kListenFirst = 2.5;         // m, likewise
 constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
-constexpr double kBlindTurn = 3.0;  // m one goes on after "turn now", which tells no distance
+constexpr double kBlindTurn = 3.0;           // m to drive after "turn now", which has no distance
 
 /// rad, clockwise, to an hour on the clock face.
 /// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
@@ -86,7 +86,7 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
   sentence.time = time + config_.min_reaction +
                   unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
   understood_.push_back(sentence);
-  // What is near or comes later is no news to who waits for where to go now.
+  // A thing nearby, or a later turn, is no news while waiting for a direction.
   const Instruction::Kind kind = understand(sentence.text).kind;
   if (mode_ != Mode::waiting ||
       (kind != Instruction::Kind::near && kind != Instruction::Kind::turn_ahead))
@@ -119,7 +119,7 @@ void SimulatedOperator::veer(Instruction::Side side, double angle, double until)
 
 void SimulatedOperator::back_off(Instruction::Side side, double time) {
   mode_ = side == Instruction::Side::behind ? Mode::waiting : Mode::backing;
-  // Who runs into the same thing again backs off further and tries it at an angle.
+  // After a second bump into the same thing: further back, and on at an angle.
   const bool again = time - bumped_ < kSameBump;
   bumped_ = time;
   careful_until_ = time + 2.0 * kCareful;
@@ -139,7 +139,7 @@ void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
   careful_until_ = std::max(careful_until_, time + kCareful);
   if (!instruction.very_close) return veer(instruction.side, 0.1, time + 1.5);
   veer(instruction.side, 0.3, time + 2.0);
-  // Whoever comes very near was heading there, and does not go back to that heading.
+  // The heading led very near to the thing, so it is not taken up again.
   if (instruction.side == Instruction::Side::left) target_ -= 0.12;
   if (instruction.side == Instruction::Side::right) target_ += 0.12;
 }
@@ -204,7 +204,7 @@ double SimulatedOperator::shaped(double stick) const {
 
 StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
-  // Near a corner whoever is spoken to listens first.
+  // Near a corner the hand waits for the end of a sentence.
   const bool listening = !hearing_.empty() || !understood_.empty();
   if (listening && stop_at_ - odometer_ < kListenFirst) return hand;
   double speed = time < careful_until_ ? std::min(speed_, config_.slow) : speed_;

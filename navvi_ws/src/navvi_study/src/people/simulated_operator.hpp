@@ -41,7 +41,7 @@ struct StickAndButtons {
   bool repeat = false;   ///< asks for the last direction again
 };
 
-/// Drives by ear and touch alone, as a person would who cannot see (R-TRL-5): it knows the words it
+/// Drives by ear and touch alone, as a blind person would (R-TRL-5): it knows the words that it
 /// heard to their end, the motors it feels, and, roughly, how its own stick turns and drives the
 /// robot. It reacts late and turns too far or too little, all drawn from the seed.
 class SimulatedOperator {

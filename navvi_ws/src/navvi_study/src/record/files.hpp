@@ -37,7 +37,7 @@ using Problem = std::optional<std::string>;
 /// nullopt if it cannot be read, is no regular file, or is larger than 256 MiB.
 [[nodiscard]] std::optional<std::string> read_file(const std::filesystem::path& path);
 
-/// Writes all of `bytes`; goes on after EINTR and short writes. \return 0 or errno
+/// Writes all of `bytes`; continues after EINTR and short writes. \return 0 or errno
 [[nodiscard]] int write_all(int file, std::string_view& bytes, const SystemCalls& calls);
 
 }  // namespace navvi_study::record

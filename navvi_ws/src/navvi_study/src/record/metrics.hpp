@@ -8,7 +8,7 @@
 
 namespace navvi_study::record {
 
-/// Column name and cell, in order; "n/a" where there is nothing to say.
+/// Column name and cell, in order; "n/a" where there is no value.
 using Summary = std::vector<std::pair<std::string, std::string>>;
 
 /// The events of R-TRL-1 and whatever else happened, as CSV with a header: onset and duration in
@@ -24,7 +24,7 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 /// nullopt for a text that summary_csv() does not write.
 [[nodiscard]] std::optional<Summary> parse_summary(const std::string& text);
 
-/// A sentence for each column that differs; `bag` is left out, as no bag can tell how it was
+/// A sentence for each column that differs; `bag` is left out, as no bag holds how it was
 /// closed.
 [[nodiscard]] std::vector<std::string> differences(const Summary& summary, const Summary& recount);
 

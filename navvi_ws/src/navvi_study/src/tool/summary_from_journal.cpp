@@ -1,5 +1,5 @@
 // summary_from_journal TRIAL_FOLDER: recounts a trial from its journal and compares with
-// summary.csv. Exit 0: equal. 1: differs. 2: cannot be told.
+// summary.csv. Exit 0: equal. 1: differs. 2: cannot be compared.
 
 #include <cstdio>
 

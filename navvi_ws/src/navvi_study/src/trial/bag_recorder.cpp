@@ -41,8 +41,7 @@ BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGINT, SIG_DFL);
   ::signal(SIGTERM, SIG_DFL);
-  const int nowhere =
-      ::open("/dev/null", O_RDWR);  // it lists its topics even when told to be quiet
+  const int nowhere = ::open("/dev/null", O_RDWR);  // it lists its topics in spite of -q
   ::dup2(nowhere, STDOUT_FILENO);
   ::execv(program.c_str(), arguments.data());
   ::_exit(127);

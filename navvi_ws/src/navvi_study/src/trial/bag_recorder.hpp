@@ -9,7 +9,7 @@
 namespace navvi_study::trial {
 
 /// Rosbag's own recorder as a child process that cannot outlive this one. A second witness of the
-/// trial, never the record: whatever happens to it is told, nothing depends on it.
+/// trial, never the record: its failure is reported, nothing depends on it.
 class BagRecorder {
  public:
   /// Starts recording `topics` into `bag` (a path that ends in .bag). \param node_name  the

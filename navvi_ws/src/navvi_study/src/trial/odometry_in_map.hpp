@@ -12,17 +12,17 @@ using navvi_types::Odometry;
 
 namespace navvi_study::trial {
 
-/// map -> odom, as a localisation or the simulator tells it.
+/// map -> odom, from a localisation or the simulator.
 struct Correction {
   static constexpr std::int64_t kForGood = std::numeric_limits<std::int64_t>::max();
 
-  std::int64_t stamp = 0;        ///< ns, ROS time; kForGood for one that is told once
+  std::int64_t stamp = 0;        ///< ns, ROS time; kForGood for one that is sent once
   navvi_types::Pose2 odom = {};  ///< in map
 };
 
 /// Takes odometry, which may drift, over to map. Each report gets the first correction that is not
 /// older than itself, whichever of the two comes first, so that a bag gives the same places again.
-/// While nobody corrects, odom is map.
+/// Without corrections odom is map.
 class OdometryInMap {
  public:
   /// \return in map: none, one, or more that have waited

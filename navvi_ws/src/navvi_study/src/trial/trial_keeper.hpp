@@ -33,11 +33,11 @@ class TrialKeeper {
  public:
   enum class Tone { info, warning, error, fatal };
 
-  /// What a keeper has done for it.
+  /// Actions of a keeper on the world outside.
   struct Outlets {
     std::function<void(const record::Row&)> publish;  ///< is on the disk already
     std::function<void(const Eigen::Vector2d&)> set_goal;
-    std::function<void(Tone, const std::string&)> tell;  ///< a person at the screen
+    std::function<void(Tone, const std::string&)> tell;  ///< for the screen
     /// Begins a bag at that path; nullptr where none is wanted.
     std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
   };
@@ -58,7 +58,7 @@ class TrialKeeper {
   void take(const Guidance& guidance, const Moment& now);
   void take(const DeviceReport& device, const Moment& now);
   void take(const Scenario& scenario, const Moment& now);
-  /// Somebody else has set a goal.
+  /// Another node has set a goal.
   void take_goal(const Eigen::Vector2d& goal, const Moment& now);
   /// A simulated operator has moved its hands.
   void saw_operator(const Moment& now) { operator_seen_ = now.wall(); }
@@ -68,7 +68,7 @@ class TrialKeeper {
   /// Goes on; to be called every 50 ms or so.
   void step(const Moment& now);
   /// Ends a running trial as aborted and closes everything: done() two seconds later at the most,
-  /// if step() goes on being called.
+  /// if step() is still called.
   void stop(const Moment& now);
   /// There will be no other trial.
   [[nodiscard]] bool done() const { return phase_ == Phase::done; }
@@ -99,7 +99,7 @@ class TrialKeeper {
   bool record(const Event& event);
   void write_summary();
   [[nodiscard]] std::vector<std::string> missing() const;
-  /// Whether so many s have passed since a person was told something; counts as telling.
+  /// True if `pause` s have passed since the last sentence on the screen; restarts the pause.
   [[nodiscard]] bool may_say(double pause);
   void tell(Tone tone, const std::string& sentence) const { outlets_.tell(tone, sentence); }
   [[nodiscard]] bool simulated() const { return config_.operator_kind == "simulated"; }

@@ -155,7 +155,7 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
     return {};
   }
   if (inside) {
-    // Running counts that jump by more than this contact tell what was lost on the way.
+    // Running counts that jump by more than this contact show the contacts that were lost.
     const std::uint64_t missed_shelf = shelves - std::min(shelves, shelf_count_ + (shelf ? 1 : 0));
     const std::uint64_t missed_obstacle =
         obstacles - std::min(obstacles, obstacle_count_ + (shelf ? 0 : 1));
@@ -218,7 +218,7 @@ bool TrialMonitor::about_this_goal(const Guidance& guidance) {
   const bool was_refused = guidance_before_ && guidance_before_->state == State::goal_refused;
   const bool goal_matches = same(guidance.goal, start_->goal);
   if (refused) {
-    // A refusal may be told with the goal that still stands.
+    // A refusal may come with the goal that is still valid.
     goal_taken_ = goal_matches || !was_refused;
   } else if (goal_matches && guidance.state == State::arrived && guidance_before_ &&
              same(guidance_before_->goal, start_->goal) &&

@@ -7,7 +7,7 @@
 
 namespace navvi_types {
 
-/// What the last stage before the wheels does with the commands.
+/// State of the last stage before the wheels.
 struct DriveState {
   enum class State : std::uint8_t {
     waiting,  ///< no valid command yet

@@ -23,8 +23,8 @@ struct Guidance {
     no_map,        ///< no usable map yet
     pose_stale,    ///< no fresh pose of the robot
     map_stale,     ///< the map is older than allowed
-    blocked,       ///< something moving closes the path: wait; as following otherwise
-    make_room,     ///< as following, but the path leads off the way of what waits for the robot
+    blocked,       ///< a moving thing closes the path: wait; as following otherwise
+    make_room,     ///< as following, but the path leads aside: something waits for the robot
   };
   enum class Refusal : std::uint8_t {
     none,
@@ -61,7 +61,7 @@ struct Guidance {
 
   std::optional<ThingClass> blocked_by;     ///< while blocked or make_room
   double blocked_distance = 0.0;            ///< m, along the path to where it does, >= 0
-  std::optional<double> blocked_for = 0.0;  ///< s, until it has cleared; nullopt: nobody knows
+  std::optional<double> blocked_for = 0.0;  ///< s, until it has cleared; nullopt: unknown
 
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();      ///< m, in map
   Eigen::Vector2d waypoint = Eigen::Vector2d::Zero();  ///< m, in map: the next corner, or the goal

@@ -24,10 +24,9 @@
 
 namespace navvi_types {
 
-// What comes in. nullopt for a message that holds a number that is not finite, beyond limits.hpp or
-// out of the range that its definition gives, or a constant that is none: it is dropped whole
-// (safety rule 2). Frames are not looked at. A class of things that is unknown here counts as
-// other.
+// Incoming messages. nullopt for a message with a number that is not finite, beyond limits.hpp or
+// out of the range in its definition, or with an unknown constant: it is dropped whole (safety
+// rule 2). Frames are not checked. An unknown class of things counts as other.
 
 [[nodiscard]] std::optional<Velocity> from_msg(const geometry_msgs::Twist& msg);
 [[nodiscard]] std::optional<Pose2> from_msg(const geometry_msgs::Transform& msg);
@@ -47,7 +46,7 @@ namespace navvi_types {
 /// nullopt if its hash is not 16 hexadecimal digits in lower case.
 [[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
 
-// What goes out, in the frame that the message's definition names.
+// Outgoing messages, in the frame that the message's definition names.
 
 [[nodiscard]] geometry_msgs::Twist to_msg(const Velocity& velocity);
 /// odom -> base_link

@@ -7,7 +7,7 @@
 
 namespace navvi_types {
 
-/// What the simulator was asked to play.
+/// The task of a session: world, start and goal.
 struct Scenario {
   std::string world = {};       ///< its name
   std::string world_hash = {};  ///< hexadecimal, of everything in it
@@ -19,7 +19,7 @@ struct Scenario {
   std::int64_t stamp = 0;                          ///< ns, ROS time
 };
 
-/// What the world was like after so many steps: the proof that a repetition is the same.
+/// The state of the world after so many steps, by which a repetition is compared.
 struct StateHash {
   std::int64_t stamp = 0;  ///< ns, ROS time
   std::uint64_t step = 0;

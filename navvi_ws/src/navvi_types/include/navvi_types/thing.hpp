@@ -14,8 +14,8 @@
 
 namespace navvi_types {
 
-/// What a thing is to the person who drives (R-SIM-4). `floor` is what one drives on and in no
-/// message; everything else is an obstacle.
+/// The class of a thing (R-SIM-4). `floor` can be driven on and is in no message; everything else
+/// is an obstacle.
 enum class ThingClass { floor, shelf, wall, box, pedestal, worker, forklift, pallet_robot, other };
 [[nodiscard]] constexpr std::array<const char*, 9> names(ThingClass) {
   return {"floor",  "shelf",    "wall",         "box",  "pedestal",

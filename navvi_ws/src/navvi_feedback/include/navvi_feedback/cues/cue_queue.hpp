@@ -9,14 +9,14 @@
 
 namespace navvi_feedback::cues {
 
-/// Decides which cue is spoken when (R-AUD-6). A higher priority cuts a lower one; an equal or
-/// lower one waits; nothing cuts an important one. Below `important` at most two wait, the least
-/// goes first. A newer cue of a kind replaces the waiting one, but an important one only the same
-/// text. Whoever waited beyond max_age is
-/// dropped. Every cue that enters reaches exactly one of ended, cut, dropped.
+/// Decides when each cue is spoken (R-AUD-6). A higher priority cuts a lower one; an equal or lower
+/// one waits; nothing cuts an important one. Below `important` at most two wait; the least
+/// important is dropped first. A newer cue of a kind replaces the waiting one, but an important one
+/// only if the text is the same. A cue that has waited beyond max_age is dropped. Every cue that
+/// enters reaches exactly one of ended, cut, dropped.
 class CueQueue {
  public:
-  /// What the speaker has to do, and what happened to whom, in order.
+  /// Orders for the speaker, and the events of the cues in order.
   struct Step {
     std::vector<CueEvent> events;
     bool stop = false;                 ///< fall silent, before `start`
@@ -24,7 +24,7 @@ class CueQueue {
   };
 
   /// \param fresh         cues that were decided since the last call
-  /// \param speaker_busy  the speaker still speaks what it was told to start
+  /// \param speaker_busy  the speaker still speaks the last text that it started
   /// \param time          s, of a clock that does not run backwards
   [[nodiscard]] Step update(const std::vector<Cue>& fresh, bool speaker_busy, double time);
 

@@ -7,7 +7,7 @@
 
 namespace navvi_feedback::drive {
 
-/// What the person's hands do, from whatever device, as sensor_msgs/Joy tells it.
+/// The input of the person's hands, from any device, as in sensor_msgs/Joy.
 struct InputState {
   bool live = false;          ///< the device is there and was read within the last 250 ms
   unsigned session = 0;       ///< another number whenever the device was opened anew

@@ -11,13 +11,13 @@
 
 namespace navvi_feedback::node {
 
-/// Axes out of [-1, 1] by more than rounding, or fewer than two, are refused.
+/// Axes out of [-1, 1] by more than rounding, or fewer than two, are rejected.
 [[nodiscard]] std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg);
 
 [[nodiscard]] sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp);
 /// As joy_node takes it: id 0 is the strong (left) motor, id 1 the weak (right) one.
 [[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble);
-/// As navvi_msgs/Cue tells it. \param id  counts the changes of the motors
+/// As a navvi_msgs/Cue. \param id  counts the changes of the motors
 [[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble, std::uint32_t id);
 
 }  // namespace navvi_feedback::node
