@@ -14,9 +14,9 @@ constexpr double kSteep = 0.95;  // rise over run taken for 45 degrees, less the
 /// The height of the floor in each column, and what is asked of it.
 class Spread {
  public:
-  Spread(std::vector<Ground>& ground, const Columns& columns, const Climbing& climbing)
+  Spread(std::vector<Ground>& ground, const HeightField& field, const Climbing& climbing)
       : ground_(ground),
-        columns_(columns),
+        field_(field),
         climbing_(climbing),
         window_(std::max(3, climbing.step)),
         height_(ground.size(), kUnknown) {}
@@ -67,7 +67,7 @@ class Spread {
 
   template <typename Visit>
   void for_neighbours(int at, Visit visit) {
-    const int width = columns_.width();
+    const int width = field_.width();
     const int x = at % width;
     if (x > 0) visit(at - 1);
     if (x + 1 < width) visit(at + 1);
@@ -80,7 +80,7 @@ class Spread {
   int place_near(int column, int from) const {
     int best = kUnknown;
     int ceiling = std::numeric_limits<int>::max();
-    columns_.downwards(static_cast<std::size_t>(column), [&](Span span) {
+    field_.downwards(static_cast<std::size_t>(column), [&](Span span) {
       const int away = std::abs(span.top - from);
       if (away <= climbing_.step && ceiling - span.top >= climbing_.headroom &&
           (best == kUnknown || away < std::abs(best - from)))
@@ -93,7 +93,7 @@ class Spread {
 
   bool blocked(int column, int from) const {
     bool found = false;
-    columns_.downwards(static_cast<std::size_t>(column), [&](Span span) {
+    field_.downwards(static_cast<std::size_t>(column), [&](Span span) {
       found = span.top > from && span.bottom < from + climbing_.headroom;
       return !found;
     });
@@ -103,12 +103,11 @@ class Spread {
   /// Fits a plane to the floor around, as far as it is joined to the cell rather than a storey
   /// above or below. The window is so wide that a single step in it does not look steep.
   bool steep(int at) {
-    const int width = columns_.width();
+    const int width = field_.width();
     const int x = at % width;
     const int y = at / width;
     double n = 0, sx = 0, sy = 0, sh = 0, sxx = 0, sxy = 0, syy = 0, sxh = 0, syh = 0;
-    for (int dy = std::max(-window_, -y); dy <= std::min(window_, columns_.height() - 1 - y);
-         ++dy) {
+    for (int dy = std::max(-window_, -y); dy <= std::min(window_, field_.height() - 1 - y); ++dy) {
       for (int dx = std::max(-window_, -x); dx <= std::min(window_, width - 1 - x); ++dx) {
         const int other = height(at + dy * width + dx);
         if (other == kUnknown) continue;
@@ -126,7 +125,7 @@ class Spread {
   }
 
   std::vector<Ground>& ground_;
-  const Columns& columns_;
+  const HeightField& field_;
   Climbing climbing_;
   int window_;
   std::vector<int> height_;
@@ -134,8 +133,8 @@ class Spread {
 
 }  // namespace
 
-void spread_floor(std::vector<Ground>& ground, const Columns& columns, const Climbing& climbing) {
-  Spread spread(ground, columns, climbing);
+void spread_floor(std::vector<Ground>& ground, const HeightField& field, const Climbing& climbing) {
+  Spread spread(ground, field, climbing);
   spread.flood();
   spread.take_back();
 }

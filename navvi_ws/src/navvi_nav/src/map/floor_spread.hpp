@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "map/columns.hpp"
 #include "map/floor.hpp"
+#include "map/height_field.hpp"
 
 namespace navvi_nav::map {
 
@@ -16,6 +16,6 @@ struct Climbing {
 
 /// Lets the floor at `floor_top` spread over steps of at most `step`, and takes back what is as
 /// steep as 45 degrees and the upper sides of higher steps.
-void spread_floor(std::vector<Ground>& ground, const Columns& columns, const Climbing& climbing);
+void spread_floor(std::vector<Ground>& ground, const HeightField& field, const Climbing& climbing);
 
 }  // namespace navvi_nav::map

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "map/columns.hpp"
 #include "map/floor_spread.hpp"
+#include "map/height_field.hpp"
 #include "map/parallel.hpp"
 #include "map/resample.hpp"
 
@@ -21,8 +21,8 @@ constexpr int kNoLevel = -1;
 
 /// Calls `work(band, first, last)` for bands of columns, the last column excluded.
 template <typename Work>
-void for_bands(const Columns& columns, int bands, const Work& work) {
-  const auto all = static_cast<std::int64_t>(columns.width()) * columns.height();
+void for_bands(const HeightField& field, int bands, const Work& work) {
+  const auto all = static_cast<std::int64_t>(field.width()) * field.height();
   in_parallel(bands, bands, [&](int band) {
     work(static_cast<std::size_t>(band), static_cast<std::size_t>(all * band / bands),
          static_cast<std::size_t>(all * (band + 1) / bands));
@@ -30,15 +30,15 @@ void for_bands(const Columns& columns, int bands, const Work& work) {
 }
 
 /// For each level, how many voxels end there with room for the robot above.
-std::vector<int> count_places(const Columns& columns, int headroom, int threads) {
+std::vector<int> count_places(const HeightField& field, int headroom, int threads) {
   std::vector<std::vector<int>> parts(
       static_cast<std::size_t>(threads),
-      std::vector<int>(static_cast<std::size_t>(columns.levels()) + 1, 0));
-  for_bands(columns, threads, [&](std::size_t band, std::size_t first, std::size_t last) {
+      std::vector<int>(static_cast<std::size_t>(field.levels()) + 1, 0));
+  for_bands(field, threads, [&](std::size_t band, std::size_t first, std::size_t last) {
     std::vector<int>& counts = parts[band];
     for (std::size_t column = first; column < last; ++column) {
       int ceiling = std::numeric_limits<int>::max();
-      columns.downwards(column, [&](Span span) {
+      field.downwards(column, [&](Span span) {
         if (ceiling - span.top >= headroom) ++counts[static_cast<std::size_t>(span.top)];
         ceiling = span.bottom;
         return true;
@@ -72,14 +72,15 @@ int largest_level_near(const std::vector<int>& counts, double wanted, double tol
 }
 
 /// What the level `floor_top` alone makes of each column.
-std::vector<Ground> on_one_level(const Columns& columns, int floor_top, int headroom, int threads) {
+std::vector<Ground> on_one_level(const HeightField& field, int floor_top, int headroom,
+                                 int threads) {
   std::vector<Ground> ground(
-      static_cast<std::size_t>(columns.width()) * static_cast<std::size_t>(columns.height()),
+      static_cast<std::size_t>(field.width()) * static_cast<std::size_t>(field.height()),
       Ground::none);
-  for_bands(columns, threads, [&](std::size_t, std::size_t first, std::size_t last) {
+  for_bands(field, threads, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t column = first; column < last; ++column) {
       int ceiling = std::numeric_limits<int>::max();
-      columns.downwards(column, [&](Span span) {
+      field.downwards(column, [&](Span span) {
         if (span.top < floor_top) return false;
         if (span.top == floor_top && ceiling - floor_top >= headroom) {
           ground[column] = Ground::floor;
@@ -109,31 +110,31 @@ MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
   if (!refused.error.empty()) return refused;
   const double level = voxels.resolution;
   const int threads = std::max(1, config.threads);
-  const Columns columns(voxels, threads);
-  refused.error = columns.error();
+  const HeightField field(voxels, threads);
+  refused.error = field.error();
   if (!refused.error.empty()) return refused;
 
   const int headroom =
       std::max(1, static_cast<int>(std::ceil(config.robot_height / level - kRounding)));
-  const std::vector<int> counts = count_places(columns, headroom, threads);
+  const std::vector<int> counts = count_places(field, headroom, threads);
   const int floor_top =
       config.floor_height == kAnyFloor
           ? lowest_large_level(counts)
-          : largest_level_near(counts, config.floor_height / level - columns.low_z(),
+          : largest_level_near(counts, config.floor_height / level - field.low_z(),
                                kFloorTolerance / level + kRounding);
   if (floor_top == kNoLevel) {
     refused.error = no_floor_near(config.floor_height);
     return refused;
   }
-  Sheet sheet{level,
-              {columns.low_x() * level, columns.low_y() * level},
-              columns.width(),
-              columns.height(),
-              on_one_level(columns, floor_top, headroom, threads)};
+  GroundGrid grid{level,
+                  {field.low_x() * level, field.low_y() * level},
+                  field.width(),
+                  field.height(),
+                  on_one_level(field, floor_top, headroom, threads)};
   const int climb = static_cast<int>(std::floor(config.climb / level + kRounding));
-  if (climb > 0) spread_floor(sheet.ground, columns, {floor_top, headroom, climb});
-  MapSurvey survey = resample(std::move(sheet), config.cell_size > 0.0 ? config.cell_size : level);
-  survey.floor_height = (columns.low_z() + floor_top) * level;
+  if (climb > 0) spread_floor(grid.ground, field, {floor_top, headroom, climb});
+  MapSurvey survey = resample(std::move(grid), config.cell_size > 0.0 ? config.cell_size : level);
+  survey.floor_height = (field.low_z() + floor_top) * level;
   return survey;
 }
 

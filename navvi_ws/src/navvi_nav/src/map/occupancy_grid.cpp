@@ -46,10 +46,10 @@ MapSurvey read_grid(const OccupancyGrid& grid, double cell_size) {
   MapSurvey refused;
   refused.error = refusal_of(grid);
   if (!refused.error.empty()) return refused;
-  Sheet sheet{grid.resolution, grid.origin, grid.width, grid.height, {}};
-  sheet.ground.reserve(grid.cells.size());
-  for (const std::int8_t cell : grid.cells) sheet.ground.push_back(ground_of(cell));
-  return resample(std::move(sheet), cell_size > 0.0 ? cell_size : grid.resolution);
+  GroundGrid ground{grid.resolution, grid.origin, grid.width, grid.height, {}};
+  ground.ground.reserve(grid.cells.size());
+  for (const std::int8_t cell : grid.cells) ground.ground.push_back(ground_of(cell));
+  return resample(std::move(ground), cell_size > 0.0 ? cell_size : grid.resolution);
 }
 
 }  // namespace navvi_nav::map

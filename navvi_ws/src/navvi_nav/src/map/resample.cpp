@@ -27,13 +27,13 @@ std::vector<Overlap> overlaps(int low, int count, double cell, double origin, do
   return out;
 }
 
-Ground worst(const Sheet& sheet, Overlap across, Overlap along) {
+Ground worst(const GroundGrid& grid, Overlap across, Overlap along) {
   bool partial =
-      across.from < 0 || along.from < 0 || across.to > sheet.columns || along.to > sheet.rows;
-  for (int y = std::max(0, along.from); y < std::min(along.to, sheet.rows); ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(sheet.columns);
-    for (int x = std::max(0, across.from); x < std::min(across.to, sheet.columns); ++x) {
-      const Ground ground = sheet.ground[row + static_cast<std::size_t>(x)];
+      across.from < 0 || along.from < 0 || across.to > grid.columns || along.to > grid.rows;
+  for (int y = std::max(0, along.from); y < std::min(along.to, grid.rows); ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns);
+    for (int x = std::max(0, across.from); x < std::min(across.to, grid.columns); ++x) {
+      const Ground ground = grid.ground[row + static_cast<std::size_t>(x)];
       if (ground == Ground::obstacle) return ground;
       partial = partial || ground == Ground::none;
     }
@@ -43,31 +43,31 @@ Ground worst(const Sheet& sheet, Overlap across, Overlap along) {
 
 }  // namespace
 
-MapSurvey resample(Sheet sheet, double cell_size) {
+MapSurvey resample(GroundGrid grid, double cell_size) {
   MapSurvey out;
   out.cell_size = cell_size;
-  const double x = sheet.origin.x / cell_size;
-  const double y = sheet.origin.y / cell_size;
-  const double ratio = sheet.cell_size / cell_size;
-  if (sheet.columns * ratio * sheet.rows * ratio > kMaxCells) {
+  const double x = grid.origin.x / cell_size;
+  const double y = grid.origin.y / cell_size;
+  const double ratio = grid.cell_size / cell_size;
+  if (grid.columns * ratio * grid.rows * ratio > kMaxCells) {
     out.error = "the map has more than " + millions(kMaxCells) + " cells of " +
                 std::to_string(cell_size) + " m";
     return out;
   }
   out.low = {floor_cell(x), floor_cell(y)};
-  out.columns = ceil_cell(x + sheet.columns * ratio) - out.low.x;
-  out.rows = ceil_cell(y + sheet.rows * ratio) - out.low.y;
-  const bool same = std::abs(ratio - 1.0) * std::max(sheet.columns, sheet.rows) < kRounding &&
-                    out.columns == sheet.columns && out.rows == sheet.rows;
+  out.columns = ceil_cell(x + grid.columns * ratio) - out.low.x;
+  out.rows = ceil_cell(y + grid.rows * ratio) - out.low.y;
+  const bool same = std::abs(ratio - 1.0) * std::max(grid.columns, grid.rows) < kRounding &&
+                    out.columns == grid.columns && out.rows == grid.rows;
   if (same) {
-    out.ground = std::move(sheet.ground);
+    out.ground = std::move(grid.ground);
     return out;
   }
-  const auto across = overlaps(out.low.x, out.columns, cell_size, sheet.origin.x, sheet.cell_size);
-  const auto along = overlaps(out.low.y, out.rows, cell_size, sheet.origin.y, sheet.cell_size);
+  const auto across = overlaps(out.low.x, out.columns, cell_size, grid.origin.x, grid.cell_size);
+  const auto along = overlaps(out.low.y, out.rows, cell_size, grid.origin.y, grid.cell_size);
   out.ground.reserve(across.size() * along.size());
   for (const Overlap& rows : along) {
-    for (const Overlap& columns : across) out.ground.push_back(worst(sheet, columns, rows));
+    for (const Overlap& columns : across) out.ground.push_back(worst(grid, columns, rows));
   }
   return out;
 }

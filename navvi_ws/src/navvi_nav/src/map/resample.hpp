@@ -17,7 +17,7 @@ inline constexpr double kMaxCells = 50.0e6;
 }
 
 /// Squares of ground that need not lie on the mesh's lattice.
-struct Sheet {
+struct GroundGrid {
   double cell_size = 0.0;  ///< m
   Point origin;            ///< m, lower corner of the first square in map
   int columns = 0;
@@ -25,9 +25,9 @@ struct Sheet {
   std::vector<Ground> ground;  ///< row by row
 };
 
-/// The sheet in cells of `cell_size` (m) on the lattice through the origin of map: a cell is floor
+/// The grid in cells of `cell_size` (m) on the lattice through the origin of map: a cell is floor
 /// only if all of it is, and an obstacle if a part is. Sets all but the floor's height; an error if
 /// there would be too many cells.
-[[nodiscard]] MapSurvey resample(Sheet sheet, double cell_size);
+[[nodiscard]] MapSurvey resample(GroundGrid grid, double cell_size);
 
 }  // namespace navvi_nav::map

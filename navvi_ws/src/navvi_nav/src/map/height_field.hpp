@@ -15,10 +15,10 @@ struct Span {
   int top = 0;  ///< one beyond its last level
 };
 
-/// A map's occupied voxels as columns of spans: what Recast calls a height field, but written whole
+/// A map's occupied voxels as columns of spans, as in Recast's height field, but written whole
 /// leaves at a time and with one entry a run. Most columns are one run, so the highest span of each
-/// stands in a grid, and the few below in a list.
-class Columns {
+/// is in a grid, and the few below in a list.
+class HeightField {
  public:
   static constexpr int kMaxLevels = 30000;
   /// What a column's leaves come to, before those that touch are joined. The densest layout of
@@ -32,9 +32,9 @@ class Columns {
   static constexpr double kRunsANode = 32.0;
 
   /// \param threads  that may share the work
-  explicit Columns(const Voxels& voxels, int threads = 1);
-  Columns(const Columns&) = delete;
-  Columns& operator=(const Columns&) = delete;
+  explicit HeightField(const Voxels& voxels, int threads = 1);
+  HeightField(const HeightField&) = delete;
+  HeightField& operator=(const HeightField&) = delete;
 
   [[nodiscard]] const std::string& error() const { return error_; }  ///< a sentence, or empty
   [[nodiscard]] int low_x() const { return low_[0]; }    ///< voxels from the map's origin

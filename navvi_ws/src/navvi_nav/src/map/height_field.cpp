@@ -1,4 +1,4 @@
-#include "map/columns.hpp"
+#include "map/height_field.hpp"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // 
 
 }  // namespace
 
-Columns::Columns(const Voxels& voxels, int threads) {
+HeightField::HeightField(const Voxels& voxels, int threads) {
   measure(voxels);
   if (!error_.empty()) return;
   const auto width = static_cast<std::size_t>(size_[0]);
@@ -40,14 +40,14 @@ Columns::Columns(const Voxels& voxels, int threads) {
   });
 }
 
-const Columns::Lower* Columns::below(std::size_t column) const {
+const HeightField::Lower* HeightField::below(std::size_t column) const {
   const Row& row = rows_[column / static_cast<std::size_t>(size_[0])];
   return std::lower_bound(row.begin, row.end, column, [](const Lower& lower, std::size_t wanted) {
     return lower.column < wanted;
   });
 }
 
-void Columns::measure(const Voxels& voxels) {
+void HeightField::measure(const Voxels& voxels) {
   int low[3] = {kMapSide, kMapSide, kMapSide};
   int high[3] = {0, 0, 0};
   double runs = 0.0;
@@ -89,7 +89,7 @@ void Columns::measure(const Voxels& voxels) {
 }
 
 /// Columns that a leaf of kSquare voxels or more covers: one run of each stands in the grid.
-double Columns::columns_of_large_leaves(const Voxels& voxels) const {
+double HeightField::columns_of_large_leaves(const Voxels& voxels) const {
   constexpr int kLevel = 3;
   constexpr int kSquare = 1 << kLevel;
   const int low_x = (low_[0] + kMapCenter) >> kLevel;
@@ -115,7 +115,7 @@ double Columns::columns_of_large_leaves(const Voxels& voxels) const {
 }
 
 /// \param first_row, last_row  rows of columns to fill, the last excluded
-void Columns::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
+void HeightField::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
   const int side = 1 << octet.level;
   const int z = octet.z - kMapCenter - low_[2];
   for (int quarter = 0; quarter < 4; ++quarter) {
@@ -137,7 +137,7 @@ void Columns::add(const Octet& octet, int first_row, int last_row, std::vector<L
 
 /// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
 /// do, for settle() puts in order what is apart here.
-void Columns::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
+void HeightField::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
   Packed& high = highest_[column];
   const std::uint16_t more = high.bottom & kMore;
   const auto bottom = static_cast<std::uint16_t>(high.bottom & ~kMore);
@@ -155,7 +155,7 @@ void Columns::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) 
 }
 
 /// Sorts what lies below the highest spans and joins spans that touch.
-void Columns::settle(std::vector<Lower>& lower) {
+void HeightField::settle(std::vector<Lower>& lower) {
   const auto key = [](const Lower& one) {
     return std::uint64_t{one.column} << 32 |
            (0xffffffffU - (std::uint32_t{one.span.top} << 16 | one.span.bottom));
