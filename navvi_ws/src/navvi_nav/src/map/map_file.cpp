@@ -6,7 +6,7 @@
 #include <navvi_config/reader.hpp>
 #include <optional>
 #include <sstream>
-#include <utility>
+#include <stdexcept>
 #include <vector>
 
 namespace navvi_nav::map {
@@ -16,30 +16,26 @@ constexpr std::size_t kMaxHeader = 4096;         // bytes
 constexpr std::size_t kMaxPicture = 64U << 20U;  // bytes
 constexpr std::size_t kMaxPictureSide = 32768;   // pixels
 
-struct FileBytes {
-  std::string error;
-  std::string bytes;
-};
+/// A sentence that names the file.
+using FileError = std::runtime_error;
 
-FileBytes load(const std::string& path, std::size_t most) {
+std::string load(const std::string& path, std::size_t most) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed))
-    return {path + (std::filesystem::exists(path, failed) ? ": this is no file"
-                                                          : ": there is no such file"),
-            {}};
+    throw FileError(path + (std::filesystem::exists(path, failed) ? ": this is no file"
+                                                                  : ": there is no such file"));
   const auto size = std::filesystem::file_size(path, failed);
   if (failed || size > most)
-    return {path + ": the file is larger than " + std::to_string(most >> 20U) + " MiB", {}};
+    throw FileError(path + ": the file is larger than " + std::to_string(most >> 20U) + " MiB");
   std::ifstream file(path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
-    return {path + ": the file cannot be read", {}};
-  return {{}, std::move(bytes)};
+    throw FileError(path + ": the file cannot be read");
+  return bytes;
 }
 
 /// What the lines before "data" say.
 struct Header {
-  std::string error;
   MapBytes map;
   std::size_t length = 0;  ///< bytes, the line "data" included
 };
@@ -53,7 +49,7 @@ std::optional<double> number_in(const std::string& text) {
   return value;
 }
 
-Header read_header(const std::string& bytes) {
+Header read_header(const std::string& path, const std::string& bytes) {
   Header out;
   std::istringstream stream(bytes.substr(0, kMaxHeader));
   std::string line;
@@ -63,8 +59,7 @@ Header read_header(const std::string& bytes) {
   } else if (line.rfind("# Octomap OcTree file", 0) == 0) {
     out.map.binary = false;
   } else {
-    out.error = "the first line is not that of an OctoMap file (.bt or .ot)";
-    return out;
+    throw FileError(path + ": the first line is not that of an OctoMap file (.bt or .ot)");
   }
   while (std::getline(stream, line)) {
     if (line.empty() || line[0] == '#') continue;
@@ -80,18 +75,15 @@ Header read_header(const std::string& bytes) {
     } else if (key == "res") {
       out.map.resolution = number_in(value).value_or(0.0);
     } else if (key != "size") {  // octomap's count of nodes; the stream itself tells
-      out.error =
-          "the header has a line \"" + key.substr(0, 40) + "\"; id, size, res and data are allowed";
-      return out;
+      throw FileError(path + ": the header has a line \"" + key.substr(0, 40) +
+                      "\"; id, size, res and data are allowed");
     }
   }
-  out.error = "the header has no line \"data\"";
-  return out;
+  throw FileError(path + ": the header has no line \"data\"");
 }
 
 /// A grey picture, row by row from the top.
 struct Picture {
-  std::string error;
   std::size_t width = 0;
   std::size_t height = 0;
   double white = 255.0;
@@ -118,31 +110,20 @@ std::optional<std::size_t> next_number(const std::string& bytes, std::size_t& at
 }
 
 Picture read_pgm(const std::string& path) {
-  Picture out;
-  FileBytes file = load(path, kMaxPicture);
-  out.error = file.error;
-  if (!out.error.empty()) return out;
+  const std::string bytes = load(path, kMaxPicture);
   std::size_t at = 2;
-  const bool pgm = file.bytes.rfind("P5", 0) == 0;
-  const auto width = pgm ? next_number(file.bytes, at) : std::nullopt;
-  const auto height = pgm ? next_number(file.bytes, at) : std::nullopt;
-  const auto white = pgm ? next_number(file.bytes, at) : std::nullopt;
-  if (!width || !height || !white || *white == 0 || *white > 255) {
-    out.error = path + ": this is no PGM picture of one byte a pixel (P5)";
-    return out;
-  }
+  const bool pgm = bytes.rfind("P5", 0) == 0;
+  const auto width = pgm ? next_number(bytes, at) : std::nullopt;
+  const auto height = pgm ? next_number(bytes, at) : std::nullopt;
+  const auto white = pgm ? next_number(bytes, at) : std::nullopt;
+  if (!width || !height || !white || *white == 0 || *white > 255)
+    throw FileError(path + ": this is no PGM picture of one byte a pixel (P5)");
   ++at;  // one white space
   if (*width == 0 || *height == 0 || *width > kMaxPictureSide || *height > kMaxPictureSide ||
-      at > file.bytes.size() || file.bytes.size() - at < *width * *height) {
-    out.error = path + ": the picture should have " + std::to_string(*width) + " x " +
-                std::to_string(*height) + " pixels, and it has not; 32768 a side are allowed";
-    return out;
-  }
-  out.width = *width;
-  out.height = *height;
-  out.white = static_cast<double>(*white);
-  out.pixels = file.bytes.substr(at, *width * *height);
-  return out;
+      at > bytes.size() || bytes.size() - at < *width * *height)
+    throw FileError(path + ": the picture should have " + std::to_string(*width) + " x " +
+                    std::to_string(*height) + " pixels, and it has not; 32768 a side are allowed");
+  return {*width, *height, static_cast<double>(*white), bytes.substr(at, *width * *height)};
 }
 
 struct GridDescription {
@@ -190,40 +171,31 @@ OccupancyGrid grid_of(const GridDescription& how, const Picture& picture) {
 }  // namespace
 
 Voxels read_octomap_file(const std::string& path) {
-  Voxels refused;
-  const FileBytes file = load(path, kMaxMapBytes + kMaxHeader);
-  refused.error = file.error;
-  if (!refused.error.empty()) return refused;
-  Header header = read_header(file.bytes);
-  if (!header.error.empty()) {
-    refused.error = path + ": " + header.error;
-    return refused;
+  Voxels out;
+  try {
+    const std::string bytes = load(path, kMaxMapBytes + kMaxHeader);
+    Header header = read_header(path, bytes);
+    header.map.data = reinterpret_cast<const std::int8_t*>(bytes.data()) + header.length;
+    header.map.size = bytes.size() - header.length;
+    out = read_voxels(header.map);
+    if (!out.error.empty()) out.error.insert(0, path + ": ");
+  } catch (const FileError& error) {
+    out.error = error.what();
   }
-  header.map.data = reinterpret_cast<const std::int8_t*>(file.bytes.data()) + header.length;
-  header.map.size = file.bytes.size() - header.length;
-  Voxels out = read_voxels(header.map);
-  if (!out.error.empty()) out.error.insert(0, path + ": ");
   return out;
 }
 
 GridFile read_grid_file(const std::string& path) {
-  GridFile out;
-  GridDescription how;
   try {
+    GridDescription how;
     navvi_config::read(how, navvi_config::load_yaml(path), path);
-  } catch (const navvi_config::ConfigError& error) {
-    out.error = error.what();
-    return out;
+    if (how.image.empty() || how.resolution <= 0.0 || how.origin.size() < 2)
+      throw FileError(path + ": a map_server map names its image, resolution and origin");
+    const auto picture = std::filesystem::path(path).parent_path() / how.image;
+    return {{}, grid_of(how, read_pgm(picture.string()))};
+  } catch (const std::runtime_error& error) {  // FileError or ConfigError
+    return {error.what(), {}};
   }
-  if (how.image.empty() || how.resolution <= 0.0 || how.origin.size() < 2) {
-    out.error = path + ": a map_server map names its image, resolution and origin";
-    return out;
-  }
-  const Picture picture =
-      read_pgm((std::filesystem::path(path).parent_path() / how.image).string());
-  out.error = picture.error;
-  if (out.error.empty()) out.grid = grid_of(how, picture);
-  return out;
 }
 
 MapSurvey survey_file(const std::string& path, const SurveyConfig& config) {
@@ -231,21 +203,16 @@ MapSurvey survey_file(const std::string& path, const SurveyConfig& config) {
   MapSurvey out;
   if (ending == ".bt" || ending == ".ot") {
     const Voxels voxels = read_octomap_file(path);
-    if (!voxels.error.empty()) {
-      out.error = voxels.error;
-      return out;
-    }
+    out.error = voxels.error;
+    if (!out.error.empty()) return out;
     out = survey_map(voxels, config);
   } else if (ending == ".yaml" || ending == ".yml") {
     const GridFile file = read_grid_file(path);
-    if (!file.error.empty()) {
-      out.error = file.error;
-      return out;
-    }
+    out.error = file.error;
+    if (!out.error.empty()) return out;
     out = read_grid(file.grid, config.cell_size);
   } else {
-    out.error = path + ": maps end in .bt, .ot (OctoMap) or .yaml (map_server)";
-    return out;
+    out.error = "maps end in .bt, .ot (OctoMap) or .yaml (map_server)";
   }
   if (!out.error.empty()) out.error.insert(0, path + ": ");
   return out;
