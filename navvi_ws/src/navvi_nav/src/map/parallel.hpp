@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
-#include <thread>
+#include <future>
 #include <vector>
 
 namespace navvi_nav::map {
@@ -17,24 +16,19 @@ void in_parallel(int count, int threads, const Work& work) {
     return;
   }
   std::atomic<int> next{0};
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(std::min(threads, count)));
-  const auto run = [&](std::exception_ptr& failure) {
+  const auto run = [&] {
     try {
       for (int i = next++; i < count; i = next++) work(i);
     } catch (...) {
-      failure = std::current_exception();
       next = count;
+      throw;
     }
   };
-  std::vector<std::thread> others;
-  others.reserve(failures.size() - 1);
-  for (std::size_t k = 1; k < failures.size(); ++k)
-    others.emplace_back([&run, &failure = failures[k]] { run(failure); });
-  run(failures[0]);
-  for (std::thread& other : others) other.join();
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  std::vector<std::future<void>> others;
+  for (int k = 1; k < std::min(threads, count); ++k)
+    others.push_back(std::async(std::launch::async, run));
+  run();
+  for (std::future<void>& other : others) other.get();
 }
 
 }  // namespace navvi_nav::map

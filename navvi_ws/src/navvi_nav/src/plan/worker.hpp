@@ -1,21 +1,17 @@
 #pragma once
 
-#include <condition_variable>
+#include <future>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "plan/planner.hpp"
 
 namespace navvi_nav::plan {
 
-/// Owns the Planner and one thread that answers one request at a time.
+/// Owns the Planner, and answers one request at a time in another thread.
 class Worker {
  public:
-  explicit Worker(const PlannerConfig& config);
-  ~Worker();
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
+  explicit Worker(const PlannerConfig& config) : planner_(config) {}
 
   /// The previous request's answer must have been taken.
   void start(PlanRequest request);
@@ -26,16 +22,9 @@ class Worker {
   [[nodiscard]] std::optional<Plan> ask(Point start, Point goal, double tolerance, double patience);
 
  private:
-  void run();
-
   std::timed_mutex busy_;  // guards planner_
   Planner planner_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::optional<PlanRequest> request_;
-  std::optional<PlanAnswer> answer_;
-  bool stop_ = false;
-  std::thread thread_;
+  std::future<PlanAnswer> answer_;  // last: its destructor waits for the thread
 };
 
 }  // namespace navvi_nav::plan
