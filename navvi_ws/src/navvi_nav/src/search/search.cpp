@@ -1,7 +1,6 @@
 #include "search/search.hpp"
 
 #include "search/centroid_astar.hpp"
-#include "search/funnel.hpp"
 
 namespace navvi_nav::search {
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "search/centroid_astar.hpp"
-#include "search/funnel.hpp"
 #include "search/search.hpp"
 
 namespace navvi_nav::search {
