@@ -391,18 +391,18 @@ TEST(CutMesh, takes_a_part_of_another_floor) {
 TEST(CutMesh, allocates_nothing_where_holes_were_before) {
   std::mt19937 random(1);
   CutMesh mesh(random_floor(random), kUnit);
-  plan::Carving carving;
+  plan::Carving carving{plan::CarvingRules{}};
   std::vector<Cylinder> here, there;
   for (unsigned id = 0; id < 20; ++id) {
     const Disc disc = random_disc(random);
     here.push_back({id, disc.center, 0.3, {}});
     there.push_back({id, disc.center + Point{0.3, 0.1}, 0.3, {}});
   }
-  for (int k = 0; k < 300; ++k) carving.carve(mesh, k % 2 == 0 ? here : there, {});
+  for (int k = 0; k < 300; ++k) carving.carve(mesh, k % 2 == 0 ? here : there);
   const std::size_t before = allocations();
-  for (int k = 0; k < 10; ++k) EXPECT_GT(carving.carve(mesh, k % 2 == 0 ? here : there, {}), 0);
+  for (int k = 0; k < 10; ++k) EXPECT_GT(carving.carve(mesh, k % 2 == 0 ? here : there), 0);
   EXPECT_EQ(allocations(), before);
-  carving.carve(mesh, {{99, {8, 8}, 5.0, {}}}, {});
+  carving.carve(mesh, {{99, {8, 8}, 5.0, {}}});
   EXPECT_GT(allocations(), before);  // they are counted
 }
 

@@ -26,8 +26,7 @@ bool same_hole(const Cylinder& a, const Cylinder& b) {
 
 }  // namespace
 
-int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders,
-                   const CarvingRules& rules) {
+int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders) {
   const auto by_id = [](const Cylinder& a, const Cylinder& b) { return a.id < b.id; };
   next_ = cylinders;
   if (!std::is_sorted(next_.begin(), next_.end(), by_id))
@@ -38,14 +37,14 @@ int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders,
     if (pair.before >= 0 && pair.after >= 0) {
       const Cylinder& before = carved_[slot(pair.before)];
       Cylinder& after = next_[slot(pair.after)];
-      if (before.radius == after.radius && distance(before.center, after.center) < rules.moved)
+      if (before.radius == after.radius && distance(before.center, after.center) < rules_.moved)
         after.center = before.center;
       any = any || !same_hole(before, after);
     } else {
       any = true;
     }
   }
-  if (!any || !changed_enough(rules.changed)) return 0;
+  if (!any || !changed_enough()) return 0;
   next_holes_.resize(next_.size());
   for (const Pair& pair : pairs_) {
     if (pair.before >= 0 && pair.after >= 0 &&
@@ -57,7 +56,7 @@ int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders,
     if (pair.after < 0) continue;
     const Cylinder& cylinder = next_[slot(pair.after)];
     next_holes_[slot(pair.after)] =
-        mesh.add(cylinder.center, cylinder.radius + rules.room, rules.sides);
+        mesh.add(cylinder.center, cylinder.radius + rules_.room, rules_.sides);
   }
   std::swap(carved_, next_);
   std::swap(holes_, next_holes_);
@@ -69,9 +68,9 @@ void Carving::lift(mesh::CutMesh& mesh) {
   mesh.update();
 }
 
-void Carving::repeat(mesh::CutMesh& mesh, const CarvingRules& rules) {
+void Carving::repeat(mesh::CutMesh& mesh) {
   for (std::size_t i = 0; i < carved_.size(); ++i)
-    holes_[i] = mesh.add(carved_[i].center, carved_[i].radius + rules.room, rules.sides);
+    holes_[i] = mesh.add(carved_[i].center, carved_[i].radius + rules_.room, rules_.sides);
   mesh.update();
 }
 
@@ -86,8 +85,8 @@ void Carving::pair_up() {
   }
 }
 
-bool Carving::changed_enough(double fraction) const {
-  if (fraction <= 0.0) return true;
+bool Carving::changed_enough() const {
+  if (rules_.changed <= 0.0) return true;
   double total = 0.0, fresh = 0.0, kept = 0.0;
   for (const Cylinder& cylinder : carved_) total += area(cylinder.radius);
   for (const Cylinder& cylinder : next_) fresh += area(cylinder.radius);
@@ -98,7 +97,7 @@ bool Carving::changed_enough(double fraction) const {
     kept += shared_area(distance(before.center, after.center), before.radius, after.radius);
   }
   const double changed = total + fresh - 2.0 * kept;
-  return total <= 0.0 ? changed > 0.0 : changed > fraction * total;
+  return total <= 0.0 ? changed > 0.0 : changed > rules_.changed * total;
 }
 
 }  // namespace navvi_nav::plan

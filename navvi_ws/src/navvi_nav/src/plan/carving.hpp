@@ -18,12 +18,14 @@ struct CarvingRules {
 /// The moving things that have holes in a mesh, identified by their ids.
 class Carving {
  public:
+  explicit Carving(const CarvingRules& rules) : rules_(rules) {}
+
   /// Makes the holes those of `cylinders`. \returns polygons of the floor that were cut anew
-  int carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders, const CarvingRules& rules);
+  int carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders);
   /// Takes all holes out of the mesh, until repeat().
   void lift(mesh::CutMesh& mesh);
   /// Makes the same holes in a mesh without any.
-  void repeat(mesh::CutMesh& mesh, const CarvingRules& rules);
+  void repeat(mesh::CutMesh& mesh);
   /// As carved, by id.
   [[nodiscard]] const std::vector<Cylinder>& carved() const { return carved_; }
 
@@ -34,8 +36,9 @@ class Carving {
     int after = -1;
   };
   void pair_up();
-  [[nodiscard]] bool changed_enough(double fraction) const;
+  [[nodiscard]] bool changed_enough() const;
 
+  CarvingRules rules_;
   std::vector<Cylinder> carved_;
   std::vector<int> holes_;  // of each in the mesh
   std::vector<Cylinder> next_;

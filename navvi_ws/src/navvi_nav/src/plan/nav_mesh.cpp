@@ -76,13 +76,9 @@ MeshUpdate NavMesh::set_map(map::MapSurvey survey) {
 MeshUpdate NavMesh::carve(const std::vector<Cylinder>& cylinders) {
   MeshUpdate update;
   update.tiles = static_cast<int>(baked_.tiles.size());
-  update.polygons_cut = carving_.carve(mesh_, cylinders, rules());
+  update.polygons_cut = carving_.carve(mesh_, cylinders);
   if (update.polygons_cut > 0) shown_.reset();
   return update;
-}
-
-CarvingRules NavMesh::rules() const {
-  return {config_.robot_radius, config_.hole_sides, config_.carve_moved, config_.carve_changed};
 }
 
 std::shared_ptr<const mesh::Mesh> NavMesh::shared_mesh() const {
@@ -101,7 +97,7 @@ void NavMesh::join_tiles() {
     }
   }
   mesh_ = mesh::CutMesh(all, floor_->cell_size() / map::kStepsPerCellSide);
-  carving_.repeat(mesh_, rules());
+  carving_.repeat(mesh_);
   shown_.reset();
 }
 
@@ -125,7 +121,7 @@ void NavMesh::change_tiles() {
     tile_polygons_[tile].assign(next, next + static_cast<std::ptrdiff_t>(count));
     next += static_cast<std::ptrdiff_t>(count);
   }
-  carving_.repeat(mesh_, rules());
+  carving_.repeat(mesh_);
   shown_.reset();
 }
 

@@ -52,7 +52,10 @@ struct MeshUpdate {
 /// a carved cylinder. survey_map() says what floor is.
 class NavMesh {
  public:
-  explicit NavMesh(const NavMeshConfig& config) : config_(config) {}
+  explicit NavMesh(const NavMeshConfig& config)
+      : config_(config),
+        carving_(
+            {config.robot_radius, config.hole_sides, config.carve_moved, config.carve_changed}) {}
 
   /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
   /// changed keep their polygons.
@@ -85,7 +88,6 @@ class NavMesh {
 
  private:
   [[nodiscard]] double margin(double cell) const;
-  [[nodiscard]] CarvingRules rules() const;
   void join_tiles();
   void change_tiles();
 
