@@ -1,6 +1,12 @@
 #include "guide/observation.hpp"
 
 namespace navvi_nav::guide {
+namespace {
+
+constexpr double kMoving = 0.1;   // m/s
+constexpr double kMemory = 10.0;  // s, time constant of the pace
+
+}  // namespace
 
 void ObservationConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -43,7 +49,9 @@ void Observation::update(double time) {
     obstacles_.clear();
     obstacles_lost_ = true;
   }
-  pace_.update(time, speed_);
+  const double elapsed = updated_ ? std::clamp(time - *updated_, 0.0, 1.0) : 0.0;
+  updated_ = time;
+  if (speed_ > kMoving) pace_ += (speed_ - pace_) * (1.0 - std::exp(-elapsed / kMemory));
 }
 
 void Observation::reset_times() {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "guide/cylinders.hpp"
-#include "guide/mean_speed.hpp"
 
 namespace navvi_nav::guide {
 
@@ -34,8 +33,9 @@ class Observation {
   /// Where the robot is; nullopt without a fresh pose.
   [[nodiscard]] std::optional<Pose2> pose(double time) const;
   [[nodiscard]] const std::optional<Pose2>& last_pose() const { return pose_; }
-  [[nodiscard]] double speed() const { return speed_; }        ///< m/s, forward
-  [[nodiscard]] double pace() const { return pace_.value(); }  ///< m/s, when it drives, > 0
+  [[nodiscard]] double speed() const { return speed_; }  ///< m/s, forward
+  /// m/s, > 0: mean forward speed over the times when the robot moved.
+  [[nodiscard]] double pace() const { return pace_; }
   [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
   [[nodiscard]] std::optional<MovingThing> thing(std::optional<std::uint32_t> id) const;
   [[nodiscard]] bool obstacles_fresh(double time) const;
@@ -52,7 +52,8 @@ class Observation {
   std::optional<Pose2> pose_;
   double pose_time_ = 0.0;
   double speed_ = 0.0;
-  MeanSpeed pace_;
+  double pace_ = 0.7;  ///< before the robot moved
+  std::optional<double> updated_;
 };
 
 }  // namespace navvi_nav::guide

@@ -40,7 +40,7 @@ std::optional<Guidance::Replan> ReplanTrigger::update(const ReplanInput& input) 
   last_plan_ = input.time;
   near_pending_ = false;
   if (slow) last_slow_ = input.time;
-  informed_set_.searched(input.obstacles);
+  searched_ = input.obstacles;
   return reason;
 }
 
@@ -73,8 +73,27 @@ bool ReplanTrigger::matters(const ReplanInput& input) const {
   if (!config_.only_if_it_matters || input.remaining.size() < 2 ||
       input.path_offset > config_.stray)
     return true;
-  return informed_set_.better_path(input.robot, input.remaining.back(), input.worthwhile,
-                                   input.obstacles, kMoved, config_.robot_radius + kHole);
+  return may_have_opened(input);
+}
+
+/// True if obstacles that moved since the last search could have opened a path that is worthwhile.
+/// A path through the place that one of them left runs through a point of its hole; all points
+/// through which a path of a given length can lead fill the ellipse about its ends: the informed
+/// set (Gammell, Srinivasa and Barfoot, "Informed RRT*", 2014).
+bool ReplanTrigger::may_have_opened(const ReplanInput& input) const {
+  const Point goal = input.remaining.back();
+  if (distance(input.robot, goal) >= input.worthwhile) return false;
+  return std::any_of(searched_.begin(), searched_.end(), [&](const Cylinder& hole) {
+    const double reach = hole.radius + (config_.robot_radius + kHole);
+    if (distance(input.robot, hole.center) + distance(hole.center, goal) - 2.0 * reach >=
+        input.worthwhile)
+      return false;
+    return std::none_of(input.obstacles.begin(), input.obstacles.end(),
+                        [&](const Cylinder& obstacle) {
+                          return obstacle.id == hole.id && obstacle.radius >= hole.radius &&
+                                 distance(obstacle.center, hole.center) < kMoved;
+                        });
+  });
 }
 
 std::optional<Guidance::Replan> ReplanTrigger::choose(const ReplanInput& input, bool slow) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "guide/conflict_forecast.hpp"
-#include "guide/informed_set.hpp"
 
 namespace navvi_nav::guide {
 
@@ -58,9 +57,10 @@ class ReplanTrigger {
   [[nodiscard]] bool is_slow(const ReplanInput& input);
   [[nodiscard]] bool note_near(const ReplanInput& input);
   [[nodiscard]] bool matters(const ReplanInput& input) const;
+  [[nodiscard]] bool may_have_opened(const ReplanInput& input) const;
 
   ReplanTriggerConfig config_;
-  InformedSet informed_set_;
+  std::vector<Cylinder> searched_;  // obstacles among which the last path was searched
   std::optional<double> last_plan_;
   std::optional<double> last_slow_;
   std::optional<double> slow_since_;
