@@ -13,7 +13,7 @@ Point left_of(Point a) { return {-a.y, a.x}; }
 
 }  // namespace
 
-Channel::Channel(const Path& path, const map::Space& space, const Room& room)
+Channel::Channel(const Path& path, const map::Space& space, const Clearances& room)
     : room_(room), step_(std::max(room.preferred, kLeastReach) / kSide) {
   place_rungs(path);
   measure(space);

@@ -7,7 +7,7 @@
 namespace navvi_nav::smooth {
 
 /// What a path must keep: `radius` always, `radius + preferred` where there is room, m.
-struct Room {
+struct Clearances {
   double radius = 0.35;
   double preferred = 0.6;
 
@@ -39,7 +39,7 @@ class Channel {
   };
 
   /// \param path  of some length, clear by room.radius
-  Channel(const Path& path, const map::Space& space, const Room& room);
+  Channel(const Path& path, const map::Space& space, const Clearances& room);
 
   [[nodiscard]] const std::vector<Rung>& rungs() const { return rungs_; }
   [[nodiscard]] std::size_t size() const { return rungs_.size(); }
@@ -56,7 +56,7 @@ class Channel {
   }
   /// m, to what blocks, on a rung, between its samples by linear interpolation.
   [[nodiscard]] double gap(std::size_t rung, double sample) const;
-  [[nodiscard]] const Room& room() const { return room_; }
+  [[nodiscard]] const Clearances& room() const { return room_; }
   /// True if `path`, with the ends of the channel, crosses every rung in order.
   [[nodiscard]] bool holds(const Path& path) const;
   /// Takes the ends off the rungs that the segment crosses, on its side, where it comes nearest to
@@ -70,7 +70,7 @@ class Channel {
   void untangle();
   [[nodiscard]] bool beside(Point point) const;
 
-  Room room_;
+  Clearances room_;
   double step_ = 0.0;
   std::vector<Rung> rungs_;
 };

@@ -18,7 +18,7 @@ class Pillar : public testing::Test {
     return mesh_.space();
   }
   plan::NavMesh mesh_;
-  Room room_;
+  Clearances room_;
   const Path below_{{2, 4}, {5.7, 3.4}, {6.3, 3.4}, {10, 4}};
   const Channel channel_;
 };

@@ -3,7 +3,6 @@
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/SpaceInformation.h>
-#include <ompl/base/StateValidityChecker.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
@@ -30,26 +29,10 @@ Point point_of(const ob::State* state) {
   return {values[0], values[1]};
 }
 
-class Validity : public ob::StateValidityChecker {
- public:
-  Validity(const ob::SpaceInformationPtr& information, const map::Space& space, const Room& room)
-      : ob::StateValidityChecker(information), space_(space), room_(room) {}
-  bool isValid(const ob::State* state) const override {
-    const Point point = point_of(state);
-    return space_.segment_clear(point, point, room_.radius);
-  }
-  double clearance(const ob::State* state) const override {
-    return space_.clearance(point_of(state)) - room_.radius;
-  }
-
- private:
-  map::Space space_;
-  Room room_;
-};
-
 class Motion : public ob::MotionValidator {
  public:
-  Motion(const ob::SpaceInformationPtr& information, const map::Space& space, const Room& room)
+  Motion(const ob::SpaceInformationPtr& information, const map::Space& space,
+         const Clearances& room)
       : ob::MotionValidator(information), space_(space), room_(room) {}
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
     return space_.segment_clear(point_of(a), point_of(b), room_.radius);
@@ -64,14 +47,14 @@ class Motion : public ob::MotionValidator {
 
  private:
   map::Space space_;
-  Room room_;
+  Clearances room_;
 };
 
 /// guide_cost and turn_price as OMPL sees them: each motion costs its leg and one turn.
-class Clearance : public ob::OptimizationObjective {
+class GuideCost : public ob::OptimizationObjective {
  public:
-  Clearance(const ob::SpaceInformationPtr& information, const map::Space& space, const Room& room,
-            const SmoothingConfig& config)
+  GuideCost(const ob::SpaceInformationPtr& information, const map::Space& space,
+            const Clearances& room, const SmoothingConfig& config)
       : ob::OptimizationObjective(information), space_(space), room_(room), config_(config) {}
   ob::Cost stateCost(const ob::State*) const override { return ob::Cost(0.0); }
   ob::Cost motionCost(const ob::State* a, const ob::State* b) const override {
@@ -81,7 +64,7 @@ class Clearance : public ob::OptimizationObjective {
 
  private:
   map::Space space_;
-  Room room_;
+  Clearances room_;
   SmoothingConfig config_;
 };
 
@@ -100,7 +83,7 @@ class Simplifier : public og::PathSimplifier {
   }
 };
 
-ob::SpaceInformationPtr information_of(const map::Space& space, const Room& room) {
+ob::SpaceInformationPtr information_of(const map::Space& space, const Clearances& room) {
   const map::Floor& floor = *space.floor;
   auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
   ob::RealVectorBounds bounds(2);
@@ -113,7 +96,9 @@ ob::SpaceInformationPtr information_of(const map::Space& space, const Room& room
   plane->setStateSamplerAllocator(
       [](const ob::StateSpace* of) { return std::make_shared<Sampler>(of); });
   auto information = std::make_shared<ob::SpaceInformation>(plane);
-  information->setStateValidityChecker(std::make_shared<Validity>(information, space, room));
+  information->setStateValidityChecker([space, room](const ob::State* state) {
+    return space.segment_clear(point_of(state), point_of(state), room.radius);
+  });
   information->setMotionValidator(std::make_shared<Motion>(information, space, room));
   information->setup();
   return information;
@@ -139,7 +124,7 @@ Path from_ompl(const og::PathGeometric& path) {
 
 /// OMPL moves points of the path at random and keeps what is cheaper, then leaves out the corners
 /// that do not pay.
-Path polished(const Path& path, const map::Space& space, const Room& room,
+Path polished(const Path& path, const map::Space& space, const Clearances& room,
               const SmoothingConfig& config) {
   ompl::msg::noOutputHandler();
   const auto information = information_of(space, room);
@@ -147,22 +132,23 @@ Path polished(const Path& path, const map::Space& space, const Room& room,
   const auto steps = static_cast<unsigned int>(config.steps);
   SmoothingConfig any_turns = config;
   any_turns.turn_price = 0.0;
-  Simplifier mover(information, std::make_shared<Clearance>(information, space, room, any_turns));
+  Simplifier mover(information, std::make_shared<GuideCost>(information, space, room, any_turns));
   mover.perturbPath(out, kStride, steps, steps);
-  Simplifier saver(information, std::make_shared<Clearance>(information, space, room, config));
+  Simplifier saver(information, std::make_shared<GuideCost>(information, space, room, config));
   saver.shortcutPath(out, steps, steps, kRange, kSnap);
   return from_ompl(out);
 }
 
 /// What the path is measured by: guide_cost and one turn_price for each leg.
-double person_cost(const Path& path, const map::Space& space, const Room& room,
+double person_cost(const Path& path, const map::Space& space, const Clearances& room,
                    const SmoothingConfig& config) {
   return guide_cost(path, space, room, config) +
          config.turn_price * static_cast<double>(path.size());
 }
 
 /// The cylinders that may matter to a path within room.preferred of this one.
-std::vector<Cylinder> cylinders_near(const Path& path, const map::Space& space, const Room& room) {
+std::vector<Cylinder> cylinders_near(const Path& path, const map::Space& space,
+                                     const Clearances& room) {
   Point low = path.front();
   Point high = low;
   for (const Point point : path) {
@@ -196,7 +182,7 @@ void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
 }
 
-double guide_cost(const Path& path, const map::Space& space, const Room& room,
+double guide_cost(const Path& path, const map::Space& space, const Clearances& room,
                   const SmoothingConfig& config) {
   if (room.preferred <= 0.0 || config.clearance_weight <= 0.0) return length_of(path);
   double sum = 0.0;
@@ -218,7 +204,7 @@ double guide_cost(const Path& path, const map::Space& space, const Room& room,
   return sum;
 }
 
-Path smooth(const Path& path, const map::Space& space, const Room& room,
+Path smooth(const Path& path, const map::Space& space, const Clearances& room,
             const SmoothingConfig& config) {
   const double shortest = length_of(path);
   if (!config.enabled || shortest <= 0.0 || !clear(path, space, room.radius)) return path;

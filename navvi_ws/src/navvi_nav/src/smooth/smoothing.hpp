@@ -19,7 +19,7 @@ struct SmoothingConfig {
 };
 
 /// m: the length of the path, each metre dearer the less of the preferred clearance it keeps.
-[[nodiscard]] double guide_cost(const Path& path, const map::Space& space, const Room& room,
+[[nodiscard]] double guide_cost(const Path& path, const map::Space& space, const Clearances& room,
                                 const SmoothingConfig& config);
 
 /// A path for a person (R-NAV-13) made of the shortest one: it keeps off what is near and has few
@@ -28,7 +28,7 @@ struct SmoothingConfig {
 /// is clear by `room.radius` from end to end, and is at most max_stretch times as long as `path` or
 /// max_detour longer; on any doubt it is `path` itself. Work is bounded by counts, not by a clock:
 /// equal input gives equal output.
-[[nodiscard]] Path smooth(const Path& path, const map::Space& space, const Room& room,
+[[nodiscard]] Path smooth(const Path& path, const map::Space& space, const Clearances& room,
                           const SmoothingConfig& config);
 
 }  // namespace navvi_nav::smooth

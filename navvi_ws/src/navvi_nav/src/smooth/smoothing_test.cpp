@@ -21,7 +21,7 @@ class Smoothing : public testing::Test {
 
   SmallWorld world_;
   plan::NavMesh mesh_{plan::NavMeshConfig{}};
-  Room room_;
+  Clearances room_;
   SmoothingConfig config_;
   const Path zigzag_{{1, 1}, {2, 2.3}, {3, 1.2}, {6, 2.4}, {9, 1.1}, {12, 2.0}, {12, 8}};
 };
@@ -135,7 +135,7 @@ class SmoothingSeeds : public testing::Test {
             !clear(plan.path, planner.nav_mesh().space(), 0.35))
           continue;
         ++paths_;
-        const Room room{config.mesh.robot_radius, config.mesh.preferred_clearance};
+        const Clearances room{config.mesh.robot_radius, config.mesh.preferred_clearance};
         const map::Space space = planner.nav_mesh().space();
         check(plan.path, smooth(plan.path, space, room, config.smoothing), space, room, poles);
       }
@@ -151,8 +151,8 @@ TEST_F(SmoothingSeeds,
   SmoothingConfig shortening = config.smoothing;
   shortening.turn_price = 0.0;
   int moved = 0;
-  each(config, [&](const Path& path, const Path& guide, const map::Space& space, const Room& room,
-                   const std::vector<Point>& poles) {
+  each(config, [&](const Path& path, const Path& guide, const map::Space& space,
+                   const Clearances& room, const std::vector<Point>& poles) {
     EXPECT_EQ(guide.front(), path.front());
     EXPECT_EQ(guide.back(), path.back());
     for (const Point point : points_along(guide, 0.02))
