@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "guide/navigator.hpp"
@@ -125,58 +126,33 @@ Options read_options(const std::vector<std::string>& words) {
   return out;
 }
 
-/// Times the steps, ms.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double out = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return out;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-struct Size {
-  double area = 0.0;  ///< m^2
-  std::size_t polygons = 0, portals = 0, components = 0, bytes = 0;
-};
-
-Size size_of(const mesh::Mesh& mesh) {
-  Size out;
-  std::set<int> components;
-  out.bytes =
+void print_mesh(const plan::NavMesh& nav_mesh, const plan::MeshUpdate& update) {
+  const map::Floor& floor = *nav_mesh.shared_floor();
+  const mesh::Mesh& mesh = nav_mesh.mesh();
+  double area = 0.0;  // m^2
+  std::size_t polygons = 0, portals = 0;
+  std::size_t bytes =
       mesh.vertices.size() * sizeof(mesh::Vertex) + mesh.polygons.size() * sizeof(mesh::Polygon);
+  std::set<int> components;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const mesh::Polygon& polygon = mesh.polygons[i];
     if (polygon.corners.empty()) continue;
-    ++out.polygons;
-    out.portals += polygon.portals.size();
+    ++polygons;
+    portals += polygon.portals.size();
     components.insert(polygon.component);
-    out.bytes +=
-        polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
+    bytes += polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
     const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
     for (std::size_t k = 2; k < corners.size(); ++k)
-      out.area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
+      area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
   }
-  out.components = components.size();
-  return out;
-}
-
-void print_mesh(const plan::NavMesh& nav_mesh, const plan::MeshUpdate& update) {
-  const map::Floor& floor = *nav_mesh.shared_floor();
-  const Size size = size_of(nav_mesh.mesh());
   std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
               floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
               floor.cell_size(), floor.height());
   std::printf(
       "mesh        %.1f m^2, %zu polygons, %zu vertices, %zu portals, %d tiles, %zu components\n",
-      size.area, size.polygons, nav_mesh.mesh().vertices.size(), size.portals / 2, update.tiles,
-      size.components);
-  std::printf("memory      %zu bytes, %.1f a square metre\n", size.bytes,
-              static_cast<double>(size.bytes) / size.area);
+      area, polygons, mesh.vertices.size(), portals / 2, update.tiles, components.size());
+  std::printf("memory      %zu bytes, %.1f a square metre\n", bytes,
+              static_cast<double>(bytes) / area);
 }
 
 void print_plan(const plan::Plan& plan, double milliseconds) {
@@ -203,17 +179,20 @@ int run(const Options& options) {
     if (!file) throw UsageError(options.picture + ": the picture cannot be written");
   }
   if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
-  Stopwatch watch;
+  const auto lap = [last = std::chrono::steady_clock::now()]() mutable {  // ms since the last
+    const auto before = std::exchange(last, std::chrono::steady_clock::now());
+    return std::chrono::duration<double, std::milli>(last - before).count();
+  };
   const map::MapSurvey survey =
       map::survey_file(options.map, plan::survey_config(config.planner.mesh));
   if (!survey.error.empty()) throw UsageError(survey.error);
-  const double surveyed = watch.lap();
+  const double surveyed = lap();
   plan::Planner planner(config.planner);
   const plan::MeshUpdate update = planner.set_map(survey);
   if (!update.error.empty()) throw UsageError(options.map + ": " + update.error);
-  const double baked = watch.lap();
+  const double baked = lap();
   if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
-  const double carved = watch.lap();
+  const double carved = lap();
   print_mesh(planner.nav_mesh(), update);
   std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
               surveyed, baked, carved);
@@ -224,9 +203,9 @@ int run(const Options& options) {
   if (options.stage >= Stage::mesh) picture.cylinders = options.cylinders;
   std::string refusal;
   if (options.from && options.stage >= Stage::search) {
-    watch.lap();
+    (void)lap();
     const plan::Plan plan = planner.plan(*options.from, *options.to);
-    const double planned = watch.lap();
+    const double planned = lap();
     if (plan.status == plan::PlanStatus::found) {
       print_plan(plan, planned);
       picture.path = plan.path;
