@@ -11,8 +11,10 @@ namespace {
 
 constexpr double kLevel = 0.985;  // cosine of 10 degrees
 constexpr double kBin = 0.01;     // m
+constexpr double kStorey = 1.0;   // m, between levels of two storeys; no robot passes between
+constexpr double kStands = 0.3;   // m, from a storey's level to the foot of what stands on it
 
-/// Area by height.
+/// Area of the level surfaces by height.
 class Surfaces {
  public:
   void add(double height, double area) {
@@ -20,12 +22,36 @@ class Surfaces {
     sum.area += area;
     sum.moment += area * height;
   }
-  [[nodiscard]] std::optional<double> main_height() const {
-    double most = 0.0;
-    for (const auto& [bin, sum] : bins_) most = std::max(most, sum.area);
-    for (auto it = bins_.rbegin(); it != bins_.rend(); ++it)
-      if (most > 0.0 && it->second.area >= 0.9 * most) return it->second.moment / it->second.area;
-    return std::nullopt;
+
+  struct Level {
+    double height;  ///< m
+    double area;    ///< m^2
+  };
+  /// Of each storey the highest level with about its largest area, from the lowest storey up.
+  [[nodiscard]] std::vector<Level> storeys() const {
+    std::vector<Level> storeys;
+    double most = 0.0;  // of the storey
+    double below = 0.0;
+    for (const auto& [bin, sum] : bins_) {
+      if (sum.area <= 0.0) continue;
+      const Level level{sum.moment / sum.area, sum.area};
+      if (storeys.empty() || level.height - below > kStorey) {
+        storeys.push_back(level);
+        most = 0.0;
+      }
+      below = level.height;
+      most = std::max(most, level.area);
+      if (level.area >= 0.9 * most) storeys.back() = level;
+    }
+    return storeys;
+  }
+  /// m^2, of what lies from `low` to `high`
+  [[nodiscard]] double area_between(double low, double high) const {
+    double area = 0.0;
+    for (const auto& [bin, sum] : bins_)
+      if (sum.area > 0.0 && sum.moment >= low * sum.area && sum.moment <= high * sum.area)
+        area += sum.area;
+    return area;
   }
 
  private:
@@ -57,6 +83,15 @@ void add_level(Surfaces& surfaces, const Mesh& mesh, const Eigen::Isometry3d& po
   }
 }
 
+void add_level(Surfaces& surfaces, const Thing& thing) {
+  for (const Shape& shape : thing.shapes) {
+    const Eigen::Isometry3d pose = thing.pose * shape.pose;
+    if (const auto* box = std::get_if<Box>(&shape.geometry)) add_top(surfaces, *box, pose);
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
+      add_level(surfaces, **mesh, pose);
+  }
+}
+
 /// Corners of a box around a geometry, or a mesh's vertices.
 std::vector<Eigen::Vector3d> corners_of(const Geometry& geometry) {
   if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
@@ -78,16 +113,34 @@ void extend(Eigen::AlignedBox3d& bounds, const Thing& thing) {
 
 std::optional<double> main_floor_height(const std::vector<Thing>& things) {
   Surfaces surfaces;
+  std::vector<double> feet;
   for (const Thing& thing : things) {
-    if (thing.thing_class != ThingClass::floor) continue;
-    for (const Shape& shape : thing.shapes) {
-      const Eigen::Isometry3d pose = thing.pose * shape.pose;
-      if (const auto* box = std::get_if<Box>(&shape.geometry)) add_top(surfaces, *box, pose);
-      if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry))
-        add_level(surfaces, **mesh, pose);
-    }
+    if (thing.thing_class == ThingClass::floor)
+      add_level(surfaces, thing);
+    else
+      feet.push_back(bounds_of({thing}).min().z());
   }
-  return surfaces.main_height();
+  const std::vector<Surfaces::Level> storeys = surfaces.storeys();
+  double largest = 0.0;
+  for (const Surfaces::Level& storey : storeys) largest = std::max(largest, storey.area);
+  std::optional<double> height;
+  std::ptrdiff_t most = -1;
+  for (const Surfaces::Level& storey : storeys) {
+    if (storey.area < 0.5 * largest) continue;
+    const auto standing = std::count_if(feet.begin(), feet.end(), [&](double foot) {
+      return std::abs(foot - storey.height) <= kStands;
+    });
+    if (standing <= most) continue;
+    most = standing;
+    height = storey.height;
+  }
+  return height;
+}
+
+double level_area(const Thing& thing, double low, double high) {
+  Surfaces surfaces;
+  add_level(surfaces, thing);
+  return surfaces.area_between(low, high);
 }
 
 double top_of(const Thing& thing) { return bounds_of({thing}).max().z(); }

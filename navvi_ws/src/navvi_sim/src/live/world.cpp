@@ -43,7 +43,7 @@ struct World::Parts {
         physics(bodies, description.floor_height, config.robot, start.position, start.yaw),
         drivetrain(config.robot, config.step, physics.robot(), seed) {
     for (const Thing& thing : description.things) {
-      classes.push_back(thing.thing_class);
+      classes.push_back(obstacle_class(thing));
       names.push_back(thing.name);
     }
   }

@@ -44,7 +44,6 @@ Bodies::Bodies(const WorldDescription& description, double underside) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::size_t id = 0; id < description.things.size(); ++id) {
     const Thing& thing = description.things[id];
-    if (thing.thing_class == ThingClass::floor) continue;
     Body body{id, thing.route.has_value(), {}, {}};
     for (const Shape& shape : thing.shapes) {
       const Eigen::Isometry3d pose = thing.pose * shape.pose;

@@ -27,8 +27,8 @@ struct Body {
   Eigen::AlignedBox3d bounds;  ///< in map, at time zero
 };
 
-/// The bodies of a world, and where those are that stand. Floors, and shapes lower than the robot's
-/// underside, have none. Memory is linear in shapes and triangles.
+/// The bodies of a world, and where those are that stand. A shape lower than the robot's underside
+/// has none; neither name nor class decides. Memory is linear in shapes and triangles.
 class Bodies {
  public:
   /// \param description  valid (validate.hpp); it need not outlive the constructor

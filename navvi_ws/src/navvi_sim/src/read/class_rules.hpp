@@ -24,8 +24,10 @@ class ClassRules {
   /// \throws WorldError with file, line, what is wrong and what is allowed
   [[nodiscard]] static ClassRules read(const std::filesystem::path& file);
 
-  /// The first rule with a pattern that fits the whole of `name`, whatever its case.
-  [[nodiscard]] Match match(const std::string& name) const;
+  /// The first rule with a pattern that fits the whole of `name`, whatever its case, other than
+  /// those for the class `not_this`.
+  [[nodiscard]] Match match(const std::string& name,
+                            std::optional<ThingClass> not_this = std::nullopt) const;
 
  private:
   friend class RuleReader;

@@ -7,6 +7,9 @@ namespace {
 
 constexpr double kPlaneMargin = 2.0;     // m, of a plane beyond the other things
 constexpr double kPlaneThickness = 0.1;  // m
+constexpr double kDrivenOver = 0.05;     // m, above the floor: what is lower stops no robot
+constexpr std::size_t kFewLost = 2;      // things, which any world may lose
+constexpr double kLeastFloor = 4.0;      // m^2, level: a room has more, a piece of furniture less
 
 }  // namespace
 
@@ -60,14 +63,30 @@ void SdfThings::find_floor(const std::filesystem::path& file) {
   if (!height)
     throw WorldError(file.string() +
                      ": no thing is a floor with a level surface; allowed are worlds with a "
-                     "plane, or with a model that a class rule calls a floor");
+                     "plane, or with a model that a class rule calls a floor. To add a ground "
+                     "plane is safe: it hides nothing");
   loaded.world.floor_height = *height;
+  judge_floors(*height);
   for (const std::size_t thing : on_floor_)
     loaded.world.things[thing].pose.translation().z() = *height;
-  leave_out_what_is_under(*height);
+  leave_out_what_is_under(*height, file);
 }
 
-void SdfThings::leave_out_what_is_under(double height) {
+/// What rises above the floor and has no floor of its own is an obstacle, whatever its name.
+void SdfThings::judge_floors(double height) {
+  for (Thing& thing : loaded.world.things) {
+    const auto match = if_no_floor_.find(thing.name);
+    if (match == if_no_floor_.end() || thing.thing_class != ThingClass::floor ||
+        top_of(thing) <= height + kDrivenOver ||
+        level_area(thing, height - kDrivenOver, height + kDrivenOver) >= kLeastFloor)
+      continue;
+    thing.thing_class = match->second.thing_class;
+    loaded.rules[thing.name] = match->second.pattern.empty() ? "no floor: it rises above the floor"
+                                                             : match->second.pattern;
+  }
+}
+
+void SdfThings::leave_out_what_is_under(double height, const std::filesystem::path& file) {
   std::vector<Thing>& things = loaded.world.things;
   std::vector<Thing> kept;
   std::vector<std::string> kept_places;
@@ -80,6 +99,13 @@ void SdfThings::leave_out_what_is_under(double height) {
     kept.push_back(std::move(things[i]));
     kept_places.push_back(std::move(places_[i]));
   }
+  const std::size_t lost = things.size() - kept.size();
+  if (lost > kFewLost && lost > things.size() / 10)
+    throw WorldError(file.string() + ": " + std::to_string(lost) + " of " +
+                     std::to_string(things.size()) + " things lie under the floor at " +
+                     std::to_string(height) +
+                     " m; allowed is a tenth. A plane, or a model that a " +
+                     "class rule calls a floor, must lie where the things stand");
   things = std::move(kept);
   places_ = std::move(kept_places);
 }

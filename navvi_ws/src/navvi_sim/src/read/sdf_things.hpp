@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "navvi_sim/read/world_source.hpp"
+#include "read/class_rules.hpp"
 #include "read/sdf_notes.hpp"
 
 namespace navvi_sim::read {
@@ -30,8 +32,14 @@ class SdfThings {
   void add_plane(const std::string& name, double height, const std::string& place);
   [[nodiscard]] std::size_t planes() const { return planes_.size(); }
 
-  /// Adds the planes, finds the floor's height, and leaves out what lies under it.
-  /// \throws WorldError that begins with `file` if no thing is a floor
+  /// \param match  what the rules call the thing, named a floor, should it turn out to be none
+  void set_class_if_no_floor(const std::string& thing, ClassRules::Match match) {
+    if_no_floor_[thing] = std::move(match);
+  }
+
+  /// Adds the planes, finds the floor's height, gives another class to what a rule calls a floor
+  /// and is none, and leaves out what lies under the floor. \throws WorldError that begins with
+  /// `file` if no thing is a floor, or too much lies under it
   void find_floor(const std::filesystem::path& file);
 
   LoadedWorld loaded;
@@ -46,13 +54,15 @@ class SdfThings {
   };
 
   void add_planes();
-  void leave_out_what_is_under(double height);
+  void judge_floors(double height);
+  void leave_out_what_is_under(double height, const std::filesystem::path& file);
 
   SdfNotes& notes_;
   std::vector<std::string> places_;
   std::set<std::string> names_;
   std::vector<Plane> planes_;
-  std::vector<std::size_t> on_floor_;  ///< things
+  std::map<std::string, ClassRules::Match> if_no_floor_;  ///< by thing
+  std::vector<std::size_t> on_floor_;                     ///< things
 };
 
 }  // namespace navvi_sim::read

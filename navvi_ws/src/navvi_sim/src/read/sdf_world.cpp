@@ -138,16 +138,23 @@ class WorldReader {
       things_.loaded.rules[thing.name] = "navvi:class";
       return;
     }
-    std::vector<std::string> names{thing.name};
+    const ClassRules::Match match = match_names(model, thing.name, std::nullopt);
+    if (match.pattern.empty()) return;
+    thing.thing_class = match.thing_class;
+    things_.loaded.rules[thing.name] = match.pattern;
+    if (match.thing_class == ThingClass::floor)
+      things_.set_class_if_no_floor(thing.name, match_names(model, thing.name, ThingClass::floor));
+  }
+
+  /// The first rule that fits the thing, or else a model or link in it.
+  [[nodiscard]] ClassRules::Match match_names(const XmlElement& model, const std::string& thing,
+                                              std::optional<ThingClass> not_this) const {
+    std::vector<std::string> names{thing};
     for (const char* kind : {"model", "link"})
       for (const XmlElement* inner : model.children_named(kind)) names.push_back(name_of(*inner));
-    for (const std::string& name : names) {
-      const ClassRules::Match match = rules_.match(name);
-      if (match.pattern.empty()) continue;
-      thing.thing_class = match.thing_class;
-      things_.loaded.rules[thing.name] = match.pattern;
-      return;
-    }
+    for (const std::string& name : names)
+      if (auto match = rules_.match(name, not_this); !match.pattern.empty()) return match;
+    return {};
   }
 
   // -- Links

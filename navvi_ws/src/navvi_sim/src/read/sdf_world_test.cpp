@@ -95,6 +95,47 @@ TEST_F(SdfWorld, makes_a_floor_of_an_endless_plane) {
   EXPECT_EQ(thing_named(loaded.world, "ground_plane")->thing_class, ThingClass::floor);
 }
 
+TEST_F(SdfWorld, takes_no_thing_for_a_floor_because_of_its_name) {
+  const std::string lamp = "<cylinder><radius>0.3</radius><length>1.5</length></cylinder>";
+  const LoadedWorld loaded =
+      load(ground_ + model("floor_lamp", lamp, "0 0 0.75 0 0 0") +
+           model("floor_1_box", "<box><size>1 1 1</size></box>", "3 0 0.5 0 0 0") +
+           model("floor_mat", "<box><size>3 3 0.002</size></box>", "6 0 0.001 0 0 0") +
+           "<model name='ground_house'><link name='l'><collision name='a'><pose>-5 0 -0.05 0 0 0"
+           "</pose><geometry><box><size>4 4 0.1</size></box></geometry></collision>"
+           "<collision name='b'><pose>-7 0 1 0 0 0</pose><geometry><box><size>0.1 4 2</size></box>"
+           "</geometry></collision></link></model>");
+  EXPECT_EQ(thing_named(loaded.world, "floor_lamp")->thing_class, ThingClass::other);
+  EXPECT_EQ(loaded.rules.at("floor_lamp"), "no floor: it rises above the floor");
+  EXPECT_EQ(thing_named(loaded.world, "floor_1_box")->thing_class, ThingClass::box);
+  EXPECT_EQ(loaded.rules.at("floor_1_box"), "*box*");
+  EXPECT_EQ(thing_named(loaded.world, "floor_mat")->thing_class, ThingClass::floor);
+  EXPECT_EQ(thing_named(loaded.world, "ground_house")->thing_class, ThingClass::floor);
+}
+
+TEST_F(SdfWorld, has_its_floor_where_the_things_stand) {
+  const auto slab = [](const std::string& name, const std::string& z) {
+    return model(name, "<box><size>20 20 0.1</size></box>", "0 0 " + z + " 0 0 0");
+  };
+  const std::string storeys = slab("floor_01", "-0.05") + slab("floor_02", "2.95");
+  EXPECT_NEAR(load(storeys).world.floor_height, 0.0, 1e-9) << "the lower of two that are bare";
+  const LoadedWorld below =
+      load(storeys + model("shelf_a", "<box><size>1 4 2</size></box>", "3 0 1 0 0 0"));
+  EXPECT_NEAR(below.world.floor_height, 0.0, 1e-9);
+  EXPECT_NE(thing_named(below.world, "shelf_a"), nullptr);
+  const LoadedWorld above =
+      load(storeys + model("shelf_a", "<box><size>1 4 2</size></box>", "3 0 4 0 0 0"));
+  EXPECT_NEAR(above.world.floor_height, 3.0, 1e-9);
+}
+
+TEST_F(SdfWorld, is_refused_if_much_of_it_lies_under_the_floor) {
+  std::string body = ground_;
+  for (int i = 0; i < 3; ++i)
+    body += model("crate_" + std::to_string(i), "<box><size>1 1 1</size></box>", "0 0 -5 0 0 0");
+  const std::string sentence = sentence_of(write_world(body));
+  EXPECT_NE(sentence.find("3 of 4 things lie under the floor"), std::string::npos) << sentence;
+}
+
 TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
   const LoadedWorld loaded =
       load("<light name='lamp' type='point'/>\n" + ground_ +

@@ -58,7 +58,7 @@ void for_each_standing(const WorldDescription& world, double least,
                        const std::function<void(const Standing&)>& visit) {
   for (std::size_t id = 0; id < world.things.size(); ++id) {
     const Thing& thing = world.things[id];
-    if (thing.route || thing.thing_class == ThingClass::floor) continue;
+    if (thing.route) continue;
     const auto show = [&](const std::vector<Eigen::Vector3d>& points) {
       Standing standing{
           id, std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), {}};

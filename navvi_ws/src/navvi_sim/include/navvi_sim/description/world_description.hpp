@@ -70,6 +70,11 @@ struct Thing {
   return shape.look.value_or(thing.thing_class);
 }
 
+/// What the robot meets in a thing. Only what rises from a floor can be met: it is called a wall.
+[[nodiscard]] inline ThingClass obstacle_class(const Thing& thing) {
+  return thing.thing_class == ThingClass::floor ? ThingClass::wall : thing.thing_class;
+}
+
 /// Everything there is to know of a world before it lives. Frame: map, z up.
 struct WorldDescription {
   std::string name;

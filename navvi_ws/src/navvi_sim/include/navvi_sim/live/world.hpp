@@ -62,7 +62,7 @@ class World {
   [[nodiscard]] navvi_types::Odometry odometry() const;
   /// Every mover.
   [[nodiscard]] navvi_types::Obstacles obstacles() const;
-  /// Each thing but floors within `detection_radius` m of the robot's hull.
+  /// Each thing within `detection_radius` m of the robot's hull.
   [[nodiscard]] navvi_types::Proximity proximity(double detection_radius) const;
   /// 64 bits over every state. Equal for equal histories, on one build.
   [[nodiscard]] std::uint64_t state_hash() const;
