@@ -288,4 +288,12 @@ std::vector<Row> table_of(const Describe& describe) {
   return writer.rows;
 }
 
+std::string one_line(const YAML::Node& node) {
+  YAML::Emitter out;
+  out.SetMapFormat(YAML::Flow);
+  out.SetSeqFormat(YAML::Flow);
+  out << node;
+  return out.c_str();
+}
+
 }  // namespace navvi_config

@@ -142,6 +142,11 @@ TEST(Words, hold_lists_in_brackets) {
   EXPECT_THROW(static_cast<void>(read_words({"classes:=[box"})), ConfigError);
 }
 
+TEST(Words, are_handed_on_as_one_line_of_YAML) {
+  EXPECT_EQ(one_line(read_words({"a/b:=1.5", "c:=[x, y]", "a/d:=a: b"})),
+            "{a: {b: 1.5, d: \"a: b\"}, c: [x, y]}");
+}
+
 TEST(Words, without_a_name_or_with_one_twice_are_refused) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"speed"},

@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
   using navvi_safety::CommandGateConfig;
-  if (navvi_config::print_parameters<CommandGateConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<CommandGateConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "relay_node");
   return navvi_config::run_node<CommandGateConfig>([](const CommandGateConfig& config) {
     ros::NodeHandle node;

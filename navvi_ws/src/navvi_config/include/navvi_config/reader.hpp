@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,13 +64,29 @@ template <typename Config>
   return table_of([&](Visitor& visit) { config.describe(visit); });
 }
 
-/// Prints the table of `Config` if --parameters is the only argument. \return true if it did, and
-/// the program is to end
+/// The node on one line, as YAML.
+[[nodiscard]] std::string one_line(const YAML::Node& node);
+
+/// Answers a program that was called with --parameters: prints the table of `Config`, or, of words
+/// that follow, such as haptics/range:=2, checks that `Config` takes them and prints them as YAML.
+/// \return its exit code; nullopt if it was called otherwise
 template <typename Config>
-[[nodiscard]] bool print_parameters(int argc, char** argv) {
-  if (argc != 2 || std::string(argv[1]) != "--parameters") return false;
-  std::cout << markdown(table<Config>());
-  return true;
+[[nodiscard]] std::optional<int> print_parameters(int argc, char** argv) {
+  if (argc < 2 || std::string(argv[1]) != "--parameters") return std::nullopt;
+  if (argc == 2) {
+    std::cout << markdown(table<Config>());
+    return 0;
+  }
+  try {
+    Config config;
+    const YAML::Node words = read_words({argv + 2, argv + argc});
+    read(config, words, "the arguments");
+    std::cout << one_line(words) << "\n";
+    return 0;
+  } catch (const ConfigError& error) {
+    std::cerr << error.what() << "\n";
+    return 2;
+  }
 }
 
 }  // namespace navvi_config

@@ -86,7 +86,7 @@ class CuePlayer {
 
 int main(int argc, char** argv) {
   using navvi_feedback::node::PlayerConfig;
-  if (navvi_config::print_parameters<PlayerConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<PlayerConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "cue_player");
   return navvi_config::run_node<PlayerConfig>([](const PlayerConfig& config) {
     const navvi_feedback::node::CuePlayer player(config);

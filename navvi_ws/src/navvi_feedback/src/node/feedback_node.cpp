@@ -264,7 +264,7 @@ void spin(FeedbackNode& node) {
 
 int main(int argc, char** argv) {
   using navvi_feedback::node::NodeConfig;
-  if (navvi_config::print_parameters<NodeConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
   // roscpp's own handler would close the topics before the last zero is out.
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})

@@ -251,7 +251,7 @@ class NavNode {
 
 int main(int argc, char** argv) {
   using navvi_nav::node::NodeConfig;
-  if (navvi_config::print_parameters<NodeConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "nav_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;

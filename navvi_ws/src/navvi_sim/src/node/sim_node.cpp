@@ -251,7 +251,7 @@ int run(const setup::SimNodeConfig& config) try {
 
 int main(int argc, char** argv) {
   using navvi_sim::setup::SimNodeConfig;
-  if (navvi_config::print_parameters<SimNodeConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<SimNodeConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "sim_node");
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   return navvi_config::run_node<SimNodeConfig>(navvi_sim::node::run);

@@ -204,7 +204,9 @@ void run(const Words& words) {
 }  // namespace navvi_sim::tool
 
 int main(int argc, char** argv) {
-  if (navvi_config::print_parameters<navvi_sim::generate::LayoutConfig>(argc, argv)) return 0;
+  if (const auto code =
+          navvi_config::print_parameters<navvi_sim::generate::LayoutConfig>(argc, argv))
+    return *code;
   try {
     navvi_sim::tool::run(navvi_sim::tool::sort_out({argv + 1, argv + argc}));
     return 0;

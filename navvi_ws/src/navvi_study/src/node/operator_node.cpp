@@ -32,7 +32,7 @@ double now() { return ros::Time::now().toSec(); }
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (navvi_config::print_parameters<NodeConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "operator_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;

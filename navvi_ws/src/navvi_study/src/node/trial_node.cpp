@@ -172,7 +172,7 @@ class TrialNode {
 
 int main(int argc, char** argv) {
   using navvi_study::trial::TrialNodeConfig;
-  if (navvi_config::print_parameters<TrialNodeConfig>(argc, argv)) return 0;
+  if (const auto code = navvi_config::print_parameters<TrialNodeConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "trial_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})
     ::signal(signal, [](int) { navvi_study::node::g_stop = 1; });
