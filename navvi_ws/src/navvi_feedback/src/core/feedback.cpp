@@ -92,6 +92,7 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input, double time) {
   now.links = {pad_link(input.hands), link(motion_), link(nearby_), link(guidance_), input.audio};
   if (now.links.proximity == cues::Link::alive) now.nearby = *nearby_.value;
   if (now.links.simulator == cues::Link::alive) now.measured = motion_.value;
+  now.keyboard = input.keyboard;
   now.contacts = contacts_;
   now.commanded = commanded_;
   now.stick_held_unarmed = held_unarmed_;

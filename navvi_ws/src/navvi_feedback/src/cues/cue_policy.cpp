@@ -90,8 +90,9 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
   const auto back = [&](Link Links::*link) {
     return links_.*link == Link::lost && links.*link == Link::alive;
   };
-  if (lost(&Links::pad)) say("pad_lost");
-  if (back(&Links::pad)) say("pad_back");
+  const std::string stick = now.keyboard ? "keyboard" : "pad";
+  if (lost(&Links::pad)) say(stick + "_lost");
+  if (back(&Links::pad)) say(stick + "_back");
   if (lost(&Links::simulator)) say("simulator_lost");
   if (back(&Links::audio)) say("audio_back");
   // A loss that follows from that of the simulator or the pad has no cue of its own.
@@ -101,7 +102,7 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
       gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
   if (simulated && stopped && links.pad != Link::lost) say("robot_stopped");
   for (const Utterance& utterance : told)
-    if (utterance.kind == "pad_back" || utterance.kind == "robot_stopped") held_.said(time);
+    if (utterance.kind == stick + "_back" || utterance.kind == "robot_stopped") held_.said(time);
   for (const std::string& notice : now.notices)
     if (noticed_.insert(notice).second) say(notice);
   return told;

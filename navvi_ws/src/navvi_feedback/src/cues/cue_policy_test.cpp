@@ -166,6 +166,16 @@ TEST_F(CuePolicyTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
             (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
 }
 
+TEST_F(CuePolicyTest, names_the_keyboard_where_the_stick_is_one) {
+  now_.keyboard = true;
+  under_way();
+  now_.links.pad = Link::lost;
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(1.0), Texts{"the keys are off, select the NavVI window"});
+  now_.links.pad = Link::alive;
+  EXPECT_EQ(pass(1.0).front(), "the keys are on, release them first");
+}
+
 TEST_F(CuePolicyTest, says_a_notice_once) {
   under_way();
   now_.notices = {"no_rumble"};

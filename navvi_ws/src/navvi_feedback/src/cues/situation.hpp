@@ -29,6 +29,7 @@ struct Situation {
   std::optional<Velocity> measured;  ///< nullopt while the odometry is missing or stale
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
   Links links;
+  bool keyboard = false;        ///< the stick is the arrow keys
   bool repeat_pressed = false;  ///< the button went down since the last update
   bool goal_pressed = false;
   bool voice_busy = false;  ///< something is being spoken or waits for it

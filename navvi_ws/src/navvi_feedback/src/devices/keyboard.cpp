@@ -13,7 +13,11 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 10ms;
-constexpr const char* kTitle = "NavVI - arrow keys drive, space repeats, G says where the goal is";
+constexpr auto kAskPeriod = 500ms;
+constexpr const char* kDrives =
+    "NavVI - arrow keys drive, with Shift slowly; space repeats, G: goal";
+constexpr const char* kWaits = "NavVI - select this window to drive";
+constexpr double kSlow = 0.4;  // of the stick, with Shift
 
 /// SDL also has invisible video drivers, and falls back on them.
 bool visible() {
@@ -21,13 +25,14 @@ bool visible() {
   return driver && (std::string(driver) == "x11" || std::string(driver) == "wayland");
 }
 
-drive::InputState read_keys(bool focused) {
+drive::InputState read_keys() {
   drive::InputState input;
   input.live = true;
   const Uint8* keys = SDL_GetKeyboardState(nullptr);
-  const auto down = [&](SDL_Scancode key) { return focused && keys[key] != 0; };
+  const auto down = [&](SDL_Scancode key) { return keys[key] != 0; };
+  const double full = down(SDL_SCANCODE_LSHIFT) || down(SDL_SCANCODE_RSHIFT) ? kSlow : 1.0;
   const auto axis = [&](SDL_Scancode plus, SDL_Scancode minus) {
-    return (down(plus) ? 1.0 : 0.0) - (down(minus) ? 1.0 : 0.0);
+    return full * ((down(plus) ? 1.0 : 0.0) - (down(minus) ? 1.0 : 0.0));
   };
   input.axes = {axis(SDL_SCANCODE_LEFT, SDL_SCANCODE_RIGHT),
                 axis(SDL_SCANCODE_UP, SDL_SCANCODE_DOWN)};
@@ -46,8 +51,8 @@ void Keyboard::open() {
   const std::string no_display = "The keyboard needs a display, and there is none. ";
   if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) throw DeviceError(no_display + SDL_GetError());
   if (visible()) {
-    window_ = SDL_CreateWindow(kTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 640, 80,
-                               SDL_WINDOW_SHOWN);
+    window_ = SDL_CreateWindow(kWaits, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, 640, 80,
+                               SDL_WINDOW_SHOWN | SDL_WINDOW_ALWAYS_ON_TOP);
   }
   if (!window_) {
     const std::string why =
@@ -56,16 +61,47 @@ void Keyboard::open() {
     SDL_QuitSubSystem(SDL_INIT_VIDEO);
     throw DeviceError(why);
   }
-  SDL_RaiseWindow(window_);
+  ask_for_focus();
 }
 
 std::optional<drive::InputState> Keyboard::read() {
   SDL_Event event;
+  bool uncovered = false;
   while (SDL_PollEvent(&event)) {
     const bool close = event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
     if (close || event.type == SDL_QUIT) return std::nullopt;
+    uncovered = uncovered ||
+                (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_EXPOSED);
+    used_ = used_ || event.type == SDL_KEYDOWN;
   }
-  return read_keys((SDL_GetWindowFlags(window_) & SDL_WINDOW_INPUT_FOCUS) != 0);
+  const bool focused = (SDL_GetWindowFlags(window_) & SDL_WINDOW_INPUT_FOCUS) != 0;
+  if (focused && !focused_) ++session_;
+  if (focused != focused_ || uncovered) paint(focused);
+  focused_ = focused;
+  // RViz opens later, on top and with the focus. Once a key was used here, the focus is the
+  // person's.
+  if (!focused && !used_ && std::chrono::steady_clock::now() - asked_ >= kAskPeriod)
+    ask_for_focus();
+  drive::InputState input = focused ? read_keys() : drive::InputState{};
+  input.session = session_;
+  return input;
+}
+
+void Keyboard::ask_for_focus() {
+  asked_ = std::chrono::steady_clock::now();
+  SDL_RaiseWindow(window_);
+  SDL_SetWindowInputFocus(window_);
+}
+
+/// Green while the keys drive, red while they do not.
+void Keyboard::paint(bool focused) {
+  SDL_SetWindowTitle(window_, focused ? kDrives : kWaits);
+  SDL_Surface* surface = SDL_GetWindowSurface(window_);
+  if (surface == nullptr) return;
+  SDL_FillRect(
+      surface, nullptr,
+      focused ? SDL_MapRGB(surface->format, 0, 200, 83) : SDL_MapRGB(surface->format, 176, 0, 32));
+  SDL_UpdateWindowSurface(window_);
 }
 
 void Keyboard::close() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 
 #include "devices/device_thread.hpp"
@@ -9,8 +10,9 @@ struct SDL_Window;
 
 namespace navvi_feedback::devices {
 
-/// The arrow keys as a stick, from a small window of its own. Without the focus the stick is
-/// neutral; a closed window is a lost device.
+/// The arrow keys as a stick, with Shift deflected by less than half, from a small window of its
+/// own: green while the keys drive, red while another window has the focus. Then, and once it was
+/// closed, the device counts as lost. Until a first key it takes the focus by itself.
 class Keyboard final : private ThreadedDevice {
  public:
   /// \throws DeviceError with a sentence if there is no display
@@ -18,7 +20,8 @@ class Keyboard final : private ThreadedDevice {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// axes: as Gamepad's first two, -1, 0 or 1. buttons: 0: space, 1: G.
+  /// axes: as Gamepad's first two. session: another with each return of the focus. buttons: 0:
+  /// space, 1: G.
   [[nodiscard]] drive::InputState input() const;
 
  private:
@@ -27,8 +30,17 @@ class Keyboard final : private ThreadedDevice {
   [[nodiscard]] std::optional<drive::InputState> read() override;
   void close() override;
 
-  SDL_Window* window_ = nullptr;  ///< the thread's own
-  DeviceThread thread_;           ///< the last, for it uses the window
+  void ask_for_focus();
+  void paint(bool focused);
+
+  // The thread's own.
+  SDL_Window* window_ = nullptr;
+  bool focused_ = false;
+  bool used_ = false;  ///< a key was pressed
+  unsigned session_ = 0;
+  std::chrono::steady_clock::time_point asked_{};
+
+  DeviceThread thread_;  ///< the last, for it uses the window
 };
 
 }  // namespace navvi_feedback::devices

@@ -124,6 +124,7 @@ class FeedbackNode {
     const double time = now();
     core::Feedback::Input input;
     input.hands = source_.read(time);
+    input.keyboard = source_.kind() == devices::InputSource::Kind::keyboard;
     input.audio = audio_link();
     input.motors = !source_.pad() || source_.pad()->status().connected;
     input.voice_busy = !speech_.idle();

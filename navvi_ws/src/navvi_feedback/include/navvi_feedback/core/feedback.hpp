@@ -41,6 +41,7 @@ class Feedback {
   /// The hands, and the state of the devices.
   struct Input {
     drive::InputState hands;
+    bool keyboard = false;  ///< the hands are on the arrow keys
     cues::Link audio = cues::Link::alive;
     bool motors = true;                ///< false if our own pad is not connected
     bool voice_busy = false;           ///< something is being spoken or waits for it

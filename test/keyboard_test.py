@@ -1,0 +1,123 @@
+"""The keyboard as a stick, under a window manager, with keys pressed as a person presses them."""
+import csv
+import subprocess
+import time
+
+import pytest
+
+from live_session_test import Display
+
+KEYS = "NavVI - "
+OTHER = "Event Tester"  # xev's window, in the part of RViz
+
+
+class Keys:
+    """A screen with a window manager, feedback_node on the keyboard, and what it publishes."""
+
+    def __init__(self, master, folder):
+        self.display = Display()
+        self.env = dict(master, DISPLAY=self.display.name, PYTHONUNBUFFERED="1")
+        self.folder = folder
+        self.processes = [self.start("openbox")]
+        for name, topic in ("commands", "/cmd_vel"), ("cues", "/navvi/cues"):
+            self.processes.append(self.start("rostopic", "echo", "-p", topic, output=folder / name))
+        self.processes.append(self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false"))
+        self.window(KEYS)
+
+    def start(self, *words, output="/dev/null"):
+        with open(output, "w") as file:
+            return subprocess.Popen(words, env=self.env, stdout=file, stderr=subprocess.DEVNULL)
+
+    def xdotool(self, *words):
+        return subprocess.run(["xdotool", *words], env=self.env, capture_output=True, text=True, timeout=20).stdout.strip()
+
+    def window(self, name):
+        assert eventually(lambda: self.xdotool("search", "--onlyvisible", "--name", name)), f"no window is named {name}"
+        return self.xdotool("search", "--onlyvisible", "--name", name).split()[0]
+
+    def has_focus(self, name):
+        return name in self.xdotool("getwindowfocus", "getwindowname")
+
+    def select(self, name):
+        self.xdotool("windowactivate", "--sync", self.window(name))
+        assert eventually(lambda: self.has_focus(name))
+
+    def rows(self, name):
+        with open(self.folder / name) as file:
+            return list(csv.DictReader(file))
+
+    def command(self, field="linear.x"):
+        """m/s or rad/s, of the last command."""
+        rows = self.rows("commands")
+        return float(rows[-1][f"field.{field}"]) if rows else 0.0
+
+    def said(self, kind):
+        return any(row["field.kind"] == kind for row in self.rows("cues"))
+
+    def color(self):
+        """Red, green and blue in the middle of the keyboard's window."""
+        picture = subprocess.run(["import", "-window", self.window(KEYS), "-crop", "1x1+300+40", "-depth", "8", "rgb:-"],
+                                 env=self.env, capture_output=True, timeout=20)
+        return tuple(picture.stdout[:3])
+
+    def close(self):
+        for process in reversed(self.processes):
+            process.terminate()
+            process.wait(20)
+        self.display.close()
+
+
+def eventually(condition, seconds=15):
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        if condition():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+@pytest.fixture
+def keys(master, tmp_path):
+    keys = Keys(master, tmp_path)
+    yield keys
+    keys.close()
+
+
+def test_keys_drive_only_where_they_are_meant(keys):
+    # A window that opens later, as RViz does, keeps neither the focus nor the top, until a key was used.
+    keys.processes.append(keys.start("xev"))
+    keys.window(OTHER)
+    time.sleep(1)
+    assert eventually(lambda: keys.has_focus(KEYS))
+    assert eventually(lambda: keys.color()[1] > keys.color()[0]), "green: the keys drive"
+    time.sleep(1)  # neutral
+
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.xdotool("keyup", "Up")
+    assert eventually(lambda: keys.command() == 0.0)
+    keys.xdotool("keydown", "Shift", "keydown", "Left")
+    assert eventually(lambda: keys.command("angular.z") > 0.1)
+    time.sleep(1)
+    assert keys.command("angular.z") < 0.5, "Shift is for fine turns"
+    keys.xdotool("keyup", "Left", "keyup", "Shift")
+
+    # The focus is lost with a key held: the robot stops, and the person is told.
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.select(OTHER)
+    assert eventually(lambda: keys.command() == 0.0)
+    assert eventually(lambda: keys.said("keyboard_lost"))
+    assert eventually(lambda: keys.color()[0] > keys.color()[1]), "red: the keys do not drive"
+    time.sleep(2)
+    assert keys.has_focus(OTHER), "the person's choice of a window stands"
+
+    # It returns with the key still held: nothing moves before the key was released.
+    keys.select(KEYS)
+    time.sleep(2)
+    assert keys.command() == 0.0
+    keys.xdotool("keyup", "Up")
+    time.sleep(1)
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.xdotool("keyup", "Up")
