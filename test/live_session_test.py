@@ -118,7 +118,8 @@ class Session:
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
     session = Session(tmp_path_factory.mktemp("session"), "operator:=simulated", f"world:={WORLD}", "seed:=3",
-                      "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01")
+                      "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01",
+                      "feedback/speaker/rate:=260", "nav/replan/pause:=5")
     try:
         session.watch()
         session.wait_for(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
@@ -151,6 +152,8 @@ def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert "trial_node has ended, and the session with it." in session.text()
     assert not re.search("died|cleanly|={20}", session.text())
     assert summary(trial)["participant"] == "sub-01"
+    assert summary(trial)["parameters"] == "feedback/speaker/rate:=260 nav/replan/pause:=5"
+    assert re.fullmatch(r"\d+\.\d+\.\d+(\+[0-9a-f]+(-dirty)?)?", summary(trial)["version"])
 
 
 def test_topics_and_nodes_have_the_names_of_the_picture(session):

@@ -8,6 +8,9 @@
 namespace navvi_study::record {
 namespace {
 
+/// Columns that summaries of version 0.1.0 lack.
+constexpr const char* kNotIn010[] = {"parameters", "version"};
+
 std::string seconds(std::int64_t from, std::int64_t to) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.3f", static_cast<double>(to - from) * 1e-9);
@@ -137,8 +140,8 @@ Summary summarize(const std::vector<Row>& rows) {
   const Row* route = first_of(rows, "ROUTE");
   const std::string nothing = "n/a";
   add("trial", rows.empty() ? nothing : rows.front().trial);
-  for (const char* name :
-       {"world", "world_hash", "seed", "operator", "participant", "profile", "audio", "pad"}) {
+  for (const char* name : {"world", "world_hash", "seed", "operator", "participant", "profile",
+                           "parameters", "version", "audio", "pad"}) {
     add(name, start ? start->fields.get(name) : nothing);
   }
   add("result", end ? end->fields.get("result") : "aborted");
@@ -193,7 +196,10 @@ std::optional<Summary> parse_summary(const std::string& text) {
 }
 
 std::vector<std::string> differences(const Summary& summary, const Summary& recount) {
-  const std::map<std::string, std::string> again(recount.begin(), recount.end());
+  const std::map<std::string, std::string> before(summary.begin(), summary.end());
+  std::map<std::string, std::string> again(recount.begin(), recount.end());
+  for (const char* name : kNotIn010)
+    if (before.count(name) == 0) again.erase(name);
   std::vector<std::string> sentences;
   for (const auto& [name, cell] : summary) {
     if (name == "bag") continue;
@@ -205,7 +211,7 @@ std::vector<std::string> differences(const Summary& summary, const Summary& reco
                           " in the recount");
     }
   }
-  if (summary.size() != recount.size()) sentences.push_back("the columns are not the same");
+  if (before.size() != again.size()) sentences.push_back("the columns are not the same");
   return sentences;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 namespace navvi_study::record {
@@ -86,6 +87,19 @@ TEST(Summary, names_the_columns_that_differ) {
   const auto sentences = differences(before, summarize(rows));
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_NE(sentences[0].find("shelf_collision_count"), std::string::npos);
+}
+
+TEST(Summary, of_an_older_version_may_lack_the_columns_that_came_later) {
+  const auto now = summarize(example().rows);
+  const auto without = [&](const std::string& column) {
+    auto older = now;
+    older.erase(std::remove_if(older.begin(), older.end(),
+                               [&](const auto& cell) { return cell.first == column; }),
+                older.end());
+    return older;
+  };
+  EXPECT_TRUE(differences(without("version"), now).empty());
+  EXPECT_FALSE(differences(without("result"), now).empty());
 }
 
 TEST(Events, stand_in_the_papers_words_with_onset_and_duration_first) {

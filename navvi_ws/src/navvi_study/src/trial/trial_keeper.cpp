@@ -190,7 +190,8 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) const {
   fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
   fields.set("seed", scenario_ ? std::to_string(scenario_->seed) : "n/a");
   fields.set("operator", config_.operator_kind).set("participant", config_.participant);
-  fields.set("profile", config_.profile);
+  fields.set("profile", config_.profile).set("version", config_.version);
+  fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
   for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
   fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);

@@ -39,6 +39,9 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
         "what drives, as it stands in the summary: pad, simulated, ...");
   visit(participant, "participant", Any{}, "", "a pseudonym for the record, such as sub-01");
   visit(profile, "profile", Any{}, "", "of the session, as it stands in the summary");
+  visit(parameters, "parameters", Any{}, "",
+        "those of nodes that were set besides the profile's, as they stand in the summary");
+  visit(version, "version", Any{}, "", "of NavVI, as it stands in the summary");
   visit(require, "require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities");
   visit(once, "once", Any{}, "", "end after one trial");
   visit(record, "record", Any{}, "", "keep a bag of each trial");
@@ -49,6 +52,8 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
 void check(const TrialNodeConfig& config) {
   refuse_control_characters("operator", config.operator_kind);
   refuse_control_characters("profile", config.profile);
+  refuse_control_characters("parameters", config.parameters);
+  refuse_control_characters("version", config.version);
   refuse_all_but_pseudonyms(config.participant);
   if (config.out.empty()) throw std::runtime_error("out names no folder");
 }

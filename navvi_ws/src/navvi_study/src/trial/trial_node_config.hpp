@@ -15,6 +15,8 @@ struct TrialNodeConfig {
   std::string operator_kind = "unknown";
   std::string participant = "n/a";
   std::string profile = "default";
+  std::string parameters;
+  std::string version = "n/a";
   std::vector<std::string> require;
   bool once = true;
   bool record = true;
