@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "guide/informed_set.hpp"
-
 namespace navvi_nav::guide {
 namespace {
 
@@ -27,29 +25,6 @@ TEST(PathInstability, forgets_after_a_minute) {
   EXPECT_DOUBLE_EQ(instability.per_minute(200.0), 0.0);
   instability.reset();
   EXPECT_DOUBLE_EQ(instability.per_minute(45.0), 0.0);
-}
-
-TEST(InformedSet, holds_places_within_the_ellipse_that_were_left) {
-  InformedSet set;
-  const Cylinder hole{1, {5, 2}, 0.5, {}};
-  const auto better = [&](double length, const std::vector<Cylinder>& now) {
-    return set.better_path({0, 0}, {10, 0}, length, now, 0.1, 0.5);
-  };
-  EXPECT_FALSE(better(12.0, {}));
-  set.searched({hole});
-  EXPECT_FALSE(better(12.0, {hole}));
-  EXPECT_TRUE(better(12.0, {}));
-  EXPECT_FALSE(better(9.9, {}));  // nothing is shorter than straight on
-  Cylinder moved = hole;
-  moved.center.y += 0.05;
-  EXPECT_FALSE(better(12.0, {moved}));
-  moved.center.y += 0.2;
-  EXPECT_TRUE(better(12.0, {moved}));
-  moved = hole;
-  moved.radius = 0.3;
-  EXPECT_TRUE(better(12.0, {moved}));
-  set.searched({{1, {5, 7}, 0.5, {}}});
-  EXPECT_FALSE(better(12.0, {}));
 }
 
 }  // namespace

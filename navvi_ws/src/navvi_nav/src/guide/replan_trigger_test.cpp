@@ -144,6 +144,37 @@ TEST(ReplanTrigger, searches_for_a_free_path_only_if_something_left_a_place_that
   EXPECT_EQ(trigger.update(input), Guidance::Replan::period);
 }
 
+/// True if the trigger wants another search on the way from (0, 0) to (10, 0).
+bool searches_again(const std::vector<Cylinder>& before, const std::vector<Cylinder>& now,
+                    double worthwhile = 12.0) {
+  ReplanTrigger trigger{ReplanTriggerConfig{}};
+  ReplanInput input = driving(0.0);
+  input.remaining = {{0, 0}, {10, 0}};
+  input.worthwhile = worthwhile;
+  input.obstacles = before;
+  EXPECT_EQ(trigger.update(input), Guidance::Replan::new_goal);
+  input.time = 10.0;
+  input.obstacles = now;
+  return trigger.update(input).has_value();
+}
+
+TEST(ReplanTrigger, searches_through_places_within_the_ellipse_that_were_left) {
+  const Cylinder hole{1, {5, 2}, 0.5, {}};
+  EXPECT_FALSE(searches_again({}, {}));
+  EXPECT_FALSE(searches_again({hole}, {hole}));
+  EXPECT_TRUE(searches_again({hole}, {}));
+  EXPECT_FALSE(searches_again({hole}, {}, 9.9));  // nothing is shorter than straight on
+  Cylinder moved = hole;
+  moved.center.y += 0.05;
+  EXPECT_FALSE(searches_again({hole}, {moved}));
+  moved.center.y += 0.2;
+  EXPECT_TRUE(searches_again({hole}, {moved}));
+  moved = hole;
+  moved.radius = 0.3;
+  EXPECT_TRUE(searches_again({hole}, {moved}));
+  EXPECT_FALSE(searches_again({{1, {5, 7}, 0.5, {}}}, {}));
+}
+
 TEST(ReplanTrigger, does_not_search_for_what_comes_near_beside_the_path) {
   Deciders trigger{ReplanTriggerConfig{}};
   ASSERT_EQ(trigger.update(driving(0.0)), Guidance::Replan::new_goal);

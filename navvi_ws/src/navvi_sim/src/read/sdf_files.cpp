@@ -1,8 +1,10 @@
 #include "read/sdf_files.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "description/sentence.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {
@@ -57,23 +59,14 @@ Stock stock_of(const std::string& uri) {
   return Stock::none;
 }
 
-XmlElement element_at(const XmlElement& place, const std::string& name) {
-  XmlElement element;
-  element.name = name;
-  element.file = place.file;
-  element.line = place.line;
-  return element;
-}
-
-/// \param names  of elements, each within the one before
-XmlElement nested(const XmlElement& place, const std::vector<std::string>& names) {
-  XmlElement element = element_at(place, names.front());
-  if (names.size() > 1) element.children.push_back(nested(place, {names.begin() + 1, names.end()}));
-  return element;
-}
-
+/// A level plane, built from the inside out.
 XmlElement stock_ground(const XmlElement& include) {
-  XmlElement ground = nested(include, {"model", "link", "collision", "geometry", "plane"});
+  XmlElement ground;
+  for (const char* name : {"plane", "geometry", "collision", "link", "model"}) {
+    XmlElement outer{name, "", {}, {}, include.file, include.line};
+    if (!ground.name.empty()) outer.children.push_back(std::move(ground));
+    ground = std::move(outer);
+  }
   ground.attributes["name"] = "ground_plane";
   return ground;
 }

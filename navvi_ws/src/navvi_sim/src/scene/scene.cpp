@@ -155,15 +155,13 @@ class StaticMarkers {
   Eigen::AlignedBox3d ground_;
 };
 
-bool is_moving(const Thing& thing) { return thing.route.has_value(); }
-
 }  // namespace
 
 Scene::Scene(const WorldDescription& world, const physics::RobotConfig& robot)
     : world_(world), robot_(parts_of(robot)) {
   std::map<std::string, int> next_id;
   for (std::size_t id = 0; id < world.things.size(); ++id)
-    if (is_moving(world.things[id])) movers_[id] = parts_of(world.things[id], next_id);
+    if (world.things[id].route) movers_[id] = parts_of(world.things[id], next_id);
 }
 
 /// The model of its class where there is one, or a marker a shape.
@@ -207,7 +205,7 @@ MarkerArray Scene::standing(const ros::Time& stamp) const {
   std::map<std::string, int> next_id;
   StaticMarkers still(world_);
   for (const Thing& thing : world_.things) {
-    if (is_moving(thing)) continue;
+    if (thing.route) continue;
     if (!model_of(thing.thing_class) || !is_upright(thing.pose)) {
       still.add(thing);
       continue;
