@@ -60,7 +60,6 @@ class SimNode {
   live::Pacer pacer_;
   std::size_t commands_published_ = 0;
   std::size_t hashes_published_ = 0;
-  double last_tick_ = 0.0;  // s, monotonic wall clock
   int exit_code_ = 0;
   std::optional<navvi_types::DriveState> drive_state_;
 
@@ -156,16 +155,11 @@ void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
 
 void SimNode::tick(const ros::WallTimerEvent&) {
   const double wall = ros::SteadyTime::now().toSec();
-  // The gate counts a command's age from when it is received. After a delay longer than the
-  // timeout, commands that waited in the queue would count as new, and the wheels would go on
-  // turning. So the gate stops the wheels before the queue is read.
-  const bool delayed = wall - last_tick_ > config_.gate.timeout;
-  if (delayed) static_cast<void>(gate_.update(instant()));
-  last_tick_ = wall;
   const int due = pacer_.due(wall);
   const long dropped = pacer_.dropped();
   for (int i = 0; i < due; ++i) {
-    // Commands that came while this process was held up must count before their age does.
+    // Commands that came while this process was held up count before their age does. The first of
+    // them finds the gate stopped if they came too late.
     commands_queue_.callAvailable();
     if (!step()) return;
   }
