@@ -1,5 +1,7 @@
 #include "mesh/components.hpp"
 
+#include <algorithm>
+
 namespace navvi_nav::mesh {
 namespace {
 
@@ -54,25 +56,23 @@ void Components::update(Mesh& mesh, const std::vector<Changed>& changed) {
 
 /// \returns false if a component may have been split or joined
 bool Components::label(Mesh& mesh, const std::vector<Changed>& changed) {
-  witnesses_.clear();
+  kept_.clear();
   labels_.resize(mesh.polygons.size());
   for (const Changed& here : changed) {
     labels_[slot(here.polygon)] = -1;
     if (!here.fresh)
-      witnesses_.push_back(
+      kept_.push_back(
           {here.region, mesh.polygon(here.polygon).component, groups_.root(here.polygon)});
   }
-  std::sort(witnesses_.begin(), witnesses_.end(), [](const Witness& a, const Witness& b) {
-    return a.region != b.region ? a.region < b.region : a.component < b.component;
-  });
-  for (std::size_t i = 0; i < witnesses_.size(); ++i) {
-    const Witness& here = witnesses_[i];
-    if (i > 0 && witnesses_[i - 1].region == here.region &&
-        witnesses_[i - 1].component == here.component && witnesses_[i - 1].group != here.group)
+  std::sort(kept_.begin(), kept_.end());
+  kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const auto [region, component, group] = kept_[i];
+    if (i > 0 && kept_[i - 1][0] == region && kept_[i - 1][1] == component)
       return false;  // perhaps split
-    int& component = labels_[slot(here.group)];
-    if (component >= 0 && component != here.component) return false;  // joined
-    component = here.component;
+    int& label = labels_[slot(group)];
+    if (label >= 0 && label != component) return false;  // joined
+    label = component;
   }
   for (const Changed& here : changed) {
     if (!here.fresh) continue;

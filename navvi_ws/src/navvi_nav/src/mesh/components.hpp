@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -41,15 +42,9 @@ class Components {
  private:
   bool label(Mesh& mesh, const std::vector<Changed>& changed);
 
-  /// A changed polygon that kept its component.
-  struct Witness {
-    int region = 0;
-    int component = 0;
-    int group = 0;
-  };
   int next_ = 0;
-  DisjointSets groups_;  // of changed polygons that portals among them join
-  std::vector<Witness> witnesses_;
+  DisjointSets groups_;                   // of changed polygons that portals among them join
+  std::vector<std::array<int, 3>> kept_;  // region, component and group where a component was kept
   std::vector<int> waiting_;
   std::vector<int> labels_;  // component of each group
 };
