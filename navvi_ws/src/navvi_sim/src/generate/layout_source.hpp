@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "navvi_sim/description/world_description.hpp"
 #include "generate/layout_config.hpp"
+#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::generate {
 

@@ -13,8 +13,8 @@
 #include "navvi_sim/live/world.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
-#include "traffic/lanes.hpp"
 #include "scenario/floor_grid.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::generate {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "description/hash.hpp"
 #include "description/footprint.hpp"
+#include "description/hash.hpp"
 #include "physics/contact_counter.hpp"
 #include "physics/drivetrain.hpp"
 #include "physics/physics.hpp"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "navvi_sim/description/mover_state.hpp"
+#include "navvi_sim/physics/robot.hpp"
 #include "physics/bodies.hpp"
 #include "physics/contact_counter.hpp"
-#include "navvi_sim/physics/robot.hpp"
 
 namespace navvi_sim::physics {
 

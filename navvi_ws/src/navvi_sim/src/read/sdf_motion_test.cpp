@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "description/validate.hpp"
-#include "traffic/lanes.hpp"
 #include "sdf_folder.hpp"
+#include "traffic/lanes.hpp"
 
 namespace navvi_sim::read {
 namespace {

@@ -14,7 +14,7 @@ TEST(SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
   config.start = "1,-9, 1.57";
   config.goal = "1,6";
   EXPECT_EQ(config.start_pose()->position.y(), -9.0);
-  EXPECT_EQ(config.start_pose()->position.y() aw, 1.57);
+  EXPECT_EQ(config.start_pose()->yaw, 1.57);
   EXPECT_EQ(config.goal_point()->y(), 6.0);
   for (const char* bad : {"1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,3x", "1,,3", "1,2,3,", ","}) {
     config.start = bad;

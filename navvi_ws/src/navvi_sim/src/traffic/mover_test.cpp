@@ -319,7 +319,7 @@ TEST(Driver, has_another_hash_when_anything_differs_that_it_will_act_on) {
   };
   EXPECT_FALSE(differs([](Driver&) {}));
   EXPECT_TRUE(differs([](Driver& other) { other.next += 1; }));
-  EXPECT_TRUE(differs([](Driver& other) { other.stranded = !other.stranded; }));
+  EXPECT_TRUE(differs([](Driver& other) { other.on_shared_ground = !other.on_shared_ground; }));
   EXPECT_TRUE(differs([](Driver& other) { other.goes_back = !other.goes_back; }));
   EXPECT_TRUE(differs([](Driver& other) { other.robot_ahead = !other.robot_ahead; }));
   EXPECT_TRUE(differs([](Driver& other) { other.robot_behind = !other.robot_behind; }));
