@@ -12,7 +12,7 @@ namespace navvi_nav::bake {
 struct OutlineCorner {
   int x = 0;
   int y = 0;
-  bool wall = false;  ///< what lies on the left of the edge that begins here
+  bool wall = false;  ///< the edge that begins here has a wall on its left
 };
 
 /// Positive if `at` is on the left of the way between the other two, 0 if on its line.

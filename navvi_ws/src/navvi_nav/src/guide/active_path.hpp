@@ -29,7 +29,7 @@ class ActivePath {
   explicit ActivePath(const ActivePathConfig& config)
       : config_(config), follower_(config.guidance) {}
 
-  /// Follows what a search found. \param plan  found, closed or retreat
+  /// Follows a new path. \param plan  found, closed or retreat
   /// \returns m of the path so far, if one was followed by a `robot` whose place is known, that the
   /// new one leaves
   double follow(const plan::Plan& plan, Guidance::Replan reason, double time,

@@ -72,9 +72,10 @@ void ConflictForecastConfig::describe(navvi_config::Visitor& visit) {
   visit(standing_speed, "standing_speed", Range{0.0, 2.0}, "m/s",
         "a slower obstacle counts as standing");
   visit(pause, "pause", Range{0.0, 60.0}, "s",
-        "what moved and has stood for less, or for less than it takes to get there, may go on");
+        "a thing that moved and has stood for less, or for less than it takes to get there, may "
+        "drive on");
   visit(foresight, "foresight", Range{0.0, 20.0}, "s",
-        "what will have left the path within this time, keeping its velocity, only crosses");
+        "a thing that leaves the path within this time, keeping its velocity, only crosses");
   visit(forecast_step, "forecast_step", Range{0.05, 2.0}, "s", "time step of the forecast");
   visit(notice_time, "notice_time", Range{0.0, 20.0}, "s",
         "an obstacle that will cut the path within this time counts as cutting it");
@@ -84,7 +85,7 @@ void ConflictForecastConfig::describe(navvi_config::Visitor& visit) {
       chase_time, "chase_time", Range{0.0, 20.0}, "s",
       "an obstacle from behind that would hit a waiting robot later than this may still turn off");
   visit(stop_room, "stop_room", Range{0.0, 2.0}, "m",
-        "least gap from a waiting robot to what passes it");
+        "least gap from a waiting robot to a thing that passes it");
   visit(elbow_room, "elbow_room", Range{0.0, 2.0}, "m",
         "least gap between a driving robot and an obstacle");
   visit(spare_room, "spare_room", Range{0.0, 2.0}, "m",
@@ -129,7 +130,7 @@ std::optional<double> ConflictForecast::cut_at(const Path& path, Point center, d
 }
 
 /// m along the path to where it cuts it in so many s. A robot that is nearer than that now is cut
-/// off by what comes nearer still.
+/// off by a thing that comes nearer still.
 std::optional<double> ConflictForecast::cut_at(const Path& path, const Thing& thing,
                                                double later) const {
   std::optional<double> first;

@@ -24,7 +24,7 @@ bool faces(const MovingThing& thing, Point robot) {
 void DeadlockConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(make_room_after, "make_room_after", Range{0.0, 600.0}, "s",
-        "what closes the only way and faces the robot for so long is made room for; 0: never");
+        "the robot yields to a thing that closes the only way and faces it for so long; 0: never");
   visit(wait_aside, "wait_aside", Range{0.0, 600.0}, "s", "how long it is then given to pass");
 }
 

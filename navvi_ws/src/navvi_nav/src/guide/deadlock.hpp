@@ -54,7 +54,7 @@ class Deadlock {
   std::optional<std::uint32_t> yields_to_;
   std::vector<Cylinder> swept_area_;
   std::optional<double> retreated_at_;    // s
-  std::map<std::uint32_t, int> yielded_;  // how often to whom
+  std::map<std::uint32_t, int> yielded_;  // how often, by id
 };
 
 }  // namespace navvi_nav::guide

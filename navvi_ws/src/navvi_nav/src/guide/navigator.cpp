@@ -8,7 +8,7 @@ std::optional<double> age_of(std::optional<double> then, double now) {
   return std::max(0.0, now - *then);
 }
 
-/// Fills in what several classes need to know.
+/// Copies the values that several classes need.
 NavigatorConfig completed(NavigatorConfig config) {
   const double radius = config.planner.mesh.robot_radius;
   config.replan.trigger.robot_radius = radius;
@@ -140,7 +140,7 @@ Conflict Navigator::forecast(const Path& path) const {
   return forecast_.forecast(path, observation_.obstacles(), observation_.pace());
 }
 
-/// Goes along with the robot. \returns the conflict on what is left of the path
+/// Follows the robot along the path. \returns the conflict on the rest of it
 Conflict Navigator::follow_progress(double time) {
   const std::optional<Point> robot = position_of(pose(time));
   blocker_.reset();
@@ -173,8 +173,8 @@ void Navigator::give_up_late_plan(double time) {
   guidance_.detail = "no plan came in time";
 }
 
-/// Ends the wait in a retreat, and finds out whether the robot and what closes the only path wait
-/// for each other.
+/// Ends the wait in a retreat, and detects whether the robot and the thing that closes the only
+/// path wait for each other.
 void Navigator::watch_deadlock(double time, Point robot, const Conflict& now) {
   if (path_.mode() == PathMode::retreat) return;
   if (path_.mode() == PathMode::waiting) {

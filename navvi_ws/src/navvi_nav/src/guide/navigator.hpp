@@ -37,10 +37,10 @@ struct NavigatorConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// What nav_node decides: what the planner does next, which path is followed, what the person is
-/// told. It hands one forecast a tick to three deciders that do not know each other: ReplanTrigger
-/// (when to plan), PathKeeper (keep or change the path), Deadlock (when to yield). Times are s on
-/// one clock; after a jump back call reset_times().
+/// The decisions of nav_node: the planner's next request, the path to follow, the guidance to
+/// publish. It hands one forecast a tick to three deciders that do not know each other:
+/// ReplanTrigger (when to plan), PathKeeper (keep or change the path), Deadlock (when to yield).
+/// Times are s on one clock; after a jump back call reset_times().
 class Navigator {
  public:
   explicit Navigator(const NavigatorConfig& config);
@@ -70,7 +70,7 @@ class Navigator {
   [[nodiscard]] Guidance guidance(double time) const;
   /// The path as planned; empty when there is none to show.
   [[nodiscard]] const Path& path() const { return path_.follower().path(); }
-  /// True while a first plan for a goal is on its way: nothing new can be said yet.
+  /// True while the first plan for a goal is being made: there is no new guidance yet.
   [[nodiscard]] bool undecided(double time) const;
   /// Where the robot is; nullopt without a fresh pose.
   [[nodiscard]] std::optional<Pose2> pose(double time) const { return observation_.pose(time); }
@@ -93,9 +93,9 @@ class Navigator {
     bool octomap_came = false;
     bool changed = false;             ///< since the last plan
     std::optional<double> time;       ///< s, when the map in use came
-    std::optional<double> mesh_time;  ///< s, as of which the mesh shows what moves
+    std::optional<double> mesh_time;  ///< s, of the moving things in the mesh
   };
-  /// The last request: what it was for, and whether it is answered.
+  /// The last request: its reason, and whether it is answered.
   struct Sent {
     std::optional<double> since;  ///< s; nullopt: answered
     Guidance::Replan reason = Guidance::Replan::none;
@@ -132,7 +132,7 @@ class Navigator {
   Sent sent_;
   Conflict conflict_;               ///< as of the last tick on which a replan was decided
   std::optional<Blocker> blocker_;  ///< of the only path, if near
-  Guidance guidance_;               ///< but what changes with time
+  Guidance guidance_;               ///< without the values that change with time
 };
 
 }  // namespace navvi_nav::guide

@@ -52,7 +52,7 @@ Path PathFollower::remaining(Point robot) const {
 }
 
 bool PathFollower::sees(Point robot, Point target, const map::Space& space) const {
-  // A robot that already stands nearer to something must still be able to go on.
+  // A robot that already stands nearer to something must still be able to drive on.
   const double own = space.clearance(robot) - kSlack;
   return space.segment_clear(robot, target, std::max(0.0, std::min(config_.sight_radius, own)));
 }

@@ -10,8 +10,8 @@ namespace navvi_nav::guide {
 /// How unstable the guide path is: metres of the path ahead that plans moved, per minute.
 class PathInstability {
  public:
-  /// m of the first 20 m of `old` from which `fresh` is more than half a metre away: what a
-  /// person who followed has to unlearn.
+  /// m of the first 20 m of `old` from which `fresh` is more than half a metre away: the
+  /// part of the route that a person has to unlearn.
   [[nodiscard]] static double moved(const Path& old, const Path& fresh);
 
   void add(double time, double metres);

@@ -37,14 +37,14 @@ void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   visit(hold_time, "hold_time", Range{0.0, 60.0}, "s",
         "a path cut by moving things is kept so long at most; 0: never kept");
   visit(hold_choice, "hold_choice", Range{0.0, 60.0}, "s",
-        "a path that was chosen because of what moves is kept so long at least, if nothing is run "
-        "into within as long");
+        "a path chosen because of moving things is kept so long at least, if no collision is "
+        "forecast within as long");
   visit(hold_meeting, "hold_meeting", Range{0.0, 60.0}, "s",
-        "what comes along the path is evaded only when it is so close: it may turn off");
+        "an oncoming thing is evaded only when it is so close: it may turn off");
   visit(hold_detour, "hold_detour", Range{0.0, 100.0}, "m",
-        "nobody is led round farther than this for what moves while the path may be kept");
+        "longest detour around a moving thing while the path may be kept");
   visit(wait_distance, "wait_distance", Range{0.0, 100.0}, "m",
-        "nearer than this a person is told to wait for what crosses, or closes the only way");
+        "nearer than this the robot waits for a thing that crosses or closes the only way");
 }
 
 bool PathKeeper::update(double time, const Conflict& conflict) {

@@ -42,8 +42,8 @@ class PathKeeper {
     Guidance::Replan reason = Guidance::Replan::none;
     PathMode mode = PathMode::to_goal;  ///< of the path that is followed
     plan::PlanStatus found = plan::PlanStatus::no_route;
-    Candidate followed;             ///< what is left of it, from the robot
-    Candidate fresh;                ///< what the search found
+    Candidate followed;             ///< the rest of it, from the robot
+    Candidate fresh;                ///< found by the search
     bool strayed = false;           ///< the robot is off its path
     bool sees_waypoint = false;     ///< no wall stands between the robot and its next way-point
     bool reaches_waypoint = false;  ///< nor does an obstacle
@@ -72,7 +72,7 @@ class PathKeeper {
   /// False if `fresh` is not shorter by enough.
   [[nodiscard]] bool worth_changing(Guidance::Replan reason, const Path& followed,
                                     const Path& fresh) const;
-  /// True if a person should wait for what moves right in front of them.
+  /// True if the robot should wait for a moving thing right in front of it.
   [[nodiscard]] bool must_wait(const Conflict& conflict) const;
 
  private:

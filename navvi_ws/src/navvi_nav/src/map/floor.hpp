@@ -7,7 +7,7 @@
 
 namespace navvi_nav::map {
 
-/// Places finer than cells are told in steps, so many to a cell, (0, 0) at the origin of map.
+/// Steps to a cell, for places finer than cells; (0, 0) is at the origin of map.
 inline constexpr int kStepsPerCellSide = 16;
 
 /// A square of the floor; cell (0, 0) has its lower corner at the origin of map.
@@ -51,7 +51,7 @@ class Floor {
   /// True if the whole cell, and grow() steps around it along each axis, keeps the margin from
   /// everything that blocks.
   [[nodiscard]] bool open(Cell cell) const { return contains(cell) && open_[index(cell)] != 0; }
-  /// Whole cells would round the margin up along walls; this gives back what they took too much.
+  /// Whole cells would round the margin up along walls; this is how much they took too much.
   [[nodiscard]] int grow() const { return grow_; }
   /// The open cells of a row that exists, 1 or 0, columns() of them from origin() on.
   [[nodiscard]] const std::uint8_t* open_row(int y) const {
@@ -60,11 +60,11 @@ class Floor {
   [[nodiscard]] bool any_open() const;
   /// Connected component of an open cell (neighbours share an edge), else -1.
   [[nodiscard]] int component(Cell cell) const;
-  /// m, at most the distance from any point of the cell to what blocks; capped at reach().
+  /// m, at most the distance from any point of the cell to a blocked cell; capped at reach().
   [[nodiscard]] double gap(Cell cell) const;
-  /// m, exact distance from the point to what blocks; capped at reach().
+  /// m, exact distance from the point to a blocked cell; capped at reach().
   [[nodiscard]] double clearance(Point point) const;
-  /// True if every point of the segment is at least `radius` (m, <= reach()) from what blocks,
+  /// True if every point of the segment is at least `radius` (m, <= reach()) from blocked cells,
   /// to 1e-9 m. Exact.
   [[nodiscard]] bool segment_clear(Point a, Point b, double radius) const;
   /// Every cell whose square the segment touches, in order; unlimited by the grid.

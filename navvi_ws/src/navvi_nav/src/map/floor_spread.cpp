@@ -11,7 +11,7 @@ namespace {
 constexpr int kUnknown = std::numeric_limits<int>::min();
 constexpr double kSteep = 0.95;  // rise over run taken for 45 degrees, less the voxels' rounding
 
-/// The height of the floor in each column, and what is asked of it.
+/// The height of the floor in each column.
 class Spread {
  public:
   Spread(std::vector<Ground>& ground, const HeightField& field, const Climbing& climbing)

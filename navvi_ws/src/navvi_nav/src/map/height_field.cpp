@@ -136,7 +136,7 @@ void HeightField::add(const Octet& octet, int first_row, int last_row, std::vect
 }
 
 /// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
-/// do, for settle() puts in order what is apart here.
+/// do: settle() sorts the spans that are apart here.
 void HeightField::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
   Packed& high = highest_[column];
   const std::uint16_t more = high.bottom & kMore;
@@ -154,7 +154,7 @@ void HeightField::add(std::uint32_t column, Packed span, std::vector<Lower>& low
   }
 }
 
-/// Sorts what lies below the highest spans and joins spans that touch.
+/// Sorts the spans below the highest ones and joins spans that touch.
 void HeightField::settle(std::vector<Lower>& lower) {
   const auto key = [](const Lower& one) {
     return std::uint64_t{one.column} << 32 |

@@ -34,7 +34,7 @@ std::string load(const std::string& path, std::size_t most) {
   return bytes;
 }
 
-/// What the lines before "data" say.
+/// The lines before "data".
 struct Header {
   MapBytes map;
   std::size_t length = 0;  ///< bytes, the line "data" included
@@ -74,7 +74,7 @@ Header read_header(const std::string& path, const std::string& bytes) {
       out.map.id = value;
     } else if (key == "res") {
       out.map.resolution = number_in(value).value_or(0.0);
-    } else if (key != "size") {  // octomap's count of nodes; the stream itself tells
+    } else if (key != "size") {  // octomap's count of nodes: the stream does not need it
       throw FileError(path + ": the header has a line \"" + key.substr(0, 40) +
                       "\"; id, size, res and data are allowed");
     }

@@ -13,7 +13,7 @@ inline constexpr double kAnyFloor = -1000.0;  ///< m, SurveyConfig::floor_height
 
 struct SurveyConfig {
   double cell_size = 0.0;           ///< m, edge of a cell; 0: the map's own
-  double robot_height = 0.8;        ///< m, what hangs higher over the floor does not block
+  double robot_height = 0.8;        ///< m, a thing that hangs higher over the floor is none
   double climb = 0.04;              ///< m, the highest step that is driven over
   double floor_height = kAnyFloor;  ///< m, z of the floor to take
   int threads = 2;                  ///< that may share the work; the result is the same
@@ -30,7 +30,7 @@ struct MapSurvey {
   std::vector<Ground> ground;
 };
 
-/// Chooses a floor and says of each cell what stands on it (R-NAV-12).
+/// Chooses the floor and classifies each cell (R-NAV-12).
 ///
 /// A voxel's top is a place to stand if `robot_height` above it is free. The floor is the lowest
 /// level that shows at least half as many such places as the largest does, or the largest level
@@ -57,7 +57,7 @@ struct OccupancyGrid {
 inline constexpr double kFreeBelow = 0.196;     ///< of occupancy, as map_server's free_thresh
 inline constexpr double kOccupiedAbove = 0.65;  ///< of occupancy, as map_server's occupied_thresh
 
-/// What lies between free and occupied is unknown, and what is unknown is no floor. Everything
+/// A value between free and occupied is unknown, and an unknown cell is no floor. Everything
 /// occupied is an obstacle of unknown height; the floor is at z = 0.
 [[nodiscard]] MapSurvey read_grid(const OccupancyGrid& grid, double cell_size);
 

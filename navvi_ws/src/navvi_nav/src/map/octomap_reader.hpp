@@ -41,9 +41,9 @@ struct Voxels {
 };
 
 /// Walks the stream once, without recursion and without building a tree, and takes the occupied
-/// leaves as octomap would. Refused: what is not one well-formed octree of at most 16 levels that
-/// uses every byte. (octomap itself takes a truncated stream in silence and overflows the stack on
-/// one that nests without end.)
+/// leaves as octomap would. Refuses a stream that is not one well-formed octree of at most 16
+/// levels that uses every byte. (octomap itself takes a truncated stream in silence and overflows
+/// the stack on one that nests without end.)
 [[nodiscard]] Voxels read_voxels(const MapBytes& bytes);
 
 }  // namespace navvi_nav::map

@@ -7,12 +7,12 @@
 
 namespace navvi_nav::mesh {
 
-/// Finds what may be near a place: each thing is listed in the squares of a grid that its bounding
+/// Spatial index: each thing is listed in the squares of a grid that its bounding
 /// box touches. The cost of adding and removing it follows the size of the box alone.
 class BoxGrid {
  public:
   BoxGrid() = default;
-  /// \param low, high  m, of all that will be added; what sticks out is listed at the border
+  /// \param low, high  m, of all boxes that will be added; a box beyond is listed at the border
   /// \param square  m, edge
   BoxGrid(Point low, Point high, double square)
       : low_(low),

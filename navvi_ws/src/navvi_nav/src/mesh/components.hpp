@@ -35,8 +35,8 @@ class Components {
 
   /// Numbers all again.
   void number(Mesh& mesh);
-  /// Looks only at what changed if that shows that no component was split or joined: around each
-  /// region, the polygons of a component are still joined by new ones. Else numbers all again.
+  /// Visits only the changed polygons if these show that no component was split or joined: around
+  /// each region, the polygons of a component are still joined by new ones. Else numbers all again.
   void update(Mesh& mesh, const std::vector<Changed>& changed);
 
  private:

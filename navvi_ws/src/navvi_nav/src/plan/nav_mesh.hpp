@@ -49,7 +49,7 @@ struct MeshUpdate {
 /// The floor that an OctoMap shows, as tiles of convex polygons (R-NAV-1..5). Clear by
 /// construction: no point of the mesh is nearer than the robot's radius to an occupied voxel that
 /// rises above the floor (or hangs lower than the robot's height), to the edge of the floor, or to
-/// a carved cylinder. survey_map() says what floor is.
+/// a carved cylinder. survey_map() defines the floor.
 class NavMesh {
  public:
   explicit NavMesh(const NavMeshConfig& config)

@@ -139,7 +139,7 @@ Planner::Route Planner::search(Point start, Point goal) const {
   return joined_route(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
 }
 
-/// The path found, with what joins it to the start and the goal.
+/// The path found, joined to the start and the goal.
 Planner::Route Planner::joined_route(const search::Found& found, const Anchor& from, Point start,
                                      Point goal) {
   Route out;

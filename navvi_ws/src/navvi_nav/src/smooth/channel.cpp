@@ -69,7 +69,7 @@ void Channel::measure(const map::Space& space) {
   }
 }
 
-/// Rungs that would cross each other are cut short: to cross them in order must mean to go on.
+/// Shortens rungs that cross each other, so that a path that crosses them in order leads forward.
 void Channel::untangle() {
   for (std::size_t i = 1; i < rungs_.size(); ++i) {
     Rung& a = rungs_[i - 1];

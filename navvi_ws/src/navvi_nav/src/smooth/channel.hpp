@@ -11,7 +11,7 @@ struct Clearances {
   double radius = 0.35;
   double preferred = 0.6;
 
-  /// Share of the preferred room that a place at `gap` m from what blocks lacks, [0, 1].
+  /// Share of the preferred clearance that a place `gap` m from the nearest obstacle lacks, [0, 1].
   [[nodiscard]] double missing(double gap) const {
     if (preferred <= 0.0) return 0.0;
     return std::clamp((radius + preferred - gap) / preferred, 0.0, 1.0);
@@ -35,7 +35,7 @@ class Channel {
     double along = 0.0;   ///< m, from the start of the path
     int low = 0;          ///< samples that are free: from low (<= 0) to high (>= 0)
     int high = 0;
-    double gap[kSamples] = {};  ///< m, to what blocks, of the samples that are free
+    double gap[kSamples] = {};  ///< m, to the nearest obstacle, of the free samples
   };
 
   /// \param path  of some length, clear by room.radius
@@ -54,13 +54,13 @@ class Channel {
     const Rung& r = rungs_[rung];
     return cross(course, a - r.at) / (step_ * cross(course, r.across));
   }
-  /// m, to what blocks, on a rung, between its samples by linear interpolation.
+  /// m, to the nearest obstacle, on a rung: linear between its samples.
   [[nodiscard]] double gap(std::size_t rung, double sample) const;
   [[nodiscard]] const Clearances& room() const { return room_; }
   /// True if `path`, with the ends of the channel, crosses every rung in order.
   [[nodiscard]] bool holds(const Path& path) const;
   /// Takes the ends off the rungs that the segment crosses, on its side, where it comes nearest to
-  /// what blocks: for a segment that turned out not to be clear.
+  /// an obstacle: for a segment that is not clear.
   /// \returns false if there was nothing left to take
   bool narrow(std::size_t from, std::size_t to, Point a, Point b);
 

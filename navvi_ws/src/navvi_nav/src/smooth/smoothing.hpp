@@ -22,7 +22,7 @@ struct SmoothingConfig {
 [[nodiscard]] double guide_cost(const Path& path, const map::Space& space, const Clearances& room,
                                 const SmoothingConfig& config);
 
-/// A path for a person (R-NAV-13) made of the shortest one: it keeps off what is near and has few
+/// A path for a person (R-NAV-13) made of the shortest one: it keeps clear of obstacles and has few
 /// corners. The best way-points in the channel of `path` are chosen, then OMPL's PathSimplifier
 /// polishes them under the same cost. The result has the same ends, leads through the same channel,
 /// is clear by `room.radius` from end to end, and is at most max_stretch times as long as `path` or

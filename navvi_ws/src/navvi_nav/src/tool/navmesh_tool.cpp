@@ -179,7 +179,7 @@ int run(const Options& options) {
     if (!file) throw UsageError(options.picture + ": the picture cannot be written");
   }
   if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
-  const auto lap = [last = std::chrono::steady_clock::now()]() mutable {  // ms since the last
+  auto lap = [last = std::chrono::steady_clock::now()]() mutable {  // ms since the last
     const auto before = std::exchange(last, std::chrono::steady_clock::now());
     return std::chrono::duration<double, std::milli>(last - before).count();
   };
