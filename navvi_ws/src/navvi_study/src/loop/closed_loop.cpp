@@ -47,7 +47,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
 }
 
 bool ClosedLoop::step() {
-  told_ = {};
+  published_ = {};
   if (!turn_wheels()) return false;
   sense();
   if (session_.due(kNavigationRate)) navigate();
@@ -69,24 +69,24 @@ bool ClosedLoop::turn_wheels() {
 
 void ClosedLoop::sense() {
   const navvi_sim::live::Snapshot& now = session_.world().now();
-  told_.odometry = navvi_types::to_msg(session_.world().odometry());
-  if (const auto odometry = node::from_msg(told_.odometry)) {
+  published_.odometry = navvi_types::to_msg(session_.world().odometry());
+  if (const auto odometry = node::from_msg(published_.odometry)) {
     feedback_.take(*odometry, time());
     navigation_.set_speed(odometry->velocity.linear);
   }
   if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
     feedback_.take(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
-    told_.contacts.push_back(navvi_types::to_msg(contact));
-    if (const auto felt = node::from_msg(told_.contacts.back())) feedback_.take(*felt);
+    published_.contacts.push_back(navvi_types::to_msg(contact));
+    if (const auto felt = node::from_msg(published_.contacts.back())) feedback_.take(*felt);
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
-    told_.proximity = navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
-    if (const auto proximity = node::from_msg(*told_.proximity)) feedback_.take(*proximity, time());
+    published_.proximity = navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
+    if (const auto proximity = node::from_msg(*published_.proximity)) feedback_.take(*proximity, time());
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
-    told_.obstacles = navvi_types::to_msg(session_.world().obstacles());
-    if (const auto obstacles = node::from_msg(*told_.obstacles))
+    published_.obstacles = navvi_types::to_msg(session_.world().obstacles());
+    if (const auto obstacles = node::from_msg(*published_.obstacles))
       navigation_.set_obstacles(*obstacles, time());
   }
 }
@@ -108,7 +108,7 @@ void ClosedLoop::navigate() {
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
   feedback_.take(*guidance, time());
-  told_.guidance = navvi_types::to_msg(*guidance);
+  published_.guidance = navvi_types::to_msg(*guidance);
 }
 
 void ClosedLoop::feed_back() {
@@ -127,7 +127,7 @@ void ClosedLoop::feed_back() {
   feedback_.note(events);
   for (CueEvent& event : events) {
     event.stamp = navvi_types::to_ns(stamp());
-    told_.cues.push_back(node::to_msg(event));
+    published_.cues.push_back(node::to_msg(event));
   }
 }
 
@@ -142,7 +142,7 @@ std::vector<CueEvent> ClosedLoop::speak(const std::vector<navvi_feedback::cues::
 }
 
 void ClosedLoop::operate() {
-  for (const navvi_msgs::Cue& cue : told_.cues)
+  for (const navvi_msgs::Cue& cue : published_.cues)
     if (const auto heard = node::from_msg(cue)) person_.hear(*heard, time());
   hand_ = person_.update(time(), 1.0 / kFeedbackRate);
 }

@@ -68,7 +68,7 @@ class ClosedLoop {
     return setting_.scenario;
   }
   [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
-  [[nodiscard]] const Messages& told() const { return told_; }
+  [[nodiscard]] const Messages& told() const { return published_; }
   [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
   [[nodiscard]] const people::StickAndButtons& hand() const { return hand_; }
 
@@ -105,7 +105,7 @@ class ClosedLoop {
   people::SimulatedOperator person_;
   people::StickAndButtons hand_;
   bool begun_ = false;
-  Messages told_;
+  Messages published_;
 };
 
 }  // namespace navvi_study::loop
