@@ -20,8 +20,8 @@ TEST(Names, EachValueIsFoundAgainByItsWordAndByItsNumber) {
 }
 
 TEST(Names, AnotherWordOrNumberIsNothing) {
-  EXPECT_FALSE(from_word<ThingClass>("dragon"));
-  EXPECT_FALSE(from_word<ThingClass>(""));
+  for (const char* word : {"", "dragon", "Shelf", "shelf ", "pallet robot"})
+    EXPECT_FALSE(from_word<ThingClass>(word)) << word;
   EXPECT_FALSE(from_number<DriveState::State>(3));
   EXPECT_FALSE(from_number<DriveState::State>(255));
 }

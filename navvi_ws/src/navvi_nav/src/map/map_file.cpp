@@ -1,5 +1,7 @@
 #include "map/map_file.hpp"
 
+#include <png.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -109,21 +111,50 @@ std::optional<std::size_t> next_number(const std::string& bytes, std::size_t& at
   return value;
 }
 
-Picture read_pgm(const std::string& path) {
-  const std::string bytes = load(path, kMaxPicture);
+Picture read_pgm(const std::string& path, const std::string& bytes) {
   std::size_t at = 2;
   const bool pgm = bytes.rfind("P5", 0) == 0;
   const auto width = pgm ? next_number(bytes, at) : std::nullopt;
   const auto height = pgm ? next_number(bytes, at) : std::nullopt;
   const auto white = pgm ? next_number(bytes, at) : std::nullopt;
   if (!width || !height || !white || *white == 0 || *white > 255)
-    throw FileError(path + ": this is no PGM picture of one byte a pixel (P5)");
+    throw FileError(path +
+                    ": this is neither a PNG picture nor a PGM picture of one byte a pixel (P5); " +
+                    "ImageMagick's convert makes one of most others");
   ++at;  // one white space
   if (*width == 0 || *height == 0 || *width > kMaxPictureSide || *height > kMaxPictureSide ||
       at > bytes.size() || bytes.size() - at < *width * *height)
     throw FileError(path + ": the picture should have " + std::to_string(*width) + " x " +
                     std::to_string(*height) + " pixels, and it has not; 32768 a side are allowed");
   return {*width, *height, static_cast<double>(*white), bytes.substr(at, *width * *height)};
+}
+
+Picture read_png(const std::string& path, const std::string& bytes) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  const auto fail = [&](const std::string& why) {
+    png_image_free(&image);
+    throw FileError(path + ": this PNG picture cannot be read: " + why);
+  };
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
+    fail(image.message);
+  if (image.width > kMaxPictureSide || image.height > kMaxPictureSide ||
+      std::size_t{image.width} * image.height > kMaxPicture)
+    fail("it is larger than 64 million pixels, or than 32768 a side");
+  image.format = PNG_FORMAT_RGB;
+  std::string colors(PNG_IMAGE_SIZE(image), '\0');
+  const png_color white{255, 255, 255};
+  if (png_image_finish_read(&image, &white, colors.data(), 0, nullptr) == 0) fail(image.message);
+  Picture out{image.width, image.height, 255.0, std::string(colors.size() / 3, '\0')};
+  const auto color = [&](std::size_t i) { return static_cast<unsigned char>(colors[i]); };
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = static_cast<char>((color(3 * i) + color(3 * i + 1) + color(3 * i + 2)) / 3);
+  return out;
+}
+
+Picture read_picture(const std::string& path) {
+  const std::string bytes = load(path, kMaxPicture);
+  return bytes.rfind("\x89PNG", 0) == 0 ? read_png(path, bytes) : read_pgm(path, bytes);
 }
 
 struct GridDescription {
@@ -134,16 +165,18 @@ struct GridDescription {
   double occupied_thresh = kOccupiedAbove;
   double free_thresh = kFreeBelow;
   std::string mode = "trinary";
+  std::string map_type;
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Range;
-    visit(image, "image", navvi_config::Any{}, "", "a PGM picture");
+    visit(image, "image", navvi_config::Any{}, "", "a PNG or PGM picture");
     visit(resolution, "resolution", Range{kMinResolution, kMaxResolution}, "m", "side of a pixel");
     visit(origin, "origin", navvi_config::Any{}, "m, m, rad", "lower left corner: x, y, yaw");
     visit(negate, "negate", Range{0.0, 1.0}, "", "1: white is occupied");
     visit(occupied_thresh, "occupied_thresh", Range{0.0, 1.0}, "", "darker is occupied");
     visit(free_thresh, "free_thresh", Range{0.0, 1.0}, "", "lighter is free");
     visit(mode, "mode", navvi_config::OneOf{{"trinary"}}, "", "how grey is understood");
+    visit(map_type, "map_type", navvi_config::Any{}, "", "of other map servers; not used");
   }
 };
 
@@ -191,8 +224,11 @@ GridFile read_grid_file(const std::string& path) {
     navvi_config::read(how, navvi_config::load_yaml(path), path);
     if (how.image.empty() || how.resolution <= 0.0 || how.origin.size() < 2)
       throw FileError(path + ": a map_server map names its image, resolution and origin");
+    if (how.occupied_thresh < how.free_thresh)
+      throw FileError(path +
+                      ": occupied_thresh is below free_thresh; allowed is the same or above");
     const auto picture = std::filesystem::path(path).parent_path() / how.image;
-    return {{}, grid_of(how, read_pgm(picture.string()))};
+    return {{}, grid_of(how, read_picture(picture.string()))};
   } catch (const std::runtime_error& error) {  // FileError or ConfigError
     return {error.what(), {}};
   }

@@ -1,6 +1,7 @@
 #include "map/map_file.hpp"
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -98,6 +99,23 @@ TEST_F(MapFile, reads_a_map_server_map_with_its_thresholds) {
   EXPECT_EQ(survey.ground.size(), 6U);
 }
 
+TEST_F(MapFile, reads_a_map_server_map_whose_picture_is_a_PNG) {
+  // As map_server does: the mean of the colors counts.
+  const unsigned char colors[] = {0, 0, 0, 205, 205, 205, 255, 254, 253, 254, 254, 254};
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = image.height = 2;
+  image.format = PNG_FORMAT_RGB;
+  ASSERT_NE(png_image_write_to_file(&image, path("map.png").c_str(), 0, colors, 0, nullptr), 0);
+  const std::string text =
+      "image: map.png\nresolution: 0.1\norigin: [0, 0, 0]\nmap_type: occupancy\n";
+  const GridFile file = read_grid_file(write("map.yaml", text));
+  ASSERT_EQ(file.error, "");
+  EXPECT_EQ(file.grid.cells, (std::vector<std::int8_t>{0, 0, 100, -1}));
+  write("map.png", "\x89PNG\r\n");
+  EXPECT_EQ(read_grid_file(path("map.yaml")).error.rfind(path("map.png") + ": this PNG", 0), 0U);
+}
+
 TEST_F(MapFile, refuses_a_map_server_map_in_a_sentence) {
   const std::string rest =
       "resolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
@@ -107,6 +125,9 @@ TEST_F(MapFile, refuses_a_map_server_map_in_a_sentence) {
   EXPECT_EQ(error("image: none.pgm\n" + rest), path("none.pgm") + ": there is no such file");
   EXPECT_NE(error("image: none.pgm\ncolour: red\n" + rest).find("colour"), std::string::npos);
   EXPECT_FALSE(error("resolution: 0.1\n").empty());
+  EXPECT_NE(error("image: a.pgm\nresolution: 0.1\norigin: [0, 0]\noccupied_thresh: 0.1\n")
+                .find("below free_thresh"),
+            std::string::npos);
   EXPECT_FALSE(error("image: [").empty());
   for (const std::string& picture :
        {std::string("P6\n1 1\n255\nabc"), std::string("P5\n9 9\n255\nabc"), std::string("P5\n"),

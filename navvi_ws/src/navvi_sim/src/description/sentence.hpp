@@ -21,6 +21,13 @@ namespace navvi_sim {
   return text;
 }
 
+/// Names reach terminals and tables: a control character becomes a blank.
+[[nodiscard]] inline std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return text;
+}
+
 /// The classes of things, with commas between.
 [[nodiscard]] inline std::string thing_class_words() {
   std::string words;

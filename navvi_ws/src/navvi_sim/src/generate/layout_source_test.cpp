@@ -7,6 +7,7 @@
 
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/read/world_source.hpp"
+#include "read/layout_world.hpp"
 
 namespace navvi_sim::generate {
 namespace {

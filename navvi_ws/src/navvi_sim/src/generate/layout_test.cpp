@@ -15,6 +15,7 @@
 #include "navvi_sim/scenario/scenario.hpp"
 #include "scenario/floor_grid.hpp"
 #include "traffic/lanes.hpp"
+#include "traffic/traffic.hpp"
 
 namespace navvi_sim::generate {
 namespace {

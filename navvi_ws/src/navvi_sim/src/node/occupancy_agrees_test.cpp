@@ -158,7 +158,8 @@ void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
   int hits = 0;
   const Pose2 stand = scenario::draw_scenario(world, voxels, {}, seed).start;
   for (int place = 0; place < 60;) {
-    const Eigen::Vector3d eye(stand.x + 8.0 * unit(random), stand.y + 8.0 * unit(random),
+    const Eigen::Vector3d eye(stand.position.x() + 8.0 * unit(random),
+                              stand.position.y() + 8.0 * unit(random),
                               world.floor_height + 0.3 + 0.2 * (1.0 + unit(random)));
     if (distance(surfaces, eye) < 0.2 || enclosed(surfaces, eye)) continue;
     ++place;

@@ -5,6 +5,8 @@
 namespace navvi_sim::physics {
 namespace {
 
+using navvi_types::ThingClass;
+
 const Eigen::Vector3d kPoint = Eigen::Vector3d::Zero();
 
 class Contacts : public testing::Test {

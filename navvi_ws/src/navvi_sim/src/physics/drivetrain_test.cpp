@@ -138,7 +138,7 @@ TEST(Drivetrain, a_command_comes_late_by_its_delay_but_an_emergency_does_not) {
 TEST(Drivetrain, wheels_that_stall_at_a_wall_do_not_drive_odometry_on) {
   const double pi = std::acos(-1.0);
   live::Session session = begin([](auto& flaws) { flaws.slip_left = flaws.slip_right = 0.1; }, 1,
-                                {0.0, 58.5, 0.5 * pi});
+                                {{0.0, 58.5}, 0.5 * pi});
   drive(session, 5.0, {0.5, 0.0});
   const double at_the_wall = session.world().now().odometry.position.y();
   drive(session, 5.0, {0.5, 0.0});

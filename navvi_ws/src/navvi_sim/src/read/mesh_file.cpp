@@ -5,6 +5,8 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <fstream>
+#include <limits>
 #include <set>
 
 namespace navvi_sim::read {
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxBytes = 200'000'000;
 constexpr std::size_t kMaxTriangles = 5'000'000;
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMaxDepth = 200;      // of nodes
 constexpr std::size_t kNamed = 10;  // parts in a sentence
 
@@ -25,6 +28,11 @@ void check_file(const std::filesystem::path& file) {
     refuse(file, "does not exist or is no file; allowed are .dae, .stl and .obj files");
   if (std::filesystem::file_size(file, error) > kMaxBytes || error)
     refuse(file, "is larger than 200 MB or cannot be read; allowed is up to 200 MB");
+  const std::string pointer = "version https://git-lfs";
+  std::string first(pointer.size(), '\0');
+  std::ifstream(file).read(first.data(), static_cast<std::streamsize>(first.size()));
+  if (first == pointer)
+    refuse(file, "is a pointer of Git LFS and not the file itself; git lfs pull fetches it");
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -72,8 +80,20 @@ class MeshBuilder {
   }
 
   void append(const aiMesh& piece, const Eigen::Matrix4d& pose) {
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    // Lines and points have no surface: what only they use must not count for the thing's size.
+    std::vector<std::uint32_t> index(piece.mNumVertices, kUnused);
+    for (unsigned i = 0; i < piece.mNumFaces; ++i) {
+      const aiFace& face = piece.mFaces[i];
+      for (unsigned k = 0; face.mNumIndices == 3 && k < 3; ++k) {
+        if (face.mIndices[k] >= piece.mNumVertices)
+          refuse(file_, "has a triangle with vertex " + std::to_string(face.mIndices[k]) +
+                            "; there are " + std::to_string(piece.mNumVertices));
+        index[face.mIndices[k]] = 0;
+      }
+    }
     for (unsigned i = 0; i < piece.mNumVertices; ++i) {
+      if (index[i] == kUnused) continue;
+      index[i] = static_cast<std::uint32_t>(mesh_.vertices.size());
       const aiVector3D& v = piece.mVertices[i];
       const Eigen::Vector4d at(static_cast<double>(v.x), static_cast<double>(v.y),
                                static_cast<double>(v.z), 1.0);
@@ -83,13 +103,9 @@ class MeshBuilder {
     }
     for (unsigned i = 0; i < piece.mNumFaces; ++i) {
       const aiFace& face = piece.mFaces[i];
-      if (face.mNumIndices != 3) continue;  // lines and points have no surface
-      for (unsigned k = 0; k < 3; ++k)
-        if (face.mIndices[k] >= piece.mNumVertices)
-          refuse(file_, "has a triangle with vertex " + std::to_string(face.mIndices[k]) +
-                            "; there are " + std::to_string(piece.mNumVertices));
-      mesh_.triangles.push_back(
-          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+      if (face.mNumIndices == 3)
+        mesh_.triangles.push_back(
+            {index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
     }
     if (mesh_.triangles.size() > kMaxTriangles || mesh_.vertices.size() > 3 * kMaxTriangles)
       refuse(file_, "has more than " + std::to_string(kMaxTriangles) +

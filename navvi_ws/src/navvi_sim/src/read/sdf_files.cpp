@@ -95,8 +95,10 @@ void override_with(XmlElement& model, const XmlElement& include) {
 SdfFiles::SdfFiles(const fs::path& world_file, std::vector<fs::path> models)
     : world_file_(world_file), folders_(std::move(models)) {
   const fs::path home = fs::absolute(world_file).parent_path();
-  folders_.push_back(home / "models");
-  folders_.push_back(home);
+  for (const fs::path& folder : {home, home.parent_path()}) {
+    folders_.push_back(folder / "models");
+    folders_.push_back(folder);
+  }
 }
 
 std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& from) const {

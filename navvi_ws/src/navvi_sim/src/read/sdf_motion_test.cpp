@@ -40,6 +40,15 @@ class SdfMotionTest : public SdfFolder {
   }
 };
 
+TEST_F(SdfMotionTest, of_an_actor_that_gazebo_saved_is_that_of_a_person) {
+  const LoadedWorld loaded =
+      with_actor("",
+                 "<link name='hip'><collision name='c'><geometry><sphere><radius>0.02</radius>"
+                 "</sphere></geometry></collision></link>");
+  EXPECT_NEAR(bounds(ann(loaded)).max().z() - loaded.world.floor_height, 1.75, 0.01);
+  EXPECT_TRUE(has_note(loaded, {"bones of 'ann'"}));
+}
+
 TEST_F(SdfMotionTest, of_an_actor_is_a_worker_who_walks_its_way_points_in_its_times) {
   const LoadedWorld loaded =
       with_actor("<loop>true</loop><delay_start>2.5</delay_start>" +

@@ -184,6 +184,55 @@ TEST_F(SdfWorld, names_the_model_that_is_missing) {
   EXPECT_NE(sentence.find("model://not_there"), std::string::npos) << sentence;
 }
 
+TEST_F(SdfWorld, finds_models_where_gazebo_and_most_repositories_keep_them) {
+  const auto world = [&](const std::string& uri) {
+    return write("worlds/a.world", "<sdf version='1.6'><world name='w'>" + ground_ +
+                                       "<model name='a'><include><uri>" + uri +
+                                       "</uri></include></model></world></sdf>");
+  };
+  write_model("crate", cube_);  // in models/, beside worlds/
+  EXPECT_EQ(sentence_of(world("model://crate")), "");
+  EXPECT_EQ(sentence_of(world("file://models/crate")), "");
+  write("elsewhere/barrel/model.sdf",
+        "<sdf version='1.6'><model name='barrel'>" + cube_ + "</model></sdf>");
+  EXPECT_NE(sentence_of(world("model://barrel")), "");
+  EXPECT_EQ(sentence_of(world("model://barrel"), (folder_ / "elsewhere").string()), "");
+  setenv("GAZEBO_MODEL_PATH", ("/nowhere:" + (folder_ / "elsewhere").string()).c_str(), 1);
+  EXPECT_EQ(sentence_of(world("model://barrel")), "");
+  unsetenv("GAZEBO_MODEL_PATH");
+  EXPECT_NE(sentence_of(world("model://crate"), "nowhere").find("'nowhere' is no folder"),
+            std::string::npos);
+}
+
+TEST_F(SdfWorld, has_names_that_a_terminal_can_show) {
+  const LoadedWorld loaded = load_world(
+      write("n.world", "<sdf version='1.6'><world name='a&#10;b'>" + ground_ +
+                           "<model name='red&#27;[31m'>" + cube_ + "</model></world></sdf>"),
+      "", 1, {});
+  EXPECT_EQ(loaded.world.name, "a b");
+  EXPECT_NE(thing_named(loaded.world, "red [31m"), nullptr);
+}
+
+TEST_F(SdfWorld, takes_no_size_from_what_only_lines_use) {
+  write("edge.dae",
+        "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>"
+        "<unit meter='1'/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id='g'>"
+        "<mesh><source id='p'><float_array id='pa' count='15'>0 0 0 1 0 0 0 1 1 700 0 0 700 1 0"
+        "</float_array><technique_common><accessor source='#pa' count='5' stride='3'>"
+        "<param name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/>"
+        "</accessor></technique_common></source><vertices id='v'>"
+        "<input semantic='POSITION' source='#p'/></vertices><triangles count='1'>"
+        "<input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles>"
+        "<lines count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>3 4</p></lines>"
+        "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='s'>"
+        "<node id='n'><instance_geometry url='#g'/></node></visual_scene></library_visual_scenes>"
+        "<scene><instance_visual_scene url='#s'/></scene></COLLADA>");
+  const LoadedWorld loaded = load(ground_ + model("a", "<mesh><uri>edge.dae</uri></mesh>"));
+  const Thing* thing = thing_named(loaded.world, "a");
+  ASSERT_NE(thing, nullptr);
+  EXPECT_NEAR(bounds(*thing).max().x(), 1.0, 1e-6);
+}
+
 TEST_F(SdfWorld, names_the_mesh_that_is_missing_or_broken) {
   const auto with_mesh = [&](const std::string& uri) {
     return sentence_of(write_world(
@@ -195,6 +244,8 @@ TEST_F(SdfWorld, names_the_mesh_that_is_missing_or_broken) {
   write("broken.dae", "no mesh");
   write("empty.stl", "");
   EXPECT_NE(with_mesh("broken.dae").find("broken.dae"), std::string::npos);
+  write("absent.stl", "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n");
+  EXPECT_NE(with_mesh("absent.stl").find("git lfs pull"), std::string::npos);
   EXPECT_NE(with_mesh("empty.stl").find("empty.stl"), std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 #include "navvi_sim/read/world_source.hpp"
 
+#include <cstdlib>
 #include <sstream>
 #include <utility>
 
@@ -73,11 +74,21 @@ std::optional<generate::LayoutSource> layout_source(const std::string& spec) {
   return generate::read_layout(spec);
 }
 
-std::vector<std::filesystem::path> folders(const std::string& colon_separated) {
+std::vector<std::filesystem::path> folders(const std::string& models) {
   std::vector<std::filesystem::path> result;
-  std::istringstream stream(colon_separated);
-  for (std::string item; std::getline(stream, item, ':');)
-    if (!item.empty()) result.emplace_back(item);
+  const auto add = [&](const std::string& colon_separated, bool must_be) {
+    std::istringstream stream(colon_separated);
+    for (std::string item; std::getline(stream, item, ':');) {
+      std::error_code error;
+      if (item.empty()) continue;
+      if (std::filesystem::is_directory(item, error))
+        result.emplace_back(item);
+      else if (must_be)
+        throw WorldError("models: '" + item + "' is no folder; allowed are folders that exist");
+    }
+  };
+  add(models, true);
+  if (const char* path = std::getenv("GAZEBO_MODEL_PATH")) add(path, false);
   return result;
 }
 

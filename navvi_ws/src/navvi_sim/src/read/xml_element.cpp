@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "description/sentence.hpp"
 #include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::read {
@@ -39,7 +40,7 @@ XmlElement copy_of(const tinyxml2::XMLElement& source,
   element.line = source.GetLineNum();
   for (const auto* attribute = source.FirstAttribute(); attribute != nullptr;
        attribute = attribute->Next())
-    element.attributes.emplace(attribute->Name(), attribute->Value());
+    element.attributes.emplace(attribute->Name(), printable(attribute->Value()));
   std::string text;
   for (const auto* node = source.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) element.children.push_back(copy_of(*child, file));

@@ -87,7 +87,7 @@ class Reader {
 
   [[nodiscard]] std::string text(const YAML::Node& node, const std::string& what) const {
     if (!node.IsScalar() || node.Scalar().empty()) refuse(node, what + " must be a word");
-    return node.Scalar();
+    return printable(node.Scalar());
   }
 
   [[nodiscard]] double number(const YAML::Node& node, const std::string& what) const {

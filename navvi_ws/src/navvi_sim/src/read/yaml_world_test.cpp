@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "generate/layout_config.hpp"
 #include "navvi_sim/read/world_source.hpp"
 
 namespace navvi_sim::read {

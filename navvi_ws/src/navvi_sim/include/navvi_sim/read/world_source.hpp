@@ -28,8 +28,8 @@ enum class Workers {
 /// (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
 /// yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is taken from the working
 /// directory.
-/// \param models  folders for model://, separated by colons; may be empty. The world's folder and
-///                its `models` subfolder are always tried, after these.
+/// \param models  folders for model://, separated by colons; may be empty. After these come
+///                GAZEBO_MODEL_PATH, the world's folder, the one above it and `models` in both.
 /// \param seed    of layouts; other files do not depend on it
 /// \param workers  of layouts; those of other files do as their file says
 /// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
@@ -39,7 +39,8 @@ enum class Workers {
                                      std::uint64_t seed, Workers workers,
                                      const std::string& classes = "");
 
-/// The folders of a colon separated list; empty items are left out.
-[[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& colon_separated);
+/// The folders of a colon separated list, and then those of GAZEBO_MODEL_PATH that exist.
+/// \throws WorldError if one of the list is no folder
+[[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& models);
 
 }  // namespace navvi_sim::read
