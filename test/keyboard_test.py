@@ -7,8 +7,9 @@ import pytest
 
 from live_session_test import Display
 
-KEYS = "NavVI - "
-OTHER = "Event Tester"  # xev's window, in the part of RViz
+# How xdotool finds a window, and a word of its title.
+KEYS = ("--class", "feedback_node", "NavVI")
+OTHER = ("--name", "Event Tester", "Event Tester")  # xev's, in the part of RViz
 
 
 class Keys:
@@ -22,7 +23,6 @@ class Keys:
         for name, topic in ("commands", "/cmd_vel"), ("cues", "/navvi/cues"):
             self.processes.append(self.start("rostopic", "echo", "-p", topic, output=folder / name))
         self.processes.append(self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false"))
-        self.window(KEYS)
 
     def start(self, *words, output="/dev/null"):
         with open(output, "w") as file:
@@ -31,16 +31,16 @@ class Keys:
     def xdotool(self, *words):
         return subprocess.run(["xdotool", *words], env=self.env, capture_output=True, text=True, timeout=20).stdout.strip()
 
-    def window(self, name):
-        assert eventually(lambda: self.xdotool("search", "--onlyvisible", "--name", name)), f"no window is named {name}"
-        return self.xdotool("search", "--onlyvisible", "--name", name).split()[0]
+    def window(self, window):
+        assert eventually(lambda: self.xdotool("search", "--onlyvisible", *window[:2])), f"there is no window {window}"
+        return self.xdotool("search", "--onlyvisible", *window[:2]).split()[0]
 
-    def has_focus(self, name):
-        return name in self.xdotool("getwindowfocus", "getwindowname")
+    def has_focus(self, window):
+        return window[2] in self.xdotool("getwindowfocus", "getwindowname")
 
-    def select(self, name):
-        self.xdotool("windowactivate", "--sync", self.window(name))
-        assert eventually(lambda: self.has_focus(name))
+    def select(self, window):
+        self.xdotool("windowactivate", "--sync", self.window(window))
+        assert eventually(lambda: self.has_focus(window))
 
     def rows(self, name):
         with open(self.folder / name) as file:
@@ -84,6 +84,7 @@ def keys(master, tmp_path):
 
 
 def test_keys_drive_only_where_they_are_meant(keys):
+    keys.window(KEYS)
     # A window that opens later, as RViz does, keeps neither the focus nor the top, until a key was used.
     keys.processes.append(keys.start("xev"))
     keys.window(OTHER)

@@ -171,7 +171,7 @@ TEST_F(CuePolicyTest, names_the_keyboard_where_the_stick_is_one) {
   under_way();
   now_.links.pad = Link::lost;
   now_.gate = DriveState::State::stopped;
-  EXPECT_EQ(pass(1.0), Texts{"the keys are off, select the NavVI window"});
+  EXPECT_EQ(pass(1.0), Texts{"the keys are off, select the keyboard window"});
   now_.links.pad = Link::alive;
   EXPECT_EQ(pass(1.0).front(), "the keys are on, release them first");
 }

@@ -307,6 +307,7 @@ TEST(World, is_the_same_to_the_robot_whatever_is_far_away) {
 TEST(World, gives_near_points_in_base_link_and_movers_and_contacts_on_the_floor) {
   WorldDescription description = floor_only();
   description.floor_height = -0.09;
+  description.things[0].pose.translation().z() += description.floor_height;
   description.things.push_back(box_thing("shelf", ThingClass::shelf, {1.0, 4.0, 1.0}, {1, 1, 2}));
   description.things.push_back(mover_thing({-6, -6}, {6, -6}, 1.0));
   World world = make(description, {{1.0, 2.0}, kPi / 2});

@@ -119,13 +119,13 @@ TEST_F(SdfMotionTest, is_never_faster_than_the_simulator_lets_it_be) {
   EXPECT_TRUE(has_note(loaded, {"ann", "faster than 5 m/s"}));
 }
 
-TEST_F(SdfMotionTest, of_an_actor_with_bodies_of_its_own_keeps_them) {
-  const Thing actor =
-      ann(with_actor(trajectory(0, {{0, 0, 0}, {4, 4, 0}}),
-                     "<link name='body'><collision name='c'><geometry><box><size>1 1 1</size></box>"
-                     "</geometry></collision></link>"));
-  ASSERT_EQ(actor.shapes.size(), 1U);
-  EXPECT_NEAR(bounds(actor).center().z(), 1.0, 1e-9) << "at the height of its trajectory";
+TEST_F(SdfMotionTest, of_an_actor_with_bodies_and_no_skin_keeps_them) {
+  const LoadedWorld loaded =
+      load(ground_ + "<actor name='ann'><script>" + trajectory(0, {{0, 0, 0}, {4, 4, 0}}) +
+           "</script><link name='body'><collision name='c'><geometry><box><size>1 1 1</size></box>"
+           "</geometry></collision></link></actor>");
+  ASSERT_EQ(ann(loaded).shapes.size(), 1U);
+  EXPECT_NEAR(bounds(ann(loaded)).center().z(), 1.0, 1e-9) << "at the height of its trajectory";
 }
 
 TEST_F(SdfMotionTest, of_plugins_with_way_points_is_taken_over) {

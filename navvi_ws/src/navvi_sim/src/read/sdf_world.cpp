@@ -105,11 +105,12 @@ class WorldReader {
     classify(actor, thing);
     if (thing.thing_class == ThingClass::other || thing.thing_class == ThingClass::floor)
       thing.thing_class = ThingClass::worker;
-    // Gazebo saves a link with a collision for each bone, small, and in the pose of the skin's
-    // file.
+    // Gazebo saves a small collision for each bone, in the pose of the skin's file.
     if (actor.child("skin") == nullptr)
       read_links(actor, Eigen::Isometry3d::Identity(), thing);
-    else if (actor.child("link") != nullptr)
+    else
+      notes_.add_leftovers(actor);
+    if (thing.shapes.empty() && actor.child("link") != nullptr)
       notes_.add(actor, "the bones of '" + thing.name + "' are left out: a person of " +
                             "1.75 m stands for them");
     const SdfMotion motion = actor_motion(actor, pose_in(world, actor), notes_);
