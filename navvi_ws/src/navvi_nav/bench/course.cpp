@@ -6,6 +6,11 @@
 #include "octomap_tree.hpp"
 
 namespace navvi_nav::bench {
+
+using map::Floor;
+using mesh::GridPolygon;
+using mesh::Polygon;
+
 namespace {
 
 std::vector<std::int8_t> bytes_of(const octomap::OcTree& tree) {
@@ -40,7 +45,7 @@ Course::Course(Hall hall, std::uint32_t seed)
       detour_query(detour.mesh()),
       tile_cache(columns, config.mesh.robot_radius, config.mesh.robot_height, kTile),
       tile_cache_query(tile_cache.mesh()),
-      detours_mesh(join(grid(detour), tree.getResolution())) {
+      detours_mesh(mesh::join(grid(detour), tree.getResolution())) {
   ours.set_map(voxels_of(tree));
   carved.set_map(voxels_of(tree));
   std::mt19937 random(seed);
@@ -61,7 +66,7 @@ std::vector<Cylinder> Course::discs(int count) const {
 }
 
 double Course::floor_area() const {
-  const Mesh& mesh = ours.nav_mesh().mesh();
+  const mesh::Mesh& mesh = ours.nav_mesh().mesh();
   double twice = 0.0;
   for (const Polygon& polygon : mesh.polygons) {
     for (std::size_t k = 2; k < polygon.corners.size(); ++k) {

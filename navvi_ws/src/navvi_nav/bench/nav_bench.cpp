@@ -97,7 +97,7 @@ void move_discs(State& state, const Course& course, int count,
 }
 
 void declare_bakes(Course& c) {
-  const NavMeshConfig& mesh = c.config.mesh;
+  const plan::NavMeshConfig& mesh = c.config.mesh;
   const auto add = [&c](const std::string& what, const std::function<void()>& run) {
     benchmark::RegisterBenchmark((what + c.name).c_str(),
                                  [run](State& state) {
@@ -110,9 +110,9 @@ void declare_bakes(Course& c) {
     return map::MapBytes{c.bytes.data(), c.bytes.size(), true, "OcTree", c.tree.getResolution()};
   };
   add(kToFloor, [&mesh, bytes] {
-    benchmark::DoNotOptimize(survey_map(map::read_voxels(bytes()), survey_config(mesh)));
+    benchmark::DoNotOptimize(survey_map(map::read_voxels(bytes()), plan::survey_config(mesh)));
   });
-  add(kToMesh, [&c, bytes] { Planner(c.config).set_map(bytes()); });
+  add(kToMesh, [&c, bytes] { plan::Planner(c.config).set_map(bytes()); });
   add(kToTree, [&c] {
     std::istringstream stream(std::string(c.bytes.begin(), c.bytes.end()));
     octomap::OcTree(c.tree.getResolution()).readBinaryData(stream);
@@ -183,7 +183,7 @@ void compare(Course& c) {
   constexpr double kSlack = 1e-3;  // m, for Detour's single precision
   const std::vector<Contestant> all = contestants(c);
   std::vector<Answers> answers(all.size());
-  const Space space = c.ours.nav_mesh().space();
+  const map::Space space = c.ours.nav_mesh().space();
   const auto near = [&](const Path& path) {
     for (std::size_t k = 1; k < path.size(); ++k)
       if (!space.segment_clear(path[k - 1], path[k], c.config.mesh.robot_radius - kSlack))
@@ -221,7 +221,7 @@ std::size_t bytes_in_use() {
 void weigh(const Course& c) {
   const double area = c.floor_area();
   const std::size_t before = bytes_in_use();
-  Planner planner(c.config);
+  plan::Planner planner(c.config);
   planner.set_map(voxels_of(c.tree));
   const std::size_t with_mesh = bytes_in_use();
   const mesh::Mesh copy = planner.nav_mesh().mesh();

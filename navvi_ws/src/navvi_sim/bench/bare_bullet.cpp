@@ -25,7 +25,7 @@ std::unique_ptr<btBroadphaseInterface> broadphase(BareBullet::Settings settings)
 
 }  // namespace
 
-BareBullet::BareBullet(const WorldDescription& description, const RobotConfig& robot,
+BareBullet::BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
                        const Pose2& start, Settings settings)
     : settings_(settings), broadphase_(broadphase(settings)) {
   world_.setGravity(btVector3(0, 0, 0));

@@ -54,7 +54,7 @@ const navvi_sim::WorldDescription& world() {
 void from_shapes(benchmark::State& state, double resolution) {
   std::size_t bytes = 0;
   for (auto _ : state) {
-    const navvi_sim::occupancy::OccupancyMap map = occupancy::occupancy_of(world(), {resolution});
+    const navvi_sim::occupancy::OccupancyMap map = occupancy_of(world(), {resolution});
     bytes = map.stream().size();
     state.PauseTiming();
     malloc_trim(0);
@@ -80,7 +80,7 @@ std::vector<octomap::OcTreeKey> voxels_of(const navvi_sim::occupancy::OccupancyM
 
 /// \param lazy  as octomap advises for many voxels: inner nodes and pruning once, at the end
 void voxel_by_voxel(benchmark::State& state, double resolution, bool lazy) {
-  const navvi_sim::occupancy::OccupancyMap ours = occupancy::occupancy_of(world(), {resolution});
+  const navvi_sim::occupancy::OccupancyMap ours = occupancy_of(world(), {resolution});
   const std::vector<octomap::OcTreeKey> voxels = voxels_of(ours);
   std::size_t nodes = 0;
   std::size_t memory = 0;
