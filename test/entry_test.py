@@ -40,6 +40,7 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "feedback/haptics/enabld:=1"], "the key \"haptics/enabld\" is unknown"),
     (["run", *SIMULATED, "feedback/speaker/rate:=fast"], "speaker/rate"),
     (["run", *SIMULATED, "seed:=1", "seed:=2"], "given twice"),
+    (["run", *SIMULATED, "sim_parameters:={}"], "is unknown"),
     (["replay"], "which trial?"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
 ])
@@ -70,6 +71,14 @@ def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
         result = navvi(*command, "-o", str(tmp_path / name))
         assert result.returncode == 2
         assert sentence in result.stderr and len(result.stderr.splitlines()) == 1
+
+
+def test_a_command_tells_its_arguments():
+    result = navvi("run", "--help")
+    assert result.returncode == 0
+    assert "participant:=n/a" in result.stdout and "a pseudonym for the record" in result.stdout
+    assert navvi("check", "--help").stdout.startswith("./navvi check TRIAL")
+    assert navvi("--help").stdout == navvi("help").stdout
 
 
 def test_help_names_each_sub_command():
