@@ -179,6 +179,8 @@ const std::vector<Column>& columns() {
       {"churn mean/max", 14, {"churn_mean", "churn_max"}},
       {"turns/min", 9, {"turns"}},
       {"flips/misled", 12, {"flips", "misled"}},
+      {"cues/words/min talk", 20, {"cues", "words", "talk"}},
+      {"repeats/waits/hasty", 19, {"repeats", "waits", "hasty"}},
       {"follow/block/room/noroute/offmesh/other",
        39,
        {"following", "blocked", "make_room", "no_route", "off_mesh", "other"}},
@@ -216,7 +218,8 @@ class Total {
     reached_ += reached ? 1 : 0;
     for (const char* name : {"time", "driven", "shortest"})
       if (reached) sums_[name] += row.number(name).value_or(0.0);
-    for (const char* name : {"reroutes", "churn_mean", "turns", "flips", "misled", "still"})
+    for (const char* name : {"reroutes", "churn_mean", "turns", "flips", "misled", "still", "cues",
+                             "words", "talk", "repeats", "waits", "hasty"})
       sums_[name] += row.number(name).value_or(0.0);
     for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh", "other"})
       states_ += row.number(name).value_or(0.0);
@@ -234,11 +237,13 @@ class Total {
         "on the mean %.1f reroutes, churn %.1f m/min, %.1f turns/min, %.1f flips, %.1f misled, "
         "longest standstill %.0f s; blocked %.1f %%, make room %.1f %%, no route %.1f %%, off mesh "
         "%.1f %% of the "
-        "time\n",
+        "time; %.1f cues and %.0f words a minute, %.0f %% of the time; %.1f repeats, %.1f words to "
+        "wait or stop, %.1f of them hasty\n",
         reached_, trials_, reached_ > 0 ? get("time") / reached_ : 0.0,
         get("shortest") > 0.0 ? get("driven") / get("shortest") : 0.0, clean_, mean("reroutes"),
         mean("churn_mean"), mean("turns"), mean("flips"), mean("misled"), mean("still"),
-        share("blocked"), share("make_room"), share("no_route"), share("off_mesh"));
+        share("blocked"), share("make_room"), share("no_route"), share("off_mesh"), mean("cues"),
+        mean("words"), 100.0 * mean("talk"), mean("repeats"), mean("waits"), mean("hasty"));
   }
 
  private:

@@ -28,7 +28,7 @@ void RouteConfig::describe(navvi_config::Visitor& visit) {
   visit(straight_lead, "straight_lead", Range{0.0, 2.0}, "s",
         "how long before it faces the way-point a turning robot is told so");
   visit(idle, "idle", Range{1.0, 60.0}, "s",
-        "with the stick at rest for so long, half as many repeats");
+        "with the stick at rest for so long, the direction is repeated half as often");
   visit(reach, "reach", Range{0.1, 5.0}, "m",
         "no correction while the robot heads to pass the way-point within this distance");
   visit(at_hand, "at_hand", Range{0.0, 5.0}, "m",
@@ -43,6 +43,10 @@ void NearConfig::describe(navvi_config::Visitor& visit) {
   visit(forget, "forget", Range{0.0, 30.0}, "s", "how long it must be gone to be announced again");
   visit(obstacles, "obstacles", Any{}, "",
         "also name any other thing that the robot drives towards");
+  visit(stop_moving, "stop_moving", Range{0.0, 10.0}, "s",
+        "time to collision with what moves at which the word is to stop; 0: never");
+  visit(stop_standing, "stop_standing", Range{0.0, 10.0}, "s",
+        "the same, with what stands; at most 1 s if the guide turns off before it");
 }
 
 void CuePolicyConfig::describe(navvi_config::Visitor& visit) {

@@ -13,6 +13,8 @@ constexpr double kRecover = 2.0;
 constexpr double kStarting = 3.0;
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
+/// s, before a word to stop is followed by the word to wait.
+constexpr double kStopped = 3.0;
 /// s; the same thing again within it is the same collision.
 constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
@@ -41,6 +43,9 @@ bool said_once(const std::string& problem) {
   return problem == "arrived" || problem == "welcome" || refused(problem);
 }
 
+/// Words to stop, until it is said to go on.
+bool halts(const std::string& kind) { return kind == "blocked" || kind == "obstacle_stop"; }
+
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
   return {{}, {}, thing, side_of(point)};
 }
@@ -63,11 +68,15 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   add(release(now, links, time));
   add(stuck(now, time));
   add(guidance_state(now, links, time));
-  add(answers(now, time));
   add(near(now, time));
+  const Utterances answer = answers(now, time);
+  for (const Utterance& utterance : utterances)
+    if (halts(utterance.kind)) halt_.say(utterance, time);
+  add(answer);
   add(route(now, links, time));
   links_ = links;
   gate_ = now.gate;
+  time_ = time;
   return phrase(utterances, time);
 }
 
@@ -163,7 +172,12 @@ CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
     if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
       blocker = &thing;
   if (!blocker) return {{"stuck_unknown"}};
-  return {{"stuck", where(blocker->thing_class, blocker->nearest)}};
+  const Fillings fillings = where(blocker->thing_class, blocker->nearest);
+  const bool free_behind =
+      std::none_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
+        return thing.gap <= config_.blocker_gap && side_of(thing.nearest) == Side::behind;
+      });
+  return {{fillings.side == Side::ahead && free_behind ? "back_away" : "stuck", fillings}};
 }
 
 CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,
@@ -187,7 +201,12 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   if (problem_.empty()) return {};
   const bool at_once = problem_ == "arrived" || problem_ == "guidance_lost" || refused(problem_);
   const bool starting = problem_ == "welcome" || problem_ == "no_map" || problem_ == "pose_stale";
-  const double hold = at_once ? 0.0 : starting ? kStarting : config_.state_hold;
+  // Who was just told to stop need not be told to wait as well.
+  const bool stopped = problem_ == "blocked" && halt_.halted();
+  const double hold = at_once    ? 0.0
+                      : starting ? kStarting
+                      : stopped  ? kStopped
+                                 : config_.state_hold;
   if (time - problem_since_ < hold) return {};
   if (problem_said_ && (said_once(problem_) || time - *problem_said_ < config_.problem_repeat))
     return {};
@@ -203,11 +222,10 @@ Utterance CuePolicy::tell_problem(const Situation& now) const {
 }
 
 CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
-  // To a robot that stands without a way to go, what is near is no news.
+  // To a robot that stands without a way to go, what is near is no news, but what comes is.
   const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
                                       std::abs(now.measured->angular) > kMoving);
-  if (!follows_ && !moves) return {};
-  const Utterances told = near_.update(now, time);
+  const Utterances told = near_.update(now, follows_ || moves, time);
   // A person stops for a thing ahead, and then needs a direction.
   for (const Utterance& utterance : told)
     if (utterance.fillings.side == Side::ahead) route_.remind(time + kRecover);
@@ -217,7 +235,18 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
 CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
   // Without a stick no path can be followed. Its return is said first, then the direction.
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
-  if (follows_ && steered) return route_.update(now, time);
+  const bool leads = follows_ || (problem_ == "blocked" && now.guidance->leads());
+  if (leads && steered) {
+    const bool was_halted = halt_.halted();
+    const bool halted = halt_.update(now, follows_, time);
+    // A wait that is not worth saying is no reason to say the direction again.
+    if (!follows_ && !halted) return {};
+    Utterances told;
+    if (was_halted && !halted) told.push_back({"go_on"});
+    for (const Utterance& utterance : route_.update(now, halted, time)) told.push_back(utterance);
+    return told;
+  }
+  halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
   if (goal_gone)
     route_.forget();
@@ -230,7 +259,9 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   if (!now.repeat_pressed && !now.goal_pressed) return {};
   Utterance answer;
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
-  if (to_goal && now.goal_pressed) {
+  if (follows_ && halt_.halted()) {
+    answer = halt_.words();
+  } else if (to_goal && now.goal_pressed) {
     answer = route_.goal("goal_info", now);
   } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
     answer = *way;
@@ -239,8 +270,9 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
     if (problem_.empty() || problem_ == "welcome") answer.kind = "no_goal";
     if (answer.kind == "no_goal" && time - *first_update_ < kFirstPath) return {};
   }
-  // An answer is wanted at once.
+  // An answer is wanted at once, whatever was said just before.
   answer.priority = Priority::message;
+  answer.asked = true;
   return {answer};
 }
 
@@ -249,7 +281,8 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
   for (const Utterance& utterance : utterances) {
     const CueKind& kind = cue_kind(utterance.kind);
     const auto last = last_said_.find(kind.kind);
-    if (last != last_said_.end() && time - last->second < kind.min_interval) continue;
+    if (!utterance.asked && last != last_said_.end() && time - last->second < kind.min_interval)
+      continue;
     last_said_[kind.kind] = time;
     cues.push_back({kind.kind, phrases_.say(kind.kind, utterance.fillings),
                     utterance.priority.value_or(kind.priority), kind.max_age});
@@ -265,6 +298,11 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       return event.stage == CueStage::queued && event.kind == kind;
     });
   };
+  for (const CueEvent& event : events) {
+    if (!halts(event.kind)) continue;
+    if (event.stage == CueStage::started) halt_.heard(time_);
+    if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();
+  }
   for (const CueEvent& event : events)
     if (event.stage == CueStage::dropped && !replaced(event.kind)) last_said_.erase(event.kind);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cues/halt.hpp"
 #include "cues/held_stick.hpp"
 #include "cues/near_cues.hpp"
 #include "cues/phrases.hpp"
@@ -46,8 +47,10 @@ class CuePolicy {
   RouteCues route_;
   NearCues near_;
   HeldStick held_;
+  Halt halt_;
 
   std::optional<double> first_update_;  ///< s
+  double time_ = 0.0;                   ///< s, of the last update
   Links links_;                         ///< as of the last update
   std::optional<DriveState::State> gate_;
   bool follows_ = false;                 ///< there is a fresh path now

@@ -120,7 +120,66 @@ TEST_F(CuePolicyTest, says_to_wait_for_what_is_in_the_way_and_then_to_go_on) {
   now_.guidance->blocked_by = ThingClass::forklift;
   EXPECT_EQ(pass(5.0), Texts{"wait, forklift in the way"});
   now_.guidance->state = Guidance::State::following;
-  EXPECT_EQ(pass(1.0), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(1.0), (Texts{"go on", "straight ahead, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::worker;
+  EXPECT_EQ(pass(0.6), Texts{"wait, worker in the way"});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(1.5), Texts{}) << "the way is clear, but they have only just let go";
+  EXPECT_EQ(pass(1.0), (Texts{"go on", "straight ahead, 20 meters"}));
+}
+
+TEST_F(CuePolicyTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(0.3), Texts{});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(3.0), Texts{});
+}
+
+TEST_F(CuePolicyTest, takes_back_no_wait_that_was_never_heard) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(0.6).size(), 1U);
+  policy_.note({{1, CueStage::dropped, last_.kind, last_.text}});
+  now_.guidance->state = Guidance::State::following;
+  const Texts said = pass(3.0);
+  EXPECT_EQ(std::count(said.begin(), said.end(), "go on"), 0);
+}
+
+TEST_F(CuePolicyTest, a_question_during_a_wait_is_answered_by_it_however_often) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::forklift;
+  pass(1.0);
+  for (int i = 0; i < 3; ++i) {
+    now_.repeat_pressed = true;
+    EXPECT_EQ(pass(0.5), Texts{"wait, forklift in the way"});
+  }
+}
+
+TEST_F(CuePolicyTest, nothing_cuts_the_word_to_stop_and_the_way_on_follows_it) {
+  under_way();
+  NearThing forklift{ThingClass::forklift, 5, 1.8, {2.2, 0.0}, true};
+  Texts said;
+  while (last_.kind != "obstacle_stop" && forklift.gap > 0.0) {
+    forklift.gap -= 0.006;
+    forklift.nearest.x() -= 0.006;
+    now_.nearby = {forklift};
+    said = pass(0.02);
+  }
+  EXPECT_EQ(said, Texts{"stop, forklift ahead"});
+  EXPECT_LT(forklift.gap, 0.8);
+  EXPECT_EQ(last_.priority, Priority::important);
+  now_.commanded = {};
+  now_.measured = Velocity{};
+  EXPECT_EQ(pass(4.0), Texts{}) << "it is still there";
+  now_.nearby.clear();
+  EXPECT_EQ(pass(1.0), (Texts{"go on", "straight ahead, 20 meters"}));
 }
 
 TEST_F(CuePolicyTest, says_that_the_map_is_too_old) {
@@ -199,7 +258,7 @@ TEST_F(CuePolicyTest, says_what_blocks_a_stuck_robot) {
                  {ThingClass::pallet_robot, 2, 0.05, {0.4, 0.0}, true}};
   now_.measured->linear = 0.0;
   EXPECT_EQ(pass(1.4), Texts{});
-  EXPECT_EQ(pass(0.3), Texts{"stuck, pallet robot ahead"});
+  EXPECT_EQ(pass(0.3), Texts{"back away, pallet robot ahead"});
   now_.nearby.clear();
   const Texts later = pass(6.0);
   EXPECT_EQ(std::count(later.begin(), later.end(), "stuck"), 1);

@@ -9,6 +9,16 @@ namespace {
 
 /// m/s; slower counts as standing.
 constexpr double kMoving = 0.05;
+/// s; a person who has not begun to turn by then has missed the corner.
+constexpr double kLastMoment = 1.0;
+/// s; that a thing comes is said again after so long at the earliest.
+constexpr double kComes = 10.0;
+/// m, from a corner to what stands behind it.
+constexpr double kBehindCorner = 0.5;
+
+bool stands(const Situation& now) {
+  return now.measured && std::abs(now.measured->linear) <= kMoving;
+}
 
 bool approaches(const Situation& now, Side side) {
   if (!now.measured) return false;
@@ -16,15 +26,20 @@ bool approaches(const Situation& now, Side side) {
   return side == Side::behind && now.measured->linear < -kMoving;
 }
 
-/// Less than 60 degrees off the way in which the robot drives, or, of what it may brush, 90.
+/// In the lane that the robot drives along, or, of what it may brush, beside it.
 bool in_the_way(const Situation& now, const Eigen::Vector2d& point, bool close) {
-  if (!now.measured || std::abs(now.measured->linear) <= kMoving) return false;
+  if (!now.measured || stands(now)) return false;
   const double forward = std::copysign(point.x(), point.x() * now.measured->linear);
-  return forward >= (close ? 0.0 : 0.5 * point.norm());
+  return forward >= 0.0 && (close || std::abs(point.y()) <= kHalfLane);
 }
 
 Utterance utterance(const char* kind, ThingClass thing, Side side, bool urgent) {
   return {kind, {{}, {}, thing, side}, urgent ? std::optional(Priority::message) : std::nullopt};
+}
+
+const char* close_kind(ThingClass thing) {
+  if (thing == ThingClass::shelf) return "shelf_close";
+  return thing == ThingClass::wall ? "wall_close" : "obstacle_close";
 }
 
 }  // namespace
@@ -48,14 +63,55 @@ bool NearCues::too_soon(const std::string& kind, double time) const {
   return said != said_.end() && time - said->second < cue_kind(kind).min_interval;
 }
 
-std::vector<Utterance> NearCues::update(const Situation& now, double time) {
+std::vector<Utterance> NearCues::update(const Situation& now, bool all, double time) {
+  forecast_.update(now.nearby, time);
   std::optional<Candidate> best;
-  consider_sides(now, time, best);
-  if (config_.obstacles) consider_things(now, time, best);
+  consider_collisions(now, time, best);
+  if (!best && all) {
+    consider_sides(now, time, best);
+    if (config_.obstacles) consider_things(now, time, best);
+  }
   if (!best) return {};
   *best->watch = {best->level, time};
   said_[best->utterance.kind] = time;
   return {best->utterance};
+}
+
+/// s, the time to collision at which the word is to stop.
+double NearCues::stop_time(const Situation& now, const NearThing& thing) const {
+  if (thing.moving) return config_.stop_moving;
+  const bool turns_off_before = now.guidance && now.guidance->is_followed() &&
+                                now.guidance->waypoint_distance < thing.gap + kBehindCorner;
+  return turns_off_before ? std::min(kLastMoment, config_.stop_standing) : config_.stop_standing;
+}
+
+void NearCues::consider_collisions(const Situation& now, double time,
+                                   std::optional<Candidate>& best) {
+  const NearThing* first = nullptr;
+  double soonest = std::numeric_limits<double>::infinity();
+  for (const NearThing& thing : now.nearby) {
+    if (thing.gap <= 0.0 || (stands(now) && !thing.moving)) continue;
+    const double left = forecast_.time_to_collision(thing);
+    const double limit = stop_time(now, thing);
+    if (limit <= 0.0 || left > limit || left >= soonest) continue;
+    soonest = left;
+    first = &thing;
+  }
+  if (first == nullptr) return;
+  const Side side = side_of_lane(first->nearest);
+  const bool comes = first->moving && !approaches(now, side);
+  const char* kind = comes ? "obstacle_comes" : "obstacle_stop";
+  // Who still drives at it is told again.
+  if (too_soon(kind, time)) return;
+  // What was driven at, or was said to come, need not be said to come.
+  const bool known = warned_of_ == first->id && time - warned_ < kComes;
+  if (comes && known) return;
+  warned_of_ = first->id;
+  warned_ = time;
+  best = Candidate{utterance(kind, first->thing_class, side, false), first->gap,
+                   &things_[first->id], Level::close};
+  // A side of which this was said needs no more words, either.
+  watches_[{first->thing_class, side}] = {Level::close, time};
 }
 
 void NearCues::consider_sides(const Situation& now, double time, std::optional<Candidate>& best) {
@@ -64,7 +120,7 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
     for (const Side side : {Side::ahead, Side::left, Side::behind, Side::right})
       gaps[{thing, side}] = std::numeric_limits<double>::infinity();
   for (const NearThing& thing : now.nearby) {
-    const auto gap = gaps.find({thing.thing_class, side_of(thing.nearest)});
+    const auto gap = gaps.find({thing.thing_class, side_of_lane(thing.nearest)});
     if (gap != gaps.end() && thing.gap < gap->second) gap->second = thing.gap;
   }
   // A collision says where the thing is; nothing is left to add.
@@ -81,9 +137,9 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
     if (reached <= watch.said || (best && gap >= best->gap)) continue;
     if (side == Side::behind && !urgent) continue;
     if (now.voice_busy && !urgent) continue;
-    const bool shelf = thing == ThingClass::shelf;
-    const char* kind = reached == Level::close ? (shelf ? "shelf_close" : "wall_close")
-                                               : (shelf ? "shelf_near" : "wall_near");
+    const char* kind = reached == Level::close      ? close_kind(thing)
+                       : thing == ThingClass::shelf ? "shelf_near"
+                                                    : "wall_near";
     if (too_soon(kind, time)) continue;
     best = Candidate{utterance(kind, thing, side, urgent), gap, &watch, reached};
   }
@@ -103,12 +159,10 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     const Level reached = std::min(observe(watch, thing.gap, time), most);
     const bool close = reached == Level::close;
     if (reached <= watch.said || !in_the_way(now, thing.nearest, close)) continue;
-    const Side side = side_of(thing.nearest);
+    const Side side = side_of_lane(thing.nearest);
     const bool urgent = approaches(now, side);
     if (now.voice_busy && !urgent) continue;
-    const char* kind = !close                ? "obstacle_near"
-                       : side == Side::ahead ? "obstacle_stop"
-                                             : "obstacle_close";
+    const char* kind = close ? "obstacle_close" : "obstacle_near";
     if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
     best = Candidate{utterance(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
   }

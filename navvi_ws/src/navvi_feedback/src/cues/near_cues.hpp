@@ -7,22 +7,25 @@
 #include <utility>
 #include <vector>
 
+#include "cues/collision_forecast.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
 #include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 
-/// Says when a shelf or a wall comes near (R-AUD-3): once a side at `distance`, once more at
-/// `close`. Any other thing is named once at `distance`, if the robot drives towards it,
-/// because rumble does not say what it is; and once more at `close`, if it moves about. If the
-/// robot is about to run into it, the first word is to stop.
+/// Warns of what is near. Whatever will be hit within `stop_time`, be it a shelf, a thing or what
+/// comes along, is to stop for; so is what comes to a robot that stands. Besides, a shelf or a wall
+/// is named once a side at `distance` (R-AUD-3), once more at `close`. Any other thing is named
+/// once at `distance`, if the robot drives towards it, because rumble does not say what it is; and
+/// once more at `close`, if it moves about.
 class NearCues {
  public:
   explicit NearCues(const NearConfig& config) : config_(config) {}
 
+  /// \param all  false: only what will be hit
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<Utterance> update(const Situation& now, double time);
+  [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, double time);
 
  private:
   enum class Level { none, near, close };
@@ -39,6 +42,8 @@ class NearCues {
     Level level = Level::none;
   };
 
+  void consider_collisions(const Situation& now, double time, std::optional<Candidate>& best);
+  [[nodiscard]] double stop_time(const Situation& now, const NearThing& thing) const;
   [[nodiscard]] Level level(double gap, Level said) const;
   void consider_sides(const Situation& now, double time, std::optional<Candidate>& best);
   void consider_things(const Situation& now, double time, std::optional<Candidate>& best);
@@ -48,6 +53,9 @@ class NearCues {
   Level observe(Watch& watch, double gap, double time) const;
 
   NearConfig config_;
+  CollisionForecast forecast_;
+  std::optional<std::uint32_t> warned_of_;  ///< what was last to be stopped for, or came, by id
+  double warned_ = 0.0;                     ///< s
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
   std::map<std::string, double> said_;     ///< s, by kind
   std::map<std::uint32_t, Watch> things_;  ///< by id

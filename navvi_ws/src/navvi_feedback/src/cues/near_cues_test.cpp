@@ -23,7 +23,7 @@ class NearCuesTest : public testing::Test {
     now_.nearby = nearby;
     std::vector<Side> sides;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
-      for (const Utterance& utterance : cues_.update(now_, time_)) {
+      for (const Utterance& utterance : cues_.update(now_, true, time_)) {
         sides.push_back(*utterance.fillings.side);
         last_ = utterance;
       }
@@ -62,7 +62,7 @@ TEST_F(NearCuesTest, says_it_again_after_the_shelf_was_gone_for_a_while) {
   pass(1.0, {shelf(0.9, kLeft)});
   pass(1.0, {});
   EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{});
-  pass(3.0, {});
+  pass(9.0, {});
   EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{Side::left});
 }
 
@@ -135,15 +135,100 @@ TEST_F(NearCuesTest, names_what_moves_about_once_more_if_the_robot_may_brush_it)
   EXPECT_EQ(pass(2.0, {worker(0.3, kLeft)}), Sides{Side::left});
   EXPECT_EQ(last_.kind, "obstacle_close");
   EXPECT_EQ(pass(5.0, {worker(0.2, kLeft)}), Sides{}) << "it was said";
-  EXPECT_EQ(pass(5.0, {}), Sides{});
-  EXPECT_EQ(pass(2.0, {worker(0.3, kAhead)}), Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, "obstacle_stop");
-  EXPECT_EQ(last_.priority, Priority::message);
-  EXPECT_EQ(pass(5.0, {}), Sides{});
+  EXPECT_EQ(pass(9.0, {}), Sides{});
   EXPECT_EQ(pass(2.0, {worker(0.3, {-0.1, 1.3})}), Sides{}) << "it is left behind";
-  EXPECT_EQ(pass(5.0, {}), Sides{});
-  EXPECT_EQ(pass(2.0, {{ThingClass::box, 4, 0.3, kAhead, false}}), Sides{Side::ahead});
+}
+
+TEST_F(NearCuesTest, names_by_its_side_what_is_ahead_but_will_be_passed) {
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(1.0, {shelf(0.9, {1.1, 0.7})}), Sides{Side::left});
+}
+
+/// From `from` on, `seconds` of a thing that nears by `speed` along x.
+class StopTest : public NearCuesTest {
+ protected:
+  std::vector<Side> approach(const NearThing& at_first, double speed, double seconds) {
+    std::vector<Side> sides;
+    NearThing thing = at_first;
+    for (double left = seconds; left > 0.0; left -= 0.02) {
+      thing.nearest.x() -= std::copysign(speed * 0.02, thing.nearest.x());
+      thing.gap -= speed * 0.02;
+      gap_ = thing.gap;
+      for (const Side side : pass(0.02, {thing})) sides.push_back(side);
+      if (!sides.empty()) break;
+    }
+    return sides;
+  }
+  double gap_ = 0.0;
+};
+
+TEST_F(StopTest, what_moves_is_stopped_for_by_the_time_to_collision) {
+  now_.measured->linear = 0.9;
+  EXPECT_EQ(approach({ThingClass::forklift, 3, 4.0, {4.4, 0.0}, true}, 1.5, 2.0),
+            Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_NEAR(gap_ / 1.5, 2.5, 0.1) << "s before the collision";
+}
+
+TEST_F(StopTest, so_is_a_shelf_but_later_if_the_guide_turns_off_before_it) {
+  now_.measured->linear = 0.9;
+  EXPECT_EQ(approach({ThingClass::shelf, 3, 3.0, {3.4, 0.0}, false}, 0.9, 3.0), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_NEAR(gap_ / 0.9, 1.5, 0.1);
+  pass(20.0, {});
+  now_.guidance.emplace();
+  now_.guidance->state = Guidance::State::following;
+  now_.guidance->waypoint_distance = 0.5;
+  approach({ThingClass::wall, 4, 3.0, {3.4, 0.0}, false}, 0.9, 3.0);
+  while (last_.kind != "obstacle_stop" && gap_ > 0.1)
+    approach({ThingClass::wall, 4, gap_, {gap_ + 0.4, 0.0}, false}, 0.9, 3.0);
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_NEAR(gap_ / 0.9, 1.0, 0.25);
+}
+
+TEST_F(StopTest, a_shelf_that_the_robot_slowly_nears_abeam_is_stopped_for) {
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(5.0, {shelf(0.2, {0.0, 0.55})}), Sides{Side::left});
+  // Its nearest point slides along the face.
+  double gap = 0.2;
+  Sides said;
+  for (; gap > 0.0 && said.empty(); gap -= 0.05 * 0.02)
+    said = pass(0.02, {shelf(gap, {0.0, 0.35 + gap})});
+  EXPECT_EQ(said, Sides{Side::left});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_GT(gap, 0.01);
+}
+
+TEST_F(StopTest, what_is_passed_is_not_stopped_for) {
+  now_.measured->linear = 0.9;
+  for (double x = 3.0; x > -3.0; x -= 0.018) {
+    const Eigen::Vector2d at(x, 0.8);
+    pass(0.02, {{ThingClass::box, 3, at.norm() - 0.35, at, false}});
+    EXPECT_NE(last_.kind, "obstacle_stop");
+  }
+}
+
+TEST_F(StopTest, who_drives_on_at_it_is_told_again) {
+  now_.measured->linear = 0.3;
+  const auto pallet = [&](double gap) {
+    return NearThing{ThingClass::pallet_robot, 3, gap, {gap + 0.4, 0.0}, true};
+  };
+  approach(pallet(2.0), 0.3, 9.0);
   EXPECT_EQ(last_.kind, "obstacle_near");
+  EXPECT_EQ(approach(pallet(gap_), 0.3, 1.0), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(approach(pallet(gap_), 0.1, 2.0), Sides{});
+  EXPECT_EQ(approach(pallet(gap_), 0.1, 3.0), Sides{Side::ahead});
+  EXPECT_EQ(last_.kind, "obstacle_stop");
+}
+
+TEST_F(StopTest, a_robot_that_stands_hears_what_comes_and_from_where) {
+  EXPECT_EQ(approach({ThingClass::pallet_robot, 3, 4.0, {-4.4, 0.0}, true}, 1.0, 4.0),
+            Sides{Side::behind});
+  EXPECT_EQ(last_.kind, "obstacle_comes");
+  EXPECT_EQ(approach({ThingClass::pallet_robot, 3, gap_, {-gap_ - 0.4, 0.0}, true}, 1.0, 1.0),
+            Sides{})
+      << "it was said";
 }
 
 TEST_F(NearCuesTest, names_a_thing_again_only_after_it_was_gone_for_a_while) {
@@ -153,7 +238,7 @@ TEST_F(NearCuesTest, names_a_thing_again_only_after_it_was_gone_for_a_while) {
   EXPECT_EQ(pass(3.0, {box(1.15)}), Sides{});
   EXPECT_EQ(pass(1.0, {box(1.3)}), Sides{});
   EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{});
-  EXPECT_EQ(pass(2.5, {}), Sides{});
+  EXPECT_EQ(pass(8.5, {}), Sides{});
   EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
 }
 

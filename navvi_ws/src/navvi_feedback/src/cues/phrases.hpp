@@ -29,6 +29,7 @@ struct Utterance {
   std::string kind = {};
   Fillings fillings = {};
   std::optional<Priority> priority = {};  ///< instead of the kind's own
+  bool asked = false;                     ///< by the person: said however often
 };
 
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and

@@ -14,12 +14,14 @@ constexpr double kHalfHour = kHour / 2.0;
 constexpr double kSameGoal = 0.5;
 /// rad; a person who hears of a smaller turn turns too far.
 constexpr double kWorthSaying = 7.0 * kDegree;
+/// rad; who faces elsewhere by so much more has not followed, or did not understand.
+constexpr double kWorse = 15.0 * kDegree;
 /// m; what is farther ahead than this need not be passed yet.
 constexpr double kInTheWay = 1.0;
+/// m; a thing so near is steered away from, wherever the path leads.
+constexpr double kTouching = 0.1;
 /// m; what is beside the robot and farther off than this is out of reach.
 constexpr double kBeside = 0.5;
-/// m; half as wide as what the robot drives over, and a little.
-constexpr double kHalfLane = 0.45;
 /// m, by which a thing that was in the way may be farther off before it no longer is.
 constexpr double kKept = 0.1;
 /// m; a robot that turns with a smaller radius turns on the spot.
@@ -37,7 +39,7 @@ RouteCues::RouteCues(const RouteConfig& config)
       steady_(rounding_, rounding_ == Rounding::floor ? 0.0 : config.hysteresis_degrees * kDegree) {
 }
 
-std::vector<Utterance> RouteCues::update(const Situation& now, double time) {
+std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, double time) {
   const Guidance& guidance = *now.guidance;
   const bool other_corner =
       last_ && (guidance.waypoint - last_->waypoint).norm() > config_.same_corner;
@@ -48,9 +50,16 @@ std::vector<Utterance> RouteCues::update(const Situation& now, double time) {
   if (guidance.state != Guidance::State::make_room) made_room_ = false;
   const Change change = last_ ? compare(guidance) : Change::none;
   if (change != Change::none && pending_ != Change::next_corner) pending_ = change;
-  if (!last_ || other_corner) ahead_told_ = false;
+  if (other_corner && ahead_told_ && change != Change::next_corner)
+    fell_away_ = !turn_within_reach(guidance);
+  if (!last_ || change == Change::next_corner ||
+      (other_corner && turn_within_reach(guidance) != turn_said_))
+    ahead_told_ = false;
   last_ = guidance;
-
+  if (halted) {
+    said_hour_.reset();
+    return {};
+  }
   if (new_goal(guidance)) {
     goal_ = guidance.goal;
     reroutes_ = guidance.reroutes;
@@ -67,12 +76,18 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     if (!about_to_face(now)) return {};
     Utterance straight = *direction(guidance);
     straight.kind = "straight";
+    straight.fillings.hour = 12;
     straight.priority = Priority::message;
+    if (const auto turn = turn_within_reach(guidance))
+      straight = announce_turn("straight_then", straight, *turn, time);
     return {said(straight, 12, time)};
   }
   Utterance way = *direction(guidance);
   if (pending_ == Change::next_corner && *hour_ != 12) {
-    way.kind = "turn_now";
+    if (leads_off_)
+      way.priority = Priority::message;
+    else
+      way.kind = "turn_now";
     return {said(way, *hour_, time)};
   }
   if (guidance.state == Guidance::State::make_room && !made_room_) {
@@ -88,16 +103,28 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
-  if (direction_due(guidance, time)) return {said(way, *hour_, time)};
-  if (turn_ahead_due(guidance, time)) {
-    way.kind = "turn_ahead";
-    way.fillings.hour = clock_hour(guidance.turn_angle, rounding_);
-    turn_said_ = way.fillings.hour;
-    turn_said_time_ = time;
-    ahead_told_ = true;
+  const std::optional<int> turn = turn_within_reach(guidance);
+  if (fell_away_ && !turn && *hour_ == 12) {
+    way.kind = "turn_cancelled";
     return {said(way, *hour_, time)};
   }
+  if (direction_due(guidance, time)) {
+    // Who is told "straight ahead" just before a turn drives past it.
+    if (turn && *hour_ == 12) return {announce_turn("straight_then", way, *turn, time)};
+    return {said(way, *hour_, time)};
+  }
+  if (turn && !ahead_told_ && turn_ahead_due(guidance, *turn, time))
+    return {announce_turn("turn_ahead", way, *turn, time)};
   return {};
+}
+
+Utterance RouteCues::announce_turn(const char* kind, Utterance way, int turn, double time) {
+  way.kind = kind;
+  way.fillings.hour = turn;
+  turn_said_ = turn;
+  turn_said_time_ = time;
+  ahead_told_ = true;
+  return said(way, *hour_, time);
 }
 
 std::optional<Utterance> RouteCues::ask(const Guidance& guidance, double time) {
@@ -112,8 +139,9 @@ std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
   const auto hour = hour_ ? hour_ : clock_hour(guidance.steer_angle, rounding_);
   if (!hour || !std::isfinite(guidance.waypoint_distance)) return std::nullopt;
   Utterance utterance;
-  utterance.kind = *hour == 12 ? "straight" : "direction";
+  utterance.kind = leads_off_ ? "slight" : *hour == 12 ? "straight" : "direction";
   utterance.fillings.hour = hour;
+  utterance.fillings.side = *hour < 6 ? Side::right : Side::left;
   utterance.fillings.distance = std::max(0.0, guidance.waypoint_distance);
   return utterance;
 }
@@ -132,6 +160,7 @@ void RouteCues::pause() {
   hour_.reset();
   steady_.reset();
   pending_ = Change::none;
+  fell_away_ = false;
 }
 
 void RouteCues::forget() {
@@ -176,10 +205,20 @@ void RouteCues::observe(const Situation& now, double time) {
 }
 
 /// After "straight ahead" a person drives on along the robot's heading. If that leads into a thing,
+/// along one that is all but touched,
 /// or along one that the path leaves, the hour on the path's side is nearer to the truth, however
 /// small the angle; unless something blocks that side, too. Held like any hour.
 int RouteCues::clear_of_things(const Situation& now, bool held) const {
   const double angle = now.guidance->steer_angle;
+  const double touched = held ? 2.0 * kTouching : kTouching;
+  for (const NearThing& thing : now.nearby) {
+    if (thing.gap > touched || side_of(thing.nearest) == Side::behind) continue;
+    const double away = thing.nearest.y() > 0.0 ? 1.0 : -1.0;
+    const bool room = std::none_of(now.nearby.begin(), now.nearby.end(), [&](const auto& other) {
+      return away * other.nearest.y() < 0.0 && other.gap < 2.0 * touched;
+    });
+    if (room && away * angle > -kWorthSaying) return away > 0.0 ? 1 : 11;
+  }
   if (std::abs(angle) < (held ? 0.5 : 1.0) * kWorthSaying) return 12;
   const double side = angle > 0.0 ? 1.0 : -1.0;
   const double kept = held ? kKept : 0.0;
@@ -222,13 +261,16 @@ bool RouteCues::at_hand(const Guidance& guidance, double time) const {
          time - last_commanded_ <= config_.idle;
 }
 
-bool RouteCues::turn_ahead_due(const Guidance& guidance, double time) const {
+/// The hour of the turn at the next way-point, if it is near enough to be announced.
+std::optional<int> RouteCues::turn_within_reach(const Guidance& guidance) const {
   const auto turn = clock_hour(guidance.turn_angle, rounding_);
-  if (guidance.waypoint_is_goal || ahead_told_ || *hour_ != 12 || !turn || *turn == 12)
-    return false;
-  if (guidance.waypoint_distance > config_.turn_ahead ||
-      guidance.waypoint_distance <= config_.turn_now)
-    return false;
+  if (guidance.waypoint_is_goal || turn == 12 || guidance.waypoint_distance > config_.turn_ahead)
+    return std::nullopt;
+  return turn;
+}
+
+bool RouteCues::turn_ahead_due(const Guidance& guidance, int turn, double time) const {
+  if (*hour_ != 12 || guidance.waypoint_distance <= config_.turn_now) return false;
   if (turn == turn_said_ && time - turn_said_time_ < config_.same_turn) return false;
   return time - said_time_ >= config_.pause;
 }
@@ -240,16 +282,20 @@ bool RouteCues::direction_due(const Guidance& guidance, double time) const {
   if (reminder_ && time >= *reminder_) return true;
   if (at_hand(guidance, time)) return false;
   if (pending_ == Change::next_corner) return true;
-  if (hour_ != said_hour_ && !passes_within_reach(guidance)) return true;
-  const double interval = *hour_ == 12 ? config_.repeat_straight : config_.repeat_direction;
-  const bool idle = time - last_commanded_ > config_.idle;
-  return since >= (idle ? 2.0 : 1.0) * interval;
+  const bool worse =
+      *hour_ != 12 && std::abs(guidance.steer_angle) > std::abs(said_angle_) + kWorse;
+  if ((hour_ != said_hour_ || worse) && !passes_within_reach(guidance)) return true;
+  const bool ahead = *hour_ == 12 || leads_off_;
+  if (time - last_commanded_ > config_.idle) return since >= 2.0 * config_.repeat_direction;
+  return since >= (ahead ? config_.repeat_straight : config_.repeat_direction);
 }
 
 Utterance RouteCues::said(Utterance utterance, int hour, double time) {
   said_hour_ = hour;
   said_time_ = time;
+  said_angle_ = last_ ? last_->steer_angle : 0.0;
   pending_ = Change::none;
+  fell_away_ = false;
   reminder_.reset();
   return utterance;
 }

@@ -19,8 +19,11 @@ class RouteCues {
  public:
   explicit RouteCues(const RouteConfig& config);
 
-  /// Call it while the guidance is fresh and follows a path. \param time  s, monotonic
-  [[nodiscard]] std::vector<Utterance> update(const Situation& now, double time);
+  /// Call it while the guidance is fresh and leads along a path.
+  /// \param halted  the person was told to stop: nothing is said until they may go on, and then
+  /// the direction
+  /// \param time  s, monotonic
+  [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool halted, double time);
 
   /// The direction as of now, for a person who asks.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
@@ -42,13 +45,15 @@ class RouteCues {
   [[nodiscard]] Change compare(const Guidance& guidance) const;
   void observe(const Situation& now, double time);
   [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
+  [[nodiscard]] std::optional<int> turn_within_reach(const Guidance& guidance) const;
   [[nodiscard]] int clear_of_things(const Situation& now, bool held) const;
   [[nodiscard]] bool about_to_face(const Situation& now) const;
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
-  [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, double time) const;
+  [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, int turn, double time) const;
   [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
+  [[nodiscard]] Utterance announce_turn(const char* kind, Utterance way, int turn, double time);
   Utterance said(Utterance utterance, int hour, double time);
 
   RouteConfig config_;
@@ -63,9 +68,11 @@ class RouteCues {
   std::uint32_t reroutes_ = 0;           ///< of this goal, said or skipped
   bool made_room_ = false;               ///< the thing to make room for was named
   bool ahead_told_ = false;              ///< this corner's turn_ahead was said
+  bool fell_away_ = false;               ///< a turn that was announced is no longer to be made
   std::optional<int> turn_said_;         ///< hour of the last turn_ahead
   double turn_said_time_ = 0.0;          ///< s
   double said_time_ = 0.0;               ///< s, of the last direction
+  double said_angle_ = 0.0;              ///< rad, where to steer, then
   bool turning_ = false;                 ///< on the spot, or not yet settled
   std::optional<double> last_turning_;   ///< s
   double last_commanded_ = 0.0;          ///< s, when the person last moved the stick

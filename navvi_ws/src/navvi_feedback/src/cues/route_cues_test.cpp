@@ -35,7 +35,7 @@ class Drive {
   std::vector<std::string> pass(double seconds) {
     std::vector<std::string> kinds;
     for (const double end = time + seconds; time < end - 1e-9; time += kTick) {
-      for (const Utterance& utterance : cues.update(now, time)) {
+      for (const Utterance& utterance : cues.update(now, false, time)) {
         kinds.push_back(utterance.kind);
         last = utterance;
       }
@@ -95,7 +95,7 @@ TEST(RouteCues, do_not_say_by_themselves_what_was_just_answered) {
   drive.now.guidance->waypoint_is_goal = true;
   drive.pass(6.0);
   EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
-  EXPECT_EQ(drive.pass(7.0), Kinds{});
+  EXPECT_EQ(drive.pass(19.0), Kinds{});
   EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
 }
 
@@ -105,12 +105,23 @@ TEST(RouteCues, send_nobody_straight_ahead_into_a_thing_that_the_path_avoids) {
   drive.now.guidance->waypoint_is_goal = true;
   EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
-  EXPECT_EQ(drive.last.fillings.hour, 1);
+  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"});
+  EXPECT_EQ(drive.last.fillings.side, Side::right);
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, -0.7}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "on the way's side, and not in the way";
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"}) << "the way leads off from it";
+  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"}) << "the way leads off from it";
+}
+
+TEST(RouteCues, lead_off_from_what_is_all_but_touched_however_straight_the_path) {
+  Drive drive;
+  drive.settle(0.0, 20.0);
+  drive.now.guidance->waypoint_is_goal = true;
+  drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.03, {0.02, 0.4}, false}};
+  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"});
+  EXPECT_EQ(drive.last.fillings.side, Side::right);
+  drive.now.nearby.push_back(NearThing{ThingClass::shelf, 2, 0.05, {0.02, -0.4}, false});
+  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "between two";
 }
 
 TEST(RouteCues, send_nobody_aside_into_a_thing) {
@@ -127,7 +138,7 @@ TEST(RouteCues, lead_aside_and_ahead_again_only_once_the_angle_has_clearly_chang
   drive.settle(7.5, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.45, {0.8, 0.2}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"direction"});
+  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(6.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(3.0);
@@ -155,21 +166,30 @@ TEST(RouteCues, call_a_new_route_just_before_a_corner_by_its_name) {
 TEST(RouteCues, repeat_the_direction_while_the_robot_faces_elsewhere) {
   Drive drive;
   drive.settle(90.0, 8.0);
-  EXPECT_EQ(drive.pass(12.0), (Kinds{"direction", "direction", "direction"}));
+  EXPECT_EQ(drive.pass(18.0), (Kinds{"direction", "direction", "direction"}));
+}
+
+TEST(RouteCues, say_the_direction_again_to_who_turns_away_from_it) {
+  Drive drive;
+  drive.settle(25.0, 12.0);
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(38.0);
+  EXPECT_EQ(drive.pass(1.0), Kinds{});
+  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(44.0);
+  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"}) << "although it is the same hour";
 }
 
 TEST(RouteCues, repeat_half_as_often_while_the_stick_rests) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.commanded = {};
-  drive.pass(8.0);
-  EXPECT_EQ(drive.pass(16.0).size(), 2U);
+  drive.pass(12.0);
+  EXPECT_EQ(drive.pass(24.0).size(), 2U);
 }
 
 TEST(RouteCues, repeat_straight_ahead_seldom) {
   Drive drive;
   drive.settle(0.0, 30.0);
-  EXPECT_EQ(drive.pass(16.0), (Kinds{"straight", "straight"}));
+  EXPECT_EQ(drive.pass(40.0), (Kinds{"straight", "straight"}));
 }
 
 TEST(RouteCues, correct_only_beyond_the_hysteresis) {
@@ -237,6 +257,43 @@ TEST(RouteCues, announce_a_turn_once_ahead_and_once_when_the_corner_is_reached) 
   drive.now.voice_busy = true;  // it does not wait for a lesser cue to end
   EXPECT_EQ(drive.pass(kTick), Kinds{"turn_now"});
   EXPECT_EQ(drive.last.fillings.hour, 3);
+}
+
+TEST(RouteCues, name_the_turn_where_straight_ahead_alone_would_lead_past_it) {
+  Drive drive;
+  drive.settle(90.0, 3.0);
+  drive.now.guidance = following(0.0, 3.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{"straight_then"});
+  EXPECT_EQ(drive.last.fillings.hour, 3);
+  EXPECT_EQ(drive.pass(10.0), Kinds{}) << "the turn was announced";
+}
+
+TEST(RouteCues, say_that_an_announced_turn_falls_away) {
+  Drive drive;
+  drive.settle(0.0, 12.0);
+  drive.now.guidance->waypoint_distance = 5.0;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_ahead"});
+  drive.now.guidance = following(0.0, 14.0);
+  drive.now.guidance->waypoint = {20.0, 0.0};
+  EXPECT_EQ(drive.pass(2.0), Kinds{"turn_cancelled"});
+}
+
+TEST(RouteCues, keep_an_announced_turn_that_a_plan_moves_a_little) {
+  Drive drive;
+  drive.settle(0.0, 12.0);
+  drive.now.guidance->waypoint_distance = 4.0;
+  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_ahead"});
+  drive.now.guidance = following(0.0, 5.5);
+  drive.now.guidance->waypoint = {11.5, 0.0};
+  EXPECT_EQ(drive.pass(6.0), Kinds{});
+}
+
+TEST(RouteCues, are_silent_while_the_person_is_to_stop_and_then_say_the_direction) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  for (double end = drive.time + 10.0; drive.time < end; drive.time += kTick)
+    EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time).empty());
+  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
 }
 
 TEST(RouteCues, keep_quiet_about_a_turn_at_the_goal) {
@@ -377,7 +434,7 @@ class Person {
 
   Velocity command(double time) {
     if (heard_ && time >= heard_->first) {
-      if (heard_->second.kind == "straight") {
+      if (heard_->second.kind == "straight" || heard_->second.kind == "straight_then") {
         turn_left_ = 0.0;
         drives_ = true;
       } else if (heard_->second.kind != "turn_ahead") {
@@ -426,7 +483,7 @@ void lead(const RouteConfig& config, double error) {
     now.guidance->waypoint_angle = now.guidance->steer_angle =
         -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * kPi);
     now.voice_busy = person.listens(time);
-    for (const Utterance& utterance : cues.update(now, time))
+    for (const Utterance& utterance : cues.update(now, false, time))
       if (utterance.fillings.hour) person.hear(utterance, time);
     now.commanded = person.command(time);
     now.measured = now.commanded;

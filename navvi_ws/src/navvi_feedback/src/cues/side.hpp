@@ -14,4 +14,14 @@ enum class Side { ahead, left, behind, right };
   return point.x() >= 0.0 ? Side::ahead : Side::behind;
 }
 
+/// m; half as wide as what the robot drives over, and a little.
+constexpr double kHalfLane = 0.45;
+
+/// As side_of(), but ahead is only what the robot would drive over.
+[[nodiscard]] inline Side side_of_lane(const Eigen::Vector2d& point) {
+  const Side side = side_of(point);
+  if (side != Side::ahead || std::abs(point.y()) <= kHalfLane) return side;
+  return point.y() > 0.0 ? Side::left : Side::right;
+}
+
 }  // namespace navvi_feedback::cues

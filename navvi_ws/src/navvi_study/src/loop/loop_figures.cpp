@@ -15,6 +15,7 @@ constexpr double kStay = 0.3;        // m; who does not leave this circle stands
 constexpr double kNearby = 1.5;      // m; what is farther away does not hold a robot up
 constexpr double kJustBefore = 8.0;  // s; of two directions, the later one is not news of its own
 constexpr double kSamePlace = 1.5;   // m, likewise
+constexpr double kAnswered = 1.0;    // s, within which a question is answered
 constexpr double kContrary = 75.0 * kPi / 180.0;
 
 std::string metres(double value) {
@@ -50,8 +51,11 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
       nearest_ = told.proximity->things.front().thing_class + " at " +
                  metres(told.proximity->things.front().gap);
   }
+  if (loop.hand().repeat) asked_ = loop.time();
   for (const auto& cue : told.cues) {
-    if (const auto report = node::from_msg(cue)) (void)monitor_.observe(*report);
+    const auto report = node::from_msg(cue);
+    if (report) (void)monitor_.observe(*report);
+    if (report && begun_) speech_.hear(*report, loop.time() - asked_ < kAnswered, loop.time());
     if (begun_ && cue.stage == navvi_msgs::Cue::STARTED) listen(loop, cue);
   }
   if (told.guidance) {
@@ -156,6 +160,7 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
     known += state(name);
   }
   row.set("other", std::max(0.0, time_ - known), 1);
+  speech_.add_to(row, time_);
   row.set("still", still_, 1).set("still_at", still_at_, 1).set("why", why_);
   return row.set("hash", navvi_types::to_hex(loop.session().world().state_hash()));
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "loop/closed_loop.hpp"
+#include "loop/speech_figures.hpp"
 #include "people/instruction.hpp"
 #include "trial/trial_monitor.hpp"
 
@@ -26,7 +27,7 @@ class LoopFigures {
   /// hour a minute; `flips` how often a direction contradicted the one just before; `misled` how
   /// often the turn that was ordered was not the one announced for it; the states of the guidance
   /// in s; `still` s, the longest stay within 0.3 m, since `still_at` s, and `why`: what was about
-  /// at its end; `hash` of the world's last state.
+  /// at its end; `hash` of the world's last state; and what SpeechFigures adds.
   [[nodiscard]] record::Fields row(const ClosedLoop& loop) const;
 
  private:
@@ -46,6 +47,7 @@ class LoopFigures {
 
   double limit_;
   trial::TrialMonitor monitor_;
+  SpeechFigures speech_;
   std::optional<double> begun_;  ///< s
   double time_ = 0.0;            ///< s since then
   std::string result_ = "timeout";
@@ -58,6 +60,7 @@ class LoopFigures {
   unsigned turns_ = 0;
   unsigned flips_ = 0;
   unsigned misled_ = 0;
+  double asked_ = -1e9;  ///< s, when the person last asked
   std::optional<Said> said_;
   std::optional<int> announced_;  ///< hour of the turn that comes
   std::map<std::string, double> states_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <regex>
+#include <utility>
+#include <vector>
 
 namespace navvi_study::people {
 namespace {
@@ -23,6 +25,19 @@ Instruction::Side side_in(const std::string& text) {
   if (says(text, "\\b(behind|rear)\\b")) return Instruction::Side::behind;
   if (says(text, "\\b(ahead|front)\\b")) return Instruction::Side::ahead;
   return Instruction::Side::none;
+}
+
+/// The hour that a direction means, by the clock or by left and right.
+std::optional<int> hour_in(const std::string& text) {
+  if (const auto hour = number_before(text, "\\b(\\d{1,2}) ?o.?clock"))
+    return static_cast<int>(*hour);
+  static const std::vector<std::pair<const char*, int>> words = {
+      {"slightly right", 1}, {"half right", 2}, {"sharp right", 4}, {"back right", 5},
+      {"around", 6},         {"back left", 7},  {"sharp left", 8},  {"half left", 10},
+      {"slightly left", 11}, {"right", 3},      {"left", 9}};
+  for (const auto& [word, hour] : words)
+    if (text.find(word) != std::string::npos) return hour;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -48,20 +63,28 @@ Instruction understand(const std::string& spoken) {
     heard.kind = Kind::halt;
   } else if (says(text, "\\b(goal|destination)\\b")) {
     // As the crow flies: good to know, but no way to go.
-  } else if (says(text,
+  } else if (!says(text, "^make room") &&
+             says(text,
                   "\\b(shelf|wall|box|pedestal|worker|forklift|robot|thing)\\b.*\\b(on the|"
                   "left|right|ahead|behind|front)\\b")) {
     heard.kind = Kind::near;
     heard.very_close = says(text, "very close");
   } else {
-    const auto hour = number_before(text, "\\b(\\d{1,2}) ?o.?clock");
+    const std::optional<int> hour = hour_in(text);
     heard.distance = number_before(text, "(\\d{1,4}(?:\\.\\d+)?) ?met");
-    if (says(text, "^in \\d") && hour) {
-      heard.kind = Kind::turn_ahead;
-      heard.hour = static_cast<int>(std::clamp(*hour, 1.0, 12.0));
-    } else if (hour && *hour >= 1.0 && *hour <= 11.0) {
+    if (says(text, "^a little (left|right)")) {
       heard.kind = Kind::turn;
-      heard.hour = static_cast<int>(*hour);
+      heard.hour = heard.side == Instruction::Side::left ? 11 : 1;
+      heard.slight = true;
+    } else if (says(text, "^(no turn, )?straight")) {
+      // What comes then is said again at the corner.
+      heard.kind = Kind::straight;
+    } else if (says(text, "^in \\d") && hour) {
+      heard.kind = Kind::turn_ahead;
+      heard.hour = std::clamp(*hour, 1, 12);
+    } else if (hour && *hour >= 1 && *hour <= 11) {
+      heard.kind = Kind::turn;
+      heard.hour = *hour;
     } else if (hour || says(text, "straight")) {
       heard.kind = Kind::straight;
     }

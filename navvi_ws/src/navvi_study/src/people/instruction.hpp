@@ -24,6 +24,7 @@ struct Instruction {
   std::optional<double> distance;  ///< m
   Side side = Side::none;
   bool very_close = false;  ///< of what is near
+  bool slight = false;      ///< a turn of less than half an hour
 };
 
 /// Whether the words that were heard so far are enough to let go of the stick.

@@ -23,7 +23,8 @@ constexpr double kBlindTurn = 3.0;           // m to drive after "turn now", whi
 /// rad, clockwise, to an hour on the clock face.
 /// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
 /// passed
-double angle_of(int hour, bool from_straight) {
+double angle_of(int hour, bool slight, bool from_straight) {
+  if (slight) return hour == 1 ? 0.17 : -0.17;
   if (from_straight && hour == 1) return 0.35;
   if (from_straight && hour == 11) return -0.35;
   const double angle = hour * kPi / 6.0;
@@ -95,7 +96,7 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
 
 void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction) {
   const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
-  const double angle = angle_of(instruction.hour, straight_before_);
+  const double angle = angle_of(instruction.hour, instruction.slight, straight_before_);
   target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;
   turn_speed_ = std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;

@@ -27,7 +27,7 @@ struct SimulatedOperatorConfig {
   double turn_error = 0.10;
   double cruise = 0.85;
   double slow = 0.6;
-  double patience = 6.0;
+  double patience = 12.0;
   double idle_patience = 2.5;
   double strong_rumble = 0.6;
 

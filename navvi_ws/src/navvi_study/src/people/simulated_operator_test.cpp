@@ -243,6 +243,15 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"", Kind::nothing},
       {"2 o'clock, 5 meters", Kind::turn},
       {"12 o'clock, 5 meters", Kind::straight},
+      {"a little right, 3 meters", Kind::turn},
+      {"straight ahead, 4 meters, then 2 o'clock", Kind::straight},
+      {"no turn, straight ahead, 9 meters", Kind::straight},
+      {"half right, 3 meters", Kind::turn},
+      {"make room for the forklift, half right, 2 meters", Kind::turn},
+      {"in 4 meters, turn right", Kind::turn_ahead},
+      {"back away, shelf ahead", Kind::bump},
+      {"forklift coming, behind", Kind::near},
+      {"go on", Kind::nothing},
       {"straight ahead, 1 meter", Kind::straight},
       {"turn to 9 o'clock now", Kind::turn},
       {"in 6 meters, turn to 3 o'clock", Kind::turn_ahead},
@@ -261,6 +270,13 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
   EXPECT_EQ(understand("turn to 11 o'clock now").hour, 11);
   EXPECT_EQ(understand("in 6 meters, turn to 3 o'clock").hour, 3);
   EXPECT_TRUE(understand("shelf very close, on the left").very_close);
+  EXPECT_EQ(understand("a little left, 3 meters").hour, 11);
+  EXPECT_TRUE(understand("a little left, 3 meters").slight);
+  EXPECT_EQ(understand("straight ahead, 4 meters, then 2 o'clock").distance, 4.0);
+  EXPECT_EQ(understand("half right, 3 meters").hour, 2);
+  EXPECT_EQ(understand("turn sharp left now").hour, 8);
+  EXPECT_EQ(understand("in 4 meters, turn right").hour, 3);
+  EXPECT_EQ(understand("turn around now").hour, 6);
   EXPECT_FALSE(understand("shelf on the left").very_close);
   EXPECT_EQ(understand("stop, worker ahead").kind, Instruction::Kind::near);
   EXPECT_EQ(understand("stop, worker ahead").side, Instruction::Side::ahead);

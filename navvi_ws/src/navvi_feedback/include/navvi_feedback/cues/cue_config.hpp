@@ -19,8 +19,8 @@ struct RouteConfig {
   double turn_now = 2.0;          ///< m
   double same_turn = 5.0;         ///< s
   double same_corner = 1.0;       ///< m
-  double repeat_direction = 4.0;  ///< s
-  double repeat_straight = 8.0;   ///< s
+  double repeat_direction = 6.0;  ///< s
+  double repeat_straight = 20.0;  ///< s
   double pause = 1.5;             ///< s
   double turning_rate = 0.25;     ///< rad/s
   double settle = 0.3;            ///< s
@@ -36,8 +36,10 @@ struct NearConfig {
   double distance = 1.0;    ///< m, gap
   double close = 0.35;      ///< m, gap
   double hysteresis = 0.2;  ///< m
-  double forget = 2.0;      ///< s
+  double forget = 8.0;      ///< s
   bool obstacles = true;
+  double stop_moving = 2.5;    ///< s
+  double stop_standing = 1.5;  ///< s
 
   void describe(navvi_config::Visitor& visit);
 };

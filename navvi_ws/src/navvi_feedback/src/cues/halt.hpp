@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+
+namespace navvi_feedback::cues {
+
+/// A word to stop holds until a person can have obeyed it and the way is clear again; then they are
+/// told to go on. So no word to stop is left without its end.
+class Halt {
+ public:
+  /// A word to stop was said.
+  void say(const Utterance& words, double time);
+  /// The voice has begun to say it.
+  void heard(double time) {
+    if (said_ && !std::exchange(heard_, true)) said_ = time;
+  }
+  /// It was dropped.
+  void not_heard() {
+    if (!heard_) said_.reset();
+  }
+  /// \param follows  there is a path to be followed now
+  /// \return whether the word still holds
+  [[nodiscard]] bool update(const Situation& now, bool follows, double time);
+  /// There is no path on which to go on.
+  void forget() { said_.reset(); }
+
+  [[nodiscard]] bool halted() const { return said_.has_value(); }
+  /// What was said, while halted.
+  [[nodiscard]] const Utterance& words() const { return words_; }
+
+ private:
+  Utterance words_;
+  std::optional<double> said_;  ///< s
+  bool heard_ = false;
+  std::optional<double> clear_since_;  ///< s
+};
+
+}  // namespace navvi_feedback::cues
