@@ -1,14 +1,40 @@
 #include "navvi_feedback/core/feedback.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "cues/cue_policy.hpp"
-#include "navvi_feedback/haptics/rumble_output.hpp"
+#include "cues/side.hpp"
 
 namespace navvi_feedback::core {
 namespace {
 
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
+
+haptics::Zone zone_of(const Contact& contact) {
+  switch (cues::side_of(contact.seen_from_robot())) {
+    case cues::Side::left:
+      return haptics::Zone::left;
+    case cues::Side::right:
+      return haptics::Zone::right;
+    case cues::Side::ahead:
+    case cues::Side::behind:
+      break;
+  }
+  return haptics::Zone::center;
+}
+
+/// What is felt when a cue is said; the cues that are not here are for the ear alone.
+std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
+  using haptics::Pattern;
+  static const std::map<std::string, Pattern> patterns = {
+      {"robot_stopped", Pattern::stopped},    {"stuck", Pattern::stuck},
+      {"stuck_unknown", Pattern::stuck},      {"back_away", Pattern::stuck},
+      {"arrived", Pattern::arrived},          {"rerouted", Pattern::rerouted},
+      {"rerouted_blocked", Pattern::rerouted}};
+  const auto found = patterns.find(kind);
+  return found == patterns.end() ? std::nullopt : std::optional(found->second);
+}
 
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
@@ -25,18 +51,29 @@ void FeedbackConfig::describe(navvi_config::Visitor& visit) {
 struct Feedback::Deciders {
   drive::Drive drive;
   haptics::Haptics haptics;
+  haptics::PatternPlayer patterns;
   cues::CuePolicy cues;
 };
 
 Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& phrases)
     : config_(config),
       deciders_(new Deciders{
-          drive::Drive(config.drive), haptics::Haptics(config.haptics),
+          drive::Drive(config.drive),
+          haptics::Haptics(config.haptics),
+          {},
           cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.words()))}) {}
 
 Feedback::~Feedback() = default;
 
-void Feedback::note(const std::vector<CueEvent>& events) { deciders_->cues.note(events); }
+void Feedback::note(const std::vector<CueEvent>& events) {
+  deciders_->cues.note(events);
+  for (const CueEvent& event : events) {
+    if (event.stage == CueStage::started && event.priority == Priority::important)
+      important_ = event.id;
+    else if (event.id == important_ && event.stage != CueStage::queued)
+      important_.reset();
+  }
+}
 
 Feedback::Output Feedback::update(const Input& input, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
@@ -44,9 +81,11 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   seen_hands_ = seen_hands_ || input.hands.live;
   Output out;
   out.command = drive(input.hands, dt);
-  out.alarm_begins = alarm_begins(input, time);
-  out.rumble = feel(time, dt);
+  out.alarm_begins = alarm_begins(input);
   out.cues = decide_cues(input, time);
+  begin_patterns(out);
+  out.rumble = feel(time, dt);
+  out.pattern = deciders_->patterns.playing();
   contacts_.clear();
   last_hands_ = input.hands;
   return out;
@@ -64,24 +103,41 @@ std::optional<Velocity> Feedback::drive(const drive::InputState& hands, double d
   return velocity || last_hands_.live ? std::optional(commanded_) : std::nullopt;
 }
 
-haptics::Rumble Feedback::feel(double time, double dt) {
-  const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
-                     motion_.link(time, config_.stale) != cues::Link::lost;
-  const haptics::Rumble near =
-      deciders_->haptics.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt);
-  const double alarm = alarm_since_ ? haptics::alarm_force(time - *alarm_since_) : 0.0;
-  return {std::max(near.left, alarm), std::max(near.right, alarm)};
+/// The motors report a missing audio device (safety rule 3), once there are any.
+bool Feedback::alarm_begins(const Input& input) {
+  if (input.audio == cues::Link::alive) {
+    if (std::exchange(alarmed_, false) &&
+        deciders_->patterns.playing() == haptics::Pattern::no_sound)
+      deciders_->patterns.stop();
+    return false;
+  }
+  return input.motors && !std::exchange(alarmed_, true);
 }
 
-/// The motors report a missing audio device (safety rule 3), once there are any.
-bool Feedback::alarm_begins(const Input& input, double time) {
-  if (input.audio == cues::Link::alive) {
-    alarm_since_.reset();
-  } else if (!alarm_since_ && input.motors) {
-    alarm_since_ = time;
-    return true;
+void Feedback::begin_patterns(const Output& out) {
+  haptics::PatternPlayer& patterns = deciders_->patterns;
+  if (out.alarm_begins) patterns.begin(haptics::Pattern::no_sound);
+  if (!config_.haptics.enabled || !config_.haptics.patterns) return;
+  for (const cues::Cue& cue : out.cues)
+    if (const auto pattern = pattern_of(cue.kind)) patterns.begin(*pattern);
+  for (const Contact& contact : contacts_) {
+    const bool fixed = contact.thing_class == navvi_types::ThingClass::shelf ||
+                       contact.thing_class == navvi_types::ThingClass::wall;
+    patterns.begin(fixed ? haptics::Pattern::hit_shelf : haptics::Pattern::hit_obstacle,
+                   zone_of(contact));
   }
-  return false;
+}
+
+haptics::Rumble Feedback::feel(double time, double dt) {
+  const bool arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
+  const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
+                     motion_.link(time, config_.stale) != cues::Link::lost &&
+                     !(arrived && config_.haptics.rest_at_goal);
+  const haptics::Rumble near =
+      deciders_->haptics.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt);
+  if (const auto pattern = deciders_->patterns.update(dt)) return *pattern;
+  const double share = important_ ? config_.haptics.duck : 1.0;
+  return {share * near.left, share * near.right};
 }
 
 std::vector<cues::Cue> Feedback::decide_cues(const Input& input, double time) {

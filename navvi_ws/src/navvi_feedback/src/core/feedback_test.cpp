@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <navvi_config/reader.hpp>
 #include <utility>
 
 namespace navvi_feedback::core {
@@ -115,6 +116,47 @@ TEST_F(FeedbackTest, a_contact_is_said_once) {
   feedback_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7});
   pass(3.0);
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "collision_shelf"), 1);
+}
+
+TEST_F(FeedbackTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.1, {0.5, 0.0}, true}}}, time_);
+  pass(0.5);
+  feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+  const Feedback::Output output = pass(0.02);
+  EXPECT_EQ(output.pattern, haptics::Pattern::hit_shelf);
+  EXPECT_EQ(output.rumble.left, 1.0);
+  EXPECT_EQ(output.rumble.right, 0.0);
+}
+
+TEST_F(FeedbackTest, patterns_are_left_out_where_touch_is_not_wanted) {
+  for (const char* text : {"haptics: {enabled: false}", "haptics: {patterns: false}"}) {
+    FeedbackConfig config;
+    navvi_config::read(config, YAML::Load(text), "test");
+    Feedback feedback(config, kEnglish);
+    feedback.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+    EXPECT_FALSE(feedback.update(input_, time_).pattern) << text;
+  }
+}
+
+TEST_F(FeedbackTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_after_the_arrival) {
+  const auto felt = [&] {
+    feedback_.take(Odometry{}, time_);
+    feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
+    return pass(0.9).rumble.left;
+  };
+  const double full = felt();
+  EXPECT_GT(full, 0.5);
+  feedback_.note({{4, CueStage::started, "obstacle_stop", "stop", Priority::important}});
+  EXPECT_NEAR(felt(), 0.3 * full, 1e-9);
+  feedback_.note({{4, CueStage::ended, "obstacle_stop", "stop", Priority::important}});
+  EXPECT_NEAR(felt(), full, 1e-9);
+  Guidance guidance;
+  guidance.state = Guidance::State::arrived;
+  feedback_.take(guidance, time_);
+  EXPECT_EQ(pass(0.02).pattern, haptics::Pattern::arrived);
+  pass(1.5);
+  EXPECT_EQ(felt(), 0.0);
 }
 
 TEST_F(FeedbackTest, a_button_that_is_held_asks_once) {

@@ -13,6 +13,8 @@ constexpr double kRecover = 2.0;
 constexpr double kStarting = 3.0;
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
+/// s, that "go on" waits for a direction.
+constexpr double kDirection = 1.0;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
 /// s; the same thing again within it is the same collision.
@@ -241,11 +243,10 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
     const bool halted = halt_.update(now, follows_, time);
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halted) return {};
-    Utterances told;
-    if (was_halted && !halted) told.push_back({"go_on"});
-    for (const Utterance& utterance : route_.update(now, halted, time)) told.push_back(utterance);
-    return told;
+    if (was_halted && !halted) go_on_since_ = time;
+    return go_on(route_.update(now, halted, time), time);
   }
+  go_on_since_.reset();
   halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
   if (goal_gone)
@@ -253,6 +254,17 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   else
     route_.pause();
   return {};
+}
+
+/// Whoever was told to stop hears "go on" with the direction, or alone if there is none soon.
+CuePolicy::Utterances CuePolicy::go_on(Utterances directions, double time) {
+  if (!go_on_since_ || halt_.halted()) return directions;
+  if (directions.empty() && time - *go_on_since_ < kDirection) return {};
+  go_on_since_.reset();
+  if (directions.empty()) return {{"go_on"}};
+  directions.front().goes_on = true;
+  directions.front().priority = Priority::message;
+  return directions;
 }
 
 CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
@@ -284,8 +296,11 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
     if (!utterance.asked && last != last_said_.end() && time - last->second < kind.min_interval)
       continue;
     last_said_[kind.kind] = time;
-    cues.push_back({kind.kind, phrases_.say(kind.kind, utterance.fillings),
-                    utterance.priority.value_or(kind.priority), kind.max_age});
+    std::string text = phrases_.say(kind.kind, utterance.fillings);
+    if (const std::string longer = phrases_.say("go_on") + ", " + text;
+        utterance.goes_on && speakable(longer))
+      text = longer;
+    cues.push_back({kind.kind, text, utterance.priority.value_or(kind.priority), kind.max_age});
   }
   std::stable_sort(cues.begin(), cues.end(),
                    [](const Cue& a, const Cue& b) { return a.priority > b.priority; });

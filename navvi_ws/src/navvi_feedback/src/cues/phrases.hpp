@@ -30,6 +30,7 @@ struct Utterance {
   Fillings fillings = {};
   std::optional<Priority> priority = {};  ///< instead of the kind's own
   bool asked = false;                     ///< by the person: said however often
+  bool goes_on = false;                   ///< begins with the phrase go_on
 };
 
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and

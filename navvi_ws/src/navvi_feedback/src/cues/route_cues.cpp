@@ -212,8 +212,9 @@ int RouteCues::clear_of_things(const Situation& now, bool held) const {
   const double angle = now.guidance->steer_angle;
   const double touched = held ? 2.0 * kTouching : kTouching;
   for (const NearThing& thing : now.nearby) {
-    if (thing.gap > touched || side_of(thing.nearest) == Side::behind) continue;
-    const double away = thing.nearest.y() > 0.0 ? 1.0 : -1.0;
+    const Side side = side_of(thing.nearest);
+    if (thing.gap > touched || side == Side::ahead || side == Side::behind) continue;
+    const double away = side == Side::left ? 1.0 : -1.0;
     const bool room = std::none_of(now.nearby.begin(), now.nearby.end(), [&](const auto& other) {
       return away * other.nearest.y() < 0.0 && other.gap < 2.0 * touched;
     });

@@ -30,6 +30,13 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
         "a thing whose nearest point lies less far to the side is felt in both motors");
   visit(curve, "curve", OneOf{{"log", "linear", "power"}}, "", "force over distance");
   visit(exponent, "exponent", Range{0.2, 5.0}, "", "of the power curve");
+  visit(rear, "rear", Range{0.0, 1.0}, "",
+        "how much of its force a thing right behind the robot has; beside it, half way to all");
+  visit(duck, "duck", Range{0.0, 1.0}, "",
+        "how much of the force is left while a safety phrase is spoken (R-AUD-6)");
+  visit(rest_at_goal, "rest_at_goal", Any{}, "", "what is near is not felt after the arrival");
+  visit(patterns, "patterns", Any{}, "",
+        "hits, stops, a stuck robot, new routes and the arrival are felt, each by its own pattern");
   visit(normalize, "normalize", Any{}, "",
         "log curve: divide by ln 2, so that touching gives full force");
   visit(classes, "classes",
@@ -69,13 +76,17 @@ Haptics::Haptics(const HapticsConfig& config) : config_(config) {
   }
 }
 
-const NearThing* Haptics::nearest(const std::vector<NearThing>& things) const {
+std::optional<Haptics::Felt> Haptics::strongest(const std::vector<NearThing>& things) const {
   const double limit = zone_ ? config_.range : config_.range - config_.range_hysteresis;
-  const NearThing* best = nullptr;
+  std::optional<Felt> best;
   for (const NearThing& thing : things) {
     if (std::find(classes_.begin(), classes_.end(), thing.thing_class) == classes_.end()) continue;
     if (!std::isfinite(thing.gap) || !thing.nearest.allFinite() || thing.gap >= limit) continue;
-    if (!best || thing.gap < best->gap) best = &thing;
+    const double distance = thing.nearest.norm();
+    const double ahead = distance > 0.0 ? 0.5 * (1.0 + thing.nearest.x() / distance) : 1.0;
+    const double force =
+        (config_.rear + (1.0 - config_.rear) * ahead) * rumble_force(config_, thing.gap);
+    if (!best || force > best->force) best = Felt{thing.nearest.y(), force};
   }
   return best;
 }
@@ -103,11 +114,11 @@ Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double 
   }
   double wanted_left = 0.0;
   double wanted_right = 0.0;
-  if (const NearThing* thing = nearest(things)) {
+  if (const auto felt = strongest(things)) {
     felt_for_ += dt;
-    zone_ = zone_of(thing->nearest.y());
+    zone_ = zone_of(felt->lateral);
     const double ramp = config_.onset > 0.0 ? std::min(1.0, felt_for_ / config_.onset) : 1.0;
-    const double force = ramp * rumble_force(config_, thing->gap);
+    const double force = ramp * felt->force;
     if (*zone_ != Zone::right) wanted_left = force;
     if (*zone_ != Zone::left) wanted_right = force;
   } else {

@@ -114,6 +114,22 @@ TEST(Haptics, shelves_and_walls_are_not_felt) {
   EXPECT_EQ(rumble.right, 0.0);
 }
 
+TEST(Haptics, what_is_ahead_is_felt_before_what_rides_behind) {
+  Haptics haptics((HapticsConfig()));
+  const Rumble behind = settle(haptics, {thing(0.5, -0.9, 0.0)});
+  const Rumble ahead = settle(haptics, {thing(0.5, 0.9, 0.0)});
+  EXPECT_LT(behind.left, 0.4);
+  EXPECT_GT(ahead.left, 0.7);
+  const Rumble both = settle(haptics, {thing(0.5, -0.9, 0.0), thing(1.0, 0.5, 1.3)});
+  EXPECT_GT(both.left, 0.4);
+  EXPECT_EQ(both.right, 0.0) << "the one ahead on the left";
+}
+
+TEST(Haptics, the_last_metre_can_be_felt) {
+  const HapticsConfig config;
+  EXPECT_GT(rumble_force(config, 0.0) - rumble_force(config, 1.0), 0.3);
+}
+
 TEST(Haptics, an_unknown_class_in_the_list_is_refused) {
   HapticsConfig config;
   config.classes = {"dragon"};
@@ -209,19 +225,6 @@ TEST(RumbleOutput, repeats_the_values_for_drivers_without_memory) {
   }
   EXPECT_GE(sent, 9);
   EXPECT_LE(sent, 11);
-}
-
-TEST(RumbleOutput, the_alarm_is_three_pulses_that_begin_and_end_softly) {
-  int pulses = 0;
-  double last = 0.0;
-  for (double t = -0.1; t < 3.0; t += 0.005) {
-    const double force = alarm_force(t);
-    EXPECT_LT(std::abs(force - last), 0.05);
-    if (last == 0.0 && force > 0.0) ++pulses;
-    last = force;
-  }
-  EXPECT_EQ(pulses, 3);
-  EXPECT_EQ(alarm_force(kNan), 0.0);
 }
 
 }  // namespace

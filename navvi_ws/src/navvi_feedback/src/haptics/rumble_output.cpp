@@ -9,10 +9,6 @@ constexpr double kStep = 1.0 / 255.0;
 constexpr double kChangePeriod = 0.05;  // s
 constexpr double kRepeatPeriod = 0.1;   // s
 
-constexpr int kPulses = 3;
-constexpr double kPulsePeriod = 0.5;  // s
-constexpr double kPulseForce = 0.5;
-
 bool off(const Rumble& rumble) { return rumble.left == 0.0 && rumble.right == 0.0; }
 
 bool elapsed(const std::optional<double>& then, double now, double span) {
@@ -32,13 +28,6 @@ RumbleOutput::Due RumbleOutput::update(const Rumble& rumble, double time) {
   if (due.feedback) sent_at_ = time;
   if (due.changed) sent_ = rumble;
   return due;
-}
-
-double alarm_force(double since) {
-  if (!(since >= 0.0) || since >= kPulses * kPulsePeriod) return 0.0;
-  const double part = std::fmod(since, kPulsePeriod) / kPulsePeriod;
-  // Half a sine wave in the first half of each period: no jolt at either end.
-  return part < 0.5 ? kPulseForce * std::sin(2.0 * M_PI * part) : 0.0;
 }
 
 }  // namespace navvi_feedback::haptics

@@ -79,7 +79,7 @@ class FeedbackNode {
   void finish() {
     tick_timer_.stop();
     cmd_vel_.publish(geometry_msgs::Twist());
-    move_motors({}, now());
+    move_motors({}, std::nullopt, now());
     publish(speech_.finish());
   }
 
@@ -135,17 +135,18 @@ class FeedbackNode {
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
     if (output.alarm_begins)
       ROS_WARN("There is no audio device: nothing is heard. %s", speech_.status().detail.c_str());
-    move_motors(output.rumble, time);
+    move_motors(output.rumble, output.pattern, time);
     say(output.cues, time);
     show(time);
     last_hands_ = input.hands;
   }
 
-  void move_motors(const haptics::Rumble& rumble, double time) {
+  void move_motors(const haptics::Rumble& rumble, std::optional<haptics::Pattern> pattern,
+                   double time) {
     if (devices::Gamepad* pad = source_.pad()) pad->rumble(rumble);
     const haptics::RumbleOutput::Due due = rumble_output_.update(rumble, time);
     if (due.feedback) motors_.publish(feedback_msg(rumble));
-    if (due.changed) publish({rumble_event(rumble, ++rumble_id_)});
+    if (due.changed) publish({rumble_event(rumble, pattern, ++rumble_id_)});
   }
 
   void say(const std::vector<cues::Cue>& cues, double time) {

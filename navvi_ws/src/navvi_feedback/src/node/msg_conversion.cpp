@@ -40,9 +40,11 @@ sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble) {
   return msg;
 }
 
-navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble, std::uint32_t id) {
+navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
+                                   std::optional<haptics::Pattern> pattern, std::uint32_t id) {
   using namespace navvi_types;
-  return {id,          CueStage::started, "rumble", "", Priority::progress, Modality::rumble,
+  return {id,          CueStage::started,  pattern ? to_string(*pattern) : "rumble",
+          "",          Priority::progress, Modality::rumble,
           rumble.left, rumble.right};
 }
 

@@ -41,7 +41,8 @@ TEST(ToMsg, rumble_names_both_motors_also_when_they_are_off) {
 }
 
 TEST(ToMsg, a_rumble_is_a_cue_that_is_felt) {
-  const navvi_types::CueEvent event = rumble_event({0.25, 0.5}, 3);
+  const navvi_types::CueEvent event = rumble_event({0.25, 0.5}, std::nullopt, 3);
+  EXPECT_EQ(rumble_event({}, haptics::Pattern::hit_shelf, 4).kind, "hit_shelf");
   EXPECT_EQ(event.id, 3U);
   EXPECT_EQ(event.modality, navvi_types::Modality::rumble);
   EXPECT_EQ(event.stage, navvi_types::CueStage::started);

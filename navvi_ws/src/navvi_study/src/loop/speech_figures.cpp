@@ -28,6 +28,7 @@ void SpeechFigures::hear(const navvi_types::CueEvent& cue, bool asked, double ti
   const auto last = last_said_.find(cue.text);
   if (!asked && last != last_said_.end() && time - last->second < kSame) ++repeats_;
   last_said_[cue.text] = time;
+  if (asked) return;
   // What is more urgent than to wait may well follow at once.
   if (waited_ && time - *waited_ < kObey && cue.priority < navvi_types::Priority::important)
     ++hasty_;

@@ -17,8 +17,8 @@ class SpeechFigures {
 
   /// Adds, over `duration` s: `cues` and `words` a minute; `talk`, the share of the time in which
   /// something is said; `repeats`, how often a sentence was said again within 10 s without being
-  /// asked for; `waits` and, of them, `hasty`: those followed by another sentence within 2 s,
-  /// before a person has obeyed.
+  /// asked for; `waits`, unasked words to stop, and, of them, `hasty`: those followed by another
+  /// sentence within 2 s, before a person has obeyed.
   void add_to(record::Fields& row, double duration) const;
 
  private:

@@ -51,6 +51,7 @@ Instruction understand(const std::string& spoken) {
   std::string text = spoken.substr(0, 200);
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (text.rfind("go on, ", 0) == 0) text.erase(0, 7);
   Instruction heard;
   heard.side = side_in(text);
   if (says(text, "you have reached")) {

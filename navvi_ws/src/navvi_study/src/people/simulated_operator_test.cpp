@@ -252,6 +252,7 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"back away, shelf ahead", Kind::bump},
       {"forklift coming, behind", Kind::near},
       {"go on", Kind::nothing},
+      {"go on, a little left, 3 meters", Kind::turn},
       {"straight ahead, 1 meter", Kind::straight},
       {"turn to 9 o'clock now", Kind::turn},
       {"in 6 meters, turn to 3 o'clock", Kind::turn_ahead},

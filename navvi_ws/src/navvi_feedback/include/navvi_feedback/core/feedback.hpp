@@ -14,6 +14,7 @@
 #include "navvi_feedback/drive/drive.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
+#include "navvi_feedback/haptics/pattern.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Contact;
@@ -51,8 +52,9 @@ class Feedback {
   struct Output {
     std::optional<Velocity> command;  ///< nullopt: nothing is sent
     haptics::Rumble rumble;
-    bool alarm_begins = false;    ///< the motors begin to report that there is no sound
-    std::vector<cues::Cue> cues;  ///< decided now, most urgent first
+    std::optional<haptics::Pattern> pattern;  ///< that `rumble` is part of
+    bool alarm_begins = false;                ///< the motors begin to report that there is no sound
+    std::vector<cues::Cue> cues;              ///< decided now, most urgent first
   };
 
   /// \param phrases  file of the spoken phrases
@@ -93,8 +95,9 @@ class Feedback {
   struct Deciders;
 
   [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
+  [[nodiscard]] bool alarm_begins(const Input& input);
+  void begin_patterns(const Output& out);
   [[nodiscard]] haptics::Rumble feel(double time, double dt);
-  [[nodiscard]] bool alarm_begins(const Input& input, double time);
   [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input, double time);
   [[nodiscard]] cues::Link pad_link(const drive::InputState& hands) const;
 
@@ -110,7 +113,8 @@ class Feedback {
   std::optional<double> last_update_;
   drive::InputState last_hands_;
   bool seen_hands_ = false;
-  std::optional<double> alarm_since_;  ///< s, while nothing can be heard
+  bool alarmed_ = false;                    ///< nothing can be heard, and that was reported
+  std::optional<std::uint32_t> important_;  ///< the safety phrase that is being spoken
   Velocity commanded_;
   bool held_unarmed_ = false;
 };

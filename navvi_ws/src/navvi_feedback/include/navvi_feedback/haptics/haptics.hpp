@@ -25,8 +25,12 @@ struct HapticsConfig {
   bool enabled = true;
   double range = 5.0;   // m
   double center = 1.0;  // m
-  std::string curve = "log";
+  std::string curve = "power";
   double exponent = 2.0;
+  double rear = 0.3;
+  double duck = 0.3;
+  bool rest_at_goal = true;
+  bool patterns = true;
   bool normalize = true;
   std::vector<std::string> classes = {"box",      "pedestal",     "worker",
                                       "forklift", "pallet_robot", "other"};
@@ -51,7 +55,8 @@ enum class Zone { left, center, right };
 /// ln(1 + (1 - gap / range)), which peaks at ln 2; with `normalize` it is divided by ln 2.
 [[nodiscard]] double rumble_force(const HapticsConfig& config, double gap);
 
-/// Makes what is nearest felt (R-HAP-1 to 5): the pure law, then what keeps a motor from jolting
+/// Makes what is nearest felt (R-HAP-1 to 5), what is ahead more than what is behind: the pure law,
+/// then what keeps a motor from jolting
 /// (onset ramp, slew limit) and from chattering (hysteresis at the range and between the zones).
 class Haptics {
  public:
@@ -67,7 +72,12 @@ class Haptics {
   [[nodiscard]] std::optional<Zone> zone() const { return zone_; }
 
  private:
-  [[nodiscard]] const NearThing* nearest(const std::vector<NearThing>& things) const;
+  /// What is felt most, and how much.
+  struct Felt {
+    double lateral = 0.0;  ///< m, to the left
+    double force = 0.0;    ///< [0, 1]
+  };
+  [[nodiscard]] std::optional<Felt> strongest(const std::vector<NearThing>& things) const;
   [[nodiscard]] Zone zone_of(double lateral) const;
   void stop();
 

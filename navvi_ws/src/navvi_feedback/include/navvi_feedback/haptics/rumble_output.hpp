@@ -25,9 +25,4 @@ class RumbleOutput {
   std::optional<double> changed_at_;
 };
 
-/// Three soft pulses of both motors, for what the voice cannot say.
-/// \param since  s since the alarm began
-/// \return [0, 1]; 0 before and after
-[[nodiscard]] double alarm_force(double since);
-
 }  // namespace navvi_feedback::haptics

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "navvi_feedback/drive/input_state.hpp"
-#include "navvi_feedback/haptics/haptics.hpp"
+#include "navvi_feedback/haptics/pattern.hpp"
 
 namespace navvi_feedback::node {
 
@@ -17,7 +17,10 @@ namespace navvi_feedback::node {
 [[nodiscard]] sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp);
 /// As joy_node takes it: id 0 is the strong (left) motor, id 1 the weak (right) one.
 [[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble);
-/// As a navvi_msgs/Cue. \param id  counts the changes of the motors
-[[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble, std::uint32_t id);
+/// As a navvi_msgs/Cue, of the kind of its pattern, or "rumble".
+/// \param id  counts the changes of the motors
+[[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
+                                                 std::optional<haptics::Pattern> pattern,
+                                                 std::uint32_t id);
 
 }  // namespace navvi_feedback::node

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "navvi_feedback/haptics/haptics.hpp"
+
+namespace navvi_feedback::haptics {
+
+/// What is felt besides what is near; the most urgent last.
+enum class Pattern {
+  rerouted,      ///< a light tap on the left, then on the right
+  arrived,       ///< three pulses that rise
+  no_sound,      ///< three soft pulses: what the voice cannot say
+  stuck,         ///< four quick taps
+  stopped,       ///< two long pulses: the robot was stopped
+  hit_obstacle,  ///< two hard knocks, on its side
+  hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
+};
+/// As recorded. \return such as "hit_shelf"
+[[nodiscard]] const char* to_string(Pattern pattern);
+
+/// Plays one pattern at a time, instead of what is felt continuously, so that it stands out.
+class PatternPlayer {
+ public:
+  /// Begins at once, unless a more urgent one plays.
+  /// \param side  the motors that take part
+  void begin(Pattern pattern, Zone side = Zone::center);
+  void stop() { playing_.reset(); }
+
+  /// \param dt  s since the last call, >= 0
+  /// \return what the motors do now; nullopt: none plays
+  [[nodiscard]] std::optional<Rumble> update(double dt);
+  [[nodiscard]] std::optional<Pattern> playing() const { return playing_; }
+
+ private:
+  std::optional<Pattern> playing_;
+  Zone side_ = Zone::center;
+  double since_ = 0.0;  ///< s
+};
+
+}  // namespace navvi_feedback::haptics
