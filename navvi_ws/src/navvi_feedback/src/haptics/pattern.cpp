@@ -44,12 +44,6 @@ const std::vector<Beat>& beats(Pattern pattern) {
 
 }  // namespace
 
-const char* to_string(Pattern pattern) {
-  static constexpr std::array<const char*, 7> kWords = {
-      "rerouted", "arrived", "no_sound", "stuck", "stopped", "hit_obstacle", "hit_shelf"};
-  return kWords.at(static_cast<std::size_t>(pattern));
-}
-
 void PatternPlayer::begin(Pattern pattern, Zone side) {
   if (playing_ && *playing_ > pattern) return;
   playing_ = pattern;

@@ -30,11 +30,11 @@ std::vector<std::pair<double, double>> play(Pattern pattern, Zone side = Zone::c
 TEST(Pattern, begins_at_once_and_ends_within_two_seconds_with_a_rest) {
   for (const Pattern pattern : kAll) {
     const auto felt = play(pattern);
-    ASSERT_GE(felt.size(), 10U) << to_string(pattern);
-    EXPECT_LE(static_cast<double>(felt.size()) * kStep, 2.0) << to_string(pattern);
-    EXPECT_EQ(felt.back(), std::make_pair(0.0, 0.0)) << to_string(pattern);
+    ASSERT_GE(felt.size(), 10U) << navvi_types::to_string(pattern);
+    EXPECT_LE(static_cast<double>(felt.size()) * kStep, 2.0) << navvi_types::to_string(pattern);
+    EXPECT_EQ(felt.back(), std::make_pair(0.0, 0.0)) << navvi_types::to_string(pattern);
     if (pattern == Pattern::no_sound) continue;  // it begins softly
-    EXPECT_GT(felt[0].first, 0.0) << to_string(pattern);
+    EXPECT_GT(felt[0].first, 0.0) << navvi_types::to_string(pattern);
   }
 }
 
@@ -43,7 +43,7 @@ TEST(Pattern, no_two_feel_the_same_and_each_has_a_name) {
   std::set<std::string> names;
   for (const Pattern pattern : kAll) {
     felt.insert(play(pattern));
-    names.insert(to_string(pattern));
+    names.insert(navvi_types::to_string(pattern));
   }
   EXPECT_EQ(felt.size(), std::size(kAll));
   EXPECT_EQ(names.size(), std::size(kAll));

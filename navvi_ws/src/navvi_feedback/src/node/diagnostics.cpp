@@ -39,8 +39,11 @@ DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
 DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
                             const std::string& input, bool live) {
   DiagnosticStatus result;
+  // Whether anything can be felt.
+  std::string state = input == "keyboard" ? "off" : live ? "works" : "missing";
   if (pad) {
     result = own_pad(*pad);
+    state = pad->connected && pad->has_rumble ? "works" : "missing";
     add(result, "name", pad->name);
     add(result, "firmware", pad->firmware == 0 ? "unknown" : std::to_string(pad->firmware));
     add(result, "other pads, ignored", std::to_string(pad->others));
@@ -51,14 +54,17 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
     result = status("navvi/pad", DiagnosticStatus::ERROR, "Nothing comes from the " + input + ".");
   }
   add(result, "input", input);
+  add(result, "state", state);
   return result;
 }
 
 DiagnosticStatus audio_status(const devices::Speaker::Status& speaker) {
   using Device = devices::Speaker::Status::Device;
   DiagnosticStatus result;
+  std::string state = "missing";
   switch (speaker.device) {
     case Device::open:
+      state = "works";
       result = status("navvi/audio", DiagnosticStatus::OK, "Open.");
       break;
     case Device::missing:
@@ -68,11 +74,13 @@ DiagnosticStatus audio_status(const devices::Speaker::Status& speaker) {
       result = status("navvi/audio", DiagnosticStatus::ERROR, "The audio device was lost.");
       break;
     case Device::off:
+      state = "off";
       result = status("navvi/audio", DiagnosticStatus::WARN, "Sound is switched off.");
       break;
   }
   if (!speaker.detail.empty()) result.message += " " + speaker.detail;
   add(result, "device", speaker.name);
+  add(result, "state", state);
   return result;
 }
 
@@ -81,6 +89,7 @@ DiagnosticStatus speech_status(const devices::Speaker::Status& speaker) {
   DiagnosticStatus result =
       status("navvi/speech", failed ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
              failed ? "Some texts could not be spoken." : "Ready.");
+  add(result, "state", "works");
   add(result, "spoken", std::to_string(speaker.spoken));
   add(result, "failed", std::to_string(speaker.failed));
   return result;

@@ -10,7 +10,8 @@
 
 namespace navvi_feedback::node {
 
-// The health of the hardware, truthfully: a device that is absent is never OK.
+// The health of the hardware, truthfully: a device that is absent is never OK, and "state" tells
+// one that works from one that is missing and one that is off.
 
 /// \param pad  nullopt if the stick comes from elsewhere
 /// \param input  pad, keyboard or topic

@@ -146,7 +146,15 @@ class FeedbackNode {
     if (devices::Gamepad* pad = source_.pad()) pad->rumble(rumble);
     const haptics::RumbleOutput::Due due = rumble_output_.update(rumble, time);
     if (due.feedback) motors_.publish(feedback_msg(rumble));
-    if (due.changed) publish({rumble_event(rumble, pattern, ++rumble_id_)});
+    // The record holds what can have been felt.
+    if (due.changed && motors_there()) publish({rumble_event(rumble, pattern, ++rumble_id_)});
+  }
+
+  /// Our own pad's, or those of another driver.
+  [[nodiscard]] bool motors_there() {
+    if (devices::Gamepad* pad = source_.pad())
+      return pad->status().connected && pad->status().has_rumble;
+    return source_.kind() == devices::InputSource::Kind::topic;
   }
 
   void say(const std::vector<cues::Cue>& cues, double time) {

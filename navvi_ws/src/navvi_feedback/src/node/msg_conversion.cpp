@@ -43,7 +43,7 @@ sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble) {
 navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
                                    std::optional<haptics::Pattern> pattern, std::uint32_t id) {
   using namespace navvi_types;
-  return {id,          CueStage::started,  pattern ? to_string(*pattern) : "rumble",
+  return {id,          CueStage::started,  pattern ? navvi_types::to_string(*pattern) : "rumble",
           "",          Priority::progress, Modality::rumble,
           rumble.left, rumble.right};
 }

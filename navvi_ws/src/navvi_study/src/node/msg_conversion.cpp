@@ -5,6 +5,19 @@ namespace navvi_study::node {
 using navvi_types::from_ns;
 using navvi_types::to_ns;
 
+namespace {
+
+/// As it says itself; of one that does not say, as its level tells.
+trial::DeviceState state_of(const diagnostic_msgs::DiagnosticStatus& status) {
+  for (const auto& pair : status.values)
+    if (pair.key == "state")
+      if (const auto state = navvi_types::from_word<trial::DeviceState>(pair.value)) return *state;
+  return status.level == diagnostic_msgs::DiagnosticStatus::OK ? trial::DeviceState::works
+                                                               : trial::DeviceState::missing;
+}
+
+}  // namespace
+
 std::vector<trial::DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg) {
   std::vector<trial::DeviceReport> reports;
   for (const auto& status : msg.status) {
@@ -12,8 +25,7 @@ std::vector<trial::DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray
       const std::string name = std::string("navvi/") + device;
       const auto at = status.name.rfind(name);
       if (at == std::string::npos || at + name.size() != status.name.size()) continue;
-      reports.push_back(
-          {to_ns(msg.header.stamp), device, status.level == diagnostic_msgs::DiagnosticStatus::OK});
+      reports.push_back({to_ns(msg.header.stamp), device, state_of(status)});
     }
   }
   return reports;

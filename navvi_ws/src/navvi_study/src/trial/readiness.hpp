@@ -16,11 +16,11 @@ class Readiness {
 
   void saw_odometry(double time) { odometry_ = time; }
   void saw(const Guidance& guidance, double time);
-  void saw(const DeviceReport& device) { devices_[device.device] = device.usable; }
+  void saw(const DeviceReport& device) { devices_[device.device] = device.state; }
 
   /// What is not there, in words; empty when a trial can begin.
   [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;
-  /// For the record: "works", "missing" (or switched off), or "unknown" before its first report.
+  /// For the record: "works", "missing", "off", or "unknown" before its first report.
   /// \param device  pad, audio or speech
   [[nodiscard]] std::string state_of(const std::string& device) const;
   [[nodiscard]] bool saw_any_odometry() const { return odometry_ > kNever; }
@@ -36,7 +36,7 @@ class Readiness {
   double odometry_ = kNever;
   double guidance_ = kNever;
   bool has_map_ = false;
-  std::map<std::string, bool> devices_;
+  std::map<std::string, DeviceState> devices_;
 };
 
 }  // namespace navvi_study::trial

@@ -31,19 +31,21 @@ TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
 TEST(Readiness, says_of_each_device_what_was_last_reported) {
   Readiness ready({});
   EXPECT_EQ(ready.state_of("audio"), "unknown");
-  ready.saw({0, "audio", true});
+  ready.saw({0, "audio", DeviceState::works});
   EXPECT_EQ(ready.state_of("audio"), "works");
-  ready.saw({0, "audio", false});
+  ready.saw({0, "audio", DeviceState::missing});
   EXPECT_EQ(ready.state_of("audio"), "missing");
+  ready.saw({0, "audio", DeviceState::off});
+  EXPECT_EQ(ready.state_of("audio"), "off");
 }
 
 TEST(Readiness, needs_the_devices_of_the_condition) {
   Readiness ready({"speech", "rumble"});
   ready.saw_odometry(0.0);
   ready.saw(guidance(Guidance::State::no_goal), 0.0);
-  ready.saw({0, "audio", true});
-  ready.saw({0, "speech", true});
-  ready.saw({0, "pad", false});
+  ready.saw({0, "audio", DeviceState::works});
+  ready.saw({0, "speech", DeviceState::works});
+  ready.saw({0, "pad", DeviceState::off});
   EXPECT_EQ(ready.missing(0.1, true), Words{"a working pad device"});
 }
 

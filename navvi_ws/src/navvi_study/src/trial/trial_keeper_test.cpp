@@ -211,7 +211,7 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   live(3.0);
   EXPECT_TRUE(events_.empty());
   for (const char* device : {"audio", "speech"})
-    keeper_->take(DeviceReport{now().ros_ns, device, true}, now());
+    keeper_->take(DeviceReport{now().ros_ns, device, DeviceState::works}, now());
   live(1.0);
   EXPECT_TRUE(happened("TRIAL_START"));
 }

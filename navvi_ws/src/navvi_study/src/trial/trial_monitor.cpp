@@ -301,12 +301,13 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
 std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
   const bool inside = counts(device.stamp);
   const auto known = devices_.find(device.device);
-  const bool changed = known != devices_.end() && known->second != device.usable;
-  devices_[device.device] = device.usable;
+  const bool changed = known != devices_.end() && known->second != device.state;
+  devices_[device.device] = device.state;
   if (!inside || !changed) return {};
   record::Fields fields;
   fields.set("device", device.device);
-  return {{device.usable ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp, true}};
+  return {{device.state == DeviceState::works ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp,
+           true}};
 }
 
 std::vector<Event> TrialMonitor::observe(const StateHash& state) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <navvi_types/cue_event.hpp>
@@ -30,10 +31,16 @@ namespace navvi_study::trial {
 
 // Time stamps are ns of ROS time, as in the header of the message.
 
+/// `off`: it is there or not, but nothing is to be heard or felt of it.
+enum class DeviceState : std::uint8_t { missing, works, off };
+[[nodiscard]] constexpr std::array<const char*, 3> names(DeviceState) {
+  return {"missing", "works", "off"};
+}
+
 struct DeviceReport {
   std::int64_t stamp = 0;
   std::string device;  ///< pad, audio, speech
-  bool usable = false;
+  DeviceState state = DeviceState::missing;
 };
 
 /// Something that happened in a trial; the journal makes a row of it.
@@ -148,7 +155,7 @@ class TrialMonitor {
   std::optional<std::uint32_t> plans_;       ///< of the guidance, counted so far
   std::set<std::uint32_t> stuck_cues_;
   bool stopped_ = false;  ///< by the last stage before the wheels
-  std::map<std::string, bool> devices_;
+  std::map<std::string, DeviceState> devices_;
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
   bool goal_taken_ = false;
   std::optional<Guidance::State> state_;

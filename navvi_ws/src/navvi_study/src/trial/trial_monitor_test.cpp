@@ -241,10 +241,11 @@ TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) 
 TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
   EXPECT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
   EXPECT_TRUE(monitor_.observe(stopped(12)).empty());
-  EXPECT_TRUE(monitor_.observe(DeviceReport{11 * kSecond, "pad", true}).empty());
-  EXPECT_EQ(types(monitor_.observe(DeviceReport{12 * kSecond, "pad", false})),
+  EXPECT_TRUE(monitor_.observe(DeviceReport{11 * kSecond, "pad", DeviceState::works}).empty());
+  EXPECT_EQ(types(monitor_.observe(DeviceReport{12 * kSecond, "pad", DeviceState::missing})),
             Names{"DEVICE_LOST"});
-  EXPECT_EQ(types(monitor_.observe(DeviceReport{13 * kSecond, "pad", true})), Names{"DEVICE_BACK"});
+  EXPECT_EQ(types(monitor_.observe(DeviceReport{13 * kSecond, "pad", DeviceState::works})),
+            Names{"DEVICE_BACK"});
 }
 
 }  // namespace

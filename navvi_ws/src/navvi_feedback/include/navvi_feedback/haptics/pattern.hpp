@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <navvi_types/names.hpp>
 #include <optional>
 
 #include "navvi_feedback/haptics/haptics.hpp"
@@ -16,8 +18,10 @@ enum class Pattern {
   hit_obstacle,  ///< two hard knocks, on its side
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
-/// As recorded. \return such as "hit_shelf"
-[[nodiscard]] const char* to_string(Pattern pattern);
+/// As recorded.
+[[nodiscard]] constexpr std::array<const char*, 7> names(Pattern) {
+  return {"rerouted", "arrived", "no_sound", "stuck", "stopped", "hit_obstacle", "hit_shelf"};
+}
 
 /// Plays one pattern at a time, instead of what is felt continuously, so that it stands out.
 class PatternPlayer {

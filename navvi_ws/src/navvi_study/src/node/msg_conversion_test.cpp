@@ -1,0 +1,44 @@
+#include "node/msg_conversion.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_study::node {
+namespace {
+
+diagnostic_msgs::DiagnosticStatus device(const std::string& name, std::int8_t level,
+                                         const std::string& state) {
+  diagnostic_msgs::DiagnosticStatus status;
+  status.name = name;
+  status.level = level;
+  if (!state.empty()) {
+    status.values.emplace_back();
+    status.values.back().key = "state";
+    status.values.back().value = state;
+  }
+  return status;
+}
+
+TEST(DeviceReports, tell_off_from_missing_and_works) {
+  using diagnostic_msgs::DiagnosticStatus;
+  using trial::DeviceState;
+  diagnostic_msgs::DiagnosticArray msg;
+  msg.status = {device("navvi/pad", DiagnosticStatus::OK, "off"),
+                device("feedback_node: navvi/audio", DiagnosticStatus::WARN, "works"),
+                device("navvi/speech", DiagnosticStatus::OK, ""),
+                device("navvi/pad", DiagnosticStatus::ERROR, "no such word"),
+                device("motors", DiagnosticStatus::OK, "works")};
+  const auto reports = from_msg(msg);
+  ASSERT_EQ(reports.size(), 4U);
+  EXPECT_EQ(reports[0].state, DeviceState::off);
+  EXPECT_EQ(reports[1].state, DeviceState::works);
+  EXPECT_EQ(reports[2].state, DeviceState::works) << "by its level";
+  EXPECT_EQ(reports[3].state, DeviceState::missing) << "by its level";
+}
+
+}  // namespace
+}  // namespace navvi_study::node
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
