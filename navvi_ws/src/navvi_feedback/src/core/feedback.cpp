@@ -153,8 +153,10 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input, double time) {
   now.commanded = commanded_;
   now.stick_held_unarmed = held_unarmed_;
   now.gate = gate_;
-  now.repeat_pressed = input.hands.button(0) && !last_hands_.button(0);
-  now.goal_pressed = input.hands.button(1) && !last_hands_.button(1);
+  for (const auto question : {cues::Question::way, cues::Question::goal, cues::Question::around}) {
+    const auto button = static_cast<std::size_t>(question);
+    if (input.hands.button(button) && !last_hands_.button(button)) now.question = question;
+  }
   now.voice_busy = input.voice_busy;
   now.notices = input.notices;
   return deciders_->cues.update(now, time);

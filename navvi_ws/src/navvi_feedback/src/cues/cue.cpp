@@ -67,6 +67,8 @@ const std::vector<CueKind>& cue_kinds() {
       {"goal_info", P::text, 0.5, 4.0},
       {"goal_info_distance", P::text, 0.5, 4.0},
       {"no_goal", P::text, 0.5, 4.0},
+      {"around", P::text, 0.5, 4.0},
+      {"around_nothing", P::text, 0.5, 4.0},
       {"welcome", P::notification, 5.0, 10.0},
   };
   return kinds;

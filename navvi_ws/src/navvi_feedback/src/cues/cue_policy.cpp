@@ -13,6 +13,8 @@ constexpr double kRecover = 2.0;
 constexpr double kStarting = 3.0;
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
+/// m, gap; what is farther is not around.
+constexpr double kAround = 3.0;
 /// s, that "go on" waits for a direction.
 constexpr double kDirection = 1.0;
 /// s, before a word to stop is followed by the word to wait.
@@ -43,6 +45,25 @@ bool refused(const std::string& problem) { return problem.rfind("goal_refused", 
 
 bool said_once(const std::string& problem) {
   return problem == "arrived" || problem == "welcome" || refused(problem);
+}
+
+/// The nearest thing on each side, clockwise.
+Utterance around(const std::vector<NearThing>& nearby) {
+  Utterance told{"around_nothing"};
+  for (const Side side : {Side::ahead, Side::right, Side::behind, Side::left}) {
+    const NearThing* nearest = nullptr;
+    for (const NearThing& thing : nearby)
+      if (thing.gap < kAround && side_of(thing.nearest) == side &&
+          (!nearest || thing.gap < nearest->gap))
+        nearest = &thing;
+    if (!nearest) continue;
+    const Fillings fillings{{}, {}, nearest->thing_class, side};
+    if (told.kind == "around")
+      told.also.push_back(fillings);
+    else
+      told = {"around", fillings};
+  }
+  return told;
 }
 
 /// Words to stop, until it is said to go on.
@@ -268,12 +289,14 @@ CuePolicy::Utterances CuePolicy::go_on(Utterances directions, double time) {
 }
 
 CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
-  if (!now.repeat_pressed && !now.goal_pressed) return {};
+  if (!now.question) return {};
   Utterance answer;
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
-  if (follows_ && halt_.halted()) {
+  if (now.question == Question::around) {
+    answer = around(now.nearby);
+  } else if (follows_ && halt_.halted()) {
     answer = halt_.words();
-  } else if (to_goal && now.goal_pressed) {
+  } else if (to_goal && now.question == Question::goal) {
     answer = route_.goal("goal_info", now);
   } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
     answer = *way;
@@ -297,9 +320,11 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
       continue;
     last_said_[kind.kind] = time;
     std::string text = phrases_.say(kind.kind, utterance.fillings);
-    if (const std::string longer = phrases_.say("go_on") + ", " + text;
-        utterance.goes_on && speakable(longer))
-      text = longer;
+    const auto longer = [&](const std::string& joined) {
+      if (speakable(joined)) text = joined;
+    };
+    if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + text);
+    for (const Fillings& more : utterance.also) longer(text + ", " + phrases_.say(kind.kind, more));
     cues.push_back({kind.kind, text, utterance.priority.value_or(kind.priority), kind.max_age});
   }
   std::stable_sort(cues.begin(), cues.end(),

@@ -36,7 +36,7 @@ class CuePolicyTest : public testing::Test {
         last_ = cue;
       }
       now_.contacts.clear();
-      now_.repeat_pressed = now_.goal_pressed = false;
+      now_.question.reset();
     }
     return texts;
   }
@@ -156,7 +156,7 @@ TEST_F(CuePolicyTest, a_question_during_a_wait_is_answered_by_it_however_often) 
   now_.guidance->blocked_by = ThingClass::forklift;
   pass(1.0);
   for (int i = 0; i < 3; ++i) {
-    now_.repeat_pressed = true;
+    now_.question = Question::way;
     EXPECT_EQ(pass(0.5), Texts{"wait, forklift in the way"});
   }
 }
@@ -280,21 +280,35 @@ TEST_F(CuePolicyTest, calls_no_robot_stuck_that_is_not_driven_or_is_held) {
 TEST_F(CuePolicyTest, answers_a_question_at_once) {
   under_way();
   now_.voice_busy = true;
-  now_.repeat_pressed = true;
+  now_.question = Question::way;
   EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"});
   EXPECT_EQ(last_.priority, Priority::message);
   now_.goal_angle = -1.6;
-  now_.goal_pressed = true;
+  now_.question = Question::goal;
   EXPECT_EQ(pass(0.1), Texts{"goal 20 meters, 9 o'clock"});
   now_.guidance.reset();
   pass(3.0);
-  now_.goal_pressed = true;
+  now_.question = Question::goal;
   EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
+}
+
+TEST_F(CuePolicyTest, tells_what_is_around_clockwise_and_the_nearest_on_each_side) {
+  now_.guidance.reset();
+  now_.question = Question::around;
+  EXPECT_EQ(pass(0.1), Texts{"nothing near"});
+  now_.nearby = {{ThingClass::wall, 1, 0.5, {0.0, 0.9}, false},
+                 {ThingClass::worker, 2, 1.0, {-1.4, 0.0}, true},
+                 {ThingClass::shelf, 3, 1.1, {0.0, -1.5}, false},
+                 {ThingClass::box, 4, 1.2, {0.2, -1.6}, false},
+                 {ThingClass::forklift, 5, 2.9, {3.3, 0.0}, true},
+                 {ThingClass::pallet_robot, 6, 3.1, {0.0, 3.5}, true}};
+  now_.question = Question::around;
+  EXPECT_EQ(pass(0.1), Texts{"forklift ahead, shelf right, worker behind, wall left"});
 }
 
 TEST_F(CuePolicyTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {
   now_.guidance.reset();
-  now_.repeat_pressed = true;
+  now_.question = Question::way;
   EXPECT_EQ(pass(4.0), Texts{});
 }
 
@@ -407,7 +421,8 @@ TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
     if (draw(30) == 0)
       now_.contacts = {{static_cast<ThingClass>(1 + draw(8)), {number(1), number(1)}}};
     now_.voice_busy = draw(2) == 0;
-    now_.repeat_pressed = draw(50) == 0;
+    now_.question.reset();
+    if (draw(50) == 0) now_.question = static_cast<Question>(draw(3));
     now_.stick_held_unarmed = draw(2) == 0;
     time_ += 0.02;
     for (const Cue& cue : policy_.update(now_, time_)) {

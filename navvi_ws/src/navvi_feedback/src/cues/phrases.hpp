@@ -5,6 +5,7 @@
 #include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cues/side.hpp"
 #include "navvi_feedback/cues/cue.hpp"
@@ -30,6 +31,7 @@ struct Utterance {
   Fillings fillings = {};
   std::optional<Priority> priority = {};  ///< instead of the kind's own
   bool asked = false;                     ///< by the person: said however often
+  std::vector<Fillings> also = {};        ///< the same is said of these, as far as there is room
   bool goes_on = false;                   ///< begins with the phrase go_on
 };
 

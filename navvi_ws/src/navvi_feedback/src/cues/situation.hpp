@@ -18,6 +18,13 @@ using navvi_types::Velocity;
 
 namespace navvi_feedback::cues {
 
+/// What a person asks by a button, in the order of the buttons.
+enum class Question {
+  way,     ///< the last direction again
+  goal,    ///< where it is
+  around,  ///< what is near, and on which side
+};
+
 /// All that cues are decided from, at one instant. Every number is finite.
 struct Situation {
   std::optional<Guidance> guidance;  ///< the latest
@@ -29,10 +36,9 @@ struct Situation {
   std::optional<Velocity> measured;  ///< nullopt while the odometry is missing or stale
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
   Links links;
-  bool keyboard = false;        ///< the stick is the arrow keys
-  bool repeat_pressed = false;  ///< the button went down since the last update
-  bool goal_pressed = false;
-  bool voice_busy = false;  ///< something is being spoken or waits for it
+  bool keyboard = false;             ///< the stick is the arrow keys
+  std::optional<Question> question;  ///< whose button went down since the last update
+  bool voice_busy = false;           ///< something is being spoken or waits for it
 
   std::vector<std::string> notices;  ///< kinds to be said once each, such as no_rumble
 };

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 constexpr auto kPeriod = 10ms;
 constexpr auto kAskPeriod = 500ms;
 constexpr const char* kDrives =
-    "NavVI - arrow keys drive, with Shift slowly; space repeats, G: goal";
+    "NavVI - arrow keys drive, with Shift slowly; space repeats, G: goal, A: around";
 constexpr const char* kWaits = "NavVI - select this window to drive";
 constexpr double kSlow = 0.4;  // of the stick, with Shift
 
@@ -36,7 +36,7 @@ drive::InputState read_keys() {
   };
   input.axes = {axis(SDL_SCANCODE_LEFT, SDL_SCANCODE_RIGHT),
                 axis(SDL_SCANCODE_UP, SDL_SCANCODE_DOWN)};
-  input.buttons = {down(SDL_SCANCODE_SPACE), down(SDL_SCANCODE_G)};
+  input.buttons = {down(SDL_SCANCODE_SPACE), down(SDL_SCANCODE_G), down(SDL_SCANCODE_A)};
   return input;
 }
 
