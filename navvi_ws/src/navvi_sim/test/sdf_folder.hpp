@@ -79,6 +79,9 @@ class SdfFolder : public testing::Test {
                                  const std::string& version = "1.6") const {
     return load_world(write_world(body, version), "", 1, {});
   }
+  [[nodiscard]] LoadedWorld load_leaving_out(const std::string& body) const {
+    return load_world(write_world(body), "", 1, {}, "", Missing::leave_out);
+  }
   /// A model of one link with one collision of that geometry.
   [[nodiscard]] static std::string model(const std::string& name, const std::string& geometry,
                                          const std::string& pose = "0 0 0 0 0 0") {

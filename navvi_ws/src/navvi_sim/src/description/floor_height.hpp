@@ -7,10 +7,13 @@
 
 namespace navvi_sim {
 
-/// m, in map: the height of the storey on which most of the other things stand, of equal ones the
-/// lowest. Storeys are where the floor things have much level surface; a storey's height is that of
-/// most of its surface, of about equal ones the highest. nullopt if no surface is level.
+/// m, in map: the height of the lowest storey on which many of the other things stand, half as many
+/// as on any or more. Storeys are where the floor things have much level surface; a storey's height
+/// is that of most of its surface, of about equal ones the highest. nullopt if no surface is level.
 [[nodiscard]] std::optional<double> main_floor_height(const std::vector<Thing>& things);
+
+/// m, in map: the lowest storey of them, or ceiling that a floor thing makes, from `least` upwards.
+[[nodiscard]] std::optional<double> storey_above(const std::vector<Thing>& things, double least);
 
 /// m^2, of a thing's surfaces that are level and lie between two heights in map.
 [[nodiscard]] double level_area(const Thing& thing, double low, double high);

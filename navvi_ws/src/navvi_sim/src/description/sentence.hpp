@@ -28,6 +28,11 @@ namespace navvi_sim {
   return text;
 }
 
+/// What others wrote may be long: a sentence shows its beginning.
+[[nodiscard]] inline std::string shortened(const std::string& text, std::size_t most = 120) {
+  return text.size() <= most ? text : text.substr(0, most) + "...";
+}
+
 /// The classes of things, with commas between.
 [[nodiscard]] inline std::string thing_class_words() {
   std::string words;

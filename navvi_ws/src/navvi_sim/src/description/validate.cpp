@@ -126,6 +126,11 @@ void check_thing(const Thing& thing, MeshBudget& budget) {
 
 }  // namespace
 
+void validate(const Thing& thing) {
+  MeshBudget budget;
+  check_thing(thing, budget);
+}
+
 void validate(const WorldDescription& world) {
   const std::string who = "world '" + world.name + "'";
   check_coordinate(world.floor_height, who, "a floor height of");

@@ -23,4 +23,7 @@ struct WorldLimits {
 /// \throws WorldError naming the thing, what is wrong and what is allowed
 void validate(const WorldDescription& world);
 
+/// The same of one thing.
+void validate(const Thing& thing);
+
 }  // namespace navvi_sim

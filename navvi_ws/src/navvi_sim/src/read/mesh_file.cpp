@@ -4,22 +4,30 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <array>
 #include <assimp/Importer.hpp>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <set>
+
+#include "description/sentence.hpp"
+#include "description/validate.hpp"
 
 namespace navvi_sim::read {
 namespace {
 
 constexpr std::uintmax_t kMaxBytes = 200'000'000;
-constexpr std::size_t kMaxTriangles = 5'000'000;
+constexpr std::size_t kMaxTriangles = 1'000'000;  // assimp takes 0.5 kB for each
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-constexpr int kMaxDepth = 200;      // of nodes
-constexpr std::size_t kNamed = 10;  // parts in a sentence
+constexpr int kMaxDepth = 200;               // of nodes
+constexpr std::size_t kNamed = 10;           // parts in a sentence
+constexpr std::uintmax_t kStlHead = 84;      // bytes of a binary .stl before its triangles
+constexpr std::uintmax_t kStlTriangle = 50;  // bytes
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw WorldError("the mesh " + file.string() + " " + what);
+  throw WorldError("the mesh '" + file.string() + "' " + what);
 }
 
 void check_file(const std::filesystem::path& file) {
@@ -33,6 +41,42 @@ void check_file(const std::filesystem::path& file) {
   std::ifstream(file).read(first.data(), static_cast<std::streamsize>(first.size()));
   if (first == pointer)
     refuse(file, "is a pointer of Git LFS and not the file itself; git lfs pull fetches it");
+}
+
+[[noreturn]] void refuse_size(const std::filesystem::path& file) {
+  refuse(file, "has more than " + std::to_string(kMaxTriangles) +
+                   " triangles; allowed is up to that. Gazebo needs no more to collide with");
+}
+
+/// Refuses a large binary .stl, whose size is that of its triangles, before it takes memory.
+void check_stl(const std::filesystem::path& file) {
+  std::array<unsigned char, kStlHead> head{};
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(reinterpret_cast<char*>(head.data()), kStlHead)) return;
+  const std::uintmax_t count =
+      head[80] | head[81] << 8 | head[82] << 16 | static_cast<std::uintmax_t>(head[83]) << 24;
+  if (count > kMaxTriangles && std::filesystem::file_size(file) == kStlHead + kStlTriangle * count)
+    refuse_size(file);
+}
+
+/// Collada without what assimp's reader trips over and Gazebo's own does not: comments, and blanks
+/// before the first word of an element.
+std::string plain_collada(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  std::string plain;
+  plain.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    if (text.compare(at, 4, "<!--") == 0) {
+      const std::size_t end = text.find("-->", at + 4);
+      at = end == std::string::npos ? text.size() : end + 3;
+      continue;
+    }
+    const bool leads = !plain.empty() && plain.back() == '>';
+    if (!leads || std::strchr(" \t\r\n", text[at]) == nullptr) plain += text[at];
+    ++at;
+  }
+  return plain;
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -98,8 +142,11 @@ class MeshBuilder {
       const Eigen::Vector4d at(static_cast<double>(v.x), static_cast<double>(v.y),
                                static_cast<double>(v.z), 1.0);
       mesh_.vertices.push_back((pose * at).head<3>().cwiseProduct(part_.scale).cast<float>());
-      if (!mesh_.vertices.back().allFinite())
-        refuse(file_, "has a vertex that is not finite; allowed are finite numbers");
+      const Eigen::Vector3f& vertex = mesh_.vertices.back();
+      if (!(vertex.cwiseAbs().maxCoeff() <= static_cast<float>(WorldLimits::extent)))
+        refuse(file_, "has a vertex at " + text(static_cast<double>(vertex.x())) + ", " +
+                          text(static_cast<double>(vertex.y())) + ", " +
+                          text(static_cast<double>(vertex.z())) + "; allowed are -1000 to 1000 m");
     }
     for (unsigned i = 0; i < piece.mNumFaces; ++i) {
       const aiFace& face = piece.mFaces[i];
@@ -107,9 +154,7 @@ class MeshBuilder {
         mesh_.triangles.push_back(
             {index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
     }
-    if (mesh_.triangles.size() > kMaxTriangles || mesh_.vertices.size() > 3 * kMaxTriangles)
-      refuse(file_, "has more than " + std::to_string(kMaxTriangles) +
-                        " triangles; allowed is up to that");
+    if (mesh_.triangles.size() > kMaxTriangles) refuse_size(file_);
   }
 
   void place() {
@@ -144,13 +189,19 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
   if (!part.scale.allFinite() || (part.scale.array() == 0.0).any())
     refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
   check_file(file);
+  check_stl(file);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does
   const aiScene* scene = nullptr;
   std::string reason;
+  constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
   try {
-    scene =
-        importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+    if (lower_case(file.extension().string()) == ".dae") {
+      const std::string plain = plain_collada(file);
+      scene = importer.ReadFileFromMemory(plain.data(), plain.size(), kSteps, "dae");
+    } else {
+      scene = importer.ReadFile(file.string(), kSteps);
+    }
     reason = importer.GetErrorString();
   } catch (const std::exception& error) {
     reason = error.what();

@@ -19,7 +19,8 @@ struct MeshPart {
 /// <unit> is applied and its <up_axis> is not (gazebo-classic #1305), so that a world stands
 /// here as it stands there. Other formats (STL, OBJ) are metres already.
 /// \throws WorldError if the file is missing, larger than 200 MB, unreadable, without triangles or
-/// without a part of that name, or holds a number that is not finite or an index out of range
+/// without a part of that name, has more than a million of them, or holds a number that is out of
+/// WorldLimits or an index out of range
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part);
 
 }  // namespace navvi_sim::read

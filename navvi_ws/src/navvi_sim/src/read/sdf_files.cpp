@@ -38,13 +38,13 @@ fs::path sdf_file_of(const fs::path& model) {
       newest = sdf->attribute("version");
     }
     if (file.empty())
-      throw WorldError("the model in " + model.string() + " has no SDF file; its " + config +
+      throw WorldError("the model in '" + model.string() + "' has no SDF file; its " + config +
                        " must name one that exists");
     return file;
   }
   if (fs::is_regular_file(model / "model.sdf", error)) return model / "model.sdf";
-  throw WorldError("the model in " + model.string() +
-                   " has neither model.config nor model.sdf; a model needs one");
+  throw WorldError("the model in '" + model.string() +
+                   "' has neither model.config nor model.sdf; a model needs one");
 }
 
 /// Gazebo brings these two itself, so that worlds count on them.
@@ -157,7 +157,9 @@ void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path
   std::vector<XmlElement> children;
   for (XmlElement& child : element.children) {
     if (child.name == "include") {
-      if (auto model = included(child, notes, chain)) children.push_back(std::move(*model));
+      notes.piece([&] {
+        if (auto model = included(child, notes, chain)) children.push_back(std::move(*model));
+      });
       continue;
     }
     if (child.name == "model") expand(child, notes, chain);
@@ -173,7 +175,7 @@ std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes
   if (!found) {
     const Stock stock = stock_of(uri);
     if (stock == Stock::none)
-      refuse(include, "the model " + uri + " is not there; looked in " + looked_in() +
+      refuse(include, "the model '" + uri + "' is not there; looked in " + looked_in() +
                           " (give its folder as models)");
     if (stock == Stock::sun) {
       notes.add_harmless(include);
@@ -181,11 +183,13 @@ std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes
     }
     XmlElement ground = stock_ground(include);
     override_with(ground, include);
-    notes.add(include, "the model " + uri + " is not there; a level plane stands for it");
+    notes.add(include, "the model '" + uri + "' is not there; a level plane stands for it");
     return ground;
   }
   const XmlElement* root = nullptr;
   fs::path file;
+  if (const auto known = broken_.find(*found); known != broken_.end())
+    refuse(include, known->second);
   try {
     auto known = model_files_.find(*found);
     if (known == model_files_.end())
@@ -193,12 +197,12 @@ std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes
     file = known->second;
     root = &document(file);
   } catch (const WorldError& error) {
-    refuse(include, error.what());
+    refuse(include, broken_[*found] = error.what());
   }
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(file, error);
   if (std::find(chain.begin(), chain.end(), canonical) != chain.end())
-    refuse(include, "the model " + uri + " includes itself; includes must not go in a circle");
+    refuse(include, "the model '" + uri + "' includes itself; includes must not go in a circle");
   if (chain.size() >= kMaxDepth)
     refuse(include, "includes are nested more than " + std::to_string(kMaxDepth) +
                         " deep; allowed is up to that");
@@ -207,15 +211,15 @@ std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes
     XmlElement model = *root->child(kind);
     elements_ += size_of(model);
     if (elements_ > kMaxElements)
-      refuse(include, "with this include the world comes to more than " +
-                          std::to_string(kMaxElements) + " elements; allowed is up to that");
+      throw WorldError(include.place() + ": with this include the world comes to more than " +
+                       std::to_string(kMaxElements) + " elements; allowed is up to that");
     chain.push_back(canonical);
     expand(model, notes, chain);
     chain.pop_back();
     override_with(model, include);
     return model;
   }
-  refuse(include, "the model " + uri + " holds " +
+  refuse(include, "the model '" + uri + "' holds " +
                       (root->name == "sdf" ? "no <model>, <actor> or <light>"
                                            : "a <" + root->name + "> and no <sdf>") +
                       "; allowed is an <sdf> element with one of these in it");

@@ -42,7 +42,8 @@ class SdfFiles {
   std::vector<std::filesystem::path> folders_;
   std::map<std::filesystem::path, XmlElement> documents_;
   std::map<std::filesystem::path, std::filesystem::path> model_files_;  ///< by the model's folder
-  std::size_t elements_ = 0;  ///< of all that was put together
+  std::map<std::filesystem::path, std::string> broken_;  ///< models, and what is wrong with them
+  std::size_t elements_ = 0;                             ///< of all that was put together
 };
 
 }  // namespace navvi_sim::read

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <sdf/sdf.hh>
 
+#include "libsdformat.hpp"
 #include "sdf_folder.hpp"
 
 namespace navvi_sim::read {
@@ -86,34 +86,6 @@ class RandomWorld {
   std::mt19937 random_;
 };
 
-Eigen::Isometry3d isometry(const ignition::math::Pose3d& pose) {
-  Eigen::Isometry3d result(
-      Eigen::Quaterniond(pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()));
-  result.translation() = Eigen::Vector3d(pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
-  return result;
-}
-
-template <typename Element>
-Eigen::Isometry3d resolved(const Element& element) {
-  ignition::math::Pose3d pose;
-  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
-  for (const sdf::Error& error : errors) ADD_FAILURE() << error.Message();
-  return isometry(pose);
-}
-
-/// Of all collisions, in map, those of links before those of nested models.
-void gather(const sdf::Model& model, const Eigen::Isometry3d& pose,
-            std::vector<Eigen::Isometry3d>& poses) {
-  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    const sdf::Link& link = *model.LinkByIndex(i);
-    poses.push_back(pose * resolved(link) * resolved(*link.CollisionByIndex(0)));
-  }
-  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    const sdf::Model& inner = *model.ModelByIndex(i);
-    gather(inner, pose * resolved(inner), poses);
-  }
-}
-
 class SdfFrames : public SdfFolder {};
 
 TEST_F(SdfFrames, are_those_of_libsdformat) {
@@ -135,17 +107,17 @@ TEST_F(SdfFrames, are_those_of_libsdformat) {
         "", 1, {});
     for (std::uint64_t i = 0; i < theirs.ModelCount(); ++i) {
       const sdf::Model& model = *theirs.ModelByIndex(i);
-      std::vector<Eigen::Isometry3d> poses;
-      gather(model, resolved(model), poses);
+      std::vector<JudgedCollision> judged;
+      gather(model, resolved(model), judged);
       const Thing* thing = thing_named(ours.world, model.Name());
       ASSERT_NE(thing, nullptr) << seed;
-      ASSERT_EQ(thing->shapes.size(), poses.size()) << seed;
-      for (std::size_t k = 0; k < poses.size(); ++k) {
+      ASSERT_EQ(thing->shapes.size(), judged.size()) << seed;
+      for (std::size_t k = 0; k < judged.size(); ++k) {
         const Eigen::Isometry3d pose = thing->pose * thing->shapes[k].pose;
-        EXPECT_TRUE(pose.isApprox(poses[k], 1e-5))
+        EXPECT_TRUE(pose.isApprox(judged[k].pose, 1e-5))
             << "seed " << seed << ", " << model.Name() << ", collision " << k << ":\n"
             << pose.matrix() << "\nand\n"
-            << poses[k].matrix() << "\n"
+            << judged[k].pose.matrix() << "\n"
             << text;
         ++compared;
       }

@@ -7,7 +7,6 @@
 
 #include "navvi_sim/description/world_description.hpp"
 #include "read/sdf_files.hpp"
-#include "read/sdf_notes.hpp"
 #include "read/xml_element.hpp"
 
 namespace navvi_sim::read {
@@ -28,19 +27,26 @@ struct SdfGeometry {
 /// polyline become meshes.
 class SdfShapes {
  public:
-  SdfShapes(const SdfFiles& files, SdfNotes& notes) : files_(files), notes_(notes) {}
+  explicit SdfShapes(const SdfFiles& files) : files_(files) {}
 
   /// \param pose  of the shape, in the thing's frame
+  /// \param scale  of its sizes, as Gazebo's SetScale takes it: it replaces the scale of a mesh
   /// \throws WorldError for a size that is not finite, not above 0 or too large, and for a mesh
-  /// that is missing or broken
-  [[nodiscard]] SdfGeometry read(const XmlElement& geometry, const Eigen::Isometry3d& pose);
+  /// that is missing or broken, and for a shape that is not known, such as a height map
+  [[nodiscard]] SdfGeometry read(const XmlElement& geometry, const Eigen::Isometry3d& pose,
+                                 const Eigen::Vector3d& scale);
 
  private:
-  [[nodiscard]] std::shared_ptr<const Mesh> mesh(const XmlElement& mesh);
+  [[nodiscard]] std::shared_ptr<const Mesh> mesh(const XmlElement& mesh,
+                                                 const Eigen::Vector3d& scale);
+
+  struct Known {
+    std::shared_ptr<const Mesh> mesh;
+    std::string fault;  ///< where there is none
+  };
 
   const SdfFiles& files_;
-  SdfNotes& notes_;
-  std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
+  std::map<std::string, Known> meshes_;
 };
 
 }  // namespace navvi_sim::read

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <set>
 
+#include "description/sentence.hpp"
 #include "read/sdf_own.hpp"
 
 namespace navvi_sim::read {
 namespace {
 
-constexpr std::size_t kNamed = 3;  // of a kind, the others are counted
+constexpr std::size_t kNamed = 3;          // of what is harmless, by kind; others are counted
+constexpr std::size_t kNotesNamed = 10;    // of a note
+constexpr std::size_t kFaultsNamed = 300;  // of what is wrong: all of it in nearly all worlds
+constexpr std::size_t kMost = 1'000;       // kinds, and names of one, that are kept
 
 /// Of a <world>, a <model> and a <link>: what means nothing to a driver.
 const std::set<std::string> kHarmless{"animation",
@@ -51,7 +55,84 @@ const std::set<std::string> kUnderstood{"actor",
                                         "velocity_decay",
                                         "visual"};
 
+/// A sentence, taken apart at its quotes.
+struct Parts {
+  std::string shown;  ///< with long names cut
+  std::string kind;   ///< without names
+  std::string name;   ///< the first, in its quotes
+};
+
+Parts parts_of(const std::string& sentence) {
+  Parts parts;
+  for (std::size_t at = 0; at < sentence.size();) {
+    const char quote = sentence[at];
+    const std::size_t end =
+        quote == '\'' || quote == '"' ? sentence.find(quote, at + 1) : std::string::npos;
+    if (end == std::string::npos) {
+      parts.shown += quote;
+      parts.kind += quote;
+      ++at;
+      continue;
+    }
+    const std::string quoted =
+        quote + shortened(sentence.substr(at + 1, end - at - 1)) + std::string(1, quote);
+    parts.shown += quoted;
+    if (parts.name.empty()) parts.name = quoted;
+    at = end + 1;
+  }
+  return parts;
+}
+
 }  // namespace
+
+void SdfSentences::add(const std::string& place, const std::string& sentence) {
+  ++count_;
+  const Parts parts = parts_of(sentence);
+  const std::string name = parts.name.empty() ? place : parts.name;
+  const auto [known, is_new] = by_kind_.emplace(parts.kind, kinds_.size());
+  if (is_new && kinds_.size() < kMost) {
+    kinds_.push_back({place + ": " + parts.shown, 0, {name}, {}});
+    return;
+  }
+  if (is_new) by_kind_.erase(known);
+  Kind& kind = kinds_[is_new ? kinds_.size() - 1 : known->second];
+  ++kind.more;
+  if (kind.seen.size() < kMost && kind.seen.insert(name).second) kind.names.push_back(name);
+}
+
+std::vector<std::string> SdfSentences::lines(std::size_t most) const {
+  std::vector<std::string> lines;
+  for (const Kind& kind : kinds_) {
+    lines.push_back(kind.first);
+    if (kind.more == 0) continue;
+    lines.back() += " (and " + std::to_string(kind.more) + " more of the same kind";
+    for (std::size_t i = 0; i < std::min(most, kind.names.size()); ++i)
+      lines.back() += (i == 0 ? ": " : ", ") + kind.names[i];
+    lines.back() += kind.names.size() > most ? ", ...)" : ")";
+  }
+  return lines;
+}
+
+void SdfNotes::piece(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const PlaceError& error) {
+    faults_.add(error.place, error.what_is_wrong);
+  }
+}
+
+void SdfNotes::refuse_faults() const {
+  if (missing_ == Missing::leave_out || faults_.count() == 0) return;
+  const std::vector<std::string> lines = faults_.lines(kFaultsNamed);
+  if (faults_.count() == 1)
+    throw WorldError(lines[0] + ". With missing:=leave_out the world is read without it");
+  std::string all;
+  for (const std::string& line : lines) all += "\n  " + line;
+  throw WorldError(std::to_string(faults_.count()) +
+                   " pieces of the world are missing or wrong. With missing:=leave_out it is read "
+                   "without them" +
+                   all);
+}
 
 void SdfNotes::add_leftovers(const XmlElement& element) {
   for (const XmlElement& child : element.children) {
@@ -78,7 +159,9 @@ void SdfNotes::add_harmless(const XmlElement& element) {
 }
 
 std::vector<std::string> SdfNotes::sentences() const {
-  std::vector<std::string> result = sentences_;
+  std::vector<std::string> result;
+  for (const std::string& line : faults_.lines(kFaultsNamed)) result.push_back("LEFT OUT: " + line);
+  for (std::string& line : notes_.lines(kNotesNamed)) result.push_back(std::move(line));
   if (harmless_.empty()) return result;
   std::string all;
   for (const auto& [kind, places] : harmless_) {

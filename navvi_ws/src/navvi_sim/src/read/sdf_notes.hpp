@@ -1,21 +1,46 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "navvi_sim/read/world_source.hpp"
 #include "read/xml_element.hpp"
 
 namespace navvi_sim::read {
 
-/// What an SDF world holds that is not taken over as it is.
+/// Sentences, each with its place. Of those that differ in what stands in quotes only, the first is
+/// said and the others are named.
+class SdfSentences {
+ public:
+  void add(const std::string& place, const std::string& sentence);
+  /// \param most  names in a sentence; others are counted
+  [[nodiscard]] std::vector<std::string> lines(std::size_t most) const;
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  struct Kind {
+    std::string first;
+    std::size_t more = 0;
+    std::set<std::string> seen;
+    std::vector<std::string> names;  ///< of those after the first, once each
+  };
+
+  std::vector<Kind> kinds_;
+  std::map<std::string, std::size_t> by_kind_;
+  std::size_t count_ = 0;
+};
+
+/// What is wrong with an SDF world, and what it holds that is not taken over as it is.
 class SdfNotes {
  public:
-  /// Something that a person may miss: one sentence of its own, with the place.
+  explicit SdfNotes(Missing missing) : missing_(missing) {}
+
+  /// Something that a person may miss, with the place.
   void add(const XmlElement& at, const std::string& sentence) { add(at.place(), sentence); }
-  void add(const std::string& place, const std::string& sentence) {
-    sentences_.push_back(place + ": " + sentence);
-  }
+  void add(const std::string& place, const std::string& sentence) { notes_.add(place, sentence); }
   /// Something that changes nothing here, such as a light: named in one sentence for all.
   void add_harmless(const XmlElement& element);
 
@@ -26,10 +51,17 @@ class SdfNotes {
   /// \param whose  "of 'NAME' ", or empty for the world's
   void add_plugin(const XmlElement& plugin, const std::string& whose);
 
+  /// Reads one piece of the world, and goes on where that throws a PlaceError.
+  void piece(const std::function<void()>& read);
+  /// \throws WorldError that says what is wrong with all pieces, unless these may be left out
+  void refuse_faults() const;
+
   [[nodiscard]] std::vector<std::string> sentences() const;
 
  private:
-  std::vector<std::string> sentences_;
+  Missing missing_;
+  SdfSentences faults_;
+  SdfSentences notes_;
   std::map<std::string, std::vector<std::string>> harmless_;  ///< names and lines by kind
 };
 

@@ -1,6 +1,9 @@
 #include "read/sdf_things.hpp"
 
+#include <algorithm>
+
 #include "description/floor_height.hpp"
+#include "description/sentence.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -8,8 +11,14 @@ namespace {
 constexpr double kPlaneMargin = 2.0;     // m, of a plane beyond the other things
 constexpr double kPlaneThickness = 0.1;  // m
 constexpr double kDrivenOver = 0.05;     // m, above the floor: what is lower stops no robot
+constexpr std::size_t kNamed = 10;       // things in a sentence
 constexpr std::size_t kFewLost = 2;      // things, which any world may lose
 constexpr double kLeastFloor = 4.0;      // m^2, level: a room has more, a piece of furniture less
+constexpr double kFloorShare = 0.2;      // of a building's outline, that is floor in it at least
+constexpr double kFloorExcess = 3.0;     // or of what is level above, as the tops of walls are
+constexpr double kFloorDepth = 0.5;      // m, of a building below its own floor
+constexpr double kHeadroom = 2.0;        // m, below another storey
+constexpr double kSlab = 0.35;           // m, between a storey's surface and the foot of its slab
 
 }  // namespace
 
@@ -59,17 +68,41 @@ void SdfThings::add_planes() {
 
 void SdfThings::find_floor(const std::filesystem::path& file) {
   add_planes();
+  if (!main_floor_height(loaded.world.things)) find_floor_of_buildings();
   const auto height = main_floor_height(loaded.world.things);
   if (!height)
     throw WorldError(file.string() +
-                     ": no thing is a floor with a level surface; allowed are worlds with a "
-                     "plane, or with a model that a class rule calls a floor. To add a ground "
-                     "plane is safe: it hides nothing");
+                     ": no thing is a floor with a level surface, and no building has one. Allowed "
+                     "are worlds with a ground plane: add <include><uri>model://ground_plane</uri>"
+                     "</include> at the height on which things stand; it hides nothing");
   loaded.world.floor_height = *height;
+  const auto storey = storey_above(loaded.world.things, *height + kHeadroom);
   judge_floors(*height);
   for (const std::size_t thing : on_floor_)
     loaded.world.things[thing].pose.translation().z() = *height;
   leave_out_what_is_under(*height, file);
+  if (storey) leave_out_storey(*storey);
+}
+
+/// A building of one piece has its own floor, which no rule knows by name.
+void SdfThings::find_floor_of_buildings() {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Thing& thing = loaded.world.things[i];
+    Thing building = thing;
+    building.thing_class = ThingClass::floor;
+    const auto height = main_floor_height({building});
+    if (!height || thing.route) continue;
+    const Eigen::AlignedBox3d bounds = bounds_of({thing});
+    const double area = level_area(thing, *height - kDrivenOver, *height + kDrivenOver);
+    const bool is_most =
+        area >= kFloorShare * bounds.sizes().x() * bounds.sizes().y() ||
+        area >= kFloorExcess * level_area(thing, *height + kDrivenOver, bounds.max().z());
+    if (area < kLeastFloor || !is_most || *height > bounds.min().z() + kFloorDepth) continue;
+    thing.thing_class = ThingClass::floor;
+    loaded.rules[thing.name] = "a floor of its own";
+    notes_.add(places_[i], "no thing is named a floor, and '" + thing.name +
+                               "' has one of its own, which is taken");
+  }
 }
 
 /// What rises above the floor and has no floor of its own is an obstacle, whatever its name.
@@ -86,28 +119,53 @@ void SdfThings::judge_floors(double height) {
   }
 }
 
-void SdfThings::leave_out_what_is_under(double height, const std::filesystem::path& file) {
-  std::vector<Thing>& things = loaded.world.things;
+std::vector<SdfThings::Lost> SdfThings::leave_out(
+    const std::function<bool(const Thing&)>& is_lost) {
   std::vector<Thing> kept;
   std::vector<std::string> kept_places;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].thing_class != ThingClass::floor && top_of(things[i]) < height) {
-      notes_.add(places_[i],
-                 "'" + things[i].name + "' is not taken over: all of it lies under the floor");
+  std::vector<Lost> lost;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Thing& thing = loaded.world.things[i];
+    if (is_lost(thing)) {
+      lost.push_back({std::move(thing.name), std::move(places_[i])});
       continue;
     }
-    kept.push_back(std::move(things[i]));
+    kept.push_back(std::move(thing));
     kept_places.push_back(std::move(places_[i]));
   }
-  const std::size_t lost = things.size() - kept.size();
-  if (lost > kFewLost && lost > things.size() / 10)
-    throw WorldError(file.string() + ": " + std::to_string(lost) + " of " +
-                     std::to_string(things.size()) + " things lie under the floor at " +
+  loaded.world.things = std::move(kept);
+  places_ = std::move(kept_places);
+  return lost;
+}
+
+void SdfThings::leave_out_what_is_under(double height, const std::filesystem::path& file) {
+  const std::size_t all = places_.size();
+  const std::vector<Lost> lost = leave_out([&](const Thing& thing) {
+    return thing.thing_class != ThingClass::floor && top_of(thing) < height;
+  });
+  for (const Lost& one : lost)
+    notes_.add(one.place, "'" + one.name + "' is not taken over: all of it lies under the floor");
+  if (lost.size() > kFewLost && lost.size() > all / 10)
+    throw WorldError(file.string() + ": " + std::to_string(lost.size()) + " of " +
+                     std::to_string(all) + " things lie under the floor at " +
                      std::to_string(height) +
                      " m; allowed is a tenth. A plane, or a model that a " +
                      "class rule calls a floor, must lie where the things stand");
-  things = std::move(kept);
-  places_ = std::move(kept_places);
+}
+
+/// No robot gets there.
+void SdfThings::leave_out_storey(double storey) {
+  const std::vector<Lost> lost =
+      leave_out([&](const Thing& thing) { return bounds_of({thing}).min().z() > storey - kSlab; });
+  if (lost.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kNamed, lost.size()); ++i)
+    names += (i == 0 ? "'" : ", '") + shortened(lost[i].name) + "'";
+  notes_.add(lost[0].place, "A STOREY OR CEILING at " + text(storey) +
+                                " m is left out with all that is above it, " +
+                                "since the robot drives at " + text(loaded.world.floor_height) +
+                                " m: " + std::to_string(lost.size()) + " things, " + names +
+                                (lost.size() > kNamed ? ", ..." : ""));
 }
 
 }  // namespace navvi_sim::read

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -38,8 +39,8 @@ class SdfThings {
   }
 
   /// Adds the planes, finds the floor's height, gives another class to what a rule calls a floor
-  /// and is none, and leaves out what lies under the floor. \throws WorldError that begins with
-  /// `file` if no thing is a floor, or too much lies under it
+  /// and is none, and leaves out what lies under the floor and on storeys above. \throws WorldError
+  /// that begins with `file` if no thing is a floor, or too much lies under it
   void find_floor(const std::filesystem::path& file);
 
   LoadedWorld loaded;
@@ -53,9 +54,19 @@ class SdfThings {
     std::string place;
   };
 
+  struct Lost {
+    std::string name;
+    std::string place;
+  };
+
   void add_planes();
+  void find_floor_of_buildings();
   void judge_floors(double height);
+  /// Takes some things out.
+  std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost);
   void leave_out_what_is_under(double height, const std::filesystem::path& file);
+  /// With all that is above it.
+  void leave_out_storey(double storey);
 
   SdfNotes& notes_;
   std::vector<std::string> places_;

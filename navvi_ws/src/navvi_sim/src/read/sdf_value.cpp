@@ -1,26 +1,22 @@
 #include "read/sdf_value.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <locale>
 #include <sstream>
 
+#include "description/sentence.hpp"
 #include "description/validate.hpp"
 
 namespace navvi_sim::read {
 namespace {
 
 constexpr double kMost = WorldLimits::extent;
-constexpr std::size_t kShown = 40;  // characters of a text in a sentence
-
-std::string shown(const std::string& text) {
-  return text.size() <= kShown ? text : text.substr(0, kShown) + "...";
-}
 
 /// Of a length; zero is as wrong as a thing without extent is.
 double checked_length(double value, const XmlElement& element) {
   if (!(value > 0.0 && value < kMost))
-    refuse(element, "<" + element.name + "> is " + shown(element.text) +
+    refuse(element, "<" + element.name + "> is " + shortened(element.text) +
                         "; allowed is more than 0 and less than 1000 m");
   return value;
 }
@@ -32,16 +28,15 @@ Eigen::Matrix3d rotation(const std::vector<double>& rpy) {
       .toRotationMatrix();
 }
 
-/// All numbers of the text; none if one of its words is no finite number.
-std::vector<double> words_as_numbers(const XmlElement& element) {
+/// All numbers of the text, as a C++ stream reads them: "2-0.5" are two. None if anything else
+/// stands there.
+std::vector<double> stream_numbers(const XmlElement& element) {
   std::vector<double> values;
-  std::istringstream words(element.text);
-  for (std::string word; words >> word;) {
-    const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
+  std::istringstream stream(element.text);
+  stream.imbue(std::locale::classic());
+  while (!(stream >> std::ws).eof()) {
     double value = 0.0;
-    const auto [end, error] = std::from_chars(begin, word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-      return {};
+    if (!(stream >> value) || !std::isfinite(value)) return {};
     values.push_back(value);
   }
   return values;
@@ -50,18 +45,18 @@ std::vector<double> words_as_numbers(const XmlElement& element) {
 }  // namespace
 
 std::vector<double> numbers(const XmlElement& element, std::size_t count) {
-  const std::vector<double> values = words_as_numbers(element);
+  const std::vector<double> values = stream_numbers(element);
   if (values.size() != count)
-    refuse(element, "<" + element.name + "> is \"" + shown(element.text) + "\"; allowed " +
+    refuse(element, "<" + element.name + "> is \"" + shortened(element.text) + "\"; allowed " +
                         (count == 1 ? "is one finite number"
                                     : "are " + std::to_string(count) + " finite numbers"));
   return values;
 }
 
 Eigen::Vector2d floor_point(const XmlElement& element) {
-  const std::vector<double> values = words_as_numbers(element);
+  const std::vector<double> values = stream_numbers(element);
   if (values.size() < 2 || !(std::max(std::abs(values[0]), std::abs(values[1])) <= kMost))
-    refuse(element, "<" + element.name + "> is \"" + shown(element.text) +
+    refuse(element, "<" + element.name + "> is \"" + shortened(element.text) +
                         "\"; allowed are x and y up to 1000 m");
   return {values[0], values[1]};
 }
@@ -97,7 +92,8 @@ bool flag(const XmlElement& element, const std::string& child, bool otherwise) {
   if (found == nullptr) return otherwise;
   if (found->text == "true" || found->text == "1") return true;
   if (found->text == "false" || found->text == "0") return false;
-  refuse(*found, "<" + child + "> is \"" + shown(found->text) + "\"; allowed are true and false");
+  refuse(*found,
+         "<" + child + "> is \"" + shortened(found->text) + "\"; allowed are true and false");
 }
 
 Eigen::Isometry3d pose_value(const XmlElement& pose) {
@@ -108,7 +104,8 @@ Eigen::Isometry3d pose_value(const XmlElement& pose) {
   result.translation() = Eigen::Vector3d(v[0], v[1], v[2]);
   for (const double value : result.translation())
     if (!(std::abs(value) <= kMost))
-      refuse(pose, "<pose> is \"" + shown(pose.text) + "\"; allowed are positions up to 1000 m");
+      refuse(pose,
+             "<pose> is \"" + shortened(pose.text) + "\"; allowed are positions up to 1000 m");
   if (quaternion) {
     const Eigen::Quaterniond turn(v[6], v[3], v[4], v[5]);
     if (!(turn.norm() > 1e-6 && std::isfinite(turn.norm())))

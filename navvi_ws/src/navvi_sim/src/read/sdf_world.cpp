@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kSamePose = 1e-4;  // m or of a rotation: saved poses are rounded
+
 /// The same place and heading, upright.
 Eigen::Isometry3d upright(const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d at = pose.translation();
@@ -36,18 +38,26 @@ std::string name_of(const XmlElement& element) { return element.attribute("name"
 
 class WorldReader {
  public:
-  WorldReader(const fs::path& file, SdfFiles& files, const ClassRules& rules)
-      : file_(file), files_(files), rules_(rules), shapes_(files, notes_), things_(notes_) {}
+  WorldReader(const fs::path& file, SdfFiles& files, const ClassRules& rules, Missing missing)
+      : file_(file),
+        files_(files),
+        rules_(rules),
+        notes_(missing),
+        shapes_(files),
+        things_(notes_) {}
 
   [[nodiscard]] LoadedWorld read() {
     const XmlElement world = files_.world(notes_);
     LoadedWorld& loaded = things_.loaded;
     loaded.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
-    read_saved_state(world);
+    for (const XmlElement* state : world.children_named("state")) keep_state(*state, world);
     notes_.add_leftovers(world);
     for (const XmlElement* model : world.children_named("model"))
-      read_model(*model, name_of(*model), map_pose(world, *model));
-    for (const XmlElement* actor : world.children_named("actor")) read_actor(world, *actor);
+      notes_.piece([&] { read_model(*model, name_of(*model), map_pose(world, *model)); });
+    for (const XmlElement* actor : world.children_named("actor"))
+      notes_.piece([&] { read_actor(*actor, map_pose(world, *actor)); });
+    notes_.refuse_faults();
+    say_what_was_saved(world);
     things_.find_floor(file_);
     if (has_foreign_routes_) keep_routes_that_can_be_driven(loaded.world, things_.places(), notes_);
     loaded.notes = notes_.sentences();
@@ -55,22 +65,64 @@ class WorldReader {
   }
 
  private:
-  // -- Models and actors
+  // -- The state of a world that Gazebo saved
 
-  /// Gazebo puts the models of a saved world where its <state> says.
-  void read_saved_state(const XmlElement& world) {
-    for (const XmlElement* state : world.children_named("state")) {
-      for (const XmlElement* model : state->children_named("model"))
-        if (const XmlElement* pose = model->child("pose"))
-          saved_poses_[name_of(*model)] = pose_value(*pose);
-      if (!saved_poses_.empty()) notes_.add(*state, "models stand where the saved state says");
+  /// What a <state> says of the models and links in `scope`, and of those in them.
+  void keep_state(const XmlElement& state, const XmlElement& scope) {
+    std::map<std::pair<std::string, std::string>, const XmlElement*> named;
+    for (const XmlElement& element : scope.children)
+      named.emplace(std::pair(element.name == "actor" ? "model" : element.name, name_of(element)),
+                    &element);
+    for (const XmlElement& saved : state.children) {
+      const auto element = named.find({saved.name, name_of(saved)});
+      if (element == named.end() || (saved.name != "model" && saved.name != "link")) continue;
+      saved_[element->second] = &saved;
+      keep_state(saved, *element->second);
     }
   }
 
-  [[nodiscard]] Eigen::Isometry3d map_pose(const XmlElement& world, const XmlElement& model) const {
-    const auto saved = saved_poses_.find(name_of(model));
-    return saved != saved_poses_.end() ? saved->second : pose_in(world, model);
+  [[nodiscard]] const XmlElement* saved(const XmlElement& element, const char* what) const {
+    const auto found = saved_.find(&element);
+    return found == saved_.end() ? nullptr : found->second->child(what);
   }
+
+  /// As Gazebo's SetState does, which puts each model and link where its state says, in map.
+  /// \param frame  in map; that of the result
+  /// \param pose   of `scope` in `frame`
+  [[nodiscard]] Eigen::Isometry3d pose_of(const XmlElement& scope, const XmlElement& element,
+                                          const Eigen::Isometry3d& frame,
+                                          const Eigen::Isometry3d& pose) {
+    const Eigen::Isometry3d in_file = pose * pose_in(scope, element);
+    const XmlElement* value = saved(element, "pose");
+    if (value == nullptr) return in_file;
+    const Eigen::Isometry3d there = frame.inverse() * pose_value(*value);
+    if ((there.matrix() - in_file.matrix()).cwiseAbs().maxCoeff() < kSamePose) return in_file;
+    ++moved_;
+    return there;
+  }
+  [[nodiscard]] Eigen::Isometry3d map_pose(const XmlElement& world, const XmlElement& element) {
+    return pose_of(world, element, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity());
+  }
+
+  [[nodiscard]] Eigen::Vector3d scale_of(const XmlElement& model) {
+    const XmlElement* scale = saved(model, "scale");
+    if (scale == nullptr) return Eigen::Vector3d::Ones();
+    const Eigen::Vector3d value = vector3(*scale);
+    if (!(value.minCoeff() > 0.0))
+      refuse(*scale, "the <scale> of '" + name_of(model) + "' is \"" + scale->text +
+                         "\"; allowed are numbers above 0");
+    if (!value.isOnes()) ++scaled_;
+    return value;
+  }
+
+  void say_what_was_saved(const XmlElement& world) {
+    if (moved_ + scaled_ > 0)
+      notes_.add(*world.child("state"), "the saved state moves " + std::to_string(moved_) +
+                                            " models and links, and scales " +
+                                            std::to_string(scaled_) + " models");
+  }
+
+  // -- Models and actors
 
   /// \param pose  in map
   void read_model(const XmlElement& model, const std::string& name, const Eigen::Isometry3d& pose) {
@@ -78,7 +130,10 @@ class WorldReader {
     if (inner.size() > 1 && !has_collision(model) && model.child("plugin") == nullptr) {
       notes_.add_leftovers(model);
       for (const XmlElement* one : inner)
-        read_model(*one, name + "::" + name_of(*one), pose * pose_in(model, *one));
+        notes_.piece([&] {
+          read_model(*one, name + "::" + name_of(*one),
+                     pose * pose_of(model, *one, pose, Eigen::Isometry3d::Identity()));
+        });
       return;
     }
     Thing thing;
@@ -90,6 +145,7 @@ class WorldReader {
     thing.route = own_route(model);
     read_plugins(model, thing);
     if (!thing.shapes.empty()) {
+      check(thing, model);
       things_.add(std::move(thing), model.place());
       return;
     }
@@ -99,13 +155,15 @@ class WorldReader {
                  "the model '" + thing.name + "' is not taken over: it has no collision geometry");
   }
 
-  void read_actor(const XmlElement& world, const XmlElement& actor) {
+  /// \param pose  in map
+  void read_actor(const XmlElement& actor, const Eigen::Isometry3d& pose) {
     Thing thing;
     thing.name = things_.unique(name_of(actor));
     classify(actor, thing);
     if (thing.thing_class == ThingClass::other || thing.thing_class == ThingClass::floor)
       thing.thing_class = ThingClass::worker;
     // Gazebo saves a small collision for each bone, in the pose of the skin's file.
+    thing.pose = pose;
     if (actor.child("skin") == nullptr)
       read_links(actor, Eigen::Isometry3d::Identity(), thing);
     else
@@ -113,7 +171,7 @@ class WorldReader {
     if (thing.shapes.empty() && actor.child("link") != nullptr)
       notes_.add(actor, "the bones of '" + thing.name + "' are left out: a person of " +
                             "1.75 m stands for them");
-    const SdfMotion motion = actor_motion(actor, pose_in(world, actor), notes_);
+    const SdfMotion motion = actor_motion(actor, pose, notes_);
     thing.pose = motion.start;
     thing.route = motion.route;
     has_foreign_routes_ = true;
@@ -121,9 +179,19 @@ class WorldReader {
     if (thing.shapes.empty()) {
       thing.shapes = generate::worker().shapes;
       thing.pose = upright(thing.pose);
+      check(thing, actor);
       things_.add_on_floor(std::move(thing), actor.place());
     } else {
+      check(thing, actor);
       things_.add(std::move(thing), actor.place());
+    }
+  }
+
+  static void check(const Thing& thing, const XmlElement& element) {
+    try {
+      validate(thing);
+    } catch (const WorldError& error) {
+      refuse(element, error.what());
     }
   }
 
@@ -169,11 +237,15 @@ class WorldReader {
   /// \param pose  of `model` in the thing's frame
   void read_links(const XmlElement& model, const Eigen::Isometry3d& pose, Thing& thing) {
     notes_.add_leftovers(model);
+    const Eigen::Vector3d scale = scale_of(model);
     for (const XmlElement* link : model.children_named("link")) {
       notes_.add_leftovers(*link);
-      const Eigen::Isometry3d link_pose = pose * pose_in(model, *link);
+      const Eigen::Isometry3d link_pose = pose_of(model, *link, thing.pose, pose);
       for (const XmlElement* collision : link->children_named("collision"))
-        read_collision(*collision, link_pose * pose_in_link(model, *link, *collision), thing);
+        notes_.piece([&] {
+          const Eigen::Isometry3d in_link = pose_in_link(model, *link, *collision);
+          read_collision(*collision, link_pose * in_link, scale, thing);
+        });
       const std::size_t seen = link->children_named("visual").size();
       if (seen > 0 && link->child("collision") == nullptr && has_collision(model))
         notes_.add(*link, "the link '" + name_of(*link) + "' of '" + thing.name +
@@ -181,16 +253,17 @@ class WorldReader {
                               "Gazebo and touches nothing, and is not taken over");
     }
     for (const XmlElement* inner : model.children_named("model"))
-      read_links(*inner, pose * pose_in(model, *inner), thing);
+      read_links(*inner, pose_of(model, *inner, thing.pose, pose), thing);
   }
 
-  void read_collision(const XmlElement& collision, const Eigen::Isometry3d& pose, Thing& thing) {
+  void read_collision(const XmlElement& collision, const Eigen::Isometry3d& pose,
+                      const Eigen::Vector3d& scale, Thing& thing) {
     const XmlElement* geometry = collision.child("geometry");
     if (geometry == nullptr) {
       notes_.add(collision, "a collision of '" + thing.name + "' without geometry is left out");
       return;
     }
-    SdfGeometry read = shapes_.read(*geometry, pose);
+    SdfGeometry read = shapes_.read(*geometry, pose, scale);
     const std::optional<ThingClass> look = own_class(collision, "look");
     for (Shape& shape : read.shapes) {
       shape.look = look;
@@ -216,16 +289,18 @@ class WorldReader {
   SdfNotes notes_;
   SdfShapes shapes_;
   SdfThings things_;
-  bool has_foreign_routes_ = false;  ///< given by an actor or a plugin
-  std::map<std::string, Eigen::Isometry3d> saved_poses_;
+  bool has_foreign_routes_ = false;                       ///< given by an actor or a plugin
+  std::map<const XmlElement*, const XmlElement*> saved_;  ///< states, by what they are of
+  int moved_ = 0;
+  int scaled_ = 0;
 };
 
 }  // namespace
 
 LoadedWorld read_sdf_world(const fs::path& file, const std::vector<fs::path>& models,
-                           const ClassRules& rules) {
+                           const ClassRules& rules, Missing missing) {
   SdfFiles files(file, models);
-  return WorldReader(file, files, rules).read();
+  return WorldReader(file, files, rules, missing).read();
 }
 
 }  // namespace navvi_sim::read

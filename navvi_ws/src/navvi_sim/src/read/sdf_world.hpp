@@ -32,6 +32,6 @@ namespace navvi_sim::read {
 /// range, and a world without a floor
 [[nodiscard]] LoadedWorld read_sdf_world(const std::filesystem::path& file,
                                          const std::vector<std::filesystem::path>& models,
-                                         const ClassRules& rules);
+                                         const ClassRules& rules, Missing missing);
 
 }  // namespace navvi_sim::read

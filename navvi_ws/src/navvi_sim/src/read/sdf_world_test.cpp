@@ -128,6 +128,44 @@ TEST_F(SdfWorld, has_its_floor_where_the_things_stand) {
   EXPECT_NEAR(above.world.floor_height, 3.0, 1e-9);
 }
 
+TEST_F(SdfWorld, is_read_without_storeys_and_ceilings_above_its_floor) {
+  const LoadedWorld loaded =
+      load(model("floor_01", "<box><size>20 20 0.1</size></box>", "0 0 -0.05 0 0 0") +
+           model("floor_02", "<box><size>20 20 0.1</size></box>", "0 0 2.95 0 0 0") +
+           model("shelf_a", "<box><size>1 4 2</size></box>", "3 0 1 0 0 0") +
+           model("lamp", "<box><size>0.2 0.2 0.2</size></box>", "0 0 2.5 0 0 0") +
+           model("shelf_b", "<box><size>1 4 2</size></box>", "3 0 4 0 0 0") +
+           model("bed", "<box><size>1 2 0.5</size></box>", "0 0 3.25 0 0 0"));
+  EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
+  EXPECT_NE(thing_named(loaded.world, "shelf_a"), nullptr);
+  EXPECT_NE(thing_named(loaded.world, "lamp"), nullptr) << "it hangs below";
+  EXPECT_EQ(loaded.world.things.size(), 3U);
+  EXPECT_TRUE(has_note(loaded, {"STOREY OR CEILING at 3 m", "3 things", "'floor_02'", "'bed'"}));
+}
+
+TEST_F(SdfWorld, has_the_floor_of_its_building_where_nothing_is_named_one) {
+  write("house.obj",
+        "v -5 -5 0\nv 5 -5 0\nv 5 5 0\nv -5 5 0\nv -5 -5 3\nv 5 -5 3\n"
+        "f 1 2 3\nf 1 3 4\nf 1 2 6\nf 1 6 5\n");
+  write("walls.obj",
+        "v 0 0 0\nv 9 0 0\nv 9 0.5 0\nv 0 0.5 0\nv 0 0 3\nv 9 0 3\nv 9 0.5 3\nv 0 0.5 3\n"
+        "v 0 9 0\nv 1 9 0\nv 1 9 3\n"
+        "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 9 10 11\n");
+  const auto building = [](const std::string& file) {
+    return model("office", "<mesh><uri>" + file + "</uri></mesh>") +
+           model("desk", "<box><size>1 1 0.7</size></box>", "2 2 0.35 0 0 0");
+  };
+  const LoadedWorld loaded = load(building("house.obj"));
+  EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
+  EXPECT_EQ(thing_named(loaded.world, "office")->thing_class, ThingClass::floor);
+  EXPECT_EQ(thing_named(loaded.world, "desk")->thing_class, ThingClass::other);
+  EXPECT_TRUE(has_note(loaded, {"'office' has one of its own"}));
+  const std::string sentence = sentence_of(write_world(building("walls.obj")));
+  EXPECT_NE(sentence.find("add <include><uri>model://ground_plane</uri></include>"),
+            std::string::npos)
+      << sentence;
+}
+
 TEST_F(SdfWorld, is_refused_if_much_of_it_lies_under_the_floor) {
   std::string body = ground_;
   for (int i = 0; i < 3; ++i)
@@ -139,8 +177,7 @@ TEST_F(SdfWorld, is_refused_if_much_of_it_lies_under_the_floor) {
 TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
   const LoadedWorld loaded =
       load("<light name='lamp' type='point'/>\n" + ground_ +
-           "\n<model name='ghost'><link name='l'/></model>\n" +
-           model("hill", "<heightmap><uri>a.png</uri></heightmap>") + "\n" +
+           "\n<model name='ghost'><link name='l'/></model>\n" + "\n" +
            model("ramp", "<plane><normal>1 0 1</normal></plane>") + "\n" +
            model("cellar", "<box><size>1 1 1</size></box>", "0 0 -5 0 0 0") + "\n" +
            "<model name='door'>" + cube_ +
@@ -150,7 +187,6 @@ TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
            "<population name='crowd'/>\n<plugin name='weather' filename='libRain.so'/>");
   EXPECT_EQ(loaded.world.things.size(), 2U) << "ground and door";
   EXPECT_TRUE(has_note(loaded, {"line 3", "ghost", "no collision geometry"}));
-  EXPECT_TRUE(has_note(loaded, {"line 4", "<heightmap>"}));
   EXPECT_TRUE(has_note(loaded, {"line 5", "ramp", "not level"}));
   EXPECT_TRUE(has_note(loaded, {"line 6", "cellar", "under the floor"}));
   EXPECT_TRUE(has_note(loaded, {"line 8", "opener", "libDoor.so", "door"}));
@@ -158,7 +194,8 @@ TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
   EXPECT_TRUE(has_note(loaded, {"line 10", "<population>"}));
   EXPECT_TRUE(has_note(loaded, {"line 11", "weather", "libRain.so"}));
   EXPECT_TRUE(has_note(loaded, {"without meaning", "'lamp', line 1", "'hinge', line 7"}));
-  EXPECT_EQ(loaded.notes.size(), 11U) << "hill and ramp are named once more, as models";
+  EXPECT_TRUE(has_note(loaded, {"ghost", "1 more of the same kind: 'ramp'"}));
+  EXPECT_EQ(loaded.notes.size(), 8U);
 }
 
 TEST_F(SdfWorld, is_refused_with_a_sentence_when_it_is_none) {

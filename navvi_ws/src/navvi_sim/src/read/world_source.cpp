@@ -58,11 +58,12 @@ LoadedWorld validated(LoadedWorld loaded, const std::string& where) {
 }
 
 LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
-                 Workers workers, const std::string& classes) {
+                 Workers workers, const std::string& classes, Missing missing) {
   if (const auto source = layout_source(spec)) return build(*source, seed, workers);
   if (kind_of(spec) == Kind::yaml) return {read_yaml_world(spec), {}};
   return read_sdf_world(spec, folders(models),
-                        classes.empty() ? ClassRules::standard() : ClassRules::read(classes));
+                        classes.empty() ? ClassRules::standard() : ClassRules::read(classes),
+                        missing);
 }
 
 }  // namespace
@@ -93,8 +94,8 @@ std::vector<std::filesystem::path> folders(const std::string& models) {
 }
 
 LoadedWorld load_world(const std::string& spec, const std::string& models, std::uint64_t seed,
-                       Workers workers, const std::string& classes) {
-  return validated(load(spec, models, seed, workers, classes), spec);
+                       Workers workers, const std::string& classes, Missing missing) {
+  return validated(load(spec, models, seed, workers, classes, missing), spec);
 }
 
 LoadedWorld load_world(const generate::LayoutSource& source, std::uint64_t seed, Workers workers) {

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "description/sentence.hpp"
-#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -105,7 +104,7 @@ XmlElement read_xml(const std::filesystem::path& file) {
 }
 
 void refuse(const XmlElement& element, const std::string& what) {
-  throw WorldError(element.place() + ": " + what);
+  throw PlaceError(element.place(), what);
 }
 
 }  // namespace navvi_sim::read

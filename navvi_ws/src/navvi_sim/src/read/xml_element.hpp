@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "navvi_sim/description/world_description.hpp"
+
 namespace navvi_sim::read {
 
 constexpr std::uintmax_t kMaxXmlBytes = 20'000'000;  ///< of a file that is read
@@ -34,7 +36,19 @@ struct XmlElement {
 /// \throws WorldError for a file that is missing, larger than 20 MB, or no XML
 [[nodiscard]] XmlElement read_xml(const std::filesystem::path& file);
 
-/// \throws WorldError that begins with the file and line of the element
+/// Wrong is one place of a file, and what may be left out for it is what stands there.
+class PlaceError : public WorldError {
+ public:
+  PlaceError(std::string at, std::string sentence)
+      : WorldError(at + ": " + sentence),
+        place(std::move(at)),
+        what_is_wrong(std::move(sentence)) {}
+
+  std::string place;  ///< as XmlElement::place() says it
+  std::string what_is_wrong;
+};
+
+/// \throws PlaceError
 [[noreturn]] void refuse(const XmlElement& element, const std::string& what);
 
 }  // namespace navvi_sim::read

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "description/footprint.hpp"
 #include "description/random.hpp"
 #include "description/sentence.hpp"
 #include "scenario/free_places.hpp"
@@ -15,6 +17,7 @@ constexpr int kDraws = 50;            // of one end of a route, the other fixed,
 constexpr double kUsualRoute = 10.0;  // m
 constexpr double kLeg = 1.0;          // m, least length of a leg that counts for turns
 constexpr double kTurn = 30.0 * M_PI / 180.0;
+constexpr double kSpot = 0.01;      // m
 constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
 
 double length(const FloorGrid::Ways& ways, std::size_t cell) {
@@ -24,6 +27,32 @@ double length(const FloorGrid::Ways& ways, std::size_t cell) {
 std::vector<Eigen::Vector2d> reversed(std::vector<Eigen::Vector2d> way) {
   std::reverse(way.begin(), way.end());
   return way;
+}
+
+/// The name of the smallest thing with a shape over `at` and between two heights in map.
+std::string thing_at(const WorldDescription& world, const Eigen::Vector2d& at, double low,
+                     double high) {
+  std::string name;
+  double smallest = std::numeric_limits<double>::max();
+  const Polygon spot{
+      {at.x() - kSpot, at.y() - kSpot}, {at.x() + kSpot, at.y() - kSpot}, {at.x(), at.y() + kSpot}};
+  for (const Thing& thing : world.things)
+    for (const Shape& shape : thing.shapes) {
+      Eigen::AlignedBox3d bounds;
+      std::vector<Eigen::Vector2d> points;
+      for (const Eigen::Vector3d& local : hull_points(shape.geometry)) {
+        const Eigen::Vector3d point = thing.pose * (shape.pose * local);
+        bounds.extend(point);
+        points.emplace_back(point.head<2>());
+      }
+      const double size = bounds.sizes().head<2>().prod();
+      if (size >= smallest || bounds.max().z() < low || bounds.min().z() > high ||
+          !overlap(convex_hull(std::move(points)), spot, 0.0))
+        continue;
+      name = thing.name;
+      smallest = size;
+    }
+  return name;
 }
 
 /// Draws the ends of a route from a seed.
@@ -147,9 +176,13 @@ std::size_t ScenarioSampler::checked(const Pose2& start) const {
   if (!start.position.allFinite() || !std::isfinite(start.yaw))
     throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
   const std::size_t cell = grid_.cell_at(start.position);
-  if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0)
-    throw WorldError(who + " is in a thing or off the floor of world '" + world_.name +
-                     "'; allowed is free floor");
+  if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0) {
+    const double floor = world_.floor_height + grid_.cell_size() / 2.0;
+    const std::string thing =
+        thing_at(world_, start.position, floor, world_.floor_height + config_.robot_height);
+    throw WorldError(who + (thing.empty() ? " is off the floor" : " is in '" + thing + "'") +
+                     " of world '" + world_.name + "'; allowed is free floor");
+  }
   if (grid_.clearance(cell) + grid_.cell_size() < config_.robot_radius)
     throw WorldError(who + " is " + text(grid_.clearance(cell)) +
                      " m from a thing or the floor's edge; allowed is the robot's radius of " +

@@ -97,6 +97,24 @@ TEST_F(ScenarioIn, passes_on_a_goal_in_a_wall_and_refuses_a_start_there) {
     EXPECT_THROW(static_cast<void>(draw(1, start)), WorldError) << start.position.x();
 }
 
+TEST_F(ScenarioIn, names_the_thing_that_a_given_start_is_in) {
+  WorldDescription world = two_rooms(2.0);
+  world.things.push_back(thing("hall", ThingClass::other, {0.0, 0.0, 5.0}, {16.0, 8.0, 0.1}));
+  world.things.push_back(thing("crate", ThingClass::box, {4.0, 0.0, 0.5}, {1.0, 1.0, 1.0}));
+  enter(std::move(world));
+  const auto sentence = [&](double x, double y) -> std::string {
+    try {
+      static_cast<void>(draw(1, Pose2{{x, y}, 0.0}));
+    } catch (const WorldError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(sentence(4.0, 0.0).find("is in 'crate'"), std::string::npos) << sentence(4.0, 0.0);
+  EXPECT_NE(sentence(0.0, 2.0).find("is in 'wall'"), std::string::npos) << sentence(0.0, 2.0);
+  EXPECT_NE(sentence(30.0, 0.0).find("is off the floor"), std::string::npos);
+}
+
 TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
   WorldDescription world = two_rooms(2.0);
   Thing mover = thing("mover", ThingClass::forklift, {-4.0, 0.0, 0.5}, {1.0, 1.0, 1.0});

@@ -63,6 +63,9 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(models, "models", Any{}, "",
         "folders for SDF's model://, separated by colons; those beside the world are always "
         "searched");
+  visit(missing, "missing", navvi_config::OneOf{{"refuse", "leave_out"}}, "",
+        "what to do with pieces of an SDF world that are missing or wrong: refuse the world, or "
+        "read it without them");
   visit(classes, "classes", Any{}, "",
         "a YAML file of class rules for SDF's models; empty: navvi_sim's config/classes.yaml");
   visit(seed, "seed", Range{0, std::numeric_limits<int>::max()}, "",
@@ -100,8 +103,10 @@ std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
 }
 
 read::LoadedWorld load_world(const SimNodeConfig& config) {
-  return load_world(config.world, config.models, static_cast<std::uint64_t>(config.seed),
-                    config.worker_choice(), config.classes);
+  return load_world(
+      config.world, config.models, static_cast<std::uint64_t>(config.seed), config.worker_choice(),
+      config.classes,
+      config.missing == "leave_out" ? read::Missing::leave_out : read::Missing::refuse);
 }
 
 scenario::StartAndGoal scenario_of(const SimNodeConfig& config, const WorldDescription& world,

@@ -24,6 +24,12 @@ enum class Workers {
   walking,      ///< all walk
 };
 
+/// What becomes of a piece of an SDF world, such as a model or a shape, that is missing or wrong.
+enum class Missing {
+  refuse,     ///< the world is refused, with all that is wrong
+  leave_out,  ///< the world is read without it, and the notes say so
+};
+
 /// Loads and validates the world that `spec` names: a layout by the name of a preset
 /// (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
 /// yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is taken from the working
@@ -34,10 +40,12 @@ enum class Workers {
 /// \param workers  of layouts; those of other files do as their file says
 /// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
 ///                standard ones
+/// \param missing  of SDF: what to do with pieces that are missing or wrong
 /// \throws WorldError naming the file or thing, what is wrong and what is allowed
 [[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
                                      std::uint64_t seed, Workers workers,
-                                     const std::string& classes = "");
+                                     const std::string& classes = "",
+                                     Missing missing = Missing::refuse);
 
 /// The folders of a colon separated list, and then those of GAZEBO_MODEL_PATH that exist.
 /// \throws WorldError if one of the list is no folder

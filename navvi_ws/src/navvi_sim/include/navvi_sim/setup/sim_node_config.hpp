@@ -16,6 +16,7 @@ namespace navvi_sim::setup {
 struct SimNodeConfig {
   std::string world = "warehouse";
   std::string models;
+  std::string missing = "refuse";  ///< of SDF: read::Missing
   std::string classes;
   int seed = 1;
   std::string start;              ///< "x,y,yaw" in m and rad; empty: drawn from the seed
