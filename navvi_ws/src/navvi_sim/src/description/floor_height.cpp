@@ -109,19 +109,18 @@ void extend(Eigen::AlignedBox3d& bounds, const Thing& thing) {
       bounds.extend(thing.pose * (shape.pose * corner));
 }
 
-/// m, in map, from the lowest up: the levels of floor things that have about as much as the
-/// largest.
-std::vector<double> storeys_of(const std::vector<Thing>& things) {
+/// From the lowest up, the levels of floor things that have about as much as the largest.
+std::vector<Surfaces::Level> storeys_of(const std::vector<Thing>& things) {
   Surfaces surfaces;
   for (const Thing& thing : things)
     if (thing.thing_class == ThingClass::floor) add_level(surfaces, thing);
-  const std::vector<Surfaces::Level> levels = surfaces.storeys();
+  std::vector<Surfaces::Level> storeys = surfaces.storeys();
   double largest = 0.0;
-  for (const Surfaces::Level& level : levels) largest = std::max(largest, level.area);
-  std::vector<double> heights;
-  for (const Surfaces::Level& level : levels)
-    if (level.area >= 0.5 * largest) heights.push_back(level.height);
-  return heights;
+  for (const Surfaces::Level& storey : storeys) largest = std::max(largest, storey.area);
+  storeys.erase(std::remove_if(storeys.begin(), storeys.end(),
+                               [&](const auto& storey) { return storey.area < 0.5 * largest; }),
+                storeys.end());
+  return storeys;
 }
 
 }  // namespace
@@ -130,21 +129,21 @@ std::optional<double> main_floor_height(const std::vector<Thing>& things) {
   std::vector<double> feet;
   for (const Thing& thing : things)
     if (thing.thing_class != ThingClass::floor) feet.push_back(bounds_of({thing}).min().z());
-  const std::vector<double> storeys = storeys_of(things);
-  const auto standing = [&](double storey) {
+  const auto standing_on = [&](const Surfaces::Level& storey) {
     return std::count_if(feet.begin(), feet.end(),
-                         [&](double foot) { return std::abs(foot - storey) <= kStands; });
+                         [&](double foot) { return std::abs(foot - storey.height) <= kStands; });
   };
+  const std::vector<Surfaces::Level> storeys = storeys_of(things);
   std::ptrdiff_t most = 0;
-  for (const double storey : storeys) most = std::max(most, standing(storey));
-  for (const double storey : storeys)
-    if (2 * standing(storey) >= most) return storey;
+  for (const Surfaces::Level& storey : storeys) most = std::max(most, standing_on(storey));
+  for (const Surfaces::Level& storey : storeys)
+    if (2 * standing_on(storey) >= most) return storey.height;
   return std::nullopt;
 }
 
 std::optional<double> storey_above(const std::vector<Thing>& things, double least) {
-  for (const double storey : storeys_of(things))
-    if (storey >= least) return storey;
+  for (const Surfaces::Level& storey : storeys_of(things))
+    if (storey.height >= least) return storey.height;
   return std::nullopt;
 }
 

@@ -127,7 +127,9 @@ std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& f
 
 std::string SdfFiles::looked_in() const {
   std::string text;
-  for (const fs::path& folder : folders_) text += (text.empty() ? "" : ", ") + folder.string();
+  std::error_code error;
+  for (const fs::path& folder : folders_)
+    if (fs::is_directory(folder, error)) text += (text.empty() ? "" : ", ") + folder.string();
   return text;
 }
 
@@ -157,7 +159,7 @@ void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path
   std::vector<XmlElement> children;
   for (XmlElement& child : element.children) {
     if (child.name == "include") {
-      notes.piece([&] {
+      notes.piece(child.text_of("name"), [&] {
         if (auto model = included(child, notes, chain)) children.push_back(std::move(*model));
       });
       continue;

@@ -68,7 +68,7 @@ TEST_F(MissingPiece, is_a_pose_that_no_stream_reads) {
   for (const char* wrong : {"1 2 0 0 0", "1 2 0 0 0 0 0", "1 2 0 0 0 x", "1 2 0 0 0 0x1",
                             "1 2 0 0 0 1e999", "1,2,0,0,0,0"})
     expect_left_out(box("it", wrong), {"line 2", wrong, "6 finite numbers"});
-  expect_left_out(box("it", "0 0 343582 0 0 0"), {"line 2", "up to 1000 m"});
+  expect_left_out(box("it", "0 0 343582 0 0 0"), {"line 2", "up to 1000 m", "in 'it'"});
 }
 
 TEST_F(MissingPiece, is_a_mesh_that_is_flat_far_away_or_too_large) {

@@ -12,7 +12,9 @@ namespace {
 constexpr std::size_t kNamed = 3;          // of what is harmless, by kind; others are counted
 constexpr std::size_t kNotesNamed = 10;    // of a note
 constexpr std::size_t kFaultsNamed = 300;  // of what is wrong: all of it in nearly all worlds
-constexpr std::size_t kMost = 1'000;       // kinds, and names of one, that are kept
+constexpr const char* kAdvice =
+    "With missing:=leave_out (sim/missing:=leave_out in a session) the world is read without ";
+constexpr std::size_t kMost = 1'000;  // kinds, and names of one, that are kept
 
 /// Of a <world>, a <model> and a <link>: what means nothing to a driver.
 const std::set<std::string> kHarmless{"animation",
@@ -113,25 +115,22 @@ std::vector<std::string> SdfSentences::lines(std::size_t most) const {
   return lines;
 }
 
-void SdfNotes::piece(const std::function<void()>& read) {
+void SdfNotes::piece(const std::string& whose, const std::function<void()>& read) {
   try {
     read();
   } catch (const PlaceError& error) {
-    faults_.add(error.place, error.what_is_wrong);
+    faults_.add(error.place, error.what_is_wrong + (whose.empty() ? "" : ", in '" + whose + "'"));
   }
 }
 
 void SdfNotes::refuse_faults() const {
   if (missing_ == Missing::leave_out || faults_.count() == 0) return;
   const std::vector<std::string> lines = faults_.lines(kFaultsNamed);
-  if (faults_.count() == 1)
-    throw WorldError(lines[0] + ". With missing:=leave_out the world is read without it");
+  if (faults_.count() == 1) throw WorldError(lines[0] + ". " + kAdvice + "it");
   std::string all;
   for (const std::string& line : lines) all += "\n  " + line;
-  throw WorldError(std::to_string(faults_.count()) +
-                   " pieces of the world are missing or wrong. With missing:=leave_out it is read "
-                   "without them" +
-                   all);
+  throw WorldError(std::to_string(faults_.count()) + " pieces of the world are missing or wrong. " +
+                   kAdvice + "them" + all);
 }
 
 void SdfNotes::add_leftovers(const XmlElement& element) {

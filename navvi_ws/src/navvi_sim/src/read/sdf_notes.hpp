@@ -52,7 +52,8 @@ class SdfNotes {
   void add_plugin(const XmlElement& plugin, const std::string& whose);
 
   /// Reads one piece of the world, and goes on where that throws a PlaceError.
-  void piece(const std::function<void()>& read);
+  /// \param whose  the model that it belongs to; may be empty
+  void piece(const std::string& whose, const std::function<void()>& read);
   /// \throws WorldError that says what is wrong with all pieces, unless these may be left out
   void refuse_faults() const;
 

@@ -53,9 +53,10 @@ class WorldReader {
     for (const XmlElement* state : world.children_named("state")) keep_state(*state, world);
     notes_.add_leftovers(world);
     for (const XmlElement* model : world.children_named("model"))
-      notes_.piece([&] { read_model(*model, name_of(*model), map_pose(world, *model)); });
+      notes_.piece(name_of(*model),
+                   [&] { read_model(*model, name_of(*model), map_pose(world, *model)); });
     for (const XmlElement* actor : world.children_named("actor"))
-      notes_.piece([&] { read_actor(*actor, map_pose(world, *actor)); });
+      notes_.piece(name_of(*actor), [&] { read_actor(*actor, map_pose(world, *actor)); });
     notes_.refuse_faults();
     say_what_was_saved(world);
     things_.find_floor(file_);
@@ -130,7 +131,7 @@ class WorldReader {
     if (inner.size() > 1 && !has_collision(model) && model.child("plugin") == nullptr) {
       notes_.add_leftovers(model);
       for (const XmlElement* one : inner)
-        notes_.piece([&] {
+        notes_.piece(name + "::" + name_of(*one), [&] {
           read_model(*one, name + "::" + name_of(*one),
                      pose * pose_of(model, *one, pose, Eigen::Isometry3d::Identity()));
         });
@@ -242,7 +243,7 @@ class WorldReader {
       notes_.add_leftovers(*link);
       const Eigen::Isometry3d link_pose = pose_of(model, *link, thing.pose, pose);
       for (const XmlElement* collision : link->children_named("collision"))
-        notes_.piece([&] {
+        notes_.piece(thing.name, [&] {
           const Eigen::Isometry3d in_link = pose_in_link(model, *link, *collision);
           read_collision(*collision, link_pose * in_link, scale, thing);
         });

@@ -23,13 +23,19 @@ namespace navvi_sim::read {
 /// Models that one of three plugins moves by way-points have them for their route (sdf_motion.hpp).
 /// A model that the file moves otherwise stands still.
 ///
+/// Models and links of a world that Gazebo saved stand where its <state> says, and have the sizes
+/// that it says. Where nothing is named a floor, a building may be its own. Storeys and ceilings
+/// above the floor are left out.
+///
 /// The notes say, with file and line, what is not taken over or is taken otherwise than in Gazebo:
-/// other plugins, height maps, tilted planes, links that are seen and touch nothing, models without
-/// collision geometry or wholly under the floor. What means nothing here (lights, joints, sensors,
-/// ...) is one last note.
-/// \throws WorldError, with file and line, for a file that is missing or no SDF world, a model or
-/// mesh that is missing, unreadable, or includes itself, a number that is not finite or out of its
-/// range, and a world without a floor
+/// other plugins, tilted planes, links that are seen and touch nothing, models without collision
+/// geometry or wholly under the floor. What means nothing here (lights, joints, sensors, ...) is
+/// one last note.
+/// \param missing  whether the world is read without its pieces that are missing or wrong: a model
+/// or mesh that is not there, unreadable, or includes itself, a shape that is not known (a height
+/// map), a number that is not finite or out of its range. The notes name them
+/// \throws WorldError, with file and line, for a file that is missing or no SDF world, for all such
+/// pieces together, and for a world without a floor or with much of it under the floor
 [[nodiscard]] LoadedWorld read_sdf_world(const std::filesystem::path& file,
                                          const std::vector<std::filesystem::path>& models,
                                          const ClassRules& rules, Missing missing);
