@@ -129,15 +129,18 @@ std::optional<double> main_floor_height(const std::vector<Thing>& things) {
   std::vector<double> feet;
   for (const Thing& thing : things)
     if (thing.thing_class != ThingClass::floor) feet.push_back(bounds_of({thing}).min().z());
-  const auto standing_on = [&](const Surfaces::Level& storey) {
-    return std::count_if(feet.begin(), feet.end(),
-                         [&](double foot) { return std::abs(foot - storey.height) <= kStands; });
-  };
   const std::vector<Surfaces::Level> storeys = storeys_of(things);
-  std::ptrdiff_t most = 0;
-  for (const Surfaces::Level& storey : storeys) most = std::max(most, standing_on(storey));
-  for (const Surfaces::Level& storey : storeys)
-    if (2 * standing_on(storey) >= most) return storey.height;
+  std::vector<std::ptrdiff_t> standing;
+  for (std::size_t i = 0; i < storeys.size(); ++i) {
+    const bool is_last = i + 1 == storeys.size();
+    standing.push_back(std::count_if(feet.begin(), feet.end(), [&](double foot) {
+      return foot >= storeys[i].height - kStands &&
+             (is_last || foot < storeys[i + 1].height - kStands);
+    }));
+  }
+  for (std::size_t i = 0; i < storeys.size(); ++i)
+    if (2 * standing[i] >= *std::max_element(standing.begin(), standing.end()))
+      return storeys[i].height;
   return std::nullopt;
 }
 

@@ -44,8 +44,8 @@ void check_file(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void refuse_size(const std::filesystem::path& file) {
-  refuse(file, "has more than " + std::to_string(kMaxTriangles) +
-                   " triangles; allowed is up to that. Gazebo needs no more to collide with");
+  refuse(file,
+         "has more than " + std::to_string(kMaxTriangles) + " triangles; allowed is up to that");
 }
 
 /// Refuses a large binary .stl, whose size is that of its triangles, before it takes memory.
