@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "description/footprint.hpp"
@@ -12,7 +13,11 @@ namespace {
 constexpr double kLevel = 0.985;  // cosine of 10 degrees
 constexpr double kBin = 0.01;     // m
 constexpr double kStorey = 1.0;   // m, between levels of two storeys; no robot passes between
-constexpr double kStands = 0.3;   // m, from a storey's level to the foot of what stands on it
+constexpr double kLowest = std::numeric_limits<double>::lowest();
+constexpr double kStoreyShare = 0.25;  // of the largest level's area, that a storey has at least
+constexpr double kSlabShare = 0.5;     // of the largest level below it, that a slab has at least
+constexpr double kLeastFloor = 4.0;    // m^2: what is level and smaller stands on a floor
+constexpr double kStands = 0.3;        // m, from a storey's level to the foot of what stands on it
 
 /// Area of the level surfaces by height.
 class Surfaces {
@@ -29,11 +34,13 @@ class Surfaces {
   };
   /// Of each storey the highest level with about its largest area, from the lowest storey up.
   [[nodiscard]] std::vector<Level> storeys() const {
+    double largest = 0.0;
+    for (const auto& [bin, sum] : bins_) largest = std::max(largest, sum.area);
     std::vector<Level> storeys;
     double most = 0.0;  // of the storey
     double below = 0.0;
     for (const auto& [bin, sum] : bins_) {
-      if (sum.area <= 0.0) continue;
+      if (sum.area <= 0.0 || sum.area < kStoreyShare * largest) continue;
       const Level level{sum.moment / sum.area, sum.area};
       if (storeys.empty() || level.height - below > kStorey) {
         storeys.push_back(level);
@@ -41,7 +48,7 @@ class Surfaces {
       }
       below = level.height;
       most = std::max(most, level.area);
-      if (level.area >= 0.9 * most) storeys.back() = level;
+      if (level.area >= kSlabShare * most) storeys.back() = level;
     }
     return storeys;
   }
@@ -109,18 +116,11 @@ void extend(Eigen::AlignedBox3d& bounds, const Thing& thing) {
       bounds.extend(thing.pose * (shape.pose * corner));
 }
 
-/// From the lowest up, the levels of floor things that have about as much as the largest.
 std::vector<Surfaces::Level> storeys_of(const std::vector<Thing>& things) {
   Surfaces surfaces;
   for (const Thing& thing : things)
     if (thing.thing_class == ThingClass::floor) add_level(surfaces, thing);
-  std::vector<Surfaces::Level> storeys = surfaces.storeys();
-  double largest = 0.0;
-  for (const Surfaces::Level& storey : storeys) largest = std::max(largest, storey.area);
-  storeys.erase(std::remove_if(storeys.begin(), storeys.end(),
-                               [&](const auto& storey) { return storey.area < 0.5 * largest; }),
-                storeys.end());
-  return storeys;
+  return surfaces.storeys();
 }
 
 }  // namespace
@@ -128,7 +128,9 @@ std::vector<Surfaces::Level> storeys_of(const std::vector<Thing>& things) {
 std::optional<double> main_floor_height(const std::vector<Thing>& things) {
   std::vector<double> feet;
   for (const Thing& thing : things)
-    if (thing.thing_class != ThingClass::floor) feet.push_back(bounds_of({thing}).min().z());
+    if (thing.thing_class != ThingClass::floor ||
+        level_area(thing, kLowest, -kLowest) < kLeastFloor)
+      feet.push_back(bounds_of({thing}).min().z());
   const std::vector<Surfaces::Level> storeys = storeys_of(things);
   std::vector<std::ptrdiff_t> standing;
   for (std::size_t i = 0; i < storeys.size(); ++i) {

@@ -128,6 +128,28 @@ TEST_F(SdfWorld, has_its_floor_where_the_things_stand) {
   EXPECT_NEAR(above.world.floor_height, 3.0, 1e-9);
 }
 
+TEST_F(SdfWorld, has_its_floor_on_a_slab_and_not_where_furniture_leads_up) {
+  const auto slab = [](const std::string& name, const std::string& z) {
+    return model(name, "<box><size>16 16 0.1</size></box>", "0 0 " + z + " 0 0 0");
+  };
+  const LoadedWorld on_slab = load(
+      "<include><uri>model://ground_plane</uri><pose>0 0 -0.1 0 0 0</pose></include>" +
+      slab("floor_01", "-0.05") + model("shelf_a", "<box><size>1 4 2</size></box>", "3 0 1 0 0 0"));
+  EXPECT_NEAR(on_slab.world.floor_height, 0.0, 1e-9);
+  EXPECT_EQ(thing_named(on_slab.world, "floor_01")->thing_class, ThingClass::floor);
+  std::string storeys =
+      slab("floor_01", "-0.05") + slab("floor_02", "2.95") + slab("floor_03", "5.95");
+  for (int i = 0; i < 6; ++i)
+    storeys += model("floor_02_chair_" + std::to_string(i), "<box><size>1 1 0.1</size></box>",
+                     std::to_string(i) + " 0 " + std::to_string(3.45 + 0.5 * i) + " 0 0 0");
+  for (int i = 0; i < 4; ++i)
+    storeys += model("shelf_" + std::to_string(i), "<box><size>1 1 2</size></box>",
+                     std::to_string(i) + " 4 1 0 0 0");
+  const LoadedWorld below = load(storeys);
+  EXPECT_NEAR(below.world.floor_height, 0.0, 1e-9);
+  EXPECT_EQ(below.world.things.size(), 5U) << "the lowest slab and its shelves";
+}
+
 TEST_F(SdfWorld, is_read_without_storeys_and_ceilings_above_its_floor) {
   const LoadedWorld loaded =
       load(model("floor_01", "<box><size>20 20 0.1</size></box>", "0 0 -0.05 0 0 0") +
