@@ -10,10 +10,7 @@
 namespace navvi_sim::read {
 namespace {
 
-constexpr double kSamePlace = 0.01;       // m
-constexpr double kFollowerSpeed = 1.0;    // m/s, of what is pushed by a force
-constexpr double kPedestrianSpeed = 0.8;  // m/s, PedestrianSFMPlugin's own default
-constexpr int kCircleCorners = 24;
+constexpr double kSamePlace = 0.01;  // m
 
 /// Where an actor is at a time of its script.
 struct Key {
@@ -108,75 +105,6 @@ void close(Route& route, const Note& note) {
   route.waypoints.pop_back();
 }
 
-std::vector<Waypoint> waypoints_of(const XmlElement& list) {
-  std::vector<Waypoint> waypoints;
-  for (const XmlElement* waypoint : list.children_named("waypoint"))
-    waypoints.push_back({floor_point(*waypoint), 0.0, 0.0});
-  return waypoints;
-}
-
-/// There and back again, for a route that loops.
-void add_way_back(std::vector<Waypoint>& waypoints) {
-  for (std::size_t i = waypoints.size(); i > 2; --i) waypoints.push_back(waypoints[i - 2]);
-}
-
-double speed_of(const XmlElement& plugin, double otherwise) {
-  const XmlElement* velocity = plugin.child("velocity");
-  if (velocity == nullptr) return otherwise;
-  const double speed = number(*velocity);
-  if (!(speed > 0.0 && speed <= WorldLimits::speed))
-    refuse(*velocity,
-           "<velocity> is " + velocity->text + "; allowed is more than 0 and up to 5 m/s");
-  return speed;
-}
-
-Route trajectory_follower(const XmlElement& plugin, const Eigen::Vector2d& start) {
-  Route route;
-  route.speed = kFollowerSpeed;
-  route.loop = flag(plugin, "loop", false);
-  if (const XmlElement* list = plugin.child("waypoints")) {
-    route.waypoints = waypoints_of(*list);
-    if (!route.loop) route.waypoints.insert(route.waypoints.begin(), {start, 0.0, 0.0});
-  } else if (const XmlElement* line = plugin.child("line")) {
-    const double direction = number(required(*line, "direction"));
-    const Eigen::Vector2d way(std::cos(direction), std::sin(direction));
-    route.waypoints = {{start, 0.0, 0.0}, {start + length(*line, "length") * way, 0.0, 0.0}};
-  } else if (const XmlElement* circle = plugin.child("circle")) {
-    const double radius = length(*circle, "radius");
-    for (int i = 0; i < kCircleCorners; ++i) {
-      const double angle = 2.0 * M_PI * i / kCircleCorners;
-      route.waypoints.push_back(
-          {start + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 0.0, 0.0});
-    }
-  }
-  return route;
-}
-
-Route pedestrian(const XmlElement& plugin, const Eigen::Vector2d& start) {
-  Route route;
-  route.speed = speed_of(plugin, kPedestrianSpeed);
-  if (const XmlElement* trajectory = plugin.child("trajectory")) {
-    route.waypoints = waypoints_of(*trajectory);
-    route.loop = flag(*trajectory, "cyclic", false);
-  }
-  if (!route.loop) route.waypoints.insert(route.waypoints.begin(), {start, 0.0, 0.0});
-  return route;
-}
-
-Route obstacle_path(const XmlElement& plugin) {
-  Route route;
-  route.speed = speed_of(plugin, 1.0);
-  if (const XmlElement* path = plugin.child("path")) route.waypoints = waypoints_of(*path);
-  if (!flag(plugin, "loop", false)) add_way_back(route.waypoints);
-  return route;
-}
-
-bool leads_somewhere(const Route& route) {
-  return std::any_of(route.waypoints.begin(), route.waypoints.end(), [&](const Waypoint& one) {
-    return (one.at - route.waypoints.front().at).norm() >= kSamePlace;
-  });
-}
-
 }  // namespace
 
 SdfMotion actor_motion(const XmlElement& actor, const Eigen::Isometry3d& pose, SdfNotes& notes) {
@@ -206,36 +134,6 @@ SdfMotion actor_motion(const XmlElement& actor, const Eigen::Isometry3d& pose, S
   if (route.loop) close(route, note);
   const Eigen::Vector3d at = keys.front().pose.translation();
   return {generate::at(at.x(), at.y(), at.z(), std::atan2(way.y(), way.x())), std::move(route)};
-}
-
-std::optional<SdfMotion> plugin_motion(const XmlElement& plugin, const Eigen::Isometry3d& pose,
-                                       SdfNotes& notes) {
-  const std::string who = plugin.attribute("filename") + " " + plugin.attribute("name");
-  const auto is = [&](const char* word) { return who.find(word) != std::string::npos; };
-  const Eigen::Vector2d start = pose.translation().head<2>();
-  Route route;
-  SdfMotion motion{pose, std::nullopt};
-  if (is("trajectory-follower") || is("TrajectoryFollower")) {
-    route = trajectory_follower(plugin, start);
-  } else if (is("PedestrianSFM")) {
-    route = pedestrian(plugin, start);
-  } else if (is("obstaclePath")) {
-    route = obstacle_path(plugin);
-  } else {
-    return std::nullopt;
-  }
-  if (!leads_somewhere(route)) {
-    notes.add(plugin, "the plugin gives no way to follow; what it moves stands still");
-    return motion;
-  }
-  if (is("TrajectoryFollower") || is("trajectory-follower"))
-    notes.add(plugin, "what the plugin pushes by a force moves here at 1 m/s");
-  const Eigen::Vector2d begin = route.waypoints.front().at;
-  if ((begin - start).norm() >= kSamePlace)
-    notes.add(plugin, "what the plugin moves begins here at its first way-point");
-  motion.start.translation().head<2>() = begin;
-  motion.route = std::move(route);
-  return motion;
 }
 
 }  // namespace navvi_sim::read

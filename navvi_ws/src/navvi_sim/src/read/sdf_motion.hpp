@@ -22,12 +22,4 @@ struct SdfMotion {
 [[nodiscard]] SdfMotion actor_motion(const XmlElement& actor, const Eigen::Isometry3d& pose,
                                      SdfNotes& notes);
 
-/// The motion that a <plugin> gives, for those plugins whose way-points stand in the world:
-/// TrajectoryFollower (gz-sim), PedestrianSFMPlugin (gazebo_sfm_plugin), obstaclePathPlugin
-/// (uav_simulator). nullopt for any other plugin.
-/// \param pose  of what the plugin moves, in map
-[[nodiscard]] std::optional<SdfMotion> plugin_motion(const XmlElement& plugin,
-                                                     const Eigen::Isometry3d& pose,
-                                                     SdfNotes& notes);
-
 }  // namespace navvi_sim::read

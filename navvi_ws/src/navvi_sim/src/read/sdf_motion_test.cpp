@@ -128,50 +128,6 @@ TEST_F(SdfMotionTest, of_an_actor_with_bodies_and_no_skin_keeps_them) {
   EXPECT_NEAR(bounds(ann(loaded)).center().z(), 1.0, 1e-9) << "at the height of its trajectory";
 }
 
-TEST_F(SdfMotionTest, of_plugins_with_way_points_is_taken_over) {
-  const std::string cart = "<model name='forklift'><pose>1 1 0 0 0 0</pose>" + cube_;
-  const auto plugin = [&](const std::string& file, const std::string& body) {
-    const LoadedWorld loaded = load(ground_ + cart + "<plugin name='p' filename='" + file + "'>" +
-                                    body + "</plugin></model>");
-    const Thing* thing = thing_named(loaded.world, "forklift");
-    return thing == nullptr ? Thing{} : *thing;
-  };
-  const std::string two = "<waypoint>4 0</waypoint><waypoint>4 4</waypoint>";
-
-  Thing thing = plugin("gz-sim-trajectory-follower-system",
-                       "<loop>true</loop><waypoints>" + two + "</waypoints>");
-  EXPECT_EQ(thing.route.value().waypoints.size(), 2U);
-  EXPECT_TRUE(thing.route->loop);
-  EXPECT_NEAR(thing.pose.translation().x(), 4.0, 1e-9);
-  thing = plugin("gz-sim-trajectory-follower-system", "<waypoints>" + two + "</waypoints>");
-  EXPECT_EQ(thing.route.value().waypoints.size(), 3U) << "from where it stands";
-  EXPECT_FALSE(thing.route->loop);
-  thing = plugin("gz-sim-trajectory-follower-system",
-                 "<loop>1</loop><line><direction>1.5707963</direction><length>5</length></line>");
-  EXPECT_LT((thing.route.value().waypoints[1].at - Eigen::Vector2d(1, 6)).norm(), 1e-5);
-  thing = plugin("gz-sim-trajectory-follower-system",
-                 "<loop>1</loop><circle><radius>2</radius></circle>");
-  for (const Waypoint& waypoint : thing.route.value().waypoints)
-    EXPECT_NEAR((waypoint.at - Eigen::Vector2d(1, 1)).norm(), 2.0, 1e-9);
-
-  thing = plugin("libPedestrianSFMPlugin.so",
-                 "<velocity>0.9</velocity><trajectory><cyclic>true</cyclic>"
-                 "<waypoint>4 0 1.2</waypoint><waypoint>4 4 1.2 0 0 0</waypoint></trajectory>");
-  EXPECT_EQ(thing.route.value().waypoints.size(), 2U);
-  EXPECT_EQ(thing.route->speed, 0.9);
-
-  const std::string three =
-      "<path><waypoint>4 0 0</waypoint><waypoint>4 4 0</waypoint><waypoint>8 4 0</waypoint></path>";
-  thing = plugin("libobstaclePathPlugin.so", "<velocity>0.5</velocity>" + three);
-  EXPECT_EQ(thing.route.value().waypoints.size(), 4U) << "there and back";
-  EXPECT_NEAR(thing.pose.translation().x(), 4.0, 1e-9);
-  thing = plugin("libobstaclePathPlugin.so", "<loop>true</loop>" + three);
-  EXPECT_EQ(thing.route.value().waypoints.size(), 3U);
-
-  EXPECT_FALSE(plugin("libSomethingElse.so", "<waypoints>" + two + "</waypoints>").route);
-  EXPECT_FALSE(plugin("gz-sim-trajectory-follower-system", "").route);
-}
-
 TEST_F(SdfMotionTest, through_what_stands_is_none_and_is_told) {
   const auto walker = [](const std::string& name, const std::string& y) {
     return "\n<actor name='" + name +

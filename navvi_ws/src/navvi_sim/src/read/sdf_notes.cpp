@@ -135,20 +135,15 @@ void SdfNotes::refuse_faults() const {
 
 void SdfNotes::add_leftovers(const XmlElement& element) {
   for (const XmlElement& child : element.children) {
-    const bool is_plugin = child.name == "plugin";
     if (kHarmless.count(child.name) > 0) {
       if (child.attribute("type") != "fixed") add_harmless(child);
-    } else if (is_plugin && element.name == "world") {
-      add_plugin(child, "");
-    } else if (!is_plugin && kUnderstood.count(child.name) == 0 && !is_own(child)) {
+    } else if (child.name == "plugin") {
+      add(child, "the plugin '" + child.attribute("name") + "' (" + child.attribute("filename") +
+                     ") of '" + element.attribute("name") + "' is not run");
+    } else if (kUnderstood.count(child.name) == 0 && !is_own(child)) {
       add(child, "<" + child.name + "> is not known here, and is not taken over");
     }
   }
-}
-
-void SdfNotes::add_plugin(const XmlElement& plugin, const std::string& whose) {
-  add(plugin, "the plugin '" + plugin.attribute("name") + "' (" + plugin.attribute("filename") +
-                  ") " + whose + "is not run");
 }
 
 void SdfNotes::add_harmless(const XmlElement& element) {

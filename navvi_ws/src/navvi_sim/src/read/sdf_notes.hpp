@@ -44,12 +44,8 @@ class SdfNotes {
   /// Something that changes nothing here, such as a light: named in one sentence for all.
   void add_harmless(const XmlElement& element);
 
-  /// What a <world>, <model> or <link> holds beside what is read of it: harmless or not. Plugins of
-  /// a model are left to read_plugins.
+  /// What a <world>, <model>, <actor> or <link> holds beside what is read of it: harmless or not.
   void add_leftovers(const XmlElement& element);
-  /// A plugin that is not run.
-  /// \param whose  "of 'NAME' ", or empty for the world's
-  void add_plugin(const XmlElement& plugin, const std::string& whose);
 
   /// Reads one piece of the world, and goes on where that throws a PlaceError.
   /// \param whose  the model that it belongs to; may be empty

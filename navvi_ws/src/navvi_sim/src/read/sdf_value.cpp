@@ -53,14 +53,6 @@ std::vector<double> numbers(const XmlElement& element, std::size_t count) {
   return values;
 }
 
-Eigen::Vector2d floor_point(const XmlElement& element) {
-  const std::vector<double> values = stream_numbers(element);
-  if (values.size() < 2 || !(std::max(std::abs(values[0]), std::abs(values[1])) <= kMost))
-    refuse(element, "<" + element.name + "> is \"" + shortened(element.text) +
-                        "\"; allowed are x and y up to 1000 m");
-  return {values[0], values[1]};
-}
-
 double number(const XmlElement& element) { return numbers(element, 1)[0]; }
 
 Eigen::Vector3d vector3(const XmlElement& element) {

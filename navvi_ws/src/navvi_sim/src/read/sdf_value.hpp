@@ -11,9 +11,6 @@ namespace navvi_sim::read {
 /// \throws WorldError if they are not `count` finite numbers
 [[nodiscard]] std::vector<double> numbers(const XmlElement& element, std::size_t count);
 
-/// At least two of them, as a way-point has: x and y, and what may follow.
-[[nodiscard]] Eigen::Vector2d floor_point(const XmlElement& element);
-
 [[nodiscard]] double number(const XmlElement& element);
 [[nodiscard]] Eigen::Vector3d vector3(const XmlElement& element);
 

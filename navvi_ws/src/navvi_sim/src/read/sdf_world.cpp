@@ -128,7 +128,7 @@ class WorldReader {
   /// \param pose  in map
   void read_model(const XmlElement& model, const std::string& name, const Eigen::Isometry3d& pose) {
     const auto inner = model.children_named("model");
-    if (inner.size() > 1 && !has_collision(model) && model.child("plugin") == nullptr) {
+    if (inner.size() > 1 && !has_collision(model)) {
       notes_.add_leftovers(model);
       for (const XmlElement* one : inner)
         notes_.piece(name + "::" + name_of(*one), [&] {
@@ -144,7 +144,6 @@ class WorldReader {
     const std::size_t planes = things_.planes();
     read_links(model, Eigen::Isometry3d::Identity(), thing);
     thing.route = own_route(model);
-    read_plugins(model, thing);
     if (!thing.shapes.empty()) {
       check(thing, model);
       things_.add(std::move(thing), model.place());
@@ -176,7 +175,6 @@ class WorldReader {
     thing.pose = motion.start;
     thing.route = motion.route;
     has_foreign_routes_ = true;
-    read_plugins(actor, thing);
     if (thing.shapes.empty()) {
       thing.shapes = generate::worker().shapes;
       thing.pose = upright(thing.pose);
@@ -193,18 +191,6 @@ class WorldReader {
       validate(thing);
     } catch (const WorldError& error) {
       refuse(element, error.what());
-    }
-  }
-
-  void read_plugins(const XmlElement& model, Thing& thing) {
-    for (const XmlElement* plugin : model.children_named("plugin")) {
-      if (auto motion = plugin_motion(*plugin, thing.pose, notes_)) {
-        thing.pose = motion->start;
-        thing.route = std::move(motion->route);
-        has_foreign_routes_ = true;
-      } else {
-        notes_.add_plugin(*plugin, "of '" + thing.name + "' ");
-      }
     }
   }
 
@@ -290,7 +276,7 @@ class WorldReader {
   SdfNotes notes_;
   SdfShapes shapes_;
   SdfThings things_;
-  bool has_foreign_routes_ = false;                       ///< given by an actor or a plugin
+  bool has_foreign_routes_ = false;                       ///< given by an actor
   std::map<const XmlElement*, const XmlElement*> saved_;  ///< states, by what they are of
   int moved_ = 0;
   int scaled_ = 0;

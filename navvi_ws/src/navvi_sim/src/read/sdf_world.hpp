@@ -20,15 +20,12 @@ namespace navvi_sim::read {
 /// beside the world file. `floor_height` is that of the largest level surface of the floor things.
 ///
 /// An actor with a script walks its trajectories, as a person where it has no collision geometry.
-/// Models that one of three plugins moves by way-points have them for their route (sdf_motion.hpp).
-/// A model that the file moves otherwise stands still.
-///
-/// Models and links of a world that Gazebo saved stand where its <state> says, and have the sizes
-/// that it says. Where nothing is named a floor, a building may be its own. Storeys and ceilings
-/// above the floor are left out.
+/// What a plugin moves in Gazebo stands still. Models and links of a world that Gazebo saved stand
+/// where its <state> says, and have the sizes that it says. Where nothing is named a floor, a
+/// building may be its own. Storeys and ceilings above the floor are left out.
 ///
 /// The notes say, with file and line, what is not taken over or is taken otherwise than in Gazebo:
-/// other plugins, tilted planes, links that are seen and touch nothing, models without collision
+/// plugins, tilted planes, links that are seen and touch nothing, models without collision
 /// geometry or wholly under the floor. What means nothing here (lights, joints, sensors, ...) is
 /// one last note.
 /// \param missing  whether the world is read without its pieces that are missing or wrong: a model

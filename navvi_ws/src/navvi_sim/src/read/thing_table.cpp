@@ -6,6 +6,8 @@
 #include <sstream>
 #include <vector>
 
+#include "description/sentence.hpp"
+
 namespace navvi_sim::read {
 namespace {
 
@@ -51,7 +53,7 @@ std::string route_of(const Thing& thing) {
 
 Line line_of(const Thing& thing, const LoadedWorld& loaded) {
   const auto rule = loaded.rules.find(thing.name);
-  return {thing.name,
+  return {shortened(thing.name, 60),
           to_string(thing.thing_class),
           rule == loaded.rules.end() ? "-" : rule->second,
           shapes_of(thing),
