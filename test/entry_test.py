@@ -73,6 +73,38 @@ def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
         assert sentence in result.stderr and len(result.stderr.splitlines()) == 1
 
 
+def box(name, size, pose):
+    return (f'<model name="{name}"><static>1</static><pose>{pose} 0 0 0</pose><link name="l"><collision name="c">'
+            f'<geometry><box><size>{size}</size></box></geometry></collision></link></model>')
+
+
+@pytest.fixture
+def door_world(tmp_path):
+    """Two rooms with a door of 0.9 m, and a closed cell in one of them."""
+    cell = "".join(box(f"wall_{i}", size, pose) for i, (size, pose) in enumerate([
+        ("3 .2 2", "5 3.4 1"), ("3 .2 2", "5 6.6 1"), ("0.2 3.4 2", "3.5 5 1"), ("0.2 3.4 2", "6.5 5 1")]))
+    (tmp_path / "door.world").write_text(
+        '<sdf version="1.6"><world name="w">' + box("floor", "20 20 .1", "0 0 -.05") + cell
+        + box("wall_a", ".2 9.55 2", "0 5.225 1") + box("wall_b", ".2 9.55 2", "0 -5.225 1") + "</world></sdf>")
+    return str(tmp_path / "door.world")
+
+
+@pytest.mark.parametrize("goal, code, sentence", [
+    ("5,0", 0, "shortest way 10.0 m"),
+    ("0,5", 2, "the goal is within the robot's radius of an obstacle"),
+    ("5,5", 2, "no floor joins the goal with the robot"),
+    ("30,0", 2, "the map shows no floor at the goal"),
+])
+def test_the_verdict_on_a_world_is_the_one_of_navigation(goal, code, sentence, door_world):
+    result = navvi("world", "check", door_world, "start:=-5,0,0", f"goal:={goal}")
+    assert result.returncode == code, result.stderr
+    assert sentence in result.stdout + result.stderr
+    if code:
+        result = navvi("run", *SIMULATED, f"world:={door_world}", "start:=-5,0,0", f"goal:={goal}")
+        assert result.returncode == code and sentence in result.stderr
+        assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
+
+
 def test_a_command_tells_its_arguments():
     result = navvi("run", "--help")
     assert result.returncode == 0

@@ -56,6 +56,7 @@ BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config, const Bake
   out.error = survey.error;
   if (!out.error.empty()) return out;
   const double cell = survey.cell_size;
+  const std::string levels = std::move(survey.levels);
   if (config.margin > (map::Floor::kMaxReach - 2) * cell) {
     out.error = "the robot is too wide for a map with cells of " + std::to_string(cell) +
                 " m: its radius must not be more than " +
@@ -68,6 +69,7 @@ BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config, const Bake
   const map::Floor& floor = *out.floor;
   if (!floor.any_open()) {
     out.error = "the map shows no walkable floor";
+    if (!levels.empty()) out.error += "; what there is of floor lies at " + levels;
     return out;
   }
   const int size =

@@ -120,7 +120,8 @@ TEST(MapBake, takes_over_tiles_in_which_nothing_changed) {
 TEST(MapBake, refuses_a_map_without_room_and_a_robot_too_wide_for_the_cells) {
   SmallWorld world;
   world.floor(0, 0, 0.6, 0.6);
-  EXPECT_EQ(bake_map(survey_of(world), {}).error, "the map shows no walkable floor");
+  EXPECT_EQ(bake_map(survey_of(world), {}).error,
+            "the map shows no walkable floor; what there is of floor lies at z = 0.00 m (0.4 m^2)");
   SmallWorld fine(0.01);
   fine.floor(0, 0, 1, 1);
   MapBakeConfig wide;

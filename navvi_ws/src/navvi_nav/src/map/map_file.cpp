@@ -39,7 +39,8 @@ std::string load(const std::string& path, std::size_t most) {
 /// The lines before "data".
 struct Header {
   MapBytes map;
-  std::size_t length = 0;  ///< bytes, the line "data" included
+  std::string nodes = "?";  ///< octomap's count of them: the stream does not need it
+  std::size_t length = 0;   ///< bytes, the line "data" included
 };
 
 /// A number, and nothing after it.
@@ -76,7 +77,9 @@ Header read_header(const std::string& path, const std::string& bytes) {
       out.map.id = value;
     } else if (key == "res") {
       out.map.resolution = number_in(value).value_or(0.0);
-    } else if (key != "size") {  // octomap's count of nodes: the stream does not need it
+    } else if (key == "size") {
+      out.nodes = value;
+    } else {
       throw FileError(path + ": the header has a line \"" + key.substr(0, 40) +
                       "\"; id, size, res and data are allowed");
     }
@@ -211,6 +214,7 @@ Voxels read_octomap_file(const std::string& path) {
     header.map.data = reinterpret_cast<const std::int8_t*>(bytes.data()) + header.length;
     header.map.size = bytes.size() - header.length;
     out = read_voxels(header.map);
+    out.source = printable(header.map.id) + " of " + printable(header.nodes) + " nodes";
     if (!out.error.empty()) out.error.insert(0, path + ": ");
   } catch (const FileError& error) {
     out.error = error.what();
@@ -242,11 +246,12 @@ MapSurvey survey_file(const std::string& path, const SurveyConfig& config) {
     out.error = voxels.error;
     if (!out.error.empty()) return out;
     out = survey_map(voxels, config);
+    out.source = voxels.source;
   } else if (ending == ".yaml" || ending == ".yml") {
     const GridFile file = read_grid_file(path);
     out.error = file.error;
     if (!out.error.empty()) return out;
-    out = read_grid(file.grid, config.cell_size);
+    out = read_grid(file.grid, config);
   } else {
     out.error = "maps end in .bt, .ot (OctoMap) or .yaml (map_server)";
   }

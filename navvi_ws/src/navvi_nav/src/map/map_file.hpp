@@ -16,8 +16,8 @@ struct GridFile {
   OccupancyGrid grid;
 };
 
-/// A map_server map: a `.yaml` file that names a PNG or PGM picture beside it. Of map_server's modes
-/// the usual one, trinary, is read.
+/// A map_server map: a `.yaml` file that names a PNG or PGM picture beside it. Of map_server's
+/// modes the usual one, trinary, is read.
 [[nodiscard]] GridFile read_grid_file(const std::string& path);
 
 /// \param path  of a .bt, .ot or .yaml file

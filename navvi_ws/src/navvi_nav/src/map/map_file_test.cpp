@@ -1,6 +1,7 @@
 #include "map/map_file.hpp"
 
 #include <gtest/gtest.h>
+#include <octomap/ColorOcTree.h>
 #include <png.h>
 
 #include <cstdlib>
@@ -52,6 +53,26 @@ TEST_F(MapFile, reads_what_octomap_writes) {
   }
 }
 
+TEST_F(MapFile, reads_a_map_with_colours_like_one_without) {
+  SmallWorld world;
+  const octomap::OcTree plain = world.room(4, 3).box(1, 1, 0, 2, 2, 0.5).tree();
+  octomap::ColorOcTree tree(plain.getResolution());
+  for (auto leaf = plain.begin_leafs(), end = plain.end_leafs(); leaf != end; ++leaf)
+    tree.updateNode(leaf.getCoordinate(), true);
+  tree.setNodeColor(tree.begin_leafs().getKey(), 200, 100, 50);
+  tree.updateInnerOccupancy();
+  ASSERT_TRUE(tree.writeBinary(path("map.bt")));
+  ASSERT_TRUE(tree.write(path("map.ot")));
+  const std::string nodes = std::to_string(tree.size());
+  for (const char* name : {"map.bt", "map.ot"}) {
+    const Voxels voxels = read_octomap_file(path(name));
+    ASSERT_EQ(voxels.error, "");
+    EXPECT_EQ(voxels.source, "ColorOcTree of " + nodes + " nodes");
+    EXPECT_FALSE(voxels.octets.empty());
+  }
+  EXPECT_EQ(survey_file(path("map.bt"), {}).ground, survey_file(path("map.ot"), {}).ground);
+}
+
 TEST_F(MapFile, refuses_a_damaged_map_in_a_sentence_that_names_the_file) {
   SmallWorld world;
   octomap::OcTree tree = world.room(4, 3).tree();
@@ -68,8 +89,8 @@ TEST_F(MapFile, refuses_a_damaged_map_in_a_sentence_that_names_the_file) {
   const std::string name = path("bad.bt") + ": ";
   EXPECT_EQ(error("nonsense"), name + "the first line is not that of an OctoMap file (.bt or .ot)");
   EXPECT_EQ(error(first + "id OcTree\n"), name + "the header has no line \"data\"");
-  EXPECT_EQ(error(first + "id ColorOcTree\nres 0.1\ndata\nxx"),
-            name + "the map is of another kind than OcTree");
+  EXPECT_EQ(error(first + "id OcTreeStamped\nres 0.1\ndata\nxx"),
+            name + "the map is of the kind \"OcTreeStamped\"; OcTree and ColorOcTree are allowed");
   EXPECT_EQ(error(first + "id OcTree\nres 1e-9\ndata\nxx"),
             name + "the map's resolution is not within 0.01 and 1 m");
   EXPECT_EQ(error(first + "id OcTree\nres nan\ndata\nxx"),

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kFloorTolerance = 0.25;  // m, around SurveyConfig::floor_height
 constexpr double kRounding = 1e-6;        // levels
+constexpr double kLongestTread = 1.2;     // m, between two steps of a ramp
+constexpr double kObstacle = 0.05;        // m, that an obstacle rises at least (R-NAV-12)
 constexpr int kNoLevel = -1;
 
 /// Calls `work(band, first, last)` for bands of columns, the last column excluded.
@@ -95,11 +97,30 @@ std::vector<Ground> on_one_level(const HeightField& field, int floor_top, int he
   return ground;
 }
 
-std::string no_floor_near(double height) {
-  char text[96];
-  std::snprintf(text, sizeof text, "the map shows no floor within %.2f m of %.2f m (floor_height)",
-                kFloorTolerance, height);
+template <typename... Values>
+std::string sentence(const char* format, Values... values) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, values...);
   return text;
+}
+
+/// The largest levels, such as "z = 0.05 m (12.3 m^2), z = 0.10 m (4.0 m^2)".
+std::string largest_levels(const std::vector<int>& counts, int low, double voxel) {
+  std::vector<std::pair<int, int>> levels;  // count, level
+  for (std::size_t level = 0; level < counts.size(); ++level)
+    if (counts[level] > 0) levels.emplace_back(counts[level], static_cast<int>(level));
+  std::sort(levels.rbegin(), levels.rend());
+  std::string out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(levels.size(), 4); ++i)
+    out += sentence("%sz = %.2f m (%.1f m^2)", i > 0 ? ", " : "", (low + levels[i].second) * voxel,
+                    levels[i].first * voxel * voxel);
+  return out;
+}
+
+/// levels, of the highest step that is climbed
+int highest_step(double climb, double voxel) {
+  const int step = static_cast<int>(std::floor(climb / voxel + kRounding));
+  return voxel > kObstacle + kRounding ? std::max(step, 1) : step;
 }
 
 }  // namespace
@@ -123,7 +144,10 @@ MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
           : largest_level_near(counts, config.floor_height / level - field.low_z(),
                                kFloorTolerance / level + kRounding);
   if (floor_top == kNoLevel) {
-    refused.error = no_floor_near(config.floor_height);
+    refused.error =
+        sentence("the map shows no floor within %.2f m of %.2f m (floor_height), but at ",
+                 kFloorTolerance, config.floor_height) +
+        largest_levels(counts, field.low_z(), level);
     return refused;
   }
   GroundGrid grid{level,
@@ -131,9 +155,12 @@ MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
                   field.width(),
                   field.height(),
                   on_one_level(field, floor_top, headroom, threads)};
-  const int climb = static_cast<int>(std::floor(config.climb / level + kRounding));
-  if (climb > 0) spread_floor(grid.ground, field, {floor_top, headroom, climb});
-  MapSurvey survey = resample(std::move(grid), config.cell_size > 0.0 ? config.cell_size : level);
+  if (config.climb > 0.0)
+    spread_floor(grid.ground, field,
+                 {floor_top, headroom, highest_step(config.climb, level),
+                  static_cast<int>(std::lround(kLongestTread / level))});
+  MapSurvey survey = resample(std::move(grid), config);
+  survey.levels = largest_levels(counts, field.low_z(), level);
   survey.floor_height = (field.low_z() + floor_top) * level;
   return survey;
 }

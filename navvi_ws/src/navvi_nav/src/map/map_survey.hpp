@@ -12,11 +12,12 @@ namespace navvi_nav::map {
 inline constexpr double kAnyFloor = -1000.0;  ///< m, SurveyConfig::floor_height: choose by area
 
 struct SurveyConfig {
-  double cell_size = 0.0;           ///< m, edge of a cell; 0: the map's own
+  double cell_size = 0.0;           ///< m, edge of a cell; 0: the map's own, or a part of it
   double robot_height = 0.8;        ///< m, a thing that hangs higher over the floor is none
-  double climb = 0.04;              ///< m, the highest step that is driven over
+  double climb = 0.04;              ///< m, the highest step that is driven over; 0: no ramp either
   double floor_height = kAnyFloor;  ///< m, z of the floor to take
   int threads = 2;                  ///< that may share the work; the result is the same
+  double margin = 0.35;             ///< m, that the floor will be eroded by
 };
 
 /// What a map shows, seen from above: which squares are floor, row by row.
@@ -28,20 +29,32 @@ struct MapSurvey {
   int columns = 0;
   int rows = 0;
   std::vector<Ground> ground;
+  std::string source;  ///< what a file says of itself; may be empty
+  std::string levels;  ///< where the map shows floor, for a sentence; may be empty
 };
 
 /// Chooses the floor and classifies each cell (R-NAV-12).
 ///
 /// A voxel's top is a place to stand if `robot_height` above it is free. The floor is the lowest
 /// level that shows at least half as many such places as the largest does, or the largest level
-/// within 0.25 m of `floor_height`. From there the floor spreads to neighbours that are at most
-/// `climb` higher or lower, one height a cell, the floor's own level first: so a ramp in the map is
-/// floor, and so is what it leads to. Slopes of 45 degrees and more over a few cells (R-NAV-1), and
-/// the upper side of a step higher than `climb`, are obstacles, like all else that rises above the
-/// floor and hangs lower than `robot_height`. Where the map shows nothing there is no floor.
+/// within 0.25 m of `floor_height`. From there the floor spreads to neighbours over steps and
+/// ramps, one height a cell, the floor's own level first:
 ///
-/// All this is done in the map's own voxels. If `cell_size` differs, a cell is floor only if all of
-/// it is, and an obstacle if a part is.
+/// - A step is climbed if it is at most `climb` high. Voxels of 0.05 m or less show what rises by
+///   5 cm, so a pedestal or a kerb of 5 cm is an obstacle (R-NAV-12). Coarser ones cannot: a step
+///   of one voxel may be the floor's own roughness, and is climbed.
+/// - A ramp shows as steps of one voxel, at least three in a row at equal distances of up to 1.2 m.
+///   So ramps from 1 in 24 (of voxels of 0.05 m) to less than 45 degrees (R-NAV-1) are floor, and
+///   so is what they lead to. A kerb or a pedestal is one such step, or a higher one.
+/// - With `climb` 0 there is neither: the robot stays on its level.
+///
+/// Slopes of 45 degrees and more over a few cells, and the upper side of a step that is not
+/// climbed, are obstacles, like all else that rises above the floor and hangs lower than
+/// `robot_height`. Where the map shows nothing there is no floor.
+///
+/// All this is done in the map's own voxels. If cells differ, a cell is floor only if all of it is,
+/// and an obstacle if a part is. With `cell_size` 0 they are parts of voxels where else erosion by
+/// `margin` would close a way that is 6 cm wider than the robot.
 [[nodiscard]] MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config);
 
 /// nav_msgs/OccupancyGrid without ROS: a map for a robot that has no OctoMap.
@@ -59,6 +72,7 @@ inline constexpr double kOccupiedAbove = 0.65;  ///< of occupancy, as map_server
 
 /// A value between free and occupied is unknown, and an unknown cell is no floor. Everything
 /// occupied is an obstacle of unknown height; the floor is at z = 0.
-[[nodiscard]] MapSurvey read_grid(const OccupancyGrid& grid, double cell_size);
+/// \param config  of which `cell_size` and `margin` count
+[[nodiscard]] MapSurvey read_grid(const OccupancyGrid& grid, const SurveyConfig& config);
 
 }  // namespace navvi_nav::map

@@ -76,13 +76,50 @@ TEST(MapSurvey, walks_a_ramp_if_climbing_is_allowed_and_it_is_not_as_steep_as_45
     if (walks) {
       EXPECT_EQ(ground_at(survey, 7.5, 2.0), Ground::floor) << slope;
     }
-    EXPECT_EQ(ground_at(survey_of(world, climbing(0.04)), 4.5, 2.0), Ground::obstacle) << slope;
+    EXPECT_EQ(ground_at(survey_of(world, climbing(0.0)), 4.5, 2.0), Ground::obstacle) << slope;
   }
+}
+
+TEST(MapSurvey, walks_ramps_but_neither_kerbs_nor_pedestals_in_voxels_as_high_as_these) {
+  SurveyConfig paper;
+  paper.cell_size = 0.2;
+  for (const SurveyConfig& config : {SurveyConfig{}, paper}) {
+    for (const double slope : {1.0 / 24, 1.0 / 12, 0.2, 0.5, 0.8, 0.9}) {
+      SmallWorld world = ramp_world(slope);
+      const MapSurvey survey = survey_of(world, config);
+      EXPECT_EQ(ground_at(survey, 3.3, 2.0), Ground::floor) << slope;
+      EXPECT_EQ(ground_at(survey, 4.5, 2.0), Ground::floor) << slope;
+      EXPECT_EQ(ground_at(survey, 7.5, 2.0), Ground::floor) << slope;
+    }
+    for (const double rise : {0.05, 0.10, 0.15}) {
+      SmallWorld world;  // a kerb with a pavement, a carton on that, and a pedestal
+      world.floor(0, 0, 8, 4).box(4, 0, 0, 8, 4, rise).box(4.4, 1, rise, 4.8, 1.4, rise + 0.05);
+      world.box(1, 1, 0, 1.8, 2, rise);
+      const MapSurvey survey = survey_of(world, config);
+      for (const auto& [x, y] : {std::pair{1.5, 1.5}, {4.1, 1.1}, {4.1, 3.1}, {6.1, 2.1}})
+        EXPECT_EQ(ground_at(survey, x, y), Ground::obstacle) << rise << ' ' << x;
+    }
+  }
+}
+
+TEST(MapSurvey, climbs_a_step_of_one_voxel_where_voxels_cannot_show_five_centimetres) {
+  SmallWorld world(0.08);
+  world.floor(0, 0, 4, 4).box(2, 0, 0, 4, 4, 0.08).box(0.8, 0.8, 0, 1.2, 1.2, 0.16);
+  const MapSurvey survey = survey_of(world);
+  EXPECT_EQ(ground_at(survey, 3, 2), Ground::floor);
+  EXPECT_EQ(ground_at(survey, 1, 1), Ground::obstacle);
+  EXPECT_EQ(ground_at(survey_of(world, climbing(0.0)), 3, 2), Ground::obstacle);
 }
 
 TEST(MapSurvey, judges_slopes_alike_whichever_way_they_run) {
   for (const auto& [degrees, walks] : {std::pair{38.0, true}, {47.0, false}}) {
-    for (const double heading : {0.0, 0.4, M_PI / 4, 1.2}) {
+    for (const auto& [heading, climb] : {std::pair{0.0, 0.1},
+                                         {0.4, 0.1},
+                                         {M_PI / 4, 0.1},
+                                         {1.2, 0.1},
+                                         {0.0, 0.04},
+                                         {M_PI / 4, 0.04},
+                                         {1.5, 0.04}}) {
       SmallWorld world;
       world.floor(0, 0, 6, 6);
       const double slope = std::tan(degrees * M_PI / 180.0);
@@ -95,7 +132,7 @@ TEST(MapSurvey, judges_slopes_alike_whichever_way_they_run) {
         }
       }
       int floor = 0, all = 0;
-      const MapSurvey survey = survey_of(world, climbing(0.1));
+      const MapSurvey survey = survey_of(world, climbing(climb));
       for (double s = 0.25; s * slope < 1.25; s += 0.05) {
         ++all;
         if (ground_at(survey, 3.0 + s * std::cos(heading), 3.0 + s * std::sin(heading)) ==
@@ -129,7 +166,8 @@ TEST(MapSurvey, takes_the_lowest_large_floor_or_the_one_it_is_told) {
   EXPECT_NEAR(survey_of(world, upper).floor_height, 3.1, 1e-9);
   upper.floor_height = 2.0;
   EXPECT_EQ(survey_map(world.voxels(), upper).error,
-            "the map shows no floor within 0.25 m of 2.00 m (floor_height)");
+            "the map shows no floor within 0.25 m of 2.00 m (floor_height), but at z = 3.10 m "
+            "(16.0 m^2), z = 0.00 m (16.0 m^2), z = -0.90 m (0.0 m^2)");
 }
 
 TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
@@ -198,6 +236,13 @@ TEST(MapSurvey, takes_a_coarse_cell_for_floor_only_if_all_of_it_is) {
   EXPECT_EQ(ground_at(survey_of(world, config), 3.97, 2.0), Ground::none);
 }
 
+SurveyConfig whole_cells(double cell_size) {
+  SurveyConfig config;
+  config.cell_size = cell_size;
+  config.margin = 0.0;
+  return config;
+}
+
 OccupancyGrid grid_of(int width, int height, double resolution) {
   OccupancyGrid grid;
   grid.width = width;
@@ -211,7 +256,7 @@ TEST(OccupancyGrid, is_floor_where_free_and_nothing_where_unknown) {
   OccupancyGrid grid = grid_of(5, 2, 0.1);
   grid.origin = {-0.2, 0.3};
   grid.cells = {0, 19, 20, 65, 66, 100, -1, 0, 0, 0};
-  const MapSurvey survey = read_grid(grid, 0.0);
+  const MapSurvey survey = read_grid(grid, whole_cells(0.0));
   ASSERT_EQ(survey.error, "");
   EXPECT_EQ(survey.low.x, -2);
   EXPECT_EQ(survey.low.y, 3);
@@ -227,7 +272,7 @@ TEST(OccupancyGrid, is_laid_on_the_lattice_so_that_nothing_blocked_becomes_free)
     OccupancyGrid grid = grid_of(24, 17, 0.05 + 0.01 * (round % 4));
     grid.origin = {0.001 * static_cast<double>(random() % 1000) - 0.5, 0.37 * round - 3.0};
     for (auto& cell : grid.cells) cell = random() % 4 == 0 ? std::int8_t{100} : std::int8_t{0};
-    const MapSurvey survey = read_grid(grid, round % 2 == 0 ? 0.0 : 0.1);
+    const MapSurvey survey = read_grid(grid, whole_cells(round % 2 == 0 ? 0.0 : 0.1));
     ASSERT_EQ(survey.error, "");
     for (int probe = 0; probe < 2000; ++probe) {
       const double u = static_cast<double>(random() % 10000) / 10000,
@@ -245,7 +290,7 @@ TEST(OccupancyGrid, is_refused_in_a_sentence_if_anything_is_wrong_with_it) {
   const auto error = [](auto change) {
     OccupancyGrid grid = grid_of(4, 3, 0.05);
     change(grid);
-    return read_grid(grid, 0.0).error;
+    return read_grid(grid, {}).error;
   };
   EXPECT_EQ(error([](OccupancyGrid&) {}), "");
   EXPECT_EQ(error([](OccupancyGrid& g) { g.width = 0; }), "the occupancy grid has no cells");

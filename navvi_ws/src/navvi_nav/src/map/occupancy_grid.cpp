@@ -42,14 +42,14 @@ Ground ground_of(std::int8_t cell) {
 
 }  // namespace
 
-MapSurvey read_grid(const OccupancyGrid& grid, double cell_size) {
+MapSurvey read_grid(const OccupancyGrid& grid, const SurveyConfig& config) {
   MapSurvey refused;
   refused.error = refusal_of(grid);
   if (!refused.error.empty()) return refused;
   GroundGrid ground{grid.resolution, grid.origin, grid.width, grid.height, {}};
   ground.ground.reserve(grid.cells.size());
   for (const std::int8_t cell : grid.cells) ground.ground.push_back(ground_of(cell));
-  return resample(std::move(ground), cell_size > 0.0 ? cell_size : grid.resolution);
+  return resample(std::move(ground), config);
 }
 
 }  // namespace navvi_nav::map

@@ -1,5 +1,7 @@
 #include "map/octomap_reader.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -13,6 +15,7 @@ struct Node {
 };
 
 constexpr Node kRoot{0, 0, 0, 0};
+constexpr const char* kColoured = "ColorOcTree";
 
 Node child_of(const Node& node, int child) {
   const int side = 1 << (kMapDepth - 1 - node.depth);
@@ -45,6 +48,7 @@ class Stream {
   explicit Stream(const MapBytes& bytes) : bytes_(bytes) {}
 
   [[nodiscard]] bool has(std::size_t count) const { return bytes_.size - at_ >= count; }
+  void skip(std::size_t count) { at_ += count; }
   [[nodiscard]] std::uint8_t byte() { return static_cast<std::uint8_t>(bytes_.data[at_++]); }
   [[nodiscard]] float value() {
     float out = 0.0F;
@@ -98,16 +102,18 @@ std::string walk_binary(const MapBytes& bytes, Voxels& out) {
   return stream.rest();
 }
 
-/// A float (the log-odds) and one bit a child.
+/// A float (the log-odds), in a ColorOcTree three bytes of colour, and one bit a child.
 std::string walk_full(const MapBytes& bytes, Voxels& out) {
   Stream stream(bytes);
+  const std::size_t colours = bytes.id == kColoured ? 3 : 0;
   std::vector<Node> waiting{kRoot};
   while (!waiting.empty()) {
     const Node node = waiting.back();
     waiting.pop_back();
     if (node.depth > kMapDepth) return too_deep();
-    if (!stream.has(5)) return stream.too_short();
+    if (!stream.has(5 + colours)) return stream.too_short();
     const float value = stream.value();
+    stream.skip(colours);
     const unsigned children = stream.byte();
     if (!std::isfinite(value)) return "the map has a node whose value is not finite";
     if (children == 0) {
@@ -124,7 +130,9 @@ std::string walk_full(const MapBytes& bytes, Voxels& out) {
 }
 
 std::string refusal_of(const MapBytes& bytes) {
-  if (bytes.id != "OcTree") return "the map is of another kind than OcTree";
+  if (bytes.id != "OcTree" && bytes.id != kColoured)
+    return "the map is of the kind \"" + printable(bytes.id) +
+           "\"; OcTree and ColorOcTree are allowed";
   if (!std::isfinite(bytes.resolution) || bytes.resolution < kMinResolution ||
       bytes.resolution > kMaxResolution)
     return "the map's resolution is not within 0.01 and 1 m";
@@ -134,6 +142,13 @@ std::string refusal_of(const MapBytes& bytes) {
 }
 
 }  // namespace
+
+std::string printable(std::string text) {
+  text.resize(std::min<std::size_t>(text.size(), 40));
+  for (char& c : text)
+    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
+  return text;
+}
 
 Voxels read_voxels(const MapBytes& bytes) {
   Voxels out;

@@ -12,7 +12,7 @@ struct MapBytes {
   const std::int8_t* data = nullptr;
   std::size_t size = 0;
   bool binary = true;       ///< false: node values as floats (OcTree::writeData)
-  std::string id;           ///< must be OcTree
+  std::string id;           ///< OcTree or ColorOcTree
   double resolution = 0.0;  ///< m
 };
 
@@ -38,7 +38,11 @@ struct Voxels {
   std::string error;        ///< a sentence if the map was refused
   double resolution = 0.0;  ///< m
   std::vector<Octet> octets;
+  std::string source;  ///< what a file says of itself; may be empty
 };
+
+/// The beginning of a word of a map, fit for a terminal.
+[[nodiscard]] std::string printable(std::string text);
 
 /// Walks the stream once, without recursion and without building a tree, and takes the occupied
 /// leaves as octomap would. Refuses a stream that is not one well-formed octree of at most 16

@@ -106,8 +106,9 @@ TEST(OctomapReader, refuses_bad_resolutions_and_other_trees) {
                            std::numeric_limits<double>::infinity()})
     EXPECT_FALSE(read_voxels(bytes_of(data, true, bad)).error.empty()) << bad;
   MapBytes bytes = bytes_of(data);
-  bytes.id = "ColorOcTree";
-  EXPECT_EQ(read_voxels(bytes).error, "the map is of another kind than OcTree");
+  bytes.id = "CountingOcTree\n";
+  EXPECT_EQ(read_voxels(bytes).error,
+            "the map is of the kind \"CountingOcTree?\"; OcTree and ColorOcTree are allowed");
 }
 
 TEST(OctomapReader, refuses_a_stream_cut_anywhere) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace navvi_nav::map {
 namespace {
 
-constexpr double kRounding = 1e-4;  // of a cell
+constexpr double kRounding = 1e-4;      // of a cell
+constexpr double kSpare = 0.06 + 1e-9;  // m
 
 int floor_cell(double value) { return static_cast<int>(std::floor(value + kRounding)); }
 int ceil_cell(double value) { return static_cast<int>(std::ceil(value - kRounding)); }
@@ -41,9 +43,34 @@ Ground worst(const GroundGrid& grid, Overlap across, Overlap along) {
   return partial ? Ground::none : Ground::floor;
 }
 
+bool on_lattice(double place, double cell) {
+  return std::abs(std::remainder(place, cell)) < kRounding * cell;
+}
+
+/// m: the squares' own size, or a whole part of it if a robot that needs `margin` to each side
+/// could not pass where there is kSpare more. Whole cells lose up to one cell, what the margin is
+/// rounded up by on either side, and another cell where the squares lie across the lattice.
+double cell_that_keeps_ways_open(const GroundGrid& grid, double margin) {
+  double best = grid.cell_size;
+  double least = std::numeric_limits<double>::infinity();
+  for (int parts = 1; static_cast<double>(grid.columns) * grid.rows * parts * parts <= kMaxCells;
+       ++parts) {
+    const double cell = grid.cell_size / parts;
+    const bool aligned = on_lattice(grid.origin.x, cell) && on_lattice(grid.origin.y, cell);
+    const double rounded = std::ceil(margin / cell - kRounding) * cell - margin;
+    const double lost = (aligned ? cell : 2.0 * cell) + 2.0 * rounded;
+    if (lost < least) best = cell;
+    least = std::min(least, lost);
+    if (least <= kSpare) break;
+  }
+  return best;
+}
+
 }  // namespace
 
-MapSurvey resample(GroundGrid grid, double cell_size) {
+MapSurvey resample(GroundGrid grid, const SurveyConfig& how) {
+  const double cell_size =
+      how.cell_size > 0.0 ? how.cell_size : cell_that_keeps_ways_open(grid, how.margin);
   MapSurvey out;
   out.cell_size = cell_size;
   const double x = grid.origin.x / cell_size;

@@ -25,9 +25,10 @@ struct GroundGrid {
   std::vector<Ground> ground;  ///< row by row
 };
 
-/// The grid in cells of `cell_size` (m) on the lattice through the origin of map: a cell is floor
-/// only if all of it is, and an obstacle if a part is. Sets all but the floor's height; an error if
-/// there would be too many cells.
-[[nodiscard]] MapSurvey resample(GroundGrid grid, double cell_size);
+/// The grid in cells on the lattice through the origin of map: a cell is floor only if all of it
+/// is, and an obstacle if a part is. Sets all but the floor's height; an error if there would be
+/// too many cells.
+/// \param how  of which `cell_size` and `margin` count
+[[nodiscard]] MapSurvey resample(GroundGrid grid, const SurveyConfig& how);
 
 }  // namespace navvi_nav::map

@@ -18,9 +18,10 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   visit(robot_height, "robot_height", Range{0.1, 5.0}, "m",
         "a thing that hangs higher over the floor does not block");
   visit(cell_size, "cell_size", Range{0.0, 1.0}, "m",
-        "edge of a cell of the mesh; 0: the map's voxel");
+        "edge of a cell of the mesh; 0: the map's voxel, or the part of it that erosion needs");
   visit(climb, "climb", Range{0.0, 0.5}, "m",
-        "highest step that is driven over; steps below 0.05 m are no obstacles (R-NAV-12)");
+        "highest step that is driven over, and a voxel of more than 0.05 m at least (R-NAV-12); "
+        "with it come ramps of less than 45 degrees (R-NAV-1); 0: none of them");
   visit(floor_height, "floor_height", Range{map::kAnyFloor, 1000.0}, "m",
         "z of the floor in map; -1000: the lowest that is at least half as large as the largest");
   visit(whole_cell_erosion, "whole_cell_erosion", navvi_config::Any{}, "",
@@ -48,7 +49,8 @@ double NavMesh::margin(double cell) const {
 }
 
 map::SurveyConfig survey_config(const NavMeshConfig& config) {
-  return {config.cell_size, config.robot_height, config.climb, config.floor_height, config.threads};
+  return {config.cell_size,    config.robot_height, config.climb,
+          config.floor_height, config.threads,      config.robot_radius};
 }
 
 MeshUpdate NavMesh::set_map(map::MapSurvey survey) {

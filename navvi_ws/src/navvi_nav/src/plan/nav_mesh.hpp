@@ -68,7 +68,7 @@ class NavMesh {
     return set_map(map::survey_map(voxels, survey_config(config_)));
   }
   MeshUpdate set_map(const map::OccupancyGrid& grid) {
-    return set_map(map::read_grid(grid, config_.cell_size));
+    return set_map(map::read_grid(grid, survey_config(config_)));
   }
   /// Makes the holes those of `cylinders`: the hole of one whose id is gone heals. One that moved
   /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction

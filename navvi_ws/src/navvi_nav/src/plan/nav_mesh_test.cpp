@@ -72,7 +72,8 @@ TEST(NavMesh, refuses_a_map_without_room_for_the_robot) {
   SmallWorld world;
   world.floor(0, 0, 0.6, 0.6);
   NavMesh mesh(NavMeshConfig{});
-  EXPECT_EQ(mesh.set_map(world.voxels()).error, "the map shows no walkable floor");
+  EXPECT_EQ(mesh.set_map(world.voxels()).error,
+            "the map shows no walkable floor; what there is of floor lies at z = 0.00 m (0.4 m^2)");
   EXPECT_TRUE(mesh.empty());
 }
 
@@ -118,6 +119,28 @@ TEST(NavMesh, closes_a_narrow_door_and_opens_a_wide_one) {
     SmallWorld world;
     world.room(10, 6).box(5, 0, 0, 5.1, 2, 1).box(5, 2 + width, 0, 5.1, 6, 1);
     EXPECT_EQ(joined(mesh_of(world), {2, 3}, {8, 3}), open) << width;
+  }
+}
+
+TEST(NavMesh, passes_a_door_of_80_cm_at_every_resolution_that_shows_it_as_such) {
+  for (const double resolution : {0.02, 0.025, 0.04, 0.05, 0.08, 0.1}) {
+    SmallWorld world(resolution);
+    world.room(10, 6).box(5, 0, 0, 5.2, 2, 1).box(5, 2.8, 0, 5.2, 6, 1);
+    const NavMesh mesh = mesh_of(world);
+    EXPECT_TRUE(joined(mesh, {2, 3}, {8, 3})) << resolution;
+    EXPECT_FALSE(walkable(mesh, {5.1, 2.34})) << resolution;
+  }
+}
+
+TEST(NavMesh, opens_the_same_door_of_a_grid_wherever_its_cells_lie) {
+  for (const double origin : {0.0, -0.02, 3.333}) {
+    map::OccupancyGrid grid{100, 60, 0.1, {origin, origin}, 0.0, {}};
+    grid.cells.assign(6000, 0);
+    for (int y = 0; y < 60; ++y)
+      if (y < 26 || y >= 35) grid.cells[static_cast<std::size_t>(100 * y + 50)] = 100;
+    NavMesh mesh(NavMeshConfig{});
+    ASSERT_EQ(mesh.set_map(grid).error, "");
+    EXPECT_TRUE(joined(mesh, {origin + 2, origin + 3}, {origin + 8, origin + 3})) << origin;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "tool/mesh_picture.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -8,6 +9,11 @@ namespace {
 
 constexpr double kScale = 20.0;  // units a metre
 constexpr double kFrame = 0.5;   // m around the map
+constexpr double kLegend = 12;   // lines of text, its width
+constexpr const char* kShades[] = {"#3fd0e0", "#7fe0a0", "#a0b8ff", "#e0d070", "#ffb0d0"};
+constexpr const char* kPath = "#8a00d4";
+constexpr const char* kStart = "#1fa340";
+constexpr const char* kGoal = "#e01020";
 
 /// Writes places of the map as places of the picture.
 class Canvas {
@@ -17,7 +23,10 @@ class Canvas {
              floor.origin().y * floor.cell_size() - kFrame},
         high_{(floor.origin().x + floor.columns()) * floor.cell_size() + kFrame,
               (floor.origin().y + floor.rows()) * floor.cell_size() + kFrame} {
-    const double width = kScale * (high_.x - low_.x), height = kScale * (high_.y - low_.y);
+    const double map_height = kScale * (high_.y - low_.y);
+    right_ = kScale * (high_.x - low_.x);
+    line_ = std::max(16.0, std::max(right_, map_height) / 60.0);
+    const double width = right_ + kLegend * line_, height = std::max(map_height, 12.0 * line_);
     add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" "
         "height=\"%.0f\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"#8a8f98\"/>\n",
         width, height, width, height);
@@ -33,6 +42,12 @@ class Canvas {
   void place(Point at) { add("%.2f,%.2f ", x(at), y(at)); }
   [[nodiscard]] double x(Point at) const { return kScale * (at.x - low_.x); }
   [[nodiscard]] double y(Point at) const { return kScale * (high_.y - at.y); }
+  [[nodiscard]] double right() const { return right_; }  ///< of the map
+  [[nodiscard]] double line() const { return line_; }    ///< height of a line of text
+  void text(double at_x, double at_y, const char* words) {
+    add("<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" font-family=\"sans-serif\">%s</text>\n",
+        at_x, at_y, 0.8 * line_, words);
+  }
   [[nodiscard]] std::string finish() {
     out_ += "</svg>\n";
     return std::move(out_);
@@ -40,6 +55,8 @@ class Canvas {
 
  private:
   Point low_, high_;
+  double right_ = 0.0;
+  double line_ = 0.0;
   std::string out_;
 };
 
@@ -62,7 +79,6 @@ void draw_ground(Canvas& canvas, const map::Floor& floor, map::Ground kind, cons
 }
 
 void draw_mesh(Canvas& canvas, const mesh::Mesh& mesh) {
-  static constexpr const char* kShades[] = {"#3fd0e0", "#7fe0a0", "#a0b8ff", "#e0d070", "#ffb0d0"};
   canvas.add("<g stroke=\"#05606b\" stroke-width=\"0.7\" stroke-linejoin=\"round\">\n");
   for (const mesh::Polygon& polygon : mesh.polygons) {
     if (polygon.corners.empty()) continue;
@@ -86,6 +102,39 @@ void draw_dot(Canvas& canvas, Point at, double radius, const char* style) {
              radius, style);
 }
 
+/// What the colours mean, a bar to measure by, and where x and y are 0.
+void draw_legend(Canvas& canvas, const PictureOf& what) {
+  const double line = canvas.line(), x = canvas.right() + 0.5 * line;
+  double y = 0.5 * line;
+  const auto entry = [&](const char* colour, const char* words) {
+    canvas.add("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x, y,
+               line, 0.8 * line, colour);
+    canvas.text(x + 1.3 * line, y + 0.75 * line, words);
+    y += 1.2 * line;
+  };
+  entry("#f2f2ee", "floor");
+  entry("#30343a", "obstacle");
+  if (what.mesh != nullptr) entry(kShades[0], "mesh, its parts in shades");
+  if (!what.cylinders.empty()) entry("#ff9a3c", "moving thing");
+  if (!what.path.empty()) {
+    entry(kPath, "guide path");
+    entry(kStart, "start");
+    entry(kGoal, "goal");
+  }
+  double metres = 1.0;
+  for (const double longer : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0})
+    if (kScale * longer <= 0.7 * kLegend * line) metres = longer;
+  char words[16];
+  std::snprintf(words, sizeof words, "%.0f m", metres);
+  canvas.add("<path d=\"M%.1f %.1fv%.1fh%.1fv%.1f\" fill=\"none\" stroke=\"#000000\"/>\n", x, y,
+             0.4 * line, kScale * metres, -0.4 * line);
+  canvas.text(x, y + 1.3 * line, words);
+  const Point origin{canvas.x({0, 0}), canvas.y({0, 0})};
+  canvas.add("<path d=\"M%.1f %.1fh%.1fm%.1f %.1fv%.1f\" stroke=\"#000000\" stroke-width=\"2\"/>\n",
+             origin.x, origin.y, line, -line, 0.0, -line);
+  canvas.text(origin.x + 0.2 * line, origin.y + 0.8 * line, "0, 0");
+}
+
 }  // namespace
 
 std::string svg_of(const PictureOf& what) {
@@ -105,6 +154,7 @@ std::string svg_of(const PictureOf& what) {
     draw_dot(canvas, what.path.back(), 7.0,
              "fill=\"#e01020\" stroke=\"#ffffff\" stroke-width=\"2\"");
   }
+  draw_legend(canvas, what);
   return canvas.finish();
 }
 

@@ -27,13 +27,14 @@ using namespace navvi_nav::tool;
 
 constexpr const char* kUsage =
     R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
-        [--stage STAGE]
+        [--stage STAGE] [name:=value ...]
   MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
   -o          draw the map, its mesh, the cylinders and the path; ./navvi also takes FILE.png
   --from --to search a path, m in map
   --cylinder  cut a hole around something that moves, m in map
   --stage     stop after map, bake, mesh (holes), search (shortest path) or smooth (the default)
-  --config    parameters that differ from the defaults, as in nav_node's config files
+  --config    parameters that differ from the defaults, as in nav_node's config files; single ones
+              as in mesh/climb:=0.1
 )";
 
 class UsageError : public std::runtime_error {
@@ -61,6 +62,7 @@ struct Options {
   std::optional<Point> from;
   std::optional<Point> to;
   std::vector<Cylinder> cylinders;
+  std::vector<std::string> parameters;  ///< name:=value
   bool help = false;
 };
 
@@ -115,6 +117,8 @@ Options read_options(const std::vector<std::string>& words) {
           {static_cast<std::uint32_t>(out.cylinders.size() + 1), {at[0], at[1]}, at[2], {}});
     } else if (word.rfind("--", 0) == 0) {
       throw UsageError("\"" + word + "\" is no option");
+    } else if (word.find(":=") != std::string::npos) {
+      out.parameters.push_back(word);
     } else if (out.map.empty()) {
       out.map = word;
     } else {
@@ -126,7 +130,8 @@ Options read_options(const std::vector<std::string>& words) {
   return out;
 }
 
-void print_mesh(const plan::NavMesh& nav_mesh, const plan::MeshUpdate& update) {
+void print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
+                const plan::MeshUpdate& update) {
   const map::Floor& floor = *nav_mesh.shared_floor();
   const mesh::Mesh& mesh = nav_mesh.mesh();
   double area = 0.0;  // m^2
@@ -145,6 +150,7 @@ void print_mesh(const plan::NavMesh& nav_mesh, const plan::MeshUpdate& update) {
     for (std::size_t k = 2; k < corners.size(); ++k)
       area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
   }
+  if (!source.empty()) std::printf("map         %s\n", source.c_str());
   std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
               floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
               floor.cell_size(), floor.height());
@@ -173,6 +179,7 @@ int run(const Options& options) {
   guide::NavigatorConfig config;
   if (!options.config.empty())
     navvi_config::read(config, navvi_config::load_yaml(options.config), options.config);
+  navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
   std::ofstream file;
   if (!options.picture.empty()) {
     file.open(options.picture);
@@ -193,7 +200,7 @@ int run(const Options& options) {
   const double baked = lap();
   if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
   const double carved = lap();
-  print_mesh(planner.nav_mesh(), update);
+  print_mesh(survey.source, planner.nav_mesh(), update);
   std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
               surveyed, baked, carved);
 

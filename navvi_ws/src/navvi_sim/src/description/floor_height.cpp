@@ -5,8 +5,6 @@
 #include <limits>
 #include <map>
 
-#include "description/footprint.hpp"
-
 namespace navvi_sim {
 namespace {
 
@@ -18,6 +16,7 @@ constexpr double kStoreyShare = 0.25;  // of the largest level's area, that a st
 constexpr double kSlabShare = 0.5;     // of the largest level below it, that a slab has at least
 constexpr double kLeastFloor = 4.0;    // m^2: what is level and smaller stands on a floor
 constexpr double kStands = 0.3;        // m, from a storey's level to the foot of what stands on it
+constexpr double kSlab = 0.25;         // of a storey's area, that a slab on it covers at least
 
 /// Area of the level surfaces by height.
 class Surfaces {
@@ -99,21 +98,29 @@ void add_level(Surfaces& surfaces, const Thing& thing) {
   }
 }
 
-/// Corners of a box around a geometry, or a mesh's vertices.
-std::vector<Eigen::Vector3d> corners_of(const Geometry& geometry) {
-  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
-    const double width = 2.0 * cylinder->radius;
-    return hull_points(Box{{width, width, cylinder->length}});
+/// m, in map: the top of the slab that covers much of a storey and bears half of the things on it
+/// or more, such as asphalt on a ground plane; of several the highest, and `floor` if there is
+/// none.
+double top_of_slab(const std::vector<Thing>& things, double floor, double area) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Thing& thing : things) boxes.push_back(bounds_of({thing}));
+  double height = floor;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const double top = boxes[i].max().z();
+    if (things[i].route || top <= height || top > floor + kStands) continue;
+    if (level_area(things[i], top - kBin, top) < kSlab * area) continue;
+    int on_slab = 0, others = 0;
+    for (const Eigen::AlignedBox3d& box : boxes) {
+      if (box.max().z() <= top || box.min().z() > top + kStands) continue;
+      ++others;
+      const Eigen::Vector3d centre = box.center();
+      if ((centre - boxes[i].min()).head<2>().minCoeff() >= 0.0 &&
+          (boxes[i].max() - centre).head<2>().minCoeff() >= 0.0)
+        ++on_slab;
+    }
+    if (on_slab > 0 && 2 * on_slab >= others) height = top;
   }
-  if (const auto* sphere = std::get_if<Sphere>(&geometry))
-    return hull_points(Box{Eigen::Vector3d::Constant(2.0 * sphere->radius)});
-  return hull_points(geometry);
-}
-
-void extend(Eigen::AlignedBox3d& bounds, const Thing& thing) {
-  for (const Shape& shape : thing.shapes)
-    for (const Eigen::Vector3d& corner : corners_of(shape.geometry))
-      bounds.extend(thing.pose * (shape.pose * corner));
+  return height;
 }
 
 std::vector<Surfaces::Level> storeys_of(const std::vector<Thing>& things) {
@@ -142,7 +149,7 @@ std::optional<double> main_floor_height(const std::vector<Thing>& things) {
   }
   for (std::size_t i = 0; i < storeys.size(); ++i)
     if (2 * standing[i] >= *std::max_element(standing.begin(), standing.end()))
-      return storeys[i].height;
+      return top_of_slab(things, storeys[i].height, storeys[i].area);
   return std::nullopt;
 }
 
@@ -160,9 +167,32 @@ double level_area(const Thing& thing, double low, double high) {
 
 double top_of(const Thing& thing) { return bounds_of({thing}).max().z(); }
 
+Eigen::AlignedBox3d bounds_of(const Geometry& geometry, const Eigen::Isometry3d& pose) {
+  Eigen::Vector3d half;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&geometry)) {
+    Eigen::AlignedBox3d bounds;
+    for (const Eigen::Vector3f& vertex : (*mesh)->vertices)
+      bounds.extend(pose * vertex.cast<double>());
+    return bounds;
+  }
+  if (const auto* box = std::get_if<Box>(&geometry)) {
+    half = pose.linear().cwiseAbs() * (0.5 * box->size);
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    const Eigen::Vector3d axis = pose.linear().col(2);
+    for (int i = 0; i < 3; ++i)
+      half[i] = std::abs(axis[i]) * 0.5 * cylinder->length +
+                cylinder->radius * std::sqrt(std::max(0.0, 1.0 - axis[i] * axis[i]));
+  } else {
+    half.setConstant(std::get<Sphere>(geometry).radius);
+  }
+  return {pose.translation() - half, pose.translation() + half};
+}
+
 Eigen::AlignedBox3d bounds_of(const std::vector<Thing>& things) {
   Eigen::AlignedBox3d bounds;
-  for (const Thing& thing : things) extend(bounds, thing);
+  for (const Thing& thing : things)
+    for (const Shape& shape : thing.shapes)
+      bounds.extend(bounds_of(shape.geometry, thing.pose * shape.pose));
   return bounds;
 }
 

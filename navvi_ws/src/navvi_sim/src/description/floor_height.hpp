@@ -21,6 +21,10 @@ namespace navvi_sim {
 /// m, in map: the highest point of a thing.
 [[nodiscard]] double top_of(const Thing& thing);
 
+/// The least box along the axes around a geometry at a pose.
+[[nodiscard]] Eigen::AlignedBox3d bounds_of(const Geometry& geometry,
+                                            const Eigen::Isometry3d& pose);
+
 /// m, in map: the box along the axes that holds all of `things`; empty for none.
 [[nodiscard]] Eigen::AlignedBox3d bounds_of(const std::vector<Thing>& things);
 

@@ -74,7 +74,7 @@ class SimNode {
 SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
     : config_(config),
       description_(std::move(loaded.world)),
-      map_(occupancy::occupancy_of(description_, config_.octomap)),
+      map_(setup::map_of(config_, description_)),
       looks_(description_, config.life.robot),
       gate_(config.gate),
       pacer_(config.life.step, config.rate, config.max_catch_up) {
@@ -133,6 +133,7 @@ void SimNode::publish_static(const scenario::StartAndGoal& scenario) {
 void SimNode::log_world(const std::vector<std::string>& notes,
                         const scenario::StartAndGoal& scenario) const {
   for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
+  if (!scenario.note.empty()) ROS_WARN("%s", scenario.note.c_str());
   std::map<std::string, int> standing, moving;
   for (const Thing& thing : description_.things)
     ++(thing.route ? moving : standing)[to_string(thing.thing_class)];

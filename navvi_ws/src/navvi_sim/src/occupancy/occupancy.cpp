@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/floor_height.hpp"
 #include "occupancy/octree_writer.hpp"
 
 namespace navvi_sim::occupancy {
@@ -17,13 +18,30 @@ bool is_aligned(const Eigen::Isometry3d& pose) {
   return (pose.linear().cwiseAbs().rowwise().maxCoeff().array() > 1.0 - 1e-9).all();
 }
 
+/// Where the robot drives, on a border of voxels.
+struct Ground {
+  double height;     ///< m
+  double underside;  ///< m, of the robot, above that
+
+  /// m, by which what reaches up to `top` rises to be level with the ground: what the robot drives
+  /// over. 0 for everything else.
+  [[nodiscard]] double rise(double top) const {
+    const double to_ground = height - top;
+    return std::abs(to_ground) < underside - 1e-9 ? to_ground : 0.0;
+  }
+};
+
 /// Adds a shape of any kind to the occupied shapes.
 class ShapeInserter {
  public:
   /// \param enclosing  the inside of a closed mesh is where one drives
   ShapeInserter(OccupiedShapes& shapes, const Eigen::Isometry3d& pose, double resolution,
-                bool enclosing)
-      : shapes_(shapes), pose_(pose), resolution_(resolution), enclosing_(enclosing) {}
+                const Ground& ground, bool enclosing)
+      : shapes_(shapes),
+        pose_(pose),
+        resolution_(resolution),
+        ground_(ground),
+        enclosing_(enclosing) {}
 
   void operator()(const Box& box) const {
     const double reach = reach_of(box.size.minCoeff());
@@ -43,6 +61,7 @@ class ShapeInserter {
   void operator()(const std::shared_ptr<const Mesh>& mesh) const {
     // A surface has no inside to reach into: it counts a little below where it is instead.
     const Eigen::Vector3d down = -kReach * resolution_ * Eigen::Vector3d::UnitZ();
+    const auto rise_of = [&](double top) { return ground_.rise(top - down.z()); };
     std::vector<Triangle> triangles;
     for (const auto& indices : mesh->triangles) {
       Triangle triangle;
@@ -50,11 +69,17 @@ class ShapeInserter {
         triangle.corners[i] = pose_ * mesh->vertices[indices[i]].cast<double>() + down;
       triangles.push_back(triangle);
     }
-    shapes_.triangles.insert(shapes_.triangles.end(), triangles.begin(), triangles.end());
-    if (enclosing_ || triangles.size() > kMostFilled) return;
-    for (ClosedMesh& part : closed_parts(triangles))
-      if (part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled)
-        shapes_.closed.push_back(std::move(part));
+    if (!enclosing_ && triangles.size() <= kMostFilled)
+      for (ClosedMesh& part : closed_parts(triangles))
+        if (part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled &&
+            rise_of(part.bounds().max().z()) == 0.0)
+          shapes_.closed.push_back(std::move(part));
+    for (Triangle& triangle : triangles) {
+      const auto& [a, b, c] = triangle.corners;
+      const double rise = rise_of(std::max({a.z(), b.z(), c.z()}));
+      for (Eigen::Vector3d& corner : triangle.corners) corner.z() += rise;
+      shapes_.triangles.push_back(triangle);
+    }
   }
 
  private:
@@ -84,27 +109,13 @@ class ShapeInserter {
   OccupiedShapes& shapes_;
   Eigen::Isometry3d pose_;
   double resolution_;
+  Ground ground_;
   bool enclosing_;
 };
 
-/// Half the length of a cube around the shape's frame that holds the shape.
-struct Extent {
-  double operator()(const Box& box) const { return box.size.norm() / 2.0; }
-  double operator()(const Cylinder& cylinder) const {
-    return std::hypot(cylinder.radius, cylinder.length / 2.0);
-  }
-  double operator()(const Sphere& sphere) const { return sphere.radius; }
-  double operator()(const std::shared_ptr<const Mesh>& mesh) const {
-    float extent = 0.0F;
-    for (const Eigen::Vector3f& vertex : mesh->vertices) extent = std::max(extent, vertex.norm());
-    return static_cast<double>(extent);
-  }
-};
-
-void check_reach(const Thing& thing, const Shape& shape, double resolution) {
+void check_reach(const Thing& thing, const Eigen::AlignedBox3d& bounds, double resolution) {
   const double reach = OccupancyMap::kCenter * resolution;
-  const double extent = (thing.pose * shape.pose).translation().cwiseAbs().maxCoeff() +
-                        std::visit(Extent{}, shape.geometry);
+  const double extent = bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff();
   if (!(extent < reach))
     throw WorldError("thing '" + thing.name + "' reaches " + std::to_string(extent) +
                      " m from the origin; allowed is less than " + std::to_string(reach) +
@@ -120,16 +131,21 @@ void OccupancyConfig::describe(navvi_config::Visitor& visit) {
 
 OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
   const double border = std::round(world.floor_height / config.resolution) * config.resolution;
-  const Eigen::Translation3d lift(0.0, 0.0, border - world.floor_height);
+  const Ground ground{border, config.underside};
   OccupiedShapes shapes;
   for (const Thing& thing : world.things) {
     if (thing.route) continue;
+    const bool enclosing =
+        thing.thing_class == ThingClass::floor || thing.thing_class == ThingClass::wall;
     for (const Shape& shape : thing.shapes) {
-      check_reach(thing, shape, config.resolution);
-      const Eigen::Isometry3d pose = lift * (thing.pose * shape.pose);
-      const bool enclosing =
-          thing.thing_class == ThingClass::floor || thing.thing_class == ThingClass::wall;
-      std::visit(ShapeInserter(shapes, pose, config.resolution, enclosing), shape.geometry);
+      const Eigen::Isometry3d pose = thing.pose * shape.pose;
+      const Eigen::AlignedBox3d bounds = bounds_of(shape.geometry, pose);
+      if (bounds.isEmpty()) continue;
+      check_reach(thing, bounds, config.resolution);
+      const double shift = border - world.floor_height;
+      const Eigen::Translation3d lift(0.0, 0.0, shift + ground.rise(bounds.max().z() + shift));
+      std::visit(ShapeInserter(shapes, lift * pose, config.resolution, ground, enclosing),
+                 shape.geometry);
     }
   }
   return {config.resolution, write_octree(shapes, config.resolution, kMaxBytes)};

@@ -187,6 +187,30 @@ TEST(Occupancy, shows_a_pedestal_of_5_cm_on_a_floor_at_any_height) {
   }
 }
 
+TEST(Occupancy, has_no_step_where_the_robot_drives_over) {
+  auto bump = std::make_shared<Mesh>();  // a sill of 3 cm, and a wall that stands on it
+  bump->vertices = {{0, 0, 0},       {1, 0, 0.03F},   {0, 1, 0.03F},
+                    {0, 1.5F, 0.0F}, {1, 1.5F, 0.0F}, {1, 1.5F, 1.0F}};
+  bump->triangles = {{0, 1, 2}, {3, 4, 5}};
+  for (const double resolution : {0.02, 0.05, 0.1}) {
+    for (const double floor : {0.0, -0.013, 0.16}) {
+      const auto map = map_of(
+          {standing(ThingClass::floor, Box{{8.0, 8.0, 0.1}}, pose(0, 0, floor - 0.05)),
+           standing(ThingClass::other, Box{{1.0, 1.0, 0.002}}, pose(-2, 0, floor + 0.001)),
+           standing(ThingClass::other, Cylinder{0.5, 0.049}, pose(-2, 2, floor + 0.0245)),
+           standing(ThingClass::floor, Box{{1.0, 1.0, 0.1}}, pose(5, 0, floor - 0.09)),
+           standing(ThingClass::other, std::shared_ptr<const Mesh>(bump), pose(1, 1, floor))},
+          floor, resolution);
+      const double border = std::round(floor / resolution) * resolution;
+      for (const auto& [x, y] : {std::pair{-1.99, 0.01}, {-1.99, 2.01}, {5.01, 0.01}, {1.3, 1.3}}) {
+        EXPECT_TRUE(occupied(map, x, y, border - 0.01)) << x << ' ' << floor << ' ' << resolution;
+        EXPECT_FALSE(occupied(map, x, y, border + 0.01)) << x << ' ' << floor << ' ' << resolution;
+      }
+      EXPECT_TRUE(occupied(map, 1.95, 2.499, border + 0.55)) << resolution;
+    }
+  }
+}
+
 TEST(Occupancy, is_the_tree_that_octomap_makes_of_the_same_voxels) {
   auto mesh = std::make_shared<Mesh>();
   mesh->vertices = {{0.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 1.0F}};

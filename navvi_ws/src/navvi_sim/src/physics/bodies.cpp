@@ -1,7 +1,8 @@
 #include "physics/bodies.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "description/floor_height.hpp"
 
 namespace navvi_sim::physics {
 namespace {
@@ -18,27 +19,6 @@ std::unique_ptr<AabbTree> tree_of(const Mesh& mesh) {
 }
 
 }  // namespace
-
-Eigen::AlignedBox3d bounds_of(const Geometry& geometry, const Eigen::Isometry3d& pose) {
-  Eigen::Vector3d half;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&geometry)) {
-    Eigen::AlignedBox3d bounds;
-    for (const Eigen::Vector3f& vertex : (*mesh)->vertices)
-      bounds.extend(pose * vertex.cast<double>());
-    return bounds;
-  }
-  if (const auto* box = std::get_if<Box>(&geometry)) {
-    half = pose.linear().cwiseAbs() * (0.5 * box->size);
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
-    const Eigen::Vector3d axis = pose.linear().col(2);
-    for (int i = 0; i < 3; ++i)
-      half[i] = std::abs(axis[i]) * 0.5 * cylinder->length +
-                cylinder->radius * std::sqrt(std::max(0.0, 1.0 - axis[i] * axis[i]));
-  } else {
-    half.setConstant(std::get<Sphere>(geometry).radius);
-  }
-  return {pose.translation() - half, pose.translation() + half};
-}
 
 Bodies::Bodies(const WorldDescription& description, double underside) {
   std::vector<Eigen::AlignedBox3d> boxes;

@@ -51,8 +51,4 @@ class Bodies {
   std::map<const Mesh*, std::unique_ptr<AabbTree>> triangles_;
 };
 
-/// The least box around a geometry at a pose.
-[[nodiscard]] Eigen::AlignedBox3d bounds_of(const Geometry& geometry,
-                                            const Eigen::Isometry3d& pose);
-
 }  // namespace navvi_sim::physics

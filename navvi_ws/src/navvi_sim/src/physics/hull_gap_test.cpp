@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "description/floor_height.hpp"
 #include "physics/proximity.hpp"
 
 namespace navvi_sim::physics {

@@ -74,11 +74,21 @@ void MapCanvas::outline(const Outline& outline) {
   const Paint paint = paint_of(outline.look);
   std::string path;
   for (const auto& ring : outline.rings) path += this->path(ring, true);
+  if (outline.hangs) {
+    out_ << "<path d=\"" << path << "\" fill=\"none\" stroke=\"" << paint.edge
+         << "\" stroke-width=\"" << svg_number(stroke(0.04)) << "\" stroke-dasharray=\"4 4\"/>\n";
+    return;
+  }
   const bool one = outline.rings.size() == 1;
   out_ << "<path d=\"" << path << "\" fill=\"" << paint.fill << '"';
   if (one)
     out_ << " stroke=\"" << paint.edge << "\" stroke-width=\"" << svg_number(stroke(0.04)) << '"';
   out_ << "/>\n";
+  std::string lines;
+  for (const auto& points : outline.lines) lines += this->path(points, false);
+  if (!lines.empty())
+    out_ << "<path d=\"" << lines << "\" fill=\"none\" stroke=\"" << paint.edge
+         << "\" stroke-width=\"" << svg_number(stroke(0.08)) << "\"/>\n";
   if (!outline.is_box) return;
   const auto& ring = outline.rings.front();
   if (outline.look == ThingClass::box) {  // taped

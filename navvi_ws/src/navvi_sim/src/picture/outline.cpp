@@ -6,10 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include "description/footprint.hpp"
+
 namespace navvi_sim::picture {
 namespace {
 
 constexpr int kRimPoints = 24;
+constexpr double kCut = 1.2;          // m above the floor, the headroom of scenarios
+constexpr double kDrivenOver = 0.05;  // m above the floor
 
 class Tracer {
  public:
@@ -53,27 +57,7 @@ class Tracer {
     outline.rings.push_back(circle(sphere.radius));
     return reaching(sphere.radius, std::move(outline));
   }
-  Outline operator()(const std::shared_ptr<const Mesh>& mesh) const {
-    Outline outline;
-    outline.bottom = std::numeric_limits<double>::infinity();
-    outline.top = -outline.bottom;
-    for (const auto& triangle : mesh->triangles) {
-      std::vector<Eigen::Vector2d> ring;
-      for (const std::uint32_t index : triangle) {
-        const Eigen::Vector3d corner = pose_ * mesh->vertices[index].cast<double>();
-        outline.bottom = std::min(outline.bottom, corner.z());
-        outline.top = std::max(outline.top, corner.z());
-        ring.emplace_back(corner.head<2>());
-      }
-      const Eigen::Vector2d a = ring[1] - ring[0];
-      const Eigen::Vector2d b = ring[2] - ring[0];
-      const double area = a.x() * b.y() - a.y() * b.x();
-      if (std::abs(area) < 1e-4) continue;
-      if (area < 0.0) std::swap(ring[1], ring[2]);  // so that neighbours fill one surface
-      outline.rings.push_back(std::move(ring));
-    }
-    return outline;
-  }
+  Outline operator()(const std::shared_ptr<const Mesh>&) const { return {}; }  // see mesh_outlines
 
  private:
   static std::vector<Eigen::Vector2d> rectangle(const Eigen::Vector2d& centre,
@@ -99,23 +83,113 @@ class Tracer {
   Eigen::Isometry3d pose_;
 };
 
+/// The part of a triangle below the cut.
+std::vector<Eigen::Vector3d> below(const std::array<Eigen::Vector3d, 3>& triangle, double cut) {
+  std::vector<Eigen::Vector3d> part;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& from = triangle[i];
+    const Eigen::Vector3d& to = triangle[(i + 1) % 3];
+    if (from.z() <= cut) part.push_back(from);
+    if ((from.z() <= cut) != (to.z() <= cut))
+      part.push_back(from + (cut - from.z()) / (to.z() - from.z()) * (to - from));
+  }
+  return part;
+}
+
+/// Adds what is seen of a polygon in space.
+void add_ring(Outline& outline, const std::vector<Eigen::Vector3d>& corners, double cut) {
+  std::vector<Eigen::Vector2d> ring, section;
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3d& at = corners[i];
+    const Eigen::Vector3d& next = corners[(i + 1) % corners.size()];
+    outline.bottom = std::min(outline.bottom, at.z());
+    outline.top = std::max(outline.top, at.z());
+    ring.emplace_back(at.head<2>());
+    if (at.z() >= cut - 1e-9) section.emplace_back(at.head<2>());
+    area += at.x() * next.y() - at.y() * next.x();
+  }
+  if (std::abs(area) < 1e-4) {
+    outline.lines.push_back(std::move(ring));
+    return;
+  }
+  if (section.size() == 2) outline.lines.push_back(std::move(section));
+  if (area < 0.0) std::reverse(ring.begin(), ring.end());  // so that neighbours fill one surface
+  outline.rings.push_back(std::move(ring));
+}
+
+/// What of a mesh the robot drives over, what stands in its way, and what hangs.
+std::vector<Outline> mesh_outlines(const Mesh& mesh, const Eigen::Isometry3d& pose, double floor) {
+  Outline low, body, high;
+  for (Outline* part : {&low, &body, &high}) {
+    part->bottom = std::numeric_limits<double>::infinity();
+    part->top = -part->bottom;
+  }
+  low.look = ThingClass::floor;
+  high.hangs = true;
+  std::vector<Eigen::Vector2d> hanging;
+  for (const auto& indices : mesh.triangles) {
+    std::array<Eigen::Vector3d, 3> corners;
+    Eigen::AlignedBox1d heights;
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = pose * mesh.vertices[indices[i]].cast<double>();
+      heights.extend(corners[i].tail<1>());
+    }
+    if (heights.min().x() >= floor + kCut) {
+      for (const Eigen::Vector3d& corner : corners) hanging.emplace_back(corner.head<2>());
+      high.bottom = std::min(high.bottom, heights.min().x());
+      high.top = std::max(high.top, heights.max().x());
+    } else {
+      add_ring(heights.max().x() < floor + kDrivenOver ? low : body, below(corners, floor + kCut),
+               floor + kCut);
+    }
+  }
+  if (!hanging.empty()) high.rings.push_back(convex_hull(std::move(hanging)));
+  std::vector<Outline> parts;
+  for (Outline* part : {&low, &body, &high})
+    if (!part->rings.empty() || !part->lines.empty()) parts.push_back(std::move(*part));
+  return parts;
+}
+
+double area_of(const Eigen::AlignedBox2d& box) { return box.isEmpty() ? 0.0 : box.volume(); }
+
 }  // namespace
 
-std::vector<Outline> outlines_of(const Thing& thing) {
+std::vector<Outline> outlines_of(const Thing& thing, double floor) {
   std::vector<Outline> all;
   const Eigen::Isometry3d to_thing = thing.pose.inverse();
   for (const Shape& shape : thing.shapes) {
-    Outline outline = std::visit(Tracer(thing.pose, shape), shape.geometry);
-    outline.look = look_of(thing, shape);
-    for (const auto& ring : outline.rings)
-      for (const Eigen::Vector2d& p : ring)
-        outline.local.extend((to_thing * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>());
-    all.push_back(std::move(outline));
+    std::vector<Outline> parts;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry)) {
+      parts = mesh_outlines(**mesh, thing.pose * shape.pose, floor);
+      for (Outline& part : parts)
+        if (part.look != ThingClass::floor) part.look = look_of(thing, shape);
+    } else {
+      parts.push_back(std::visit(Tracer(thing.pose, shape), shape.geometry));
+      parts.back().hangs = parts.back().bottom >= floor + kCut;
+      parts.back().look =
+          parts.back().top < floor + kDrivenOver ? ThingClass::floor : look_of(thing, shape);
+    }
+    for (Outline& part : parts) {
+      for (const auto* set : {&part.rings, &part.lines})
+        for (const auto& ring : *set)
+          for (const Eigen::Vector2d& p : ring)
+            part.local.extend((to_thing * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>());
+      all.push_back(std::move(part));
+    }
   }
+  // The upper boards of a rack stand on the lower ones.
+  for (Outline& high : all)
+    if (high.hangs && std::any_of(all.begin(), all.end(), [&](const Outline& low) {
+          return !low.hangs && low.look != ThingClass::floor &&
+                 2.0 * area_of(low.local.intersection(high.local)) >= area_of(high.local);
+        }))
+      high.hangs = false;
   std::vector<Outline> seen;
   for (const Outline& low : all)
     if (std::none_of(all.begin(), all.end(), [&](const Outline& high) {
-          return high.is_box && high.bottom >= low.top - 1e-6 && high.local.contains(low.local);
+          return high.is_box && !high.hangs && high.bottom >= low.top - 1e-6 &&
+                 high.local.contains(low.local);
         }))
       seen.push_back(low);
   return seen;

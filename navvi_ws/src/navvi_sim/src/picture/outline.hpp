@@ -7,18 +7,23 @@
 
 namespace navvi_sim::picture {
 
-/// A shape from above.
+/// A shape from above, cut at the height below which the robot needs free space.
 struct Outline {
   std::vector<std::vector<Eigen::Vector2d>> rings;  ///< m, in map
   double bottom = 0.0;                              ///< m
   double top = 0.0;                                 ///< m
+  /// m, in map: vertical faces, and where a mesh is cut
+  std::vector<std::vector<Eigen::Vector2d>> lines;
   ThingClass look = ThingClass::other;
   bool is_box = false;
+  bool hangs = false;         ///< wholly above the cut: the robot passes under it
   Eigen::AlignedBox2d local;  ///< m, in the thing's frame
 };
 
 /// What is seen of a thing from above: what another of its shapes covers is left out. Boxes and
-/// cylinders that lie askew are shown by their bounds.
-[[nodiscard]] std::vector<Outline> outlines_of(const Thing& thing);
+/// cylinders that lie askew are shown by their bounds, and what hangs of a mesh by its hull. What
+/// the robot drives over looks like floor.
+/// \param floor  m, in map
+[[nodiscard]] std::vector<Outline> outlines_of(const Thing& thing, double floor);
 
 }  // namespace navvi_sim::picture

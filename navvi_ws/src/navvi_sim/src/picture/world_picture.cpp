@@ -15,26 +15,79 @@ constexpr double kMaxScale = 40.0;    // px a metre
 constexpr double kFrame = 24.0;       // px, around everything
 constexpr double kHead = 64.0;        // px, title
 constexpr double kLegend = 250.0;     // px, width
+constexpr double kMargin = 2.0;       // m, of floor around what stands
+constexpr double kLabel = 70.0;       // px, from a symbol to the end of its name
 constexpr double kLegendLine = 26.0;  // px, height of a line of the legend
 
-/// What stands, from below, and what moves, thing by thing.
+/// What stands, from below, what hangs, and what moves, thing by thing.
 struct Outlines {
   std::vector<Outline> standing, moving;
-  Eigen::AlignedBox2d bounds;  ///< m, in map; not empty
+  Eigen::AlignedBox2d bounds;  ///< m, in map, of what is shown; not empty
+  int beyond = 0;              ///< things that are not, since they lie far from all others
 };
 
-Outlines all_outlines(const WorldDescription& world) {
-  Outlines all;
-  for (const Thing& thing : world.things)
-    for (Outline& outline : outlines_of(thing)) {
-      for (const auto& ring : outline.rings)
-        for (const Eigen::Vector2d& p : ring) all.bounds.extend(p);
-      (thing.route ? all.moving : all.standing).push_back(std::move(outline));
-    }
+Eigen::AlignedBox2d grown(Eigen::AlignedBox2d box, double by) {
+  if (box.isEmpty()) return box;
+  return {box.min() - Eigen::Vector2d::Constant(by), box.max() + Eigen::Vector2d::Constant(by)};
+}
+
+Eigen::AlignedBox2d around(const std::vector<Eigen::AlignedBox2d>& boxes, std::size_t without) {
+  Eigen::AlignedBox2d all;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (i != without) all.extend(boxes[i]);
+  return all;
+}
+
+/// Chooses what is shown: everything but the floor's margin, and the few things without which the
+/// rest would be drawn twice as large.
+void choose_bounds(Outlines& all, std::vector<Eigen::AlignedBox2d> things,
+                   const Eigen::AlignedBox2d& ground, const Eigen::AlignedBox2d& needed) {
+  const std::size_t few = things.size() / 20;
+  const auto with = [&](std::size_t without) {
+    Eigen::AlignedBox2d box = around(things, without);
+    box.extend(needed);
+    return box;
+  };
+  for (std::size_t left_out = 0; left_out < few; ++left_out) {
+    const double side = with(things.size()).sizes().maxCoeff();
+    std::size_t far = 0;
+    for (std::size_t i = 1; i < things.size(); ++i)
+      if (with(i).sizes().maxCoeff() < with(far).sizes().maxCoeff()) far = i;
+    if (2.0 * with(far).sizes().maxCoeff() > side) break;
+    things.erase(things.begin() + static_cast<std::ptrdiff_t>(far));
+    ++all.beyond;
+  }
+  all.bounds = with(things.size());
+  const Eigen::AlignedBox2d more = grown(all.bounds, kMargin).intersection(ground);
+  all.bounds.extend(all.bounds.isEmpty() ? ground : more);
   if (all.bounds.isEmpty())
     all.bounds.extend(Eigen::Vector2d(-1.0, -1.0)).extend(Eigen::Vector2d(1.0, 1.0));
+}
+
+Outlines all_outlines(const WorldDescription& world,
+                      const std::optional<scenario::StartAndGoal>& scenario) {
+  Outlines all;
+  std::vector<Eigen::AlignedBox2d> things;
+  Eigen::AlignedBox2d ground, needed;
+  for (const Thing& thing : world.things) {
+    Eigen::AlignedBox2d bounds;
+    for (Outline& outline : outlines_of(thing, world.floor_height)) {
+      for (const auto* set : {&outline.rings, &outline.lines})
+        for (const auto& ring : *set)
+          for (const Eigen::Vector2d& p : ring)
+            (outline.look == ThingClass::floor ? ground : bounds).extend(p);
+      (thing.route ? all.moving : all.standing).push_back(std::move(outline));
+    }
+    if (!bounds.isEmpty()) things.push_back(bounds);
+    if (thing.route)
+      for (const Waypoint& waypoint : thing.route->waypoints) needed.extend(waypoint.at);
+  }
+  if (scenario) needed.extend(scenario->start.position).extend(scenario->goal);
+  choose_bounds(all, std::move(things), ground, needed);
   std::stable_sort(all.standing.begin(), all.standing.end(),
-                   [](const Outline& a, const Outline& b) { return a.top < b.top; });
+                   [](const Outline& a, const Outline& b) {
+                     return std::make_pair(a.hangs, a.top) < std::make_pair(b.hangs, b.top);
+                   });
   return all;
 }
 
@@ -71,8 +124,11 @@ void draw_heading(MapCanvas& canvas, const Thing& thing) {
 }
 
 void label(MapCanvas& canvas, const Eigen::Vector2d& p, const std::string& text) {
-  canvas.text({p.x() + 16.0, p.y() - 8.0}, 14.0, text,
-              "font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"4\" paint-order=\"stroke\"");
+  const bool fits = p.x() + kLabel < canvas.px(canvas.area().max()).x();
+  canvas.text({p.x() + (fits ? 16.0 : -16.0), p.y() - 8.0}, 14.0, text,
+              std::string("font-weight=\"bold\" stroke=\"#ffffff\" stroke-width=\"4\" "
+                          "paint-order=\"stroke\" text-anchor=\"") +
+                  (fits ? "start\"" : "end\""));
 }
 
 void draw_scenario(MapCanvas& canvas, const scenario::StartAndGoal& scenario) {
@@ -94,12 +150,12 @@ void draw_swatch(MapCanvas& canvas, const WorldDescription& world, ThingClass th
                  const Eigen::Vector2d& p) {
   for (const Thing& thing : world.things) {
     if (thing.thing_class != thing_class) continue;
-    const auto outlines = outlines_of(thing);
+    const auto outlines = outlines_of(thing, world.floor_height);
     Eigen::AlignedBox2d bounds;
     for (const Outline& outline : outlines) bounds.extend(outline.local);
     const bool is_line =
         bounds.isEmpty() || bounds.sizes().minCoeff() < 0.15 * bounds.sizes().maxCoeff();
-    if (is_line || outlines.front().rings.size() != 1) break;
+    if (is_line || outlines.front().rings.size() != 1 || outlines.front().hangs) break;
     const double scale = std::min(32.0 / bounds.sizes().x(), 18.0 / bounds.sizes().y());
     const double yaw = std::atan2(thing.pose.linear()(1, 0), thing.pose.linear()(0, 0));
     const Eigen::Vector2d place = canvas.px(thing.pose.translation().head<2>());
@@ -194,7 +250,7 @@ void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scen
   y += 1.2 * kLegendLine;
   canvas.svg() << "<path d=\"M" << svg_number(x) << ',' << svg_number(y - 5.0)
                << "h32\" stroke=\"#9b00d3\" stroke-width=\"3\"/>\n";
-  canvas.text({x + 42.0, y}, 14.0, "shortest way");
+  canvas.text({x + 42.0, y}, 14.0, "a way with room");
 }
 
 }  // namespace
@@ -202,7 +258,7 @@ void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scen
 std::string world_picture(const WorldDescription& world,
                           const std::optional<scenario::StartAndGoal>& scenario,
                           const std::string& caption) {
-  const Outlines outlines = all_outlines(world);
+  const Outlines outlines = all_outlines(world, scenario);
   const double scale =
       std::clamp(kLongSide / outlines.bounds.sizes().maxCoeff(), kMinScale, kMaxScale);
   MapCanvas canvas(outlines.bounds, {kFrame, kHead}, scale);
@@ -214,13 +270,21 @@ std::string world_picture(const WorldDescription& world,
                << ' ' << svg_number(height) << "\" font-family=\"sans-serif\">\n"
                << "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   canvas.text({kFrame, 30.0}, 22.0, world.name);
-  canvas.text({kFrame, 52.0}, 14.0, caption);
+  const std::string far = outlines.beyond == 0   ? ""
+                          : outlines.beyond == 1 ? "; one thing lies beyond the picture"
+                                                 : "; " + std::to_string(outlines.beyond) +
+                                                       " things lie beyond the picture";
+  canvas.text({kFrame, 52.0}, 14.0, caption + far);
+  canvas.svg() << "<clipPath id=\"map\"><rect x=\"" << svg_number(kFrame) << "\" y=\""
+               << svg_number(kHead) << "\" width=\"" << svg_number(map.x()) << "\" height=\""
+               << svg_number(map.y()) << "\"/></clipPath>\n<g clip-path=\"url(#map)\">\n";
   for (const Outline& outline : outlines.standing) canvas.outline(outline);
   for (const Thing& thing : world.things)
     if (thing.route) draw_route(canvas, thing);
   for (const Outline& outline : outlines.moving) canvas.outline(outline);
   for (const Thing& thing : world.things)
     if (thing.route) draw_heading(canvas, thing);
+  canvas.svg() << "</g>\n";
   if (scenario) draw_scenario(canvas, *scenario);
   draw_scale(canvas, kFrame, kHead + map.y() + 30.0);
   draw_legend(canvas, world, scenario.has_value(), 2.0 * kFrame + map.x(), kHead + kLegendLine);

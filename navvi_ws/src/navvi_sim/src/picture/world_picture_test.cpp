@@ -55,6 +55,54 @@ TEST(WorldPicture, leaves_out_what_a_shelf_covers) {
             count(world_picture(generate::layout("a", full, 1), std::nullopt, ""), "<path"));
 }
 
+Thing box(const std::string& name, ThingClass thing_class, const Eigen::Vector3d& centre,
+          const Eigen::Vector3d& size) {
+  Thing thing;
+  thing.name = name;
+  thing.thing_class = thing_class;
+  thing.pose.translation() = centre;
+  thing.shapes = {{Box{size}}};
+  return thing;
+}
+
+TEST(WorldPicture, shows_what_hangs_by_its_outline_alone) {
+  auto house = std::make_shared<Mesh>();  // floor, half a wall, and a roof
+  house->vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 3}, {4, 0, 3}, {0, 4, 3}};
+  house->triangles = {{0, 1, 2}, {0, 1, 4}, {3, 4, 5}};
+  Thing mesh = box("house", ThingClass::other, {0, 0, 0}, {1, 1, 1});
+  mesh.shapes = {{std::shared_ptr<const Mesh>(house)}};
+  Thing frame = box("door frame", ThingClass::wall, {0, 8, 1}, {0.2, 0.2, 2.0});
+  frame.shapes.push_back(
+      {Box{{1.2, 0.2, 0.2}}, Eigen::Isometry3d(Eigen::Translation3d(0, 0.7, 1))});
+  const WorldDescription world{
+      "roofed",
+      0.0,
+      {box("ground", ThingClass::floor, {0, 0, -0.5}, {30, 30, 1}),
+       box("roof", ThingClass::other, {0, 0, 5}, {20, 20, 0.1}),
+       box("mat", ThingClass::other, {3, 3, 0.01}, {1, 1, 0.02}), mesh, frame}};
+  const std::string svg = world_picture(world, std::nullopt, "");
+  EXPECT_EQ(count(svg, "stroke-dasharray=\"4 4\""), 3u) << svg;  // roof, the mesh's roof, lintel
+  EXPECT_EQ(count(svg, "fill=\"#d3c8aa\" stroke=\"#6b6350\" stroke-width=\"1"), 0u)
+      << "the roof is filled";
+  EXPECT_EQ(count(svg, "fill=\"#f4f3ee\""), 3u);  // ground, mat, the mesh's floor
+}
+
+TEST(WorldPicture, is_not_shrunk_by_a_thing_that_lies_far_from_all_others) {
+  WorldDescription world{
+      "far", 0.0, {box("ground", ThingClass::floor, {0, 0, -0.5}, {300, 300, 1})}};
+  for (int i = 0; i < 40; ++i)
+    world.things.push_back(
+        box("near", ThingClass::box, {i % 8 - 4.0, i / 8 - 4.0, 0.5}, {0.3, 0.3, 1}));
+  const std::string near = world_picture(world, std::nullopt, "");
+  EXPECT_EQ(near.find("beyond"), std::string::npos);
+  world.things.push_back(box("far", ThingClass::box, {125, 0, 0.5}, {1, 1, 1}));
+  const std::string svg = world_picture(world, std::nullopt, "");
+  EXPECT_NE(svg.find("one thing lies beyond the picture"), std::string::npos);
+  EXPECT_EQ(svg.substr(0, svg.find('>')), near.substr(0, near.find('>')));
+  const scenario::StartAndGoal there{{{0, 0}, 0}, {125, 2}, 0.0, {}};
+  EXPECT_EQ(world_picture(world, there, "").find("beyond"), std::string::npos);
+}
+
 TEST(WorldPicture, cannot_be_broken_by_a_name) {
   WorldDescription world = generate::layout("<script>&\x01\"", generate::LayoutConfig{}, 1);
   const std::string svg = world_picture(world, std::nullopt, "</svg>");

@@ -80,7 +80,7 @@ void FloorGrid::mark(const occupancy::OccupancyMap& map, int low_x, int low_y, i
   open_.assign(width_ * height_, false);
   map.for_each_cube([&](const occupancy::OccupiedCube& cube) {
     const int top = cube.z + cube.side;
-    const bool is_floor = top == floor || top == floor - 1;
+    const bool is_floor = top == floor;
     const bool blocks = top > floor && (cube.z - floor) * cell_size_ < headroom;
     if (!is_floor && !blocks) return;
     const auto side = static_cast<std::size_t>(cube.side);

@@ -7,6 +7,11 @@
 #include "traffic/lanes.hpp"
 
 namespace navvi_sim::scenario {
+namespace {
+
+constexpr double kStands = 0.1;  // m above the floor, that things rise at least
+
+}  // namespace
 
 FreePlaces::FreePlaces(const WorldDescription& world, const FloorGrid& grid,
                        const ScenarioConfig& config)
@@ -14,11 +19,33 @@ FreePlaces::FreePlaces(const WorldDescription& world, const FloorGrid& grid,
   const double clear = config.robot_radius + config.clearance;
   for (std::size_t cell = 0; cell < grid.size(); ++cell)
     if (grid.clearance(cell) >= clear) all_.push_back(cell);
+  Places inside;
+  const Polygon hull = hull_of_what_stands(world);
+  std::copy_if(all_.begin(), all_.end(), std::back_inserter(inside),
+               [&](std::size_t cell) { return overlap(hull, {grid.centre(cell)}, 0.0); });
+  if (!inside.empty()) all_ = std::move(inside);
   if (all_.empty())
     throw WorldError("world '" + world.name + "' has no place where a robot of radius " +
                      text(config.robot_radius) + " m stands " + text(config.clearance) +
                      " m clear of things; a start needs one");
   find_quiet();
+}
+
+bool lies_in(const Polygon& hull, const Eigen::Vector2d& place) {
+  return hull.size() > 2 && overlap(hull, {place}, 0.0);
+}
+
+Polygon hull_of_what_stands(const WorldDescription& world) {
+  std::vector<Eigen::Vector2d> points;
+  for (const Thing& thing : world.things) {
+    if (thing.route) continue;
+    for (const Shape& shape : thing.shapes)
+      for (const Eigen::Vector3d& local : hull_points(shape.geometry)) {
+        const Eigen::Vector3d point = thing.pose * (shape.pose * local);
+        if (point.z() > world.floor_height + kStands) points.emplace_back(point.head<2>());
+      }
+  }
+  return convex_hull(std::move(points));
 }
 
 void FreePlaces::find_quiet() {

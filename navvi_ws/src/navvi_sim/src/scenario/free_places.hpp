@@ -3,10 +3,17 @@
 #include <cstddef>
 #include <vector>
 
+#include "description/footprint.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
 #include "scenario/floor_grid.hpp"
 
 namespace navvi_sim::scenario {
+
+/// Around everything that stands still and rises from the floor, from above; m, in map.
+[[nodiscard]] Polygon hull_of_what_stands(const WorldDescription& world);
+
+/// False for all places if nothing stands.
+[[nodiscard]] bool lies_in(const Polygon& hull, const Eigen::Vector2d& place);
 
 /// Where on a floor a route may start or end, as cells of a grid of the floor.
 class FreePlaces {
@@ -16,7 +23,8 @@ class FreePlaces {
   /// \throws WorldError if there is no place as clear as `config` says, or as swept_ground
   FreePlaces(const WorldDescription& world, const FloorGrid& grid, const ScenarioConfig& config);
 
-  /// Clear of everything that stands still; at least one.
+  /// Clear of everything that stands still, and inside the hull of that where there are such; at
+  /// least one.
   [[nodiscard]] const Places& all() const { return all_; }
   /// Those of them off the ground that movers sweep.
   [[nodiscard]] const Places& quiet() const { return quiet_; }

@@ -251,6 +251,14 @@ Pose2 ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cel
   return {place, std::atan2(view.y(), view.x())};
 }
 
+std::string note_on(const StartAndGoal& drawn, const Polygon& hull) {
+  if (hull.empty()) return {};
+  std::string who;
+  if (!lies_in(hull, drawn.start.position)) who = "the start lies";
+  if (!lies_in(hull, drawn.goal)) who = who.empty() ? "the goal lies" : "start and goal lie";
+  return who.empty() ? who : who + " outside of everything that stands in this world";
+}
+
 }  // namespace
 
 void ScenarioConfig::describe(navvi_config::Visitor& visit) {
@@ -290,9 +298,11 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
                      ", less than min_turns; allowed are " + std::to_string(config.min_turns) +
                      " or more");
   ScenarioSampler sampler(world, map, config, seed);
-  if (start) return sampler.with_start(*start, goal);
-  if (goal) return sampler.with_goal(*goal);
-  return sampler.with_nothing();
+  StartAndGoal drawn = start  ? sampler.with_start(*start, goal)
+                       : goal ? sampler.with_goal(*goal)
+                              : sampler.with_nothing();
+  drawn.note = note_on(drawn, hull_of_what_stands(world));
+  return drawn;
 }
 
 }  // namespace navvi_sim::scenario

@@ -86,6 +86,37 @@ TEST_F(ScenarioIn, takes_a_given_start_and_goal_as_they_are) {
   EXPECT_GT(scenario.route_length, 10.0);
 }
 
+TEST_F(ScenarioIn, is_drawn_inside_a_house_and_not_in_the_ring_of_floor_around) {
+  WorldDescription world;
+  world.name = "house";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {40.0, 40.0, 0.1}));
+  for (const double side : {-1.0, 1.0}) {
+    world.things.push_back(thing("a", ThingClass::wall, {0, 4 * side, 1}, {8.2, 0.2, 2.0}));
+    world.things.push_back(thing("b", ThingClass::wall, {4 * side, 1, 1}, {0.2, 6.0, 2.0}));
+  }
+  enter(world);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const StartAndGoal scenario = draw(seed);
+    EXPECT_LT(scenario.start.position.cwiseAbs().maxCoeff(), 4.1) << seed;
+    EXPECT_LT(scenario.goal.cwiseAbs().maxCoeff(), 4.1) << seed;
+    EXPECT_EQ(scenario.note, "");
+    EXPECT_LT(draw(seed, Pose2{{-10.0, 0.0}, 0.0}).goal.cwiseAbs().maxCoeff(), 4.1) << seed;
+  }
+  EXPECT_EQ(draw(1, Pose2{{-10.0, 0.0}, 0.0}).note,
+            "the start lies outside of everything that stands in this world");
+}
+
+TEST_F(ScenarioIn, names_the_thing_that_a_start_is_in) {
+  enter(two_rooms(2.0));
+  try {
+    static_cast<void>(draw(1, Pose2{{0.0, 1.0}, 0.0}));
+    ADD_FAILURE();
+  } catch (const WorldError& error) {
+    EXPECT_NE(std::string(error.what()).find("is in 'wall' of world"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(ScenarioIn, passes_on_a_goal_in_a_wall_and_refuses_a_start_there) {
   enter(two_rooms(2.0));
   EXPECT_EQ(draw(1, Pose2{{-5.0, 1.0}, 0.0}, Eigen::Vector2d(0.0, 1.0)).route_length, 0.0);

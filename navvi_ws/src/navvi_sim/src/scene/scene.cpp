@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "physics/bodies.hpp"
+#include "description/floor_height.hpp"
 #include "scene/cube_lists.hpp"
 #include "scene/painter.hpp"
 #include "scene/rack_drawing.hpp"
@@ -52,7 +52,7 @@ std::optional<Eigen::AlignedBox3d> cube_of(const Geometry& geometry,
   if (!std::holds_alternative<Box>(geometry) || !is_upright(pose)) return std::nullopt;
   const double x = std::abs(pose.linear()(0, 0));
   if (x > 1e-6 && x < 1.0 - 1e-6) return std::nullopt;
-  return physics::bounds_of(geometry, pose);
+  return bounds_of(geometry, pose);
 }
 
 /// The markers of everything that stands still.
@@ -68,7 +68,7 @@ class StaticMarkers {
       const ThingClass look = look_of(thing, shape);
       const Eigen::Isometry3d pose = thing.pose * shape.pose;
       add(look, color_of(look), shape.geometry, pose);
-      if (look == ThingClass::floor) ground_.extend(physics::bounds_of(shape.geometry, pose));
+      if (look == ThingClass::floor) ground_.extend(bounds_of(shape.geometry, pose));
     }
   }
 
@@ -87,8 +87,7 @@ class StaticMarkers {
   /// the rim is drawn, and from aside through what is a solid box to the driver.
   void add_shelf(const Thing& thing) {
     Eigen::AlignedBox3d bounds;
-    for (const Shape& shape : thing.shapes)
-      bounds.extend(physics::bounds_of(shape.geometry, shape.pose));
+    for (const Shape& shape : thing.shapes) bounds.extend(bounds_of(shape.geometry, shape.pose));
     for (const Shape& shape : thing.shapes) {
       const ThingClass look = look_of(thing, shape);
       const Eigen::Isometry3d pose = thing.pose * shape.pose;
@@ -108,7 +107,7 @@ class StaticMarkers {
            const Eigen::Isometry3d& pose, bool coarse = false) {
     const std::string ns = to_string(look);
     const double cut = floor_ + (look == ThingClass::wall ? kWallCut : kCut);
-    if (physics::bounds_of(geometry, pose).min().z() >= cut) return;
+    if (bounds_of(geometry, pose).min().z() >= cut) return;
     auto cube = cube_of(geometry, pose);
     if (cube && cube->sizes().head<2>().maxCoeff() <= kLongestCube + 1e-6) {
       cube->max().z() = std::min(cube->max().z(), cut);
@@ -171,8 +170,7 @@ Scene::Parts Scene::parts_of(const Thing& thing, std::map<std::string, int>& nex
   if (model && is_upright(thing.pose)) {
     const std::string ns = to_string(thing.thing_class);
     Eigen::AlignedBox3d bounds;
-    for (const Shape& shape : thing.shapes)
-      bounds.extend(physics::bounds_of(shape.geometry, shape.pose));
+    for (const Shape& shape : thing.shapes) bounds.extend(bounds_of(shape.geometry, shape.pose));
     Marker msg = marker_msg(ns, next_id[ns]++, Marker::MESH_RESOURCE, {0.0F, 0.0F, 0.0F});
     msg.color.a = 0.0F;  // no tint: the model's own colours
     msg.mesh_resource = *model;

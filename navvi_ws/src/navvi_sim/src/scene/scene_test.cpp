@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "physics/bodies.hpp"
+#include "description/floor_height.hpp"
 #include "warehouse.hpp"
 
 namespace navvi_sim::scene {
@@ -199,7 +199,7 @@ TEST(Scene, boxes_on_shelves_stay_within_their_bodies_and_on_their_boards) {
   std::vector<Eigen::AlignedBox3d> bodies;
   for (const Thing& thing : world.things)
     for (const Shape& shape : thing.shapes)
-      if (shape.look) bodies.push_back(physics::bounds_of(shape.geometry, thing.pose * shape.pose));
+      if (shape.look) bodies.push_back(bounds_of(shape.geometry, thing.pose * shape.pose));
   std::size_t drawn = 0;
   for (const Marker& marker : standing(world).markers) {
     if (marker.ns != "box") continue;

@@ -109,6 +109,12 @@ read::LoadedWorld load_world(const SimNodeConfig& config) {
       config.missing == "leave_out" ? read::Missing::leave_out : read::Missing::refuse);
 }
 
+occupancy::OccupancyMap map_of(const SimNodeConfig& config, const WorldDescription& world) {
+  occupancy::OccupancyConfig octomap = config.octomap;
+  octomap.underside = config.life.robot.clearance;
+  return occupancy::occupancy_of(world, octomap);
+}
+
 scenario::StartAndGoal scenario_of(const SimNodeConfig& config, const WorldDescription& world,
                                    const occupancy::OccupancyMap& map) {
   scenario::ScenarioConfig drawing = config.scenario;

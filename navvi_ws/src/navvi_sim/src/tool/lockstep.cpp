@@ -62,7 +62,7 @@ int play(const std::string& parameters, const std::string& commands, const std::
   const std::vector<live::AppliedCommand> script = read_commands(commands);
   const WorldDescription world = setup::load_world(config).world;
   const scenario::StartAndGoal scenario =
-      setup::scenario_of(config, world, occupancy::occupancy_of(world, config.octomap));
+      setup::scenario_of(config, world, setup::map_of(config, world));
   live::Session session(world, config.life, scenario.start,
                         static_cast<std::uint64_t>(config.seed));
   const auto steps = static_cast<std::uint64_t>(std::llround(duration / config.life.step));

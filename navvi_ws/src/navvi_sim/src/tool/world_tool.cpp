@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kUsage =
     "world list                                   the worlds that have a name\n"
-    "world check NAME|FILE [--config FILE.yaml] [name:=value ...]   what a session makes of it\n"
+    "world check NAME|FILE [-o FILE.bt] [--config FILE.yaml] [name:=value ...]   what a session "
+    "makes\n"
+    "      of it; -o saves its OctoMap\n"
     "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
     "      ./navvi also takes FILE.png\n"
     "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
@@ -97,10 +99,17 @@ Request load(const Words& words) {
   return request;
 }
 
-scenario::StartAndGoal scenario_of(const Request& request) {
-  const setup::SimNodeConfig& session = request.config.session;
-  const WorldDescription& world = request.loaded.world;
-  return scenario_of(session, world, occupancy::occupancy_of(world, session.octomap));
+/// As octomap writes it (OcTree::writeBinary).
+std::string bt_file(const occupancy::OccupancyMap& map) {
+  std::size_t nodes = 1;
+  map.for_each_node([&](const occupancy::OccupiedCube&, bool) { ++nodes; });
+  std::ostringstream file;
+  file.precision(17);
+  file << "# Octomap OcTree binary file\nid OcTree\nsize " << nodes << "\nres " << map.resolution()
+       << "\ndata\n";
+  file.write(reinterpret_cast<const char*>(map.stream().data()),
+             static_cast<std::streamsize>(map.stream().size()));
+  return file.str();
 }
 
 void write_file(const fs::path& path, const std::string& content) {
@@ -118,12 +127,8 @@ std::string rounded(double value, int digits) {
 }
 
 std::string caption_of(const Request& request, const scenario::StartAndGoal& scenario) {
-  const int count = scenario::turns(scenario.route);
   return "seed " + std::to_string(request.config.session.seed) + ", world " +
-         world_hash(request.loaded.world) +
-         (scenario.route.empty() ? ", no way from start to goal"
-                                 : ", way of " + rounded(scenario.route_length, 1) + " m with " +
-                                       std::to_string(count) + (count == 1 ? " turn" : " turns"));
+         world_hash(request.loaded.world) + (scenario.note.empty() ? "" : "; ") + scenario.note;
 }
 
 void print(const Request& request, const scenario::StartAndGoal& scenario) {
@@ -134,15 +139,20 @@ void print(const Request& request, const scenario::StartAndGoal& scenario) {
     ++counts[std::string(to_string(thing.thing_class)) + (thing.route ? " on routes" : "")];
   for (const auto& [what, number] : counts) std::cout << number << ' ' << what << '\n';
   std::cout << world.name << ", " << caption_of(request, scenario) << "\nstart "
-            << rounded(scenario.start.position.x(), 2) << ","
-            << rounded(scenario.start.position.y(), 2) << "," << rounded(scenario.start.yaw, 3)
-            << " goal " << rounded(scenario.goal.x(), 2) << "," << rounded(scenario.goal.y(), 2)
+            << rounded(scenario.start.position.x(), 3) << ","
+            << rounded(scenario.start.position.y(), 3) << "," << rounded(scenario.start.yaw, 3)
+            << " goal " << rounded(scenario.goal.x(), 3) << "," << rounded(scenario.goal.y(), 3)
             << '\n';
 }
 
 void check(const Words& words) {
+  const fs::path path = words.out.value_or("");
+  if (words.out && path.extension() != ".bt")
+    throw UsageError("'" + path.string() + "' is no OctoMap file; allowed is .bt");
   const Request request = load(words);
-  print(request, scenario_of(request));
+  const auto map = setup::map_of(request.config.session, request.loaded.world);
+  print(request, setup::scenario_of(request.config.session, request.loaded.world, map));
+  if (words.out) write_file(path, bt_file(map));
 }
 
 void show(const Words& words) {
@@ -150,7 +160,10 @@ void show(const Words& words) {
   if (path.extension() != ".svg")
     throw UsageError("'" + path.string() + "' is no picture that can be drawn; allowed is .svg");
   const Request request = load(words);
-  const scenario::StartAndGoal scenario = scenario_of(request);
+  const setup::SimNodeConfig& session = request.config.session;
+  const WorldDescription& world = request.loaded.world;
+  const scenario::StartAndGoal scenario =
+      setup::scenario_of(session, world, setup::map_of(session, world));
   write_file(path,
              picture::world_picture(request.loaded.world, scenario, caption_of(request, scenario)));
   print(request, scenario);
@@ -189,7 +202,8 @@ constexpr Command kCommands[] = {
 
 void run(const Words& words) {
   const std::string name = words.plain.empty() ? "" : words.plain.front();
-  if (words.out && name != "show") throw UsageError("-o belongs to world show");
+  if (words.out && name != "show" && name != "check")
+    throw UsageError("-o belongs to world show and world check");
   for (const Command& command : kCommands) {
     if (name != command.name) continue;
     if (words.plain.size() > command.words)

@@ -1,6 +1,7 @@
 // `./navvi world`, run as a person runs it.
 
 #include <gtest/gtest.h>
+#include <octomap/OcTree.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -71,6 +72,16 @@ TEST_F(WorldTool, tells_what_a_session_would_make_of_a_world_and_draws_nothing) 
   EXPECT_EQ(answer.text.find("worker on routes"), std::string::npos) << answer.text;
   EXPECT_NE(answer.text.find("seed 2"), std::string::npos) << answer.text;
   EXPECT_FALSE(fs::exists(folder_ / "busy.svg"));
+}
+
+TEST_F(WorldTool, saves_a_map_that_octomap_reads) {
+  const Answer answer = run("check easy -o a.bt octomap/resolution:=0.08");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  octomap::OcTree tree(1.0);
+  ASSERT_TRUE(tree.readBinary((folder_ / "a.bt").string()));
+  EXPECT_NEAR(tree.getResolution(), 0.08, 1e-12);
+  EXPECT_NE(content("a.bt").find("size " + std::to_string(tree.size()) + "\n"), std::string::npos);
+  EXPECT_GT(tree.size(), 1000U);
 }
 
 TEST_F(WorldTool, writes_a_world_as_sdf_that_it_can_show) {

@@ -1,5 +1,6 @@
 #include "loop/closed_loop.hpp"
 
+#include <navvi_config/reader.hpp>
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -19,6 +20,10 @@ constexpr double kCharactersPerSecond = 18.0;
 
 }  // namespace
 
+ClosedLoopConfig::ClosedLoopConfig() {
+  navvi_config::read(nav, navvi_config::read_words({"mesh/climb:=0"}), "the closed loop");
+}
+
 void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
   visit.group("sim", sim);
   visit.group("nav", nav);
@@ -28,8 +33,7 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
 
 ClosedLoop::Setting::Setting(const navvi_sim::setup::SimNodeConfig& config)
     : world(navvi_sim::setup::load_world(config).world) {
-  const navvi_sim::occupancy::OccupancyMap occupancy =
-      navvi_sim::occupancy::occupancy_of(world, config.octomap);
+  const navvi_sim::occupancy::OccupancyMap occupancy = navvi_sim::setup::map_of(config, world);
   scenario = navvi_sim::setup::scenario_of(config, world, occupancy);
   map = navvi_sim::node::to_msg(occupancy, ros::Time());
 }
@@ -81,8 +85,10 @@ void ClosedLoop::sense() {
     if (const auto felt = node::from_msg(published_.contacts.back())) feedback_.take(*felt);
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
-    published_.proximity = navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
-    if (const auto proximity = node::from_msg(*published_.proximity)) feedback_.take(*proximity, time());
+    published_.proximity =
+        navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
+    if (const auto proximity = node::from_msg(*published_.proximity))
+      feedback_.take(*proximity, time());
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
     published_.obstacles = navvi_types::to_msg(session_.world().obstacles());

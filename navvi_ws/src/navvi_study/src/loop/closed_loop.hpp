@@ -30,6 +30,8 @@ struct ClosedLoopConfig {
   navvi_feedback::core::FeedbackConfig feedback;
   people::SimulatedOperatorConfig person;
 
+  /// As in live.launch: the simulated robot climbs neither steps nor ramps.
+  ClosedLoopConfig();
   void describe(navvi_config::Visitor& visit);
 };
 

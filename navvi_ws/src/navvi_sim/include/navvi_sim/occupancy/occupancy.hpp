@@ -9,6 +9,7 @@ namespace navvi_sim::occupancy {
 
 struct OccupancyConfig {
   double resolution = 0.05;  ///< m, edge of a voxel
+  double underside = 0.05;   ///< m above the floor, of the robot: lower things are driven over
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -21,8 +22,9 @@ struct OccupancyConfig {
 /// long and wide, which may be buildings; other meshes are surfaces. Free space is not marked.
 ///
 /// The whole world is moved along z, by half a voxel at most, so that `floor_height` falls on a
-/// border of voxels: a thing on the floor then shows above it, however low it is and wherever the
-/// floor lies (R-NAV-12).
+/// border of voxels: a thing on the floor then shows above it wherever the floor lies (R-NAV-12).
+/// Only what reaches the robot's underside is a thing: shapes, and triangles of meshes, that end
+/// nearer to the floor's height are made level with it, as the robot drives over them.
 ///
 /// The bytes are those that octomap writes after it has inserted the same voxels and pruned its
 /// tree. \throws WorldError if a shape reaches further than the tree does (32 768 voxels to each

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <navvi_config/field.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
@@ -38,13 +39,14 @@ struct StartAndGoal {
                               ///< be reached
   std::vector<Eigen::Vector2d>
       route;  ///< m, from start to goal, pulled taut; empty if there is none
+  std::string note = {};  ///< a sentence if one of them lies outside of all that stands; else empty
 };
 
 /// How often a polyline turns: by 30 degrees or more from one leg of 1 m or more to the next.
 [[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
 
 /// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
-/// connected over the floor, and, where the world has such places, off the ground that movers
+/// connected over the floor, inside the hull of what stands, where that has room, and, where the world has such places, off the ground that movers
 /// sweep: a robot that stood there would keep them from going on. A goal that is given is passed on
 /// as it is, free or not: refusing it is navigation's task. A drawn start looks along its route.
 /// Length and turns that are asked for hold for every route of which an end is drawn.

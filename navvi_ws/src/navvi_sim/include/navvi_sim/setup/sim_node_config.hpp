@@ -48,8 +48,12 @@ struct SimNodeConfig {
 /// The world that `config` names. \throws WorldError with a sentence
 [[nodiscard]] read::LoadedWorld load_world(const SimNodeConfig& config);
 
+/// The map of `world` for this robot. \throws WorldError with a sentence
+[[nodiscard]] occupancy::OccupancyMap map_of(const SimNodeConfig& config,
+                                             const WorldDescription& world);
+
 /// Start and goal: as given, and drawn from the seed where they are not.
-/// \param map  of `world` (occupancy.hpp)
+/// \param map  by map_of
 /// \throws ConfigError or WorldError with a sentence
 [[nodiscard]] scenario::StartAndGoal scenario_of(const SimNodeConfig& config,
                                                  const WorldDescription& world,
