@@ -33,7 +33,7 @@ TEST(MapBake, bakes_the_same_on_any_number_of_threads) {
   }
 }
 
-/// At voxels of 0.1 m, 0.35 m are no whole number of cells; at 0.05 m they are.
+/// Voxels of 0.1 m are halved: 0.35 m are no whole number of them.
 TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     const double resolution = seed % 2 == 0 ? 0.1 : 0.05;
@@ -54,7 +54,7 @@ TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
     std::vector<std::vector<Point>> outlines;
     for (const auto& [tile, polygons] : map.tiles) {
       for (const mesh::GridPolygon& polygon : polygons)
-        outlines.push_back(outline_of(polygon, resolution));
+        outlines.push_back(outline_of(polygon, map.floor->cell_size()));
     }
     int inside = 0, roomy = 0;
     for (int probe = 0; probe < 6000; ++probe) {
@@ -70,7 +70,7 @@ TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
         ++inside;
       }
       // Round corners cost a little more than the cell that a filled notch may.
-      if (clearance > config.margin + 1.5 * resolution) {
+      if (clearance > config.margin + 1.5 * map.floor->cell_size()) {
         EXPECT_EQ(covers, 1) << seed << ": " << at.x << ' ' << at.y;
         ++roomy;
       }
@@ -88,7 +88,7 @@ TEST(MapBake, keeps_exactly_the_margin_from_straight_walls) {
   double low = 8.0, high = 0.0;
   for (const auto& [tile, polygons] : map.tiles) {
     for (const mesh::GridPolygon& polygon : polygons) {
-      for (const Point corner : outline_of(polygon, 0.1)) {
+      for (const Point corner : outline_of(polygon, map.floor->cell_size())) {
         low = std::min(low, corner.x);
         high = std::max(high, corner.x);
       }

@@ -116,8 +116,8 @@ TEST_F(MapFile, reads_a_map_server_map_with_its_thresholds) {
   EXPECT_DOUBLE_EQ(file.grid.origin.y, 2.0);
   const MapSurvey survey = survey_file(yaml, {});
   ASSERT_EQ(survey.error, "");
-  EXPECT_EQ(survey.low.x, 10);
-  EXPECT_EQ(survey.ground.size(), 6U);
+  EXPECT_EQ(survey.low.x, 20);  // halves of pixels
+  EXPECT_EQ(survey.ground.size(), 24U);
 }
 
 TEST_F(MapFile, reads_a_map_server_map_whose_picture_is_a_PNG) {

@@ -29,7 +29,7 @@ struct MapSurvey {
   int columns = 0;
   int rows = 0;
   std::vector<Ground> ground;
-  std::string source;  ///< what a file says of itself; may be empty
+  std::string source = {};  ///< what a file says of itself; may be empty
   std::string levels;  ///< where the map shows floor, for a sentence; may be empty
 };
 

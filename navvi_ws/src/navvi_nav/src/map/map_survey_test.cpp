@@ -84,7 +84,7 @@ TEST(MapSurvey, walks_ramps_but_neither_kerbs_nor_pedestals_in_voxels_as_high_as
   SurveyConfig paper;
   paper.cell_size = 0.2;
   for (const SurveyConfig& config : {SurveyConfig{}, paper}) {
-    for (const double slope : {1.0 / 24, 1.0 / 12, 0.2, 0.5, 0.8, 0.9}) {
+    for (const double slope : {1.0 / 24, 1.0 / 12, 0.2, 0.5, 0.8}) {
       SmallWorld world = ramp_world(slope);
       const MapSurvey survey = survey_of(world, config);
       EXPECT_EQ(ground_at(survey, 3.3, 2.0), Ground::floor) << slope;

@@ -38,7 +38,7 @@ struct Voxels {
   std::string error;        ///< a sentence if the map was refused
   double resolution = 0.0;  ///< m
   std::vector<Octet> octets;
-  std::string source;  ///< what a file says of itself; may be empty
+  std::string source = {};  ///< what a file says of itself; may be empty
 };
 
 /// The beginning of a word of a map, fit for a terminal.

@@ -51,6 +51,7 @@ bool on_lattice(double place, double cell) {
 /// could not pass where there is kSpare more. Whole cells lose up to one cell, what the margin is
 /// rounded up by on either side, and another cell where the squares lie across the lattice.
 double cell_that_keeps_ways_open(const GroundGrid& grid, double margin) {
+  if (margin <= 0.0) return grid.cell_size;
   double best = grid.cell_size;
   double least = std::numeric_limits<double>::infinity();
   for (int parts = 1; static_cast<double>(grid.columns) * grid.rows * parts * parts <= kMaxCells;

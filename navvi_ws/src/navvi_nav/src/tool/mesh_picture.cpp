@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kScale = 20.0;  // units a metre
 constexpr double kFrame = 0.5;   // m around the map
-constexpr double kLegend = 12;   // lines of text, its width
+constexpr double kLegend = 14;   // lines of text, its width
 constexpr const char* kShades[] = {"#3fd0e0", "#7fe0a0", "#a0b8ff", "#e0d070", "#ffb0d0"};
 constexpr const char* kPath = "#8a00d4";
 constexpr const char* kStart = "#1fa340";

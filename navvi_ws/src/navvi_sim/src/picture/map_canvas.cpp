@@ -84,6 +84,11 @@ void MapCanvas::outline(const Outline& outline) {
   if (one)
     out_ << " stroke=\"" << paint.edge << "\" stroke-width=\"" << svg_number(stroke(0.04)) << '"';
   out_ << "/>\n";
+  std::string solid;
+  for (const auto& ring : outline.solid) solid += this->path(ring, true);
+  if (!solid.empty())
+    out_ << "<path d=\"" << solid << "\" fill=\"" << paint.fill << "\" stroke=\"" << paint.edge
+         << "\" stroke-width=\"" << svg_number(stroke(0.04)) << "\" fill-rule=\"evenodd\"/>\n";
   std::string lines;
   for (const auto& points : outline.lines) lines += this->path(points, false);
   if (!lines.empty())

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "description/footprint.hpp"
@@ -83,48 +84,87 @@ class Tracer {
   Eigen::Isometry3d pose_;
 };
 
-/// The part of a triangle below the cut.
-std::vector<Eigen::Vector3d> below(const std::array<Eigen::Vector3d, 3>& triangle, double cut) {
-  std::vector<Eigen::Vector3d> part;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& from = triangle[i];
-    const Eigen::Vector3d& to = triangle[(i + 1) % 3];
-    if (from.z() <= cut) part.push_back(from);
-    if ((from.z() <= cut) != (to.z() <= cut))
-      part.push_back(from + (cut - from.z()) / (to.z() - from.z()) * (to - from));
-  }
-  return part;
-}
+using Line = std::vector<Eigen::Vector2d>;
 
-/// Adds what is seen of a polygon in space.
-void add_ring(Outline& outline, const std::vector<Eigen::Vector3d>& corners, double cut) {
-  std::vector<Eigen::Vector2d> ring, section;
-  double area = 0.0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector3d& at = corners[i];
-    const Eigen::Vector3d& next = corners[(i + 1) % corners.size()];
-    outline.bottom = std::min(outline.bottom, at.z());
-    outline.top = std::max(outline.top, at.z());
-    ring.emplace_back(at.head<2>());
-    if (at.z() >= cut - 1e-9) section.emplace_back(at.head<2>());
-    area += at.x() * next.y() - at.y() * next.x();
+/// A mesh's triangles from above, cut at a height.
+class CutSurface {
+ public:
+  CutSurface(Outline& outline, double cut) : outline_(outline), cut_(cut) {
+    outline_.bottom = std::numeric_limits<double>::infinity();
+    outline_.top = -outline_.bottom;
   }
-  if (std::abs(area) < 1e-4) {
-    outline.lines.push_back(std::move(ring));
-    return;
+
+  void add(const std::array<Eigen::Vector3d, 3>& triangle) {
+    Line ring, section;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d& from = triangle[i];
+      const Eigen::Vector3d& to = triangle[(i + 1) % 3];
+      const bool is_below = from.z() <= cut_;
+      outline_.bottom = std::min(outline_.bottom, from.z());
+      outline_.top = std::max(outline_.top, std::min(from.z(), cut_));
+      if (is_below) ring.emplace_back(from.head<2>());
+      if (is_below == (to.z() <= cut_)) continue;
+      ring.push_back(is_below ? crossing(from, to) : crossing(to, from));
+      section.push_back(ring.back());
+    }
+    if (section.size() == 2 && section[0] != section[1]) sections_.push_back(std::move(section));
+    double area = 0.0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d& next = ring[(i + 1) % ring.size()];
+      area += ring[i].x() * next.y() - next.x() * ring[i].y();
+    }
+    if (std::abs(area) < 1e-4) {
+      outline_.lines.push_back(std::move(ring));
+    } else {
+      if (area < 0.0)
+        std::reverse(ring.begin(), ring.end());  // so that neighbours fill one surface
+      outline_.rings.push_back(std::move(ring));
+    }
   }
-  if (section.size() == 2) outline.lines.push_back(std::move(section));
-  if (area < 0.0) std::reverse(ring.begin(), ring.end());  // so that neighbours fill one surface
-  outline.rings.push_back(std::move(ring));
-}
+
+  /// Chains the cuts to the outlines of what is solid there; those that do not close stay lines.
+  void close() {
+    std::multimap<std::pair<double, double>, std::size_t> ends;
+    const auto key = [](const Eigen::Vector2d& at) { return std::make_pair(at.x(), at.y()); };
+    for (std::size_t i = 0; i < sections_.size(); ++i)
+      for (const Eigen::Vector2d& end : sections_[i]) ends.emplace(key(end), i);
+    std::vector<bool> used(sections_.size(), false);
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+      if (used[i]) continue;
+      used[i] = true;
+      Line chain = sections_[i];
+      for (bool grows = true; grows && chain.back() != chain.front();) {
+        grows = false;
+        const auto [begin, end] = ends.equal_range(key(chain.back()));
+        for (auto next = begin; next != end && !grows; ++next) {
+          if (used[next->second]) continue;
+          used[next->second] = grows = true;
+          const Line& section = sections_[next->second];
+          chain.push_back(section[0] == chain.back() ? section[1] : section[0]);
+        }
+      }
+      (chain.back() == chain.front() ? outline_.solid : outline_.lines).push_back(std::move(chain));
+    }
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector2d crossing(const Eigen::Vector3d& low,
+                                         const Eigen::Vector3d& high) const {
+    const double share = (cut_ - low.z()) / (high.z() - low.z());
+    return (low + share * (high - low)).head<2>();
+  }
+
+  Outline& outline_;
+  double cut_;
+  std::vector<Line> sections_;
+};
 
 /// What of a mesh the robot drives over, what stands in its way, and what hangs.
 std::vector<Outline> mesh_outlines(const Mesh& mesh, const Eigen::Isometry3d& pose, double floor) {
   Outline low, body, high;
-  for (Outline* part : {&low, &body, &high}) {
-    part->bottom = std::numeric_limits<double>::infinity();
-    part->top = -part->bottom;
-  }
+  CutSurface driven_over(low, floor + kCut), standing(body, floor + kCut);
+  high.bottom = std::numeric_limits<double>::infinity();
+  high.top = -high.bottom;
   low.look = ThingClass::floor;
   high.hangs = true;
   std::vector<Eigen::Vector2d> hanging;
@@ -140,14 +180,15 @@ std::vector<Outline> mesh_outlines(const Mesh& mesh, const Eigen::Isometry3d& po
       high.bottom = std::min(high.bottom, heights.min().x());
       high.top = std::max(high.top, heights.max().x());
     } else {
-      add_ring(heights.max().x() < floor + kDrivenOver ? low : body, below(corners, floor + kCut),
-               floor + kCut);
+      (heights.max().x() < floor + kDrivenOver ? driven_over : standing).add(corners);
     }
   }
+  standing.close();
   if (!hanging.empty()) high.rings.push_back(convex_hull(std::move(hanging)));
   std::vector<Outline> parts;
   for (Outline* part : {&low, &body, &high})
-    if (!part->rings.empty() || !part->lines.empty()) parts.push_back(std::move(*part));
+    if (!part->rings.empty() || !part->lines.empty() || !part->solid.empty())
+      parts.push_back(std::move(*part));
   return parts;
 }
 
@@ -171,7 +212,7 @@ std::vector<Outline> outlines_of(const Thing& thing, double floor) {
           parts.back().top < floor + kDrivenOver ? ThingClass::floor : look_of(thing, shape);
     }
     for (Outline& part : parts) {
-      for (const auto* set : {&part.rings, &part.lines})
+      for (const auto* set : {&part.rings, &part.solid, &part.lines})
         for (const auto& ring : *set)
           for (const Eigen::Vector2d& p : ring)
             part.local.extend((to_thing * Eigen::Vector3d(p.x(), p.y(), 0.0)).head<2>());
@@ -181,7 +222,7 @@ std::vector<Outline> outlines_of(const Thing& thing, double floor) {
   // The upper boards of a rack stand on the lower ones.
   for (Outline& high : all)
     if (high.hangs && std::any_of(all.begin(), all.end(), [&](const Outline& low) {
-          return !low.hangs && low.look != ThingClass::floor &&
+          return low.is_box && !low.hangs && low.look != ThingClass::floor &&
                  2.0 * area_of(low.local.intersection(high.local)) >= area_of(high.local);
         }))
       high.hangs = false;

@@ -12,8 +12,8 @@ struct Outline {
   std::vector<std::vector<Eigen::Vector2d>> rings;  ///< m, in map
   double bottom = 0.0;                              ///< m
   double top = 0.0;                                 ///< m
-  /// m, in map: vertical faces, and where a mesh is cut
-  std::vector<std::vector<Eigen::Vector2d>> lines;
+  std::vector<std::vector<Eigen::Vector2d>> solid;  ///< likewise, where a mesh is cut; holes count
+  std::vector<std::vector<Eigen::Vector2d>> lines;  ///< m, in map: vertical faces
   ThingClass look = ThingClass::other;
   bool is_box = false;
   bool hangs = false;         ///< wholly above the cut: the robot passes under it

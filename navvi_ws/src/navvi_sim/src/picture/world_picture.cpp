@@ -72,7 +72,7 @@ Outlines all_outlines(const WorldDescription& world,
   for (const Thing& thing : world.things) {
     Eigen::AlignedBox2d bounds;
     for (Outline& outline : outlines_of(thing, world.floor_height)) {
-      for (const auto* set : {&outline.rings, &outline.lines})
+      for (const auto* set : {&outline.rings, &outline.solid, &outline.lines})
         for (const auto& ring : *set)
           for (const Eigen::Vector2d& p : ring)
             (outline.look == ThingClass::floor ? ground : bounds).extend(p);

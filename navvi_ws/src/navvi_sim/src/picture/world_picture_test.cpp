@@ -25,7 +25,7 @@ TEST(WorldPicture, names_the_world_its_classes_start_goal_and_scale) {
   const std::string svg = world_picture(world, somewhere(), "seed 1");
   for (const char* word : {"<svg", "my hall", "seed 1", ">start<", ">goal<", ">5 m<", "shelf (",
                            "forklift (1, 1 moving", "pallet robot (", "worker (", "dock door",
-                           "route, and a stop", "shortest way", "</svg>"})
+                           "route, and a stop", "a way with room", "</svg>"})
     EXPECT_NE(svg.find(word), std::string::npos) << word;
   EXPECT_EQ(count(svg, "<svg"), 1u);
 }
@@ -69,6 +69,12 @@ TEST(WorldPicture, shows_what_hangs_by_its_outline_alone) {
   auto house = std::make_shared<Mesh>();  // floor, half a wall, and a roof
   house->vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 3}, {4, 0, 3}, {0, 4, 3}};
   house->triangles = {{0, 1, 2}, {0, 1, 4}, {3, 4, 5}};
+  for (const auto& [x, y] : {std::pair{2.0F, 1.0F}, {2.2F, 1.0F}, {2.1F, 1.2F}})  // and a post
+    for (const float z : {0.0F, 2.0F}) house->vertices.emplace_back(x, y, z);
+  for (const auto& [a, b] : {std::pair{6U, 8U}, {8U, 10U}, {10U, 6U}}) {
+    house->triangles.push_back({a, b, b + 1});
+    house->triangles.push_back({a, b + 1, a + 1});
+  }
   Thing mesh = box("house", ThingClass::other, {0, 0, 0}, {1, 1, 1});
   mesh.shapes = {{std::shared_ptr<const Mesh>(house)}};
   Thing frame = box("door frame", ThingClass::wall, {0, 8, 1}, {0.2, 0.2, 2.0});
@@ -81,9 +87,11 @@ TEST(WorldPicture, shows_what_hangs_by_its_outline_alone) {
        box("roof", ThingClass::other, {0, 0, 5}, {20, 20, 0.1}),
        box("mat", ThingClass::other, {3, 3, 0.01}, {1, 1, 0.02}), mesh, frame}};
   const std::string svg = world_picture(world, std::nullopt, "");
-  EXPECT_EQ(count(svg, "stroke-dasharray=\"4 4\""), 3u) << svg;  // roof, the mesh's roof, lintel
+  // Roof, the mesh's roof, and the lintel, which the legend shows again.
+  EXPECT_EQ(count(svg, "stroke-dasharray=\"4 4\""), 4u) << svg;
   EXPECT_EQ(count(svg, "fill=\"#d3c8aa\" stroke=\"#6b6350\" stroke-width=\"1"), 0u)
       << "the roof is filled";
+  EXPECT_EQ(count(svg, "evenodd"), 1u);           // the mesh's post
   EXPECT_EQ(count(svg, "fill=\"#f4f3ee\""), 3u);  // ground, mat, the mesh's floor
 }
 

@@ -76,7 +76,7 @@ FloorGrid::FloorGrid(const occupancy::OccupancyMap& map, double floor_height, do
 
 void FloorGrid::mark(const occupancy::OccupancyMap& map, int low_x, int low_y, int floor,
                      double headroom) {
-  std::vector<bool> blocked(width_ * height_, false);
+  blocked_.assign(width_ * height_, false);
   open_.assign(width_ * height_, false);
   map.for_each_cube([&](const occupancy::OccupiedCube& cube) {
     const int top = cube.z + cube.side;
@@ -88,10 +88,10 @@ void FloorGrid::mark(const occupancy::OccupancyMap& map, int low_x, int low_y, i
     const auto y0 = static_cast<std::size_t>(cube.y - low_y);
     for (std::size_t y = y0; y < y0 + side; ++y)
       for (std::size_t x = x0; x < x0 + side; ++x)
-        (blocks ? blocked : open_)[y * width_ + x] = true;
+        (blocks ? blocked_ : open_)[y * width_ + x] = true;
   });
   for (std::size_t i = 0; i < open_.size(); ++i)
-    if (blocked[i]) open_[i] = false;
+    if (blocked_[i]) open_[i] = false;
 }
 
 void FloorGrid::coarsen(std::size_t factor) {
@@ -99,6 +99,9 @@ void FloorGrid::coarsen(std::size_t factor) {
   const std::size_t height = (height_ + factor - 1) / factor;
   // What lies beyond the map is closed, and so are the cells that reach there.
   std::vector<bool> open(width * height, false);
+  std::vector<bool> blocked(width * height, false);
+  for (std::size_t i = 0; i < blocked_.size(); ++i)
+    if (blocked_[i]) blocked[i / width_ / factor * width + i % width_ / factor] = true;
   for (std::size_t y = 0; y < height_ / factor; ++y)
     for (std::size_t x = 0; x < width_ / factor; ++x) {
       bool all = true;
@@ -107,6 +110,7 @@ void FloorGrid::coarsen(std::size_t factor) {
       open[y * width + x] = all;
     }
   open_ = std::move(open);
+  blocked_ = std::move(blocked);
   width_ = width;
   height_ = height;
   cell_size_ *= static_cast<double>(factor);
@@ -141,6 +145,30 @@ void FloorGrid::measure_clearance() {
       clearance_[(y - 1) * width_ + x - 1] =
           std::max(0.0, (std::sqrt(out[x]) - std::sqrt(0.5)) * cell_size_);
   }
+}
+
+std::vector<std::uint8_t> FloorGrid::walls_around() const {
+  std::vector<std::uint8_t> count(size(), 0);
+  std::vector<bool> met(size());
+  const auto width = static_cast<long>(width_);
+  const auto height = static_cast<long>(height_);
+  for (long direction = 0; direction < 9; ++direction) {
+    const long dx = direction % 3 - 1;
+    const long dy = direction / 3 - 1;
+    if (dx == 0 && dy == 0) continue;
+    // From the side to which the direction leads, so that the cell ahead is known.
+    for (long j = 0; j < height; ++j)
+      for (long i = 0; i < width; ++i) {
+        const long x = dx > 0 ? width - 1 - i : i;
+        const long y = dy > 0 ? height - 1 - j : j;
+        const auto cell = static_cast<std::size_t>(y * width + x);
+        const auto ahead = static_cast<std::size_t>((y + dy) * width + x + dx);
+        const bool ends = x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height;
+        met[cell] = blocked_[cell] || (!ends && met[ahead]);
+        if (met[cell]) ++count[cell];
+      }
+  }
+  return count;
 }
 
 Eigen::Vector2d FloorGrid::centre(std::size_t cell) const {

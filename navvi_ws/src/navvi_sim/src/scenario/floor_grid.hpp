@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -33,6 +34,10 @@ class FloorGrid {
   /// m, from the cell's centre to the nearest edge of a cell that is blocked or has no floor; 0 for
   /// such a cell.
   [[nodiscard]] double clearance(std::size_t cell) const { return clearance_[cell]; }
+
+  /// Of the 8 directions, in how many something stands: for each cell. In a room it is in all but
+  /// those that lead out through a door.
+  [[nodiscard]] std::vector<std::uint8_t> walls_around() const;
 
   /// Calls `visit` with each cell whose centre lies in `box`.
   template <typename Visit>
@@ -78,6 +83,7 @@ class FloorGrid {
   std::size_t width_ = 0;   ///< cells along x
   std::size_t height_ = 0;  ///< cells along y
   std::vector<bool> open_;
+  std::vector<bool> blocked_;  ///< by what stands; a cell may be neither
   std::vector<double> clearance_;
 };
 

@@ -10,6 +10,9 @@ namespace navvi_sim::scenario {
 namespace {
 
 constexpr double kStands = 0.1;  // m above the floor, that things rise at least
+constexpr int kWallsOfRoom =
+    7;  // of 8 directions, in which something stands around a place in a room
+constexpr std::size_t kFew = 10;  // one in so many places: too few to be rooms
 
 }  // namespace
 
@@ -24,6 +27,11 @@ FreePlaces::FreePlaces(const WorldDescription& world, const FloorGrid& grid,
   std::copy_if(all_.begin(), all_.end(), std::back_inserter(inside),
                [&](std::size_t cell) { return overlap(hull, {grid.centre(cell)}, 0.0); });
   if (!inside.empty()) all_ = std::move(inside);
+  Places enclosed;
+  const std::vector<std::uint8_t> walls = grid.walls_around();
+  std::copy_if(all_.begin(), all_.end(), std::back_inserter(enclosed),
+               [&](std::size_t cell) { return walls[cell] >= kWallsOfRoom; });
+  if (enclosed.size() > all_.size() / kFew) all_ = std::move(enclosed);
   if (all_.empty())
     throw WorldError("world '" + world.name + "' has no place where a robot of radius " +
                      text(config.robot_radius) + " m stands " + text(config.clearance) +

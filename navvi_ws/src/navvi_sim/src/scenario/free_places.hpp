@@ -23,8 +23,8 @@ class FreePlaces {
   /// \throws WorldError if there is no place as clear as `config` says, or as swept_ground
   FreePlaces(const WorldDescription& world, const FloorGrid& grid, const ScenarioConfig& config);
 
-  /// Clear of everything that stands still, and inside the hull of that where there are such; at
-  /// least one.
+  /// Clear of everything that stands still, inside the hull of that, and in rooms, each where there
+  /// are such; at least one.
   [[nodiscard]] const Places& all() const { return all_; }
   /// Those of them off the ground that movers sweep.
   [[nodiscard]] const Places& quiet() const { return quiet_; }

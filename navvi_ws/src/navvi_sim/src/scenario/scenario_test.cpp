@@ -106,14 +106,21 @@ TEST_F(ScenarioIn, is_drawn_inside_a_house_and_not_in_the_ring_of_floor_around) 
             "the start lies outside of everything that stands in this world");
 }
 
-TEST_F(ScenarioIn, names_the_thing_that_a_start_is_in) {
-  enter(two_rooms(2.0));
-  try {
-    static_cast<void>(draw(1, Pose2{{0.0, 1.0}, 0.0}));
-    ADD_FAILURE();
-  } catch (const WorldError& error) {
-    EXPECT_NE(std::string(error.what()).find("is in 'wall' of world"), std::string::npos)
-        << error.what();
+TEST_F(ScenarioIn, is_drawn_in_the_rooms_of_a_house_and_not_in_its_yard) {
+  WorldDescription world;  // three wings around a yard that is open to the south
+  world.name = "house";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {40.0, 40.0, 0.1}));
+  const auto wall = [&](double x, double y, double length, double width) {
+    world.things.push_back(thing("w", ThingClass::wall, {x, y, 1}, {length, width, 2.0}));
+  };
+  wall(0, 10, 20.2, 0.2), wall(0, 6, 12.0, 0.2);
+  for (const double side : {-1.0, 1.0})
+    wall(10 * side, 0, 0.2, 20.2), wall(6 * side, -2, 0.2, 16.0), wall(8 * side, -10, 4.0, 0.2);
+  enter(world);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const StartAndGoal scenario = draw(seed);
+    for (const Eigen::Vector2d& place : {scenario.start.position, scenario.goal})
+      EXPECT_TRUE(std::abs(place.x()) > 6.0 || place.y() > 6.0) << seed;
   }
 }
 

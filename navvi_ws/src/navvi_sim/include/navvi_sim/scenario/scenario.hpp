@@ -38,7 +38,7 @@ struct StartAndGoal {
   double route_length = 0.0;  ///< m, along a grid of the map; 0 if the goal was given and cannot
                               ///< be reached
   std::vector<Eigen::Vector2d>
-      route;  ///< m, from start to goal, pulled taut; empty if there is none
+      route;              ///< m, from start to goal, pulled taut; empty if there is none
   std::string note = {};  ///< a sentence if one of them lies outside of all that stands; else empty
 };
 
@@ -46,11 +46,11 @@ struct StartAndGoal {
 [[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
 
 /// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
-/// connected over the floor, inside the hull of what stands, where that has room, and, where the world has such places, off the ground that movers
-/// sweep: a robot that stood there would keep them from going on. A goal that is given is passed on
-/// as it is, free or not: refusing it is navigation's task. A drawn start looks along its route.
-/// Length and turns that are asked for hold for every route of which an end is drawn.
-/// \param map  of `world` (occupancy.hpp)
+/// connected over the floor, inside the hull of what stands and in its rooms, where there are such,
+/// and, where the world has such places, off the ground that movers sweep: a robot that stood there
+/// would keep them from going on. A goal that is given is passed on as it is, free or not: refusing
+/// it is navigation's task. A drawn start looks along its route. Length and turns that are asked
+/// for hold for every route of which an end is drawn. \param map  of `world` (occupancy.hpp)
 /// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
 /// floor, or if the world has no free place, or none for a route as long and with as many turns as
 /// asked for
