@@ -130,6 +130,15 @@ def test_each_launch_file_resolves_to_nodes_that_exist(path):
         assert found.stdout.strip() or installed.exists() or node.get("pkg") == "rviz", node.get("type")
 
 
+def test_only_the_simulated_robot_is_held_to_one_level():
+    def climb(name, *words):
+        dump = subprocess.run(["roslaunch", "--dump-params", str(ROOT / "launch" / name), *words], capture_output=True, text=True, timeout=60)
+        return [line for line in dump.stdout.splitlines() if "nav_node/mesh/climb" in line]
+    assert climb("live.launch", "profile:=paper", "rviz:=false") == ["/nav_node/mesh/climb: 0.0"]
+    assert climb("live.launch", "rviz:=false", "nav_parameters:={mesh: {climb: 0.1}}") == ["/nav_node/mesh/climb: 0.1"]
+    assert climb("robot.launch", "rviz:=false") == []
+
+
 @pytest.mark.parametrize("path", sorted((ROOT / "rviz").glob("*.rviz")), ids=lambda path: path.name)
 def test_each_view_file_offers_chase_top_and_forward(path):
     views = yaml.safe_load(path.read_text())["Visualization Manager"]["Views"]["Saved"]

@@ -19,22 +19,16 @@ struct Heading {
   double x;
   double y;
 };
-constexpr std::array<Heading, 16> kHeadings{{{1, 0},
-                                             {1, 0.5},
-                                             {1, 1},
-                                             {0.5, 1},
-                                             {0, 1},
-                                             {-0.5, 1},
-                                             {-1, 1},
-                                             {-1, 0.5},
-                                             {-1, 0},
-                                             {-1, -0.5},
-                                             {-1, -1},
-                                             {-0.5, -1},
-                                             {0, -1},
-                                             {0.5, -1},
-                                             {1, -1},
-                                             {1, -0.5}}};
+const std::array<Heading, 16> kHeadings = [] {
+  std::array<Heading, 16> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double x = std::cos(M_PI / 8 * static_cast<double>(i));
+    const double y = std::sin(M_PI / 8 * static_cast<double>(i));
+    const double longer = std::max(std::abs(x), std::abs(y));
+    all[i] = {x / longer, y / longer};
+  }
+  return all;
+}();
 
 /// Whether the treads between steps are those of one slope, rounded to columns.
 bool alike(int tread, int other) {

@@ -30,7 +30,7 @@ struct MapSurvey {
   int rows = 0;
   std::vector<Ground> ground;
   std::string source = {};  ///< what a file says of itself; may be empty
-  std::string levels;  ///< where the map shows floor, for a sentence; may be empty
+  std::string levels;       ///< where the map shows floor, for a sentence; may be empty
 };
 
 /// Chooses the floor and classifies each cell (R-NAV-12).
@@ -48,9 +48,9 @@ struct MapSurvey {
 ///   so is what they lead to. A kerb or a pedestal is one such step, or a higher one.
 /// - With `climb` 0 there is neither: the robot stays on its level.
 ///
-/// Slopes of 45 degrees and more over a few cells, and the upper side of a step that is not
-/// climbed, are obstacles, like all else that rises above the floor and hangs lower than
-/// `robot_height`. Where the map shows nothing there is no floor.
+/// Slopes of 45 degrees and more over 7 columns, as those from 39 degrees on look in places, and
+/// the upper side of a step that is not climbed, are obstacles, like all else that rises above the
+/// floor and hangs lower than `robot_height`. Where the map shows nothing there is no floor.
 ///
 /// All this is done in the map's own voxels. If cells differ, a cell is floor only if all of it is,
 /// and an obstacle if a part is. With `cell_size` 0 they are parts of voxels where else erosion by

@@ -132,7 +132,7 @@ void draw_legend(Canvas& canvas, const PictureOf& what) {
   const Point origin{canvas.x({0, 0}), canvas.y({0, 0})};
   canvas.add("<path d=\"M%.1f %.1fh%.1fm%.1f %.1fv%.1f\" stroke=\"#000000\" stroke-width=\"2\"/>\n",
              origin.x, origin.y, line, -line, 0.0, -line);
-  canvas.text(origin.x + 0.2 * line, origin.y + 0.8 * line, "0, 0");
+  canvas.text(origin.x + 0.3 * line, origin.y - 0.3 * line, "0, 0");
 }
 
 }  // namespace

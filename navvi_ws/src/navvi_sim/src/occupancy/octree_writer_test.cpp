@@ -239,7 +239,7 @@ TEST(OctreeWriter, writes_what_octomap_writes_of_random_worlds_voxel_by_voxel) {
     Drawing drawing(seed, voxel);
     const WorldDescription world = drawing.world();
     const octomap::OcTree reference = inserted(world, drawing, voxel);
-    const OccupancyMap map = occupancy_of(world, OccupancyConfig{voxel});
+    const OccupancyMap map = occupancy_of(world, OccupancyConfig{voxel, 0.0});
     ASSERT_GT(map.stream().size(), 32U);
     ASSERT_TRUE(tree_of(map) == reference) << "seed " << seed;
     ASSERT_EQ(std::string(map.stream().begin(), map.stream().end()), stream_of(reference)) << seed;

@@ -26,40 +26,32 @@ struct Outlines {
   int beyond = 0;              ///< things that are not, since they lie far from all others
 };
 
-Eigen::AlignedBox2d grown(Eigen::AlignedBox2d box, double by) {
-  if (box.isEmpty()) return box;
-  return {box.min() - Eigen::Vector2d::Constant(by), box.max() + Eigen::Vector2d::Constant(by)};
-}
-
-Eigen::AlignedBox2d around(const std::vector<Eigen::AlignedBox2d>& boxes, std::size_t without) {
-  Eigen::AlignedBox2d all;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    if (i != without) all.extend(boxes[i]);
-  return all;
-}
-
 /// Chooses what is shown: everything but the floor's margin, and the few things without which the
 /// rest would be drawn twice as large.
 void choose_bounds(Outlines& all, std::vector<Eigen::AlignedBox2d> things,
                    const Eigen::AlignedBox2d& ground, const Eigen::AlignedBox2d& needed) {
-  const std::size_t few = things.size() / 20;
-  const auto with = [&](std::size_t without) {
-    Eigen::AlignedBox2d box = around(things, without);
-    box.extend(needed);
+  const auto around = [&](std::size_t without) {
+    Eigen::AlignedBox2d box = needed;
+    for (std::size_t i = 0; i < things.size(); ++i)
+      if (i != without) box.extend(things[i]);
     return box;
   };
-  for (std::size_t left_out = 0; left_out < few; ++left_out) {
-    const double side = with(things.size()).sizes().maxCoeff();
+  const auto side = [&](std::size_t without) { return around(without).sizes().maxCoeff(); };
+  for (std::size_t few = std::min<std::size_t>(things.size() / 20, 8); few > 0; --few) {
     std::size_t far = 0;
     for (std::size_t i = 1; i < things.size(); ++i)
-      if (with(i).sizes().maxCoeff() < with(far).sizes().maxCoeff()) far = i;
-    if (2.0 * with(far).sizes().maxCoeff() > side) break;
+      if (side(i) < side(far)) far = i;
+    if (2.0 * side(far) > side(things.size())) break;
     things.erase(things.begin() + static_cast<std::ptrdiff_t>(far));
     ++all.beyond;
   }
-  all.bounds = with(things.size());
-  const Eigen::AlignedBox2d more = grown(all.bounds, kMargin).intersection(ground);
-  all.bounds.extend(all.bounds.isEmpty() ? ground : more);
+  all.bounds = around(things.size());
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin);
+  if (all.bounds.isEmpty())
+    all.bounds = ground;
+  else
+    all.bounds.extend(Eigen::AlignedBox2d(all.bounds.min() - margin, all.bounds.max() + margin)
+                          .intersection(ground));
   if (all.bounds.isEmpty())
     all.bounds.extend(Eigen::Vector2d(-1.0, -1.0)).extend(Eigen::Vector2d(1.0, 1.0));
 }
@@ -150,6 +142,7 @@ void draw_swatch(MapCanvas& canvas, const WorldDescription& world, ThingClass th
                  const Eigen::Vector2d& p) {
   for (const Thing& thing : world.things) {
     if (thing.thing_class != thing_class) continue;
+    if (thing_class == ThingClass::wall) break;  // long, or around a room
     const auto outlines = outlines_of(thing, world.floor_height);
     Eigen::AlignedBox2d bounds;
     for (const Outline& outline : outlines) bounds.extend(outline.local);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "navvi_sim/live/world.hpp"
+#include "navvi_sim/physics/robot.hpp"
 
 namespace navvi_sim::scene {
 
