@@ -40,8 +40,9 @@ void find_polygons_at(const mesh::Mesh& mesh, const mesh::Mesh::Place& place,
 }  // namespace
 
 bool Polyanya::find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
-                    const mesh::Mesh::Place& goal, Path& path) {
+                    const mesh::Mesh::Place& goal, const Price& price, Path& path) {
   path.clear();
+  price_ = price;
   begin(mesh, start, goal);
   if (mesh.polygon(start.polygon).component != mesh.polygon(goal.polygon).component) return false;
   for (const int polygon : start_polygons_) {
@@ -53,7 +54,7 @@ bool Polyanya::find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
   }
   expand_start();
   SearchNode node;
-  while (pop(node)) {
+  while (nodes_expanded_ < price_.nodes && pop(node)) {
     if (node.cost > reached_[static_cast<std::size_t>(node.root)].cost * (1.0 + kTie)) continue;
     if (node.polygon < 0) {
       trace(node.root, path);
@@ -153,8 +154,10 @@ void Polyanya::expand(const SearchNode& node) {
     }
     // The first root that sees a corner becomes its parent and is followed from there. A root that
     // sees it along a border does not: its node covers one side of the corner only.
-    if (c.right > 0 && is_corner(c.vertex)) reach(c.vertex, node.root, node.cost + norm(c.ahead));
-    if (d.left < 0 && is_corner(d.vertex)) reach(d.vertex, node.root, node.cost + norm(d.ahead));
+    if (c.right > 0 && is_corner(c.vertex))
+      reach(c.vertex, node.root, node.cost + norm(c.ahead) + price_.turn);
+    if (d.left < 0 && is_corner(d.vertex))
+      reach(d.vertex, node.root, node.cost + norm(d.ahead) + price_.turn);
     add({node.cost, right_end ? c.ahead : node.right, left_end ? d.ahead : node.left, node.root,
          portal.to, portal.right, portal.left, right_end, left_end},
         mesh_->at(portal.right), mesh_->at(portal.left));
@@ -171,7 +174,8 @@ void Polyanya::enter_collinear(const mesh::Portal& portal, int root, double cost
   const int vertex = to_right ? portal.right : portal.left;
   const Point ahead = to_right ? c : d;
   if (!is_corner(vertex)) return;
-  SearchNode next{cost + norm(ahead),
+  const int origin = origin_of(root, ahead);
+  SearchNode next{cost + norm(ahead) + (origin == root ? price_.turn : 0.0),
                   to_right ? -1.0 * ahead : ahead,
                   to_right ? ahead : -1.0 * ahead,
                   vertex,
@@ -180,8 +184,7 @@ void Polyanya::enter_collinear(const mesh::Portal& portal, int root, double cost
                   portal.left,
                   !to_right,
                   to_right};
-  if (reach(vertex, origin_of(root, ahead), next.cost))
-    add(next, mesh_->at(portal.right), mesh_->at(portal.left));
+  if (reach(vertex, origin, next.cost)) add(next, mesh_->at(portal.right), mesh_->at(portal.left));
 }
 
 /// Turns round an end of the portal through which the polygon was entered, into `portal`.
@@ -196,7 +199,7 @@ void Polyanya::turn(const SearchNode& node, const mesh::Portal& portal, bool to_
   if (!is_corner(vertex)) return;
   const Point ahead = at(vertex) - root;
   const int origin = origin_of(node.root, ahead);
-  const double cost = node.cost + norm(ahead);
+  const double cost = node.cost + norm(ahead) + (origin == node.root ? price_.turn : 0.0);
   if (!has_wall(vertex, node.polygon, ahead, to_right) || !reach(vertex, origin, cost)) return;
   const bool beside = near != vertex;
   const Point to_near = beside ? at(near) - at(vertex) : -1.0 * ahead;
@@ -225,9 +228,9 @@ void Polyanya::see_goal(const SearchNode& node) {
   if (over_right ? !node.right_end : !node.left_end) return;
   last.root = over_right ? node.portal_right : node.portal_left;
   const Point corner = at(last.root);
-  last.cost += distance(root, corner);
-  if (reach(last.root, origin_of(node.root, corner - root), last.cost))
-    push(last, last.cost + distance(corner, to_));
+  const int origin = origin_of(node.root, corner - root);
+  last.cost += distance(root, corner) + (origin == node.root ? price_.turn : 0.0);
+  if (reach(last.root, origin, last.cost)) push(last, last.cost + distance(corner, to_));
 }
 
 /// The root at which a path that leaves `root` in this direction has turned last: `root`, or its
@@ -279,6 +282,9 @@ bool Polyanya::reach(int vertex, int parent, double cost) {
 }
 
 void Polyanya::add(const SearchNode& node, const Point& portal_right, const Point& portal_left) {
+  if (price_.narrow > 0.0 && distance(portal_right, portal_left) < price_.narrow &&
+      (is_corner(node.portal_right) || is_corner(node.portal_left)))
+    return;
   if (is_dominated(node)) return;
   const Point root = at(node.root);
   if (node.right_end && node.left_end) dominance_.insert(node, root);
@@ -306,6 +312,7 @@ bool Polyanya::is_dominated(const SearchNode& node) {
 }
 
 void Polyanya::push(const SearchNode& node, double estimate) {
+  if (estimate > price_.most) return;
   std::uint32_t slot;
   if (unused_.empty()) {
     slot = static_cast<std::uint32_t>(nodes_.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -15,10 +16,22 @@ namespace navvi_nav::search {
 /// Keeps its memory from query to query.
 class Polyanya {
  public:
+  /// For another path than the shortest: one that turns less often or keeps out of slits.
+  struct Price {
+    double turn = 0.0;    ///< m, of each turn
+    double narrow = 0.0;  ///< m, a portal at a corner that is shorter is not crossed
+    double most = std::numeric_limits<double>::infinity();  ///< m, a path that costs more is none
+    std::size_t nodes = ~std::size_t{0};  ///< most that are expanded before the search is given up
+  };
   /// \param path  gets the path, without points where it does not turn; empty if there is none
   /// \returns true if there is a path
   bool find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal,
-            Path& path);
+            Path& path) {
+    return find(mesh, start, goal, Price{}, path);
+  }
+  /// Likewise the cheapest path: its length and price.turn for each turn, exact but for rounding.
+  bool find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal,
+            const Price& price, Path& path);
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }
 
  private:
@@ -48,6 +61,7 @@ class Polyanya {
   [[nodiscard]] Point at(int vertex) const { return vertex == start_ ? from_ : mesh_->at(vertex); }
   void trace(int root, Path& path) const;
 
+  Price price_;
   const mesh::Mesh* mesh_ = nullptr;
   Point from_;
   Point to_;
