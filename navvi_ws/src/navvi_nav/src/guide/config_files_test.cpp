@@ -49,6 +49,25 @@ TEST(ConfigFiles, paper_finds_a_path_through_an_aisle_of_three_meters) {
   }
 }
 
+TEST(ConfigFiles, paper_leads_along_the_corners_of_the_funnel_alone) {
+  const plan::PlannerConfig config = read_file("paper.yaml").planner;
+  search::Search search(search::SearchMethod::centroid_astar, config.alpha);
+  int turning = 0;
+  for (unsigned seed = 0; seed < 15; ++seed) {
+    RandomWorld world(seed);
+    plan::Planner planner(config);
+    ASSERT_EQ(planner.set_map(world.map.voxels()).error, "");
+    const mesh::Mesh& mesh = planner.nav_mesh().mesh();
+    const auto from = mesh.locate(world.start, 0.0);
+    const auto to = mesh.locate(world.goal, 0.0);
+    if (!from || !to) continue;
+    const plan::Plan plan = planner.plan(world.start, world.goal);
+    EXPECT_EQ(plan.path, search.find(mesh, *from, *to).path);
+    turning += plan.path.size() > 2;
+  }
+  EXPECT_GE(turning, 3);
+}
+
 }  // namespace
 }  // namespace navvi_nav::guide
 

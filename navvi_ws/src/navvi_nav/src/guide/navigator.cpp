@@ -218,6 +218,7 @@ plan::PlanRequest Navigator::send(double time, Guidance::Replan reason) {
 void Navigator::ask_for_path(plan::PlanRequest& request, Point robot) {
   request.goal = goal_.place;
   request.start = robot;
+  if (path_.mode() == PathMode::to_goal) request.followed = path_.remaining(robot);
   if (keeper_.holds_paths())
     request.predicted =
         forecast_.predicted(path_.remaining(robot), observation_.obstacles(), observation_.pace());

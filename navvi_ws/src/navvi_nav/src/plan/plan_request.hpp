@@ -29,6 +29,7 @@ struct PlanRequest {
   std::vector<Cylinder> swept_area;  ///< to leave free if obstacles close the path; may be empty
   std::optional<Point> goal;         ///< nullopt: only the mesh is brought up to date
   Point start;
+  Path followed;  ///< the rest of the path to the goal so far, from the robot; may be empty
   bool show_mesh = false;  ///< return a copy of the mesh, too
 
   [[nodiscard]] bool brings_map() const { return map || grid; }

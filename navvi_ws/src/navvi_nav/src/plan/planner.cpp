@@ -1,6 +1,7 @@
 #include "plan/planner.hpp"
 
 #include <exception>
+#include <limits>
 
 #include "plan/escape.hpp"
 
@@ -12,6 +13,11 @@ constexpr double kRetreatFarthest = 12.0;  // m, as the crow flies
 constexpr double kRetreatSpare = 0.2;      // m, that a robot keeps from the area it leaves
 constexpr int kRetreatDirections = 16;
 constexpr int kRetreatSearches = 200;
+constexpr double kSlack = 0.02;            // m, of room that a start off the mesh need not keep
+constexpr double kSameGoal = 0.5;          // m, a path that ends so near leads to the same goal
+constexpr double kOnMesh = 1e-3;           // m, from a corner of a path on the mesh to the mesh
+constexpr std::size_t kMostNodes = 15000;  // of a search for another path than the shortest
+constexpr double kSearchedTurn = 0.75;     // of a turn by 90 degrees: what searches charge for each
 
 Plan failure(PlanStatus status, std::string detail,
              Guidance::Refusal refusal = Guidance::Refusal::none) {
@@ -84,10 +90,12 @@ PlanAnswer Planner::answer(const PlanRequest& request) {
     out.map_taken = request.brings_map() && out.map_error.empty();
     carve(joined(request.obstacles, request.predicted));
     if (request.goal) {
-      Route route = search(request);
-      if (may_be_closed(route.plan)) route = search_without_obstacles(request, route);
-      if (route.plan.status == PlanStatus::closed) route = retreat_if_possible(request, route);
-      out.plan = smoothed(route);
+      out.plan = plan(request);
+      if (may_be_closed(*out.plan)) out.plan = plan_without_obstacles(request, *out.plan);
+      if (out.plan->status == PlanStatus::closed && !request.swept_area.empty()) {
+        const Plan out_of_it = retreat(request.swept_area, request.start);
+        if (out_of_it.status == PlanStatus::retreat) out.plan = out_of_it;
+      }
     }
   } catch (const std::exception& error) {
     if (request.brings_map()) out.map_error = error.what();
@@ -108,11 +116,11 @@ MeshUpdate Planner::take_map(const PlanRequest& request) {
 }
 
 /// Clear of where the obstacles will be, or else of where they are: these are carved then.
-Planner::Route Planner::search(const PlanRequest& request) {
-  Route out = search(request.start, *request.goal);
-  if (out.plan.status == PlanStatus::found || request.predicted.empty()) return out;
+Plan Planner::plan(const PlanRequest& request) {
+  Plan out = plan(request.start, *request.goal, request.followed);
+  if (out.status == PlanStatus::found || request.predicted.empty()) return out;
   carve(request.obstacles);
-  return search(request.start, *request.goal);
+  return plan(request.start, *request.goal, request.followed);
 }
 
 Planner::Route Planner::search(Point start, Point goal) const {
@@ -136,43 +144,35 @@ Planner::Route Planner::search(Point start, Point goal) const {
   const Anchor from = begin(start, goal, part);
   if (!from.place)
     return {failure(PlanStatus::no_route, "nothing joins the robot with the goal now")};
-  return joined_route(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, start, goal);
+  return route_of(search_.find(nav_mesh_.mesh(), *from.place, *to.place), from, *to.place, start,
+                  goal);
 }
 
-/// The path found, joined to the start and the goal.
-Planner::Route Planner::joined_route(const search::Found& found, const Anchor& from, Point start,
-                                     Point goal) {
+/// The path found, and what joins it to the start and the goal.
+Planner::Route Planner::route_of(const search::Found& found, const Anchor& from,
+                                 const mesh::Mesh::Place& to, Point start, Point goal) {
   Route out;
   out.plan.nodes_expanded = found.nodes_expanded;
   out.plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
   if (!found.found) return out;
-  Path& path = out.plan.path;
-  path = found.path;
-  if (from.joined && !(path.front() == start)) {
-    if (from.leaves_hole)
-      out.escapes_from = start;
-    else
-      path.insert(path.begin(), start);
-  }
-  if (!(path.back() == goal)) path.push_back(goal);
+  out.plan.path = found.path;
+  out.from = *from.place;
+  out.to = to;
+  if (from.joined && !(from.place->point == start)) out.start = start;
+  if (!(to.point == goal)) out.goal = goal;
+  out.leaves_hole = from.leaves_hole;
   return out;
 }
 
 /// A closed plan, or why there is none without obstacles either.
-Planner::Route Planner::search_without_obstacles(const PlanRequest& request, const Route& blocked) {
+Plan Planner::plan_without_obstacles(const PlanRequest& request, const Plan& blocked) {
   carve({});
-  Route out = search(request.start, *request.goal);
+  Plan out = plan(request.start, *request.goal, request.followed);
   carve(request.obstacles);
-  if (out.plan.status != PlanStatus::found) return out;
-  out.plan.status = PlanStatus::closed;
-  out.plan.detail = blocked.plan.detail;
+  if (out.status != PlanStatus::found) return out;
+  out.status = PlanStatus::closed;
+  out.detail = blocked.detail;
   return out;
-}
-
-Planner::Route Planner::retreat_if_possible(const PlanRequest& request, Route closed) const {
-  if (request.swept_area.empty()) return closed;
-  Route out = search_retreat(request.swept_area, request.start);
-  return out.plan.status == PlanStatus::retreat ? out : closed;
 }
 
 Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, Point start) const {
@@ -187,6 +187,7 @@ Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, 
   const map::Space swept{nav_mesh_.shared_floor().get(), &swept_area};
   search::Found best;
   Anchor best_from;
+  mesh::Mesh::Place best_to;
   int searches = 0;
   for (double reach = kRetreatStep; reach <= kRetreatFarthest && searches < kRetreatSearches;
        reach += kRetreatStep) {
@@ -203,32 +204,84 @@ Planner::Route Planner::search_retreat(const std::vector<Cylinder>& swept_area, 
       if (!found.found || (best.found && found.length >= best.length)) continue;
       best = found;
       best_from = from;
+      best_to = *there;
     }
   }
   if (!best.found) return {failure(PlanStatus::no_route, "there is no room to be made")};
-  Route out = joined_route(best, best_from, start, best.path.back());
+  Route out = route_of(best, best_from, best_to, start, best_to.point);
   out.plan.status = PlanStatus::retreat;
   return out;
 }
 
-/// The straight leg of an escape stays as it is. A closed path is the one without obstacles.
-Plan Planner::smoothed(Route route) const {
+/// The guide path of a route, with its ends. The straight leg of an escape stays as it is; another
+/// is drawn on to the next corner where that keeps the radius, or as much room as the robot has.
+Plan Planner::guided(Route route, const Path& followed) const {
   Plan& plan = route.plan;
   if (plan.path.empty()) return plan;
-  const std::vector<Cylinder> none;
-  const bool ignores_obstacles = plan.status == PlanStatus::closed;
-  const map::Space space{nav_mesh_.shared_floor().get(),
-                         ignores_obstacles ? &none : &nav_mesh_.carved()};
-  const Path shortest = std::exchange(plan.path, {});
-  plan.shortest = length_of(shortest);
-  plan.path =
-      smooth::smooth(shortest, space, {config_.mesh.robot_radius, config_.mesh.preferred_clearance},
-                     config_.smoothing);
-  if (route.escapes_from) {
-    plan.path.insert(plan.path.begin(), *route.escapes_from);
-    plan.shortest += distance(*route.escapes_from, shortest.front());
+  plan.shortest = length_of(plan.path);
+  if (config_.smoothing.enabled) plan.path = guide_path(route, followed);
+  const map::Space space = nav_mesh_.space();
+  const double radius = config_.mesh.robot_radius;
+  Path& path = plan.path;
+  if (route.start) {
+    const double own = std::min(radius, space.clearance(*route.start) - kSlack);
+    plan.shortest += distance(*route.start, path.front());
+    if (!route.leaves_hole && path.size() > 1 && own > 0.0 &&
+        space.segment_clear(*route.start, path[1], own))
+      path.front() = *route.start;
+    else
+      path.insert(path.begin(), *route.start);
+  }
+  if (route.goal) {
+    plan.shortest += distance(path.back(), *route.goal);
+    if (path.size() > 1 && space.segment_clear(path[path.size() - 2], *route.goal, radius))
+      path.back() = *route.goal;
+    else
+      path.push_back(*route.goal);
   }
   return plan;
+}
+
+/// The cheapest for a person of what smoothing makes of a path with few turns, or else of the
+/// shortest, of one that keeps out of slits, and of one that keeps the corners of `followed`.
+Path Planner::guide_path(const Route& route, const Path& followed) const {
+  const smooth::SmoothingConfig& config = config_.smoothing;
+  const double shortest = length_of(route.plan.path);
+  const double longest = std::max(config.max_stretch * shortest, shortest + config.max_detour);
+  const smooth::GuideCost cost(config.cost, nav_mesh_.mesh(), nav_mesh_.space(),
+                               config_.mesh.robot_radius, config_.mesh.preferred_clearance);
+  Path best = route.plan.path;
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Path& path, double gain) {
+    const double price = cost.of(path) - gain;
+    if (path.empty() || !(price < least) || length_of(path) > longest) return;
+    best = path;
+    least = price;
+  };
+  Path tried;
+  const auto lead_to = [&](const mesh::Mesh::Place& to, double narrow) {
+    const search::Polyanya::Price price{config.cost.turn_price * kSearchedTurn, narrow, least,
+                                        kMostNodes};
+    const Path path = search_.find_at(price, nav_mesh_.mesh(), route.from, to);
+    if (path == tried) return Path{};
+    tried = path;
+    return smooth::smooth(path, cost, config);
+  };
+  offer(lead_to(route.to, 0.0), 0.0);
+  if (!std::isfinite(least)) offer(smooth::smooth(route.plan.path, cost, config), 0.0);
+  if (cost.tight(best) > config.cost.turn_price)
+    offer(lead_to(route.to, 2.0 * config.cost.tight), 0.0);
+  const Path known = cost.known_end(followed);
+  if (known.size() < 2 || distance(known.back(), best.back()) > kSameGoal) return best;
+  const bool all =
+      known.size() + 1 == followed.size() && std::isfinite(cost.leg(best.front(), known.front()));
+  const auto there = nav_mesh_.mesh().locate(known.front(), kOnMesh);
+  Path kept = all ? Path{best.front(), known.front()} : there ? lead_to(*there, 0.0) : Path{};
+  if (kept.empty()) return best;
+  kept.insert(kept.end(), known.begin() + 1, known.end());
+  kept.back() = best.back();
+  offer(kept, config.keep);
+  return best;
 }
 
 Plan Planner::plan_near(Point start, Point goal, double tolerance) const {

@@ -40,11 +40,15 @@ class Planner {
   /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
   /// off the mesh is taken to the nearest point of it, at most `start_snap` away, and from within
   /// an obstacle's hole the path begins with a straight leg out of it: see escape().
-  [[nodiscard]] Plan plan(Point start, Point goal) const { return smoothed(search(start, goal)); }
+  /// \param followed  a path to the goal whose corners are known: as many as lead there are kept,
+  /// unless that costs more than smoothing.keep
+  [[nodiscard]] Plan plan(Point start, Point goal, const Path& followed = {}) const {
+    return guided(search(start, goal), followed);
+  }
   /// The shortest path to a place outside of `swept_area`, with some room to it where there is, or
   /// no_route.
   [[nodiscard]] Plan retreat(const std::vector<Cylinder>& swept_area, Point start) const {
-    return smoothed(search_retreat(swept_area, start));
+    return guided(search_retreat(swept_area, start), {});
   }
   /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
   /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
@@ -54,22 +58,26 @@ class Planner {
 
  private:
   struct Anchor;
-  /// A plan before smoothing.
+  /// A plan whose path is the shortest on the mesh.
   struct Route {
     Plan plan;
-    std::optional<Point> escapes_from = {};  ///< a straight leg from here comes before the path
+    mesh::Mesh::Place from = {};  ///< the ends of the path
+    mesh::Mesh::Place to = {};
+    std::optional<Point> start = {};  ///< a straight leg from here comes before the path
+    std::optional<Point> goal = {};   ///< and one to here after it
+    bool leaves_hole = false;         ///< the leg from the start
   };
   [[nodiscard]] MeshUpdate take_map(const PlanRequest& request);
-  [[nodiscard]] Route search(const PlanRequest& request);
+  [[nodiscard]] Plan plan(const PlanRequest& request);
+  [[nodiscard]] Plan plan_without_obstacles(const PlanRequest& request, const Plan& blocked);
   [[nodiscard]] Route search(Point start, Point goal) const;
-  [[nodiscard]] Route search_without_obstacles(const PlanRequest& request, const Route& blocked);
-  [[nodiscard]] Route retreat_if_possible(const PlanRequest& request, Route closed) const;
   [[nodiscard]] Route search_retreat(const std::vector<Cylinder>& swept_area, Point start) const;
   [[nodiscard]] Route search_retreat(const std::vector<Cylinder>& swept_area, Point start,
                                      double spare) const;
-  [[nodiscard]] static Route joined_route(const search::Found& found, const Anchor& from,
-                                          Point start, Point goal);
-  [[nodiscard]] Plan smoothed(Route route) const;
+  [[nodiscard]] static Route route_of(const search::Found& found, const Anchor& from,
+                                      const mesh::Mesh::Place& to, Point start, Point goal);
+  [[nodiscard]] Plan guided(Route route, const Path& followed) const;
+  [[nodiscard]] Path guide_path(const Route& route, const Path& followed) const;
   [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
   [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
   [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "small_world.hpp"
-#include "smooth/waypoints.hpp"
 
 namespace navvi_nav::plan {
 namespace {
@@ -232,7 +231,7 @@ TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {
   config.mesh.whole_cell_erosion = true;
   config.mesh.contour_error = 0.0;
   config.mesh.preferred_clearance = 0.0;
-  config.smoothing.turn_price = 0.0;
+  config.smoothing.enabled = false;
   int found = 0;
   for (unsigned seed = 0; seed < 15; ++seed) {
     RandomWorld world(seed);
@@ -274,6 +273,115 @@ TEST(Planner, leaves_the_preferred_clearance_where_there_is_room) {
     least = std::min(least, space.clearance(point));
   EXPECT_GT(least, 0.5);
   EXPECT_LE(plan.path.size(), 6U);
+}
+
+int turns_of(const Path& path) {
+  int turns = 0;
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const Point in = path[i] - path[i - 1];
+    const Point out = path[i + 1] - path[i];
+    turns += std::abs(std::atan2(cross(in, out), dot(in, out))) >= smooth::kBend;
+  }
+  return turns;
+}
+
+TEST(Planner, leads_round_a_field_of_racks_rather_than_in_steps_through_it) {
+  map::OccupancyGrid grid;
+  grid.width = 330;
+  grid.height = 230;
+  grid.resolution = 0.2;
+  grid.cells.assign(330 * 230, 0);
+  for (int y = 0; y < 230; ++y) {
+    for (int x = 0; x < 330; ++x) {
+      const bool wall = x == 0 || y == 0 || x == 329 || y == 229;
+      const bool rack =
+          x >= 20 && x < 310 && (x - 20) % 60 < 50 && y >= 20 && y < 210 && (y - 20) % 20 < 10;
+      if (wall || rack) grid.cells[static_cast<std::size_t>(y * 330 + x)] = 100;
+    }
+  }
+  PlannerConfig config;
+  Planner planner(config);
+  ASSERT_EQ(planner.set_map(grid).error, "");
+  const Plan plan = planner.plan({2, 2}, {64, 44});
+  ASSERT_EQ(plan.status, PlanStatus::found);
+  EXPECT_LE(turns_of(plan.path), 2);
+  EXPECT_NEAR(plan.shortest, 90.0, 1.0);
+  EXPECT_LE(length_of(plan.path), config.smoothing.max_stretch * plan.shortest);
+  config.smoothing.enabled = false;
+  Planner shortest(config);
+  ASSERT_EQ(shortest.set_map(grid).error, "");
+  EXPECT_GE(turns_of(shortest.plan({2, 2}, {64, 44}).path), 10);
+}
+
+TEST(Planner, prefers_a_wide_way_to_a_slit_that_saves_little) {
+  const auto passes_slit = [](double width) {
+    SmallWorld world;
+    world.room(16, 10 + width).box(7, 0.1, 0, 8, 6, 1).box(7, 6 + width, 0, 8, 6.5 + width, 1);
+    const Plan plan = planner_on(world).plan({2, 6.4}, {13, 6.4});
+    EXPECT_EQ(plan.status, PlanStatus::found);
+    return std::all_of(plan.path.begin(), plan.path.end(), [](Point at) { return at.y < 7.2; });
+  };
+  EXPECT_FALSE(passes_slit(0.9));
+  EXPECT_TRUE(passes_slit(1.8));
+}
+
+TEST(Planner, keeps_the_corners_that_are_followed_unless_others_save_enough) {
+  SmallWorld world;
+  world.room(16, 10).box(6, 3.6, 0, 10, 6, 1);
+  Planner planner = planner_on(world);
+  const Point start{2, 4.6};
+  const Point goal{14, 4.6};
+  const Path above{start, {5.4, 6.9}, {10.6, 6.9}, goal};
+  const auto leads_above = [](const Plan& plan) {
+    return std::any_of(plan.path.begin(), plan.path.end(), [](Point at) { return at.y > 5.5; });
+  };
+  EXPECT_FALSE(leads_above(planner.plan(start, goal)));
+  EXPECT_EQ(planner.plan(start, goal, above).path, above);
+  EXPECT_FALSE(leads_above(planner.plan(start, {14, 2}, above)));  // another goal
+  EXPECT_FALSE(leads_above(planner.plan(start, goal, {start, {5.4, 9}, {10.6, 9}, goal})));
+  planner.carve({{1, {8, 7.5}, 1.2, {}}});
+  EXPECT_FALSE(leads_above(planner.plan(start, goal, above)));
+  planner.carve({{1, {3.7, 5.7}, 0.4, {}}});  // in the first leg: the corners after it are kept
+  const Path round = planner.plan(start, goal, above).path;
+  ASSERT_GE(round.size(), 4U);
+  EXPECT_EQ(Path(round.end() - 3, round.end()), Path(above.end() - 3, above.end()));
+}
+
+/// The judge knows the boxes that the map was made of and the cylinders, not the mesh.
+TEST(Planner, keeps_its_radius_and_its_bounds_on_ten_thousand_paths) {
+  const PlannerConfig config;
+  int paths = 0;
+  double nearest = 10.0;
+  for (unsigned seed = 0; paths < 10000; ++seed) {
+    ASSERT_LT(seed, 200U);
+    RandomWorld world(seed);
+    Planner planner(config);
+    ASSERT_EQ(planner.set_map(world.map.voxels()).error, "");
+    planner.carve(world.cylinders);
+    std::mt19937 random(seed);
+    const auto pick = [&random](double size) {
+      return 0.6 + size * static_cast<double>(random() % 1000) / 1000.0;
+    };
+    const auto room = [&world](Point at) {
+      double least = 10.0;
+      for (const auto& block : world.map.blocks()) least = std::min(least, distance_to(block, at));
+      for (const Cylinder& one : world.cylinders)
+        least = std::min(least, distance(one.center, at) - one.radius);
+      return least;
+    };
+    for (int i = 0; i < 200; ++i) {
+      const Plan plan = planner.plan({pick(18.8), pick(12.8)}, {pick(18.8), pick(12.8)});
+      if (plan.status != PlanStatus::found || room(plan.path.front()) < kRadius) continue;
+      ++paths;
+      EXPECT_LE(length_of(plan.path), std::max(config.smoothing.max_stretch * plan.shortest,
+                                               plan.shortest + config.smoothing.max_detour) +
+                                          0.1);
+      EXPECT_GE(length_of(plan.path), plan.shortest - 0.1);
+      for (const Point point : points_along(plan.path, 0.05))
+        nearest = std::min(nearest, room(point));
+    }
+  }
+  EXPECT_GE(nearest, kRadius - kTolerance);
 }
 
 }  // namespace

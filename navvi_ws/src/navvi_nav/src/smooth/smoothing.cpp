@@ -1,14 +1,14 @@
 #include "smooth/smoothing.hpp"
 
 #include <ompl/base/MotionValidator.h>
-#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/util/Console.h>
 
-#include "smooth/waypoints.hpp"
+#include <array>
+#include <optional>
 
 namespace navvi_nav::smooth {
 namespace {
@@ -16,154 +16,177 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-constexpr std::uint_fast32_t kSeed = 1;  // the same always: equal input, equal path
-constexpr double kSample = 0.2;          // m, between places where guide_cost looks
-constexpr double kStride = 0.6;          // m, farthest that OMPL moves a point at once
-constexpr double kRange = 0.5;           // share of the path that one shortcut may replace
-constexpr double kSnap = 0.1;            // share of the path within which a corner is meant
+constexpr std::uint_fast32_t kSeed = 1;        // the same always: equal input, equal path
+constexpr double kRange = 0.3;                 // share of the corners that may go at once
+constexpr double kGain = 1e-6;                 // m, less is rounding
+constexpr int kPushes = 5;                     // places tried on the way off an obstacle
+constexpr double kSteps[] = {0.6, 0.3, 0.15};  // m
 
-using State = ob::RealVectorStateSpace::StateType;
+Point unit(Point a) { return norm(a) > 0.0 ? (1.0 / norm(a)) * a : a; }
 
 Point point_of(const ob::State* state) {
-  const auto* values = state->as<State>()->values;
+  const auto* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
   return {values[0], values[1]};
 }
 
-class Motion : public ob::MotionValidator {
+/// A motion between two states of a path is valid if the path is cheaper without those between.
+class Cheaper : public ob::MotionValidator {
  public:
-  Motion(const ob::SpaceInformationPtr& information, const map::Space& space,
-         const Clearances& room)
-      : ob::MotionValidator(information), space_(space), room_(room) {}
+  Cheaper(const ob::SpaceInformationPtr& information, const std::vector<ob::State*>& states,
+          const GuideCost& cost)
+      : ob::MotionValidator(information), states_(states), cost_(cost) {}
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
-    return space_.segment_clear(point_of(a), point_of(b), room_.radius);
+    const auto from = std::find(states_.begin(), states_.end(), a);
+    const auto to = std::find(from, states_.end(), b);
+    Path before, after;
+    for (auto i = from - std::min<std::ptrdiff_t>(2, from - states_.begin());
+         i != to + std::min<std::ptrdiff_t>(3, states_.end() - to); ++i) {
+      before.push_back(point_of(*i));
+      if (i <= from || i >= to) after.push_back(before.back());
+    }
+    return cost_.less(after, cost_.of(before) - kGain);
   }
   bool checkMotion(const ob::State* a, const ob::State* b,
                    std::pair<ob::State*, double>& last_valid) const override {
-    if (checkMotion(a, b)) return true;
     last_valid.second = 0.0;
-    if (last_valid.first) si_->copyState(last_valid.first, a);
-    return false;
+    return checkMotion(a, b);
   }
 
  private:
-  map::Space space_;
-  Clearances room_;
+  const std::vector<ob::State*>& states_;
+  const GuideCost& cost_;
 };
 
-/// guide_cost and turn_price as OMPL sees them: each motion costs its leg and one turn.
-class GuideCost : public ob::OptimizationObjective {
- public:
-  GuideCost(const ob::SpaceInformationPtr& information, const map::Space& space,
-            const Clearances& room, const SmoothingConfig& config)
-      : ob::OptimizationObjective(information), space_(space), room_(room), config_(config) {}
-  ob::Cost stateCost(const ob::State*) const override { return ob::Cost(0.0); }
-  ob::Cost motionCost(const ob::State* a, const ob::State* b) const override {
-    return ob::Cost(guide_cost({point_of(a), point_of(b)}, space_, room_, config_) +
-                    config_.turn_price);
-  }
-
- private:
-  map::Space space_;
-  Clearances room_;
-  SmoothingConfig config_;
-};
-
-class Sampler : public ob::RealVectorStateSampler {
- public:
-  explicit Sampler(const ob::StateSpace* space) : ob::RealVectorStateSampler(space) {
-    rng_.setLocalSeed(kSeed);
-  }
-};
-
+/// OMPL leaves out corners.
 class Simplifier : public og::PathSimplifier {
  public:
-  Simplifier(const ob::SpaceInformationPtr& information, const ob::OptimizationObjectivePtr& cost)
-      : og::PathSimplifier(information, ob::GoalPtr(), cost) {
+  explicit Simplifier(const GuideCost& cost) : og::PathSimplifier(information()), states_(si_) {
     rng_.setLocalSeed(kSeed);
+    si_->setMotionValidator(std::make_shared<Cheaper>(si_, states_.getStates(), cost));
+    si_->setup();
   }
+  void reduce(Path& path, int attempts) {
+    states_.clear();
+    ob::ScopedState<ob::RealVectorStateSpace> state(si_->getStateSpace());
+    for (const Point point : path) {
+      state->values[0] = point.x;
+      state->values[1] = point.y;
+      states_.append(state.get());
+    }
+    const auto most = static_cast<unsigned int>(attempts);
+    if (!reduceVertices(states_, most, most, kRange)) return;
+    path.clear();
+    for (const ob::State* at : states_.getStates()) path.push_back(point_of(at));
+  }
+
+ private:
+  static ob::SpaceInformationPtr information() {
+    ompl::msg::noOutputHandler();
+    auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
+    plane->setBounds(-1.0, 1.0);  // nothing is drawn from it
+    auto out = std::make_shared<ob::SpaceInformation>(plane);
+    out->setStateValidityChecker([](const ob::State*) { return true; });  // motions are checked
+    return out;
+  }
+
+  og::PathGeometric states_;
 };
 
-ob::SpaceInformationPtr information_of(const map::Space& space, const Clearances& room) {
-  const map::Floor& floor = *space.floor;
-  auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
-  ob::RealVectorBounds bounds(2);
-  const double cell = floor.cell_size();
-  bounds.setLow(0, floor.origin().x * cell);
-  bounds.setLow(1, floor.origin().y * cell);
-  bounds.setHigh(0, (floor.origin().x + floor.columns()) * cell);
-  bounds.setHigh(1, (floor.origin().y + floor.rows()) * cell);
-  plane->setBounds(bounds);
-  plane->setStateSamplerAllocator(
-      [](const ob::StateSpace* of) { return std::make_shared<Sampler>(of); });
-  auto information = std::make_shared<ob::SpaceInformation>(plane);
-  information->setStateValidityChecker([space, room](const ob::State* state) {
-    return space.segment_clear(point_of(state), point_of(state), room.radius);
-  });
-  information->setMotionValidator(std::make_shared<Motion>(information, space, room));
-  information->setup();
-  return information;
-}
-
-og::PathGeometric to_ompl(const Path& path, const ob::SpaceInformationPtr& information) {
-  og::PathGeometric out(information);
-  ob::ScopedState<ob::RealVectorStateSpace> state(information->getStateSpace());
-  for (const Point point : path) {
-    state->values[0] = point.x;
-    state->values[1] = point.y;
-    out.append(state.get());
+/// Moves corners and adds some as long as that makes the path cheaper.
+class Settling {
+ public:
+  Settling(Path& path, const GuideCost& cost) : path_(path), cost_(cost) {}
+  void run(double step) {
+    before_ = {};
+    for (std::size_t i = 0; i + 1 < path_.size(); ++i) add(i);
+    for (std::size_t i = 1; i + 1 < path_.size(); ++i) move(i, step);
   }
-  return out;
-}
 
-Path from_ompl(const og::PathGeometric& path) {
-  Path out;
-  for (std::size_t i = 0; i < path.getStateCount(); ++i)
-    out.push_back(point_of(path.getState(static_cast<unsigned int>(i))));
-  return out;
-}
-
-/// OMPL moves points of the path at random and keeps what is cheaper, then leaves out the corners
-/// that do not pay.
-Path polished(const Path& path, const map::Space& space, const Clearances& room,
-              const SmoothingConfig& config) {
-  ompl::msg::noOutputHandler();
-  const auto information = information_of(space, room);
-  og::PathGeometric out = to_ompl(path, information);
-  const auto steps = static_cast<unsigned int>(config.steps);
-  SmoothingConfig any_turns = config;
-  any_turns.turn_price = 0.0;
-  Simplifier mover(information, std::make_shared<GuideCost>(information, space, room, any_turns));
-  mover.perturbPath(out, kStride, steps, steps);
-  Simplifier saver(information, std::make_shared<GuideCost>(information, space, room, config));
-  saver.shortcutPath(out, steps, steps, kRange, kSnap);
-  return from_ompl(out);
-}
-
-/// What the path is measured by: guide_cost and one turn_price for each leg.
-double person_cost(const Path& path, const map::Space& space, const Clearances& room,
-                   const SmoothingConfig& config) {
-  return guide_cost(path, space, room, config) +
-         config.turn_price * static_cast<double>(path.size());
-}
-
-/// The cylinders that may matter to a path within room.preferred of this one.
-std::vector<Cylinder> cylinders_near(const Path& path, const map::Space& space,
-                                     const Clearances& room) {
-  Point low = path.front();
-  Point high = low;
-  for (const Point point : path) {
-    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
-    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+ private:
+  /// A corner beside one of the places of a leg where it comes near to something, comes nearest,
+  /// and leaves it.
+  void add(std::size_t i) {
+    const Point a = path_[i];
+    const Point leg = path_[i + 1] - a;
+    if (cost_.leg(a, path_[i + 1]) - norm(leg) < 0.5 * cost_.config().turn_price) return;
+    const Point aside = unit({-leg.y, leg.x});
+    for (const double share : cost_.near_places(a, path_[i + 1])) {
+      for (const double by : {0.2, -0.2, 0.5, -0.5}) {
+        if (replace(i + 1, 0, {a + share * leg + by * aside})) return;
+      }
+    }
   }
-  std::vector<Cylinder> out;
-  for (const Cylinder& cylinder : *space.cylinders) {
-    const double reach = cylinder.radius + 2.0 * (room.radius + std::max(room.preferred, 0.6));
-    const Point at = cylinder.center;
-    if (at.x > low.x - reach && at.x < high.x + reach && at.y > low.y - reach &&
-        at.y < high.y + reach)
-      out.push_back(cylinder);
+  /// One corner, or also the next by as much.
+  void move(std::size_t i, double step) {
+    const Point in = unit(path_[i] - path_[i - 1]);
+    const Point out = unit(path_[i + 1] - path_[i]);
+    for (const Point way : {unit(in - out), in, out, Point{-out.y, out.x}}) {
+      for (const double by : {step, -step}) {
+        if (replace(i, 1, {path_[i] + by * way}) ||
+            (i + 2 < path_.size() && replace(i, 2, {path_[i] + by * way, path_[i + 1] + by * way})))
+          break;
+      }
+    }
   }
-  return out;
+  /// \returns true if it was cheaper to put `points` in the place of `count` corners from `i` on
+  bool replace(std::size_t i, std::size_t count, const Path& points) {
+    if (cost_.spent()) return false;
+    const std::size_t from = i > 2 ? i - 3 : 0;
+    const std::size_t to = std::min(path_.size(), i + count + 3);
+    const auto at = [this](std::size_t k) {
+      return path_.begin() + static_cast<std::ptrdiff_t>(k);
+    };
+    Before& before = before_[count];
+    if (before.i != i) {
+      window_.assign(at(from), at(to));
+      before = {i, cost_.of(window_)};
+    }
+    window_.assign(at(from), at(i));
+    window_.insert(window_.end(), points.begin(), points.end());
+    window_.insert(window_.end(), at(i + count), at(to));
+    if (!cost_.less(window_, before.cost - kGain)) return false;
+    path_.erase(at(i), at(i + count));
+    path_.insert(at(i), points.begin(), points.end());
+    before_ = {};
+    return true;
+  }
+
+  /// What the part of the path costs in which points from `i` on are replaced.
+  struct Before {
+    std::size_t i = 0;  ///< 0: unknown, as the first point stays
+    double cost = 0.0;
+  };
+  std::array<Before, 3> before_{};  // by the count of points
+  Path& path_;
+  const GuideCost& cost_;
+  Path window_;
+};
+
+/// The path with each corner moved off what it turns round, to the preferred clearance or where
+/// there is most.
+Path pushed(const Path& path, const GuideCost& cost) {
+  Path out = path;
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const Point in = unit(path[i] - path[i - 1]);
+    const Point on = unit(path[i + 1] - path[i]);
+    const Point off = unit(in - on);
+    const double far = cost.preferred() / std::max(0.5, 0.5 * norm(in + on));
+    double best = cost.gap(path[i]);
+    for (int k = 1; k <= kPushes; ++k) {
+      const Point at = path[i] + (far * k / kPushes) * off;
+      const double gap = cost.gap(at);
+      if (gap <= best + 0.01) continue;
+      best = gap;
+      out[i] = at;
+    }
+  }
+  for (std::size_t i = 1; i < out.size(); ++i) {  // back where that would leave the mesh
+    for (int k = 0; k < 3 && !std::isfinite(cost.leg(out[i - 1], out[i])); ++k) {
+      out[i - 1] = 0.5 * (path[i - 1] + out[i - 1]);
+      out[i] = 0.5 * (path[i] + out[i]);
+    }
+  }
+  return std::isfinite(cost.of(out)) ? out : path;
 }
 
 }  // namespace
@@ -171,59 +194,29 @@ std::vector<Cylinder> cylinders_near(const Path& path, const map::Space& space,
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(enabled, "enabled", navvi_config::Any{}, "", "false: the path is the funnel's");
-  visit(steps, "steps", Range{0, 10000}, "", "upper limit of each of OMPL's two loops");
-  visit(clearance_weight, "clearance_weight", Range{0.0, 100.0}, "",
-        "how much dearer a metre without any preferred clearance is");
-  visit(turn_price, "turn_price", Range{0.0, 20.0}, "m", "length a path may gain to save one turn");
-  visit(short_leg, "short_leg", Range{0.1, 10.0}, "m",
-        "a leg shorter than this costs up to one turn_price more");
-  visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "",
-        "longest smoothed path, times the shortest");
+  visit(attempts, "attempts", Range{0, 10000}, "",
+        "corners that OMPL tries to leave out, in each of three rounds");
+  visit(effort, "effort", Range{0.0, 10000.0}, "",
+        "metres of legs that may be measured for each metre of the path");
+  visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "", "longest guide path, times the shortest");
   visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
+  visit(keep, "keep", Range{0.0, 100.0}, "m",
+        "a new path must cost so much less than one that keeps the corners of the path so far");
+  cost.describe(visit);
 }
 
-double guide_cost(const Path& path, const map::Space& space, const Clearances& room,
-                  const SmoothingConfig& config) {
-  if (room.preferred <= 0.0 || config.clearance_weight <= 0.0) return length_of(path);
-  double sum = 0.0;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const Point leg = path[k] - path[k - 1];
-    const double length = norm(leg);
-    const int samples = std::max(1, static_cast<int>(std::ceil(length / kSample)));
-    double prices = 0.0;
-    for (int i = 0; i < samples; ++i) {
-      const Point at = path[k - 1] + ((i + 0.5) / samples) * leg;
-      double gap = space.floor->gap(space.floor->cell_at(at));
-      for (const Cylinder& cylinder : *space.cylinders)
-        gap = std::min(gap, distance(at, cylinder.center) - cylinder.radius);
-      const double missing = room.missing(gap);
-      prices += 1.0 + config.clearance_weight * missing * missing;
-    }
-    sum += length * prices / samples;
+Path smooth(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
+  cost.allow(config.effort * (length_of(path) + static_cast<double>(path.size())));
+  Path out = path.size() > 2 ? pushed(path, cost) : path;
+  Settling settling(out, cost);
+  std::optional<Simplifier> simplifier;
+  for (const double step : kSteps) {
+    settling.run(step);
+    if (out.size() < 3 || config.attempts == 0) continue;
+    if (!simplifier) simplifier.emplace(cost);
+    simplifier->reduce(out, config.attempts);
   }
-  return sum;
-}
-
-Path smooth(const Path& path, const map::Space& space, const Clearances& room,
-            const SmoothingConfig& config) {
-  const double shortest = length_of(path);
-  if (!config.enabled || shortest <= 0.0 || !clear(path, space, room.radius)) return path;
-  const std::vector<Cylinder> cylinders = cylinders_near(path, space, room);
-  const map::Space near{space.floor, &cylinders};
-  const double longest = std::max(config.max_stretch * shortest, shortest + config.max_detour);
-  const Channel channel(path, near, room);
-  Path best = path;
-  double cost = person_cost(path, near, room, config);
-  const auto offer = [&](const Path& fresh) {
-    if (fresh.size() < 2 || !channel.holds(fresh) || length_of(fresh) > longest) return;
-    const double price = person_cost(fresh, near, room, config);
-    if (price >= cost || !clear(fresh, space, room.radius)) return;
-    best = fresh;
-    cost = price;
-  };
-  offer(choose_waypoints(channel, near, room.radius, config));
-  if (config.steps > 0) offer(polished(best, near, room, config));
-  return best;
+  return cost.of(out) < cost.of(path) ? out : path;
 }
 
 }  // namespace navvi_nav::smooth

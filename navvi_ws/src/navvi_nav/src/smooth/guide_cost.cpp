@@ -1,0 +1,230 @@
+#include "smooth/guide_cost.hpp"
+
+#include <cstring>
+#include <limits>
+
+namespace navvi_nav::smooth {
+namespace {
+
+constexpr double kTouch = 1e-9;      // m, a point so near to the lines of a polygon is in it
+constexpr double kOnMesh = 1e-6;     // m, and an end so near to the mesh on it
+constexpr double kSample = 0.3;      // m, between places where clearance is measured
+constexpr std::size_t kKept = 1024;  // legs, and points
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+const Point kNowhere{std::numeric_limits<double>::quiet_NaN(), 0.0};  // equal to no point
+
+std::uint64_t hash_of(std::initializer_list<double> values) {
+  std::uint64_t hash = 0;
+  for (const double value : values) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash = (hash ^ (bits ^ (bits >> 29U))) * 0x9E3779B97F4A7C15U;
+  }
+  return hash >> 32U;
+}
+
+/// Share of the segment from `a` to `b` after which it leaves the polygon for good.
+double exit_of(const mesh::Mesh& mesh, int polygon, Point a, Point b) {
+  const std::vector<int>& corners = mesh.polygon(polygon).corners;
+  double out = 1.0;
+  Point from = mesh.at(corners.back());
+  for (const int corner : corners) {
+    const Point to = mesh.at(corner);
+    const Point edge = to - from;
+    const double slack = kTouch * norm(edge);
+    const double at_a = cross(edge, a - from);
+    const double at_b = cross(edge, b - from);
+    if (at_b < -slack) out = std::min(out, at_b < at_a ? at_a / (at_a - at_b) : -1.0);
+    from = to;
+  }
+  return out;
+}
+
+double gap_in(const map::Space& space, Point at) {
+  double gap = space.floor->gap(space.floor->cell_at(at)) + 0.5 * space.floor->cell_size();
+  for (const Cylinder& cylinder : *space.cylinders)
+    gap = std::min(gap, distance(at, cylinder.center) - cylinder.radius);
+  return gap;
+}
+
+int samples_of(Point a, Point b) {
+  return std::max(1, static_cast<int>(std::ceil(distance(a, b) / kSample)));
+}
+
+}  // namespace
+
+void GuideCostConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit(turn_price, "turn_price", Range{0.0, 20.0}, "m",
+        "length a path may gain to save a turn by 90 degrees; half of it for a slight turn, 1.5 "
+        "for one back");
+  visit(short_leg, "short_leg", Range{0.1, 10.0}, "m",
+        "a leg between corners shorter than this costs up to one turn_price more");
+  visit(clearance_weight, "clearance_weight", Range{0.0, 100.0}, "",
+        "how much dearer a metre without any preferred clearance is");
+  visit(tight, "tight", Range{0.01, 2.0}, "m",
+        "clearance beyond the robot's radius below which the price rises steeply");
+  visit(tight_weight, "tight_weight", Range{0.0, 1000.0}, "",
+        "how much dearer a metre without any clearance is besides");
+}
+
+/// From polygon to polygon, and at each border round the fan of those that meet there.
+bool covers(const mesh::Mesh& mesh, int polygon, Point a, Point b) {
+  const double step = 5.0 * kTouch / std::max(distance(a, b), kTouch);
+  double reached = 0.0;
+  std::vector<int> fan{polygon};
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    const int here = fan[i];
+    const double exit = exit_of(mesh, here, a, b);
+    if (exit >= 1.0) return true;
+    if (exit > reached + step) {
+      reached = exit;
+      fan.assign(1, here);
+      i = 0;
+    }
+    const Point at = a + reached * (b - a);
+    for (const mesh::Portal& portal : mesh.polygon(here).portals) {
+      if (distance(at, nearest_on_segment(at, mesh.at(portal.right), mesh.at(portal.left))) <=
+              10.0 * kTouch &&
+          std::find(fan.begin(), fan.end(), portal.to) == fan.end())
+        fan.push_back(portal.to);
+    }
+  }
+  return false;
+}
+
+GuideCost::GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, const map::Space& space,
+                     double radius, double preferred)
+    : config_(config),
+      mesh_(mesh),
+      space_(space),
+      radius_(radius),
+      preferred_(preferred),
+      legs_(kKept, {kNowhere, kNowhere, 0.0}),
+      placed_(kKept, {kNowhere, -1}) {}
+
+int GuideCost::polygon_at(Point point) const {
+  Placed& known = placed_[hash_of({point.x, point.y}) % kKept];
+  if (known.point == point) return known.polygon;
+  const auto place = mesh_.locate(point, kOnMesh);
+  known = {point, place ? place->polygon : -1};
+  return known.polygon;
+}
+
+double GuideCost::leg(Point a, Point b) const {
+  Leg& known = legs_[hash_of({a.x, a.y, b.x, b.y}) % kKept];
+  if (known.a == a && known.b == b) return known.cost;
+  left_ -= 1.0 + distance(a, b);
+  const int from = polygon_at(a);
+  const bool on_mesh = from >= 0 && polygon_at(b) >= 0 && covers(mesh_, from, a, b);
+  known = {a, b, on_mesh ? measure(a, b) : kNever};
+  return known.cost;
+}
+
+double GuideCost::gap(Point at) const { return gap_in(space_, at); }
+
+template <typename Visit>
+void GuideCost::along(Point a, Point b, const Visit& visit) const {
+  near_.clear();
+  for (const Cylinder& cylinder : *space_.cylinders) {
+    if (distance(cylinder.center, nearest_on_segment(cylinder.center, a, b)) <
+        cylinder.radius + radius_ + preferred_)
+      near_.push_back(cylinder);
+  }
+  const int samples = samples_of(a, b);
+  const map::Space near{space_.floor, &near_};
+  for (int i = 0; i < samples; ++i)
+    visit(std::max(0.0, gap_in(near, a + ((i + 0.5) / samples) * (b - a)) - radius_));
+}
+
+double GuideCost::measure(Point a, Point b) const {
+  double dearer = 0.0;
+  along(a, b, [&](double spare) {
+    if (spare >= preferred_) return;
+    const double missing = 1.0 - spare / preferred_;
+    dearer += config_.clearance_weight * missing * missing + tight_price(spare);
+  });
+  return distance(a, b) * (1.0 + dearer / samples_of(a, b));
+}
+
+std::vector<double> GuideCost::near_places(Point a, Point b) const {
+  const int samples = samples_of(a, b);
+  int i = 0, first = -1, least = 0, last = 0;
+  double nearest = preferred_;
+  along(a, b, [&](double spare) {
+    if (spare < preferred_) {
+      if (first < 0) first = i;
+      last = i;
+      if (spare < nearest) {
+        nearest = spare;
+        least = i;
+      }
+    }
+    ++i;
+  });
+  if (first < 0) return {};
+  const auto share = [samples](int k) { return (k + 0.5) / samples; };
+  return {share(least), share(first), share(last)};
+}
+
+Path GuideCost::known_end(const Path& path) const {
+  if (path.size() < 2) return {};
+  auto first = path.end() - 1;
+  while (first - 1 != path.begin() && std::isfinite(leg(first[-1], first[0]))) --first;
+  return {first, path.end()};
+}
+
+double GuideCost::tight(const Path& path) const {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double step = distance(path[i - 1], path[i]) / samples_of(path[i - 1], path[i]);
+    along(path[i - 1], path[i], [&](double spare) {
+      if (spare < preferred_) sum += step * tight_price(spare);
+    });
+  }
+  return sum;
+}
+
+double GuideCost::turn(Point before, Point at, Point after) const {
+  static const double at_bend = 0.5 + 0.5 * (1.0 - std::cos(kBend));
+  const Point a = at - before;
+  const Point b = after - at;
+  const double lengths = norm(a) * norm(b);
+  if (lengths <= 0.0) return 0.0;
+  const double cosine = dot(a, b) / lengths;
+  const double sine = std::abs(cross(a, b)) / lengths;
+  const bool bend = cosine > 0.0 && sine < std::sin(kBend);
+  return config_.turn_price *
+         (bend ? at_bend * sine / std::sin(kBend) : 0.5 + 0.5 * (1.0 - cosine));
+}
+
+double GuideCost::haste(Point a, Point b) const {
+  return config_.turn_price * std::max(0.0, 1.0 - distance(a, b) / config_.short_leg);
+}
+
+double GuideCost::at_corners(const Path& path) const {
+  double sum = 0.0;
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    sum += turn(path[i - 1], path[i], path[i + 1]);
+    if (i > 1) sum += haste(path[i - 1], path[i]);
+  }
+  return sum;
+}
+
+double GuideCost::of(const Path& path) const {
+  double sum = at_corners(path);
+  for (std::size_t i = 1; i < path.size(); ++i) sum += leg(path[i - 1], path[i]);
+  return sum;
+}
+
+bool GuideCost::less(const Path& path, double than) const {
+  if (spent()) return false;
+  double least = length_of(path);
+  if (least < than) least += at_corners(path);
+  for (std::size_t i = 1; i < path.size() && least < than; ++i)
+    least += leg(path[i - 1], path[i]) - distance(path[i - 1], path[i]);
+  return least < than;
+}
+
+}  // namespace navvi_nav::smooth

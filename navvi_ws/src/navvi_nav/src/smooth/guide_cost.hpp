@@ -1,0 +1,98 @@
+#pragma once
+
+#include <navvi_config/field.hpp>
+#include <vector>
+
+#include "map/floor.hpp"
+#include "mesh/mesh.hpp"
+
+namespace navvi_nav::smooth {
+
+/// What a guide path costs a person, in metres of free way: the one measure by which paths are
+/// chosen, moved and kept.
+struct GuideCostConfig {
+  double turn_price = 2.0;
+  double short_leg = 2.0;
+  double clearance_weight = 3.0;
+  double tight = 0.2;
+  double tight_weight = 20.0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// The change of course, rad, below which a corner is a bend: it is followed, not announced.
+inline constexpr double kBend = 15.0 / 180.0 * M_PI;
+
+/// True if the whole segment lies on the mesh, to 1e-6 m. \param polygon  that `a` lies in
+[[nodiscard]] bool covers(const mesh::Mesh& mesh, int polygon, Point a, Point b);
+
+/// The cost of paths on one mesh, which must not change meanwhile. Work is bounded by metres, not
+/// by a clock: equal input gives equal output.
+class GuideCost {
+ public:
+  /// \param space  what clearance is measured in \param radius  of the robot, m
+  /// \param preferred  m, of clearance beyond the radius
+  GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, const map::Space& space,
+            double radius, double preferred);
+
+  /// m: the length, each metre dearer the less clearance it keeps; infinite for a leg that leaves
+  /// the mesh.
+  [[nodiscard]] double leg(Point a, Point b) const;
+  /// m: growing with the angle, slower beyond a bend: two turns are dearer than one.
+  [[nodiscard]] double turn(Point before, Point at, Point after) const;
+  /// m: of a leg between two corners that is too short to announce the second in time.
+  [[nodiscard]] double haste(Point a, Point b) const;
+  /// m: all of these.
+  [[nodiscard]] double of(const Path& path) const;
+  /// True if the path costs less than so many metres, as far as may be measured.
+  [[nodiscard]] bool less(const Path& path, double than) const;
+  /// m: what of this is for less clearance than config().tight.
+  [[nodiscard]] double tight(const Path& path) const;
+  /// The corners from which the path, its first leg left out, leads over the mesh to its end.
+  [[nodiscard]] Path known_end(const Path& path) const;
+  /// Shares of the leg at which less than the preferred clearance begins, is least, and ends; none
+  /// if there is more all along.
+  [[nodiscard]] std::vector<double> near_places(Point a, Point b) const;
+  /// From now on so much is measured at most, or less() is false. \param metres  of legs
+  void allow(double metres) const { left_ = metres; }
+  [[nodiscard]] bool spent() const { return left_ <= 0.0; }
+
+  [[nodiscard]] const GuideCostConfig& config() const { return config_; }
+  [[nodiscard]] double preferred() const { return preferred_; }
+  /// m, between the point and what is nearest; at least, and to half a cell.
+  [[nodiscard]] double gap(Point at) const;
+
+ private:
+  struct Leg {
+    Point a, b;
+    double cost = 0.0;
+  };
+  struct Placed {
+    Point point;
+    int polygon = -1;  ///< none: off the mesh
+  };
+  [[nodiscard]] int polygon_at(Point point) const;
+  /// m: of turns and haste.
+  [[nodiscard]] double at_corners(const Path& path) const;
+  /// Calls visit(spare) with the clearance beyond the radius of places along the leg.
+  template <typename Visit>
+  void along(Point a, Point b, const Visit& visit) const;
+  [[nodiscard]] double measure(Point a, Point b) const;
+  /// Of a metre with so much clearance beyond the radius.
+  [[nodiscard]] double tight_price(double spare) const {
+    return config_.tight_weight * std::max(0.0, 1.0 - spare / config_.tight);
+  }
+
+  GuideCostConfig config_;
+  const mesh::Mesh& mesh_;
+  map::Space space_;
+  double radius_;
+  double preferred_;
+  mutable double left_ = 0.0;  // m
+  // Hash tables in which a later entry replaces an earlier one.
+  mutable std::vector<Leg> legs_;
+  mutable std::vector<Placed> placed_;
+  mutable std::vector<Cylinder> near_;
+};
+
+}  // namespace navvi_nav::smooth
