@@ -212,6 +212,63 @@ void compare(Course& c) {
   }
 }
 
+/// Turns, without bends, and the least clearance of paths.
+struct Followed {
+  double length = 0.0;  ///< m, of all
+  int turns = 0;
+  double nearest = 10.0;  ///< m
+  void add(const Path& path, const map::Space& space) {
+    length += length_of(path);
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      for (int k = 0; k <= 20; ++k)
+        nearest =
+            std::min(nearest, space.clearance(path[i - 1] + k / 20.0 * (path[i] - path[i - 1])));
+      if (i + 1 == path.size()) continue;
+      const Point in = path[i] - path[i - 1];
+      const Point out = path[i + 1] - path[i];
+      turns += std::abs(std::atan2(cross(in, out), dot(in, out))) >= smooth::kBend;
+    }
+  }
+};
+
+/// What a user gets: plan() whole, among 0 to 50 discs that have moved since the plan before, and
+/// the path that is followed beside the shortest.
+void follow(Course& c) {
+  constexpr int kPlans = 2000;
+  search::Search search(search::SearchMethod::exact);
+  std::vector<double> whole, part;  // us
+  Followed shortest, guide;
+  for (int i = 0; i < kPlans; ++i) {
+    std::vector<Cylinder> discs = c.discs(i % 51);
+    for (Cylinder& disc : discs) disc.center.x += 0.1 * (i % 7);
+    c.carved.carve(discs);
+    const Query& query = c.queries[static_cast<std::size_t>(i % Course::kQueries)];
+    const mesh::Mesh& mesh = c.carved.nav_mesh().mesh();
+    const auto from = mesh.locate(query.start, 0.0);
+    const auto to = mesh.locate(query.goal, 0.0);
+    if (!from || !to) continue;
+    double begin = now();
+    const plan::Plan plan = c.carved.plan(query.start, query.goal);
+    whole.push_back(1e6 * (now() - begin));
+    begin = now();
+    const search::Found& found = search.find(mesh, *from, *to);
+    part.push_back(1e6 * (now() - begin));
+    if (plan.status != plan::PlanStatus::found || !found.found) continue;
+    guide.add(plan.path, c.carved.nav_mesh().space());
+    shortest.add(found.path, c.carved.nav_mesh().space());
+  }
+  c.carved.carve({});
+  heading("plan(), 0 to 50 discs moved",
+          {"p50, us", "p99, us", "max, us", "length", "turns/10m", "nearest"});
+  const auto print = [&](const std::string& what, std::vector<double> times, const Followed& path) {
+    std::sort(times.begin(), times.end());
+    row(what, {times[times.size() / 2], times[times.size() * 99 / 100], times.back(),
+               path.length / shortest.length, 10.0 * path.turns / path.length, path.nearest});
+  };
+  print("shortest path, the search alone", part, shortest);
+  print("guide path, all of plan()", whole, guide);
+}
+
 std::size_t bytes_in_use() {
   const struct mallinfo2 memory = mallinfo2();
   return memory.uordblks + memory.hblkhd;
@@ -288,6 +345,7 @@ void print(const Medians& medians, Course& c) {
     row(std::to_string(count), {ours, theirs, ours / theirs});
   }
   compare(c);
+  follow(c);
   weigh(c);
 }
 
