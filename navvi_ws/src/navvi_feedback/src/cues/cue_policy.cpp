@@ -283,7 +283,10 @@ CuePolicy::Utterances CuePolicy::go_on(Utterances directions, double time) {
   if (directions.empty() && time - *go_on_since_ < kDirection) return {};
   go_on_since_.reset();
   if (directions.empty()) return {{"go_on"}};
-  directions.front().goes_on = true;
+  // A new route, or to make room, is the end of a wait in words of its own.
+  const std::string& kind = directions.front().kind;
+  directions.front().goes_on =
+      kind != "make_room" && kind != "rerouted" && kind != "rerouted_blocked";
   directions.front().priority = Priority::message;
   return directions;
 }

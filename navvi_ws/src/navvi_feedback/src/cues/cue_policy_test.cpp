@@ -141,6 +141,20 @@ TEST_F(CuePolicyTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
   EXPECT_EQ(pass(3.0), Texts{});
 }
 
+TEST_F(CuePolicyTest, ends_a_wait_by_the_word_to_make_room) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::forklift;
+  now_.guidance->waypoint = {1.0, 0.0};
+  now_.guidance->waypoint_distance = 1.0;
+  pass(5.0);
+  now_.guidance->state = Guidance::State::make_room;
+  now_.guidance->waypoint = {-3.0, 0.0};
+  now_.guidance->waypoint_distance = 3.0;
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = 3.1;
+  EXPECT_EQ(pass(1.0), Texts{"make room for the forklift, 6 o'clock, 3 meters"});
+}
+
 TEST_F(CuePolicyTest, takes_back_no_wait_that_was_never_heard) {
   under_way();
   now_.guidance->state = Guidance::State::blocked;

@@ -57,6 +57,8 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
     ahead_told_ = false;
   last_ = guidance;
   if (halted) {
+    // The corner of a robot that stands has not been reached: another plan has replaced it.
+    pending_ = Change::none;
     said_hour_.reset();
     return {};
   }
