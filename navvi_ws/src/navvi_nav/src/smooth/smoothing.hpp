@@ -10,7 +10,7 @@ struct SmoothingConfig {
   double effort = 80.0;
   double max_stretch = 1.25;
   double max_detour = 2.0;
-  double keep = 3.0;
+  double keep = 6.0;
   GuideCostConfig cost;
 
   void describe(navvi_config::Visitor& visit);
