@@ -302,6 +302,14 @@ TEST(OccupancyGrid, is_refused_in_a_sentence_if_anything_is_wrong_with_it) {
       error([](OccupancyGrid& g) { g.yaw = 0.1; }),
       "the occupancy grid is turned by 0.100000 rad; only grids along the axes of map (yaw 0) "
       "can be read");
+  for (const double far : {500e3, -500e3, 1e300})
+    EXPECT_FALSE(error([far](OccupancyGrid& g) { g.origin = {far, 0.0}; }).empty()) << far;
+  EXPECT_EQ(
+      error([](OccupancyGrid& g) {
+        g.origin = {-500e3, 2.0};
+      }),
+      "the map reaches 500 km from the origin of map; at most 10 km are allowed, so choose an "
+      "origin near it");
   for (const double bad : {0.0, -1.0, 1e-9, std::nan("")})
     EXPECT_FALSE(error([bad](OccupancyGrid& g) { g.resolution = bad; }).empty());
   EXPECT_FALSE(error([](OccupancyGrid& g) { g.yaw = std::nan(""); }).empty());

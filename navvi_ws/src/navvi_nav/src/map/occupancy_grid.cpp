@@ -6,7 +6,6 @@
 namespace navvi_nav::map {
 namespace {
 
-constexpr double kFarthest = 1e6;   // m, of a grid's origin
 constexpr double kStraight = 1e-6;  // rad
 
 std::string refusal_of(const OccupancyGrid& grid) {
@@ -20,9 +19,7 @@ std::string refusal_of(const OccupancyGrid& grid) {
       static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height))
     return "the occupancy grid holds " + std::to_string(grid.cells.size()) + " cells where " +
            std::to_string(grid.width) + " x " + std::to_string(grid.height) + " are announced";
-  if (!finite(grid.origin) || std::abs(grid.origin.x) > kFarthest ||
-      std::abs(grid.origin.y) > kFarthest)
-    return "the occupancy grid's origin is not within 1000 km of the origin of map";
+  if (!finite(grid.origin)) return "the occupancy grid's origin is not finite";
   if (!(std::abs(grid.yaw) < kStraight))
     return "the occupancy grid is turned by " + std::to_string(grid.yaw) +
            " rad; only grids along the axes of map (yaw 0) can be read";

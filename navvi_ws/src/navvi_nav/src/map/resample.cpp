@@ -74,6 +74,15 @@ MapSurvey resample(GroundGrid grid, const SurveyConfig& how) {
       how.cell_size > 0.0 ? how.cell_size : cell_that_keeps_ways_open(grid, how.margin);
   MapSurvey out;
   out.cell_size = cell_size;
+  const Point high = grid.origin + grid.cell_size * Point{static_cast<double>(grid.columns),
+                                                          static_cast<double>(grid.rows)};
+  const double reach = std::max({-grid.origin.x, -grid.origin.y, high.x, high.y});
+  if (reach > kFarthestMap) {
+    out.error =
+        "the map reaches " + std::to_string(std::llround(std::min(reach, 1e9) / 1000.0)) +
+        " km from the origin of map; at most 10 km are allowed, so choose an origin near it";
+    return out;
+  }
   const double x = grid.origin.x / cell_size;
   const double y = grid.origin.y / cell_size;
   const double ratio = grid.cell_size / cell_size;

@@ -16,6 +16,10 @@ inline constexpr double kMaxCells = 50.0e6;
   return std::to_string(static_cast<long long>(count / 1e6)) + " million";
 }
 
+/// m, of a map from the origin of map: farther away the search could take a corner for one that it
+/// is not, by the rounding of its coordinates.
+inline constexpr double kFarthestMap = 10'000.0;
+
 /// Squares of ground that need not lie on the mesh's lattice.
 struct GroundGrid {
   double cell_size = 0.0;  ///< m
@@ -27,7 +31,7 @@ struct GroundGrid {
 
 /// The grid in cells on the lattice through the origin of map: a cell is floor only if all of it
 /// is, and an obstacle if a part is. Sets all but the floor's height; an error if there would be
-/// too many cells.
+/// too many cells, or if it lies too far from the origin.
 /// \param how  of which `cell_size` and `margin` count
 [[nodiscard]] MapSurvey resample(GroundGrid grid, const SurveyConfig& how);
 

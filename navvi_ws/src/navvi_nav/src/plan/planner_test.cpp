@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "small_world.hpp"
 
@@ -283,6 +284,37 @@ int turns_of(const Path& path) {
     turns += std::abs(std::atan2(cross(in, out), dot(in, out))) >= smooth::kBend;
   }
   return turns;
+}
+
+TEST(Planner, finds_the_same_paths_wherever_the_map_lies) {
+  std::mt19937 random(7);
+  const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  map::OccupancyGrid grid{240, 240, 0.1, {0.0, 0.0}, 0.0, {}};
+  grid.cells.assign(240 * 240, 0);
+  for (int box = 0; box < 28; ++box) {
+    const int left = draw(220), low = draw(220), width = 5 + draw(30), height = 5 + draw(30);
+    for (int y = low; y < std::min(240, low + height); ++y)
+      for (int x = left; x < std::min(240, left + width); ++x)
+        grid.cells[static_cast<std::size_t>(240 * y + x)] = 100;
+  }
+  const Point away{9900.0, -9900.0};
+  Planner here((PlannerConfig()));
+  ASSERT_EQ(here.set_map(grid).error, "");
+  grid.origin = away;
+  Planner there((PlannerConfig()));
+  ASSERT_EQ(there.set_map(grid).error, "");
+  int found = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Point from{0.1 * draw(240), 0.1 * draw(240)};
+    const Point to{0.1 * draw(240), 0.1 * draw(240)};
+    const Plan near = here.plan(from, to);
+    const Plan far = there.plan(from + away, to + away);
+    ASSERT_EQ(near.status, far.status) << round;
+    if (near.status != PlanStatus::found) continue;
+    ++found;
+    EXPECT_NEAR(near.shortest, far.shortest, 1e-6) << round;
+  }
+  EXPECT_GT(found, 50);
 }
 
 TEST(Planner, leads_round_a_field_of_racks_rather_than_in_steps_through_it) {
