@@ -7,6 +7,7 @@
 #include <navvi_msgs/Cue.h>
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Proximity.h>
+#include <navvi_msgs/TrialEvent.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
@@ -124,6 +125,16 @@ class FeedbackNode : public testing::Test {
   std::vector<navvi_msgs::Cue> heard_;
   std::set<std::string> statuses_;
 };
+
+TEST_F(FeedbackNode, says_that_the_time_is_up) {
+  ros::Publisher events = node_.advertise<navvi_msgs::TrialEvent>("navvi/events", 10);
+  ASSERT_TRUE(until([&] { return events.getNumSubscribers() > 0; }));
+  navvi_msgs::TrialEvent end;
+  end.type = "TRIAL_END";
+  end.fields = "result=timeout;reason=limit";
+  events.publish(end);
+  EXPECT_TRUE(until([this] { return heard("trial_time_up"); }));
+}
 
 TEST_F(FeedbackNode, drives_only_after_neutral_and_falls_silent_after_a_stop) {
   stick_ = 1.0F;

@@ -45,6 +45,9 @@ const std::vector<CueKind>& cue_kinds() {
       {"audio_back", P::message, 2.0, 5.0},
       {"no_rumble", P::message, 5.0, 10.0},
       {"second_pad", P::message, 5.0, 10.0},
+      {"trial_time_up", P::message, 5.0, 10.0},
+      {"trial_disk_full", P::message, 5.0, 10.0},
+      {"trial_over", P::message, 5.0, 10.0},
       {"pad_firmware", P::message, 5.0, 10.0},
       // The way.
       {"start", P::text, 2.0, 10.0},

@@ -135,8 +135,10 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
   if (simulated && stopped && links.pad != Link::lost) say("robot_stopped");
   for (const Utterance& utterance : told)
     if (utterance.kind == stick + "_back" || utterance.kind == "robot_stopped") held_.said(time);
-  for (const std::string& notice : now.notices)
-    if (noticed_.insert(notice).second) say(notice);
+  const std::set<std::string> notices(now.notices.begin(), now.notices.end());
+  for (const std::string& notice : notices)
+    if (noticed_.count(notice) == 0) say(notice);
+  noticed_ = notices;
   return told;
 }
 

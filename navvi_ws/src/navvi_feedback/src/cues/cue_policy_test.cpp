@@ -252,6 +252,10 @@ TEST_F(CuePolicyTest, says_a_notice_once) {
   under_way();
   now_.notices = {"no_rumble"};
   EXPECT_EQ(pass(3.0), Texts{"this controller cannot rumble"});
+  now_.notices.clear();
+  EXPECT_EQ(pass(6.0), Texts{});
+  now_.notices = {"no_rumble"};
+  EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
 TEST_F(CuePolicyTest, says_what_was_hit_and_where_and_then_the_way_on) {

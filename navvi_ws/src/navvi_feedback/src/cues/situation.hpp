@@ -40,7 +40,7 @@ struct Situation {
   std::optional<Question> question;  ///< whose button went down since the last update
   bool voice_busy = false;           ///< something is being spoken or waits for it
 
-  std::vector<std::string> notices;  ///< kinds to be said once each, such as no_rumble
+  std::vector<std::string> notices;  ///< kinds to be said when they come, such as no_rumble
 };
 
 }  // namespace navvi_feedback::cues

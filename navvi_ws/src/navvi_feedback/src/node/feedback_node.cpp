@@ -69,6 +69,7 @@ class FeedbackNode {
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();
     subscribe();
+    hear_of_trials();
     tick_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
                                         [this](const ros::WallTimerEvent&) { tick(); });
     diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
@@ -110,6 +111,13 @@ class FeedbackNode {
                                 [this](const Contact& contact) { feedback_.take(contact); });
   }
 
+  void hear_of_trials() {
+    subscribers_.push_back(node_.subscribe<navvi_msgs::TrialEvent>(
+        "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& msg) {
+          if (const auto kind = last_words(*msg)) news_.push_back(*kind);
+        }));
+  }
+
   template <typename Msg, typename Take>
   void listen(const std::string& topic, std::uint32_t queue, Take take) {
     subscribers_.push_back(navvi_config::subscribe<Msg>(node_, topic, queue, from_msg, take));
@@ -130,6 +138,7 @@ class FeedbackNode {
     input.voice_busy = !speech_.idle();
     input.goal_angle = goal_angle();
     input.notices = notices();
+    for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
     const core::Feedback::Output output = feedback_.update(input, time);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
@@ -244,6 +253,7 @@ class FeedbackNode {
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
   std::vector<Eigen::Vector2d> path_;  ///< m, in map
+  std::vector<std::string> news_;      ///< kinds of cues, not said yet
 
   std::optional<double> markers_time_;  // s, of now()
   drive::InputState last_hands_;

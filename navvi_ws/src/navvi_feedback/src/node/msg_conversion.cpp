@@ -40,6 +40,15 @@ sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble) {
   return msg;
 }
 
+std::optional<std::string> last_words(const navvi_msgs::TrialEvent& msg) {
+  if (msg.type != "TRIAL_END") return std::nullopt;
+  const std::string fields = ";" + msg.fields + ";";
+  const auto holds = [&](const char* field) { return fields.find(field) != std::string::npos; };
+  if (holds(";result=reached;")) return std::nullopt;
+  if (holds(";result=timeout;")) return "trial_time_up";
+  return holds(";reason=disk_full;") ? "trial_disk_full" : "trial_over";
+}
+
 navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
                                    std::optional<haptics::Pattern> pattern, std::uint32_t id) {
   using namespace navvi_types;

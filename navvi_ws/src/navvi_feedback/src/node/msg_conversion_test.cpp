@@ -50,6 +50,22 @@ TEST(ToMsg, a_rumble_is_a_cue_that_is_felt) {
   EXPECT_EQ(event.right, 0.5);
 }
 
+TEST(LastWords, tell_the_end_of_a_trial_unless_the_arrival_does) {
+  navvi_msgs::TrialEvent msg;
+  msg.type = "TRIAL_END";
+  msg.fields = "path_length=3.2;result=timeout;reason=limit";
+  EXPECT_EQ(last_words(msg), "trial_time_up");
+  msg.fields = "result=invalid;reason=disk_full";
+  EXPECT_EQ(last_words(msg), "trial_disk_full");
+  msg.fields = "result=aborted;reason=guidance_lost";
+  EXPECT_EQ(last_words(msg), "trial_over");
+  msg.fields = "result=reached;reason=goal_reached";
+  EXPECT_FALSE(last_words(msg));
+  msg.type = "GOAL_SET";
+  msg.fields = "result=timeout";
+  EXPECT_FALSE(last_words(msg));
+}
+
 }  // namespace
 }  // namespace navvi_feedback::node
 

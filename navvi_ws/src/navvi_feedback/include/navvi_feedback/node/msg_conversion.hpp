@@ -1,5 +1,6 @@
 #pragma once
 
+#include <navvi_msgs/TrialEvent.h>
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
 
@@ -17,6 +18,9 @@ namespace navvi_feedback::node {
 [[nodiscard]] sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp);
 /// As joy_node takes it: id 0 is the strong (left) motor, id 1 the weak (right) one.
 [[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble);
+/// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
+/// arrival tells it.
+[[nodiscard]] std::optional<std::string> last_words(const navvi_msgs::TrialEvent& msg);
 /// As a navvi_msgs/Cue, of the kind of its pattern, or "rumble".
 /// \param id  counts the changes of the motors
 [[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
