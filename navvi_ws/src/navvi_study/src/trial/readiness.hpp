@@ -16,7 +16,10 @@ class Readiness {
 
   void saw_odometry(double time) { odometry_ = time; }
   void saw(const Guidance& guidance, double time);
-  void saw(const DeviceReport& device) { devices_[device.device] = device.state; }
+  void saw(const DeviceReport& device, double time) {
+    devices_[device.device] = device.state;
+    feedback_ = time;
+  }
 
   /// What is not there, in words; empty when a trial can begin.
   [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;
@@ -26,6 +29,10 @@ class Readiness {
   [[nodiscard]] bool saw_any_odometry() const { return odometry_ > kNever; }
   /// s since the last odometry
   [[nodiscard]] double silence(double time) const { return time - odometry_; }
+  /// s since the last report of a device, which feedback_node makes each second; 0 before the first
+  [[nodiscard]] double feedback_silence(double time) const {
+    return feedback_ > kNever ? time - feedback_ : 0.0;
+  }
   /// s since the last guidance.
   [[nodiscard]] double guidance_silence(double time) const { return time - guidance_; }
 
@@ -35,6 +42,7 @@ class Readiness {
 
   double odometry_ = kNever;
   double guidance_ = kNever;
+  double feedback_ = kNever;
   bool has_map_ = false;
   std::map<std::string, DeviceState> devices_;
 };

@@ -31,21 +31,28 @@ TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
 TEST(Readiness, says_of_each_device_what_was_last_reported) {
   Readiness ready({});
   EXPECT_EQ(ready.state_of("audio"), "unknown");
-  ready.saw({0, "audio", DeviceState::works});
+  ready.saw({0, "audio", DeviceState::works}, 0.0);
   EXPECT_EQ(ready.state_of("audio"), "works");
-  ready.saw({0, "audio", DeviceState::missing});
+  ready.saw({0, "audio", DeviceState::missing}, 0.0);
   EXPECT_EQ(ready.state_of("audio"), "missing");
-  ready.saw({0, "audio", DeviceState::off});
+  ready.saw({0, "audio", DeviceState::off}, 0.0);
   EXPECT_EQ(ready.state_of("audio"), "off");
+}
+
+TEST(Readiness, misses_the_feedback_only_once_it_was_there) {
+  Readiness ready({});
+  EXPECT_EQ(ready.feedback_silence(100.0), 0.0);
+  ready.saw({0, "audio", DeviceState::works}, 100.0);
+  EXPECT_EQ(ready.feedback_silence(103.0), 3.0);
 }
 
 TEST(Readiness, needs_the_devices_of_the_condition) {
   Readiness ready({"speech", "rumble"});
   ready.saw_odometry(0.0);
   ready.saw(guidance(Guidance::State::no_goal), 0.0);
-  ready.saw({0, "audio", DeviceState::works});
-  ready.saw({0, "speech", DeviceState::works});
-  ready.saw({0, "pad", DeviceState::off});
+  ready.saw({0, "audio", DeviceState::works}, 0.0);
+  ready.saw({0, "speech", DeviceState::works}, 0.0);
+  ready.saw({0, "pad", DeviceState::off}, 0.0);
   EXPECT_EQ(ready.missing(0.1, true), Words{"a working pad device"});
 }
 

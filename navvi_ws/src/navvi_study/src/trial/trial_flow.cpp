@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kSimulatorLost = 5.0;             // s, without odometry
 constexpr double kGuidanceLost = 10.0;             // s
+constexpr double kFeedbackLost = 5.0;              // s; it reports each second
 constexpr double kOperatorLost = 10.0;             // s
 constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
 constexpr double kGoalAgain = 2.0;                 // s, before a goal is sent again
@@ -42,6 +43,8 @@ std::optional<Ending> TrialFlow::watch(const Signs& signs) const {
     return Ending{"aborted", "simulator_lost", signs.latest};
   if (signs.guidance_silence > kGuidanceLost)
     return Ending{"aborted", "guidance_lost", signs.latest};
+  if (signs.feedback_silence > kFeedbackLost)
+    return Ending{"aborted", "feedback_lost", signs.latest};
   if (signs.operator_silence > kOperatorLost)
     return Ending{"aborted", "operator_lost", signs.latest};
   const auto end = deadline();

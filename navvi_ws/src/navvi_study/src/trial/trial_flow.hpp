@@ -22,6 +22,7 @@ struct Signs {
   bool world_restarted = false;
   double odometry_silence = 0.0;
   double guidance_silence = 0.0;
+  double feedback_silence = 0.0;
   double operator_silence = 0.0;  ///< of a simulated one; 0 for a person, as they may rest
 };
 

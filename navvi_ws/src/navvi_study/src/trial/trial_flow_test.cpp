@@ -42,6 +42,7 @@ TEST(TrialFlow, each_loss_ends_the_trial_with_its_own_reason) {
       {"time_went_back", [](Signs& signs) { signs.now -= 2 * kSecond; }},
       {"simulator_lost", [](Signs& signs) { signs.odometry_silence = 6.0; }},
       {"guidance_lost", [](Signs& signs) { signs.guidance_silence = 11.0; }},
+      {"feedback_lost", [](Signs& signs) { signs.feedback_silence = 6.0; }},
       {"operator_lost", [](Signs& signs) { signs.operator_silence = 11.0; }},
   };
   for (const auto& [reason, lose] : losses) {

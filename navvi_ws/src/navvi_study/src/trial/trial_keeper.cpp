@@ -70,7 +70,7 @@ void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
 
 void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
   now_ = now;
-  readiness_.saw(device);
+  readiness_.saw(device, now.wall());
   observe(device);
 }
 
@@ -226,6 +226,7 @@ void TrialKeeper::watch() {
   signs.world_restarted = monitor_.world_restarted();
   signs.odometry_silence = readiness_.silence(now_.wall());
   signs.guidance_silence = readiness_.guidance_silence(now_.wall());
+  signs.feedback_silence = readiness_.feedback_silence(now_.wall());
   if (simulated()) signs.operator_silence = now_.wall() - operator_seen_;
   if (const auto ending = flow_.watch(signs)) return end(*ending);
   ask_for_goal();

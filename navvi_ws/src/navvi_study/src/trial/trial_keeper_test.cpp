@@ -216,6 +216,17 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   EXPECT_TRUE(happened("TRIAL_START"));
 }
 
+TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
+  begin();
+  keeper_->take(kScenario, now());
+  keeper_->take(DeviceReport{now().ros_ns, "audio", DeviceState::works}, now());
+  live(3.0, State::following, kScenario.goal);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  EXPECT_FALSE(happened("TRIAL_END"));
+  live(10.0, State::following, kScenario.goal);
+  EXPECT_TRUE(happened("TRIAL_END"));
+}
+
 TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
   config_.record = true;
   begin();
