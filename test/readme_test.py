@@ -1,5 +1,7 @@
 """The README's topic table names functions that exist, and its links lead somewhere."""
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -29,6 +31,14 @@ def test_every_topic_of_the_table_is_named_in_the_code():
     topics = {topic for row in topic_rows() for topic in re.findall(r"/([a-z_/]+)", row.split("|")[1])}
     missing = [topic for topic in topics if topic not in ("tf", "tf_static") and f'"{topic}"' not in CODE and f'"/{topic}"' not in CODE]
     assert sorted(missing) == []
+
+
+def test_rostopic_can_show_every_topic():
+    types = {found for row in topic_rows() for found in re.findall(r"\b([a-z0-9_]+_msgs)/([A-Z][A-Za-z]+)", row)}
+    assert ("tf2_msgs", "TFMessage") in types
+    lines = [f"from {package}.msg import {name}" for package, name in sorted(types)]
+    found = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, timeout=60)
+    assert found.returncode == 0, found.stderr
 
 
 def test_links_of_the_documents_lead_to_files():
