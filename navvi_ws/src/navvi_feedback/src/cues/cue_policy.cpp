@@ -13,10 +13,6 @@ constexpr double kRecover = 2.0;
 constexpr double kStarting = 3.0;
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
-/// m, gap; what is farther is not around.
-constexpr double kAround = 3.0;
-/// s, that "go on" waits for a direction.
-constexpr double kDirection = 1.0;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
 /// s; the same thing again within it is the same collision.
@@ -45,25 +41,6 @@ bool refused(const std::string& problem) { return problem.rfind("goal_refused", 
 
 bool said_once(const std::string& problem) {
   return problem == "arrived" || problem == "welcome" || refused(problem);
-}
-
-/// The nearest thing on each side, clockwise.
-Utterance around(const std::vector<NearThing>& nearby) {
-  Utterance told{"around_nothing"};
-  for (const Side side : {Side::ahead, Side::right, Side::behind, Side::left}) {
-    const NearThing* nearest = nullptr;
-    for (const NearThing& thing : nearby)
-      if (thing.gap < kAround && side_of(thing.nearest) == side &&
-          (!nearest || thing.gap < nearest->gap))
-        nearest = &thing;
-    if (!nearest) continue;
-    const Fillings fillings{{}, {}, nearest->thing_class, side};
-    if (told.kind == "around")
-      told.also.push_back(fillings);
-    else
-      told = {"around", fillings};
-  }
-  return told;
 }
 
 /// Words to stop, until it is said to go on.
@@ -262,14 +239,11 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
   const bool leads = follows_ || (problem_ == "blocked" && now.guidance->leads());
   if (leads && steered) {
-    const bool was_halted = halt_.halted();
     const bool halted = halt_.update(now, follows_, time);
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halted) return {};
-    if (was_halted && !halted) go_on_since_ = time;
-    return go_on(route_.update(now, halted, time), time);
+    return halt_.go_on(route_.update(now, halted, time), time);
   }
-  go_on_since_.reset();
   halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
   if (goal_gone)
@@ -279,30 +253,16 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   return {};
 }
 
-/// Whoever was told to stop hears "go on" with the direction, or alone if there is none soon.
-CuePolicy::Utterances CuePolicy::go_on(Utterances directions, double time) {
-  if (!go_on_since_ || halt_.halted()) return directions;
-  if (directions.empty() && time - *go_on_since_ < kDirection) return {};
-  go_on_since_.reset();
-  if (directions.empty()) return {{"go_on"}};
-  // A new route, or to make room, is the end of a wait in words of its own.
-  const std::string& kind = directions.front().kind;
-  directions.front().goes_on =
-      kind != "make_room" && kind != "rerouted" && kind != "rerouted_blocked";
-  directions.front().priority = Priority::message;
-  return directions;
-}
-
 CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   if (!now.question) return {};
   Utterance answer;
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
   if (now.question == Question::around) {
     answer = around(now.nearby);
-  } else if (follows_ && halt_.halted()) {
-    answer = halt_.words();
   } else if (to_goal && now.question == Question::goal) {
     answer = route_.goal("goal_info", now);
+  } else if (follows_ && halt_.halted()) {
+    answer = halt_.words();
   } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
     answer = *way;
   } else {

@@ -39,7 +39,6 @@ class CuePolicy {
   [[nodiscard]] Utterance tell_problem(const Situation& now) const;
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterances go_on(Utterances directions, double time);
   [[nodiscard]] Utterances answers(const Situation& now, double time);
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, double time);
 
@@ -49,7 +48,6 @@ class CuePolicy {
   NearCues near_;
   HeldStick held_;
   Halt halt_;
-  std::optional<double> go_on_since_;  ///< s, while it is to be said that a halt is over
 
   std::optional<double> first_update_;  ///< s
   double time_ = 0.0;                   ///< s, of the last update

@@ -12,6 +12,8 @@ constexpr double kObeyed = 2.0;
 constexpr double kClear = 0.5;
 /// s; what is still there then must be driven round.
 constexpr double kLongest = 8.0;
+/// s, that "go on" waits for a direction.
+constexpr double kDirection = 1.0;
 /// m, gap
 constexpr double kAhead = 1.0;
 /// rad; who turns by so much does not drive at what is ahead.
@@ -38,8 +40,23 @@ bool Halt::update(const Situation& now, bool follows, double time) {
   const bool may_go = follows && (clear(now) || time - *said_ > kLongest);
   if (!may_go) clear_since_.reset();
   if (may_go && !clear_since_) clear_since_ = time;
-  if (time - *said_ >= kObeyed && clear_since_ && time - *clear_since_ >= kClear) said_.reset();
-  return said_.has_value();
+  if (time - *said_ < kObeyed || !clear_since_ || time - *clear_since_ < kClear) return true;
+  said_.reset();
+  over_since_ = time;
+  return false;
+}
+
+std::vector<Utterance> Halt::go_on(std::vector<Utterance> directions, double time) {
+  if (!over_since_ || said_) return directions;
+  if (directions.empty() && time - *over_since_ < kDirection) return {};
+  over_since_.reset();
+  if (directions.empty()) return {{"go_on"}};
+  Utterance& first = directions.front();
+  // A new route, or to make room, is the end of a wait in words of its own.
+  first.goes_on =
+      first.kind != "make_room" && first.kind != "rerouted" && first.kind != "rerouted_blocked";
+  first.priority = Priority::message;
+  return directions;
 }
 
 }  // namespace navvi_feedback::cues

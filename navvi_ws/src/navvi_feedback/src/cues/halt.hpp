@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
@@ -25,8 +26,14 @@ class Halt {
   /// \param follows  there is a path to be followed now
   /// \return whether the word still holds
   [[nodiscard]] bool update(const Situation& now, bool follows, double time);
+  /// Once the word no longer holds: that the person may go on, with the direction, or alone if
+  /// there is none soon.
+  [[nodiscard]] std::vector<Utterance> go_on(std::vector<Utterance> directions, double time);
   /// There is no path on which to go on.
-  void forget() { said_.reset(); }
+  void forget() {
+    said_.reset();
+    over_since_.reset();
+  }
 
   [[nodiscard]] bool halted() const { return said_.has_value(); }
   /// What was said, while halted.
@@ -37,6 +44,7 @@ class Halt {
   std::optional<double> said_;  ///< s
   bool heard_ = false;
   std::optional<double> clear_since_;  ///< s
+  std::optional<double> over_since_;   ///< s, until that is said
 };
 
 }  // namespace navvi_feedback::cues

@@ -9,6 +9,8 @@ namespace {
 
 /// m/s; slower counts as standing.
 constexpr double kMoving = 0.05;
+/// m, gap; what is farther is not around.
+constexpr double kAround = 3.0;
 /// s; a person who has not begun to turn by then has missed the corner.
 constexpr double kLastMoment = 1.0;
 /// s; that a thing comes is said again after so long at the earliest.
@@ -166,6 +168,24 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
     best = Candidate{utterance(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
   }
+}
+
+Utterance around(const std::vector<NearThing>& nearby) {
+  Utterance told{"around_nothing"};
+  for (const Side side : {Side::ahead, Side::right, Side::behind, Side::left}) {
+    const NearThing* nearest = nullptr;
+    for (const NearThing& thing : nearby)
+      if (thing.gap < kAround && side_of(thing.nearest) == side &&
+          (!nearest || thing.gap < nearest->gap))
+        nearest = &thing;
+    if (!nearest) continue;
+    const Fillings fillings{{}, {}, nearest->thing_class, side};
+    if (told.kind == "around")
+      told.also.push_back(fillings);
+    else
+      told = {"around", fillings};
+  }
+  return told;
 }
 
 }  // namespace navvi_feedback::cues

@@ -61,4 +61,7 @@ class NearCues {
   std::map<std::uint32_t, Watch> things_;  ///< by id
 };
 
+/// What is around: the nearest thing on each side, clockwise, for a person who asks.
+[[nodiscard]] Utterance around(const std::vector<NearThing>& nearby);
+
 }  // namespace navvi_feedback::cues
