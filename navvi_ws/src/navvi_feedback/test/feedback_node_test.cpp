@@ -126,16 +126,6 @@ class FeedbackNode : public testing::Test {
   std::set<std::string> statuses_;
 };
 
-TEST_F(FeedbackNode, says_that_the_time_is_up) {
-  ros::Publisher events = node_.advertise<navvi_msgs::TrialEvent>("navvi/events", 10);
-  ASSERT_TRUE(until([&] { return events.getNumSubscribers() > 0; }));
-  navvi_msgs::TrialEvent end;
-  end.type = "TRIAL_END";
-  end.fields = "result=timeout;reason=limit";
-  events.publish(end);
-  EXPECT_TRUE(until([this] { return heard("trial_time_up"); }));
-}
-
 TEST_F(FeedbackNode, drives_only_after_neutral_and_falls_silent_after_a_stop) {
   stick_ = 1.0F;
   pass(1.0);
@@ -229,6 +219,16 @@ TEST_F(FeedbackNode, reports_its_hardware_once_a_second) {
     return statuses_.count("navvi/pad") && statuses_.count("navvi/audio") &&
            statuses_.count("navvi/speech");
   }));
+}
+
+TEST_F(FeedbackNode, says_that_the_time_is_up) {
+  ros::Publisher events = node_.advertise<navvi_msgs::TrialEvent>("navvi/events", 10);
+  ASSERT_TRUE(until([&] { return events.getNumSubscribers() > 0; }));
+  navvi_msgs::TrialEvent end;
+  end.type = "TRIAL_END";
+  end.fields = "result=timeout;reason=limit";
+  events.publish(end);
+  EXPECT_TRUE(until([this] { return heard("trial_time_up"); }));
 }
 
 }  // namespace
