@@ -13,6 +13,8 @@ constexpr double kRecover = 2.0;
 constexpr double kStarting = 3.0;
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
+/// s, without directions after the end of a trial: the session may be about to end, too.
+constexpr double kLastWords = 5.0;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
 /// s; the same thing again within it is the same collision.
@@ -113,8 +115,11 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
   for (const Utterance& utterance : told)
     if (utterance.kind == stick + "_back" || utterance.kind == "robot_stopped") held_.said(time);
   const std::set<std::string> notices(now.notices.begin(), now.notices.end());
-  for (const std::string& notice : notices)
-    if (noticed_.count(notice) == 0) say(notice);
+  for (const std::string& notice : notices) {
+    if (noticed_.count(notice) > 0) continue;
+    say(notice);
+    if (notice.rfind("trial_", 0) == 0) trial_over_ = time;
+  }
   noticed_ = notices;
   return told;
 }
@@ -235,6 +240,7 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
 }
 
 CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
+  if (trial_over_ && time - *trial_over_ < kLastWords) return {};
   // Without a stick no path can be followed. Its return is said first, then the direction.
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
   const bool leads = follows_ || (problem_ == "blocked" && now.guidance->leads());

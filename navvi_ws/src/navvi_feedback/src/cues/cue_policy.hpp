@@ -64,6 +64,7 @@ class CuePolicy {
   std::map<std::string, double> last_said_;  ///< s, by kind
   std::map<std::uint32_t, double> hit_;      ///< s, by thing
   std::set<std::string> noticed_;
+  std::optional<double> trial_over_;  ///< s, when that was said
 };
 
 }  // namespace navvi_feedback::cues

@@ -258,6 +258,16 @@ TEST_F(CuePolicyTest, says_a_notice_once) {
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
+TEST_F(CuePolicyTest, gives_no_direction_right_after_the_end_of_a_trial) {
+  under_way();
+  now_.notices = {"trial_time_up"};
+  EXPECT_EQ(pass(0.02), Texts{"time is up, the trial is over"});
+  now_.notices.clear();
+  now_.guidance->steer_angle = now_.guidance->waypoint_angle = 2.0;
+  EXPECT_EQ(pass(4.0), Texts{});
+  EXPECT_EQ(pass(2.0), Texts{"4 o'clock, 20 meters"}) << "the session goes on";
+}
+
 TEST_F(CuePolicyTest, says_what_was_hit_and_where_and_then_the_way_on) {
   under_way();
   now_.contacts = {{ThingClass::shelf, {0.0, 0.35}}};
