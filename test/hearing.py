@@ -40,7 +40,7 @@ def grammar():
     document = yaml.safe_load(PHRASES.read_text())
     words = document["words"]
     choices = {
-        "clock": " | ".join(ONES[1:13]),
+        "direction": " | ".join(" ".join(words_of(words[f"clock_{hour}"])) for hour in range(1, 13)),
         "distance": "<number> meters | one meter | <number> point five meters | zero point five meters",
         "thing": " | ".join(words[key] for key in
                             ("shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other")),
@@ -51,7 +51,7 @@ def grammar():
              f"<number> = <ones> | ({' | '.join(TENS)}) [{' | '.join(ONES[1:10])}];"]
     lines += [f"<{name}> = {value};" for name, value in choices.items()]
     cues = []
-    for template in document["phrases"].values():
+    for template in {**document["phrases"], **document["clock"]}.values():
         text = re.sub(r"[.,]", " ", template.lower())
         cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",

@@ -61,7 +61,7 @@ Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& ph
           drive::Drive(config.drive),
           haptics::Haptics(config.haptics),
           {},
-          cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.words()))}) {}
+          cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording))}) {}
 
 Feedback::~Feedback() = default;
 

@@ -6,6 +6,14 @@ using navvi_config::Any;
 using navvi_config::OneOf;
 using navvi_config::Range;
 
+void WordingConfig::describe(navvi_config::Visitor& visit) {
+  visit(directions, "directions", OneOf{{"clock", "left_right", "degrees"}}, "",
+        "how directions are worded: 3 o'clock, right, or 90 degrees right");
+  visit(units, "units", OneOf{{"meters", "feet"}}, "", "of spoken distances");
+  visit(verbosity, "verbosity", OneOf{{"brief", "normal", "full"}}, "",
+        "how many words a phrase has");
+}
+
 void RouteConfig::describe(navvi_config::Visitor& visit) {
   visit(rounding, "rounding", OneOf{{"nearest", "floor"}}, "", "how an angle becomes an hour");
   visit(hysteresis_degrees, "hysteresis_degrees", Range{0.0, 14.0}, "deg",
@@ -63,14 +71,9 @@ void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
         "repeats while the guidance does not lead");
   visit(patience, "patience", Range{1.0, 300.0}, "s",
         "a link that never lived for so long counts as lost");
-  visit(direction_words, "direction_words", OneOf{{"clock", "left_right"}}, "",
-        "how directions are worded");
+  visit.group("wording", wording);
   visit.group("route", route);
   visit.group("near", near);
-}
-
-DirectionWords CuePolicyConfig::words() const {
-  return direction_words == "left_right" ? DirectionWords::left_right : DirectionWords::clock;
 }
 
 }  // namespace navvi_feedback::cues

@@ -56,7 +56,7 @@ class CuePolicyTest : public testing::Test {
 TEST(CuePolicyConfig, refuses_what_it_does_not_know) {
   CuePolicyConfig config;
   for (const char* text : {"stuck_time: -1", "route: {rounding: up}", "near: {distance: .nan}",
-                           "direction_words: compass", "chatter: 1"})
+                           "wording: {directions: compass}", "chatter: 1"})
     EXPECT_THROW(navvi_config::read(config, YAML::Load(text), "test"), navvi_config::ConfigError)
         << text;
 }
@@ -398,8 +398,8 @@ TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
 
 TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
   CuePolicyConfig config;
-  config.direction_words = "left_right";
-  policy_ = CuePolicy(config, Phrases(kEnglish, config.words()));
+  config.wording.directions = "left_right";
+  policy_ = CuePolicy(config, Phrases(kEnglish, config.wording));
   now_.guidance->waypoint_angle = now_.guidance->steer_angle = -1.6;
   EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters", "left, 20 meters"}));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -17,12 +18,14 @@ using navvi_config::ConfigError;
 
 constexpr std::size_t kMaxBytes = 80;
 constexpr std::size_t kMaxWord = 24;
-/// m; beyond it a distance is not spoken exactly, so that its length is bounded.
+/// Of any unit; beyond it a distance is not spoken exactly, so that its length is bounded.
 constexpr double kFar = 9999.0;
+constexpr double kFeet = 1.0 / 0.3048;  // in a metre
 
-const std::set<std::string> kPlaceholders = {"clock", "turn", "distance", "thing", "side", "where"};
+const std::set<std::string> kPlaceholders = {"direction", "distance", "thing", "side", "where"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
+constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
 
 /// All classes that can be spoken of: no message holds the floor.
 std::vector<const char*> things() {
@@ -31,13 +34,15 @@ std::vector<const char*> things() {
 }
 
 std::set<std::string> word_keys() {
-  std::set<std::string> keys = {"meter", "meters"};
+  std::set<std::string> keys = {"meter", "meters", "foot", "feet"};
   for (const char* thing : things()) keys.insert(thing);
   for (const char* side : kSides) {
     keys.insert(std::string("side_") + side);
     keys.insert(std::string("where_") + side);
   }
-  for (int hour = 1; hour <= 12; ++hour) keys.insert("turn_" + std::to_string(hour));
+  for (const char* wording : kDirections)
+    for (int hour = 1; hour <= 12; ++hour)
+      keys.insert(std::string(wording) + "_" + std::to_string(hour));
   return keys;
 }
 
@@ -65,9 +70,33 @@ std::string fill_in(const std::string& text, const Fill& fill) {
   return filled;
 }
 
+/// The bytes of the letter or digit at `at`; 0 if there is none, or no UTF-8.
+std::size_t character(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned first = byte(at);
+  if (first < 0x80) return std::isalnum(static_cast<int>(first)) != 0 ? 1 : 0;
+  const unsigned second = byte(at + 1);
+  if (first < 0xC3 || first > 0xD3 || (second & 0xC0U) != 0x80) return 0;  // two bytes, U+00C0 on
+  const unsigned code = (first & 0x1FU) << 6U | (second & 0x3FU);
+  const bool latin = code <= 0x24F && code != 0xD7 && code != 0xF7;  // without the signs of sums
+  const bool greek = code >= 0x386 && code <= 0x3FF && code != 0x387;
+  const bool cyrillic = code >= 0x400 && code <= 0x4FF && (code < 0x482 || code > 0x489);
+  return latin || greek || cyrillic ? 2 : 0;
+}
+
 std::string limits() {
   return "Spoken text holds only letters, digits and \" ,.'-\", at most 80 bytes, at most 24 a "
          "word.";
+}
+
+/// With one decimal, if it has any.
+std::string number(double value) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), value == std::floor(value) ? "%.0f" : "%.1f",
+                std::min(value, kFar));
+  return text.data();
 }
 
 /// One section of the phrase file, key by key.
@@ -114,8 +143,9 @@ class Section {
 /// The longest text that each placeholder may become, and the words it may become.
 std::vector<std::string> possible(const std::string& placeholder,
                                   const std::map<std::string, std::string>& words) {
-  if (placeholder == "clock") return {"12"};
-  if (placeholder == "distance") return {"9999 " + words.at("meters"), "1 " + words.at("meter")};
+  if (placeholder == "distance")
+    return {"9999 " + words.at("meters"), "1 " + words.at("meter"), "9999 " + words.at("feet"),
+            "1 " + words.at("foot")};
   std::vector<std::string> texts;
   const auto add = [&](const std::string& prefix) {
     for (const auto& [key, word] : words)
@@ -123,6 +153,8 @@ std::vector<std::string> possible(const std::string& placeholder,
   };
   if (placeholder == "thing") {
     for (const char* thing : things()) texts.push_back(words.at(thing));
+  } else if (placeholder == "direction") {
+    for (const char* wording : kDirections) add(std::string(wording) + "_");
   } else {
     add(placeholder + "_");
   }
@@ -163,26 +195,34 @@ bool speakable(const std::string& text) {
   if (text.empty() || text.size() > kMaxBytes) return false;
   std::size_t word = 0;
   bool letters = false;
-  for (const char c : text) {
-    const bool letter = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (!letter && (c == '\0' || std::string(" ,.'-").find(c) == std::string::npos)) return false;
-    word = c == ' ' ? 0 : word + 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = character(text, at);
+    const bool mark = std::string(" ,.'-").find(text[at]) != std::string::npos && text[at] != '\0';
+    if (bytes == 0 && !mark) return false;
+    word = text[at] == ' ' ? 0 : word + std::max<std::size_t>(bytes, 1);
     if (word > kMaxWord) return false;
-    letters = letters || letter;
+    letters = letters || bytes > 0;
+    at += std::max<std::size_t>(bytes, 1);
   }
   return letters;
 }
 
-Phrases::Phrases(const std::filesystem::path& file, DirectionWords directions) {
+Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording)
+    : wording_(wording) {
   const YAML::Node root = navvi_config::load_yaml(file);
   const std::string name = file.string();
   if (!root.IsMap()) throw ConfigError(name + ": it must be a map of sections.");
+  const std::vector<std::string> instead = {"clock", "brief", "full"};
   for (const auto& item : root)
     if (const std::string key = item.first.Scalar();
-        key != "phrases" && key != "left_right" && key != "words")
+        key != "voice" && key != "phrases" && key != "words" &&
+        std::find(instead.begin(), instead.end(), key) == instead.end())
       throw ConfigError(name + ", line " + std::to_string(item.first.Mark().line + 1) +
                         ": there is no section \"" + key +
-                        "\"; there are phrases, left_right and words.");
+                        "\"; there are voice, phrases, clock, brief, full and words.");
+  if (!root["voice"] || !root["voice"].IsScalar())
+    throw ConfigError(name + ": \"voice\" is missing or no text; it names a voice of espeak-ng.");
+  voice_ = root["voice"].Scalar();
 
   Section words(name, root, "words");
   words_ = words.read(word_keys());
@@ -197,11 +237,13 @@ Phrases::Phrases(const std::filesystem::path& file, DirectionWords directions) {
     if (phrases_.count(kind.kind) == 0) phrases.fail(kind.kind, "is missing");
   for (const auto& [kind, text] : phrases_) check_phrase(phrases, kind, text, words_);
 
-  Section left_right(name, root, "left_right");
-  const auto instead = left_right.read(kind_keys());
-  for (const auto& [kind, text] : instead) check_phrase(left_right, kind, text, words_);
-  if (directions == DirectionWords::left_right)
-    for (const auto& [kind, text] : instead) phrases_[kind] = text;
+  for (const std::string& which : instead) {
+    Section section(name, root, which);
+    for (const auto& [kind, text] : section.read(kind_keys())) {
+      check_phrase(section, kind, text, words_);
+      if (which == wording.directions || which == wording.verbosity) phrases_[kind] = text;
+    }
+  }
 }
 
 std::string Phrases::say(const std::string& kind, const Fillings& fillings) const {
@@ -227,19 +269,21 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     return words_.at(placeholder + "_" + kSides.at(static_cast<std::size_t>(*fillings.side)));
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
-  const std::string hour = std::to_string(*fillings.hour);
-  return placeholder == "clock" ? hour : words_.at("turn_" + hour);
+  return words_.at(wording_.directions + "_" + std::to_string(*fillings.hour));
 }
 
 std::string Phrases::distance(double metres) const {
   if (!std::isfinite(metres) || metres < 0.0)
     throw std::logic_error("A distance to be spoken is negative or no number.");
+  if (wording_.units == "feet") {
+    const double feet = metres * kFeet;
+    const double whole =
+        feet < 20.0 ? std::max(1.0, std::round(feet)) : 5.0 * std::round(feet / 5.0);
+    return number(whole) + " " + words_.at(whole == 1.0 ? "foot" : "feet");
+  }
   const double rounded =
       metres < 1.75 ? std::max(0.5, std::round(metres * 2.0) / 2.0) : std::round(metres);
-  std::array<char, 16> number{};
-  const bool half = rounded != std::floor(rounded);
-  std::snprintf(number.data(), number.size(), half ? "%.1f" : "%.0f", std::min(rounded, kFar));
-  return std::string(number.data()) + " " + words_.at(rounded == 1.0 ? "meter" : "meters");
+  return number(rounded) + " " + words_.at(rounded == 1.0 ? "meter" : "meters");
 }
 
 }  // namespace navvi_feedback::cues

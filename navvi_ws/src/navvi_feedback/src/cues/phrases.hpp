@@ -38,33 +38,39 @@ struct Utterance {
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and
 /// words from the same file, put in. No text of any message can reach the voice.
 ///
-/// Placeholders: {clock} an hour, {turn} its wording by left and right, {distance} a distance with
-/// its unit, {thing} a thing's noun, {side} "left", {where} "on the left". What is spoken holds
-/// only [A-Za-z0-9 ,.'-], at most 80 bytes, at most 24 bytes a word.
+/// Placeholders: {direction} an hour as the wording has it, {distance} a distance with its unit,
+/// {thing} a thing's noun, {side} "left", {where} "on the left".
 class Phrases {
  public:
+  /// \param file  with the sections voice, phrases, words; in clock, brief and full stand phrases
+  /// that are said instead where that wording is wanted, brief and full before clock
   /// \throws navvi_config::ConfigError with file, line and key if the file is missing or no YAML,
   /// if a kind of cue_kinds() has no phrase or a word is missing, if a key or placeholder is
-  /// unknown, or if a text, filled in any way, would break the limits above.
-  explicit Phrases(const std::filesystem::path& file,
-                   DirectionWords directions = DirectionWords::clock);
+  /// unknown, or if a text, filled in any way, would not be speakable().
+  explicit Phrases(const std::filesystem::path& file, const WordingConfig& wording = {});
 
   /// \throws std::logic_error for an unknown kind, a filling that the phrase needs and that is
   /// missing or not finite: a mistake in the program, as the file was checked when it was read
   [[nodiscard]] std::string say(const std::string& kind, const Fillings& fillings = {}) const;
 
   /// A distance with its unit: whole metres from 2 m on, halves below, never less than half a
-  /// metre, "1 meter" in the singular. \param metres  m, finite, >= 0
+  /// metre; or whole feet, fives from 20 feet on. \param metres  m, finite, >= 0
   [[nodiscard]] std::string distance(double metres) const;
+
+  /// The voice of espeak-ng that speaks this language.
+  [[nodiscard]] const std::string& voice() const { return voice_; }
 
  private:
   [[nodiscard]] std::string filling(const std::string& placeholder, const Fillings& fillings) const;
 
+  WordingConfig wording_;
+  std::string voice_;
   std::map<std::string, std::string> phrases_;
   std::map<std::string, std::string> words_;
 };
 
-/// True if `text` may be spoken: not empty and within the limits of Phrases.
+/// True if `text` may be spoken: UTF-8 of Latin, Greek or Cyrillic letters, digits and " ,.'-",
+/// with at least one of the former, at most 80 bytes in all and 24 bytes a word.
 [[nodiscard]] bool speakable(const std::string& text);
 
 }  // namespace navvi_feedback::cues

@@ -14,7 +14,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kEnglish = fs::path(NAVVI_FEEDBACK_CONFIG_DIR) / "phrases" / "en.yaml";
+const fs::path kPhrases = fs::path(NAVVI_FEEDBACK_CONFIG_DIR) / "phrases";
+const fs::path kEnglish = kPhrases / "en.yaml";
+const fs::path kSpanish = kPhrases / "es.yaml";
+
+WordingConfig wording(const std::string& directions, const std::string& units = "meters",
+                      const std::string& verbosity = "normal") {
+  return {directions, units, verbosity};
+}
+
+/// Each way in which a language may be worded.
+std::vector<WordingConfig> all_wordings() {
+  std::vector<WordingConfig> all;
+  for (const char* directions : {"clock", "left_right", "degrees"})
+    for (const char* units : {"meters", "feet"})
+      for (const char* verbosity : {"brief", "normal", "full"})
+        all.push_back(wording(directions, units, verbosity));
+  return all;
+}
 
 std::string english() {
   std::ifstream file(kEnglish);
@@ -74,12 +91,13 @@ Fillings everything() {
   return fillings;
 }
 
-TEST(Phrases, of_every_kind_can_be_spoken_in_both_wordings) {
-  for (const DirectionWords words : {DirectionWords::clock, DirectionWords::left_right}) {
-    const Phrases phrases(kEnglish, words);
-    for (const CueKind& kind : cue_kinds())
-      EXPECT_TRUE(speakable(phrases.say(kind.kind, everything()))) << kind.kind;
-  }
+TEST(Phrases, of_every_kind_can_be_spoken_in_each_language_and_wording) {
+  for (const fs::path& language : {kEnglish, kSpanish})
+    for (const WordingConfig& worded : all_wordings()) {
+      const Phrases phrases(language, worded);
+      for (const CueKind& kind : cue_kinds())
+        EXPECT_TRUE(speakable(phrases.say(kind.kind, everything()))) << kind.kind;
+    }
 }
 
 TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
@@ -101,9 +119,65 @@ TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
 }
 
 TEST(Phrases, offer_left_and_right_instead_of_the_clock) {
-  const Phrases phrases(kEnglish, DirectionWords::left_right);
+  const Phrases phrases(kEnglish, wording("left_right"));
   EXPECT_EQ(phrases.say("direction", everything()), "right, 8 meters");
   EXPECT_EQ(phrases.say("turn_now", everything()), "turn right now");
+}
+
+TEST(Phrases, count_degrees_to_either_side) {
+  const Phrases phrases(kEnglish, wording("degrees"));
+  EXPECT_EQ(phrases.say("direction", everything()), "90 degrees right, 8 meters");
+  EXPECT_EQ(phrases.say("turn_now", everything()), "turn 90 degrees right now");
+  Fillings left = everything();
+  left.hour = 10;
+  EXPECT_EQ(phrases.say("rerouted", left), "new route, 60 degrees left, 8 meters");
+}
+
+TEST(Phrases, are_shorter_or_longer_where_that_is_wanted) {
+  const Phrases brief(kEnglish, wording("clock", "meters", "brief"));
+  EXPECT_EQ(brief.say("direction", everything()), "3 o'clock");
+  EXPECT_EQ(brief.say("turn_ahead", everything()), "in 8 meters, 3 o'clock");
+  const Phrases full(kEnglish, wording("clock", "meters", "full"));
+  EXPECT_EQ(full.say("blocked", everything()),
+            "wait, pallet robot in the way, I will say when to go on");
+  const auto bytes = [](const Phrases& phrases) {
+    std::size_t sum = 0;
+    for (const CueKind& kind : cue_kinds()) sum += phrases.say(kind.kind, everything()).size();
+    return sum;
+  };
+  for (const fs::path& language : {kEnglish, kSpanish}) {
+    const Phrases normal(language);
+    EXPECT_LT(bytes(Phrases(language, wording("clock", "meters", "brief"))), bytes(normal));
+    EXPECT_GT(bytes(Phrases(language, wording("clock", "meters", "full"))), bytes(normal));
+  }
+}
+
+TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
+  const Phrases phrases(kSpanish);
+  EXPECT_EQ(phrases.voice(), "es");
+  Fillings one = everything();
+  one.hour = 1;
+  one.distance = 1.0;
+  EXPECT_EQ(phrases.say("direction", one), "a la 1, 1 metro");
+  EXPECT_EQ(phrases.say("direction", everything()), "a las 3, 8 metros");
+  EXPECT_EQ(phrases.say("shelf_near", everything()), "estanter\u00eda a la izquierda");
+}
+
+TEST(Phrases, refuse_letters_that_no_voice_reads_and_broken_utf8) {
+  for (const char* text : {"caf\u00e9 ol\u00e9", "\u03bb\u03cc\u03b3\u03bf\u03c2",
+                           "\u0441\u0442\u043e\u043f", "\u00dcber"})
+    EXPECT_TRUE(speakable(text)) << text;
+  for (const char* text : {"3 \u00d7 4", "\u20ac 5", "a\u0301", "\u202eabc", "\U0001F600 x",
+                           "a\xc3", "\xe9t\xe9", "\xc1\xa1", "a\xc3 b"})
+    EXPECT_FALSE(speakable(text)) << text;
+}
+
+TEST(Phrases, give_feet_where_they_are_wanted) {
+  const Phrases phrases(kEnglish, wording("clock", "feet"));
+  const std::vector<std::pair<double, std::string>> table = {{0.0, "1 foot"},  {0.4, "1 foot"},
+                                                             {0.5, "2 feet"},  {5.9, "19 feet"},
+                                                             {8.2, "25 feet"}, {1e9, "9999 feet"}};
+  for (const auto& [metres, text] : table) EXPECT_EQ(phrases.distance(metres), text) << metres;
 }
 
 TEST(Phrases, round_distances_as_people_say_them) {
@@ -144,12 +218,15 @@ TEST(Phrases, refuse_a_file_that_lacks_a_key_and_name_it) {
 TEST(Phrases, refuse_an_unknown_key_or_placeholder_with_its_line) {
   const std::string key = refusal(replaced("  no_goal:", "  typo: \"x\"\n  no_goal:"));
   EXPECT_TRUE(names(key, "phrases/typo") && names(key, "line ")) << key;
-  const std::string placeholder = refusal(replaced("{clock} o'clock, {distance}", "{name} there"));
+  const std::string placeholder = refusal(replaced("{direction}, {distance}", "{name} there"));
   EXPECT_TRUE(names(placeholder, "{name}") && names(placeholder, "line ")) << placeholder;
   EXPECT_NE(refusal(replaced("hit a {thing} {where}", "hit a {thing {where}")), "");
   EXPECT_NE(refusal(replaced("hit a {thing} {where}", "hit a {thing")), "");
   EXPECT_NE(refusal(replaced("  no_goal:", "  arrived: \"again\"\n  no_goal:")), "");
   EXPECT_NE(refusal(english() + "\nmore: {}\n"), "");
+  EXPECT_TRUE(names(refusal(replaced("voice: en\n", "")), "voice"));
+  EXPECT_TRUE(names(refusal(replaced("  clock_7: 7 o'clock\n", "")), "words/clock_7"));
+  EXPECT_TRUE(names(refusal(replaced("  feet: feet\n", "")), "words/feet"));
 }
 
 TEST(Phrases, refuse_text_that_could_harm_the_voice) {
@@ -159,7 +236,7 @@ TEST(Phrases, refuse_text_that_could_harm_the_voice) {
       hostile,
       "<voice name='x'>",
       "[[h@loU]]",
-      "caf\xc3\xa9",
+      "5 \xe2\x82\xac",
       "\xff\xfe",
       "line\\nbreak",
       "nul\\0",
@@ -182,17 +259,20 @@ TEST(Phrases, refuse_a_phrase_that_is_too_long_only_when_filled) {
 
 TEST(Phrases, cannot_be_made_to_speak_anything_else) {
   // Whatever is put in comes from fixed sets; every combination stays within the limits.
-  const Phrases phrases(kEnglish);
-  for (const CueKind& kind : cue_kinds())
-    for (int hour = 1; hour <= 12; ++hour)
-      for (int thing = static_cast<int>(ThingClass::shelf);
-           thing <= static_cast<int>(ThingClass::other); ++thing)
-        for (int side = 0; side < 4; ++side)
-          for (const double metres : {0.0, 1.0, 1.5, 123.0, 1e300}) {
-            const Fillings fillings{hour, metres, static_cast<ThingClass>(thing),
-                                    static_cast<Side>(side)};
-            ASSERT_TRUE(speakable(phrases.say(kind.kind, fillings))) << kind.kind;
-          }
+  for (const fs::path& language : {kEnglish, kSpanish})
+    for (const WordingConfig& worded : all_wordings()) {
+      const Phrases phrases(language, worded);
+      for (const CueKind& kind : cue_kinds())
+        for (int hour = 1; hour <= 12; ++hour)
+          for (int thing = static_cast<int>(ThingClass::shelf);
+               thing <= static_cast<int>(ThingClass::other); ++thing)
+            for (int side = 0; side < 4; ++side)
+              for (const double metres : {0.0, 1.5, 1e300}) {
+                const Fillings fillings{hour, metres, static_cast<ThingClass>(thing),
+                                        static_cast<Side>(side)};
+                ASSERT_TRUE(speakable(phrases.say(kind.kind, fillings))) << kind.kind;
+              }
+    }
 }
 
 }  // namespace

@@ -29,7 +29,9 @@ void SpeakerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(rate, "rate", Range{80.0, 449.0}, "words/min", "rate of speech");
   visit(volume, "volume", Range{0.0, 1.0}, "", "gain of the voice");
-  visit(voice, "voice", Any{}, "", "a voice of espeak-ng, such as en or en-us");
+  visit(pitch, "pitch", Range{0.0, 99.0}, "", "of the voice; 50 is its own");
+  visit(voice, "voice", Any{}, "",
+        "a voice of espeak-ng, such as en-us; empty for that of the language");
   visit(device, "device", Any{}, "", "name of the OpenAL device; empty for the default one");
   visit(reopen, "reopen", Range{0.5, 60.0}, "s",
         "between attempts to open a lost device; ten times that if there never was one");
@@ -92,7 +94,7 @@ Speaker::Status Speaker::status() const {
 void Speaker::run(std::promise<void> ready) {
   std::optional<Voice> voice;
   try {
-    voice.emplace(config_.voice, config_.rate);
+    voice.emplace(config_.voice, config_.rate, config_.pitch);
     open_device(Status::Device::missing);
     ready.set_value();
   } catch (...) {

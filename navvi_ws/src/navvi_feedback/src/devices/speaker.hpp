@@ -15,11 +15,12 @@
 namespace navvi_feedback::devices {
 
 struct SpeakerConfig {
-  int rate = 220;            ///< words a minute
-  double volume = 1.0;       ///< gain of the voice
-  std::string voice = "en";  ///< of espeak-ng
-  std::string device;        ///< name of the OpenAL device; empty for the default one
-  double reopen = 2.0;       ///< s, between attempts to open a lost device, x10 if there was none
+  int rate = 220;       ///< words a minute
+  int pitch = 50;       ///< of the voice, 0 to 99
+  double volume = 1.0;  ///< gain of the voice
+  std::string voice;    ///< of espeak-ng; empty for the language's own
+  std::string device;   ///< name of the OpenAL device; empty for the default one
+  double reopen = 2.0;  ///< s, between attempts to open a lost device, x10 if there was none
 
   void describe(navvi_config::Visitor& visit);
 };

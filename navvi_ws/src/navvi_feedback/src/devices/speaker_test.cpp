@@ -125,6 +125,36 @@ TEST(Speaker, speaks_faster_at_a_higher_rate) {
   EXPECT_GT(times[0], 1.4 * times[1]);
 }
 
+TEST(Speaker, speaks_another_language_with_its_letters) {
+  SpeakerConfig config;
+  config.voice = "es";
+  Speaker speaker(config, Audio::off);
+  speaker.start("estanter\u00eda muy cerca, detr\u00e1s");
+  ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+  EXPECT_EQ(speaker.status().spoken, 1U);
+  EXPECT_EQ(speaker.status().failed, 0U);
+}
+
+/// Hz, of the lag at which a vowel is most like itself.
+double fundamental(const Sound& sound) {
+  const auto like = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (std::size_t i = 4000; i < 8000; ++i) sum += sound.samples[i] * sound.samples[i + lag];
+    return sum;
+  };
+  std::size_t best = 60;
+  for (std::size_t lag = 60; lag < 350; ++lag)
+    if (like(lag) > like(best)) best = lag;
+  return sound.rate / static_cast<double>(best);
+}
+
+TEST(Speaker, speaks_higher_at_a_higher_pitch) {
+  const auto pitch = [](int value) {
+    return fundamental(Voice("en", 80, value).synthesize("ah ah ah", [] { return false; }));
+  };
+  EXPECT_GT(pitch(80), 1.2 * pitch(20));
+}
+
 TEST(Speaker, does_not_speak_what_could_harm_it) {
   Speaker speaker(SpeakerConfig{}, Audio::off);
   std::string hostile;

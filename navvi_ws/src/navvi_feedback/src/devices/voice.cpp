@@ -61,18 +61,19 @@ int initialize() {
 
 }  // namespace
 
-Voice::Voice(const std::string& name, int rate) {
+Voice::Voice(const std::string& name, int rate, int pitch) {
   if (in_use.exchange(true)) throw DeviceError("There is a speaker already in this process.");
   sample_rate_ = initialize();
   if (sample_rate_ <= 0) {
     in_use = false;
     throw DeviceError("espeak-ng could not be started; is the package espeak-ng-data installed?");
   }
-  if (espeak_SetVoiceByName(name.c_str()) != EE_OK ||
-      espeak_SetParameter(espeakRATE, rate, 0) != EE_OK) {
+  if (espeak_SetVoiceByName(name.empty() ? "en" : name.c_str()) != EE_OK ||
+      espeak_SetParameter(espeakRATE, rate, 0) != EE_OK ||
+      espeak_SetParameter(espeakPITCH, pitch, 0) != EE_OK) {
     in_use = false;
     throw DeviceError("espeak-ng has no voice \"" + name + "\" at " + std::to_string(rate) +
-                      " words a minute.");
+                      " words a minute and pitch " + std::to_string(pitch) + ".");
   }
 }
 

@@ -20,10 +20,11 @@ struct Sound {
 /// use it in one thread.
 class Voice {
  public:
-  /// \param name  of an espeak-ng voice, such as "en" \param rate  words a minute, 80..449
+  /// \param name  of an espeak-ng voice; empty for "en" \param rate  words a minute, 80..449
+  /// \param pitch  0..99
   /// \throws DeviceError if the library, its data or the voice cannot be loaded, or if another
   /// Voice lives
-  Voice(const std::string& name, int rate);
+  Voice(const std::string& name, int rate, int pitch);
   ~Voice();
   Voice(const Voice&) = delete;
   Voice& operator=(const Voice&) = delete;

@@ -11,6 +11,7 @@
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
+#include "cues/phrases.hpp"
 #include "devices/input_source.hpp"
 #include "devices/speech_channel.hpp"
 #include "navvi_feedback/core/feedback.hpp"
@@ -32,6 +33,7 @@ volatile std::sig_atomic_t g_stop = 0;
 struct NodeConfig {
   std::string input = "auto";
   bool speech = true;
+  std::string language = "en";
   std::string phrases;
   core::FeedbackConfig feedback;
   devices::SpeakerConfig speaker;
@@ -43,8 +45,9 @@ struct NodeConfig {
     visit(input, "input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
           "where the stick comes from; topic: joy from another driver");
     visit(speech, "speech", Any{}, "", "false: cues are timed and published, but nothing is heard");
+    visit(language, "language", OneOf{{"en", "es"}}, "", "English or Spanish");
     visit(phrases, "phrases", Any{}, "",
-          "file of the spoken phrases; empty for the English that ships");
+          "path of a phrase file for any other language; empty for the one that ships");
     feedback.describe(visit);
     visit.group("speaker", speaker);
     visit.group("markers", markers);
@@ -53,7 +56,14 @@ struct NodeConfig {
 
 std::string phrases_file(const NodeConfig& config) {
   if (!config.phrases.empty()) return config.phrases;
-  return ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
+  return ros::package::getPath("navvi_feedback") + "/config/phrases/" + config.language + ".yaml";
+}
+
+/// The voice of the language, unless another one is wanted.
+devices::SpeakerConfig speaker_of(const NodeConfig& config) {
+  devices::SpeakerConfig speaker = config.speaker;
+  if (speaker.voice.empty()) speaker.voice = cues::Phrases(phrases_file(config)).voice();
+  return speaker;
 }
 
 /// Wall time, so that the person hears of a simulation that has stopped.
@@ -64,7 +74,7 @@ class FeedbackNode {
   explicit FeedbackNode(const NodeConfig& config)
       : config_(config),
         feedback_(config.feedback, phrases_file(config)),
-        speech_(config.speaker, config.speech ? devices::Audio::on : devices::Audio::off),
+        speech_(speaker_of(config), config.speech ? devices::Audio::on : devices::Audio::off),
         source_(config.input) {
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();

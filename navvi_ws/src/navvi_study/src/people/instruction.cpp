@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <regex>
 #include <utility>
 #include <vector>
 
 namespace navvi_study::people {
 namespace {
+
+constexpr double kFoot = 0.3048;  // m
 
 bool says(const std::string& text, const char* pattern) {
   return std::regex_search(text, std::regex(pattern));
@@ -31,6 +34,10 @@ Instruction::Side side_in(const std::string& text) {
 std::optional<int> hour_in(const std::string& text) {
   if (const auto hour = number_before(text, "\\b(\\d{1,2}) ?o.?clock"))
     return static_cast<int>(*hour);
+  if (const auto degrees = number_before(text, "\\b(\\d{1,3}) degrees")) {
+    const int hours = static_cast<int>(std::lround(*degrees / 30.0));
+    return side_in(text) == Instruction::Side::left ? 12 - hours : hours;
+  }
   static const std::vector<std::pair<const char*, int>> words = {
       {"slightly right", 1}, {"half right", 2}, {"sharp right", 4}, {"back right", 5},
       {"around", 6},         {"back left", 7},  {"sharp left", 8},  {"half left", 10},
@@ -73,6 +80,8 @@ Instruction understand(const std::string& spoken) {
   } else {
     const std::optional<int> hour = hour_in(text);
     heard.distance = number_before(text, "(\\d{1,4}(?:\\.\\d+)?) ?met");
+    if (const auto feet = number_before(text, "(\\d{1,4}) f(?:oo|ee)t"))
+      heard.distance = *feet * kFoot;
     if (says(text, "^a little (left|right)")) {
       heard.kind = Kind::turn;
       heard.hour = heard.side == Instruction::Side::left ? 11 : 1;

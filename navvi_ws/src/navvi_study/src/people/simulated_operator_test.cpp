@@ -266,7 +266,15 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"robot stopped, release the stick", Kind::halt},
       {"no route to the goal", Kind::halt},
       {"goal refused, it is off the map", Kind::halt},
-      {"You have reached your destination", Kind::arrived}};
+      {"You have reached your destination", Kind::arrived},
+      {"90 degrees left, 12 feet", Kind::turn},
+      {"turn 180 degrees now", Kind::turn},
+      {"3 o'clock", Kind::turn},
+      {"straight, then 3 o'clock", Kind::straight},
+      {"in 20 feet, 60 degrees right", Kind::turn_ahead},
+      {"wait, worker", Kind::halt},
+      {"wait, box in the way, I will say when to go on", Kind::halt},
+      {"You have reached the goal", Kind::arrived}};
   for (const auto& [text, kind] : sentences) EXPECT_EQ(understand(text).kind, kind) << text;
   EXPECT_EQ(understand("turn to 11 o'clock now").hour, 11);
   EXPECT_EQ(understand("in 6 meters, turn to 3 o'clock").hour, 3);
@@ -278,6 +286,9 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
   EXPECT_EQ(understand("turn sharp left now").hour, 8);
   EXPECT_EQ(understand("in 4 meters, turn right").hour, 3);
   EXPECT_EQ(understand("turn around now").hour, 6);
+  EXPECT_EQ(understand("90 degrees left, 12 feet").hour, 9);
+  EXPECT_EQ(understand("30 degrees right, 1 foot").hour, 1);
+  EXPECT_NEAR(*understand("90 degrees left, 12 feet").distance, 3.66, 0.01);
   EXPECT_FALSE(understand("shelf on the left").very_close);
   EXPECT_EQ(understand("stop, worker ahead").kind, Instruction::Kind::near);
   EXPECT_EQ(understand("stop, worker ahead").side, Instruction::Side::ahead);

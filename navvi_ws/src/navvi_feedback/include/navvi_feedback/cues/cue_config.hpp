@@ -6,10 +6,14 @@
 
 namespace navvi_feedback::cues {
 
-/// How directions are worded.
-enum class DirectionWords {
-  clock,      ///< "3 o'clock"
-  left_right  ///< "right"
+/// How things are worded, in any language.
+struct WordingConfig {
+  std::string directions =
+      "clock";  ///< clock "3 o'clock", left_right "right", degrees "90 degrees right"
+  std::string units = "meters";      ///< meters or feet
+  std::string verbosity = "normal";  ///< brief, normal or full
+
+  void describe(navvi_config::Visitor& visit);
 };
 
 struct RouteConfig {
@@ -53,13 +57,11 @@ struct CuePolicyConfig {
   double state_hold = 0.5;       ///< s
   double problem_repeat = 15.0;  ///< s
   double patience = 10.0;        ///< s
-  std::string direction_words = "clock";
+  WordingConfig wording;
   RouteConfig route;
   NearConfig near;
 
   void describe(navvi_config::Visitor& visit);
-  /// direction_words as Phrases takes it.
-  [[nodiscard]] DirectionWords words() const;
 };
 
 }  // namespace navvi_feedback::cues
