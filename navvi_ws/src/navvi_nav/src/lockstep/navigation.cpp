@@ -55,6 +55,8 @@ void Navigation::set_goal(const Eigen::Vector2d& goal) { parts_->navigator.set_g
 
 bool Navigation::has_map() const { return parts_->navigator.has_map(); }
 
+bool Navigation::plan_waits() const { return parts_->answer.has_value(); }
+
 std::optional<navvi_types::Guidance> Navigation::update(double time) {
   guide::Navigator& navigator = parts_->navigator;
   if (const auto answer = std::exchange(parts_->answer, std::nullopt))

@@ -1,6 +1,7 @@
 // OctoMap, obstacles, pose and goal in; path, guidance and mesh out.
 
 #include <nav_msgs/GetPlan.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -20,6 +21,20 @@ using navvi_types::Guidance;
 using navvi_types::Pose2;
 
 constexpr double kServicePatience = 1.0;  // s
+constexpr double kBeat = 0.05;            // s, where nothing wakes the node sooner
+
+/// Work for the node's own thread, from any other.
+class Wake : public ros::CallbackInterface {
+ public:
+  explicit Wake(std::function<void()> work) : work_(std::move(work)) {}
+  CallResult call() override {
+    work_();
+    return Success;
+  }
+
+ private:
+  std::function<void()> work_;
+};
 
 struct NodeConfig {
   guide::NavigatorConfig navigator;
@@ -43,7 +58,11 @@ class NavNode {
   NavNode(ros::NodeHandle node, const NodeConfig& config)
       : config_(config),
         navigator_(config.navigator),
-        worker_(config.navigator.planner),
+        worker_(config.navigator.planner,
+                [this] {
+                  ros::getGlobalCallbackQueue()->addCallback(
+                      boost::make_shared<Wake>([this] { beat(); }));
+                }),
         mesh_throttle_(config.mesh_period) {
     path_ = node.advertise<nav_msgs::Path>("navvi/path", 1, true);
     guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
@@ -54,6 +73,7 @@ class NavNode {
                         node, "navvi/obstacles", 1, navvi_types::from_msg,
                         [this](const navvi_types::Obstacles& obstacles) {
                           navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
+                          beat();
                         },
                         config.map_frame),
                     navvi_config::subscribe<nav_msgs::Odometry>(
@@ -63,7 +83,8 @@ class NavNode {
                         }),
                     node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
-    timer_ = node.createWallTimer(ros::WallDuration(0.05), &NavNode::on_timer, this);
+    timer_ = node.createWallTimer(ros::WallDuration(kBeat),
+                                  [this](const ros::WallTimerEvent&) { beat(); });
     publish_path();
   }
 
@@ -166,7 +187,8 @@ class NavNode {
     }
   }
 
-  void on_timer(const ros::WallTimerEvent&) {
+  /// At least at 20 Hz; at once when obstacles or a finished plan come.
+  void beat() {
     const double now = ros::Time::now().toSec();
     if (now < last_time_) {
       ROS_WARN("Time jumped back; poses and obstacles start afresh.");

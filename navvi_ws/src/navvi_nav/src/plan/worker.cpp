@@ -5,13 +5,18 @@
 namespace navvi_nav::plan {
 
 void Worker::start(PlanRequest request) {
-  answer_ = std::async(std::launch::async, [this, request = std::move(request)] {
+  std::packaged_task<PlanAnswer()> task([this, request = std::move(request)] {
     const auto begin = std::chrono::steady_clock::now();
     const std::lock_guard<std::timed_mutex> busy(busy_);
     PlanAnswer answer = planner_.answer(request);
     answer.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return answer;
+  });
+  answer_ = task.get_future();
+  thread_ = std::async(std::launch::async, [this, task = std::move(task)]() mutable {
+    task();
+    done_();
   });
 }
 

@@ -11,7 +11,7 @@
 namespace navvi_study::loop {
 namespace {
 
-constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer
+constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the obstacles
 constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
 constexpr double kGoalAt = 1.0;           // s; trial_node sets the goal when every part is there
 // espeak-ng at 220 words a minute, measured over NavVI's phrases.
@@ -54,7 +54,7 @@ bool ClosedLoop::step() {
   published_ = {};
   if (!turn_wheels()) return false;
   sense();
-  if (session_.due(kNavigationRate)) navigate();
+  if (session_.due(kNavigationRate) || navigation_.plan_waits()) navigate();
   if (session_.due(kFeedbackRate)) {
     feed_back();
     operate();

@@ -26,9 +26,9 @@ class NavigationConfig {
   std::unique_ptr<Values> values_;
 };
 
-/// The core of nav_node without threads and without a clock: a plan is there at the next beat. The
-/// same values give the same guidance, bit for bit. Times are s on one clock that only goes
-/// forward; places are m, in map.
+/// The core of nav_node without threads and without a clock: a plan is there at the next beat,
+/// which follows soon on the one that asked for it. The same values give the same guidance, bit for
+/// bit. Times are s on one clock that only goes forward; places are m, in map.
 class Navigation {
  public:
   explicit Navigation(const NavigationConfig& config);
@@ -43,6 +43,8 @@ class Navigation {
   void set_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] bool has_map() const;
 
+  /// True if a plan waits for the next beat, which is then due at once.
+  [[nodiscard]] bool plan_waits() const;
   /// One beat. \returns the guidance if it is to be published now, numbered, without a stamp
   [[nodiscard]] std::optional<navvi_types::Guidance> update(double time);
 
