@@ -66,7 +66,7 @@ void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
   visit(blocker_gap, "blocker_gap", Range{0.0, 5.0}, "m",
         "a thing farther away is not what blocks");
   visit(state_hold, "state_hold", Range{0.0, 5.0}, "s",
-        "a state of the guidance shorter than this is passed over");
+        "a state of the guidance shorter than this is passed over, but not a wait that is near");
   visit(problem_repeat, "problem_repeat", Range{1.0, 300.0}, "s",
         "repeats while the guidance does not lead");
   visit(patience, "patience", Range{1.0, 300.0}, "s",

@@ -210,9 +210,13 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   const bool starting = problem_ == "welcome" || problem_ == "no_map" || problem_ == "pose_stale";
   // Who was just told to stop need not be told to wait as well.
   const bool stopped = problem_ == "blocked" && halt_.halted();
+  const bool near =
+      problem_ == "blocked" && now.measured &&
+      now.guidance->blocked_distance < now.measured->linear * config_.near.stop_moving;
   const double hold = at_once    ? 0.0
-                      : starting ? kStarting
                       : stopped  ? kStopped
+                      : near     ? 0.0
+                      : starting ? kStarting
                                  : config_.state_hold;
   if (time - problem_since_ < hold) return {};
   if (problem_said_ && (said_once(problem_) || time - *problem_said_ < config_.problem_repeat))

@@ -125,6 +125,7 @@ TEST_F(CuePolicyTest, says_to_wait_for_what_is_in_the_way_and_then_to_go_on) {
 
 TEST_F(CuePolicyTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
   under_way();
+  now_.guidance->blocked_distance = 5.0;
   now_.guidance->state = Guidance::State::blocked;
   now_.guidance->blocked_by = ThingClass::worker;
   EXPECT_EQ(pass(0.6), Texts{"wait, worker in the way"});
@@ -135,10 +136,22 @@ TEST_F(CuePolicyTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
 
 TEST_F(CuePolicyTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
   under_way();
+  now_.guidance->blocked_distance = 5.0;
   now_.guidance->state = Guidance::State::blocked;
   EXPECT_EQ(pass(0.3), Texts{});
   now_.guidance->state = Guidance::State::following;
   EXPECT_EQ(pass(3.0), Texts{});
+}
+
+TEST_F(CuePolicyTest, says_at_once_to_wait_for_what_would_be_reached_within_seconds) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::worker;
+  now_.measured = navvi_types::Velocity{0.9, 0.0};
+  now_.guidance->blocked_distance = 3.0;
+  EXPECT_EQ(pass(0.3), Texts{});
+  now_.guidance->blocked_distance = 2.0;
+  EXPECT_EQ(pass(0.02), Texts{"wait, worker in the way"});
 }
 
 TEST_F(CuePolicyTest, ends_a_wait_by_the_word_to_make_room) {
