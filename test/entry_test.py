@@ -20,7 +20,9 @@ def navvi(*words, **environment):
 
 
 def test_shell_scripts_are_clean():
-    subprocess.run(["shellcheck", ROOT / "navvi", ROOT / ".ci" / "run"], check=True)
+    subprocess.run(["shellcheck", ROOT / ".ci" / "run"], check=True)
+    whole = "".join(path.read_text() for path in [ROOT / "navvi", *sorted((ROOT / "commands").rglob("*.bash"))])
+    subprocess.run(["shellcheck", "--shell=bash", "-"], input=whole, text=True, check=True)
 
 
 @pytest.mark.parametrize("words, sentence", [
@@ -41,6 +43,12 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "feedback/speaker/rate:=fast"], "speaker/rate"),
     (["run", *SIMULATED, "seed:=1", "seed:=2"], "given twice"),
     (["run", *SIMULATED, "sim_parameters:={}"], "is unknown"),
+    (["run", *SIMULATED, "models:=/nonexistent"], "models:=/nonexistent is no folder"),
+    (["run", *SIMULATED, "out:=/proc/none"], "cannot be made"),
+    (["check"], "which trial?"),
+    (["setup", "now"], "takes none"),
+    (["build", "--fast"], "--asan and --odr are allowed"),
+    (["parameters", "--xml"], "--csv is allowed"),
     (["replay"], "which trial?"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
 ])
@@ -48,7 +56,7 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     result = navvi(*words)
     assert result.returncode == 2
     assert sentence in result.stderr
-    assert len(result.stderr.splitlines()) == 1 or words == ["fly"]
+    assert len(result.stderr.splitlines()) == 1
     assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
 
 
@@ -111,10 +119,6 @@ def test_a_command_tells_its_arguments():
     assert "participant:=n/a" in result.stdout and "a pseudonym for the record" in result.stdout
     assert navvi("check", "--help").stdout.startswith("./navvi check TRIAL")
     assert navvi("--help").stdout == navvi("help").stdout
-
-
-def test_help_names_each_sub_command():
-    assert all(word in navvi("help").stdout for word in ("setup", "build", "run", "replay", "test", "bench", "navmesh", "world"))
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "launch").glob("*.launch")), ids=lambda path: path.name)

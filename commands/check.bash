@@ -1,0 +1,7 @@
+navvi_check() {
+  local trial
+  trial_folder "$@"
+  (($# == 1)) || fail "\"$2\" is too much; check takes one trial's folder." 2
+  build_workspace
+  rosrun navvi_study check_trial "$trial"
+}

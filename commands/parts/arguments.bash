@@ -1,0 +1,65 @@
+# Words such as seed:=7 of a command, checked against what a launch file takes.
+
+declare -A arg
+parameters=()
+declare -A allowed=(
+  [operator]="auto pad keyboard simulated" [speech]="auto true false" [profile]="default paper" [once]="true false" [rviz]="auto true false"
+)
+
+# The names that a launch file takes from a person; some are set here, so that the record tells the truth.
+argument_names() { sed -n 's/.*<arg name="\([a-z_]*\)".* doc=.*/\1/p' "$1" | grep -vx -e '.*parameters' -e version -e bag | sort; }
+
+# read_args FILE WORD...: turns name:=value words into a variable each in `arg`, and words such as
+# feedback/haptics/enabled:=false, parameters of nodes, into words in `parameters`; refuses names that the launch file lacks.
+read_args() {
+  local word name known parts
+  known=$(argument_names "$1")
+  parts=$(sed -n 's/.*<arg name="\([a-z]*\)_parameters".*/\1/p' "$1" | sort -u)
+  shift
+  for word in "$@"; do
+    name=${word%%:=*}
+    [[ $word == *:=* ]] || fail "\"$word\" is no argument; arguments look like name:=value." 2
+    if [[ $name == */* ]]; then
+      grep -qx -e "${name%%/*}" <<<"$parts" ||
+        fail "\"${name%%/*}\" has no parameters here; those of ${parts//$'\n'/ } can be given." 2
+      parameters+=("$word")
+      continue
+    fi
+    grep -qx -e "$name" <<<"$known" || fail "\"$name\" is unknown; known are: ${known//$'\n'/ }" 2
+    [[ ! -v arg[$name] ]] || fail "\"$name\" is given twice; once is allowed." 2
+    arg[$name]=${word#*:=}
+  done
+}
+
+# Checks `parameters` as the nodes would, and hands each node its own as YAML.
+check_parameters() {
+  local -A by_part=()
+  local word part node own
+  for word in "${parameters[@]}"; do by_part[${word%%/*}]+=${word#*/}$'\n'; done
+  for part in "${!by_part[@]}"; do
+    node=$(echo "$devel"/lib/navvi_*/"${part}_node")
+    readarray -t own <<<"${by_part[$part]%$'\n'}"
+    arg[${part}_parameters]=$("$node" --parameters "${own[@]}") || exit 2
+  done
+  arg[parameters]="${parameters[*]//:=/=}"  # roslaunch ignores a value with := in it
+  arg[version]=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$workspace/src/navvi_study/package.xml")
+  arg[version]+=$(git -C "$root" describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null | sed 's/^/+/' || true)
+}
+
+one_of() {  # NAME...
+  local name
+  for name in "$@"; do
+    [[ " ${allowed[$name]} " == *" ${arg[$name]} "* && ${arg[$name]} != *" "* ]] ||
+      fail "$name:=${arg[$name]} is not allowed; allowed are: ${allowed[$name]}" 2
+  done
+}
+number() {  # NAME
+  [[ ! -v arg[$1] || ${arg[$1]} =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "$1:=${arg[$1]} is no number; 0 or more is allowed." 2
+}
+
+# trial_folder WORD...: sets `trial` to the folder that the first word names.
+trial_folder() {
+  (($# > 0)) || fail "which trial? Name its folder, such as trials/trial-20260101T120000." 2
+  trial=$(readlink -f "$1")
+  [[ -f $trial/trial.bag ]] || fail "$1 holds no trial.bag; a trial's folder is allowed." 2
+}

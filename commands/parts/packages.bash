@@ -1,0 +1,52 @@
+# What NavVI needs of Debian 12, and how it gets there.
+
+packages=(
+  # build
+  build-essential ccache cmake catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev libompl-dev liboctomap-dev libbullet-dev
+  libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libsdformat-dev libtinyxml2-dev libassimp-dev libeigen3-dev zlib1g-dev libpng-dev pkg-config
+  # run
+  rviz rosbash espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin man-db python3-rosbag python3-roslaunch python3-rosnode
+  python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
+  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
+  python3-yaml
+  # test and bench
+  libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest
+  shellcheck xvfb x11-utils imagemagick sox openbox xdotool
+)
+
+missing_packages() {
+  local installed
+  installed=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "${packages[@]}" 2>/dev/null | awk '$1 == "ii" {print $2}' || true)
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) <(sort -u <<<"$installed")
+}
+
+# Half the way is the download, half the installation; apt-get says how far it is in each.
+installed_percent() {
+  awk -F: '/^dlstatus:/ {done = $3 / 2} /^pmstatus:/ {done = 50 + $3 / 2} END {print int(done)}' "$1"
+}
+
+install_packages() {
+  [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
+  command -v dpkg-query >/dev/null || fail "this is no Debian; NavVI's parts are packages of Debian 12, so run it there or in a container of it."
+  local missing as_root=() log=$root/.setup.log
+  missing=$(missing_packages)
+  [[ -n $missing ]] || return 0
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      fail "these packages are missing, and only root can install them; ask root to run \"./navvi setup\": ${missing//$'\n'/ }"
+    if [[ -t 0 ]]; then sudo -v; fi || fail "the packages need root; run \"./navvi setup\" as root or with a password for sudo."
+    sudo -n true 2>/dev/null || fail "sudo would ask for a password and there is no terminal; run \"./navvi setup\" in one, or as root."
+    as_root=(sudo -n)
+  fi
+  say "installing $(wc -l <<<"$missing") packages of Debian (all together 1.5 GB); this takes some minutes."
+  # shellcheck disable=SC2086  # one word a package
+  with_progress "installing" "$log" installed_percent apt_get $missing ||
+    { tail -n 20 "$log" >&2; fail "apt-get could not install the packages; the whole log is in $log. Mend what it says and run \"./navvi setup\" again."; }
+  rm -f "$log"
+  say "the packages are installed."
+}
+apt_get() {
+  "${as_root[@]}" dpkg --configure -a &&  # what Ctrl-C may have left behind
+    "${as_root[@]}" apt-get update -q &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@"
+}

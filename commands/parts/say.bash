@@ -1,0 +1,71 @@
+# What a person reads: plain lines, without colour, and none is written over.
+
+say() { echo "navvi: $1"; }
+
+# fail SENTENCE [EXIT_CODE]: what is wrong, where, and what to do, in one line.
+fail() {
+  echo "navvi: $1" >&2
+  exit "${2:-1}"
+}
+
+# Ctrl-C.
+job="" sleeper=""
+stopped() {
+  [[ -z $sleeper ]] || kill "$sleeper" 2>/dev/null || true
+  [[ -z $job ]] || kill -TERM -- "-$job" 2>/dev/null || true
+  echo "navvi: stopped by Ctrl-C, before it was done. The same command goes on from here." >&2
+  exit 130
+}
+
+in_words() {  # seconds
+  if (($1 < 100)); then echo "$1 seconds"; else echo "$((($1 + 30) / 60)) minutes"; fi
+}
+
+# with_progress WHAT LOG PERCENT COMMAND...: runs the command with all it says in the file LOG. Every 10 s a line tells how
+# much is done, by what the function PERCENT makes of the log, and how long it may still take.
+with_progress() {
+  local what=$1 log=$2 percent=$3 begin=$SECONDS status=0 share
+  shift 3
+  set -m  # a process group of its own, which Ctrl-C ends as a whole
+  "$@" >"$log" 2>&1 </dev/null &
+  job=$!
+  set +m
+  while
+    sleep 10 >/dev/null 2>&1 &
+    sleeper=$!
+    wait -n "$job" "$sleeper" || true
+    kill -0 "$job" 2>/dev/null
+  do
+    share=$("$percent" "$log")
+    if ((${share:-0} > 0 && share < 100)); then
+      say "$what: $share percent done, about $(in_words $(((SECONDS - begin) * (100 - share) / share))) left."
+    else
+      say "$what: $(in_words $((SECONDS - begin))) so far."
+    fi
+  done
+  kill "$sleeper" 2>/dev/null || true
+  wait "$job" || status=$?
+  job="" sleeper=""
+  return "$status"
+}
+
+# help_text COMMAND: the text beside the command; a line {FILE.launch} stands for the arguments of a launch file.
+help_text() {
+  local line
+  while IFS= read -r line; do
+    if [[ $line =~ ^\{(.*)\}$ ]]; then launch_arguments "${BASH_REMATCH[1]}"; else echo "$line"; fi
+  done <"$commands/$1.txt"
+  [[ $1 != help ]] || command_list
+}
+launch_arguments() {
+  # shellcheck disable=SC2016  # what roslaunch would put in is left out
+  sed -n 's/.*<arg name="\([a-z_]*\)" \(default="\([^"]*\)" \)\{0,1\}doc="\(.*\)"\/>.*/\1:=\3: \4/p' "$launch_files/$1" |
+    grep -v '^[a-z]*_\{0,1\}parameters\|^version\|^bag' | sed 's/:=\($([^:]*\)\{0,1\}: /: /' | fold -s -w 78 | sed 's/ $//'
+}
+# Each sub-command with the first sentence of its help.
+command_list() {
+  local file
+  for file in "$commands"/*.txt; do
+    [[ $file == */help.txt ]] || echo "$(basename "$file" .txt): $(sed -n 2p "$file")"
+  done
+}

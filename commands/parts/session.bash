@@ -1,0 +1,65 @@
+# What run and replay share: the network, the launch file, what is shown of it.
+
+has_display() { [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; }
+has_pad() {
+  compgen -G '/dev/input/js*' >/dev/null || compgen -G '/dev/input/by-id/*-event-joystick' >/dev/null || grep -qsi 'HID_ID=.*054C.*0CE6' /sys/class/hidraw/*/device/uevent
+}
+resolve_rviz() {
+  arg[rviz]=${arg[rviz]:-auto}
+  one_of rviz
+  if [[ ${arg[rviz]} == auto ]]; then has_display && arg[rviz]=true || arg[rviz]=false; fi
+  [[ ${arg[rviz]} == false ]] || has_display || fail "rviz:=true needs a display, and DISPLAY is not set; rviz:=false needs none." 2
+}
+resolve_view() {
+  arg[view]=${arg[view]:-default}
+  [[ -f $views/${arg[view]}.rviz ]] ||
+    fail "view:=${arg[view]} is unknown; known are: $(cd "$views" && echo *.rviz | sed 's/\.rviz//g')" 2
+}
+
+# A master of its own on the loopback interface. Nodes would also open a port on every interface, which the preloaded
+# library prevents.
+loopback_network() {
+  local port=11311 lock
+  # The lock keeps a second session that starts now from the same port until this one's master has it; `watch` finds
+  # running sessions by it.
+  while exec {lock}>"${TMPDIR:-/tmp}/navvi-port-$port.lock" &&
+    { ! flock -n "$lock" || ss -ltn "sport = :$port" | grep -q LISTEN; }; do
+    exec {lock}>&-
+    port=$((port + 1))
+  done
+  export ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:$port
+  unset ROS_HOSTNAME
+  export LD_PRELOAD=$devel/lib/libnavvi_loopback.so
+}
+second_terminal() { echo "source ${devel#"$PWD"/}/setup.bash; export ROS_MASTER_URI=$ROS_MASTER_URI ROS_IP=127.0.0.1"; }
+
+# Of all that roslaunch and the nodes say, which goes to the log, a person reads on the screen: warnings, errors, which
+# trial begins and ends, and which node ended. roslaunch frames the end of a required node as a death, also where it has
+# done its work.
+no_controls='s/\x1b\[[0-9;]*m//g; s/\x1b\][^\x07]*\x07//g; s/[\r\x07]//g'
+for_the_screen='
+  s/^\[ *FATAL\] \[[^]]*\]: /navvi: error: /p
+  s/^\[ *ERROR\] \[[^]]*\]: /navvi: error: /p
+  s/^\[ *WARN\] \[[^]]*\]: /navvi: warning: /p
+  s/^\[ *INFO\] \[[^]]*\]: \(Trial [^ ]* has begun\|Trial ended\)/navvi: \1/p
+  s/.*REQUIRED process \[\([a-z_]*\)[^]]*\] has died!.*/navvi: \1 has ended, and the session with it./p
+  s/^\[\([a-z_]*\)-[0-9]*\] process has died \[.*exit code \([-0-9]*\).*/navvi: warning: \1 has ended with exit code \2 and is started anew./p
+  s/^RLException: /navvi: error: /p'
+
+# launch FILE LOG: runs a launch file with `arg`. What ended it is in the file $fatal as well.
+launch() {
+  local name args=()
+  for name in "${!arg[@]}"; do args+=("$name:=${arg[$name]}"); done
+  export ROSCONSOLE_STDOUT_LINE_BUFFERED=1 PYTHONUNBUFFERED=1
+  fatal=$(mktemp)
+  interrupted=""
+  trap 'rm -f "$fatal"' EXIT
+  trap 'interrupted=yes' INT
+  roslaunch "$1" "${args[@]}" 2>&1 | {
+    trap '' INT
+    sed -u -n -e "$no_controls" -e "w $2" -e "/FATAL\|RLException/w $fatal" -e "$for_the_screen"
+  }
+  local status=${PIPESTATUS[0]}
+  trap stopped INT
+  return "$status"
+}
