@@ -4,6 +4,8 @@
 
 #include <navvi_config/reader.hpp>
 
+#include "navvi_sim/description/world_hash.hpp"
+
 namespace navvi_sim::setup {
 namespace {
 
@@ -36,12 +38,25 @@ TEST(SimNodeConfig, describes_itself_within_its_own_ranges) {
                navvi_config::ConfigError);
 }
 
-TEST(SimNodeConfig, reads_every_profile_that_ships) {
-  for (const char* profile : {"default", "paper"}) {
-    SimNodeConfig config;
-    const std::string path = std::string(NAVVI_SIM_DIR) + "/config/" + profile + ".yaml";
-    EXPECT_NO_THROW(navvi_config::read(config, navvi_config::load_yaml(path), path)) << path;
-  }
+SimNodeConfig profile(const std::string& name) {
+  SimNodeConfig config;
+  const std::string path = std::string(NAVVI_SIM_DIR) + "/config/" + name + ".yaml";
+  navvi_config::read(config, navvi_config::load_yaml(path), path);
+  return config;
+}
+
+/// A hash of all that stands and moves, then start and goal.
+std::string drawn(SimNodeConfig config, const std::string& world) {
+  config.world = world;
+  config.seed = 3;
+  const WorldDescription loaded = load_world(config).world;
+  return world_hash(loaded) + "\n" +
+         recipe(config, scenario_of(config, loaded, map_of(config, loaded)));
+}
+
+TEST(SimNodeConfig, draws_the_same_trial_from_a_seed_in_every_profile) {
+  for (const std::string world : {"training", "easy", "warehouse", "busy", "narrow", "maze"})
+    EXPECT_EQ(drawn(profile("paper"), world), drawn(profile("default"), world)) << world;
 }
 
 }  // namespace
