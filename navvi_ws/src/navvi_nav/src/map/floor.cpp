@@ -146,22 +146,6 @@ Floor::Floor(Cell origin, int columns, int rows, double cell_size, double height
   find_components();
 }
 
-std::size_t Floor::index(Cell cell) const {
-  return static_cast<std::size_t>(cell.y - origin_.y) * static_cast<std::size_t>(columns_) +
-         static_cast<std::size_t>(cell.x - origin_.x);
-}
-
-bool Floor::contains(Cell cell) const {
-  return cell.x >= origin_.x && cell.y >= origin_.y && cell.x < origin_.x + columns_ &&
-         cell.y < origin_.y + rows_;
-}
-
-Cell Floor::cell_at(Point point) const {
-  constexpr double kFar = 1e8;
-  return {static_cast<int>(std::floor(std::clamp(point.x / cell_size_, -kFar, kFar))),
-          static_cast<int>(std::floor(std::clamp(point.y / cell_size_, -kFar, kFar)))};
-}
-
 Point Floor::center_of(Cell cell) const {
   return {(cell.x + 0.5) * cell_size_, (cell.y + 0.5) * cell_size_};
 }
@@ -170,17 +154,11 @@ Ground Floor::ground(Cell cell) const {
   return contains(cell) ? ground_[index(cell)] : Ground::none;
 }
 
-int Floor::gap2(Cell cell) const { return contains(cell) ? gap2_[index(cell)] : 0; }
-
 bool Floor::any_open() const {
   return std::any_of(component_.begin(), component_.end(), [](std::int32_t c) { return c >= 0; });
 }
 
 int Floor::component(Cell cell) const { return contains(cell) ? component_[index(cell)] : -1; }
-
-double Floor::gap(Cell cell) const {
-  return std::min(reach_, std::sqrt(static_cast<double>(gap2(cell))) * cell_size_);
-}
 
 /// Two passes: how far along each column, then the least sum over each row within reach.
 void Floor::measure(double margin, int threads) {

@@ -45,7 +45,15 @@ class Floor {
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] double reach() const { return reach_; }  ///< m
 
-  [[nodiscard]] Cell cell_at(Point point) const;
+  [[nodiscard]] Cell cell_at(Point point) const {
+    static constexpr double kFar = 1e8;
+    const auto number = [this](double at) {
+      const double cells = std::clamp(at / cell_size_, -kFar, kFar);
+      const int whole = static_cast<int>(cells);
+      return whole - (cells < whole ? 1 : 0);
+    };
+    return {number(point.x), number(point.y)};
+  }
   [[nodiscard]] Point center_of(Cell cell) const;
   [[nodiscard]] Ground ground(Cell cell) const;
   /// True if the whole cell, and grow() steps around it along each axis, keeps the margin from
@@ -61,7 +69,9 @@ class Floor {
   /// Connected component of an open cell (neighbours share an edge), else -1.
   [[nodiscard]] int component(Cell cell) const;
   /// m, at most the distance from any point of the cell to a blocked cell; capped at reach().
-  [[nodiscard]] double gap(Cell cell) const;
+  [[nodiscard]] double gap(Cell cell) const {
+    return std::min(reach_, std::sqrt(static_cast<double>(gap2(cell))) * cell_size_);
+  }
   /// m, exact distance from the point to a blocked cell; capped at reach().
   [[nodiscard]] double clearance(Point point) const;
   /// True if every point of the segment is at least `radius` (m, <= reach()) from blocked cells,
@@ -71,9 +81,15 @@ class Floor {
   [[nodiscard]] std::vector<Cell> cells_along(Point a, Point b) const;
 
  private:
-  [[nodiscard]] std::size_t index(Cell cell) const;
-  [[nodiscard]] bool contains(Cell cell) const;
-  [[nodiscard]] int gap2(Cell cell) const;
+  [[nodiscard]] std::size_t index(Cell cell) const {
+    return static_cast<std::size_t>(cell.y - origin_.y) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(cell.x - origin_.x);
+  }
+  [[nodiscard]] bool contains(Cell cell) const {
+    return cell.x >= origin_.x && cell.y >= origin_.y && cell.x < origin_.x + columns_ &&
+           cell.y < origin_.y + rows_;
+  }
+  [[nodiscard]] int gap2(Cell cell) const { return contains(cell) ? gap2_[index(cell)] : 0; }
   void measure(double margin, int threads);
   void find_components();
 

@@ -7,6 +7,7 @@ namespace navvi_nav::smooth {
 namespace {
 
 constexpr double kTouch = 1e-9;      // m, a point so near to the lines of a polygon is in it
+constexpr double kNear = 10.0 * kTouch;
 constexpr double kOnMesh = 1e-6;     // m, and an end so near to the mesh on it
 constexpr double kSample = 0.3;      // m, between places where clearance is measured
 constexpr std::size_t kKept = 1024;  // legs, and points
@@ -32,13 +33,26 @@ double exit_of(const mesh::Mesh& mesh, int polygon, Point a, Point b) {
   for (const int corner : corners) {
     const Point to = mesh.at(corner);
     const Point edge = to - from;
-    const double slack = kTouch * norm(edge);
-    const double at_a = cross(edge, a - from);
     const double at_b = cross(edge, b - from);
-    if (at_b < -slack) out = std::min(out, at_b < at_a ? at_a / (at_a - at_b) : -1.0);
+    if (at_b < 0.0 && at_b * at_b > kTouch * kTouch * dot(edge, edge)) {
+      const double at_a = cross(edge, a - from);
+      out = std::min(out, at_b < at_a ? at_a / (at_a - at_b) : -1.0);
+    }
     from = to;
   }
   return out;
+}
+
+/// True if the point lies on the portal and not at an end of it.
+bool is_within(Point point, Point right, Point left) {
+  const Point along = left - right;
+  const double length2 = dot(along, along);
+  const double slack2 = kNear * kNear * length2;
+  const double off = cross(along, point - right);
+  const double from_right = dot(along, point - right);
+  const double from_left = length2 - from_right;
+  return off * off <= slack2 && from_right > 0.0 && from_right * from_right > slack2 &&
+         from_left > 0.0 && from_left * from_left > slack2;
 }
 
 double gap_in(const map::Space& space, Point at) {
@@ -69,29 +83,41 @@ void GuideCostConfig::describe(navvi_config::Visitor& visit) {
         "how much dearer a metre without any clearance is besides");
 }
 
-/// From polygon to polygon, and at each border round the fan of those that meet there.
-bool covers(const mesh::Mesh& mesh, int polygon, Point a, Point b) {
+/// From polygon to polygon, and at each vertex round the fan of those that meet there.
+std::optional<int> covers(const mesh::Mesh& mesh, int polygon, Point a, Point b) {
   const double step = 5.0 * kTouch / std::max(distance(a, b), kTouch);
   double reached = 0.0;
-  std::vector<int> fan{polygon};
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    const int here = fan[i];
+  std::vector<int> fan;
+  std::size_t next = 0;
+  for (int here = polygon;;) {
     const double exit = exit_of(mesh, here, a, b);
-    if (exit >= 1.0) return true;
-    if (exit > reached + step) {
-      reached = exit;
-      fan.assign(1, here);
-      i = 0;
-    }
+    if (exit >= 1.0) return here;
+    const bool on = exit > reached + step;
+    if (on) reached = exit;
     const Point at = a + reached * (b - a);
-    for (const mesh::Portal& portal : mesh.polygon(here).portals) {
+    const std::vector<mesh::Portal>& portals = mesh.polygon(here).portals;
+    if (on) {
+      fan.clear();
+      next = 0;
+      const auto across =
+          std::find_if(portals.begin(), portals.end(), [&](const mesh::Portal& portal) {
+            return is_within(at, mesh.at(portal.right), mesh.at(portal.left));
+          });
+      if (across != portals.end()) {
+        here = across->to;
+        continue;
+      }
+    }
+    if (fan.empty()) fan.push_back(here);
+    for (const mesh::Portal& portal : portals) {
       if (distance(at, nearest_on_segment(at, mesh.at(portal.right), mesh.at(portal.left))) <=
-              10.0 * kTouch &&
+              kNear &&
           std::find(fan.begin(), fan.end(), portal.to) == fan.end())
         fan.push_back(portal.to);
     }
+    if (++next == fan.size()) return std::nullopt;
+    here = fan[next];
   }
-  return false;
 }
 
 GuideCost::GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, const map::Space& space,
@@ -101,14 +127,23 @@ GuideCost::GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, cons
       space_(space),
       radius_(radius),
       preferred_(preferred),
+      cylinders_(*space.cylinders),
       legs_(kKept, {kNowhere, kNowhere, 0.0}),
-      placed_(kKept, {kNowhere, -1}) {}
+      placed_(kKept, {kNowhere, std::nullopt}) {
+  std::sort(cylinders_.begin(), cylinders_.end(),
+            [](const Cylinder& a, const Cylinder& b) { return a.center.x < b.center.x; });
+  for (const Cylinder& cylinder : cylinders_) widest_ = std::max(widest_, cylinder.radius);
+}
 
-int GuideCost::polygon_at(Point point) const {
-  Placed& known = placed_[hash_of({point.x, point.y}) % kKept];
+GuideCost::Placed& GuideCost::placed(Point point) const {
+  return placed_[hash_of({point.x, point.y}) % kKept];
+}
+
+std::optional<int> GuideCost::polygon_at(Point point) const {
+  Placed& known = placed(point);
   if (known.point == point) return known.polygon;
   const auto place = mesh_.locate(point, kOnMesh);
-  known = {point, place ? place->polygon : -1};
+  known = {point, place ? std::optional(place->polygon) : std::nullopt};
   return known.polygon;
 }
 
@@ -116,9 +151,10 @@ double GuideCost::leg(Point a, Point b) const {
   Leg& known = legs_[hash_of({a.x, a.y, b.x, b.y}) % kKept];
   if (known.a == a && known.b == b) return known.cost;
   left_ -= 1.0 + distance(a, b);
-  const int from = polygon_at(a);
-  const bool on_mesh = from >= 0 && polygon_at(b) >= 0 && covers(mesh_, from, a, b);
-  known = {a, b, on_mesh ? measure(a, b) : kNever};
+  const std::optional<int> from = polygon_at(a);
+  const std::optional<int> to = from ? covers(mesh_, *from, a, b) : std::nullopt;
+  if (to) placed(b) = {b, to};
+  known = {a, b, to ? measure(a, b) : kNever};
   return known.cost;
 }
 
@@ -127,10 +163,13 @@ double GuideCost::gap(Point at) const { return gap_in(space_, at); }
 template <typename Visit>
 void GuideCost::along(Point a, Point b, const Visit& visit) const {
   near_.clear();
-  for (const Cylinder& cylinder : *space_.cylinders) {
-    if (distance(cylinder.center, nearest_on_segment(cylinder.center, a, b)) <
-        cylinder.radius + radius_ + preferred_)
-      near_.push_back(cylinder);
+  const double far = widest_ + radius_ + preferred_;
+  const auto first = std::partition_point(
+      cylinders_.begin(), cylinders_.end(),
+      [&](const Cylinder& cylinder) { return cylinder.center.x < std::min(a.x, b.x) - far; });
+  for (auto i = first; i != cylinders_.end() && i->center.x <= std::max(a.x, b.x) + far; ++i) {
+    if (distance(i->center, nearest_on_segment(i->center, a, b)) < i->radius + radius_ + preferred_)
+      near_.push_back(*i);
   }
   const int samples = samples_of(a, b);
   const map::Space near{space_.floor, &near_};

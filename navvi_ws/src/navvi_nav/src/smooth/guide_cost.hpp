@@ -1,6 +1,7 @@
 #pragma once
 
 #include <navvi_config/field.hpp>
+#include <optional>
 #include <vector>
 
 #include "map/floor.hpp"
@@ -23,8 +24,9 @@ struct GuideCostConfig {
 /// The change of course, rad, below which a corner is a bend: it is followed, not announced.
 inline constexpr double kBend = 15.0 / 180.0 * M_PI;
 
-/// True if the whole segment lies on the mesh, to 1e-6 m. \param polygon  that `a` lies in
-[[nodiscard]] bool covers(const mesh::Mesh& mesh, int polygon, Point a, Point b);
+/// The polygon that `b` lies in, if the whole segment lies on the mesh, to 1e-6 m.
+/// \param polygon  that `a` lies in
+[[nodiscard]] std::optional<int> covers(const mesh::Mesh& mesh, int polygon, Point a, Point b);
 
 /// The cost of paths on one mesh, which must not change meanwhile. Work is bounded by metres, not
 /// by a clock: equal input gives equal output.
@@ -69,9 +71,10 @@ class GuideCost {
   };
   struct Placed {
     Point point;
-    int polygon = -1;  ///< none: off the mesh
+    std::optional<int> polygon;  ///< none: off the mesh
   };
-  [[nodiscard]] int polygon_at(Point point) const;
+  [[nodiscard]] Placed& placed(Point point) const;
+  [[nodiscard]] std::optional<int> polygon_at(Point point) const;
   /// m: of turns and haste.
   [[nodiscard]] double at_corners(const Path& path) const;
   /// Calls visit(spare) with the clearance beyond the radius of places along the leg.
@@ -88,6 +91,8 @@ class GuideCost {
   map::Space space_;
   double radius_;
   double preferred_;
+  std::vector<Cylinder> cylinders_;  // by x
+  double widest_ = 0.0;              // m, radius of a cylinder
   mutable double left_ = 0.0;  // m
   // Hash tables in which a later entry replaces an earlier one.
   mutable std::vector<Leg> legs_;
