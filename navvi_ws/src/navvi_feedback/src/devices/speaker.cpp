@@ -32,12 +32,9 @@ void SpeakerConfig::describe(navvi_config::Visitor& visit) {
   visit(pitch, "pitch", Range{0.0, 99.0}, "", "of the voice; 50 is its own");
   visit(voice, "voice", Any{}, "",
         "a voice of espeak-ng, such as en-us; empty for that of the language");
-  visit(device, "device", Any{}, "", "name of the OpenAL device; empty for the default one");
-  visit(reopen, "reopen", Range{0.5, 60.0}, "s",
-        "between attempts to open a lost device; ten times that if there never was one");
 }
 
-Speaker::Speaker(const SpeakerConfig& config, Audio audio) : config_(config), audio_(audio) {
+Speaker::Speaker(const SpeakerConfig& config, Mixer& mixer) : config_(config), mixer_(mixer) {
   std::promise<void> ready;
   std::future<void> result = ready.get_future();
   thread_ = std::thread([this, ready = std::move(ready)]() mutable { run(std::move(ready)); });
@@ -95,7 +92,6 @@ void Speaker::run(std::promise<void> ready) {
   std::optional<Voice> voice;
   try {
     voice.emplace(config_.voice, config_.rate, config_.pitch);
-    open_device(Status::Device::missing);
     ready.set_value();
   } catch (...) {
     ready.set_exception(std::current_exception());
@@ -103,14 +99,13 @@ void Speaker::run(std::promise<void> ready) {
   }
   while (const auto job = next()) {
     if (!job->text) {
-      tend_device();
+      mixer_.tend();
       continue;
     }
     const Sound sound = voice->synthesize(*job->text, [&] { return superseded(job->generation); });
     if (!superseded(job->generation)) play(sound, job->generation);
     finish(job->generation, !sound.samples.empty());
   }
-  output_.close();
 }
 
 std::optional<Speaker::Job> Speaker::next() {
@@ -126,26 +121,26 @@ bool Speaker::superseded(unsigned long generation) const {
 }
 
 void Speaker::play(const Sound& sound, unsigned long generation) {
-  tend_device();
+  mixer_.tend();
   const auto end = Clock::now() + seconds(sound.duration());
-  bool audible = !sound.samples.empty() && output_.play(sound);
+  bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
   while (true) {
     {
       std::unique_lock lock(mutex_);
       if (changed_.wait_for(lock, kPoll, [&] { return generation != generation_; })) break;
     }
-    if (audible && !output_.connected()) {
-      // The rest passes in silence, so that the times stay true.
+    if (audible && !mixer_.speaking()) {
       audible = false;
-      tend_device();
+      mixer_.tend();
     }
-    if (audible ? !output_.playing() : Clock::now() >= end) break;
+    // What a device that was lost did not play passes in silence, so that the times stay true.
+    if (!audible && Clock::now() >= end) break;
   }
-  if (audible && output_.playing()) {
-    output_.mute();
+  if (audible && mixer_.speaking()) {
+    mixer_.mute();
     std::this_thread::sleep_for(kFade);
   }
-  output_.stop();
+  mixer_.stop();
 }
 
 void Speaker::finish(unsigned long generation, bool done) {
@@ -153,38 +148,6 @@ void Speaker::finish(unsigned long generation, bool done) {
   if (generation != generation_) return;
   busy_ = false;
   ++(done ? status_.spoken : status_.failed);
-}
-
-void Speaker::tend_device() {
-  if (audio_ == Audio::off || output_.connected()) return;
-  if (output_.is_open()) {
-    output_.close();
-    report(Status::Device::lost, "the audio device disappeared");
-    next_attempt_ = Clock::now();
-  }
-  if (Clock::now() >= next_attempt_) open_device(status().device);
-}
-
-void Speaker::open_device(Status::Device otherwise) {
-  if (audio_ == Audio::off) return;
-  // Where there never was a device one is unlikely to come, and each attempt makes ALSA complain.
-  const double wait = otherwise == Status::Device::missing ? 10.0 : 1.0;
-  next_attempt_ = Clock::now() + seconds(wait * config_.reopen);
-  if (output_.open(config_.device, config_.volume)) {
-    report(Status::Device::open, "");
-  } else {
-    report(otherwise, config_.device.empty()
-                          ? "OpenAL finds no audio device"
-                          : "OpenAL cannot open the device \"" + config_.device + "\"");
-  }
-}
-
-void Speaker::report(Status::Device device, const std::string& detail) {
-  const std::string name = output_.name();
-  const std::lock_guard lock(mutex_);
-  status_.device = device;
-  status_.detail = detail;
-  status_.name = name;
 }
 
 }  // namespace navvi_feedback::devices

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <future>
 #include <mutex>
@@ -8,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "devices/audio_output.hpp"
+#include "devices/mixer.hpp"
 #include "devices/voice.hpp"
 #include "navvi_config/field.hpp"
 
@@ -19,39 +18,22 @@ struct SpeakerConfig {
   int pitch = 50;       ///< of the voice, 0 to 99
   double volume = 1.0;  ///< gain of the voice
   std::string voice;    ///< of espeak-ng; empty for the language's own
-  std::string device;   ///< name of the OpenAL device; empty for the default one
-  double reopen = 2.0;  ///< s, between attempts to open a lost device, x10 if there was none
 
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Whether there is to be sound.
-enum class Audio {
-  on,  ///< through a device, as soon and as long as there is one
-  off  ///< silent by intent: no device is opened
-};
-
-/// The voice: espeak-ng into OpenAL Soft. It owns the device, the library and one thread. Without a
-/// device it keeps quiet for as long as speaking would take, so that the times of the cues stay
-/// true, and tries again to open one. There is one Speaker in a process at a time.
+/// The voice: espeak-ng into the mixer. It owns the library and one thread, which also looks after
+/// the mixer's device. Without one it keeps quiet for as long as speaking would take, so that the
+/// times of the cues stay true. There is one Speaker in a process at a time.
 class Speaker {
  public:
   struct Status {
-    enum class Device {
-      open,
-      missing,  ///< none could be opened at the start
-      lost,     ///< it disappeared
-      off       ///< Audio::off
-    };
-    Device device = Device::off;
-    std::string name;    ///< of the device, as OpenAL calls it; empty if none is open
-    std::string detail;  ///< a sentence on what is wrong; empty if nothing is
     unsigned spoken = 0;
     unsigned failed = 0;  ///< texts that the synthesizer refused
   };
 
-  /// \throws DeviceError with a sentence if the voice cannot be loaded
-  Speaker(const SpeakerConfig& config, Audio audio);
+  /// \param mixer  outlives this \throws DeviceError with a sentence if the voice cannot be loaded
+  Speaker(const SpeakerConfig& config, Mixer& mixer);
   ~Speaker();
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
@@ -78,15 +60,9 @@ class Speaker {
   /// Returns when the sound has ended, or was superseded and is silent.
   void play(const Sound& sound, unsigned long generation);
   void finish(unsigned long generation, bool done);
-  /// Notices the loss of the device, and tries to open one again.
-  void tend_device();
-  void open_device(Status::Device otherwise);
-  void report(Status::Device device, const std::string& detail);
 
   const SpeakerConfig config_;
-  const Audio audio_;
-  AudioOutput output_;                                  ///< the thread's own
-  std::chrono::steady_clock::time_point next_attempt_;  ///< the thread's own
+  Mixer& mixer_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

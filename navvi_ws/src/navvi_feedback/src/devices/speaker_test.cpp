@@ -3,21 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <navvi_config/reader.hpp>
-#include <thread>
 #include <vector>
 
 #include "devices/device_error.hpp"
+#include "devices/heard.hpp"
 #include "devices/speech_channel.hpp"
 
 namespace navvi_feedback::devices {
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point then) {
@@ -35,49 +30,10 @@ bool wait_for(const Done& done) {
   return true;
 }
 
-void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
-
-/// Where OpenAL Soft writes what would be heard; set up before its first use in this process.
-fs::path recording() {
-  static const fs::path folder = [] {
-    std::string name = (fs::temp_directory_path() / "navvi_speaker_XXXXXX").string();
-    return fs::path(mkdtemp(name.data()));
-  }();
-  return folder / "heard.wav";
-}
-
-void record_what_is_heard() {
-  const fs::path config = recording().parent_path() / "alsoft.conf";
-  std::ofstream(config)
-      << "[general]\ndrivers=wave\nchannels=mono\nsample-type=int16\n[wave]\nfile="
-      << recording().string() << "\n";
-  setenv("ALSOFT_CONF", config.c_str(), 1);
-}
-
-/// The loudness of the recording, window by window, as the largest sample's share of full scale.
-/// \param window  samples, at 44.1 kHz
-std::vector<double> heard(std::size_t window) {
-  std::ifstream file(recording(), std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)),
-                                std::istreambuf_iterator<char>());
-  constexpr std::size_t kHeader = 68;  // at most; a few samples more or less do not matter
-  std::vector<double> loudness;
-  for (std::size_t at = kHeader; at + 2 * window <= bytes.size(); at += 2 * window) {
-    double peak = 0.0;
-    for (std::size_t i = 0; i < window; ++i) {
-      const auto low = static_cast<unsigned char>(bytes[at + 2 * i]);
-      const auto high = static_cast<signed char>(bytes[at + 2 * i + 1]);
-      peak = std::max(peak, std::abs(high * 256 + low) / 32768.0);
-    }
-    loudness.push_back(peak);
-  }
-  return loudness;
-}
-
 /// s of the recording that are not silent.
 double loud_time() {
   double time = 0.0;
-  for (const double peak : heard(441)) time += peak > 0.01 ? 0.01 : 0.0;
+  for (const double peak : loudness(heard().left, 441)) time += peak > 0.01 ? 0.01 : 0.0;
   return time;
 }
 
@@ -92,17 +48,19 @@ TEST(SpeakerConfig, allows_no_rate_that_the_voice_does_not_keep) {
 TEST(Speaker, rejects_a_voice_that_does_not_exist) {
   SpeakerConfig config;
   config.voice = "no-such-voice";
-  EXPECT_THROW(Speaker(config, Audio::off), DeviceError);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  EXPECT_THROW(Speaker(config, mixer), DeviceError);
 }
 
 TEST(Speaker, is_one_at_a_time) {
-  const Speaker speaker(SpeakerConfig{}, Audio::off);
-  EXPECT_THROW(Speaker(SpeakerConfig{}, Audio::off), DeviceError);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  const Speaker speaker(SpeakerConfig{}, mixer);
+  EXPECT_THROW(Speaker(SpeakerConfig{}, mixer), DeviceError);
 }
 
 TEST(Speaker, keeps_quiet_for_as_long_as_speaking_takes_when_it_has_no_device) {
-  Speaker speaker(SpeakerConfig{}, Audio::off);
-  EXPECT_EQ(speaker.status().device, Speaker::Status::Device::off);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
   const auto start = Clock::now();
   speaker.start("straight ahead, 8 meters");
   EXPECT_TRUE(speaker.busy());
@@ -116,7 +74,8 @@ TEST(Speaker, speaks_faster_at_a_higher_rate) {
   for (const int rate : {160, 440}) {
     SpeakerConfig config;
     config.rate = rate;
-    Speaker speaker(config, Audio::off);
+    Mixer mixer(MixerConfig{}, Audio::off);
+    Speaker speaker(config, mixer);
     const auto start = Clock::now();
     speaker.start("straight ahead, 8 meters");
     ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
@@ -128,7 +87,8 @@ TEST(Speaker, speaks_faster_at_a_higher_rate) {
 TEST(Speaker, speaks_another_language_with_its_letters) {
   SpeakerConfig config;
   config.voice = "es";
-  Speaker speaker(config, Audio::off);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(config, mixer);
   speaker.start("estanter\u00eda muy cerca, detr\u00e1s");
   ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
   EXPECT_EQ(speaker.status().spoken, 1U);
@@ -156,7 +116,8 @@ TEST(Speaker, speaks_higher_at_a_higher_pitch) {
 }
 
 TEST(Speaker, does_not_speak_what_could_harm_it) {
-  Speaker speaker(SpeakerConfig{}, Audio::off);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
   std::string hostile;
   for (int i = 0; i < 68; ++i) hostile += "s'";
   for (const std::string& text : {hostile, std::string("<speak>"), std::string(), std::string(" ")})
@@ -166,7 +127,8 @@ TEST(Speaker, does_not_speak_what_could_harm_it) {
 }
 
 TEST(Speaker, survives_many_starts_and_stops) {
-  Speaker speaker(SpeakerConfig{}, Audio::off);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
   for (int i = 0; i < 500; ++i) {
     speaker.start("3 o'clock, 8 meters");
     if (i % 3 == 0) speaker.stop();
@@ -179,9 +141,10 @@ TEST(Speaker, survives_many_starts_and_stops) {
 TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   double whole = 0.0;
   {
-    Speaker speaker(SpeakerConfig{}, Audio::on);
-    ASSERT_EQ(speaker.status().device, Speaker::Status::Device::open) << speaker.status().detail;
-    EXPECT_FALSE(speaker.status().name.empty());
+    Mixer mixer(MixerConfig{}, Audio::on);
+    Speaker speaker(SpeakerConfig{}, mixer);
+    ASSERT_EQ(mixer.status().device, Mixer::Status::Device::open) << mixer.status().detail;
+    EXPECT_FALSE(mixer.status().name.empty());
     const auto start = Clock::now();
     speaker.start("You have reached your destination");
     ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
@@ -190,12 +153,13 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   }
   const double loud = loud_time();
   EXPECT_GT(loud, 0.6 * whole);
-  const std::vector<double> all = heard(22);
+  const std::vector<double> all = loudness(heard().left, 22);
   ASSERT_FALSE(all.empty());
   EXPECT_LT(all.front(), 0.01) << "begins with a click";
 
   {
-    Speaker speaker(SpeakerConfig{}, Audio::on);
+    Mixer mixer(MixerConfig{}, Audio::on);
+    Speaker speaker(SpeakerConfig{}, mixer);
     speaker.start("You have reached your destination");
     pause(0.5);
     speaker.stop();
@@ -207,7 +171,8 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
 }
 
 TEST(SpeechChannel, lets_a_safety_cue_be_heard_and_gives_every_cue_its_end) {
-  SpeechChannel channel(SpeakerConfig{}, Audio::off);
+  Mixer mixer(MixerConfig{}, Audio::off);
+  SpeechChannel channel(SpeakerConfig{}, mixer);
   std::vector<CueEvent> events;
   const auto start = Clock::now();
   const auto tick = [&](const std::vector<cues::Cue>& cues) {
@@ -234,6 +199,6 @@ int main(int argc, char** argv) {
   navvi_feedback::devices::record_what_is_heard();
   testing::InitGoogleTest(&argc, argv);
   const int result = RUN_ALL_TESTS();
-  std::filesystem::remove_all(navvi_feedback::devices::recording().parent_path());
+  std::filesystem::remove_all(navvi_feedback::devices::recording_folder());
   return result;
 }

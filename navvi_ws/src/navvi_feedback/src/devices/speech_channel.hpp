@@ -11,7 +11,7 @@ namespace navvi_feedback::devices {
 class SpeechChannel {
  public:
   /// \throws DeviceError as Speaker does
-  SpeechChannel(const SpeakerConfig& config, Audio audio) : speaker_(config, audio) {}
+  SpeechChannel(const SpeakerConfig& config, Mixer& mixer) : speaker_(config, mixer) {}
 
   /// Call it at 50 Hz. Returns what happened to which cue, in order; each event is to be published.
   /// \param time  s, of a clock that does not run backwards

@@ -21,19 +21,22 @@ constexpr double kStanding = 0.5;
 struct PlayerConfig {
   bool speech = true;
   devices::SpeakerConfig speaker;
+  devices::MixerConfig mixer;
 
   void describe(navvi_config::Visitor& visit) {
     visit(speech, "speech", navvi_config::Any{}, "", "false: nothing is heard");
     visit.group("speaker", speaker);
+    visit.group("mixer", mixer);
   }
 };
 
 class CuePlayer {
  public:
   explicit CuePlayer(const PlayerConfig& config)
-      : speaker_(config.speaker, config.speech ? devices::Audio::on : devices::Audio::off) {
-    const devices::Speaker::Status status = speaker_.status();
-    if (status.device == devices::Speaker::Status::Device::missing)
+      : mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
+        speaker_(config.speaker, mixer_) {
+    const devices::Mixer::Status status = mixer_.status();
+    if (status.device == devices::Mixer::Status::Device::missing)
       ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());
     feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
     cues_ = navvi_config::subscribe<navvi_msgs::Cue>(
@@ -67,6 +70,7 @@ class CuePlayer {
     if (output_.update(rumble_, wall).feedback) feedback_.publish(feedback_msg(rumble_));
   }
 
+  devices::Mixer mixer_;
   devices::Speaker speaker_;
   devices::Gamepad pad_;
   haptics::RumbleOutput output_;

@@ -58,11 +58,11 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
   return result;
 }
 
-DiagnosticStatus audio_status(const devices::Speaker::Status& speaker) {
-  using Device = devices::Speaker::Status::Device;
+DiagnosticStatus audio_status(const devices::Mixer::Status& mixer) {
+  using Device = devices::Mixer::Status::Device;
   DiagnosticStatus result;
   std::string state = "missing";
-  switch (speaker.device) {
+  switch (mixer.device) {
     case Device::open:
       state = "works";
       result = status("navvi/audio", DiagnosticStatus::OK, "Open.");
@@ -78,8 +78,8 @@ DiagnosticStatus audio_status(const devices::Speaker::Status& speaker) {
       result = status("navvi/audio", DiagnosticStatus::WARN, "Sound is switched off.");
       break;
   }
-  if (!speaker.detail.empty()) result.message += " " + speaker.detail;
-  add(result, "device", speaker.name);
+  if (!mixer.detail.empty()) result.message += " " + mixer.detail;
+  add(result, "device", mixer.name);
   add(result, "state", state);
   return result;
 }

@@ -18,8 +18,7 @@ namespace navvi_feedback::node {
 /// \param live   the stick is alive
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus pad_status(
     const std::optional<devices::Gamepad::Status>& pad, const std::string& input, bool live);
-[[nodiscard]] diagnostic_msgs::DiagnosticStatus audio_status(
-    const devices::Speaker::Status& speaker);
+[[nodiscard]] diagnostic_msgs::DiagnosticStatus audio_status(const devices::Mixer::Status& mixer);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus speech_status(
     const devices::Speaker::Status& speaker);
 

@@ -24,11 +24,11 @@ TEST(Diagnostics, tell_a_pad_that_can_be_felt_from_one_that_cannot) {
 }
 
 TEST(Diagnostics, tell_sound_that_is_off_from_sound_that_is_missing) {
-  using Device = devices::Speaker::Status::Device;
-  devices::Speaker::Status speaker;
+  using Device = devices::Mixer::Status::Device;
+  devices::Mixer::Status mixer;
   const auto state = [&](Device device) {
-    speaker.device = device;
-    return state_of(audio_status(speaker));
+    mixer.device = device;
+    return state_of(audio_status(mixer));
   };
   EXPECT_EQ(state(Device::open), "works");
   EXPECT_EQ(state(Device::off), "off");

@@ -37,6 +37,7 @@ struct NodeConfig {
   std::string phrases;
   core::FeedbackConfig feedback;
   devices::SpeakerConfig speaker;
+  devices::MixerConfig mixer;
   picture::MarkersConfig markers;
 
   void describe(navvi_config::Visitor& visit) {
@@ -50,6 +51,7 @@ struct NodeConfig {
           "path of a phrase file for any other language; empty for the one that ships");
     feedback.describe(visit);
     visit.group("speaker", speaker);
+    visit.group("mixer", mixer);
     visit.group("markers", markers);
   }
 };
@@ -74,7 +76,8 @@ class FeedbackNode {
   explicit FeedbackNode(const NodeConfig& config)
       : config_(config),
         feedback_(config.feedback, phrases_file(config)),
-        speech_(speaker_of(config), config.speech ? devices::Audio::on : devices::Audio::off),
+        mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
+        speech_(speaker_of(config), mixer_),
         source_(config.input) {
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();
@@ -153,7 +156,7 @@ class FeedbackNode {
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
     if (output.alarm_begins)
-      ROS_WARN("There is no audio device: nothing is heard. %s", speech_.status().detail.c_str());
+      ROS_WARN("There is no audio device: nothing is heard. %s", mixer_.status().detail.c_str());
     move_motors(output.rumble, output.pattern, time);
     say(output.cues, time);
     show(time);
@@ -183,13 +186,13 @@ class FeedbackNode {
   }
 
   [[nodiscard]] cues::Link audio_link() const {
-    switch (speech_.status().device) {
-      case devices::Speaker::Status::Device::missing:
+    switch (mixer_.status().device) {
+      case devices::Mixer::Status::Device::missing:
         return cues::Link::never;
-      case devices::Speaker::Status::Device::lost:
+      case devices::Mixer::Status::Device::lost:
         return cues::Link::lost;
-      case devices::Speaker::Status::Device::open:
-      case devices::Speaker::Status::Device::off:
+      case devices::Mixer::Status::Device::open:
+      case devices::Mixer::Status::Device::off:
         break;
     }
     return cues::Link::alive;
@@ -244,13 +247,14 @@ class FeedbackNode {
     std::optional<devices::Gamepad::Status> pad;
     if (source_.pad()) pad = source_.pad()->status();
     array.status = {pad_status(pad, devices::to_string(source_.kind()), last_hands_.live),
-                    audio_status(speech_.status()), speech_status(speech_.status())};
+                    audio_status(mixer_.status()), speech_status(speech_.status())};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }
 
   NodeConfig config_;
   core::Feedback feedback_;
+  devices::Mixer mixer_;
   devices::SpeechChannel speech_;
   devices::InputSource source_;
   haptics::RumbleOutput rumble_output_;
