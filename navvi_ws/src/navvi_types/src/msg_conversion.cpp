@@ -267,6 +267,16 @@ std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
   return state;
 }
 
+std::optional<TrialState> from_msg(const navvi_msgs::TrialState& msg) {
+  const auto state = from_number<TrialState::State>(msg.state);
+  return state ? std::optional(TrialState{*state, to_ns(msg.header.stamp)}) : std::nullopt;
+}
+
+std::optional<TrialRequest> from_msg(const navvi_msgs::TrialRequest& msg) {
+  const auto kind = from_number<TrialRequest::Kind>(msg.request);
+  return kind ? std::optional(TrialRequest{*kind, to_ns(msg.header.stamp)}) : std::nullopt;
+}
+
 geometry_msgs::Twist to_msg(const Velocity& velocity) {
   geometry_msgs::Twist msg;
   msg.linear.x = velocity.linear;
@@ -383,6 +393,20 @@ navvi_msgs::Scenario to_msg(const Scenario& scenario) {
   msg.start = pose_msg(scenario.start, scenario.floor);
   msg.goal = point_msg(scenario.goal, scenario.floor);
   msg.parameters = scenario.parameters;
+  return msg;
+}
+
+navvi_msgs::TrialState to_msg(const TrialState& state) {
+  navvi_msgs::TrialState msg;
+  msg.header.stamp = from_ns(state.stamp);
+  msg.state = static_cast<std::uint8_t>(state.state);
+  return msg;
+}
+
+navvi_msgs::TrialRequest to_msg(const TrialRequest& request) {
+  navvi_msgs::TrialRequest msg;
+  msg.header.stamp = from_ns(request.stamp);
+  msg.request = static_cast<std::uint8_t>(request.kind);
   return msg;
 }
 

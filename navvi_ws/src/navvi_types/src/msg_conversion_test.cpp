@@ -235,6 +235,12 @@ TEST(MsgConversion, EveryMessageSurvivesTheRoundTrip) {
   expect_same_after_round_trip(scenario());
   expect_same_after_round_trip(state_hash());
   expect_same_after_round_trip(drive_state());
+  navvi_msgs::TrialState state;
+  state.state = navvi_msgs::TrialState::READY;
+  expect_same_after_round_trip(state);
+  navvi_msgs::TrialRequest request;
+  request.request = navvi_msgs::TrialRequest::END;
+  expect_same_after_round_trip(request);
 }
 
 TEST(MsgConversion, WhatIsNotKnownSurvivesTheRoundTrip) {
@@ -456,6 +462,9 @@ TEST(MsgConversion, AConstantThatIsNoneDropsItsMessage) {
   expect_dropped(cue(), &C::priority, Priority{});
   expect_dropped(drive_state(), &D::state, DriveState::State{});
   expect_dropped(drive_state(), &D::reason, DriveState::Reason{});
+  expect_dropped(navvi_msgs::TrialState(), &navvi_msgs::TrialState::state, TrialState::State{});
+  expect_dropped(navvi_msgs::TrialRequest(), &navvi_msgs::TrialRequest::request,
+                 TrialRequest::Kind{});
 }
 
 /// The words of the constants that stand before `field` in the definition of a message.

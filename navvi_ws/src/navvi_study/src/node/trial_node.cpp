@@ -44,6 +44,8 @@ constexpr const char* kRecorded[] = {"/clock",
                                      "joy",
                                      "joy/set_feedback",
                                      "move_base_simple/goal",
+                                     "navvi/trial_state",
+                                     "navvi/trial_request",
                                      "/diagnostics",
                                      "navvi/events"};
 
@@ -81,6 +83,7 @@ class TrialNode {
           if (ends_with(link.getSubscriberName(), recorder_name_)) keeper_.recorder_listens(now());
         });
     goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
+    state_ = node_.advertise<navvi_msgs::TrialState>("navvi/trial_state", 1, true);
     subscribe(config.operator_kind == "simulated");
     timer_ = node_.createWallTimer(ros::WallDuration(kStep), [this](auto&) {
       keeper_.step(now());
@@ -105,6 +108,9 @@ class TrialNode {
       goals_.publish(navvi_types::goal_msg(goal, navvi_types::to_ns(ros::Time::now())));
     };
     out.tell = tell;
+    out.show = [this](TrialState::State state) {
+      state_.publish(navvi_types::to_msg(TrialState{state, navvi_types::to_ns(ros::Time::now())}));
+    };
     out.start_recorder = [this](const std::filesystem::path& bag) {
       std::vector<std::string> topics;
       for (const char* topic : kRecorded) topics.push_back(node_.resolveName(topic));
@@ -121,6 +127,7 @@ class TrialNode {
     take<navvi_msgs::DriveState>("navvi/drive_state");
     take<navvi_msgs::Guidance>("navvi/guidance");
     take<navvi_msgs::Scenario>("navvi/scenario");
+    take<navvi_msgs::TrialRequest>("navvi/trial_request");
     take<navvi_msgs::StateHash>("navvi/state_hash");
     for (const bool for_good : {false, true}) {
       listen<tf2_msgs::TFMessage>(for_good ? "/tf_static" : "/tf", [this, for_good](auto& msg) {
@@ -162,6 +169,7 @@ class TrialNode {
   std::string recorder_name_;
   ros::Publisher events_;
   ros::Publisher goals_;
+  ros::Publisher state_;
   trial::TrialKeeper keeper_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;

@@ -61,7 +61,9 @@ Instruction understand(const std::string& spoken) {
   if (text.rfind("go on, ", 0) == 0) text.erase(0, 7);
   Instruction heard;
   heard.side = side_in(text);
-  if (says(text, "you have reached")) {
+  if (says(text, "^press start")) {
+    heard.kind = Kind::begin;
+  } else if (says(text, "you have reached")) {
     heard.kind = Kind::arrived;
   } else if (says(text, "\\b(hit|stuck|touching|back away)\\b")) {
     heard.kind = Kind::bump;

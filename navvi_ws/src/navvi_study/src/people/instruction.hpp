@@ -15,6 +15,7 @@ struct Instruction {
     near,        ///< something is close at `side`
     bump,        ///< touched or stuck at `side`
     halt,        ///< hands off
+    begin,       ///< press start
     arrived
   };
   enum class Side { none, left, right, ahead, behind };

@@ -190,6 +190,9 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
     case Instruction::Kind::halt:
       mode_ = Mode::waiting;
       break;
+    case Instruction::Kind::begin:
+      pressed_ = time;
+      break;
     case Instruction::Kind::arrived:
       mode_ = Mode::arrived;
       break;
@@ -304,6 +307,7 @@ StickAndButtons SimulatedOperator::update(double time, double dt) {
   StickAndButtons hand = act(time, dt);
   ask_when_lost(time);
   hand.repeat = time - asked_ < kPress;
+  hand.start = time - pressed_ < kPress;
   heading_ += shaped(hand.left) * config_.turn_rate * dt;
   odometer_ += shaped(hand.forward) * config_.full_speed * speed_gain_ * dt;
   return hand;

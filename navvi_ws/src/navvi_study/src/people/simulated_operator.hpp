@@ -39,6 +39,7 @@ struct StickAndButtons {
   double left = 0.0;     ///< stick [-1, 1], left is positive
   double forward = 0.0;  ///< stick [-1, 1], forward is positive
   bool repeat = false;   ///< asks for the last direction again
+  bool start = false;    ///< begins the trial
 };
 
 /// Drives by ear and touch alone, as a blind person would (R-TRL-5): it knows the words that it
@@ -107,6 +108,7 @@ class SimulatedOperator {
   bool other_side_ = false;
   double last_news_ = 0.0;
   double asked_ = -1e9;
+  double pressed_ = -1e9;  ///< s, start
   double left_motor_ = 0.0;
   double right_motor_ = 0.0;
 };

@@ -116,6 +116,23 @@ TEST(SimulatedOperator, never_moves_before_it_has_heard_something_but_asks) {
   EXPECT_TRUE(loop.asked);
 }
 
+TEST(SimulatedOperator, presses_start_when_it_is_told_to) {
+  SimulatedOperator person(SimulatedOperatorConfig{}, 1);
+  CueEvent cue;
+  cue.text = "press start to begin";
+  int presses = 0;
+  bool down = false;
+  for (int tick = 0; tick < 300; ++tick) {
+    const double time = 0.02 * tick;
+    cue.stage = tick == 100 ? navvi_types::CueStage::started : navvi_types::CueStage::ended;
+    if (tick == 100 || tick == 150) person.hear(cue, time);
+    const bool start = person.update(time, 0.02).start;
+    presses += start && !down ? 1 : 0;
+    down = start;
+  }
+  EXPECT_EQ(presses, 1);
+}
+
 TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Loop loop(seed, kAroundACorner);

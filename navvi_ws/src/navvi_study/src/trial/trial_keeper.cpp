@@ -80,10 +80,21 @@ void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
   if (!active()) scenario_played_ = false;
 }
 
+void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
+  now_ = now;
+  if (request.kind == TrialRequest::Kind::begin) {
+    if (state() == TrialState::State::ready) pressed_ = request.stamp;
+  } else if (phase_ == Phase::running) {
+    end({"aborted", "ended_by_person", monitor_.latest()});
+  }
+}
+
 void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
   now_ = now;
-  if (phase_ == Phase::armed && (!scenario_ || scenario_played_)) {
-    start(goal);
+  if (phase_ == Phase::armed && (!scenario_ || scenario_played_ || config_.press_to_start)) {
+    scenario_played_ = true;
+    next_goal_ = goal;
+    if (!config_.press_to_start) start(goal);
   } else if (phase_ == Phase::running) {
     goal_ = goal;
     goal_tries_.sent_elsewhere(now.wall());
@@ -105,19 +116,40 @@ void TrialKeeper::step(const Moment& now) {
   now_ = now;
   switch (phase_) {
     case Phase::waiting:
-      return wait();
+      wait();
+      break;
     case Phase::armed:
-      return try_to_start();
+      try_to_start();
+      break;
     case Phase::running:
-      return watch();
+      watch();
+      break;
     case Phase::draining:
       if (now.wall() - phase_since_ >= kDrain) write_end();
-      return;
+      break;
     case Phase::closing:
-      return close();
+      close();
+      break;
     case Phase::done:
-      return;
+      break;
   }
+  show_state();
+}
+
+TrialState::State TrialKeeper::state() {
+  using State = TrialState::State;
+  if (phase_ == Phase::running) return State::running;
+  if (!config_.press_to_start) return active() ? State::running : State::free;
+  if (phase_ != Phase::armed || !bag_.ready(now_.wall()) || !missing().empty())
+    return State::preparing;
+  return next_goal_ ? State::ready : State::choose_goal;
+}
+
+void TrialKeeper::show_state() {
+  const TrialState::State now = state();
+  if (shown_ == now) return;
+  shown_ = now;
+  outlets_.show(now);
 }
 
 void TrialKeeper::wait() {
@@ -152,19 +184,29 @@ void TrialKeeper::arm() {
 void TrialKeeper::try_to_start() {
   if (!bag_.ready(now_.wall())) return;
   if (scenario_ && !scenario_played_) {
-    const auto words = missing();
-    if (words.empty()) {
-      scenario_played_ = true;
-      return start(scenario_->goal);
-    }
+    scenario_played_ = true;
+    next_goal_ = scenario_->goal;
+  }
+  if (!next_goal_) {
+    if (may_say(6 * kSayAgain)) tell(Tone::info, "Ready for a trial: waiting for a goal.");
+    return;
+  }
+  if (const auto words = missing(); !words.empty()) {
     if (may_say(kSayAgain))
       tell(Tone::warning, "No trial yet: waiting for " + list_of(words) + ".");
-  } else if (may_say(6 * kSayAgain)) {
-    tell(Tone::info, "Ready for a trial: waiting for a goal.");
+    return;
   }
+  if (!config_.press_to_start || pressed_) return start(*next_goal_);
+  const double waited = now_.wall() - phase_since_;
+  if (simulated() && config_.patience > 0.0 && waited > config_.patience) {
+    tell(Tone::fatal, "No trial: the simulated operator has not begun it.");
+    return abandon(3);
+  }
+  if (may_say(6 * kSayAgain)) tell(Tone::info, "Ready: press start, or enter, to begin the trial.");
 }
 
 void TrialKeeper::start(const Eigen::Vector2d& goal) {
+  next_goal_.reset();
   goal_ = goal;
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);
@@ -179,12 +221,13 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
   record::Fields where;
   where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
   if (!record({"GOAL_SET", where, beginning.stamp})) return;
+  show_state();
   tell(Tone::info,
        "Trial " + folder_.filename().string() + " has begun: goal at " + place_of(goal) + ".");
   ask_for_goal();
 }
 
-record::Fields TrialKeeper::conditions(const TrialStart& beginning) const {
+record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   record::Fields fields;
   fields.set("world", scenario_ ? scenario_->world : "n/a");
   fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
@@ -193,6 +236,9 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) const {
   fields.set("profile", config_.profile).set("version", config_.version);
   fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
   for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
+  // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
+  if (const auto pressed = std::exchange(pressed_, std::nullopt))
+    fields.set("pressed", 1e-9 * static_cast<double>(*pressed), 3);
   fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);
   fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
@@ -245,6 +291,7 @@ void TrialKeeper::end(const Ending& ending) {
   ending_ = ending;
   ending_.stamp = *monitor_.ended();
   enter(Phase::draining);
+  show_state();
 }
 
 void TrialKeeper::write_end() {
@@ -316,17 +363,20 @@ void TrialKeeper::leave(int exit_code) {
   enter(Phase::done);
 }
 
+/// No trial has begun: nothing is lost.
+void TrialKeeper::abandon(int exit_code) {
+  bag_ = BagWatch();
+  journal_.reset();
+  std::error_code error;
+  fs::remove_all(folder_, error);
+  leave(exit_code);
+}
+
 void TrialKeeper::stop(const Moment& now) {
   now_ = now;
   if (!stopped_) stopped_ = now.wall();
   if (phase_ == Phase::waiting) return leave(exit_code_);
-  if (phase_ == Phase::armed) {
-    bag_ = BagWatch();
-    journal_.reset();
-    std::error_code error;
-    fs::remove_all(folder_, error);  // no trial has begun: nothing is lost
-    return leave(0);
-  }
+  if (phase_ == Phase::armed) return abandon(0);
   if (phase_ == Phase::running) end({"aborted", "stopped_by_signal", monitor_.latest()});
 }
 

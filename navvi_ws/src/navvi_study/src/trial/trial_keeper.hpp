@@ -37,7 +37,8 @@ class TrialKeeper {
   struct Outlets {
     std::function<void(const record::Row&)> publish;  ///< is on the disk already
     std::function<void(const Eigen::Vector2d&)> set_goal;
-    std::function<void(Tone, const std::string&)> tell;  ///< for the screen
+    std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
+    std::function<void(TrialState::State)> show = [](TrialState::State) {};  ///< on each change
     /// Begins a bag at that path; nullptr where none is wanted.
     std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
   };
@@ -58,6 +59,8 @@ class TrialKeeper {
   void take(const Guidance& guidance, const Moment& now);
   void take(const DeviceReport& device, const Moment& now);
   void take(const Scenario& scenario, const Moment& now);
+  /// A request that does not fit the state of the trial has no effect.
+  void take(const TrialRequest& request, const Moment& now);
   /// Another node has set a goal.
   void take_goal(const Eigen::Vector2d& goal, const Moment& now);
   /// A simulated operator has moved its hands.
@@ -84,8 +87,10 @@ class TrialKeeper {
   void wait();
   void arm();
   void try_to_start();
+  void show_state();
+  [[nodiscard]] TrialState::State state();
   void start(const Eigen::Vector2d& goal);
-  [[nodiscard]] record::Fields conditions(const TrialStart& beginning) const;
+  [[nodiscard]] record::Fields conditions(const TrialStart& beginning);
   void watch();
   void watch_bag();
   void ask_for_goal();
@@ -94,6 +99,7 @@ class TrialKeeper {
   void close();
   void finish();
   void leave(int exit_code);
+  void abandon(int exit_code);
 
   /// Journals, then publishes. False when the journal is broken.
   bool record(const Event& event);
@@ -120,6 +126,9 @@ class TrialKeeper {
   double said_ = 0.0;
   std::optional<Scenario> scenario_;
   bool scenario_played_ = false;
+  std::optional<Eigen::Vector2d> next_goal_;  ///< of the trial that is to begin
+  std::optional<std::int64_t> pressed_;       ///< ns, ROS time, when the person began it
+  std::optional<TrialState::State> shown_;
 
   std::filesystem::path folder_;
   std::unique_ptr<record::Journal> journal_;

@@ -35,6 +35,7 @@ class Trials : public testing::Test {
       events_.push_back(row.type);
     };
     outlets.set_goal = [this](const Eigen::Vector2d& goal) { goals_.push_back(goal); };
+    outlets.show = [this](TrialState::State state) { shown_.push_back(state); };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
     outlets.start_recorder = [this](const fs::path& bag) {
       const fs::path program = fs::path(config_.out) / "record";
@@ -106,6 +107,7 @@ class Trials : public testing::Test {
   std::vector<std::string> events_;
   std::vector<Eigen::Vector2d> goals_;
   std::string said_;
+  std::vector<TrialState::State> shown_;
   int failures_ = 0;  ///< writes of the journal that are still to fail
   int error_ = 0;     ///< with this errno
 };
@@ -143,6 +145,64 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_EQ(events_.back(), "BAG_CLOSED");
   EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
   EXPECT_NE(said_.find("result: reached"), std::string::npos) << said_;
+}
+
+TEST_F(Trials, begin_when_the_person_says_so_and_count_from_then) {
+  using Wants = TrialState::State;
+  config_.press_to_start = true;
+  begin();
+  keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  keeper_->take(kScenario, now());
+  live(100.0);
+  EXPECT_EQ(shown_, (std::vector{Wants::preparing, Wants::ready})) << "pressed too early";
+  EXPECT_TRUE(events_.empty());
+  EXPECT_TRUE(goals_.empty());
+
+  keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  live(1.0);
+  EXPECT_EQ(shown_.back(), Wants::running);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  EXPECT_NE(content("journal.csv").find("pressed=101.0"), std::string::npos);
+  live(5.0, State::following, kScenario.goal);
+  live(0.1, State::arrived, kScenario.goal);
+  EXPECT_EQ(shown_.back(), Wants::preparing) << "the stick rests at once";
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_NE(content("summary.csv").find(",6.0"), std::string::npos) << content("summary.csv");
+}
+
+TEST_F(Trials, are_separated_by_a_pause_in_which_a_goal_can_be_chosen_again_and_again) {
+  using Wants = TrialState::State;
+  config_.press_to_start = true;
+  config_.once = false;
+  begin();
+  live(1.0);
+  EXPECT_EQ(shown_.back(), Wants::choose_goal);
+  keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  keeper_->take_goal({3.0, 0.0}, now());
+  keeper_->take_goal({4.0, 0.0}, now());
+  live(1.0, State::following, {4.0, 0.0});
+  EXPECT_EQ(shown_.back(), Wants::ready);
+  EXPECT_TRUE(events_.empty());
+  keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  live(1.0, State::following, {4.0, 0.0});
+  EXPECT_NE(content("journal.csv").find("goal_x=4.0"), std::string::npos);
+  keeper_->take(TrialRequest{TrialRequest::Kind::end, now().ros_ns}, now());
+  live(9.0);
+  EXPECT_TRUE(happened("TRIAL_END"));
+  EXPECT_NE(said_.find("reason: ended_by_person"), std::string::npos) << said_;
+  EXPECT_EQ(shown_.back(), Wants::choose_goal);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_START"), 1);
+}
+
+TEST_F(Trials, do_not_wait_for_ever_for_a_simulated_operator_to_begin) {
+  config_.press_to_start = true;
+  config_.operator_kind = "simulated";
+  begin();
+  keeper_->take(kScenario, now());
+  live(62.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 3);
+  EXPECT_TRUE(folders().empty());
 }
 
 TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {

@@ -7,6 +7,7 @@
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/scenario.hpp>
+#include <navvi_types/trial.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,6 +26,8 @@ using navvi_types::Odometry;
 using navvi_types::Proximity;
 using navvi_types::Scenario;
 using navvi_types::StateHash;
+using navvi_types::TrialRequest;
+using navvi_types::TrialState;
 }  // namespace navvi_study
 
 namespace navvi_study::trial {

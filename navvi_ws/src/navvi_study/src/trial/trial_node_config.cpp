@@ -44,6 +44,8 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(version, "version", Any{}, "", "of NavVI, as it stands in the summary");
   visit(require, "require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities");
   visit(once, "once", Any{}, "", "end after one trial");
+  visit(press_to_start, "press_to_start", Any{}, "",
+        "a trial begins when the person presses the button for it, and the stick drives from then");
   visit(record, "record", Any{}, "", "keep a bag of each trial");
   visit(tail, "tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words");
   visit.group("monitor", monitor);

@@ -19,6 +19,7 @@ struct TrialNodeConfig {
   std::string version = "n/a";
   std::vector<std::string> require;
   bool once = true;
+  bool press_to_start = false;
   bool record = true;
   double tail = 4.0;
   TrialMonitorConfig monitor;

@@ -13,6 +13,8 @@
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/Scenario.h>
 #include <navvi_msgs/StateHash.h>
+#include <navvi_msgs/TrialRequest.h>
+#include <navvi_msgs/TrialState.h>
 
 #include <optional>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "navvi_types/drive_state.hpp"
 #include "navvi_types/guidance.hpp"
 #include "navvi_types/scenario.hpp"
+#include "navvi_types/trial.hpp"
 
 namespace navvi_types {
 
@@ -45,6 +48,8 @@ namespace navvi_types {
 [[nodiscard]] std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg);
 /// nullopt if its hash is not 16 hexadecimal digits in lower case.
 [[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
+[[nodiscard]] std::optional<TrialState> from_msg(const navvi_msgs::TrialState& msg);
+[[nodiscard]] std::optional<TrialRequest> from_msg(const navvi_msgs::TrialRequest& msg);
 
 // Outgoing messages, in the frame that the message's definition names.
 
@@ -59,6 +64,8 @@ namespace navvi_types {
 [[nodiscard]] navvi_msgs::DriveState to_msg(const DriveState& state);
 [[nodiscard]] navvi_msgs::Scenario to_msg(const Scenario& scenario);
 [[nodiscard]] navvi_msgs::StateHash to_msg(const StateHash& state);
+[[nodiscard]] navvi_msgs::TrialState to_msg(const TrialState& state);
+[[nodiscard]] navvi_msgs::TrialRequest to_msg(const TrialRequest& request);
 
 /// A path whose poses look along it; the last one as the one before it. \param floor  m, z
 [[nodiscard]] nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
