@@ -28,10 +28,11 @@ haptics::Zone zone_of(const Contact& contact) {
 std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
   using haptics::Pattern;
   static const std::map<std::string, Pattern> patterns = {
-      {"robot_stopped", Pattern::stopped},    {"stuck", Pattern::stuck},
-      {"stuck_unknown", Pattern::stuck},      {"back_away", Pattern::stuck},
-      {"arrived", Pattern::arrived},          {"rerouted", Pattern::rerouted},
-      {"rerouted_blocked", Pattern::rerouted}};
+      {"robot_stopped", Pattern::stopped}, {"stuck", Pattern::stuck},
+      {"stuck_unknown", Pattern::stuck},   {"press_start", Pattern::ready},
+      {"press_enter", Pattern::ready},     {"trial_begins", Pattern::begun},
+      {"back_away", Pattern::stuck},       {"arrived", Pattern::arrived},
+      {"rerouted", Pattern::rerouted},     {"rerouted_blocked", Pattern::rerouted}};
   const auto found = patterns.find(kind);
   return found == patterns.end() ? std::nullopt : std::optional(found->second);
 }
@@ -44,12 +45,14 @@ void FeedbackConfig::describe(navvi_config::Visitor& visit) {
   visit(stale, "stale", navvi_config::Range{0.2, 10.0}, "s",
         "guidance, proximity or odometry older than this (wall clock) is lost");
   visit.group("drive", drive);
+  visit.group("buttons", buttons);
   visit.group("haptics", haptics);
   visit.group("cues", cues);
 }
 
 struct Feedback::Deciders {
   drive::Drive drive;
+  drive::Buttons buttons;
   haptics::Haptics haptics;
   haptics::PatternPlayer patterns;
   cues::CuePolicy cues;
@@ -59,6 +62,7 @@ Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& ph
     : config_(config),
       deciders_(new Deciders{
           drive::Drive(config.drive),
+          drive::Buttons(config.buttons),
           haptics::Haptics(config.haptics),
           {},
           cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording))}) {}
@@ -82,7 +86,10 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   Output out;
   out.command = drive(input.hands, dt);
   out.alarm_begins = alarm_begins(input);
-  out.cues = decide_cues(input, time);
+  const std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
+  const bool start = std::count(pressed.begin(), pressed.end(), drive::Button::start) > 0;
+  if (start && trial_.state == TrialState::State::ready) out.request = TrialRequest::Kind::begin;
+  out.cues = decide_cues(input, pressed, time);
   begin_patterns(out);
   out.rumble = feel(time, dt);
   out.pattern = deciders_->patterns.playing();
@@ -94,6 +101,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
 std::optional<Velocity> Feedback::drive(const drive::InputState& hands, double dt) {
   // A device that was opened anew between two ticks was lost between them.
   const bool live = hands.live && (!last_hands_.live || hands.session == last_hands_.session);
+  if (trial_.holds()) deciders_->drive.disarm();
   const std::optional<Velocity> velocity =
       deciders_->drive.update(live ? std::optional<drive::Stick>(hands.stick()) : std::nullopt, dt);
   commanded_ = velocity.value_or(Velocity{});
@@ -140,7 +148,9 @@ haptics::Rumble Feedback::feel(double time, double dt) {
   return {share * near.left, share * near.right};
 }
 
-std::vector<cues::Cue> Feedback::decide_cues(const Input& input, double time) {
+std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
+                                             const std::vector<drive::Button>& pressed,
+                                             double time) {
   cues::Situation now;
   now.guidance = guidance_.value;
   now.goal_angle = input.goal_angle;
@@ -153,10 +163,9 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input, double time) {
   now.commanded = commanded_;
   now.stick_held_unarmed = held_unarmed_;
   now.gate = gate_;
-  for (const auto question : {cues::Question::way, cues::Question::goal, cues::Question::around}) {
-    const auto button = static_cast<std::size_t>(question);
-    if (input.hands.button(button) && !last_hands_.button(button)) now.question = question;
-  }
+  now.trial = trial_.state;
+  for (const drive::Button button : pressed)
+    if (button <= drive::Button::around) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;
   now.notices = input.notices;
   return deciders_->cues.update(now, time);

@@ -75,6 +75,36 @@ TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
 }
 
+TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
+  const auto hold_start = [&](bool down) { input_.hands.buttons = std::vector<bool>(7, down); };
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(TrialState{TrialState::State::ready}, time_);
+  pass(0.6);
+  EXPECT_TRUE(said("press_start"));
+  kinds_.clear();
+  hold(0.0, 1.0);
+  for (int second = 0; second < 4; ++second) {
+    feedback_.take(Odometry{}, time_);
+    EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
+  }
+  EXPECT_TRUE(said("press_start")) << "the reason, to a stick that is pushed";
+  EXPECT_FALSE(said("release_stick"));
+
+  hold(0.0, 0.0);
+  hold_start(true);
+  EXPECT_EQ(pass(0.02).request, TrialRequest::Kind::begin);
+  EXPECT_FALSE(pass(0.02).request) << "held";
+  hold_start(false);
+  feedback_.take(TrialState{TrialState::State::running}, time_);
+  EXPECT_EQ(pass(0.02).pattern, haptics::Pattern::begun);
+  EXPECT_TRUE(said("trial_begins"));
+  pass(0.5);
+  hold_start(true);
+  EXPECT_FALSE(pass(0.02).request) << "it has begun";
+  hold(0.0, 1.0);
+  EXPECT_GT(pass(1.0).command.value().linear, 0.5);
+}
+
 TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);

@@ -17,6 +17,8 @@ constexpr double kFirstPath = 5.0;
 constexpr double kLastWords = 5.0;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
+/// s, from one word to the next on what a stick that is pushed waits for.
+constexpr double kHeldBack = 3.0;
 /// s; the same thing again within it is the same collision.
 constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
@@ -37,6 +39,13 @@ std::string problem_of(const Guidance& guidance) {
     default:  // the kind has the name of the state
       return to_string(guidance.state);
   }
+}
+
+/// What is awaited before a trial begins, as a kind of cue; empty if nothing is.
+std::string awaited(const Situation& now) {
+  if (now.trial == TrialState::State::choose_goal) return "choose_goal";
+  if (now.trial != TrialState::State::ready) return "";
+  return now.keyboard ? "press_enter" : "press_start";
 }
 
 bool refused(const std::string& problem) { return problem.rfind("goal_refused", 0) == 0; }
@@ -60,7 +69,7 @@ CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
 std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const Links links = judge(now, time);
   follows_ = now.guidance && now.guidance->is_followed() && links.guidance == Link::alive &&
-             links.simulator != Link::lost;
+             links.simulator != Link::lost && awaited(now).empty();
   Utterances utterances;
   const auto add = [&](Utterances more) {
     utterances.insert(utterances.end(), more.begin(), more.end());
@@ -69,6 +78,8 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   add(collisions(now, time));
   add(release(now, links, time));
   add(stuck(now, time));
+  if (awaited_ && now.trial == TrialState::State::running) add({{"trial_begins"}});
+  awaited_ = !awaited(now).empty();
   add(guidance_state(now, links, time));
   add(near(now, time));
   const Utterances answer = answers(now, time);
@@ -140,7 +151,7 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
 }
 
 CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
-  if (links.pad != Link::alive || links.simulator != Link::alive) {
+  if (links.pad != Link::alive || links.simulator != Link::alive || !awaited(now).empty()) {
     held_.forget();
     return {};
   }
@@ -196,6 +207,8 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   else if (now.guidance)
     problem = problem_of(*now.guidance);
   if (follows_) arrival_said_ = false;
+  const bool idle = problem.empty() || problem == "welcome" || problem == "arrived";
+  if (const std::string wanted = awaited(now); idle && !wanted.empty()) problem = wanted;
 
   const bool other_goal =
       refused(problem) && now.guidance && (now.guidance->goal - problem_goal_).norm() > 0.0;
@@ -219,8 +232,8 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
                       : starting ? kStarting
                                  : config_.state_hold;
   if (time - problem_since_ < hold) return {};
-  if (problem_said_ && (said_once(problem_) || time - *problem_said_ < config_.problem_repeat))
-    return {};
+  const double pause = awaited_ && now.stick_held_unarmed ? kHeldBack : config_.problem_repeat;
+  if (problem_said_ && (said_once(problem_) || time - *problem_said_ < pause)) return {};
   problem_said_ = time;
   if (problem_ == "arrived" && std::exchange(arrival_said_, true)) return {};
   return {tell_problem(now)};

@@ -53,6 +53,7 @@ class CuePolicy {
   double time_ = 0.0;                   ///< s, of the last update
   Links links_;                         ///< as of the last update
   std::optional<DriveState::State> gate_;
+  bool awaited_ = false;                 ///< a trial waits for the person
   bool follows_ = false;                 ///< there is a fresh path now
   std::optional<double> blocked_since_;  ///< s, commanded without moving
   std::optional<double> stuck_said_;     ///< s

@@ -2,6 +2,7 @@
 
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +14,13 @@ using navvi_types::Contact;
 using navvi_types::DriveState;
 using navvi_types::Guidance;
 using navvi_types::NearThing;
+using navvi_types::TrialState;
 using navvi_types::Velocity;
 }  // namespace navvi_feedback
 
 namespace navvi_feedback::cues {
 
-/// What a person asks by a button, in the order of the buttons.
+/// What a person asks by a button, in the order of drive::Button.
 enum class Question {
   way,     ///< the last direction again
   goal,    ///< where it is
@@ -32,8 +34,9 @@ struct Situation {
   std::vector<NearThing> nearby;     ///< the latest; empty if stale
   std::vector<Contact> contacts;     ///< begun since the last update
   Velocity commanded;                ///< what was last sent to the robot
-  bool stick_held_unarmed = false;   ///< held since before it was neutral, so nothing is sent
-  std::optional<Velocity> measured;  ///< nullopt while the odometry is missing or stale
+  TrialState::State trial = TrialState::State::free;
+  bool stick_held_unarmed = false;        ///< held since before it was neutral, so nothing is sent
+  std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
   Links links;
   bool keyboard = false;             ///< the stick is the arrow keys

@@ -36,7 +36,9 @@ drive::InputState read_keys() {
   };
   input.axes = {axis(SDL_SCANCODE_LEFT, SDL_SCANCODE_RIGHT),
                 axis(SDL_SCANCODE_UP, SDL_SCANCODE_DOWN)};
-  input.buttons = {down(SDL_SCANCODE_SPACE), down(SDL_SCANCODE_G), down(SDL_SCANCODE_A)};
+  input.buttons = {
+      down(SDL_SCANCODE_SPACE), down(SDL_SCANCODE_G), down(SDL_SCANCODE_A), false, false, false,
+      down(SDL_SCANCODE_RETURN)};
   return input;
 }
 

@@ -20,8 +20,8 @@ class Keyboard final : private ThreadedDevice {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// axes: as Gamepad's first two. session: another with each return of the focus. buttons: 0:
-  /// space, 1: G.
+  /// axes: as Gamepad's first two. session: another with each return of the focus. buttons: in
+  /// Gamepad's places space, G, A, and at start's place enter.
   [[nodiscard]] drive::InputState input() const;
 
  private:

@@ -45,11 +45,15 @@ Stick Drive::shaped(const Stick& stick) const {
   return {axis(x), axis(y)};
 }
 
+void Drive::disarm() {
+  velocity_ = {};
+  neutral_for_ = 0.0;
+  armed_ = false;
+}
+
 std::optional<Velocity> Drive::update(const std::optional<Stick>& stick, double dt) {
   if (!stick || !std::isfinite(stick->x) || !std::isfinite(stick->y)) {
-    velocity_ = {};
-    neutral_for_ = 0.0;
-    armed_ = false;
+    disarm();
     return std::nullopt;
   }
   const Stick wanted = shaped(*stick);

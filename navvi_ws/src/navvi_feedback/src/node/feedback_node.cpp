@@ -102,6 +102,7 @@ class FeedbackNode {
     cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
     motors_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
     cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+    requests_ = node_.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
     markers_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
     diagnostics_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
     // Another driver's joy is taken, never answered with one of our own.
@@ -117,6 +118,7 @@ class FeedbackNode {
     keep<navvi_msgs::Proximity>("navvi/proximity");
     keep<navvi_msgs::Guidance>("navvi/guidance");
     keep<navvi_msgs::DriveState>("navvi/drive_state");
+    keep<navvi_msgs::TrialState>("navvi/trial_state");
     keep<nav_msgs::Odometry>("odom");
     listen<nav_msgs::Path>("navvi/path", 1,
                            [this](const std::vector<Eigen::Vector2d>& path) { path_ = path; });
@@ -155,6 +157,9 @@ class FeedbackNode {
     const core::Feedback::Output output = feedback_.update(input, time);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
+    if (output.request)
+      requests_.publish(
+          to_msg(TrialRequest{*output.request, navvi_types::to_ns(ros::Time::now())}));
     if (output.alarm_begins)
       ROS_WARN("There is no audio device: nothing is heard. %s", mixer_.status().detail.c_str());
     move_motors(output.rumble, output.pattern, time);
@@ -262,7 +267,7 @@ class FeedbackNode {
   ros::NodeHandle node_;
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_{tf_};
-  ros::Publisher cmd_vel_, joy_out_, motors_, cues_, markers_, diagnostics_;
+  ros::Publisher cmd_vel_, joy_out_, motors_, requests_, cues_, markers_, diagnostics_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 

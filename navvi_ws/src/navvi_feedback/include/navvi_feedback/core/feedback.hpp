@@ -4,6 +4,7 @@
 #include <memory>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "navvi_feedback/cues/cue.hpp"
 #include "navvi_feedback/cues/cue_config.hpp"
 #include "navvi_feedback/cues/link.hpp"
+#include "navvi_feedback/drive/buttons.hpp"
 #include "navvi_feedback/drive/drive.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
@@ -22,6 +24,8 @@ using navvi_types::DriveState;
 using navvi_types::Guidance;
 using navvi_types::Odometry;
 using navvi_types::Proximity;
+using navvi_types::TrialRequest;
+using navvi_types::TrialState;
 }  // namespace navvi_feedback
 
 namespace navvi_feedback::core {
@@ -29,6 +33,7 @@ namespace navvi_feedback::core {
 struct FeedbackConfig {
   double stale = 1.0;  ///< s
   drive::DriveConfig drive;
+  drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;
   cues::CuePolicyConfig cues;
 
@@ -55,6 +60,7 @@ class Feedback {
     std::optional<haptics::Pattern> pattern;  ///< that `rumble` is part of
     bool alarm_begins = false;                ///< the motors begin to report that there is no sound
     std::vector<cues::Cue> cues;              ///< decided now, most urgent first
+    std::optional<TrialRequest::Kind> request;
   };
 
   /// \param phrases  file of the spoken phrases
@@ -65,6 +71,7 @@ class Feedback {
   void take(const Proximity& proximity, double time) { nearby_ = {proximity.things, time}; }
   void take(const Guidance& guidance, double time) { guidance_ = {guidance, time}; }
   void take(const DriveState& state, double /*time*/) { gate_ = state.state; }
+  void take(const TrialState& state, double /*time*/) { trial_ = state; }
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
   void take(const Contact& contact) { contacts_.push_back(contact); }
 
@@ -98,7 +105,9 @@ class Feedback {
   [[nodiscard]] bool alarm_begins(const Input& input);
   void begin_patterns(const Output& out);
   [[nodiscard]] haptics::Rumble feel(double time, double dt);
-  [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input, double time);
+  [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input,
+                                                   const std::vector<drive::Button>& pressed,
+                                                   double time);
   [[nodiscard]] cues::Link pad_link(const drive::InputState& hands) const;
 
   FeedbackConfig config_;
@@ -107,6 +116,7 @@ class Feedback {
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;
   std::optional<DriveState::State> gate_;
+  TrialState trial_;
   Latest<Velocity> motion_;
   std::vector<Contact> contacts_;  ///< since the last update
 

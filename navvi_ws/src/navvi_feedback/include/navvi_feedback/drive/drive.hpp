@@ -43,6 +43,8 @@ class Drive {
   /// \return nullopt while there is no live input: nothing should be asked of the wheels then
   [[nodiscard]] std::optional<Velocity> update(const std::optional<Stick>& stick, double dt);
 
+  /// The stick must be neutral once more before it moves anything; until then zero is asked for.
+  void disarm();
   [[nodiscard]] bool armed() const { return armed_; }
 
   /// The stick after dead zone and curve, each axis by itself in [-1, 1]. Axes are clamped to

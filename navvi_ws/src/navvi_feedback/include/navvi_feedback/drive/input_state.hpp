@@ -9,11 +9,10 @@ namespace navvi_feedback::drive {
 
 /// The input of the person's hands, from any device, as in sensor_msgs/Joy.
 struct InputState {
-  bool live = false;         ///< the device is there and was read within the last 250 ms
-  unsigned session = 0;      ///< another number whenever the device was opened anew
-  std::vector<double> axes;  ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
-  std::vector<bool>
-      buttons;  ///< 0: repeat the last direction; 1: where is the goal; 2: what is around
+  bool live = false;          ///< the device is there and was read within the last 250 ms
+  unsigned session = 0;       ///< another number whenever the device was opened anew
+  std::vector<double> axes;   ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
+  std::vector<bool> buttons;  ///< what each does: ButtonsConfig
 
   /// Neutral where there is no such axis.
   [[nodiscard]] Stick stick() const { return axes.size() < 2 ? Stick{} : Stick{axes[0], axes[1]}; }

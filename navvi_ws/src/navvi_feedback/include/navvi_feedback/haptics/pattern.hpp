@@ -10,6 +10,8 @@ namespace navvi_feedback::haptics {
 
 /// What is felt besides what is near; the most urgent last.
 enum class Pattern {
+  ready,         ///< two light taps: a trial waits for the person
+  begun,         ///< one light tap: it runs
   rerouted,      ///< a light tap on the left, then on the right
   arrived,       ///< three pulses that rise
   no_sound,      ///< three soft pulses: what the voice cannot say
@@ -19,8 +21,9 @@ enum class Pattern {
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 7> names(Pattern) {
-  return {"rerouted", "arrived", "no_sound", "stuck", "stopped", "hit_obstacle", "hit_shelf"};
+[[nodiscard]] constexpr std::array<const char*, 9> names(Pattern) {
+  return {"ready", "begun",   "rerouted",     "arrived",  "no_sound",
+          "stuck", "stopped", "hit_obstacle", "hit_shelf"};
 }
 
 /// Plays one pattern at a time, instead of what is felt continuously, so that it stands out.

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <navvi_types/names.hpp>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+#include "navvi_feedback/drive/input_state.hpp"
+
+namespace navvi_feedback::drive {
+
+/// What a person asks for by a button.
+enum class Button {
+  repeat,  ///< the last direction again
+  goal,    ///< where it is
+  around,  ///< what is near, and on which side
+  start,   ///< begin the trial
+};
+[[nodiscard]] constexpr std::array<const char*, 4> names(Button) {
+  return {"repeat", "goal", "around", "start"};
+}
+
+/// Which button of the device does what: indices as in Gamepad::input(); -1: none does.
+struct ButtonsConfig {
+  std::array<int, 4> index = {0, 1, 2, 6};
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Tells buttons that went down from those that are held.
+class Buttons {
+ public:
+  explicit Buttons(const ButtonsConfig& config) : config_(config) {}
+
+  /// \return what went down since the last call
+  [[nodiscard]] std::vector<Button> update(const InputState& input);
+
+ private:
+  ButtonsConfig config_;
+  std::vector<bool> last_;
+};
+
+}  // namespace navvi_feedback::drive

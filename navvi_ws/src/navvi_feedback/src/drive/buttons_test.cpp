@@ -1,0 +1,44 @@
+#include "navvi_feedback/drive/buttons.hpp"
+
+#include <gtest/gtest.h>
+
+#include <navvi_config/reader.hpp>
+
+namespace navvi_feedback::drive {
+namespace {
+
+InputState down(std::size_t button) {
+  InputState input;
+  input.live = true;
+  input.buttons.resize(button + 1);
+  input.buttons[button] = true;
+  return input;
+}
+
+TEST(Buttons, act_once_however_long_they_are_held) {
+  Buttons buttons{ButtonsConfig{}};
+  EXPECT_TRUE(buttons.update({}).empty());
+  EXPECT_EQ(buttons.update(down(6)), std::vector{Button::start});
+  EXPECT_TRUE(buttons.update(down(6)).empty());
+  EXPECT_EQ(buttons.update(down(1)), std::vector{Button::goal});
+  EXPECT_TRUE(buttons.update({}).empty());
+  EXPECT_EQ(buttons.update(down(6)), std::vector{Button::start});
+}
+
+TEST(Buttons, are_those_that_the_person_wants) {
+  ButtonsConfig config;
+  navvi_config::read(config, YAML::Load("{start: 1, goal: -1}"), "test");
+  Buttons buttons(config);
+  EXPECT_EQ(buttons.update(down(1)), std::vector{Button::start});
+  EXPECT_TRUE(buttons.update(down(6)).empty());
+  EXPECT_THROW(navvi_config::read(config, YAML::Load("{start: 256}"), "test"),
+               navvi_config::ConfigError);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::drive
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
