@@ -23,8 +23,7 @@ DeviceThread::DeviceThread(ThreadedDevice& device, std::chrono::milliseconds per
     std::optional<drive::InputState> input = device.read();
     store(input.value_or(drive::InputState{}));
     started.set_value();
-    while (input && !quit_) {
-      std::this_thread::sleep_for(period);
+    while (input && rest(period)) {
       input = device.read();
       store(input.value_or(drive::InputState{}));
     }
@@ -39,8 +38,27 @@ DeviceThread::DeviceThread(ThreadedDevice& device, std::chrono::milliseconds per
 }
 
 DeviceThread::~DeviceThread() {
-  quit_ = true;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
   thread_.join();
+}
+
+void DeviceThread::wake() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    woken_ = true;
+  }
+  changed_.notify_all();
+}
+
+bool DeviceThread::rest(std::chrono::milliseconds period) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, period, [this] { return woken_ || quit_; });
+  woken_ = false;
+  return !quit_;
 }
 
 drive::InputState DeviceThread::input() const {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -37,11 +37,18 @@ class DeviceThread {
   /// values, and they must not drive the robot.
   [[nodiscard]] drive::InputState input() const;
 
+  /// Reads the device now, whatever is left of the period.
+  void wake();
+
  private:
   void store(const drive::InputState& input);
+  /// \return false at the end
+  [[nodiscard]] bool rest(std::chrono::milliseconds period);
 
-  std::atomic<bool> quit_{false};
   mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool quit_ = false;
+  bool woken_ = false;
   drive::InputState input_;
   std::chrono::steady_clock::time_point read_time_{};
   std::thread thread_;

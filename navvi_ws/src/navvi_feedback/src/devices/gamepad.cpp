@@ -127,9 +127,12 @@ Gamepad::Status Gamepad::status() const {
 }
 
 void Gamepad::rumble(const haptics::Rumble& rumble) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
-  wish_time_ = Clock::now();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
+    wish_time_ = Clock::now();
+  }
+  thread_.wake();
 }
 
 void Gamepad::open() {

@@ -68,6 +68,8 @@ devices::SpeakerConfig speaker_of(const NodeConfig& config) {
   return speaker;
 }
 
+constexpr double kTick = 0.02;  // s
+
 /// Wall time, so that the person hears of a simulation that has stopped.
 double now() { return ros::SteadyTime::now().toSec(); }
 
@@ -83,8 +85,10 @@ class FeedbackNode {
     advertise();
     subscribe();
     hear_of_trials();
-    tick_timer_ = node_.createWallTimer(ros::WallDuration(0.02),
-                                        [this](const ros::WallTimerEvent&) { tick(); });
+    tick_timer_ =
+        node_.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) {
+          if (now() - last_tick_ >= 0.9 * kTick) tick();
+        });
     diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
                                                [this](const ros::WallTimerEvent&) { diagnose(); });
   }
@@ -115,15 +119,25 @@ class FeedbackNode {
       listen<sensor_msgs::Joy>(
           "joy", 1, [this](const drive::InputState& joy) { source_.receive(joy, now()); });
     }
-    keep<navvi_msgs::Proximity>("navvi/proximity");
-    keep<navvi_msgs::Guidance>("navvi/guidance");
+    // What is felt, hit or to be obeyed does not wait for the next beat.
+    listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const Proximity& proximity) {
+      feedback_.take(proximity, now());
+      tick();
+    });
+    listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const Contact& contact) {
+      feedback_.take(contact);
+      tick();
+    });
+    listen<navvi_msgs::Guidance>("navvi/guidance", 1, [this](const Guidance& guidance) {
+      const bool news = !feedback_.guidance() || feedback_.guidance()->state != guidance.state;
+      feedback_.take(guidance, now());
+      if (news) tick();
+    });
     keep<navvi_msgs::DriveState>("navvi/drive_state");
     keep<navvi_msgs::TrialState>("navvi/trial_state");
     keep<nav_msgs::Odometry>("odom");
     listen<nav_msgs::Path>("navvi/path", 1,
                            [this](const std::vector<Eigen::Vector2d>& path) { path_ = path; });
-    listen<navvi_msgs::Contact>("navvi/contacts", 100,
-                                [this](const Contact& contact) { feedback_.take(contact); });
   }
 
   void hear_of_trials() {
@@ -143,8 +157,10 @@ class FeedbackNode {
     listen<Msg>(topic, 1, [this](const auto& value) { feedback_.take(value, now()); });
   }
 
+  /// At 50 Hz or more.
   void tick() {
     const double time = now();
+    last_tick_ = time;
     core::Feedback::Input input;
     input.hands = source_.read(time);
     input.keyboard = source_.kind() == devices::InputSource::Kind::keyboard;
@@ -275,6 +291,7 @@ class FeedbackNode {
   std::vector<std::string> news_;      ///< kinds of cues, not said yet
 
   std::optional<double> markers_time_;  // s, of now()
+  double last_tick_ = 0.0;              // s, of now()
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
   visualization_msgs::MarkerArray shown_;
