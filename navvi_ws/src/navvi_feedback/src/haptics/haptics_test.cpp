@@ -204,17 +204,24 @@ TEST(Haptics, every_output_is_in_zero_to_one) {
   }
 }
 
-TEST(RumbleOutput, sends_changes_at_most_twenty_times_a_second_but_a_stop_at_once) {
+TEST(RumbleOutput, records_slow_changes_twenty_times_a_second_and_jumps_and_stops_at_once) {
   RumbleOutput output;
-  int changes = 0;
+  int records = 0;
   for (int i = 0; i < 100; ++i) {
-    if (output.update({0.1 + 0.008 * i, 0.0}, i * 0.01).changed) ++changes;
+    if (output.update({0.1 + 0.008 * i, 0.0}, i * 0.01).changed) ++records;
   }
-  EXPECT_GE(changes, 15);
-  EXPECT_LE(changes, 20);
-  EXPECT_TRUE(output.update({0.9, 0.0}, 2.0).changed);
-  EXPECT_TRUE(output.update({0.0, 0.0}, 2.001).changed);
-  EXPECT_FALSE(output.update({0.0, 0.0}, 2.002).changed);
+  EXPECT_GE(records, 15);
+  EXPECT_LE(records, 21);
+  EXPECT_TRUE(output.update({0.5, 0.0}, 1.001).changed);
+  EXPECT_TRUE(output.update({0.0, 0.0}, 1.002).changed);
+  EXPECT_FALSE(output.update({0.0, 0.0}, 1.003).changed);
+}
+
+TEST(RumbleOutput, sends_each_change_at_once) {
+  RumbleOutput output;
+  for (int i = 0; i < 100; ++i)
+    EXPECT_TRUE(output.update({0.1 + 0.008 * i, 0.0}, i * 0.001).feedback) << i;
+  EXPECT_FALSE(output.update({0.1 + 0.008 * 99, 0.0}, 0.1).feedback);
 }
 
 TEST(RumbleOutput, repeats_the_values_for_drivers_without_memory) {

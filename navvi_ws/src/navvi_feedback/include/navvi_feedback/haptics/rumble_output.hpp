@@ -6,13 +6,13 @@
 
 namespace navvi_feedback::haptics {
 
-/// Decides which motor commands are worth a message: a change of 1/255 or more at most every 50 ms,
-/// a stop at once, and the present values again every 100 ms, since a feedback message lasts until
-/// the next one.
+/// Decides which motor commands are worth a message: each that differs by 1/255 or more, and the
+/// present values again every 100 ms, since a feedback message lasts until the next one. The record
+/// takes slow changes every 50 ms, and a jump or a stop at once.
 class RumbleOutput {
  public:
   struct Due {
-    bool changed = false;   ///< other values than the last time
+    bool changed = false;   ///< worth a row of the record
     bool feedback = false;  ///< send the values to other drivers
   };
 
@@ -20,9 +20,9 @@ class RumbleOutput {
   [[nodiscard]] Due update(const Rumble& rumble, double time);
 
  private:
-  Rumble sent_;
+  Rumble sent_, recorded_;
   std::optional<double> sent_at_;
-  std::optional<double> changed_at_;
+  std::optional<double> recorded_at_;
 };
 
 }  // namespace navvi_feedback::haptics
