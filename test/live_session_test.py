@@ -1,5 +1,6 @@
 """One whole session as a person starts it, watched from outside, and what it leaves behind."""
 import csv
+import datetime
 import difflib
 import os
 import pathlib
@@ -213,7 +214,12 @@ def test_the_record_repeats_the_simulation_bit_for_bit(trial, tmp_path):
 def test_the_robot_did_not_go_through_anything(trial):
     with open(trial / "events.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert rows and list(rows[0])[:2] == ["onset", "duration"]
+    assert rows and list(rows[0])[:2] == ["onset_s", "duration_s"]
+    assert {row["participant"] for row in rows} == {"sub-01"} and {row["trial"] for row in rows} == {trial.name}
+    stamps = [datetime.datetime.fromisoformat(row["wall_clock_utc"].replace("Z", "+00:00")) for row in rows]
+    assert stamps == sorted(stamps)
+    assert any(row["trial_type"] == "cue" and "destination" in row["spoken"] for row in rows)
+    assert all(row["robot_x_m"] != "n/a" for row in rows if row["trial_type"] not in ("trial end", "bag closed"))
 
 
 def test_no_spoken_cue_was_cut_by_a_lesser_one(session):

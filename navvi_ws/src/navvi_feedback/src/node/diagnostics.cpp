@@ -84,12 +84,13 @@ DiagnosticStatus audio_status(const devices::Mixer::Status& mixer) {
   return result;
 }
 
-DiagnosticStatus speech_status(const devices::Speaker::Status& speaker) {
+DiagnosticStatus speech_status(const devices::Speaker::Status& speaker, const std::string& voice) {
   const bool failed = speaker.failed > 0;
   DiagnosticStatus result =
       status("navvi/speech", failed ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
              failed ? "Some texts could not be spoken." : "Ready.");
   add(result, "state", "works");
+  add(result, "voice", voice);
   add(result, "spoken", std::to_string(speaker.spoken));
   add(result, "failed", std::to_string(speaker.failed));
   return result;

@@ -20,6 +20,6 @@ namespace navvi_feedback::node {
     const std::optional<devices::Gamepad::Status>& pad, const std::string& input, bool live);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus audio_status(const devices::Mixer::Status& mixer);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus speech_status(
-    const devices::Speaker::Status& speaker);
+    const devices::Speaker::Status& speaker, const std::string& voice);
 
 }  // namespace navvi_feedback::node

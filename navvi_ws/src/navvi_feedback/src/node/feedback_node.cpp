@@ -81,6 +81,7 @@ class FeedbackNode {
         mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
         speech_(speaker_of(config), mixer_),
         source_(config.input) {
+    config_.speaker = speaker_of(config);  // for the record
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();
     subscribe();
@@ -268,7 +269,8 @@ class FeedbackNode {
     std::optional<devices::Gamepad::Status> pad;
     if (source_.pad()) pad = source_.pad()->status();
     array.status = {pad_status(pad, devices::to_string(source_.kind()), last_hands_.live),
-                    audio_status(mixer_.status()), speech_status(speech_.status())};
+                    audio_status(mixer_.status()),
+                    speech_status(speech_.status(), config_.speaker.voice)};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }

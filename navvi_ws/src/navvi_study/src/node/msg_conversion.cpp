@@ -25,7 +25,8 @@ std::vector<trial::DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray
       const std::string name = std::string("navvi/") + device;
       const auto at = status.name.rfind(name);
       if (at == std::string::npos || at + name.size() != status.name.size()) continue;
-      reports.push_back({to_ns(msg.header.stamp), device, state_of(status)});
+      reports.push_back({to_ns(msg.header.stamp), device, state_of(status), {}});
+      for (const auto& pair : status.values) reports.back().traits[pair.key] = pair.value;
     }
   }
   return reports;

@@ -6,7 +6,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <ctime>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 
@@ -51,13 +50,35 @@ constexpr const char* kRecorded[] = {"/clock",
 
 trial::Moment now() {
   return {static_cast<std::int64_t>(ros::SteadyTime::now().toNSec()),
-          static_cast<std::int64_t>(ros::Time::now().toNSec()), std::time(nullptr)};
+          static_cast<std::int64_t>(ros::Time::now().toNSec()),
+          static_cast<std::int64_t>(ros::WallTime::now().toNSec())};
 }
 
 void tell(trial::TrialKeeper::Tone tone, const std::string& sentence) {
   using namespace ros::console::levels;
   constexpr Level kLevels[] = {Info, Warn, Error, Fatal};
   ROS_LOG(kLevels[static_cast<std::size_t>(tone)], ROSCONSOLE_DEFAULT_NAME, "%s", sentence.c_str());
+}
+
+/// What the parameter server holds for NavVI's nodes, such as "nav/mesh/climb=0": profile, launch
+/// file and person gave it. The folder of the record may bear a person's name and is left out.
+std::string settings_of_nodes() {
+  std::vector<std::string> names;
+  ros::param::getParamNames(names);
+  std::sort(names.begin(), names.end());
+  std::string words;
+  for (const std::string& name : names) {
+    const auto end = name.find("_node/");
+    XmlRpc::XmlRpcValue value;
+    if (end == name.npos || name == ros::this_node::getName() + "/out" ||
+        !ros::param::get(name, value))
+      continue;
+    std::ostringstream text;
+    value.write(text);
+    words += (words.empty() ? "" : " ") + name.substr(1, end - 1) + name.substr(end + 5) + "=" +
+             (value.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(value) : text.str());
+  }
+  return words;
 }
 
 /// The node's name without slashes, as a child of it may bear it.
@@ -111,6 +132,7 @@ class TrialNode {
     out.show = [this](TrialState::State state) {
       state_.publish(navvi_types::to_msg(TrialState{state, navvi_types::to_ns(ros::Time::now())}));
     };
+    out.settings = settings_of_nodes;
     out.start_recorder = [this](const std::filesystem::path& bag) {
       std::vector<std::string> topics;
       for (const char* topic : kRecorded) topics.push_back(node_.resolveName(topic));

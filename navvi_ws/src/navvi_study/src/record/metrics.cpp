@@ -9,7 +9,7 @@ namespace navvi_study::record {
 namespace {
 
 /// Columns that summaries of version 0.1.0 lack.
-constexpr const char* kNotIn010[] = {"parameters", "version"};
+constexpr const char* kNotIn010[] = {"parameters", "version", "started_utc", "reroute_count"};
 
 std::string seconds(std::int64_t from, std::int64_t to) {
   std::array<char, 40> text{};
@@ -76,13 +76,32 @@ std::string paper_name(const Row& row) {
   return name;
 }
 
-/// ns, when the thing that came near in `rows[at]` left; nullopt if it stayed to the end.
-std::optional<std::int64_t> left_at(const std::vector<Row>& rows, std::size_t at) {
-  const std::string id = rows[at].fields.get("id");
+/// What began in a row of this type ends in one of the type that is returned.
+const char* end_of(const std::string& type) {
+  if (type == "PROXIMITY_ENTER") return "PROXIMITY_LEAVE";
+  return type == "CUE" ? "CUE_END" : nullptr;
+}
+
+/// s, how long it lasted what began in `rows[at]`; n/a if that is not known, 0 for what only
+/// happened.
+std::string duration_of(const std::vector<Row>& rows, std::size_t at) {
+  const char* end = end_of(rows[at].type);
+  if (end == nullptr) return "0";
+  const auto same = [&](const Row& row, const char* name) {
+    return row.fields.get(name) == rows[at].fields.get(name);
+  };
   for (std::size_t i = at + 1; i < rows.size(); ++i) {
-    if (rows[i].type == "PROXIMITY_LEAVE" && rows[i].fields.get("id") == id) return rows[i].sim_ns;
+    if (rows[i].type == end && same(rows[i], "id") && same(rows[i], "modality"))
+      return seconds(rows[at].sim_ns, rows[i].sim_ns);
   }
-  return std::nullopt;
+  return "n/a";
+}
+
+/// The first of these fields that a row has.
+std::string any_of(const Row& row, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (const auto value = row.fields.find(name)) return *value;
+  return "n/a";
 }
 
 std::string count_of(const std::vector<Row>& rows, const std::string& type,
@@ -95,32 +114,27 @@ std::string count_of(const std::vector<Row>& rows, const std::string& type,
 }  // namespace
 
 std::string events_csv(const std::vector<Row>& rows) {
-  std::string text = joined({"onset", "duration", "trial_type", "robot_x", "robot_y",
-                             "obstacle_position", "obstacle_collision_count",
-                             "shelf_collision_count", "elapsed", "thing_class", "thing", "detail"});
+  std::string text = joined(
+      {"onset_s", "duration_s", "trial", "participant", "wall_clock_utc", "trial_type", "robot_x_m",
+       "robot_y_m", "goal_x_m", "goal_y_m", "obstacle_position", "obstacle_collision_count",
+       "shelf_collision_count", "elapsed_s", "thing_class", "thing", "spoken", "detail"});
   const Row* start = first_of(rows, "TRIAL_START");
   if (start == nullptr) return text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
-    if (row.type == "PROXIMITY_LEAVE" || row.type == "PROGRESS") continue;
-    std::string duration = "0";
-    if (row.type == "PROXIMITY_ENTER") {
-      const auto left = left_at(rows, i);
-      duration = left ? seconds(row.sim_ns, *left) : "n/a";
-    }
+    if (row.type == "PROXIMITY_LEAVE" || row.type == "CUE_END" || row.type == "PROGRESS") continue;
     const bool collision = row.type == "COLLISION";
     const bool shelf = row.fields.get("kind") == "shelf";
     const bool zoned = row.type == "PROXIMITY_ENTER" && !shelf;
-    std::string detail = row.fields.get("reason", "");
-    if (detail.empty()) detail = row.fields.get("state", "");
-    if (detail.empty()) detail = row.fields.get("device", "");
-    if (detail.empty()) detail = row.fields.get("result", "n/a");
-    text +=
-        joined({seconds(start->sim_ns, row.sim_ns), duration, paper_name(row), row.fields.get("x"),
-                row.fields.get("y"), zoned ? row.fields.get("zone") : "n/a",
-                collision && !shelf ? row.fields.get("count") : "n/a",
-                collision && shelf ? row.fields.get("count") : "n/a", row.fields.get("elapsed"),
-                row.fields.get("class"), row.fields.get("thing"), detail});
+    text += joined({seconds(start->sim_ns, row.sim_ns), duration_of(rows, i), row.trial,
+                    start->fields.get("participant"), row.fields.get("utc"), paper_name(row),
+                    row.fields.get("x"), row.fields.get("y"), row.fields.get("goal_x"),
+                    row.fields.get("goal_y"), zoned ? row.fields.get("zone") : "n/a",
+                    collision && !shelf ? row.fields.get("count") : "n/a",
+                    collision && shelf ? row.fields.get("count") : "n/a", row.fields.get("elapsed"),
+                    row.fields.get("class"), row.fields.get("thing"), row.fields.get("text"),
+                    row.type == "CUE" ? row.fields.get("kind")
+                                      : any_of(row, {"reason", "state", "device", "result"})});
   }
   return text;
 }
@@ -144,6 +158,7 @@ Summary summarize(const std::vector<Row>& rows) {
                            "parameters", "version", "audio", "pad"}) {
     add(name, start ? start->fields.get(name) : nothing);
   }
+  add("started_utc", start ? start->fields.get("utc") : nothing);
   add("result", end ? end->fields.get("result") : "aborted");
   add("reason", end ? end->fields.get("reason") : "no_end");
   const Row* last = end ? end : (rows.empty() ? nullptr : &rows.back());
@@ -157,6 +172,7 @@ Summary summarize(const std::vector<Row>& rows) {
   add("shelf_proximity_count", count_of(rows, "PROXIMITY_ENTER", "shelf"));
   add("stuck_count", count_of(rows, "STUCK"));
   add("replan_count", replan ? replan->fields.get("count") : "0");
+  add("reroute_count", tally ? tally->fields.get("reroutes") : nothing);
   // Wheels that had not turned yet were held, not stopped.
   add("safe_stop_count", std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row& row) {
         return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes";

@@ -11,8 +11,9 @@ namespace navvi_study::record {
 /// Column name and cell, in order; "n/a" where there is no value.
 using Summary = std::vector<std::pair<std::string, std::string>>;
 
-/// The events of R-TRL-1 and whatever else happened, as CSV with a header: onset and duration in
-/// seconds since the start, then what it was, where, and the running counts.
+/// The events of R-TRL-1 and whatever else happened, as CSV with a header: onset since the start
+/// and duration, in simulated seconds, then whose it was, what, where, and the running counts.
+/// Units are in the columns' names.
 [[nodiscard]] std::string events_csv(const std::vector<Row>& rows);
 
 /// One line for the trial (R-TRL-2), a pure function of its journal. A journal without an end is

@@ -98,17 +98,32 @@ TEST(Summary, of_an_older_version_may_lack_the_columns_that_came_later) {
                 older.end());
     return older;
   };
-  EXPECT_TRUE(differences(without("version"), now).empty());
+  for (const char* column : {"version", "started_utc", "reroute_count"})
+    EXPECT_TRUE(differences(without(column), now).empty()) << column;
   EXPECT_FALSE(differences(without("result"), now).empty());
 }
 
 TEST(Events, stand_in_the_papers_words_with_onset_and_duration_first) {
   const std::string text = events_csv(example().rows);
-  EXPECT_EQ(text.rfind("onset,duration,trial_type,", 0), 0u);
-  EXPECT_NE(text.find("1.000,2.000,proximity to obstacle,1.000,n/a,left,"), std::string::npos);
-  EXPECT_NE(text.find("2.500,0,collision with shelf,2.000,n/a,n/a,n/a,1,"), std::string::npos);
-  EXPECT_NE(text.find("4.000,0,collision with obstacle,n/a,n/a,n/a,1,n/a,"), std::string::npos);
-  EXPECT_NE(text.find("6.000,0,goal reached,n/a,n/a,n/a,n/a,n/a,6.000,"), std::string::npos);
+  EXPECT_EQ(text.rfind("onset_s,duration_s,trial,participant,wall_clock_utc,trial_type,", 0), 0u);
+  const auto holds = [&](const std::string& row) { return text.find(row) != std::string::npos; };
+  const std::string who = "trial-1,n/a,n/a,";
+  EXPECT_TRUE(holds("1.000,2.000," + who + "proximity to obstacle,1.000,n/a,n/a,n/a,left,"));
+  EXPECT_TRUE(holds("2.500,0," + who + "collision with shelf,2.000,n/a,n/a,n/a,n/a,n/a,1,"));
+  EXPECT_TRUE(holds("4.000,0," + who + "collision with obstacle,n/a,n/a,n/a,n/a,n/a,1,n/a,"));
+  EXPECT_TRUE(holds("6.000,0," + who + "goal reached,n/a,n/a,n/a,n/a,n/a,n/a,n/a,6.000,"));
+}
+
+TEST(Events, tell_cues_by_their_words_and_how_long_they_were_heard) {
+  Trial trial = example();
+  trial.rows.front().fields.set("participant", "sub-01");
+  trial.add(107.0, "CUE", Fields().set("id", "9").set("kind", "turn_now").set("text", "turn now"));
+  trial.add(108.0, "CUE_END", Fields().set("id", "9").set("modality", "sound"));
+  trial.add(108.25, "CUE_END", Fields().set("id", "9").set("stage", "ended"));
+  trial.rows[7].fields.set("utc", "2026-01-31T12:00:00.250Z");
+  EXPECT_NE(events_csv(trial.rows).find("7.000,1.250,trial-1,sub-01,2026-01-31T12:00:00.250Z,cue,"),
+            std::string::npos);
+  EXPECT_NE(events_csv(trial.rows).find(",turn now,turn_now\n"), std::string::npos);
 }
 
 TEST(Events, of_nothing_are_a_header) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <stdexcept>
 
 #include "record/journal.hpp"
@@ -9,6 +10,17 @@
 
 namespace navvi_study::record {
 namespace fs = std::filesystem;
+
+std::string calendar(std::int64_t utc_ns) {
+  const std::time_t seconds = utc_ns / 1'000'000'000;
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  std::array<char, 40> text{};
+  const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &parts);
+  std::snprintf(text.data() + length, text.size() - length, ".%03dZ",
+                static_cast<int>(utc_ns / 1'000'000 % 1000));
+  return text.data();
+}
 
 fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
   std::error_code error;

@@ -10,6 +10,10 @@
 
 namespace navvi_study::record {
 
+/// A time of the calendar in the form of ISO 8601, such as 2026-01-31T12:00:00.250Z. \param utc_ns
+/// ns since 1970
+[[nodiscard]] std::string calendar(std::int64_t utc_ns);
+
 /// A new folder `trial-<UTC>` under `out`, which is created where it is missing; two in one second
 /// get numbers. \throws std::runtime_error with a sentence
 [[nodiscard]] std::filesystem::path create_trial_folder(const std::filesystem::path& out,

@@ -29,7 +29,7 @@ std::vector<std::string> Readiness::missing(double time, bool clock_runs) const 
                                                 : std::vector<std::string>{"audio", "speech"};
     for (const auto& device : needed) {
       const auto known = devices_.find(device);
-      if (known == devices_.end() || known->second != DeviceState::works) {
+      if (known == devices_.end() || known->second.state != DeviceState::works) {
         words.push_back("a working " + device + " device");
       }
     }
@@ -40,7 +40,14 @@ std::vector<std::string> Readiness::missing(double time, bool clock_runs) const 
 std::string Readiness::state_of(const std::string& device) const {
   const auto known = devices_.find(device);
   if (known == devices_.end()) return "unknown";
-  return navvi_types::to_string(known->second);
+  return navvi_types::to_string(known->second.state);
+}
+
+std::string Readiness::trait(const std::string& device, const std::string& name) const {
+  const auto known = devices_.find(device);
+  if (known == devices_.end()) return "unknown";
+  const auto trait = known->second.traits.find(name);
+  return trait == known->second.traits.end() ? "unknown" : trait->second;
 }
 
 }  // namespace navvi_study::trial

@@ -17,7 +17,7 @@ class Readiness {
   void saw_odometry(double time) { odometry_ = time; }
   void saw(const Guidance& guidance, double time);
   void saw(const DeviceReport& device, double time) {
-    devices_[device.device] = device.state;
+    devices_[device.device] = device;
     feedback_ = time;
   }
 
@@ -26,6 +26,8 @@ class Readiness {
   /// For the record: "works", "missing", "off", or "unknown" before its first report.
   /// \param device  pad, audio or speech
   [[nodiscard]] std::string state_of(const std::string& device) const;
+  /// For the record, what a device says of itself, such as its name; "unknown" if it does not.
+  [[nodiscard]] std::string trait(const std::string& device, const std::string& name) const;
   [[nodiscard]] bool saw_any_odometry() const { return odometry_ > kNever; }
   /// s since the last odometry
   [[nodiscard]] double silence(double time) const { return time - odometry_; }
@@ -44,7 +46,7 @@ class Readiness {
   double guidance_ = kNever;
   double feedback_ = kNever;
   bool has_map_ = false;
-  std::map<std::string, DeviceState> devices_;
+  std::map<std::string, DeviceReport> devices_;
 };
 
 }  // namespace navvi_study::trial

@@ -13,9 +13,10 @@ namespace navvi_study::trial {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kSayAgain = 5.0;  // s, between sentences on what is missing
-constexpr double kDrain = 0.3;     // s, for reports on their way when a trial ends
-constexpr double kHurry = 1.5;     // s, for a recorder once all must stop
+constexpr std::int64_t kSecond = 1'000'000'000;  // ns
+constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
+constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
+constexpr double kHurry = 1.5;                   // s, for a recorder once all must stop
 
 std::string list_of(const std::vector<std::string>& words) {
   std::string text;
@@ -167,7 +168,7 @@ void TrialKeeper::wait() {
 
 void TrialKeeper::arm() {
   try {
-    folder_ = record::create_trial_folder(config_.out, now_.utc);
+    folder_ = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
     journal_ = std::make_unique<record::Journal>(folder_, folder_.filename().string(),
                                                  record::Journal::kMinFree, calls_);
   } catch (const std::runtime_error& error) {
@@ -218,7 +219,7 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
   operator_seen_ = phase_since_;
   bag_.expect_growth(phase_since_);
   if (!record({"TRIAL_START", conditions(beginning), beginning.stamp})) return;
-  record::Fields where;
+  record::Fields where = monitor_.place();
   where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
   if (!record({"GOAL_SET", where, beginning.stamp})) return;
   show_state();
@@ -228,17 +229,21 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
 }
 
 record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
-  record::Fields fields;
+  record::Fields fields = monitor_.place();
   fields.set("world", scenario_ ? scenario_->world : "n/a");
   fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
   fields.set("seed", scenario_ ? std::to_string(scenario_->seed) : "n/a");
   fields.set("operator", config_.operator_kind).set("participant", config_.participant);
   fields.set("profile", config_.profile).set("version", config_.version);
   fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
+  fields.set("settings", outlets_.settings());
   for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
   // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
   if (const auto pressed = std::exchange(pressed_, std::nullopt))
     fields.set("pressed", 1e-9 * static_cast<double>(*pressed), 3);
+  fields.set("voice", readiness_.trait("speech", "voice"));
+  fields.set("pad_name", readiness_.trait("pad", "name"));
+  fields.set("pad_firmware", readiness_.trait("pad", "firmware"));
   fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);
   fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
@@ -306,8 +311,10 @@ void TrialKeeper::write_end() {
 
 bool TrialKeeper::record(const Event& event) {
   if (journal_->broken()) return false;
+  record::Fields fields = event.fields;
+  fields.set("utc", record::calendar(now_.utc_ns));
   const auto row = journal_->append(
-      event.type, event.fields, event.sim_ns, now_.mono_ns,
+      event.type, fields, event.sim_ns, now_.mono_ns,
       event.essential ? record::Durability::essential : record::Durability::relaxed);
   if (row) {
     outlets_.publish(*row);

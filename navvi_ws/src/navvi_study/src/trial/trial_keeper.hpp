@@ -22,7 +22,7 @@ namespace navvi_study::trial {
 struct Moment {
   std::int64_t mono_ns = 0;  ///< of the machine; never goes back
   std::int64_t ros_ns = 0;   ///< ROS time; 0 while its clock has not begun
-  std::time_t utc = 0;       ///< s, only for the folder's name
+  std::int64_t utc_ns = 0;   ///< by the calendar, for the record
 
   [[nodiscard]] double wall() const { return 1e-9 * static_cast<double>(mono_ns); }  ///< s
 };
@@ -39,6 +39,8 @@ class TrialKeeper {
     std::function<void(const Eigen::Vector2d&)> set_goal;
     std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
     std::function<void(TrialState::State)> show = [](TrialState::State) {};  ///< on each change
+    /// Each parameter that a node was given, in words.
+    std::function<std::string()> settings = [] { return std::string("unknown"); };
     /// Begins a bag at that path; nullptr where none is wanted.
     std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
   };

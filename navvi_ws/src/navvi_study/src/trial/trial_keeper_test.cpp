@@ -37,6 +37,7 @@ class Trials : public testing::Test {
     outlets.set_goal = [this](const Eigen::Vector2d& goal) { goals_.push_back(goal); };
     outlets.show = [this](TrialState::State state) { shown_.push_back(state); };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
+    outlets.settings = [] { return "sim/seed=3"; };
     outlets.start_recorder = [this](const fs::path& bag) {
       const fs::path program = fs::path(config_.out) / "record";
       std::ofstream(program) << "#!/bin/sh\nexec sleep 60\n";
@@ -55,7 +56,7 @@ class Trials : public testing::Test {
   }
   [[nodiscard]] Moment now() const {
     const auto ns = static_cast<std::int64_t>(1e9 * time_);
-    return {1'000'000'000'000 + ns, ns, 1'700'000'000};
+    return {1'000'000'000'000 + ns, ns, 1'700'000'000'000'000'000 + ns};
   }
   void guide(State state, const Eigen::Vector2d& goal) {
     Guidance report;
@@ -203,6 +204,22 @@ TEST_F(Trials, do_not_wait_for_ever_for_a_simulated_operator_to_begin) {
   EXPECT_TRUE(keeper_->done());
   EXPECT_EQ(keeper_->exit_code(), 3);
   EXPECT_TRUE(folders().empty());
+}
+
+TEST_F(Trials, name_what_was_set_and_every_device_and_the_hour_of_each_row) {
+  begin();
+  keeper_->take(kScenario, now());
+  DeviceReport pad{now().ros_ns, "pad", DeviceState::works, {{"name", "DualSense"}}};
+  pad.traits["firmware"] = "552";
+  keeper_->take(pad, now());
+  live(1.0);
+  const std::string journal = content("journal.csv");
+  for (const char* field : {"settings=sim/seed%3d3;", ";pad_name=DualSense;pad_firmware=552;",
+                            ";voice=unknown;", "x=", "utc=2023-11-14T22:13:2"})
+    EXPECT_NE(journal.find(field), std::string::npos) << field << " in " << journal;
+  live(1.0, State::following, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_NE(content("summary.csv").find(",started_utc,"), std::string::npos);
 }
 
 TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {

@@ -11,8 +11,9 @@ using navvi_types::CueStage;
 using navvi_types::Modality;
 using navvi_types::ThingClass;
 
-constexpr double kSameGoal = 0.05;  // m
-constexpr double kMoved = 0.05;     // m, driven
+constexpr double kSameGoal = 0.05;           // m
+constexpr double kMoved = 0.05;              // m, driven
+constexpr const char* kNearness = "rumble";  // the kind of what is felt of near things all the time
 constexpr std::int64_t kOldNews =
     2'000'000'000;  // ns in which an arrival may still be the last goal's
 
@@ -76,6 +77,8 @@ void TrialMonitor::start(const TrialStart& start) {
   guidance_before_ = guidance_;
   guidance_.reset();
   plans_.reset();
+  reroutes_ = 0;
+  playing_.clear();
   stuck_cues_.clear();
   goal_taken_ = false;
   state_.reset();
@@ -90,16 +93,16 @@ Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp)
   goal_taken_ = false;
   reached_.reset();
   refused_.reset();
-  return {"GOAL_SET", record::Fields().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp,
-          true};
+  return {"GOAL_SET", place().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp, true};
 }
 
 void TrialMonitor::end(std::int64_t stamp) { end_ = end_ ? std::min(*end_, stamp) : stamp; }
 
 record::Fields TrialMonitor::place() const {
   record::Fields fields;
-  if (!odometry_) return fields.set("x", "n/a").set("y", "n/a");
-  const Eigen::Vector2d& at = odometry_->pose.position;
+  const auto& last = odometry_ ? odometry_ : seen_;
+  if (!last) return fields.set("x", "n/a").set("y", "n/a");
+  const Eigen::Vector2d& at = last->pose.position;
   return fields.set("x", at.x()).set("y", at.y());
 }
 
@@ -111,12 +114,14 @@ const char* TrialMonitor::zone(double lateral) const {
 record::Fields TrialMonitor::tally_fields() const {
   record::Fields fields = place();
   fields.set("path_length", tally_.path_length).set("cues_spoken", tally_.cues_spoken);
+  fields.set("reroutes", tally_.reroutes);
   fields.set("missed_messages", tally_.missed_messages);
   fields.set("state_step", world_state_ ? std::to_string(world_state_->step) : "n/a");
   return fields.set("state_hash", world_state_ ? navvi_types::to_hex(world_state_->hash) : "n/a");
 }
 
 std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
+  seen_ = odometry;
   if (!counts(odometry.stamp)) return {};
   if (odometry_ && odometry.stamp <= odometry_->stamp) return {};
   if (odometry_) {
@@ -243,8 +248,7 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
   std::vector<Event> events;
   if (state_ != guidance.state) {
     state_ = guidance.state;
-    events.push_back(
-        {"GUIDANCE", record::Fields().set("state", to_string(guidance.state)), guidance.stamp});
+    events.push_back({"GUIDANCE", place().set("state", to_string(guidance.state)), guidance.stamp});
   }
   // Only a guidance that was started anew forgets a goal that it had taken.
   if (guidance.state == State::no_goal) goal_taken_ = false;
@@ -252,20 +256,12 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
     if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
     if (!plans_) {
       plans_ = guidance.plans;
-      record::Fields fields;
+      record::Fields fields = place();
       fields.set("first_path_length", guidance.goal_distance);
       events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});
     }
   }
-  if (plans_ && guidance.plans < *plans_) plans_ = 0;  // a guidance that was started anew
-  if (plans_ && guidance.plans > *plans_) {
-    tally_.replans += guidance.plans - *plans_;
-    plans_ = guidance.plans;
-    record::Fields fields;
-    fields.set("count", tally_.replans).set("reason", to_string(guidance.replan_reason));
-    events.push_back(
-        {"REPLAN", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp, false});
-  }
+  count_plans(guidance, events);
   if (guidance.state == State::arrived && !reached_) {
     reached_ = guidance.stamp;
     record::Fields fields = place();
@@ -274,17 +270,58 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
   }
   if (guidance.state == State::goal_refused && !refused_) {
     refused_ = to_string(guidance.refusal);
-    events.push_back({"GOAL_REFUSED", record::Fields().set("reason", *refused_), guidance.stamp});
+    events.push_back({"GOAL_REFUSED", place().set("reason", *refused_), guidance.stamp});
   }
   return events;
 }
 
+void TrialMonitor::count_plans(const Guidance& guidance, std::vector<Event>& events) {
+  // A guidance that was started anew counts from 0, reroutes also with each goal.
+  if (plans_ && guidance.plans < *plans_) plans_ = 0;
+  if (plans_ && guidance.plans > *plans_) {
+    tally_.replans += guidance.plans - *plans_;
+    plans_ = guidance.plans;
+    record::Fields fields = place();
+    fields.set("count", tally_.replans).set("reason", to_string(guidance.replan_reason));
+    events.push_back(
+        {"REPLAN", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp, false});
+  }
+  if (guidance.reroutes < reroutes_) reroutes_ = 0;
+  if (guidance.reroutes > reroutes_) {
+    tally_.reroutes += guidance.reroutes - reroutes_;
+    record::Fields fields = place();
+    fields.set("count", tally_.reroutes).set("reason", to_string(guidance.reroute_reason));
+    events.push_back({"REROUTE", fields, guidance.stamp});
+  }
+  reroutes_ = guidance.reroutes;
+}
+
+std::optional<Event> TrialMonitor::row_of(const CueEvent& cue) {
+  const bool begins = cue.stage == CueStage::started;
+  if (!begins && cue.stage != CueStage::ended && cue.stage != CueStage::cut) return std::nullopt;
+  if (cue.modality != Modality::speech) {
+    // What is played or felt is reported at each change of strength; a row is for a new kind.
+    const std::string before = std::exchange(playing_[cue.modality], begins ? cue.kind : "");
+    if (!begins || cue.kind == before || cue.kind == kNearness) return std::nullopt;
+  }
+  record::Fields fields = place();
+  fields.set("id", std::uint64_t{cue.id}).set("modality", to_string(cue.modality));
+  fields.set("kind", cue.kind)
+      .set("text", cue.text.empty() ? "n/a" : cue.text)
+      .set("stage", to_string(cue.stage));
+  return Event{begins ? "CUE" : "CUE_END", fields, cue.stamp, false};
+}
+
 std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
-  if (!counts(cue.stamp) || cue.modality != Modality::speech) return {};
+  if (!counts(cue.stamp)) return {};
+  std::vector<Event> events;
+  if (const auto row = row_of(cue)) events.push_back(*row);
+  if (cue.modality != Modality::speech) return events;
   if (cue.stage == CueStage::started) ++tally_.cues_spoken;
   // However its speech fares, a cue that says stuck is the fact of being stuck.
-  if (cue.kind != "stuck" || !stuck_cues_.insert(cue.id).second) return {};
-  return {{"STUCK", place(), cue.stamp, true}};
+  if (cue.kind == "stuck" && stuck_cues_.insert(cue.id).second)
+    events.push_back({"STUCK", place(), cue.stamp, true});
+  return events;
 }
 
 std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
@@ -304,7 +341,7 @@ std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
   const bool changed = known != devices_.end() && known->second != device.state;
   devices_[device.device] = device.state;
   if (!inside || !changed) return {};
-  record::Fields fields;
+  record::Fields fields = place();
   fields.set("device", device.device);
   return {{device.state == DeviceState::works ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp,
            true}};

@@ -44,6 +44,7 @@ struct DeviceReport {
   std::int64_t stamp = 0;
   std::string device;  ///< pad, audio, speech
   DeviceState state = DeviceState::missing;
+  std::map<std::string, std::string> traits = {};  ///< such as name, firmware, voice
 };
 
 /// Something that happened in a trial; the journal makes a row of it.
@@ -81,6 +82,7 @@ struct Tally {
   std::uint64_t shelf_collisions = 0;
   std::uint64_t obstacle_collisions = 0;
   std::uint64_t replans = 0;
+  std::uint64_t reroutes = 0;
   std::uint64_t cues_spoken = 0;
   std::uint64_t missed_messages = 0;
 };
@@ -114,6 +116,8 @@ class TrialMonitor {
   /// What start() needs to know of the past.
   [[nodiscard]] TrialStart start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const;
   [[nodiscard]] const Tally& tally() const { return tally_; }
+  /// Where the robot is, as fields.
+  [[nodiscard]] record::Fields place() const;
   /// The figures that no single event carries: path_length, cues_spoken, missed_messages, and the
   /// last state of the world by step and hash (n/a where there is no simulator).
   [[nodiscard]] record::Fields tally_fields() const;
@@ -136,10 +140,12 @@ class TrialMonitor {
 
   /// Whether a report with this stamp belongs to the trial.
   bool counts(std::int64_t stamp);
-  [[nodiscard]] record::Fields place() const;
   [[nodiscard]] const char* zone(double lateral) const;
   void collision(const Contact* contact, bool shelf, std::int64_t stamp,
                  std::vector<Event>& events);
+  void count_plans(const Guidance& guidance, std::vector<Event>& events);
+  /// The row for a cue that begins to be spoken, played or felt, or that ends.
+  [[nodiscard]] std::optional<Event> row_of(const CueEvent& cue);
   [[nodiscard]] bool about_this_goal(const Guidance& guidance);
 
   TrialMonitorConfig config_;
@@ -147,7 +153,8 @@ class TrialMonitor {
   std::optional<std::int64_t> end_;
   std::int64_t latest_ = 0;
   Tally tally_;
-  std::optional<Odometry> odometry_;
+  std::optional<Odometry> odometry_;  ///< of the trial
+  std::optional<Odometry> seen_;      ///< the last one at all
   std::int64_t next_progress_ = 0;
   std::uint32_t contact_seq_ = 0;
   std::uint64_t shelf_count_ = 0;
@@ -156,7 +163,10 @@ class TrialMonitor {
   std::optional<Guidance> guidance_;         ///< the last one
   std::optional<Guidance> guidance_before_;  ///< the last one before the goal was set
   std::optional<std::uint32_t> plans_;       ///< of the guidance, counted so far
+  std::uint32_t reroutes_ = 0;               ///< of the guidance, likewise
   std::set<std::uint32_t> stuck_cues_;
+  std::map<navvi_types::Modality, std::string>
+      playing_;           ///< kind of the last cue that is no speech
   bool stopped_ = false;  ///< by the last stage before the wheels
   std::map<std::string, DeviceState> devices_;
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end

@@ -215,16 +215,57 @@ TEST_F(Monitor, measures_the_way_driven) {
   EXPECT_DOUBLE_EQ(monitor_.tally().path_length, 5.0);
 }
 
+TEST_F(Monitor, has_a_row_where_a_cue_begins_and_one_where_it_ends) {
+  using navvi_types::CueStage;
+  CueEvent cue{3, CueStage::queued, "turn_now", "turn to 2 o'clock now"};
+  cue.stamp = 11 * kSecond;
+  EXPECT_TRUE(monitor_.observe(cue).empty());
+  cue.stage = CueStage::started;
+  const auto begins = monitor_.observe(cue);
+  ASSERT_EQ(types(begins), Names{"CUE"});
+  EXPECT_EQ(begins[0].fields.get("text"), "turn to 2 o'clock now");
+  EXPECT_EQ(begins[0].fields.get("modality"), "speech");
+  cue.stage = CueStage::cut;
+  EXPECT_EQ(types(monitor_.observe(cue)), Names{"CUE_END"});
+}
+
+TEST_F(Monitor, has_a_row_for_each_pattern_that_is_felt_and_none_for_what_is_near_all_the_time) {
+  CueEvent felt{1, navvi_types::CueStage::started};
+  felt.modality = navvi_types::Modality::rumble;
+  felt.stamp = 11 * kSecond;
+  Names rows;
+  for (const char* kind : {"rumble", "hit_hard", "hit_hard", "rumble", "hit_hard"}) {
+    felt.kind = kind;
+    for (const auto& event : monitor_.observe(felt)) rows.push_back(event.fields.get("kind"));
+  }
+  EXPECT_EQ(rows, (Names{"hit_hard", "hit_hard"}));
+  EXPECT_EQ(monitor_.tally().cues_spoken, 0u);
+}
+
+TEST_F(Monitor, counts_the_reroutes_of_all_goals_and_of_a_guidance_that_was_started_anew) {
+  const auto rerouted = [this](double time, std::uint32_t seq, std::uint32_t reroutes) {
+    Guidance report = guidance(time, State::following, seq);
+    report.reroutes = reroutes;
+    (void)monitor_.observe(report);
+    return monitor_.tally_fields().get("reroutes");
+  };
+  EXPECT_EQ(rerouted(11.0, 1, 0), "0");
+  EXPECT_EQ(rerouted(12.0, 2, 2), "2");
+  EXPECT_EQ(rerouted(13.0, 3, 2), "2");
+  EXPECT_EQ(rerouted(14.0, 4, 0), "2");
+  EXPECT_EQ(rerouted(15.0, 5, 1), "3");
+}
+
 TEST_F(Monitor, counts_being_stuck_once_a_cue) {
   using navvi_types::CueStage;
   const auto events = [this](std::uint32_t id, CueStage stage) {
     CueEvent cue{id, stage, "stuck"};
     cue.stamp = 11 * kSecond;
-    return monitor_.observe(cue).size();
+    return types(monitor_.observe(cue));
   };
-  EXPECT_EQ(events(7, CueStage::queued), 1u);
-  EXPECT_EQ(events(7, CueStage::started), 0u);
-  EXPECT_EQ(events(8, CueStage::dropped), 1u);
+  EXPECT_EQ(events(7, CueStage::queued), Names{"STUCK"});
+  EXPECT_EQ(events(7, CueStage::started), Names{"CUE"});
+  EXPECT_EQ(events(8, CueStage::dropped), Names{"STUCK"});
   EXPECT_EQ(monitor_.tally().cues_spoken, 1u);
 }
 
