@@ -31,6 +31,7 @@ possible_words() {
   case ${words[1]} in
     run) file=live.launch ;;
     replay) file=replay.launch ;;
+    watch) printf '%s\n' speech:= pace:= port:= ;;
     build) printf '%s\n' --asan --odr ;;
     test) echo --asan ;;
     parameters) echo --csv ;;

@@ -5,10 +5,10 @@ packages=(
   build-essential ccache cmake catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev libompl-dev liboctomap-dev libbullet-dev
   libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libsdformat-dev libtinyxml2-dev libassimp-dev libeigen3-dev zlib1g-dev libpng-dev pkg-config
   # run
-  rviz rosbash espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin man-db python3-rosbag python3-roslaunch python3-rosnode
+  rviz rosbash espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
-  python3-yaml
+  python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
   # test and bench
   libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest
   shellcheck xvfb x11-utils imagemagick sox openbox xdotool

@@ -1,0 +1,171 @@
+"""`./navvi watch`: a session in plain lines, on a terminal and through speech-dispatcher."""
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import time
+
+import pytest
+import rosbag
+import rospy
+from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SCRIPT = ROOT / "navvi_ws/src/navvi_study/scripts/watch_session"
+loader = importlib.machinery.SourceFileLoader("watch_session", str(SCRIPT))
+watch = importlib.util.module_from_spec(importlib.util.spec_from_loader("watch_session", loader))
+loader.exec_module(watch)
+
+
+def at(seconds, message):
+    message.header.stamp = rospy.Time.from_sec(seconds)
+    return message
+
+
+def guidance(seconds, state, distance=20.0, **more):
+    return at(seconds, Guidance(state=state, goal_distance=distance, waypoint_distance=5.0, waypoint_angle=1.05, **more))
+
+
+def said(seconds, text, **more):
+    return at(seconds, Cue(stage=Cue.STARTED, modality=Cue.SPEECH, kind="k", text=text, **more))
+
+
+def contact(seconds, seq, x, y):
+    message = at(seconds, Contact(seq=seq, thing_class="pallet_robot", speed=0.41))
+    message.point.x, message.point.y, message.robot.orientation.w = x, y, 1.0
+    return message
+
+
+SESSION = [
+    ("/navvi/events", at(100, TrialEvent(type="TRIAL_START", fields="world=busy;seed=3;operator=pad"))),
+    ("/navvi/guidance", guidance(100.2, Guidance.FOLLOWING)),
+    ("/navvi/guidance", guidance(100.4, Guidance.FOLLOWING)),
+    ("/navvi/cues", said(101, "straight ahead, 5 meters")),
+    ("/navvi/cues", said(102, "straight ahead, 5 meters")),
+    ("/navvi/cues", at(103, Cue(stage=Cue.STARTED, modality=Cue.RUMBLE, kind="rumble", left=0.5))),
+    ("/navvi/cues", at(104, Cue(stage=Cue.STARTED, modality=Cue.RUMBLE, kind="hit_hard", left=1.0))),
+    ("/navvi/contacts", contact(104.1, 1, 0.1, 0.6)),
+    ("/navvi/drive_state", at(105, DriveState(state=DriveState.STOPPED, reason=DriveState.COMMAND_LOST))),
+    ("/navvi/guidance", guidance(120, Guidance.FOLLOWING, 12.0)),
+    ("/navvi/guidance", guidance(121, Guidance.BLOCKED, 12.0, blocked_by="forklift")),
+    ("/navvi/events", at(130, TrialEvent(type="TRIAL_END", fields="result=aborted;reason=stopped_by_signal"))),
+]
+LINES = [
+    "The trial begins: world busy, seed 3, operator pad. 0 s.",
+    "Follow the path, 20 m to go. 0 s.",
+    "Said: straight ahead, 5 meters. 1 s.",
+    "Felt: hit hard. 4 s.",
+    "Hit: pallet robot on the left, at 0.4 m/s, contact 1. 4 s.",
+    "The robot is stopped: no command came from the stick; let go of the stick. 5 s.",
+    "12 m to go, the next corner in 5 m at 2 o'clock. 20 s.",
+    "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
+    "The trial has ended: aborted, stopped by signal. 30 s.",
+]
+
+
+@pytest.fixture
+def trial(tmp_path):
+    with rosbag.Bag(str(tmp_path / "trial.bag"), "w") as bag:
+        for topic, message in SESSION:
+            bag.write(topic, message, message.header.stamp)
+    return tmp_path
+
+
+def navvi_watch(*words, **more):
+    return subprocess.Popen([str(ROOT / "navvi"), "watch", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                            stdin=subprocess.DEVNULL, start_new_session=True, env=dict(os.environ, **more))
+
+
+def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(trial):
+    process = navvi_watch(trial, "pace:=0")
+    lines = [line for line in process.communicate(timeout=60)[0].splitlines() if not line.startswith("navvi: building")]
+    assert process.returncode == 0
+    assert lines == [*LINES, "The trial's record ends here."]
+    assert all(re.fullmatch(r"[ -~]+", line) for line in lines)
+
+
+def test_no_line_comes_before_the_last_one_can_have_been_read(trial):
+    process, times = navvi_watch(trial, "pace:=600"), []
+    for line in process.stdout:
+        if not line.startswith("navvi:"):
+            times.append((time.monotonic(), line))
+    for (before, line), (after, _) in zip(times, times[1:-1]):
+        assert after - before > 0.9 * max(0.7, 0.1 * len(line.split())), line
+
+
+def test_of_much_at_once_the_newest_state_and_what_weighs_most_is_shown_and_the_rest_counted():
+    pacer = watch.Pacer(180)
+    pacer.offer(watch.Line("Said", 2, "first"))
+    assert pacer.next(0.0) == "first"
+    for number in range(5):
+        pacer.offer(watch.Line("Said", 2, f"cue {number}"))
+        pacer.offer(watch.Line("state", 1, f"state {number}"))
+    pacer.offer(watch.Line("contact", 0, "hit"))
+    assert pacer.next(0.1) is None, "the first is still being read"
+    shown, now = [], 1.0
+    while pacer.waiting:
+        shown.append(pacer.next(now))
+        now += 10.0
+    assert shown == ["hit 3 lines left out.", "state 4", "cue 3", "cue 4"]
+
+
+@pytest.fixture
+def spoken(tmp_path):
+    """A speech-dispatcher of the test's own, whose synthesizer takes half a second and writes down what it was given."""
+    home = tmp_path / "speech"
+    (home / "modules").mkdir(parents=True)
+    (home / "speechd.conf").write_text('AudioOutputMethod "libao"\nAddModule "file" "sd_generic" "file.conf"\nDefaultModule file\n')
+    (home / "modules/file.conf").write_text(
+        f"GenericExecuteSynth \"printf '%s ' \\'$DATA\\' >> {home}/spoken; date +%s.%N >> {home}/times; sleep 0.5\"\n"
+        'GenericLanguage "en" "en" "utf-8"\nAddVoice "en" "MALE1" "en"\n')
+    server = subprocess.Popen(["speech-dispatcher", "-s", "-c", "unix_socket", "-S", home / "socket", "-C", home, "-L", home,
+                               "-P", home / "pid", "-t", "0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 10
+    while not (home / "socket").exists():
+        assert time.monotonic() < deadline, "speech-dispatcher did not start"
+        time.sleep(0.1)
+    yield home
+    server.terminate()
+    server.wait()
+
+
+def test_each_line_is_spoken_and_the_next_waits_until_it_was(trial, spoken):
+    process = navvi_watch(trial, "pace:=0", "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{spoken}/socket")
+    text = process.communicate(timeout=90)[0]
+    assert process.returncode == 0, text
+    assert " ".join((spoken / "spoken").read_text().split()) == " ".join(LINES)
+    times = [float(line) for line in (spoken / "times").read_text().split()]
+    assert all(after - before > 0.45 for before, after in zip(times, times[1:]))
+
+
+def test_without_speech_dispatcher_that_is_said(trial, tmp_path):
+    process = navvi_watch(trial, "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{tmp_path}/none", SPEECHD_CMD="/nonexistent")
+    text = process.communicate(timeout=60)[0]
+    assert process.returncode == 2 and "speech-dispatcher cannot be used" in text and "speech:=false" in text
+
+
+def test_a_running_session_is_found_and_told_to_its_end(tmp_path):
+    env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    session = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=training", "limit:=25",
+                                f"out:={tmp_path}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=env,
+                               start_new_session=True)
+    try:
+        for line in session.stdout:
+            if "has begun" in line:
+                break
+        text = navvi_watch().communicate(timeout=90)[0]
+    finally:
+        if session.poll() is None:
+            os.killpg(session.pid, signal.SIGINT)
+        session.communicate(timeout=30)
+    assert "Follow the path" in text and "Said: " in text, text
+    assert "The trial has ended: timeout" in text and text.endswith("The session has ended.\n"), text
+
+
+def test_where_no_session_runs_that_is_said(tmp_path):
+    process = navvi_watch(TMPDIR=str(tmp_path))
+    text = process.communicate(timeout=60)[0]
+    assert process.returncode == 2 and "no session runs on this machine" in text
