@@ -74,14 +74,15 @@ check_world() {
 # Six lines: what begins, what to press, where the record goes, how to stop.
 announce() {
   local -A drive=(
-    [pad]="the left stick of the pad, up for forward."
-    [keyboard]="the arrow keys, with Shift slowly, while NavVI's small window has the focus and is green."
+    [pad]="press start; then the left stick of the pad drives, up for forward."
+    [keyboard]="press enter; then the arrow keys drive, with Shift slowly, while NavVI's small window has the focus and is green."
     [simulated]="nothing to do; a simulated person drives."
   ) ask=(
     [pad]="the lower button repeats the direction, the right one tells the goal, the left one what is near."
     [keyboard]="space repeats the direction, G tells the goal, A what is near."
     [simulated]="what it hears is in the log below, and in \"./navvi watch\"."
   )
+  [[ "${parameters[*]}" != *feedback/buttons/* ]] || ask[pad]="as your feedback/buttons say."
   say "a session begins in some seconds: world ${arg[world]}, seed ${arg[seed]:-1}, profile ${arg[profile]}, operator ${arg[operator]}."
   echo "To drive: ${drive[${arg[operator]}]}"
   echo "To hear more: ${ask[${arg[operator]}]}"

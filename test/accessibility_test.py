@@ -1,6 +1,7 @@
 """What a person with a screen reader, a braille display or a dumb terminal needs of the command line.
 
-Picture, panel, sound and controls are tested where they are made.
+Picture, panel, sound and controls are tested where they are made; tests marked with `pytest.mark.accessibility` run with
+these by `./navvi test accessibility`.
 """
 import os
 import pathlib

@@ -6,6 +6,10 @@ import time
 import pytest
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "accessibility: a line of the checklist; `./navvi test accessibility` runs them all")
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))

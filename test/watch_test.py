@@ -11,13 +11,16 @@ import time
 import pytest
 import rosbag
 import rospy
-from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent
+from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCRIPT = ROOT / "navvi_ws/src/navvi_study/scripts/watch_session"
 loader = importlib.machinery.SourceFileLoader("watch_session", str(SCRIPT))
 watch = importlib.util.module_from_spec(importlib.util.spec_from_loader("watch_session", loader))
 loader.exec_module(watch)
+
+
+pytestmark = pytest.mark.accessibility
 
 
 def at(seconds, message):
@@ -40,6 +43,7 @@ def contact(seconds, seq, x, y):
 
 
 SESSION = [
+    ("/navvi/trial_state", at(99.6, TrialState(state=TrialState.READY))),
     ("/navvi/events", at(100, TrialEvent(type="TRIAL_START", fields="world=busy;seed=3;operator=pad"))),
     ("/navvi/guidance", guidance(100.2, Guidance.FOLLOWING)),
     ("/navvi/guidance", guidance(100.4, Guidance.FOLLOWING)),
@@ -54,6 +58,7 @@ SESSION = [
     ("/navvi/events", at(130, TrialEvent(type="TRIAL_END", fields="result=aborted;reason=stopped_by_signal"))),
 ]
 LINES = [
+    "The trial waits until its person presses start. 0 s.",
     "The trial begins: world busy, seed 3, operator pad. 0 s.",
     "Follow the path, 20 m to go. 0 s.",
     "Said: straight ahead, 5 meters. 1 s.",
@@ -64,6 +69,16 @@ LINES = [
     "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
     "The trial has ended: aborted, stopped by signal. 30 s.",
 ]
+
+
+def test_nothing_that_the_guide_knows_is_told_in_the_picture_alone():
+    """Every state of guidance, of the wheels and of the trial that asks something of the person has its sentence."""
+    def constants(message, first, last):
+        names = [name for name in vars(message) if name.isupper()]
+        return {getattr(message, name) for name in names[names.index(first):names.index(last) + 1]}
+    assert set(watch.STATES) == constants(Guidance, "NO_GOAL", "MAKE_ROOM")
+    assert set(watch.STOPS) == constants(DriveState, "COMMAND_LOST", "COMMAND_INVALID")
+    assert set(watch.WAITING) == constants(TrialState, "PREPARING", "READY")
 
 
 @pytest.fixture
