@@ -62,9 +62,9 @@ Marker strip(const char* ns, int id, const std::vector<Eigen::Vector2d>& places,
   return marker;
 }
 
-Marker label(const char* ns, int id, const std::string& text, const Eigen::Vector2d& place,
-             double height, double size) {
-  Marker marker = shape(ns, id, Marker::TEXT_VIEW_FACING, kWhite);
+Marker label(int id, const std::string& text, const Eigen::Vector2d& place, double height,
+             double size) {
+  Marker marker = shape("label", id, Marker::TEXT_VIEW_FACING, kWhite);
   marker.text = text;
   marker.pose.position = at(place, height);
   marker.scale.z = size;
@@ -120,22 +120,21 @@ void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal,
   pole.scale.z = config.goal_height;
   markers[2] = pole;
   markers[3] = strip("goal", 1, ring(goal, config.goal_radius), 0.15, config.path_height, kWhite);
-  markers[4] = label("goal", 2, "GOAL", goal, config.goal_height + config.label_height,
-                     config.label_height * 1.3);
+  markers[4] =
+      label(0, "GOAL", goal, config.goal_height + config.label_height, config.label_height * 1.3);
 }
 
 void add_turn(const MarkersConfig& config, const Guidance& guidance,
               const std::vector<Eigen::Vector2d>& path, std::vector<Marker>& markers) {
   const std::optional<Eigen::Vector2d> course = course_after(path, guidance.waypoint);
-  if (guidance.waypoint_is_goal || !course) return;
+  if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < config.slight) return;
   Marker arrow = shape("turn", 0, Marker::ARROW, kWhite);
   arrow.points = {at(guidance.waypoint, 0.5), at(guidance.waypoint + 1.4 * *course, 0.5)};
   arrow.scale.x = 0.25;
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;
   markers[5] = arrow;
-  markers[6] =
-      label("turn", 1, turn_text(guidance), guidance.waypoint, 1.8, 0.6 * config.label_height);
+  markers[6] = label(1, turn_text(guidance), guidance.waypoint, 1.8, 0.6 * config.label_height);
 }
 
 }  // namespace
@@ -148,6 +147,7 @@ void MarkersConfig::describe(navvi_config::Visitor& visit) {
   visit(goal_height, "goal_height", Range{0.5, 10.0}, "m", "height of the goal's pole");
   visit(goal_radius, "goal_radius", Range{0.1, 5.0}, "m",
         "of the ring within which the goal is reached");
+  visit(slight, "slight", Range{0.0, 1.6}, "rad", "a corner that turns by less is no turn");
   visit(label_height, "label_height", Range{0.1, 3.0}, "m", "height of the letters");
 }
 
@@ -156,8 +156,8 @@ visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
                                               const std::vector<Eigen::Vector2d>& path) {
   visualization_msgs::MarkerArray array;
   std::vector<Marker>& markers = array.markers;
-  markers = {absent("path", 0), absent("path", 1), absent("goal", 0), absent("goal", 1),
-             absent("goal", 2), absent("turn", 0), absent("turn", 1)};
+  markers = {absent("path", 0),  absent("path", 1), absent("goal", 0), absent("goal", 1),
+             absent("label", 0), absent("turn", 0), absent("label", 1)};
   if (!guidance || !guidance->leads()) return array;
   add_path(config, path, markers);
   add_goal(config, guidance->goal, markers);

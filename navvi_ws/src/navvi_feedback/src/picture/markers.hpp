@@ -21,6 +21,7 @@ struct MarkersConfig {
   double path_height = 0.08;  // m
   double goal_height = 2.5;   // m
   double goal_radius = 1.0;   // m
+  double slight = 0.26;       // rad, about half an hour on the clock
   double label_height = 0.7;  // m
 
   void describe(navvi_config::Visitor& visit);
@@ -28,7 +29,8 @@ struct MarkersConfig {
 
 /// What is drawn of the guidance (R-VIS-1, 2): the path as a purple strip on a wider white one, the
 /// goal as a red pole in a white ring with the word GOAL, and the next turn as an arrow with the
-/// hour and the distance. No two things differ by colour alone. Namespaces path, goal, turn.
+/// hour and the distance. No two things differ by colour alone. Namespaces path, goal, turn, and
+/// label for the words.
 ///
 /// Every call names every marker, with DELETE for what is not there: without guidance that follows
 /// a path, nothing is.

@@ -109,15 +109,23 @@ TEST(Markers, the_line_and_the_goal_pass_three_to_one_on_rviz_grey_and_the_line_
 
 TEST(Markers, the_turn_shows_hour_and_distance_and_points_along_the_next_leg) {
   const MarkerArray array = guide_markers({}, following(), kPath);
-  EXPECT_EQ(find(array, "turn", 1)->text, "in 4 m, 3 o'clock");
+  EXPECT_EQ(find(array, "label", 1)->text, "in 4 m, 3 o'clock");
   const Marker& arrow = *find(array, "turn", 0);
   Guidance aside = following();
   aside.steer_angle = 0.0;
-  EXPECT_EQ(find(guide_markers({}, aside, kPath), "turn", 1)->text, "in 4 m, 3 o'clock")
+  EXPECT_EQ(find(guide_markers({}, aside, kPath), "label", 1)->text, "in 4 m, 3 o'clock")
       << "where the robot looks does not change what the arrow shows";
   ASSERT_EQ(arrow.points.size(), 2u);
   EXPECT_NEAR(arrow.points[1].x, arrow.points[0].x, 1e-9);
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
+}
+
+TEST(Markers, a_slight_bend_is_no_turn) {
+  Guidance guidance = following();
+  guidance.turn_angle = 0.17;
+  const MarkerArray array = guide_markers({}, guidance, kPath);
+  EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
+  EXPECT_EQ(find(array, "label", 1)->action, Marker::DELETE);
 }
 
 TEST(Markers, everything_stands_on_the_floor_of_the_map) {
@@ -136,7 +144,7 @@ TEST(Markers, before_the_goal_there_is_no_turn) {
   guidance.waypoint = guidance.goal;
   guidance.waypoint_is_goal = true;
   EXPECT_EQ(find(guide_markers({}, guidance, kPath), "turn", 0)->action, Marker::DELETE);
-  EXPECT_EQ(find(guide_markers({}, guidance, kPath), "goal", 2)->text, "GOAL");
+  EXPECT_EQ(find(guide_markers({}, guidance, kPath), "label", 0)->text, "GOAL");
 }
 
 }  // namespace
