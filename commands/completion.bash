@@ -46,7 +46,6 @@ possible_words() {
   name=${word%%:=*}
   case $word in
     world:=*) world_names | sed 's/^/world:=/' ;;
-    view:=*) (cd "$views" && printf 'view:=%s\n' *.rviz | sed 's/\.rviz$//') ;;
     *:=*) [[ ! -v allowed[$name] ]] || sed "s/[^ ]*/$name:=&/g; s/ /\n/g" <<<"${allowed[$name]}" ;;
     *) argument_names "$launch_files/$file" | sed 's/$/:=/' ;;
   esac

@@ -10,7 +10,7 @@ packages=(
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
   python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
   # test and bench
-  libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest
+  libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
   shellcheck xvfb x11-utils imagemagick sox openbox xdotool
 )
 

@@ -11,7 +11,9 @@ resolve_rviz() {
   [[ ${arg[rviz]} == false ]] || has_display || fail "rviz:=true needs a display, and DISPLAY is not set; rviz:=false needs none." 2
 }
 resolve_view() {
-  arg[view]=${arg[view]:-default}
+  local name
+  for name in vision view; do [[ ! -v arg[$name] ]] || one_of "$name"; done
+}
   [[ -f $views/${arg[view]}.rviz ]] ||
     fail "view:=${arg[view]} is unknown; known are: $(cd "$views" && echo *.rviz | sed 's/\.rviz//g')" 2
 }

@@ -1,0 +1,75 @@
+#include "look/vision.hpp"
+
+namespace navvi_rviz::look {
+namespace {
+
+constexpr Color kWhite{1.00F, 1.00F, 1.00F};
+constexpr Color kBlack{0.00F, 0.00F, 0.00F};
+constexpr Color kYellow{1.00F, 0.93F, 0.10F};
+
+Vision high_contrast() {
+  Vision vision;
+  vision.fill = {{"floor", {0.02F, 0.025F, 0.03F}},
+                 {"floor line", {0.20F, 0.22F, 0.24F}},
+                 {"shelf", {0.29F, 0.37F, 0.47F}},
+                 {"wall", {0.35F, 0.35F, 0.35F}},
+                 {"box", kYellow},
+                 {"pedestal", {1.00F, 0.84F, 0.66F}},
+                 {"other", {0.88F, 0.88F, 0.84F}},
+                 {"robot", kWhite},
+                 {"path", {0.82F, 0.45F, 1.00F}},
+                 {"goal", {1.00F, 0.15F, 0.15F}},
+                 {"turn", kWhite}};
+  vision.bright = vision.text = kWhite;
+  vision.dark = vision.plate = kBlack;
+  return vision;
+}
+
+Vision yellow_on_black() {
+  Vision vision = high_contrast();
+  vision.fill["floor"] = kBlack;
+  vision.fill["shelf"] = vision.fill["wall"] = {0.36F, 0.36F, 0.30F};
+  for (const char* ns : {"path", "goal", "turn"}) vision.fill[ns] = kYellow;
+  for (const char* ns : {"box", "pedestal", "other"}) vision.fill[ns] = {0.90F, 0.90F, 0.80F};
+  vision.bright = vision.text = kYellow;
+  return vision;
+}
+
+Vision large() {
+  Vision vision = high_contrast();
+  vision.width = 2.0;
+  vision.text_height = 60.0;
+  return vision;
+}
+
+/// Hues of Okabe and Ito (2008), which all kinds of colour vision tell apart.
+Vision color_blind() {
+  Vision vision = high_contrast();
+  vision.fill["path"] = {0.45F, 0.78F, 1.00F};
+  vision.fill["goal"] = {0.95F, 0.45F, 0.05F};
+  vision.fill["pedestal"] = {1.00F, 0.82F, 0.92F};
+  return vision;
+}
+
+const std::map<std::string, Vision>& visions() {
+  static const std::map<std::string, Vision> visions{{"color_blind", color_blind()},
+                                                     {"high_contrast", high_contrast()},
+                                                     {"large", large()},
+                                                     {"yellow_on_black", yellow_on_black()}};
+  return visions;
+}
+
+}  // namespace
+
+const Vision* find_vision(const std::string& name) {
+  const auto found = visions().find(name);
+  return found == visions().end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> vision_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : visions()) names.push_back(entry.first);
+  return names;
+}
+
+}  // namespace navvi_rviz::look

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "look/ribbon.hpp"
+
+namespace navvi_rviz::look {
+
+/// A palette for one way of seeing. What matters is bright, or has a bright edge in a dark one; all
+/// it can be in front of is dark (luminance of at most 0.11).
+struct Vision {
+  std::map<std::string, Color> fill;  ///< by the namespace of a marker
+  Color bright, dark;                 ///< of the two edges around what matters
+  Color text, plate;
+  double width = 1.0;       ///< times the width of the path, and of the ring around the goal
+  double text_height = 30;  ///< px, of letters on a screen of 1080 rows
+};
+
+/// \return nullptr: there is none of that name
+[[nodiscard]] const Vision* find_vision(const std::string& name);
+[[nodiscard]] std::vector<std::string> vision_names();
+
+}  // namespace navvi_rviz::look

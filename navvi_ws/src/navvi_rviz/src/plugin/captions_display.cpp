@@ -1,0 +1,234 @@
+#include "plugin/captions_display.hpp"
+
+#include <OgreCamera.h>
+#include <OgreViewport.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/ogre_helpers/render_system.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+
+#include <algorithm>
+#include <cmath>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "plugin/chosen.hpp"
+#include "plugin/paint.hpp"
+
+namespace navvi_rviz::plugin {
+namespace {
+
+constexpr double kAhead = 4.0;       // m along the path, to where the edge arrow leads
+constexpr double kLeastText = 26.0;  // px, of letters
+constexpr double kMargin = 3.0;      // m, around what the view from above holds
+constexpr double kLargest = 60.0;    // px/m, of that view
+
+Eigen::Vector2d size_of(const Plate& plate) {
+  return {plate.size().width(), plate.size().height()};
+}
+
+/// Makes the saved view of that name the current one.
+void choose_view(rviz::ViewManager& views, const std::string& name) {
+  for (int i = 0; i < views.getNumViews(); ++i)
+    if (views.getViewAt(i)->getName().toLower() == QString::fromStdString(name))
+      views.setCurrentFrom(views.getViewAt(i));
+}
+
+Eigen::Vector3d from(const geometry_msgs::Point& point, const geometry_msgs::Point& origin) {
+  return {point.x + origin.x, point.y + origin.y, point.z + origin.z};
+}
+
+}  // namespace
+
+CaptionsDisplay::~CaptionsDisplay() = default;
+
+void CaptionsDisplay::onInitialize() {
+  rviz::RenderSystem::get()->prepareOverlays(context_->getSceneManager());
+  reader_ = std::make_unique<Reader>();
+  markers_ = update_nh_.subscribe<visualization_msgs::MarkerArray>(
+      "navvi/markers", 1,
+      [this](const visualization_msgs::MarkerArray::ConstPtr& msg) { take(*msg); });
+}
+
+void CaptionsDisplay::onDisable() {
+  for (auto& entry : plates_) entry.second.plate->hide();
+}
+
+void CaptionsDisplay::take(const visualization_msgs::MarkerArray& markers) {
+  using visualization_msgs::Marker;
+  labels_.clear();
+  path_.clear();
+  for (const Marker& marker : markers.markers) {
+    if (marker.action != Marker::ADD) continue;
+    if (marker.type == Marker::TEXT_VIEW_FACING)
+      labels_[marker.id] = {marker.text, from(marker.pose.position, {})};
+    if (marker.ns == "path" && marker.id == 1)
+      for (const auto& point : marker.points) path_.push_back(from(point, marker.pose.position));
+  }
+}
+
+CaptionsDisplay::Seen CaptionsDisplay::see(const Eigen::Vector3d& place) const {
+  const Ogre::Camera* camera = context_->getViewManager()->getCurrent()->getCamera();
+  const Ogre::Vector3 at(static_cast<float>(place.x()), static_cast<float>(place.y()),
+                         static_cast<float>(place.z()));
+  const Ogre::Vector3 seen = camera->getViewMatrix() * at;
+  Seen result{{seen.x, seen.y, seen.z}, std::nullopt};
+  if (seen.z >= 0.0F) return result;
+  const Ogre::Vector3 flat = camera->getProjectionMatrix() * seen;
+  const Ogre::Viewport* port = camera->getViewport();
+  result.pixel =
+      Eigen::Vector2d(0.5 * (1.0 + static_cast<double>(flat.x)) * port->getActualWidth(),
+                      0.5 * (1.0 - static_cast<double>(flat.y)) * port->getActualHeight());
+  return result;
+}
+
+std::optional<navvi_types::Pose2> CaptionsDisplay::robot() const {
+  Ogre::Vector3 at;
+  Ogre::Quaternion turned;
+  if (!context_->getFrameManager()->getTransform("base_link", ros::Time(), at, turned))
+    return std::nullopt;
+  return navvi_types::Pose2{{static_cast<double>(at.x), static_cast<double>(at.y)},
+                            static_cast<double>(turned.getYaw(false).valueRadians())};
+}
+
+std::optional<Eigen::Vector3d> CaptionsDisplay::way_ahead(const Eigen::Vector2d& robot) const {
+  if (path_.empty()) return std::nullopt;
+  const auto away = [&](const Eigen::Vector3d& place) { return (place.head<2>() - robot).norm(); };
+  const auto nearest = std::min_element(
+      path_.begin(), path_.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); });
+  double left = kAhead;
+  for (auto i = nearest; i + 1 != path_.end(); ++i) {
+    const Eigen::Vector3d leg = *(i + 1) - *i;
+    if (leg.norm() >= left) return *i + leg * (left / leg.norm());
+    left -= leg.norm();
+  }
+  return path_.back();
+}
+
+Plate& CaptionsDisplay::painted(const std::string& name, const std::string& key,
+                                const std::function<QImage()>& paint) {
+  Painted& entry = plates_[name];
+  if (!entry.plate) entry.plate = std::make_unique<Plate>(name);
+  const std::string full = Chosen::shared().name() + "/" + key;
+  if (entry.key != full) entry.plate->set(paint());
+  entry.key = full;
+  return *entry.plate;
+}
+
+Plate& CaptionsDisplay::words(const std::string& name, const std::string& text, int height,
+                              bool inverted) {
+  const std::string key = text + "/" + std::to_string(height) + (inverted ? "!" : "");
+  return painted(name, key, [&] {
+    return paint_words(QString::fromStdString(text), height, Chosen::shared().vision(), inverted);
+  });
+}
+
+void CaptionsDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
+  const Ogre::Viewport* port = context_->getViewManager()->getCurrent()->getCamera()->getViewport();
+  if (!port) return;
+  const Eigen::Vector2d picture(port->getActualWidth(), port->getActualHeight());
+  height_ = static_cast<int>(std::max(
+      kLeastText, Chosen::shared().vision().text_height * std::max(1.0, picture.y() / 1080.0)));
+  if (std::exchange(first_, false))
+    choose_view(*context_->getViewManager(), ros::param::param<std::string>("~view", "chase"));
+  onDisable();
+  std::vector<screen::Rect> taken;
+  show_banner(picture, taken);
+  if (const auto pose = robot()) {
+    show_from_above(*pose, picture);
+    show_way(*pose, picture, taken);
+  }
+  show_labels(picture, taken);
+}
+
+void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture,
+                                  std::vector<screen::Rect>& taken) {
+  const status::Shown shown = reader_->shown();
+  if (shown.banner.empty()) return;
+  const bool inverted = shown.tone == status::Shown::Tone::alarm;
+  int large = 2 * height_;
+  Plate* plate = &words("banner", shown.banner, large, inverted);
+  const double width = size_of(*plate).x();
+  if (width > picture.x()) {
+    large = static_cast<int>(0.95 * large * picture.x() / width);
+    plate = &words("banner", shown.banner, large, inverted);
+  }
+  const Eigen::Vector2d corner(0.5 * (picture.x() - size_of(*plate).x()), 10.0);
+  plate->show(corner.x(), corner.y());
+  taken.emplace_back(corner, corner + size_of(*plate));
+}
+
+void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
+                               std::vector<screen::Rect>& taken) {
+  const auto way = way_ahead(robot.position);
+  if (!way) return;
+  Seen seen = see(*way);
+  // What is ahead, but below the picture, is just before the robot.
+  if (seen.pixel && robot.to_local(way->head<2>()).x() > 0.0)
+    seen.pixel->y() = std::min(seen.pixel->y(), picture.y() - 1.0);
+  const int size = 4 * height_;
+  const auto arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture, 0.5 * size);
+  if (!arrow) return;
+  Plate& plate = this->arrow("edge", arrow->angle, size);
+  const Eigen::Vector2d corner = arrow->at - 0.5 * size_of(plate);
+  plate.show(corner.x(), corner.y());
+  taken.emplace_back(corner, corner + size_of(plate));
+}
+
+void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture,
+                                  const std::vector<screen::Rect>& taken) {
+  std::vector<screen::Plate> wanted;
+  std::vector<Plate*> plates;
+  const auto add = [&](const std::string& name, const std::string& text,
+                       const Eigen::Vector3d& at) {
+    const Seen seen = see(at);
+    if (!seen.pixel || (seen.pixel->array() < 0.0).any() ||
+        (seen.pixel->array() > picture.array()).any())
+      return;
+    plates.push_back(&words(name, text, height_, false));
+    wanted.push_back({*seen.pixel, size_of(*plates.back())});
+  };
+  for (const auto& [id, label] : labels_)
+    add("label" + std::to_string(id), label.first, label.second);
+  if (from_above() && start_ && !labels_.empty())
+    add("start", "START", {start_->x(), start_->y(), 0.0});
+  const std::vector<Eigen::Vector2d> corners = screen::place(wanted, picture, taken);
+  for (std::size_t i = 0; i < plates.size(); ++i) plates[i]->show(corners[i].x(), corners[i].y());
+}
+
+bool CaptionsDisplay::from_above() const {
+  return context_->getViewManager()->getCurrent()->getClassId() == "rviz/TopDownOrtho";
+}
+
+void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
+                                      const Eigen::Vector2d& picture) {
+  const auto& guidance = reader_->guidance();
+  if (guidance && guidance->leads() && goal_ != guidance->goal) {
+    goal_ = guidance->goal;
+    start_ = robot.position;
+  }
+  if (!from_above()) return;
+  screen::Rect all(robot.position);
+  if (goal_) all.extend(*goal_).extend(*start_);
+  const Eigen::Vector2d room = all.sizes() + Eigen::Vector2d::Constant(2.0 * kMargin);
+  rviz::ViewController* view = context_->getViewManager()->getCurrent();
+  view->subProp("X")->setValue(all.center().x());
+  view->subProp("Y")->setValue(all.center().y());
+  view->subProp("Scale")->setValue(std::min(kLargest, (picture.array() / room.array()).minCoeff()));
+
+  const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
+  if (!pixel) return;
+  Plate& plate = arrow("robot", robot.yaw, 3 * height_);
+  plate.show(pixel->x() - 0.5 * size_of(plate).x(), pixel->y() - 0.5 * size_of(plate).y());
+}
+
+Plate& CaptionsDisplay::arrow(const std::string& name, double angle, int size) {
+  const int degrees = 10 * static_cast<int>(std::lround(angle * 18.0 / M_PI));
+  return painted(name, std::to_string(degrees) + "/" + std::to_string(size), [&] {
+    return paint_arrow(degrees * M_PI / 180.0, size, Chosen::shared().vision());
+  });
+}
+
+}  // namespace navvi_rviz::plugin
+
+PLUGINLIB_EXPORT_CLASS(navvi_rviz::plugin::CaptionsDisplay, rviz::Display)

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <rviz/display.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <map>
+#include <memory>
+#include <navvi_types/motion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/plate.hpp"
+#include "plugin/reader.hpp"
+#include "screen/place.hpp"
+
+namespace navvi_rviz::plugin {
+
+/// Words on the screen: what matters now as a banner, the texts among NavVI's markers as plates
+/// over their places, and an arrow at the edge where the path leaves the picture. Also keeps the
+/// view from above on the robot, its start and its goal.
+class CaptionsDisplay : public rviz::Display {
+ public:
+  ~CaptionsDisplay() override;
+  void onInitialize() override;
+  void update(float wall_dt, float ros_dt) override;
+
+ protected:
+  void onDisable() override;
+
+ private:
+  /// A plate, and what is painted on it.
+  struct Painted {
+    std::unique_ptr<Plate> plate;
+    std::string key;
+  };
+
+  /// Of a place in map: in the camera's frame, and on the screen if it is before the camera.
+  struct Seen {
+    Eigen::Vector3d in_camera;
+    std::optional<Eigen::Vector2d> pixel;
+  };
+
+  void take(const visualization_msgs::MarkerArray& markers);
+  [[nodiscard]] Seen see(const Eigen::Vector3d& place) const;
+  /// base_link in the fixed frame.
+  [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
+  /// A place on the path a little ahead of the robot, m.
+  [[nodiscard]] std::optional<Eigen::Vector3d> way_ahead(const Eigen::Vector2d& robot) const;
+  /// The plate of that name with these words on it.
+  Plate& words(const std::string& name, const std::string& text, int height, bool inverted);
+  Plate& painted(const std::string& name, const std::string& key,
+                 const std::function<QImage()>& paint);
+
+  /// An arrow's plate. \param angle  rad, counter-clockwise from right
+  Plate& arrow(const std::string& name, double angle, int size);
+  [[nodiscard]] bool from_above() const;
+  void show_banner(const Eigen::Vector2d& picture, std::vector<screen::Rect>& taken);
+  void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
+                std::vector<screen::Rect>& taken);
+  void show_labels(const Eigen::Vector2d& picture, const std::vector<screen::Rect>& taken);
+  /// The view from above holds the robot, the start and the goal, and shows where they are.
+  void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture);
+
+  std::unique_ptr<Reader> reader_;
+  bool first_ = true;  ///< nothing was drawn yet
+  int height_ = 30;    ///< px, of a line of text
+  std::optional<Eigen::Vector2d> start_,
+      goal_;  ///< m, in map: where the robot was when it got its goal
+  ros::Subscriber markers_;
+  std::map<int, std::pair<std::string, Eigen::Vector3d>> labels_;  ///< by id, place in map, m
+  std::vector<Eigen::Vector3d> path_;                              ///< m, in map
+  std::map<std::string, Painted> plates_;
+};
+
+}  // namespace navvi_rviz::plugin

@@ -1,0 +1,62 @@
+#include "plugin/paint.hpp"
+
+#include <QFontMetrics>
+#include <QPainter>
+#include <QPolygonF>
+#include <cmath>
+
+namespace navvi_rviz::plugin {
+
+QColor color(const look::Color& color) {
+  return QColor::fromRgbF(static_cast<double>(color.r), static_cast<double>(color.g),
+                          static_cast<double>(color.b));
+}
+
+QImage paint_words(const QString& words, int height, const look::Vision& vision, bool inverted) {
+  QFont font("DejaVu Sans");
+  font.setPixelSize(height);
+  font.setBold(true);
+  const int pad = height / 3, line = std::max(2, height / 10);
+  const QFontMetrics metrics(font);
+  QImage image(metrics.horizontalAdvance(words) + 2 * pad + 4 * line,
+               metrics.height() + pad + 2 * line, QImage::Format_ARGB32);
+  const QColor plate = color(inverted ? vision.text : vision.plate);
+  const QColor text = color(inverted ? vision.plate : vision.text);
+  image.fill(plate);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::TextAntialiasing);
+  painter.setFont(font);
+  // The outline in the text's colour, in one of the plate's: one of the two is always seen.
+  painter.setPen(QPen(text, line));
+  painter.drawRect(image.rect().adjusted(line + line / 2, line + line / 2, -line - line / 2 - 1,
+                                         -line - line / 2 - 1));
+  painter.drawText(image.rect(), Qt::AlignCenter, words);
+  return image;
+}
+
+QImage paint_arrow(double angle, int size, const look::Vision& vision) {
+  QImage image(size, size, QImage::Format_ARGB32);
+  image.fill(Qt::transparent);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.translate(0.5 * size, 0.5 * size);
+  painter.rotate(-angle * 180.0 / M_PI);
+  const double s = 0.4 * size;
+  const QPolygonF arrow({{-s, -0.35 * s},
+                         {0.1 * s, -0.35 * s},
+                         {0.1 * s, -0.9 * s},
+                         {s, 0.0},
+                         {0.1 * s, 0.9 * s},
+                         {0.1 * s, 0.35 * s},
+                         {-s, 0.35 * s}});
+  painter.setPen(QPen(color(vision.dark), 0.14 * size, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setBrush(color(vision.dark));
+  painter.drawPolygon(arrow);
+  painter.setPen(
+      QPen(color(vision.bright), 0.06 * size, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setBrush(color(vision.fill.at("path")));
+  painter.drawPolygon(arrow);
+  return image;
+}
+
+}  // namespace navvi_rviz::plugin

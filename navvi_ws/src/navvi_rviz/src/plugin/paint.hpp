@@ -1,0 +1,21 @@
+#pragma once
+
+#include <QImage>
+#include <QString>
+
+#include "look/vision.hpp"
+
+namespace navvi_rviz::plugin {
+
+[[nodiscard]] QColor color(const look::Color& color);
+
+/// Words on a plate with an outline.
+/// \param height    px, of the letters' line
+/// \param inverted  the colours of text and plate change places, for what must not be missed
+[[nodiscard]] QImage paint_words(const QString& words, int height, const look::Vision& vision,
+                                 bool inverted);
+
+/// An arrow. \param angle  rad, where it points; 0 is right, counter-clockwise \param size  px
+[[nodiscard]] QImage paint_arrow(double angle, int size, const look::Vision& vision);
+
+}  // namespace navvi_rviz::plugin

@@ -1,0 +1,50 @@
+#include "plugin/reader.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <navvi_msgs/TrialEvent.h>
+
+#include <navvi_config/subscribe.hpp>
+#include <navvi_types/msg_conversion.hpp>
+
+namespace navvi_rviz::plugin {
+
+using navvi_config::subscribe;
+using navvi_types::from_msg;
+
+namespace {
+
+double now() { return ros::SteadyTime::now().toSec(); }
+
+}  // namespace
+
+Reader::Reader() {
+  const auto keep = [this](ros::Subscriber subscriber) { subscribers_.push_back(subscriber); };
+  keep(subscribe<navvi_msgs::Cue, navvi_types::CueEvent>(
+      node_, "navvi/cues", 100, from_msg,
+      [this](const navvi_types::CueEvent& cue) { status_.take(cue, now()); }));
+  keep(subscribe<navvi_msgs::Guidance, navvi_types::Guidance>(
+      node_, "navvi/guidance", 1, from_msg, [this](const navvi_types::Guidance& guidance) {
+        guidance_ = guidance;
+        status_.take(guidance);
+      }));
+  keep(subscribe<navvi_msgs::DriveState, navvi_types::DriveState>(
+      node_, "navvi/drive_state", 1, from_msg,
+      [this](const navvi_types::DriveState& state) { status_.take(state); }));
+  keep(subscribe<nav_msgs::Odometry, navvi_types::Odometry>(
+      node_, "odom", 1, from_msg,
+      [this](const navvi_types::Odometry& odom) { status_.take_speed(odom.velocity.linear); }));
+  keep(node_.subscribe<navvi_msgs::TrialEvent>(
+      "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& event) {
+        status_.take_event(event->type, event->header.stamp.toSec());
+      }));
+  keep(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
+        for (const auto& device : array->status)
+          for (const auto& pair : device.values)
+            if (pair.key == "state") status_.take_device(device.name, pair.value);
+      }));
+}
+
+status::Shown Reader::shown() const { return status_.shown(now(), ros::Time::now().toSec()); }
+
+}  // namespace navvi_rviz::plugin

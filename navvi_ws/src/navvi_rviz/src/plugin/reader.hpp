@@ -1,0 +1,25 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <vector>
+
+#include "status/status.hpp"
+
+namespace navvi_rviz::plugin {
+
+/// Keeps a Status up to date with the topics of NavVI's nodes. Callbacks run in the GUI's thread.
+class Reader {
+ public:
+  Reader();
+  [[nodiscard]] status::Shown shown() const;
+  [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
+
+ private:
+  ros::NodeHandle node_;
+  status::Status status_;
+  std::optional<navvi_types::Guidance> guidance_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace navvi_rviz::plugin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+namespace navvi_rviz::screen {
+
+using Rect = Eigen::AlignedBox2d;  ///< px, from the left upper corner of the picture
+
+/// Something to be read beside a place of the picture.
+struct Plate {
+  Eigen::Vector2d anchor;  ///< px, of the place; may be outside
+  Eigen::Vector2d size;    ///< px
+};
+
+/// Where plates are drawn: over their places if there is room, inside the picture, and never over
+/// each other or what is taken. The first are placed first.
+/// \return the left upper corner of each, px
+[[nodiscard]] std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates,
+                                                 const Eigen::Vector2d& picture,
+                                                 const std::vector<Rect>& taken);
+
+/// Where on the edge of the picture an arrow to something outside is drawn.
+struct EdgeArrow {
+  Eigen::Vector2d at;  ///< px, its middle
+  double angle;        ///< rad, where it points; 0 is right, counter-clockwise
+};
+
+/// \param seen    in the camera's frame, m: x right, y up, z backwards
+/// \param inside  px, where the place is on the screen, if it is before the camera
+/// \param margin  px, from the edge
+/// \return nullopt: the place is in the picture
+[[nodiscard]] std::optional<EdgeArrow> edge_arrow(const Eigen::Vector3d& seen,
+                                                  const std::optional<Eigen::Vector2d>& inside,
+                                                  const Eigen::Vector2d& picture, double margin);
+
+}  // namespace navvi_rviz::screen

@@ -1,0 +1,56 @@
+#include "screen/place.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace navvi_rviz::screen {
+namespace {
+
+const Eigen::Vector2d kPicture(1920.0, 1080.0);
+
+TEST(Place, plates_lie_inside_and_never_over_each_other_or_what_is_taken) {
+  const std::vector<Rect> taken = {{Eigen::Vector2d(600.0, 0.0), Eigen::Vector2d(1300.0, 120.0)}};
+  std::vector<Plate> plates;
+  for (const double x : {-500.0, 0.0, 900.0, 1000.0, 5000.0})
+    for (const double y : {-50.0, 100.0, 130.0, 2000.0}) plates.push_back({{x, y}, {300.0, 50.0}});
+  const std::vector<Eigen::Vector2d> corners = place(plates, kPicture, taken);
+  std::vector<Rect> rects = taken;
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    const Rect mine(corners[i], corners[i] + plates[i].size);
+    EXPECT_TRUE(Rect(Eigen::Vector2d::Zero(), kPicture).contains(mine)) << i;
+    for (const Rect& other : rects)
+      EXPECT_LE(mine.intersection(other).sizes().minCoeff(), 0.0) << i;
+    rects.push_back(mine);
+  }
+}
+
+TEST(Place, a_plate_alone_is_over_the_middle_of_its_place) {
+  const auto corners = place({{{960.0, 540.0}, {200.0, 40.0}}}, kPicture, {});
+  EXPECT_DOUBLE_EQ(corners[0].x(), 860.0);
+  EXPECT_LT(corners[0].y() + 40.0, 540.0);
+}
+
+TEST(EdgeArrow, is_there_only_for_what_is_outside) {
+  EXPECT_FALSE(edge_arrow({0.0, 0.0, -5.0}, Eigen::Vector2d(960.0, 540.0), kPicture, 60.0));
+  const auto right = edge_arrow({5.0, 0.0, -1.0}, Eigen::Vector2d(4000.0, 540.0), kPicture, 60.0);
+  ASSERT_TRUE(right);
+  EXPECT_NEAR(right->at.x(), 1860.0, 1e-6);
+  EXPECT_NEAR(right->angle, 0.0, 1e-6);
+}
+
+TEST(EdgeArrow, points_down_to_what_is_behind_the_camera_and_to_its_side) {
+  const auto behind = edge_arrow({0.0, 0.0, 5.0}, std::nullopt, kPicture, 60.0);
+  ASSERT_TRUE(behind);
+  EXPECT_NEAR(behind->at.y(), 1020.0, 1e-6);
+  EXPECT_NEAR(behind->angle, -0.5 * M_PI, 1e-6);
+  EXPECT_LT(edge_arrow({-5.0, 0.0, 5.0}, std::nullopt, kPicture, 60.0)->at.x(), 900.0);
+}
+
+}  // namespace
+}  // namespace navvi_rviz::screen
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

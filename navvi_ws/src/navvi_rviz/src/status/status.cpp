@@ -1,0 +1,113 @@
+#include "status/status.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace navvi_rviz::status {
+namespace {
+
+using navvi_types::Guidance;
+
+constexpr double kHeld = 10.0;  // s; "stop" and "wait" hold until a word follows, but not for ever
+constexpr double kShown = 4.0;  // s, of other warnings
+
+/// Cues that hold until the next word about the way.
+const std::set<std::string> kHolding = {"obstacle_stop", "blocked"};
+const std::set<std::string> kWarnings = {"collision_shelf", "collision_wall", "collision_obstacle",
+                                         "obstacle_stop",   "blocked",        "back_away",
+                                         "off_mesh",        "stuck",          "stuck_unknown",
+                                         "make_room",       "release_stick",  "trial_time_up",
+                                         "trial_disk_full", "trial_over",     "proximity_lost",
+                                         "simulator_lost",  "guidance_lost",  "no_route"};
+/// Cues that say that the way goes on.
+const std::set<std::string> kReleasing = {"go_on",    "direction",       "straight",
+                                          "slight",   "straight_then",   "turn_now",
+                                          "rerouted", "rerouted_blocked"};
+
+std::string sentence_of(Guidance::State state) {
+  static const std::map<Guidance::State, std::string> sentences = {
+      {Guidance::State::goal_refused, "goal refused"},
+      {Guidance::State::no_route, "no route to the goal"},
+      {Guidance::State::off_mesh, "no path from here, back away"},
+      {Guidance::State::no_map, "no map yet"},
+      {Guidance::State::pose_stale, "position lost"},
+      {Guidance::State::map_stale, "map out of date"}};
+  const auto found = sentences.find(state);
+  return found == sentences.end() ? "" : found->second;
+}
+
+}  // namespace
+
+void Status::take(const navvi_types::CueEvent& cue, double time) {
+  using navvi_types::CueStage;
+  if (cue.modality != navvi_types::Modality::speech || cue.stage != CueStage::started) return;
+  last_ = Said{cue.kind, cue.text, time};
+  if (kWarnings.count(cue.kind) > 0) warning_ = last_;
+  if (kReleasing.count(cue.kind) > 0 && warning_ && kHolding.count(warning_->kind) > 0)
+    warning_.reset();
+  if (cue.kind == "pad_lost") lost_ = "controller lost";
+  if (cue.kind == "keyboard_lost") lost_ = cue.text;
+  if (cue.kind == "pad_back" || cue.kind == "keyboard_back") lost_.clear();
+}
+
+void Status::take(const Guidance& guidance) {
+  if (guidance_ && guidance_->state == Guidance::State::arrived &&
+      guidance.state != Guidance::State::arrived)
+    last_.reset();
+  guidance_ = guidance;
+}
+
+void Status::take_event(const std::string& type, double ros_time) {
+  if (type == "TRIAL_START") {
+    begun_ = ros_time;
+    ended_.reset();
+  }
+  if (type == "TRIAL_END") ended_ = ros_time;
+}
+
+void Status::take_device(const std::string& name, const std::string& state) {
+  if (name == "navvi/audio") sound_ = state != "missing";
+}
+
+std::optional<Status::Said> Status::warning(double time) const {
+  if (!warning_) return std::nullopt;
+  const double age = time - warning_->time;
+  return age < (kHolding.count(warning_->kind) > 0 ? kHeld : kShown) ? warning_ : std::nullopt;
+}
+
+/// The first that applies, most urgent first.
+void Status::choose_banner(double time, Shown& shown) const {
+  using Tone = Shown::Tone;
+  const auto show = [&](const std::string& text, Tone tone) {
+    if (!shown.banner.empty() || text.empty()) return;
+    shown.banner = text;
+    shown.tone = tone;
+  };
+  if (gate_ == navvi_types::DriveState::State::stopped)
+    show("robot stopped, let go of the stick", Tone::alarm);
+  show(lost_, Tone::alarm);
+  if (const auto said = warning(time))
+    show(said->text,
+         said->kind == "blocked" || said->kind == "make_room" ? Tone::wait : Tone::alarm);
+  if (!guidance_) return;
+  if (guidance_->state == Guidance::State::blocked) show("wait", Tone::wait);
+  if (guidance_->state == Guidance::State::make_room) show("make room", Tone::wait);
+  if (guidance_->state == Guidance::State::arrived) show("arrived", Tone::good);
+  show(sentence_of(guidance_->state), Tone::alarm);
+  if (!sound_) show("no sound", Tone::wait);
+}
+
+Shown Status::shown(double time, double ros_time) const {
+  Shown shown;
+  choose_banner(time, shown);
+  if (last_) shown.instruction = last_->text;
+  if (guidance_ && guidance_->leads()) shown.distance = guidance_->goal_distance;
+  shown.speed = std::abs(speed_);
+  if (begun_) shown.clock = std::max(0.0, ended_.value_or(ros_time) - *begun_);
+  shown.sound = sound_;
+  return shown;
+}
+
+}  // namespace navvi_rviz::status

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <navvi_types/cue_event.hpp>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
+#include <optional>
+#include <string>
+
+namespace navvi_rviz::status {
+
+/// What a person reads at a glance.
+struct Shown {
+  enum class Tone { calm, wait, alarm, good };
+
+  std::string banner = {};  ///< what matters most now, such as "stop, worker ahead"; empty: nothing
+  Tone tone = Tone::calm;   ///< of the banner
+  std::string instruction = {};         ///< what the guide said last
+  std::optional<double> distance = {};  ///< m, left to the goal along the path
+  double speed = 0.0;                   ///< m/s, >= 0
+  std::optional<double> clock = {};     ///< s, since the trial began
+  bool sound = true;                    ///< false: nothing can be heard
+};
+
+/// Turns what the nodes tell into words. Times are s of one clock that does not run backwards.
+class Status {
+ public:
+  void take(const navvi_types::CueEvent& cue, double time);
+  void take(const navvi_types::Guidance& guidance);
+  void take(const navvi_types::DriveState& state) { gate_ = state.state; }
+  void take_speed(double speed) { speed_ = speed; }
+  /// \param ros_time  s, of the event
+  void take_event(const std::string& type, double ros_time);
+  /// \param state  as in /diagnostics: works, missing, off
+  void take_device(const std::string& name, const std::string& state);
+
+  /// \param ros_time  s, of the same clock as the events
+  [[nodiscard]] Shown shown(double time, double ros_time) const;
+
+ private:
+  struct Said {
+    std::string kind, text;
+    double time;
+  };
+
+  [[nodiscard]] std::optional<Said> warning(double time) const;
+  void choose_banner(double time, Shown& shown) const;
+
+  std::optional<navvi_types::Guidance> guidance_;
+  std::optional<navvi_types::DriveState::State> gate_;
+  std::optional<Said> last_, warning_;
+  std::string lost_;  ///< sentence while the hands are lost
+  double speed_ = 0.0;
+  std::optional<double> begun_, ended_;  ///< s, ROS time
+  bool sound_ = true;
+};
+
+}  // namespace navvi_rviz::status

@@ -1,0 +1,105 @@
+#include "status/status.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_rviz::status {
+namespace {
+
+using navvi_types::CueEvent;
+using navvi_types::CueStage;
+using navvi_types::DriveState;
+using navvi_types::Guidance;
+
+CueEvent said(const std::string& kind, const std::string& text) {
+  CueEvent cue;
+  cue.stage = CueStage::started;
+  cue.kind = kind;
+  cue.text = text;
+  return cue;
+}
+
+Guidance in(Guidance::State state) {
+  Guidance guidance;
+  guidance.state = state;
+  return guidance;
+}
+
+DriveState gate(DriveState::State state) {
+  DriveState drive;
+  drive.state = state;
+  return drive;
+}
+
+TEST(Status, of_nothing_is_empty) {
+  const Shown shown = Status().shown(0.0, 0.0);
+  EXPECT_EQ(shown.banner, "");
+  EXPECT_EQ(shown.instruction, "");
+  EXPECT_FALSE(shown.distance || shown.clock);
+}
+
+TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
+  Status status;
+  status.take(in(Guidance::State::blocked));
+  EXPECT_EQ(status.shown(1.0, 0.0).banner, "wait");
+  status.take(said("collision_shelf", "hit a shelf on the left"), 1.0);
+  EXPECT_EQ(status.shown(1.1, 0.0).banner, "hit a shelf on the left");
+  status.take(gate(DriveState::State::stopped));
+  EXPECT_EQ(status.shown(1.2, 0.0).banner, "robot stopped, let go of the stick");
+  status.take(gate(DriveState::State::running));
+  EXPECT_EQ(status.shown(6.0, 0.0).banner, "wait") << "the hit is over";
+}
+
+TEST(Status, stop_holds_until_go_on_or_until_it_is_old) {
+  Status status;
+  status.take(said("obstacle_stop", "stop, worker ahead"), 0.0);
+  EXPECT_EQ(status.shown(8.0, 0.0).banner, "stop, worker ahead");
+  EXPECT_EQ(status.shown(11.0, 0.0).banner, "");
+  status.take(said("obstacle_stop", "stop, worker ahead"), 20.0);
+  status.take(said("go_on", "go on"), 21.0);
+  EXPECT_EQ(status.shown(21.1, 0.0).banner, "");
+  EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on");
+}
+
+TEST(Status, a_lost_controller_is_shown_until_it_is_back) {
+  Status status;
+  status.take(said("pad_lost", "controller disconnected"), 0.0);
+  EXPECT_EQ(status.shown(100.0, 0.0).banner, "controller lost");
+  status.take(said("pad_back", "controller connected, release the stick"), 101.0);
+  EXPECT_EQ(status.shown(101.0, 0.0).banner, "");
+}
+
+TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
+  Status status;
+  status.take(in(Guidance::State::following));
+  status.take_device("navvi/audio", "missing");
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "no sound");
+  status.take(in(Guidance::State::arrived));
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "arrived");
+  EXPECT_EQ(status.shown(0.0, 0.0).tone, Shown::Tone::good);
+}
+
+TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
+  Status status;
+  CueEvent cue = said("obstacle_stop", "stop, worker ahead");
+  for (const CueStage stage : {CueStage::queued, CueStage::dropped, CueStage::ended}) {
+    cue.stage = stage;
+    status.take(cue, 0.0);
+  }
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "");
+}
+
+TEST(Status, the_clock_runs_from_the_trials_start_to_its_end) {
+  Status status;
+  status.take_event("TRIAL_START", 10.0);
+  EXPECT_EQ(status.shown(0.0, 12.5).clock, 2.5);
+  status.take_event("TRIAL_END", 14.0);
+  EXPECT_EQ(status.shown(0.0, 99.0).clock, 4.0);
+}
+
+}  // namespace
+}  // namespace navvi_rviz::status
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

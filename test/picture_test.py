@@ -1,0 +1,194 @@
+"""What a person with little sight sees: contrast, measured on pictures of RViz with and without each thing."""
+import os
+import pathlib
+import subprocess
+import time
+
+import numpy
+import pytest
+from PIL import Image, ImageChops, ImageFilter
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
+KINDS = {"path": ["path"], "goal": ["goal"], "goods": ["box", "pedestal"], "movers": ["worker", "forklift", "pallet_robot", "robot"]}
+THINGS = sum(KINDS.values(), [])
+NEAR = 12  # px; a thing's own edge is within
+
+
+def luminance(image):
+    """Relative luminance as WCAG 2 defines it, [0, 1]."""
+    c = numpy.asarray(image.convert("RGB"), dtype=float) / 255.0
+    c = numpy.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    return c @ [0.2126, 0.7152, 0.0722]
+
+
+def contrast(a, b):
+    return (numpy.maximum(a, b) + 0.05) / (numpy.minimum(a, b) + 0.05)
+
+
+def grey(lum):
+    return Image.fromarray(numpy.uint8(numpy.round(255 * lum)))
+
+
+def edge_contrast(shown, without):
+    """Where a thing ends: the best contrast between what is behind it and the thing or its edge, per pixel."""
+    mask = ImageChops.difference(shown, without).convert("L").point(lambda v: 255 if v > 24 else 0)
+    mask = mask.filter(ImageFilter.MedianFilter(5))
+    inside = numpy.asarray(mask) > 0
+    around = (numpy.asarray(mask.filter(ImageFilter.MaxFilter(5))) > 0) & ~inside
+    lum, behind = luminance(shown), luminance(without)
+    size = 2 * NEAR + 1
+    most = numpy.asarray(grey(numpy.where(inside, lum, 0)).filter(ImageFilter.MaxFilter(size)), dtype=float) / 255
+    least = numpy.asarray(grey(numpy.where(inside, lum, 1)).filter(ImageFilter.MinFilter(size)), dtype=float) / 255
+    best = numpy.maximum(contrast(most, behind), contrast(least, behind))
+    return best[around], inside
+
+
+class Picture:
+    """RViz with a hand-made scene on a virtual screen."""
+
+    def __init__(self, env, vision):
+        import rospy
+        from geometry_msgs.msg import Point, TransformStamped
+        from std_msgs.msg import ColorRGBA
+        from tf2_msgs.msg import TFMessage
+        from visualization_msgs.msg import Marker, MarkerArray
+        self.Marker, self.Point, self.Color = Marker, Point, ColorRGBA
+        read, write = os.pipe()
+        self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1920x1080x24", "+extension", "GLX"],
+                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.env = dict(env, DISPLAY=":" + pipe.readline().strip(), LIBGL_ALWAYS_SOFTWARE="1")
+        frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        transforms = []
+        for parent, child in [("map", "odom"), ("odom", "base_link")]:
+            transform = TransformStamped()
+            transform.header.frame_id, transform.child_frame_id = parent, child
+            transform.transform.rotation.w = 1.0
+            transforms.append(transform)
+        frames.publish(TFMessage(transforms))
+        self.topics = {name: rospy.Publisher(name, MarkerArray, queue_size=10, latch=True)
+                       for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers")}
+        self.frames = frames
+        self.show(THINGS)
+        self.rviz = subprocess.Popen(["rosrun", "rviz", "rviz", "-d", str(ROOT / "rviz/navvi.rviz"), f"_vision:={vision}"],
+                                     env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+
+    def marker(self, ns, number, kind, points=(), scale=(1, 1, 1), at=(0, 0, 0), color=(0.5, 0.5, 0.5)):
+        marker = self.Marker(ns=ns, id=number, type=kind)
+        marker.header.frame_id = "map"
+        marker.pose.orientation.w = 1.0
+        marker.pose.position = self.Point(*at)
+        marker.scale.x, marker.scale.y, marker.scale.z = scale
+        marker.color = self.Color(*color, 1.0)
+        marker.points = [self.Point(*point) for point in points]
+        return marker
+
+    def scene(self):
+        """As the nodes send them: each thing before the floor, and before racks, a wall, boxes or the path."""
+        M, marker = self.Marker, self.marker
+        x, y = numpy.meshgrid(numpy.arange(-20, 30, 1.25), numpy.arange(-12, 13, 1.25))
+        still = [marker("floor", 0, M.CUBE_LIST, [(a, b, -0.05) for a, b in zip(x.flat, y.flat)], (1.25, 1.25, 0.1))]
+        for i, side in enumerate((-3.6, 2.2)):  # a rack to the right, and one across the way
+            boards = [(3.0 + 1.25 * k, side, z) for k in range(5) for z in (0.1, 0.8, 1.5)] if i == 0 else \
+                     [(9.0, side + 1.25 * k, z) for k in range(3) for z in (0.1, 0.8, 1.5)]
+            still.append(marker("shelf", i, M.CUBE_LIST, boards, (1.25, 1.0, 0.05) if i == 0 else (1.0, 1.25, 0.05)))
+        still.append(marker("wall", 0, M.CUBE_LIST, [(14.0, -12 + 1.25 * k, 0.5) for k in range(20)], (0.2, 1.25, 1.0)))
+        still.append(marker("box", 0, M.CUBE_LIST, [(3.0, -3.6, 0.4), (5.5, -3.6, 1.1), (4.2, -1.6, 0.3), (9.0, 2.2, 1.1)], (0.6, 0.6, 0.55)))
+        still.append(marker("pedestal", 0, M.CUBE_LIST, [(3.0, 2.2, 0.075), (8.2, 2.6, 0.075)], (0.9, 0.9, 0.15)))
+        size = {"worker": (0.48, 0.48, 1.75), "forklift": (2.4, 1.0, 2.1), "pallet_robot": (0.9, 0.7, 0.87)}
+        place = {"worker": [(5.0, 0.9), (8.3, 3.6)], "forklift": [(10.5, -1.6)], "pallet_robot": [(6.0, -2.4), (4.5, 3.5)]}
+        moving = []
+        for name, places in place.items():
+            for i, (a, b) in enumerate(places):
+                model = marker(name, i, M.MESH_RESOURCE, scale=size[name], at=(a, b, 0.5 * size[name][2]))
+                model.mesh_resource, model.mesh_use_embedded_materials = f"package://navvi_sim/meshes/{name}.dae", True
+                model.color = self.Color()
+                moving.append(model)
+        moving.append(marker("robot", 0, M.CYLINDER, scale=(0.6, 0.6, 0.35), at=(0, 0, 0.175)))
+        nose = marker("robot", 1, M.TRIANGLE_LIST, [(0.45, 0, 0.37), (-0.18, 0.22, 0.37), (-0.18, -0.22, 0.37)])
+        nose.colors = [nose.color]
+        moving.append(nose)
+        way = [(0, 0, 0.08), (4, 0, 0.08), (4.4, -0.8, 0.08), (7.4, -0.8, 0.08), (7.4, 3, 0.08), (11.5, 3, 0.08)]
+        ring = [(11.5 + numpy.cos(a), 3 + numpy.sin(a), 0.08) for a in numpy.linspace(0, 2 * numpy.pi, 49)]
+        guide = [marker("path", 0, M.LINE_STRIP, way, (0.38, 0, 0)), marker("path", 1, M.LINE_STRIP, way, (0.22, 0, 0)),
+                 marker("goal", 0, M.CYLINDER, scale=(0.5, 0.5, 2.5), at=(11.5, 3, 1.25)),
+                 marker("goal", 1, M.LINE_STRIP, ring, (0.15, 0, 0))]
+        return {"/navvi/scene": still, "/navvi/scene_moving": moving, "/navvi/markers": guide}
+
+    def show(self, things):
+        for topic, markers in self.scene().items():
+            for marker in markers:
+                if marker.ns in THINGS and marker.ns not in things:
+                    marker.action = self.Marker.DELETE
+            self.topics[topic].publish(markers)
+
+    def shot(self, path):
+        """The picture once it has come to rest."""
+        last = None
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline:
+            subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30, env=self.env)
+            image = Image.open(path).convert("RGB").crop((20, 80, 1900, 1040))
+            if last is not None and numpy.asarray(image).max() > 200 and ImageChops.difference(image, last).getbbox() is None:
+                return image
+            last = image
+            time.sleep(0.7)
+        raise AssertionError("the picture does not come to rest")
+
+    def close(self):
+        os.killpg(self.rviz.pid, 15)
+        self.rviz.wait()
+        self.screen.terminate()
+        self.screen.wait()
+
+
+@pytest.fixture(scope="module")
+def node(master):
+    import rospy
+    os.environ.update(master)
+    rospy.init_node("picture_test", disable_signals=True)
+    return master
+
+
+@pytest.fixture(scope="module", params=VISIONS)
+def pictures(request, node, tmp_path_factory):
+    """A picture with everything, and for each kind of thing one without it."""
+    folder = tmp_path_factory.mktemp(request.param)
+    picture = Picture(node, request.param)
+    try:
+        time.sleep(5)
+        everything = picture.shot(folder / "all.png")
+        without = {}
+        for kind, things in KINDS.items():
+            picture.show([thing for thing in THINGS if thing not in things])
+            time.sleep(1)
+            without[kind] = picture.shot(folder / f"without_{kind}.png")
+    finally:
+        picture.close()
+    return everything, without, request.param
+
+
+def test_each_thing_or_its_edge_stands_out_from_all_that_it_is_before(pictures):
+    everything, without, vision = pictures
+    weak = {}
+    for thing in KINDS:
+        best, inside = edge_contrast(everything, without[thing])
+        assert inside.sum() > 2000, f"{thing} is not in the picture"
+        passed = (best >= 4.5).mean()
+        print(f"{vision} {thing}: {best.min():.1f} least, {numpy.percentile(best, 3):.1f} for 97 %, median {numpy.median(best):.1f}")
+        if passed < 0.97:
+            weak[thing] = round(float(passed), 3)
+    assert not weak
+
+
+def test_path_goal_and_mover_are_found_in_grey_and_as_by_20_200(pictures):
+    everything, without, vision = pictures
+    # 10 minutes of arc, at 60 cm from a screen of 24 inches with 1080 rows.
+    blurred = grey(luminance(everything)).filter(ImageFilter.GaussianBlur(6))
+    for thing in ("path", "goal", "movers"):
+        other = grey(luminance(without[thing])).filter(ImageFilter.GaussianBlur(6))
+        ratio = contrast(numpy.asarray(blurred) / 255, numpy.asarray(other) / 255)
+        print(f"{vision} {thing}: {(ratio >= 3).sum()} px of 3:1 or more")
+        assert (ratio >= 3).sum() > 400, thing
