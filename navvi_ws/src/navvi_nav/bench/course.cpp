@@ -89,8 +89,7 @@ Point Course::somewhere(std::mt19937& random) const {
 }
 
 int Course::component(Point point) const {
-  const Floor& floor = *ours.nav_mesh().shared_floor();
-  return floor.component(floor.cell_at(point));
+  return *ours.nav_mesh().floor_components(point, kRoom).begin();
 }
 
 }  // namespace navvi_nav::bench

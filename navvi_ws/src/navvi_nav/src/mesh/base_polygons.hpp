@@ -18,6 +18,7 @@ struct BasePolygon {
   std::vector<Neighbour> neighbours;
   std::vector<int> holes;   ///< that reach into it
   std::vector<int> pieces;  ///< its polygons in the mesh
+  int component = 0;        ///< of the floor without holes
 };
 
 /// The polygons of a floor by number and by place, and those that a change concerns: the touched
@@ -36,11 +37,20 @@ class BasePolygons {
   [[nodiscard]] BasePolygon& operator[](int number) {
     return bases_[static_cast<std::size_t>(number)];
   }
+  [[nodiscard]] const BasePolygon& operator[](int number) const {
+    return bases_[static_cast<std::size_t>(number)];
+  }
   [[nodiscard]] std::size_t size() const { return bases_.size(); }  ///< with empty slots
   /// Calls visit(number) for all that the shape may touch; for some more than once.
   template <typename Visit>
   void visit(const ExactPolygon& shape, Visit visit) const {
-    grid_.visit(step_ * shape.low, step_ * shape.high, visit);
+    this->visit(step_ * shape.low, step_ * shape.high, visit);
+  }
+
+  /// Calls visit(number) for all that may touch the box, m; for some more than once.
+  template <typename Visit>
+  void visit(Point low, Point high, Visit visit) const {
+    grid_.visit(low, high, visit);
   }
 
   void touch(int number);

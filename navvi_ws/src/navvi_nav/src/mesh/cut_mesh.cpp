@@ -66,7 +66,23 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   own_vertices_ = pool_.in_use();
   vertices_end_ = mesh_.vertices.size();
   components_.number(mesh_);
+  for (std::size_t k = 0; k < bases_.size(); ++k)
+    bases_[static_cast<int>(k)].component = mesh_.polygons[k].component;
   return numbers;
+}
+
+std::set<int> CutMesh::floor_components(Point point, double reach) const {
+  std::set<int> found;
+  std::vector<Point> corners;
+  bases_.visit(point - Point{reach, reach}, point + Point{reach, reach}, [&](int number) {
+    if (found.count(bases_[number].component) > 0) return;
+    corners.clear();
+    for (const ExactPolygon::Edge& edge : bases_[number].shape.edges)
+      corners.push_back(position(edge.begin));
+    if (distance(nearest_in_convex(point, corners), point) <= reach)
+      found.insert(bases_[number].component);
+  });
+  return found;
 }
 
 ExactPolygon CutMesh::shape_of(const GridPolygon& polygon) const {

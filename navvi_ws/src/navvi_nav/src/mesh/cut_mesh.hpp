@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "mesh/base_polygons.hpp"
@@ -39,6 +40,8 @@ class CutMesh {
   int update();
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  /// Components of the floor, holes disregarded, of which a part is within `reach` (m).
+  [[nodiscard]] std::set<int> floor_components(Point point, double reach) const;
 
  private:
   /// What is kept besides about a polygon of the mesh.

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,10 @@ class NavMesh {
   /// when it is asked for, once after each change.
   [[nodiscard]] std::shared_ptr<const mesh::Mesh> shared_mesh() const;
   [[nodiscard]] std::shared_ptr<const map::Floor> shared_floor() const { return floor_; }
+  /// As CutMesh::floor_components.
+  [[nodiscard]] std::set<int> floor_components(Point point, double reach) const {
+    return mesh_.floor_components(point, reach);
+  }
   /// The cylinders as carved.
   [[nodiscard]] const std::vector<Cylinder>& carved() const { return carving_.carved(); }
   [[nodiscard]] map::Space space() const { return {floor_.get(), &carved()}; }

@@ -129,8 +129,8 @@ Planner::Route Planner::search(Point start, Point goal) const {
   if (refusal != Guidance::Refusal::none) return {refused(refusal)};
   const double cell = nav_mesh_.shared_floor()->cell_size();
   const double near_goal = (config_.mesh.contour_error + 4.0) * cell;
-  const std::set<int> goal_parts = components_near(goal, near_goal);
-  const std::set<int> start_parts = components_near(start, config_.start_snap);
+  const std::set<int> goal_parts = nav_mesh_.floor_components(goal, near_goal);
+  const std::set<int> start_parts = nav_mesh_.floor_components(start, config_.start_snap);
   if (goal_parts.empty()) return {refused(Guidance::Refusal::inside_obstacle)};
   if (!start_parts.empty() && !share(start_parts, goal_parts))
     return {refused(Guidance::Refusal::unreachable)};
@@ -334,22 +334,6 @@ Planner::Anchor Planner::begin(Point start, Point goal, std::optional<int> part)
   out.place = escape(nav_mesh_.mesh(), nav_mesh_.space(), start, radius, part, goal);
   out.joined = out.leaves_hole = out.place.has_value();
   return out;
-}
-
-/// Components of the open cells around, holes disregarded.
-std::set<int> Planner::components_near(Point point, double within) const {
-  const map::Floor& floor = *nav_mesh_.shared_floor();
-  const map::Cell at = floor.cell_at(point);
-  const int window = static_cast<int>(std::ceil(within / floor.cell_size()));
-  std::set<int> found;
-  for (int y = at.y - window; y <= at.y + window; ++y) {
-    for (int x = at.x - window; x <= at.x + window; ++x) {
-      if (floor.component({x, y}) >= 0 &&
-          distance(point, floor.center_of({x, y})) <= within + floor.cell_size())
-        found.insert(floor.component({x, y}));
-    }
-  }
-  return found;
 }
 
 }  // namespace navvi_nav::plan

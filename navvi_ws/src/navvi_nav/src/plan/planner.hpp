@@ -81,7 +81,6 @@ class Planner {
   [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
   [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
   [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;
-  [[nodiscard]] std::set<int> components_near(Point point, double within) const;
 
   PlannerConfig config_;
   NavMesh nav_mesh_;
