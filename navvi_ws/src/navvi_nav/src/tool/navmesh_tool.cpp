@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <navvi_config/reader.hpp>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -138,25 +138,32 @@ void print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
   std::size_t polygons = 0, portals = 0;
   std::size_t bytes =
       mesh.vertices.size() * sizeof(mesh::Vertex) + mesh.polygons.size() * sizeof(mesh::Polygon);
-  std::set<int> components;
+  std::map<int, double> components;  // m^2
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const mesh::Polygon& polygon = mesh.polygons[i];
     if (polygon.corners.empty()) continue;
     ++polygons;
     portals += polygon.portals.size();
-    components.insert(polygon.component);
     bytes += polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
     const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
     for (std::size_t k = 2; k < corners.size(); ++k)
-      area += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
+      components[polygon.component] +=
+          cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
+  }
+  double largest = 0.0;  // m^2
+  for (const auto& [component, its] : components) {
+    area += its;
+    largest = std::max(largest, its);
   }
   if (!source.empty()) std::printf("map         %s\n", source.c_str());
   std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
               floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
               floor.cell_size(), floor.height());
   std::printf(
-      "mesh        %.1f m^2, %zu polygons, %zu vertices, %zu portals, %d tiles, %zu components\n",
-      area, polygons, mesh.vertices.size(), portals / 2, update.tiles, components.size());
+      "mesh        %.1f m^2, %zu polygons, %zu vertices, %zu portals, %d tiles, %zu components, "
+      "the "
+      "largest of %.1f m^2\n",
+      area, polygons, mesh.vertices.size(), portals / 2, update.tiles, components.size(), largest);
   std::printf("memory      %zu bytes, %.1f a square metre\n", bytes,
               static_cast<double>(bytes) / area);
 }
