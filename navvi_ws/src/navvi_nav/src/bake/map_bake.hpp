@@ -18,10 +18,11 @@ using TileIndex = std::pair<int, int>;
 struct MapBakeConfig {
   double margin = 0.35;        ///< m, that the mesh keeps from everything that blocks
   double reach = 1.0;          ///< m, beyond the margin, that distances are known
-  double tile_size = 32.0;     ///< m, taken in steps of 16 cells up to 1024
+  double tile_size = 32.0;     ///< m, about; at most 1024 cells
   double contour_error = 1.0;  ///< cells, as BakeConfig's
   double max_edge = 0.0;       ///< m, longer walls are split; 0: never
   int max_corners = 12;        ///< of a polygon
+  bool fine_parts = true;      ///< finer cells where whole ones would close a passage
   int threads = 2;             ///< that may share the work; the result is the same
 };
 
@@ -40,8 +41,5 @@ struct BakedMap {
 /// from there, not baked again: same cells, same polygons.
 [[nodiscard]] BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config,
                                 const BakedMap* before = nullptr);
-
-/// The open cells of one tile.
-[[nodiscard]] TileCells cells_of(const map::Floor& floor, TileIndex tile, int tile_cells);
 
 }  // namespace navvi_nav::bake

@@ -81,6 +81,71 @@ TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
   }
 }
 
+mesh::Mesh mesh_of(const BakedMap& map) {
+  std::vector<mesh::GridPolygon> all;
+  for (const auto& [tile, polygons] : map.tiles)
+    all.insert(all.end(), polygons.begin(), polygons.end());
+  return mesh::join(all, map.floor->cell_size() / map::kStepsPerCellSide);
+}
+
+/// By the same floor in cells of an eighth, eroded by 1.5 cm more.
+TEST(MapBake, loses_no_way_that_is_3_cm_wider_than_the_robot) {
+  constexpr int kParts = 8;
+  int opened = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    std::mt19937 random(seed);
+    SmallWorld world(0.05);
+    world.room(9, 7);
+    for (int i = 0; i < 22; ++i) {
+      const double x = 0.05 * static_cast<double>(10 + random() % 150),
+                   y = 0.05 * static_cast<double>(10 + random() % 120);
+      world.box(x, y, 0, x + 0.05 * static_cast<double>(1 + random() % 12),
+                y + 0.05 * static_cast<double>(1 + random() % 12), 1.0);
+    }
+    const map::MapSurvey survey = survey_of(world);
+    map::MapSurvey eighths{"",
+                           survey.cell_size / kParts,
+                           0.0,
+                           {survey.low.x * kParts, survey.low.y * kParts},
+                           survey.columns * kParts,
+                           survey.rows * kParts,
+                           {},
+                           "",
+                           ""};
+    for (int y = 0; y < eighths.rows; ++y)
+      for (int x = 0; x < eighths.columns; ++x)
+        eighths.ground.push_back(
+            survey.ground[static_cast<std::size_t>(y / kParts * survey.columns + x / kParts)]);
+    MapBakeConfig config;
+    config.tile_size = 4.0;
+    const BakedMap map = bake_map(survey, config);
+    config.fine_parts = false;
+    const mesh::Mesh whole = mesh_of(bake_map(survey, config)), mesh = mesh_of(map);
+    config.margin += 0.015;
+    config.contour_error = 0.0;
+    const mesh::Mesh exact = mesh_of(bake_map(eighths, config));
+    for (const mesh::Vertex& vertex : mesh.vertices)
+      ASSERT_GE(map.floor->clearance(vertex.at), 0.35 - 1e-9) << seed;
+    const auto component = [](const mesh::Mesh& of, Point at) {
+      const auto place = of.locate(at, 0.03);
+      return place ? of.polygon(place->polygon).component : -1;
+    };
+    std::map<int, int> of_exact, of_whole;  // component of the exact mesh -> of the others
+    for (int probe = 0; probe < 3000; ++probe) {
+      const Point at{9.0 * static_cast<double>(random()) / 4294967296.0,
+                     7.0 * static_cast<double>(random()) / 4294967296.0};
+      if (!exact.locate(at, 0.0)) continue;
+      const int ours = component(mesh, at), coarse = component(whole, at);
+      const int judge = component(exact, at);
+      if (ours >= 0) {
+        ASSERT_EQ(of_exact.emplace(judge, ours).first->second, ours) << seed;
+      }
+      if (coarse >= 0) opened += of_whole.emplace(judge, coarse).first->second != coarse;
+    }
+  }
+  EXPECT_GT(opened, 0);
+}
+
 TEST(MapBake, keeps_exactly_the_margin_from_straight_walls) {
   SmallWorld world(0.1);
   world.room(8, 8);

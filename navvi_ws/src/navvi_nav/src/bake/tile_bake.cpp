@@ -340,20 +340,51 @@ int count_corners(const TileCells& cells) {
 }
 
 TileCells part_of(const TileCells& cells, map::Cell low, int size) {
-  TileCells out{{cells.origin.x + low.x, cells.origin.y + low.y}, size, {}};
+  TileCells out{{cells.origin.x + low.x, cells.origin.y + low.y}, size, {}, {}};
   const int side = cells.size + 2 * kBorder;
   for (int y = 0; y < size + 2 * kBorder; ++y) {
     const auto row = cells.open.begin() + (low.y + y) * side + low.x;
     out.open.insert(out.open.end(), row, row + size + 2 * kBorder);
   }
+  const auto lies_in = [size](int fine, int parts, int from) {
+    return fine >= from * parts && fine < (from + size) * parts;
+  };
+  for (const TileCells& fine : cells.fine) {
+    const int parts = fine.size / smallest_part(cells.size);
+    if (lies_in(fine.origin.x, parts, out.origin.x) && lies_in(fine.origin.y, parts, out.origin.y))
+      out.fine.push_back(fine);
+  }
   return out;
+}
+
+bool can_be_quartered(int size) { return size % 2 == 0 && size / 2 >= kLeastPart; }
+
+void bake_part(const TileCells& cells, const BakeConfig& config,
+               std::vector<mesh::GridPolygon>& out);
+
+/// A smallest part, of which `fine` are the finer cells.
+void bake_fine(const TileCells& fine, int parts, BakeConfig config,
+               std::vector<mesh::GridPolygon>& out) {
+  config.max_edge *= parts;
+  config.merge_region *= parts * parts;
+  config.grow = 0;
+  const std::size_t before = out.size();
+  bake_part(fine, config, out);
+  for (std::size_t i = before; i < out.size(); ++i)
+    for (std::array<int, 2>& corner : out[i].corners)
+      for (int& steps : corner) steps /= parts;  // whole cells: a step of the tile, or some
 }
 
 /// Recast's work on one region grows with the cube of its corners, so crowded tiles are quartered.
 void bake_part(const TileCells& cells, const BakeConfig& config,
                std::vector<mesh::GridPolygon>& out) {
   const int half = cells.size / 2;
-  if (cells.size % 2 == 0 && half >= kLeastPart && count_corners(cells) > kCrowded) {
+  const bool fine = !cells.fine.empty();
+  if (fine && !can_be_quartered(cells.size)) {
+    bake_fine(cells.fine[0], cells.fine[0].size / cells.size, config, out);
+    return;
+  }
+  if (can_be_quartered(cells.size) && (fine || count_corners(cells) > kCrowded)) {
     for (const map::Cell low :
          {map::Cell{0, 0}, map::Cell{half, 0}, map::Cell{0, half}, map::Cell{half, half}})
       bake_part(part_of(cells, low, half), config, out);
@@ -368,6 +399,11 @@ void bake_part(const TileCells& cells, const BakeConfig& config,
 }
 
 }  // namespace
+
+int smallest_part(int size) {
+  while (can_be_quartered(size)) size /= 2;
+  return size;
+}
 
 std::vector<mesh::GridPolygon> bake_tile(const TileCells& cells, const BakeConfig& config) {
   std::vector<mesh::GridPolygon> out;

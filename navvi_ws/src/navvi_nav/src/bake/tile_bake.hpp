@@ -14,7 +14,18 @@ struct TileCells {
   int size = 0;      ///< cells along a side
   /// Row by row, 1: open. A border of one cell around the tile is looked at too: (size + 2)^2.
   std::vector<std::uint8_t> open;
+  /// Parts of the tile, smallest_part(size) cells wide, of which finer cells are known: those
+  /// count.
+  std::vector<TileCells> fine;
+
+  [[nodiscard]] bool operator==(const TileCells& other) const {
+    return origin.x == other.origin.x && origin.y == other.origin.y && size == other.size &&
+           open == other.open && fine == other.fine;
+  }
 };
+
+/// Cells along the side of a tile that was quartered as often as it can be; 8 at least.
+[[nodiscard]] int smallest_part(int size);
 
 struct BakeConfig {
   double contour_error = 1.0;  ///< cells by which a wall may be drawn nearer to smooth it

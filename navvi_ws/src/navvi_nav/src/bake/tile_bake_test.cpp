@@ -23,7 +23,7 @@ class Field {
     if (x >= 0 && y >= 0 && x < columns_ && y < rows_) open_[at(x, y)] = open ? 1 : 0;
   }
   [[nodiscard]] TileCells tile(map::Cell origin, int size) const {
-    TileCells out{origin, size, {}};
+    TileCells out{origin, size, {}, {}};
     for (int y = -1; y <= size; ++y) {
       for (int x = -1; x <= size; ++x) out.open.push_back(open(origin.x + x, origin.y + y) ? 1 : 0);
     }

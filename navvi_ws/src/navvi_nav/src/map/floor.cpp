@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 
 #include "map/parallel.hpp"
@@ -143,7 +142,6 @@ Floor::Floor(Cell origin, int columns, int rows, double cell_size, double height
       reach_cells_(static_cast<int>(std::ceil(reach_ / cell_size - kRounding)) + 1),
       ground_(std::move(ground)) {
   measure(margin, threads);
-  find_components();
 }
 
 Point Floor::center_of(Cell cell) const {
@@ -154,11 +152,19 @@ Ground Floor::ground(Cell cell) const {
   return contains(cell) ? ground_[index(cell)] : Ground::none;
 }
 
-bool Floor::any_open() const {
-  return std::any_of(component_.begin(), component_.end(), [](std::int32_t c) { return c >= 0; });
+bool Floor::same_ground(const Floor& other, Cell low, Cell high) const {
+  if (other.origin_.x != origin_.x || other.origin_.y != origin_.y || other.columns_ != columns_ ||
+      other.rows_ != rows_)
+    return false;
+  const int from = std::max(low.x, origin_.x), to = std::min(high.x, origin_.x + columns_);
+  for (int y = std::max(low.y, origin_.y); y < std::min(high.y, origin_.y + rows_); ++y) {
+    const auto row = static_cast<std::ptrdiff_t>(index({from, y}));
+    if (!std::equal(ground_.begin() + row, ground_.begin() + row + std::max(0, to - from),
+                    other.ground_.begin() + row))
+      return false;
+  }
+  return true;
 }
-
-int Floor::component(Cell cell) const { return contains(cell) ? component_[index(cell)] : -1; }
 
 /// Two passes: how far along each column, then the least sum over each row within reach.
 void Floor::measure(double margin, int threads) {
@@ -197,74 +203,6 @@ void Floor::measure(double margin, int threads) {
     fine(std::uint16_t{0});
   else
     fine(std::uint32_t{0});
-}
-
-/// Runs of open cells are joined with those they touch in the row before; components are numbered
-/// in the order of their first cells.
-void Floor::find_components() {
-  struct Run {
-    int from, to, label;
-  };
-  std::vector<int> joined;  // label -> a label of the same component, never larger
-  const auto root = [&joined](int label) {
-    while (joined[static_cast<std::size_t>(label)] != label)
-      label = joined[static_cast<std::size_t>(label)] =
-          joined[static_cast<std::size_t>(joined[static_cast<std::size_t>(label)])];
-    return label;
-  };
-  std::vector<Run> runs;
-  std::vector<std::size_t> row_begin;
-  std::size_t before = 0;
-  for (int y = 0; y < rows_; ++y) {
-    const std::uint8_t* open =
-        open_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_);
-    const std::size_t row = runs.size();
-    row_begin.push_back(row);
-    std::size_t above = before;
-    for (int x = 0; x < columns_;) {
-      if (open[x] == 0) {
-        const void* next = std::memchr(open + x, 1, static_cast<std::size_t>(columns_ - x));
-        if (next == nullptr) break;
-        x = static_cast<int>(static_cast<const std::uint8_t*>(next) - open);
-      }
-      const void* end = std::memchr(open + x, 0, static_cast<std::size_t>(columns_ - x));
-      Run run{x, end ? static_cast<int>(static_cast<const std::uint8_t*>(end) - open) : columns_,
-              -1};
-      while (above < row && runs[above].to <= run.from) ++above;
-      for (std::size_t k = above; k < row && runs[k].from < run.to; ++k) {
-        const int other = root(runs[k].label);
-        if (run.label < 0) {
-          run.label = other;
-        } else {
-          const int mine = root(run.label);
-          joined[static_cast<std::size_t>(std::max(mine, other))] = std::min(mine, other);
-        }
-      }
-      if (run.label < 0) {
-        run.label = static_cast<int>(joined.size());
-        joined.push_back(run.label);
-      }
-      x = run.to;
-      runs.push_back(run);
-    }
-    before = row;
-  }
-  row_begin.push_back(runs.size());
-  std::vector<int> number(joined.size(), -1);
-  int count = 0;
-  for (std::size_t label = 0; label < joined.size(); ++label) {
-    const int of = root(static_cast<int>(label));
-    number[label] = of == static_cast<int>(label) ? count++ : number[static_cast<std::size_t>(of)];
-  }
-  component_.assign(ground_.size(), -1);
-  for (int y = 0; y < rows_; ++y) {
-    std::int32_t* row =
-        component_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_);
-    for (std::size_t k = row_begin[static_cast<std::size_t>(y)];
-         k < row_begin[static_cast<std::size_t>(y) + 1]; ++k)
-      std::fill(row + runs[k].from, row + runs[k].to,
-                number[static_cast<std::size_t>(runs[k].label)]);
-  }
 }
 
 double Floor::clearance(Point point) const {

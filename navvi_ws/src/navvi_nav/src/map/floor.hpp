@@ -22,9 +22,9 @@ enum class Ground : std::uint8_t {
   obstacle,  ///< something stands on the floor or hangs too low
 };
 
-/// The floor of a map as a grid: what blocks it, how far each cell is from that, and which cells
-/// join. Everything that is not floor blocks. Distances run from square to square, so they are
-/// never more than the true distance between any two points of the cells.
+/// The floor of a map as a grid: what blocks it, and how far each cell is from that. Everything
+/// that is not floor blocks. Distances run from square to square, so they are never more than the
+/// true distance between any two points of the cells.
 class Floor {
  public:
   static constexpr int kMaxReach = 180;  ///< cells: squares of distances fit 16 bits
@@ -65,9 +65,12 @@ class Floor {
   [[nodiscard]] const std::uint8_t* open_row(int y) const {
     return open_.data() + index({origin_.x, y});
   }
-  [[nodiscard]] bool any_open() const;
-  /// Connected component of an open cell (neighbours share an edge), else -1.
-  [[nodiscard]] int component(Cell cell) const;
+  /// Squares of gap() in cells, of a row that exists, columns() of them from origin() on.
+  [[nodiscard]] const std::uint16_t* gap2_row(int y) const {
+    return gap2_.data() + index({origin_.x, y});
+  }
+  /// True if both grids lie alike and the same cells block, of those in [low, high).
+  [[nodiscard]] bool same_ground(const Floor& other, Cell low, Cell high) const;
   /// m, at most the distance from any point of the cell to a blocked cell; capped at reach().
   [[nodiscard]] double gap(Cell cell) const {
     return std::min(reach_, std::sqrt(static_cast<double>(gap2(cell))) * cell_size_);
@@ -91,7 +94,6 @@ class Floor {
   }
   [[nodiscard]] int gap2(Cell cell) const { return contains(cell) ? gap2_[index(cell)] : 0; }
   void measure(double margin, int threads);
-  void find_components();
 
   Cell origin_;
   int columns_ = 0;
@@ -104,7 +106,6 @@ class Floor {
   std::vector<Ground> ground_;
   std::vector<std::uint16_t> gap2_;  // cells squared, capped
   std::vector<std::uint8_t> open_;
-  std::vector<std::int32_t> component_;
 };
 
 /// The floor with the holes that moving things make in it, at one instant.

@@ -7,7 +7,7 @@
 
 namespace navvi_nav::map {
 
-/// Of a map seen from above, as columns of voxels or as squares of floor: the latter take 8 bytes
+/// Of a map seen from above, as columns of voxels or as squares of floor: the latter take 4 bytes
 /// each as long as the map is in use. 300 x 300 m at 0.05 m are 36 million.
 inline constexpr double kMaxCells = 50.0e6;
 

@@ -61,6 +61,7 @@ MeshUpdate NavMesh::set_map(map::MapSurvey survey) {
   how.contour_error = config_.contour_error;
   how.max_edge = config_.max_edge;
   how.max_corners = config_.polygon_corners;
+  how.fine_parts = !config_.whole_cell_erosion;
   how.threads = config_.threads;
   bake::BakedMap baked = bake::bake_map(std::move(survey), how, &baked_);
   if (!baked.error.empty()) return {baked.error, 0, 0, 0};

@@ -1,0 +1,210 @@
+#include "bake/fine_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace navvi_nav::bake {
+namespace {
+
+constexpr double kFinest = 0.0063;  // m, of a cell
+constexpr double kRounding = 1e-6;  // cells
+constexpr int kAround = 2;          // cells
+constexpr int kAside = 2 * kAround + 1;
+
+/// Parts of a cell's side, a power of two up to kStepsPerCellSide.
+int parts_of(double cell) {
+  int parts = 4;
+  while (parts < map::kStepsPerCellSide && cell / parts > kFinest) parts *= 2;
+  return parts;
+}
+
+/// Open cells around one, kAside x kAside, a bit each, row by row: none beside it, or several
+/// pieces.
+bool strait(std::uint32_t open) {
+  constexpr std::uint32_t kLeft = 0x108421, kBeside = 0x739c0;  // the first column; 3 x 3
+  std::uint32_t piece = open & (~open + 1), before = 0;
+  while (piece != before) {
+    before = piece;
+    piece |=
+        (piece << kAside | piece >> kAside | (piece & ~(kLeft << 4)) << 1 | (piece & ~kLeft) >> 1) &
+        open;
+  }
+  return (open & kBeside) == 0 || piece != open;
+}
+
+std::uint32_t open_around(const map::Floor& floor, map::Cell cell) {
+  std::uint32_t open = 0;
+  for (int y = cell.y + kAround; y >= cell.y - kAround; --y)
+    for (int x = cell.x + kAround; x >= cell.x - kAround; --x)
+      open = open << 1 | static_cast<std::uint32_t>(floor.open({x, y}));
+  return open;
+}
+
+/// Squared cells: where nothing blocks within less, some point of the cell may keep the margin.
+int least_gap2(double margin_cells) {
+  const double least = std::max(0.0, margin_cells - std::sqrt(2.0));
+  return static_cast<int>(std::ceil(least * least - kRounding));
+}
+
+/// For each part of the tile, row by row, whether it or the cells beside it hold such a place.
+std::vector<char> wanted_parts(const map::Floor& floor, map::Cell origin, int size, int part,
+                               double margin_cells) {
+  const int side = size / part;
+  const int least = least_gap2(margin_cells);
+  std::vector<char> out(static_cast<std::size_t>(side * side), 0);
+  const int from = std::max(origin.x - kAround, floor.origin().x);
+  const int to = std::min(origin.x + size + kAround, floor.origin().x + floor.columns());
+  const int last = std::min(origin.y + size + kAround, floor.origin().y + floor.rows());
+  for (int y = std::max(origin.y - kAround, floor.origin().y); y < last; ++y) {
+    const std::uint16_t* gap2 = floor.gap2_row(y) - floor.origin().x;
+    const std::uint8_t* open = floor.open_row(y) - floor.origin().x;
+    for (int x = from; x < to; ++x) {
+      if (open[x] != 0 || gap2[x] < least || !strait(open_around(floor, {x, y}))) continue;
+      for (int dy : {-kAround, kAround}) {
+        for (int dx : {-kAround, kAround}) {
+          const int column = x + dx - origin.x, row = y + dy - origin.y;
+          if (column >= 0 && row >= 0 && column < size && row < size)
+            out[static_cast<std::size_t>(row / part * side + column / part)] = 1;
+        }
+      }
+    }
+  }
+  return out;
+}
+
+/// Runs of cells in a row that block, or that the map does not have, of those in [from, to).
+std::vector<std::pair<int, int>> blocked_runs(const map::Floor& floor, int y, int from, int to) {
+  std::vector<std::pair<int, int>> out;
+  for (int x = from; x < to; ++x) {
+    if (floor.ground({x, y}) == map::Ground::floor) continue;
+    if (out.empty() || out.back().second != x) out.emplace_back(x, x);
+    out.back().second = x + 1;
+  }
+  return out;
+}
+
+/// The open cells of a square, each 1 / `parts` of a floor's cell.
+TileCells fine_cells(const map::Floor& floor, map::Cell low, int part, int parts, double margin) {
+  TileCells out{{low.x * parts, low.y * parts}, part * parts, {}, {}};
+  const int side = out.size + 2;
+  out.open.assign(static_cast<std::size_t>(side * side), 1);
+  const double reach = margin / floor.cell_size() * parts;
+  const int cells = static_cast<int>(std::ceil(reach / parts)) + 1;
+  for (int y = low.y - cells; y < low.y + part + cells; ++y) {
+    const auto runs = blocked_runs(floor, y, low.x - cells, low.x + part + cells);
+    if (runs.empty()) continue;
+    for (int row = 0; row < side; ++row) {
+      const int at = out.origin.y - 1 + row;
+      const int dy = std::max({0, y * parts - (at + 1), at - (y + 1) * parts});
+      const double left = reach * reach - static_cast<double>(dy) * dy - kRounding;
+      if (left <= 0.0) continue;
+      const int aside = static_cast<int>(std::ceil(std::sqrt(left)));  // cells that are too near
+      const auto begin = out.open.begin() + static_cast<std::ptrdiff_t>(row) * side;
+      for (const auto& [first, end] : runs) {
+        const int from = std::max(0, first * parts - aside - out.origin.x + 1);
+        const int to = std::min(side, end * parts + aside - out.origin.x + 1);
+        if (from < to) std::fill(begin + from, begin + to, std::uint8_t{0});
+      }
+    }
+  }
+  return out;
+}
+
+/// Numbers the connected pieces of a mask, from 1 on (neighbours share an edge); 0: not in it.
+std::vector<int> pieces_of(const std::vector<char>& mask, int side) {
+  std::vector<int> piece(mask.size(), 0), open;
+  int count = 0;
+  const auto join = [&](int at) {
+    if (mask[static_cast<std::size_t>(at)] == 0 || piece[static_cast<std::size_t>(at)] != 0) return;
+    piece[static_cast<std::size_t>(at)] = count;
+    open.push_back(at);
+  };
+  for (int first = 0; first < side * side; ++first) {
+    if (mask[static_cast<std::size_t>(first)] == 0 || piece[static_cast<std::size_t>(first)] != 0)
+      continue;
+    ++count;
+    join(first);
+    while (!open.empty()) {
+      const int at = open.back();
+      open.pop_back();
+      if (at % side > 0) join(at - 1);
+      if (at % side < side - 1) join(at + 1);
+      if (at >= side) join(at - side);
+      if (at < side * (side - 1)) join(at + side);
+    }
+  }
+  return piece;
+}
+
+/// True if a piece of the fine cells joins open cells, or ways out of the part, that are apart.
+bool opens_a_way(const TileCells& fine, const map::Floor& floor, int parts) {
+  const int side = fine.size;
+  std::vector<char> open, end;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      open.push_back(
+          static_cast<char>(fine.open[static_cast<std::size_t>((y + 1) * (side + 2) + x + 1)]));
+      const bool out = x == 0 || y == 0 || x == side - 1 || y == side - 1;
+      const map::Cell cell{fine.origin.x / parts + x / parts, fine.origin.y / parts + y / parts};
+      end.push_back(static_cast<char>(open.back() != 0 && (out || floor.open(cell))));
+    }
+  }
+  const std::vector<int> piece = pieces_of(open, side), ends = pieces_of(end, side);
+  std::vector<int> first(piece.size() + 1, 0);
+  for (std::size_t at = 0; at < piece.size(); ++at) {
+    int& known = first[static_cast<std::size_t>(piece[at])];
+    if (ends[at] != 0 && known != 0 && known != ends[at]) return true;
+    if (ends[at] != 0) known = ends[at];
+  }
+  return false;
+}
+
+/// Cells of which a part is open: no wall of the cells beside them is there to be smoothed.
+void mark_open(const TileCells& fine, int parts, TileCells& cells) {
+  for (int y = 0; y < fine.size; ++y) {
+    for (int x = 0; x < fine.size; ++x) {
+      const int column = fine.origin.x / parts + x / parts - cells.origin.x + 1;
+      const int row = fine.origin.y / parts + y / parts - cells.origin.y + 1;
+      const int side = cells.size + 2;
+      if (column >= 0 && row >= 0 && column < side && row < side)
+        cells.open[static_cast<std::size_t>(row * side + column)] |=
+            fine.open[static_cast<std::size_t>((y + 1) * (fine.size + 2) + x + 1)];
+    }
+  }
+}
+
+}  // namespace
+
+void add_fine_parts(TileCells& cells, const map::Floor& floor, double margin) {
+  const int part = smallest_part(cells.size);
+  const int parts = parts_of(floor.cell_size());
+  const int side = cells.size / part + 2;  // those around the tile, too
+  const map::Cell low{cells.origin.x - part, cells.origin.y - part};
+  const std::vector<char> wanted =
+      wanted_parts(floor, low, side * part, part, margin / floor.cell_size());
+  std::vector<TileCells> fine(wanted.size());
+  std::vector<char> opens(wanted.size(), 0);
+  for (std::size_t at = 0; at < wanted.size(); ++at) {
+    if (wanted[at] == 0) continue;
+    const auto n = static_cast<int>(at);
+    fine[at] =
+        fine_cells(floor, {low.x + n % side * part, low.y + n / side * part}, part, parts, margin);
+    opens[at] = static_cast<char>(opens_a_way(fine[at], floor, parts));
+  }
+  const auto row = static_cast<std::size_t>(side);
+  for (std::size_t at = 0; at < wanted.size(); ++at) {
+    if (wanted[at] == 0) continue;
+    const std::size_t x = at % row, y = at / row;
+    const bool around = x == 0 || y == 0 || x == row - 1 || y == row - 1;
+    // A way that one part opens may lead a little through the next.
+    if (!around &&
+        (opens[at] | opens[at - 1] | opens[at + 1] | opens[at - row] | opens[at + row]) == 0)
+      continue;
+    mark_open(fine[at], parts, cells);
+    if (!around) cells.fine.push_back(std::move(fine[at]));
+  }
+}
+
+}  // namespace navvi_nav::bake
