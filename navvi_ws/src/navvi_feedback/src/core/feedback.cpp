@@ -1,15 +1,19 @@
 #include "navvi_feedback/core/feedback.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "cues/cue_policy.hpp"
 #include "cues/side.hpp"
+#include "sounds/soundscape.hpp"
 
 namespace navvi_feedback::core {
 namespace {
 
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
+constexpr double kIdle = 6.0;         // s; who does not drive for so long needs no ticks to turn by
+constexpr double kPi = 3.14159265358979323846;
 
 haptics::Zone zone_of(const Contact& contact) {
   switch (cues::side_of(contact.seen_from_robot())) {
@@ -37,6 +41,11 @@ std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
   return found == patterns.end() ? std::nullopt : std::optional(found->second);
 }
 
+bool fixed(const Contact& contact) {
+  return contact.thing_class == navvi_types::ThingClass::shelf ||
+         contact.thing_class == navvi_types::ThingClass::wall;
+}
+
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
 }  // namespace
@@ -47,6 +56,7 @@ void FeedbackConfig::describe(navvi_config::Visitor& visit) {
   visit.group("drive", drive);
   visit.group("buttons", buttons);
   visit.group("haptics", haptics);
+  visit.group("sounds", sounds);
   visit.group("cues", cues);
 }
 
@@ -55,6 +65,7 @@ struct Feedback::Deciders {
   drive::Buttons buttons;
   haptics::Haptics haptics;
   haptics::PatternPlayer patterns;
+  sounds::Soundscape soundscape;
   cues::CuePolicy cues;
 };
 
@@ -65,6 +76,7 @@ Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& ph
           drive::Buttons(config.buttons),
           haptics::Haptics(config.haptics),
           {},
+          sounds::Soundscape(config.sounds),
           cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording))}) {}
 
 Feedback::~Feedback() = default;
@@ -91,6 +103,10 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   if (start && trial_.state == TrialState::State::ready) out.request = TrialRequest::Kind::begin;
   out.cues = decide_cues(input, pressed, time);
   begin_patterns(out);
+  const bool leads = deciders_->cues.leads();
+  idle_ = leads && commanded_.linear == 0.0 && commanded_.angular == 0.0 ? idle_ + dt : 0.0;
+  if (motion_.value) turned_ += motion_.value->angular * dt;
+  out.plays = sound(input, out.cues, time);
   out.rumble = feel(time, dt);
   out.pattern = deciders_->patterns.playing();
   contacts_.clear();
@@ -129,9 +145,7 @@ void Feedback::begin_patterns(const Output& out) {
   for (const cues::Cue& cue : out.cues)
     if (const auto pattern = pattern_of(cue.kind)) patterns.begin(*pattern);
   for (const Contact& contact : contacts_) {
-    const bool fixed = contact.thing_class == navvi_types::ThingClass::shelf ||
-                       contact.thing_class == navvi_types::ThingClass::wall;
-    patterns.begin(fixed ? haptics::Pattern::hit_shelf : haptics::Pattern::hit_obstacle,
+    patterns.begin(fixed(contact) ? haptics::Pattern::hit_shelf : haptics::Pattern::hit_obstacle,
                    zone_of(contact));
   }
 }
@@ -146,6 +160,50 @@ haptics::Rumble Feedback::feel(double time, double dt) {
   if (const auto pattern = deciders_->patterns.update(dt)) return *pattern;
   const double share = important_ ? config_.haptics.duck : 1.0;
   return {share * near.left, share * near.right};
+}
+
+/// rad, clockwise from the nose to where to steer, if the person is to be told.
+std::optional<double> Feedback::off_course(double time) {
+  if (!guidance_fresh(time) || !deciders_->cues.leads() || idle_ > kIdle) return std::nullopt;
+  return std::remainder(guidance_.value->steer_angle + turned_, 2.0 * kPi);
+}
+
+/// Takes what sounds out of what is to be said, and adds what sounds besides.
+std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::Cue>& cues,
+                                          double time) {
+  using sounds::Earcon;
+  const sounds::SoundsConfig& config = config_.sounds;
+  std::vector<sounds::Play> plays;
+  if (!config.enabled || !input.sounds) return plays;
+  const auto add = [&](Earcon earcon, const Eigen::Vector2d& from) {
+    const sounds::FamilyConfig& family = config.family_of(earcon);
+    if (family.on) plays.push_back({earcon, from, family.volume});
+  };
+  for (const cues::Cue& cue : cues) {
+    if (cue.sound) add(cue.sound->earcon, cue.sound->from);
+    if (cue.kind == "arrived") add(Earcon::arrived, Eigen::Vector2d::UnitX());
+    if (cue.kind.rfind("collision_", 0) != 0) continue;
+    for (const Contact& contact : contacts_)
+      add(fixed(contact) ? Earcon::hit_shelf : Earcon::hit_obstacle, contact.seen_from_robot());
+  }
+  cues.erase(std::remove_if(cues.begin(), cues.end(),
+                            [](const cues::Cue& cue) { return cue.sound.has_value(); }),
+             cues.end());
+  sounds::Soundscape::Input now;
+  now.off = off_course(time);
+  now.motion = motion_.value.value_or(Velocity{});
+  if (now.off && guidance_.value->waypoint_distance > 0.0) {
+    const double angle = guidance_.value->waypoint_angle + turned_;
+    now.waypoint =
+        guidance_.value->waypoint_distance * Eigen::Vector2d(std::cos(angle), -std::sin(angle));
+  }
+  if (nearby_.link(time, config_.stale) == cues::Link::alive && !nearby_.value->empty()) {
+    now.nearest = nearby_.value->front().nearest;
+    now.gap = nearby_.value->front().gap;
+  }
+  const std::vector<sounds::Play> recurring = deciders_->soundscape.update(now, time);
+  plays.insert(plays.end(), recurring.begin(), recurring.end());
+  return plays;
 }
 
 std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
@@ -168,6 +226,9 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
     if (button <= drive::Button::around) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;
   now.notices = input.notices;
+  const sounds::SoundsConfig& sounds = config_.sounds;
+  if (sounds.enabled && input.sounds)
+    now.sounds = {sounds.turn.on, sounds.shelf.on, sounds.near.on};
   return deciders_->cues.update(now, time);
 }
 

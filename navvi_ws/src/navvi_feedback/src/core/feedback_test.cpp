@@ -29,6 +29,7 @@ class FeedbackTest : public testing::Test {
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
       output = feedback_.update(input_, time_);
       for (const cues::Cue& cue : output.cues) kinds_.push_back(cue.kind);
+      plays_.insert(plays_.end(), output.plays.begin(), output.plays.end());
     }
     return output;
   }
@@ -44,6 +45,24 @@ class FeedbackTest : public testing::Test {
     return most;
   }
 
+  [[nodiscard]] auto played(sounds::Earcon earcon) const {
+    return std::count_if(plays_.begin(), plays_.end(),
+                         [&](const sounds::Play& play) { return play.earcon == earcon; });
+  }
+
+  /// A path that leads to the right; a shelf that is near. \param y  m, to its left
+  void lead(double y) {
+    Guidance guidance;
+    guidance.state = Guidance::State::following;
+    guidance.goal = {20.0, 5.0};
+    guidance.steer_angle = guidance.waypoint_angle = 1.5;
+    guidance.waypoint_distance = 8.0;
+    guidance.goal_distance = 25.0;
+    feedback_.take(guidance, time_);
+    feedback_.take(Odometry{}, time_);
+    feedback_.take(Proximity{0, {{ThingClass::shelf, 1, 0.5, {0.0, y}}}}, time_);
+  }
+
   [[nodiscard]] bool said(const std::string& kind) const {
     return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
   }
@@ -52,6 +71,7 @@ class FeedbackTest : public testing::Test {
   Feedback::Input input_;
   double time_ = 10.0;
   std::vector<std::string> kinds_;
+  std::vector<sounds::Play> plays_;
   int alarms_ = 0;
 };
 
@@ -157,6 +177,45 @@ TEST_F(FeedbackTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
   EXPECT_EQ(output.pattern, haptics::Pattern::hit_shelf);
   EXPECT_EQ(output.rumble.left, 1.0);
   EXPECT_EQ(output.rumble.right, 0.0);
+}
+
+TEST_F(FeedbackTest, a_hit_sounds_once_from_its_side) {
+  feedback_.take(Odometry{}, time_);
+  feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+  pass(1.0);
+  ASSERT_EQ(plays_.size(), 1U);
+  EXPECT_EQ(plays_[0].earcon, sounds::Earcon::hit_shelf);
+  EXPECT_GT(plays_[0].from.y(), 0.0);
+  EXPECT_TRUE(said("collision_shelf"));
+}
+
+TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
+  using sounds::Earcon;
+  for (int i = 0; i < 10; ++i) {
+    lead(0.9);
+    pass(0.5);
+  }
+  EXPECT_GT(played(Earcon::turn), 5);
+  EXPECT_EQ(played(Earcon::shelf_near), 1);
+  EXPECT_FALSE(said("shelf_near"));
+  input_.sounds = false;
+  plays_.clear();
+  for (int i = 0; i < 10; ++i) {
+    lead(-0.9);
+    pass(0.5);
+  }
+  EXPECT_TRUE(plays_.empty());
+  EXPECT_TRUE(said("shelf_near"));
+}
+
+TEST_F(FeedbackTest, no_turn_is_counted_down_to_who_must_stop_or_does_not_drive) {
+  for (int i = 0; i < 20; ++i) {
+    lead(0.9);
+    pass(0.5);
+  }
+  EXPECT_GT(std::exchange(plays_, {}).size(), 5U);
+  pass(0.5);
+  EXPECT_TRUE(plays_.empty()) << "has not moved the stick for long";
 }
 
 TEST_F(FeedbackTest, patterns_are_left_out_where_touch_is_not_wanted) {

@@ -87,10 +87,11 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
     if (halts(utterance.kind)) halt_.say(utterance, time);
   add(answer);
   add(route(now, links, time));
+  leads_ = follows_ && links.pad == Link::alive && !halt_.halted() && !trial_over_;
   links_ = links;
   gate_ = now.gate;
   time_ = time;
-  return phrase(utterances, time);
+  return phrase(utterances, now.sounds, time);
 }
 
 Links CuePolicy::judge(const Situation& now, double time) {
@@ -299,7 +300,8 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   return {answer};
 }
 
-std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
+std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Sounds& sounds,
+                                   double time) {
   std::vector<Cue> cues;
   for (const Utterance& utterance : utterances) {
     const CueKind& kind = cue_kind(utterance.kind);
@@ -313,7 +315,8 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, double time) {
     };
     if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + text);
     for (const Fillings& more : utterance.also) longer(text + ", " + phrases_.say(kind.kind, more));
-    cues.push_back({kind.kind, text, utterance.priority.value_or(kind.priority), kind.max_age});
+    cues.push_back({kind.kind, text, utterance.priority.value_or(kind.priority), kind.max_age,
+                    instead_of(utterance, sounds)});
   }
   std::stable_sort(cues.begin(), cues.end(),
                    [](const Cue& a, const Cue& b) { return a.priority > b.priority; });

@@ -24,6 +24,9 @@ class CuePolicy {
   /// \return the cues decided now, most urgent first
   [[nodiscard]] std::vector<Cue> update(const Situation& now, double time);
 
+  /// The person is to follow the path now.
+  [[nodiscard]] bool leads() const { return leads_; }
+
   /// Takes note of what became of the cues: one that was dropped may be said again at once.
   void note(const std::vector<CueEvent>& events);
 
@@ -40,7 +43,8 @@ class CuePolicy {
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances answers(const Situation& now, double time);
-  [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, double time);
+  [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Sounds& sounds,
+                                        double time);
 
   CuePolicyConfig config_;
   Phrases phrases_;
@@ -55,6 +59,7 @@ class CuePolicy {
   std::optional<DriveState::State> gate_;
   bool awaited_ = false;                 ///< a trial waits for the person
   bool follows_ = false;                 ///< there is a fresh path now
+  bool leads_ = false;                   ///< and no word against following it
   std::optional<double> blocked_since_;  ///< s, commanded without moving
   std::optional<double> stuck_said_;     ///< s
   std::string problem_;                  ///< why the guidance does not lead, as a cue kind

@@ -138,7 +138,7 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
     const bool urgent = approaches(now, side);
     if (reached <= watch.said || (best && gap >= best->gap)) continue;
     if (side == Side::behind && !urgent) continue;
-    if (now.voice_busy && !urgent) continue;
+    if (now.voice_busy && !urgent && !now.sounds.shelf) continue;
     const char* kind = reached == Level::close      ? close_kind(thing)
                        : thing == ThingClass::shelf ? "shelf_near"
                                                     : "wall_near";
@@ -163,11 +163,29 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     if (reached <= watch.said || !in_the_way(now, thing.nearest, close)) continue;
     const Side side = side_of_lane(thing.nearest);
     const bool urgent = approaches(now, side);
-    if (now.voice_busy && !urgent) continue;
+    if (now.voice_busy && !urgent && !now.sounds.near) continue;
     const char* kind = close ? "obstacle_close" : "obstacle_near";
     if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
     best = Candidate{utterance(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
   }
+}
+
+std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {
+  using sounds::Earcon;
+  const std::string& kind = utterance.kind;
+  const auto ends = [&](const char* end) { return kind.find(end) != std::string::npos; };
+  const bool close = ends("_close");
+  if (!close && !ends("_near")) return std::nullopt;
+  const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
+  const bool shelf = thing == ThingClass::shelf || thing == ThingClass::wall;
+  if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;
+  const Earcon near = shelf                               ? Earcon::shelf_near
+                      : thing == ThingClass::worker       ? Earcon::worker_near
+                      : thing == ThingClass::forklift     ? Earcon::forklift_near
+                      : thing == ThingClass::pallet_robot ? Earcon::pallet_robot_near
+                                                          : Earcon::thing_near;
+  const auto earcon = close ? static_cast<Earcon>(static_cast<int>(near) + 1) : near;
+  return sounds::Play{earcon, direction_of(utterance.fillings.side.value_or(Side::ahead))};
 }
 
 Utterance around(const std::vector<NearThing>& nearby) {

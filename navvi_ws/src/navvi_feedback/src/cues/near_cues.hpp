@@ -11,6 +11,7 @@
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
 #include "navvi_feedback/cues/cue_config.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -60,6 +61,10 @@ class NearCues {
   std::map<std::string, double> said_;     ///< s, by kind
   std::map<std::uint32_t, Watch> things_;  ///< by id
 };
+
+/// What is heard instead of such words, where sounds do their work.
+[[nodiscard]] std::optional<sounds::Play> instead_of(const Utterance& utterance,
+                                                     const Sounds& sounds);
 
 /// What is around: the nearest thing on each side, clockwise, for a person who asks.
 [[nodiscard]] Utterance around(const std::vector<NearThing>& nearby);

@@ -39,6 +39,20 @@ class NearCuesTest : public testing::Test {
 
 using Sides = std::vector<Side>;
 
+TEST(InsteadOf, is_a_sound_for_what_is_near_where_its_family_is_heard) {
+  const Utterance shelf{"wall_close", {{}, {}, ThingClass::wall, Side::left}};
+  const Utterance worker{"obstacle_near", {{}, {}, ThingClass::worker, Side::right}};
+  const Utterance stop{"obstacle_stop", {{}, {}, ThingClass::worker, Side::ahead}};
+  const Sounds all{true, true, true};
+  EXPECT_FALSE(instead_of(shelf, {true, false, true}));
+  EXPECT_FALSE(instead_of(worker, {true, true, false}));
+  EXPECT_FALSE(instead_of(stop, all));
+  EXPECT_EQ(instead_of(shelf, all).value().earcon, sounds::Earcon::shelf_close);
+  EXPECT_GT(instead_of(shelf, all).value().from.y(), 0.9);
+  EXPECT_EQ(instead_of(worker, all).value().earcon, sounds::Earcon::worker_near);
+  EXPECT_LT(instead_of(worker, all).value().from.y(), -0.9);
+}
+
 TEST_F(NearCuesTest, says_nothing_where_nothing_is_near) {
   EXPECT_EQ(pass(1.0, {}), Sides{});
   EXPECT_EQ(pass(1.0, {shelf(1.01, kLeft)}), Sides{});

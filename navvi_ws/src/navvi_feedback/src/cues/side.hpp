@@ -14,6 +14,12 @@ enum class Side { ahead, left, behind, right };
   return point.x() >= 0.0 ? Side::ahead : Side::behind;
 }
 
+/// The middle of that quarter, in base_link.
+[[nodiscard]] inline Eigen::Vector2d direction_of(Side side) {
+  const double angle = static_cast<int>(side) * M_PI / 2.0;
+  return {std::cos(angle), std::sin(angle)};
+}
+
 /// m; half as wide as what the robot drives over, and a little.
 constexpr double kHalfLane = 0.45;
 

@@ -27,6 +27,13 @@ enum class Question {
   around,  ///< what is near, and on which side
 };
 
+/// Which sounds are heard, and do the work of words.
+struct Sounds {
+  bool turn = false;   ///< to where to steer
+  bool shelf = false;  ///< a shelf or a wall that is near
+  bool near = false;   ///< any other thing that is near
+};
+
 /// All that cues are decided from, at one instant. Every number is finite.
 struct Situation {
   std::optional<Guidance> guidance;  ///< the latest
@@ -42,6 +49,8 @@ struct Situation {
   bool keyboard = false;             ///< the stick is the arrow keys
   std::optional<Question> question;  ///< whose button went down since the last update
   bool voice_busy = false;           ///< something is being spoken or waits for it
+
+  Sounds sounds;
 
   std::vector<std::string> notices;  ///< kinds to be said when they come, such as no_rumble
 };

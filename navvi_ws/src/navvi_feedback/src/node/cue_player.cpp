@@ -7,6 +7,7 @@
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
+#include "devices/earcon_player.hpp"
 #include "devices/gamepad.hpp"
 #include "devices/speaker.hpp"
 #include "navvi_feedback/haptics/rumble_output.hpp"
@@ -34,7 +35,8 @@ class CuePlayer {
  public:
   explicit CuePlayer(const PlayerConfig& config)
       : mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
-        speaker_(config.speaker, mixer_) {
+        speaker_(config.speaker, mixer_),
+        earcons_(mixer_) {
     const devices::Mixer::Status status = mixer_.status();
     if (status.device == devices::Mixer::Status::Device::missing)
       ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());
@@ -51,6 +53,10 @@ class CuePlayer {
     using navvi_types::CueStage;
     if (cue.modality == navvi_types::Modality::rumble) {
       rumble_ = {cue.left, cue.right};
+    } else if (const auto sound = sound_of(cue)) {
+      (void)earcons_.play({*sound});
+    } else if (cue.modality != navvi_types::Modality::speech) {
+      return;
     } else if (cue.stage == CueStage::started) {
       ROS_INFO("[%s] %s", cue.kind.c_str(), cue.text.c_str());
       speaking_ = cue.id;
@@ -72,6 +78,7 @@ class CuePlayer {
 
   devices::Mixer mixer_;
   devices::Speaker speaker_;
+  devices::EarconPlayer earcons_;
   devices::Gamepad pad_;
   haptics::RumbleOutput output_;
   haptics::Rumble rumble_;

@@ -12,6 +12,7 @@
 #include <navvi_types/msg_conversion.hpp>
 
 #include "cues/phrases.hpp"
+#include "devices/earcon_player.hpp"
 #include "devices/input_source.hpp"
 #include "devices/speech_channel.hpp"
 #include "navvi_feedback/core/feedback.hpp"
@@ -80,6 +81,7 @@ class FeedbackNode {
         feedback_(config.feedback, phrases_file(config)),
         mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
         speech_(speaker_of(config), mixer_),
+        earcons_(mixer_),
         source_(config.input) {
     config_.speaker = speaker_of(config);  // for the record
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
@@ -166,6 +168,7 @@ class FeedbackNode {
     input.hands = source_.read(time);
     input.keyboard = source_.kind() == devices::InputSource::Kind::keyboard;
     input.audio = audio_link();
+    input.sounds = mixer_.status().device == devices::Mixer::Status::Device::open;
     input.motors = !source_.pad() || source_.pad()->status().connected;
     input.voice_busy = !speech_.idle();
     input.goal_angle = goal_angle();
@@ -179,6 +182,8 @@ class FeedbackNode {
           to_msg(TrialRequest{*output.request, navvi_types::to_ns(ros::Time::now())}));
     if (output.alarm_begins)
       ROS_WARN("There is no audio device: nothing is heard. %s", mixer_.status().detail.c_str());
+    for (const sounds::Play& heard : earcons_.play(output.plays))
+      publish({sound_event(heard, ++sound_id_)});
     move_motors(output.rumble, output.pattern, time);
     say(output.cues, time);
     show(time);
@@ -279,6 +284,7 @@ class FeedbackNode {
   core::Feedback feedback_;
   devices::Mixer mixer_;
   devices::SpeechChannel speech_;
+  devices::EarconPlayer earcons_;
   devices::InputSource source_;
   haptics::RumbleOutput rumble_output_;
 
@@ -296,6 +302,7 @@ class FeedbackNode {
   double last_tick_ = 0.0;              // s, of now()
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
+  std::uint32_t sound_id_ = 0;
   visualization_msgs::MarkerArray shown_;
 };
 

@@ -1,5 +1,6 @@
 #include "navvi_feedback/node/msg_conversion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvi_feedback::node {
@@ -55,6 +56,30 @@ navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
   return {id,          CueStage::started,  pattern ? navvi_types::to_string(*pattern) : "rumble",
           "",          Priority::progress, Modality::rumble,
           rumble.left, rumble.right};
+}
+
+navvi_types::CueEvent sound_event(const sounds::Play& play, std::uint32_t id) {
+  using namespace navvi_types;
+  const double distance = play.from.norm();
+  const double leftness = distance > 0.0 ? play.from.y() / distance : 0.0;
+  return {id,
+          CueStage::started,
+          navvi_types::to_string(play.earcon),
+          "",
+          Priority::progress,
+          Modality::sound,
+          play.volume * 0.5 * (1.0 + leftness),
+          play.volume * 0.5 * (1.0 - leftness)};
+}
+
+std::optional<sounds::Play> sound_of(const navvi_types::CueEvent& event) {
+  const auto earcon = navvi_types::from_word<sounds::Earcon>(event.kind);
+  if (event.modality != navvi_types::Modality::sound || !earcon) return std::nullopt;
+  const double volume = event.left + event.right;
+  if (!(volume > 0.0)) return std::nullopt;
+  const double leftness = (event.left - event.right) / volume;
+  return sounds::Play{
+      *earcon, {std::sqrt(std::max(0.0, 1.0 - leftness * leftness)), leftness}, volume};
 }
 
 }  // namespace navvi_feedback::node

@@ -50,6 +50,23 @@ TEST(ToMsg, a_rumble_is_a_cue_that_is_felt) {
   EXPECT_EQ(event.right, 0.5);
 }
 
+TEST(SoundEvent, is_a_cue_that_tells_what_to_play_again) {
+  const sounds::Play play{sounds::Earcon::forklift_near, {1.0, -1.0}, 0.6};
+  const navvi_types::CueEvent event = sound_event(play, 7);
+  EXPECT_EQ(event.id, 7U);
+  EXPECT_EQ(event.kind, "forklift_near");
+  EXPECT_EQ(event.modality, navvi_types::Modality::sound);
+  EXPECT_GT(event.right, event.left);
+  const auto again = sound_of(event);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->earcon, play.earcon);
+  EXPECT_NEAR(again->volume, 0.6, 1e-6);
+  EXPECT_TRUE(again->from.isApprox(play.from.normalized(), 1e-6));
+  EXPECT_FALSE(sound_of(rumble_event({1.0, 1.0}, haptics::Pattern::arrived, 1)));
+  EXPECT_FALSE(sound_of({1, navvi_types::CueStage::started, "whistle", "",
+                         navvi_types::Priority::text, navvi_types::Modality::sound, 1.0, 0.0}));
+}
+
 TEST(LastWords, tell_the_end_of_a_trial_unless_the_arrival_does) {
   navvi_msgs::TrialEvent msg;
   msg.type = "TRIAL_END";

@@ -131,6 +131,8 @@ void ClosedLoop::feed_back() {
     person_.feel(output.rumble.left, output.rumble.right);
   std::vector<CueEvent> events = speak(output.cues);
   feedback_.note(events);
+  for (const navvi_feedback::sounds::Play& play : output.plays)
+    events.push_back(navvi_feedback::node::sound_event(play, ++sound_id_));
   for (CueEvent& event : events) {
     event.stamp = navvi_types::to_ns(stamp());
     published_.cues.push_back(node::to_msg(event));

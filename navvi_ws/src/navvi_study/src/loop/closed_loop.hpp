@@ -49,7 +49,7 @@ class ClosedLoop {
     std::optional<navvi_msgs::Proximity> proximity;
     std::optional<navvi_msgs::Obstacles> obstacles;
     std::optional<navvi_msgs::Guidance> guidance;
-    std::vector<navvi_msgs::Cue> cues;  ///< spoken ones
+    std::vector<navvi_msgs::Cue> cues;  ///< spoken ones and sounds
   };
 
   /// \param phrases  file of the spoken phrases
@@ -104,6 +104,7 @@ class ClosedLoop {
   navvi_feedback::cues::CueQueue queue_;
   navvi_feedback::haptics::RumbleOutput rumble_output_;
   double speaks_until_ = 0.0;  ///< s
+  std::uint32_t sound_id_ = 0;
   people::SimulatedOperator person_;
   people::StickAndButtons hand_;
   bool begun_ = false;

@@ -92,6 +92,7 @@ void LoopFigures::take(const navvi_msgs::Guidance& guidance) {
 }
 
 void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
+  if (cue.modality != navvi_msgs::Cue::SPEECH) return;
   spoken_ = cue.text;
   if (cue.kind == "turn_ahead") {
     const people::Instruction turn = people::understand(cue.text);

@@ -116,6 +116,11 @@ void LoopTrace::tell_events(const ClosedLoop& loop) {
          "HIT " + contact.thing_class + " " + contact.name + text(" at %.2f m/s", contact.speed));
   if (told.guidance) tell_guidance(loop.time(), *told.guidance);
   for (const auto& cue : told.cues) {
+    if (cue.modality == navvi_msgs::Cue::SOUND) {
+      line(loop.time(),
+           "  sounds " + cue.kind + text(", %.1f left %.1f right", cue.left, cue.right));
+      continue;
+    }
     static constexpr std::array<const char*, 5> kStages = {"", "says", "", "cuts", "drops"};
     const std::string stage = cue.stage < kStages.size() ? kStages[cue.stage] : "";
     if (!stage.empty())

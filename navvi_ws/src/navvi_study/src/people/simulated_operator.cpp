@@ -18,7 +18,10 @@ constexpr double kCharactersPerSecond = 14;  // at which a sentence without an e
 constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
 constexpr double kListenFirst = 2.5;         // m, likewise
 constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
-constexpr double kBlindTurn = 3.0;           // m to drive after "turn now", which has no distance
+constexpr double kTicksOver = 1.2;           // s; ticks that paused for so long are over
+constexpr double kSlowTicks = 0.28;          // s, between two: much is left to turn
+constexpr std::uint64_t kEar = 0x9e3779b97f4a7c15;  // so that the ear draws numbers of its own
+constexpr double kBlindTurn = 3.0;  // m to drive after "turn now", which has no distance
 
 /// rad, clockwise, to an hour on the clock face.
 /// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
@@ -52,10 +55,19 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
         "of silence while waiting before asking");
   visit(strong_rumble, "strong_rumble", Range{0.0, 1.0}, "",
         "motors above this on both sides slow the hand");
+  visit(min_sound_reaction, "min_sound_reaction", Range{0.0, 2.0}, "s",
+        "of the quickest person, from a short sound to the hand; assumed");
+  visit(max_sound_reaction, "max_sound_reaction", Range{0.0, 2.0}, "s", "of the slowest; assumed");
+  visit(missed_sounds, "missed_sounds", Range{0.0, 1.0}, "", "share of short sounds; assumed");
+  visit(trust, "trust", Range{1.0, 100.0}, "m",
+        "driven on without a word after a turn that a sound has ended; assumed");
 }
 
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed)
-    : config_(config), random_(seed) {
+    : config_(config), random_(seed), ear_random_(seed ^ kEar) {
+  const double share = std::uniform_real_distribution<double>(0.0, 1.0)(ear_random_);
+  sound_reaction_ = config_.min_sound_reaction +
+                    share * std::max(0.0, config_.max_sound_reaction - config_.min_sound_reaction);
   std::normal_distribution<double> error(0.0, config_.gain_error);
   turn_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
   speed_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
@@ -63,6 +75,7 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std:
 
 void SimulatedOperator::hear(const CueEvent& cue, double time) {
   using navvi_types::CueStage;
+  if (cue.modality == navvi_types::Modality::sound) return hear_sound(cue, time);
   if (cue.modality != navvi_types::Modality::speech) return;
   if (cue.stage == CueStage::started) {
     hearing_[cue.id] = {cue.text, heading_, odometer_, time};
@@ -71,6 +84,60 @@ void SimulatedOperator::hear(const CueEvent& cue, double time) {
   } else if (cue.stage == CueStage::ended) {
     understood(cue.id, time);
   }
+}
+
+void SimulatedOperator::hear_sound(const CueEvent& cue, double time) {
+  using Side = Instruction::Side;
+  if (std::uniform_real_distribution<double>(0.0, 1.0)(ear_random_) < config_.missed_sounds) return;
+  const double lean = cue.left - cue.right;
+  const bool aside = std::abs(lean) > 0.3 * (cue.left + cue.right);
+  heard_.push_back({cue.kind,
+                    !aside       ? Side::ahead
+                    : lean > 0.0 ? Side::left
+                                 : Side::right,
+                    time + sound_reaction_});
+}
+
+void SimulatedOperator::follow(const Heard& sound, double time) {
+  const std::string& kind = sound.kind;
+  if (kind == "turn") {
+    last_news_ = time;
+    const bool same = ticks_ && ticks_->side == sound.side;
+    ticks_ = Ticks{sound.side, time, same ? time - ticks_->last : 0.5};
+    if (mode_ == Mode::waiting && !told_to_halt_) mode_ = Mode::driving;
+  } else if (kind == "on_course") {
+    last_news_ = time;
+    stop_at_ = std::max(stop_at_, odometer_ + 0.5 * config_.trust);
+  } else if (kind == "turn_stop") {
+    last_news_ = time;
+    ticks_.reset();
+    if (mode_ != Mode::turning && mode_ != Mode::driving) return;
+    mode_ = Mode::driving;
+    target_ = heading_;
+    straight_before_ = true;
+    stop_at_ = std::max(stop_at_, odometer_ + config_.trust);
+    speed_ = config_.cruise;
+  } else if (kind.rfind("hit_", 0) == 0) {
+    if (mode_ != Mode::arrived && mode_ != Mode::backing) mode_ = Mode::waiting;
+  } else if (const bool close = kind.find("_close") != std::string::npos;
+             close || kind.find("_near") != std::string::npos) {
+    Instruction near;
+    near.kind = Instruction::Kind::near;
+    near.side = sound.side;
+    near.very_close = close;
+    shy_away(near, time);
+  }
+}
+
+/// A large turn is made on the spot, a small one on the way.
+StickAndButtons SimulatedOperator::turn_by_ear(double time) const {
+  StickAndButtons hand;
+  const double side = ticks_->side == Instruction::Side::left ? 1.0 : -1.0;
+  const bool large = ticks_->interval > kSlowTicks;
+  hand.left = side * (large ? 1.0 : 0.55);
+  if (large || odometer_ >= stop_at_) return hand;
+  hand.forward = time < careful_until_ ? 0.5 * config_.slow : 0.7 * config_.slow;
+  return hand;
 }
 
 void SimulatedOperator::feel(double left, double right) {
@@ -157,6 +224,9 @@ void SimulatedOperator::be_startled(double time) {
 
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
   const Instruction instruction = understand(sentence.text);
+  using Kind = Instruction::Kind;
+  if (instruction.kind == Kind::halt || instruction.kind == Kind::bump) told_to_halt_ = true;
+  if (instruction.kind == Kind::turn || instruction.kind == Kind::straight) told_to_halt_ = false;
   switch (instruction.kind) {
     case Instruction::Kind::nothing:
       break;
@@ -231,6 +301,12 @@ StickAndButtons SimulatedOperator::drive(double time) const {
 
 StickAndButtons SimulatedOperator::act(double time, double dt) {
   StickAndButtons hand;
+  if (ticks_ && time - ticks_->last > kTicksOver) ticks_.reset();
+  if (ticks_ && (mode_ == Mode::turning || mode_ == Mode::driving)) {
+    mode_ = Mode::driving;
+    target_ = heading_;
+    return turn_by_ear(time);
+  }
   if (mode_ == Mode::turning) {
     const double error = target_ - heading_;
     if (std::abs(error) < std::max(0.02, 0.6 * config_.turn_rate * dt)) {
@@ -301,6 +377,11 @@ StickAndButtons SimulatedOperator::update(double time, double dt) {
     const Sentence sentence = understood_.front();
     understood_.erase(understood_.begin());
     follow(sentence, time);
+  }
+  while (!heard_.empty() && heard_.front().time <= time) {
+    const Heard sound = heard_.front();
+    heard_.pop_front();
+    follow(sound, time);
   }
   if (time - start_ < kNeutralAtStart) return {};
   be_startled(time);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <navvi_types/cue_event.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -30,6 +32,10 @@ struct SimulatedOperatorConfig {
   double patience = 12.0;
   double idle_patience = 2.5;
   double strong_rumble = 0.6;
+  double min_sound_reaction = 0.2;
+  double max_sound_reaction = 0.4;
+  double missed_sounds = 0.02;
+  double trust = 10.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -43,13 +49,15 @@ struct StickAndButtons {
 };
 
 /// Drives by ear and touch alone, as a blind person would (R-TRL-5): it knows the words that it
-/// heard to their end, the motors it feels, and, roughly, how its own stick turns and drives the
-/// robot. It reacts late and turns too far or too little, all drawn from the seed.
+/// heard to their end, the sounds and their sides (ahead and behind sound alike), the motors it
+/// feels, and, roughly, how its own stick turns and drives the robot. It reacts late, misses some
+/// sounds, and turns too far or too little, all drawn from the seed. How soon it answers sounds is
+/// assumed, not measured.
 class SimulatedOperator {
  public:
   SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed);
 
-  /// Only speech that begins, ends or breaks off is heard.
+  /// Only speech that begins, ends or breaks off is heard, and short sounds.
   void hear(const CueEvent& cue, double time);
   /// \param left, right  motors [0, 1]
   void feel(double left, double right);
@@ -70,6 +78,22 @@ class SimulatedOperator {
     double time = 0.0;  ///< s: begun, or, once understood, when the hands will follow
   };
 
+  /// A short sound, as the ear takes it.
+  struct Heard {
+    std::string kind;
+    Instruction::Side side = Instruction::Side::none;
+    double time = 0.0;  ///< s: when the hands will follow
+  };
+  /// The ticks that tell to turn.
+  struct Ticks {
+    Instruction::Side side = Instruction::Side::none;
+    double last = 0.0;      ///< s
+    double interval = 0.5;  ///< s, between the last two
+  };
+
+  void hear_sound(const CueEvent& cue, double time);
+  void follow(const Heard& sound, double time);
+  [[nodiscard]] StickAndButtons turn_by_ear(double time) const;
   void understood(std::uint32_t id, double time);
   void follow(const Sentence& sentence, double time);
   void turn_to(const Sentence& sentence, const Instruction& instruction);
@@ -86,6 +110,11 @@ class SimulatedOperator {
 
   SimulatedOperatorConfig config_;
   std::mt19937_64 random_;
+  std::mt19937_64 ear_random_;
+  double sound_reaction_;  ///< s
+  std::deque<Heard> heard_;
+  std::optional<Ticks> ticks_;
+  bool told_to_halt_ = true;
   double turn_gain_;   ///< turns asked for are made this much too far
   double speed_gain_;  ///< distances are believed this much too long
   std::map<std::uint32_t, Sentence> hearing_;

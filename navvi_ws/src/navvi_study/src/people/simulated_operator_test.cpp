@@ -140,6 +140,58 @@ TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {
   }
 }
 
+/// A short sound: from the left, the right or, with both, from ahead.
+CueEvent sound(const char* kind, double left, double right) {
+  return {1,
+          CueStage::started,
+          kind,
+          "",
+          navvi_types::Priority::progress,
+          navvi_types::Modality::sound,
+          left,
+          right};
+}
+
+/// Turns to `angle`, rad, counter-clockwise, by ticks that end `early` s before it is reached.
+/// \return rad, turned too far
+double turned_by_ear(std::uint64_t seed, double angle, double early) {
+  Loop loop(seed, {{100.0, 0.0}});
+  loop.say("straight ahead, 9 meters");
+  for (int i = 0; i < 200; ++i) loop.step();
+  bool over = false;
+  bool told = false;
+  double ticked = 0.0;
+  double before = loop.yaw;
+  const double target = loop.yaw + angle;
+  for (int i = 0; i < 400; ++i) {
+    const double off = target - loop.yaw;
+    const double rate = (loop.yaw - before) / kStep;
+    before = loop.yaw;
+    over = over || (off - rate * early) * angle < 0.0;
+    if (over && !told) loop.person.hear(sound("turn_stop", 0.3, 0.3), loop.time);
+    told = over;
+    if (!over && loop.time - ticked > 0.1 + 0.4 * std::min(1.0, std::abs(off) / 1.57)) {
+      ticked = loop.time;
+      loop.person.hear(off > 0.0 ? sound("turn", 0.6, 0.0) : sound("turn", 0.0, 0.6), loop.time);
+    }
+    loop.step();
+  }
+  return (loop.yaw - target) * (angle > 0.0 ? 1.0 : -1.0);
+}
+
+TEST(SimulatedOperator, turns_by_what_sounds_and_too_far_where_that_ends_late) {
+  for (const double angle : {1.5, -1.5, 3.0}) {
+    double late = 0.0;
+    double early = 0.0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      late += turned_by_ear(seed, angle, 0.0) / 10.0;
+      early += turned_by_ear(seed, angle, 0.3) / 10.0;
+    }
+    EXPECT_GT(late, 0.12) << angle;
+    EXPECT_NEAR(early, 0.0, 0.12) << angle;
+  }
+}
+
 TEST(SimulatedOperator, finds_a_goal_behind_its_back) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Loop loop(seed, {{-5.0, 0.5}});

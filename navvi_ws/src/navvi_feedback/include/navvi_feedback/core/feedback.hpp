@@ -17,6 +17,8 @@
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
 #include "navvi_feedback/haptics/pattern.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
+#include "navvi_feedback/sounds/sounds_config.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Contact;
@@ -35,12 +37,14 @@ struct FeedbackConfig {
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;
+  sounds::SoundsConfig sounds;
   cues::CuePolicyConfig cues;
 
   void describe(navvi_config::Visitor& visit);
 };
 
-/// All decisions of feedback_node: the command for the wheels, the motors of the pad, and the cues.
+/// All decisions of feedback_node: the command for the wheels, the motors of the pad, what is said
+/// and what sounds.
 /// Times are s of one clock that does not run backwards.
 class Feedback {
  public:
@@ -49,6 +53,7 @@ class Feedback {
     drive::InputState hands;
     bool keyboard = false;  ///< the hands are on the arrow keys
     cues::Link audio = cues::Link::alive;
+    bool sounds = true;                ///< short sounds can be heard
     bool motors = true;                ///< false if our own pad is not connected
     bool voice_busy = false;           ///< something is being spoken or waits for it
     std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if known
@@ -59,7 +64,8 @@ class Feedback {
     haptics::Rumble rumble;
     std::optional<haptics::Pattern> pattern;  ///< that `rumble` is part of
     bool alarm_begins = false;                ///< the motors begin to report that there is no sound
-    std::vector<cues::Cue> cues;              ///< decided now, most urgent first
+    std::vector<cues::Cue> cues;              ///< to be spoken, most urgent first
+    std::vector<sounds::Play> plays;          ///< to be played now
     std::optional<TrialRequest::Kind> request;
   };
 
@@ -69,7 +75,10 @@ class Feedback {
   ~Feedback();
 
   void take(const Proximity& proximity, double time) { nearby_ = {proximity.things, time}; }
-  void take(const Guidance& guidance, double time) { guidance_ = {guidance, time}; }
+  void take(const Guidance& guidance, double time) {
+    guidance_ = {guidance, time};
+    turned_ = 0.0;
+  }
   void take(const DriveState& state, double /*time*/) { gate_ = state.state; }
   void take(const TrialState& state, double /*time*/) { trial_ = state; }
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
@@ -108,6 +117,9 @@ class Feedback {
   [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input,
                                                    const std::vector<drive::Button>& pressed,
                                                    double time);
+  [[nodiscard]] std::vector<sounds::Play> sound(const Input& input, std::vector<cues::Cue>& cues,
+                                                double time);
+  [[nodiscard]] std::optional<double> off_course(double time);
   [[nodiscard]] cues::Link pad_link(const drive::InputState& hands) const;
 
   FeedbackConfig config_;
@@ -118,6 +130,7 @@ class Feedback {
   std::optional<DriveState::State> gate_;
   TrialState trial_;
   Latest<Velocity> motion_;
+  double turned_ = 0.0;            ///< rad, counter-clockwise, since that guidance
   std::vector<Contact> contacts_;  ///< since the last update
 
   std::optional<double> last_update_;
@@ -126,6 +139,7 @@ class Feedback {
   bool alarmed_ = false;                    ///< nothing can be heard, and that was reported
   std::optional<std::uint32_t> important_;  ///< the safety phrase that is being spoken
   Velocity commanded_;
+  double idle_ = 0.0;  ///< s, since the person last drove, or had reason to
   bool held_unarmed_ = false;
 };
 

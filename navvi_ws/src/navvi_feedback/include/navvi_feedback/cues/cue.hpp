@@ -1,8 +1,11 @@
 #pragma once
 
 #include <navvi_types/cue_event.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback {
 using navvi_types::CueEvent;
@@ -17,7 +20,8 @@ struct Cue {
   std::string kind;  ///< the phrase's key, such as turn_now
   std::string text;  ///< as spoken
   Priority priority = Priority::text;
-  double max_age = 2.0;  ///< s after which it is dropped if it has not begun
+  double max_age = 2.0;                    ///< s after which it is dropped if it has not begun
+  std::optional<sounds::Play> sound = {};  ///< played instead of the words
 };
 
 /// How a kind of cue is treated.

@@ -9,6 +9,7 @@
 
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/pattern.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::node {
 
@@ -26,5 +27,10 @@ namespace navvi_feedback::node {
 [[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
                                                  std::optional<haptics::Pattern> pattern,
                                                  std::uint32_t id);
+/// Likewise, of the kind of its earcon; its volume is shared by the two sides.
+/// \param id  counts the sounds
+[[nodiscard]] navvi_types::CueEvent sound_event(const sounds::Play& play, std::uint32_t id);
+/// What such an event tells to play; nullopt if it is none. Ahead and behind are the same.
+[[nodiscard]] std::optional<sounds::Play> sound_of(const navvi_types::CueEvent& event);
 
 }  // namespace navvi_feedback::node

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "navvi_config/field.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
+
+namespace navvi_feedback::sounds {
+
+/// Sounds that are switched together.
+struct FamilyConfig {
+  bool on = true;
+  double volume = 0.6;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+struct TurnConfig : FamilyConfig {
+  double begin = 15.0;          ///< deg
+  double done = 4.0;            ///< deg
+  double stopping_delay = 0.4;  ///< s
+  bool learn = true;
+  double on_course = 4.0;  ///< s
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+struct SoundsConfig {
+  bool enabled = true;
+  TurnConfig turn;
+  FamilyConfig hit;
+  FamilyConfig shelf;
+  FamilyConfig near;
+  FamilyConfig arrival;
+  FamilyConfig beacon{false};
+  FamilyConfig sonar{false};
+  double capture_radius = 1.5;  ///< m
+
+  void describe(navvi_config::Visitor& visit);
+  [[nodiscard]] const FamilyConfig& family_of(Earcon earcon) const;
+};
+
+}  // namespace navvi_feedback::sounds

@@ -1,0 +1,96 @@
+#include "devices/earcons.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "devices/earcon_player.hpp"
+#include "devices/heard.hpp"
+
+namespace navvi_feedback::devices {
+namespace {
+
+using navvi_types::to_string;
+using sounds::Earcon;
+
+std::vector<Earcon> all() {
+  std::vector<Earcon> earcons;
+  for (std::size_t i = 0; i < names(Earcon{}).size(); ++i)
+    earcons.push_back(static_cast<Earcon>(i));
+  return earcons;
+}
+
+/// What is heard of it, in the left ear.
+std::vector<double> listen(Earcon earcon) {
+  Mixer mixer(MixerConfig{}, Audio::on);
+  EarconPlayer player(mixer);
+  EXPECT_EQ(player.play({{earcon, Eigen::Vector2d::UnitX(), 1.0}}).size(), 1U);
+  pause(synthesize(earcon).duration() + 0.1);
+  return heard().left;
+}
+
+/// What makes a sound its own: how much of each third of an octave there is in each 0.1 s.
+std::vector<double> fingerprint(const std::vector<double>& ear) {
+  const auto loud =
+      std::find_if(ear.begin(), ear.end(), [](double s) { return std::abs(s) > 1e-3; });
+  std::vector<double> print;
+  double length = 0.0;
+  for (std::ptrdiff_t slice = 0; slice < 9; ++slice) {
+    const std::ptrdiff_t from =
+        std::min((loud - ear.begin()) + slice * 4410, std::ptrdiff_t(ear.size()));
+    const std::ptrdiff_t to = std::min(from + 4410, std::ptrdiff_t(ear.size()));
+    const std::vector<double> part(ear.begin() + from, ear.begin() + to);
+    for (double frequency = 80.0; frequency < 6000.0; frequency *= 1.26) {
+      double most = 0.0;
+      for (const double step : {1.0, 1.08, 1.17})
+        most = std::max(most, tone_in(part, frequency * step));
+      print.push_back(most);
+      length += most * most;
+    }
+  }
+  for (double& value : print) value /= std::sqrt(std::max(length, 1e-12));
+  return print;
+}
+
+TEST(Earcons, are_short_begin_and_end_without_a_click_and_do_not_clip) {
+  for (const Earcon earcon : all()) {
+    const Sound sound = synthesize(earcon);
+    ASSERT_FALSE(sound.samples.empty());
+    EXPECT_LT(sound.duration(), 1.0) << to_string(earcon);
+    EXPECT_LT(std::abs(sound.samples.front()), 300) << to_string(earcon);
+    EXPECT_LT(std::abs(sound.samples.back()), 3000) << to_string(earcon);
+    EXPECT_GT(*std::max_element(sound.samples.begin(), sound.samples.end()), 8000);
+  }
+  EXPECT_LT(synthesize(Earcon::turn).duration(), 0.1) << "its ticks must not run into each other";
+}
+
+TEST(Earcons, are_told_apart_by_what_is_heard) {
+  std::map<Earcon, std::vector<double>> prints;
+  for (const Earcon earcon : all()) prints[earcon] = fingerprint(listen(earcon));
+  for (const auto& [one, a] : prints) {
+    for (const auto& [other, b] : prints) {
+      if (one >= other) continue;
+      double alike = 0.0;
+      for (std::size_t i = 0; i < a.size(); ++i) alike += a[i] * b[i];
+      EXPECT_LT(alike, 0.85) << to_string(one) << " and " << to_string(other);
+    }
+  }
+}
+
+TEST(EarconPlayer, tells_what_was_heard) {
+  Mixer off(MixerConfig{}, Audio::off);
+  EXPECT_TRUE(EarconPlayer(off).play({{}}).empty());
+  Mixer on(MixerConfig{}, Audio::on);
+  EXPECT_EQ(EarconPlayer(on).play({{}, {Earcon::sonar}}).size(), 2U);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::devices
+
+int main(int argc, char** argv) {
+  navvi_feedback::devices::record_what_is_heard();
+  testing::InitGoogleTest(&argc, argv);
+  const int result = RUN_ALL_TESTS();
+  std::filesystem::remove_all(navvi_feedback::devices::recording_folder());
+  return result;
+}

@@ -1,0 +1,60 @@
+#include "navvi_feedback/sounds/sounds_config.hpp"
+
+namespace navvi_feedback::sounds {
+
+using navvi_config::Any;
+using navvi_config::Range;
+
+void FamilyConfig::describe(navvi_config::Visitor& visit) {
+  visit(on, "on", Any{}, "", "false: not heard; words do its work where there are any");
+  visit(volume, "volume", Range{0.0, 1.0}, "", "gain");
+}
+
+void TurnConfig::describe(navvi_config::Visitor& visit) {
+  FamilyConfig::describe(visit);
+  visit(begin, "begin", Range{5.0, 60.0}, "deg", "it begins once the heading is off by more");
+  visit(done, "done", Range{1.0, 30.0}, "deg", "it ends with a sound of its own at this angle");
+  visit(stopping_delay, "stopping_delay", Range{0.0, 2.0}, "s",
+        "how much earlier it ends: what the person and the robot take to stop a turn");
+  visit(learn, "learn", Any{}, "", "correct stopping_delay by each turn that was stopped");
+  visit(on_course, "on_course", Range{0.0, 60.0}, "s",
+        "between two soft sounds while the robot drives on as it should; 0: none");
+}
+
+void SoundsConfig::describe(navvi_config::Visitor& visit) {
+  visit(enabled, "enabled", Any{}, "", "false: nothing but words");
+  visit.group("turn", turn);
+  visit.group("hit", hit);
+  visit.group("shelf", shelf);
+  visit.group("near", near);
+  visit.group("arrival", arrival);
+  visit.group("beacon", beacon);
+  visit.group("sonar", sonar);
+  visit(capture_radius, "capture_radius", Range{0.2, 5.0}, "m",
+        "nearer than this a way-point has no beacon");
+}
+
+const FamilyConfig& SoundsConfig::family_of(Earcon earcon) const {
+  switch (earcon) {
+    case Earcon::turn:
+    case Earcon::turn_stop:
+    case Earcon::on_course:
+      return turn;
+    case Earcon::hit_shelf:
+    case Earcon::hit_obstacle:
+      return hit;
+    case Earcon::shelf_near:
+    case Earcon::shelf_close:
+      return shelf;
+    case Earcon::arrived:
+      return arrival;
+    case Earcon::beacon:
+      return beacon;
+    case Earcon::sonar:
+      return sonar;
+    default:
+      return near;
+  }
+}
+
+}  // namespace navvi_feedback::sounds

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "navvi_feedback/sounds/earcon.hpp"
+#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/turn_sound.hpp"
+
+namespace navvi_feedback::sounds {
+
+/// What is heard besides words: decides each short sound that comes again and again.
+class Soundscape {
+ public:
+  /// All that it is decided from. Points are m, in base_link.
+  struct Input {
+    std::optional<double> off;                ///< as TurnSound takes it
+    Velocity motion;                          ///< likewise
+    std::optional<Eigen::Vector2d> waypoint;  ///< if there is one to go to
+    std::optional<Eigen::Vector2d> nearest;   ///< point of the nearest thing
+    double gap = 0.0;                         ///< m, to it
+  };
+
+  explicit Soundscape(const SoundsConfig& config) : config_(config), turn_(config.turn) {}
+
+  /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
+  [[nodiscard]] std::vector<Play> update(const Input& now, double time);
+
+ private:
+  SoundsConfig config_;
+  TurnSound turn_;
+  std::optional<double> beacon_;  ///< s, when it was heard last
+  std::optional<double> sonar_;   ///< s, likewise
+};
+
+}  // namespace navvi_feedback::sounds

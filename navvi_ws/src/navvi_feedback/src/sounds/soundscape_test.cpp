@@ -1,0 +1,61 @@
+#include "sounds/soundscape.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_feedback::sounds {
+namespace {
+
+/// How often it sounds in 10 s.
+int count(const SoundsConfig& config, Earcon earcon, const Soundscape::Input& now) {
+  Soundscape soundscape(config);
+  int times = 0;
+  for (int i = 0; i < 500; ++i)
+    for (const Play& play : soundscape.update(now, i * 0.02))
+      times += play.earcon == earcon ? 1 : 0;
+  return times;
+}
+
+Soundscape::Input with_waypoint_in(double distance) {
+  Soundscape::Input now;
+  now.waypoint = Eigen::Vector2d(distance, 0.0);
+  return now;
+}
+
+Soundscape::Input with_thing_in(double gap) {
+  Soundscape::Input now;
+  now.nearest = Eigen::Vector2d(0.0, gap + 0.4);
+  now.gap = gap;
+  return now;
+}
+
+TEST(Soundscape, has_no_beacon_and_no_sonar_unless_asked_for) {
+  EXPECT_EQ(count({}, Earcon::beacon, with_waypoint_in(5.0)), 0);
+  EXPECT_EQ(count({}, Earcon::sonar, with_thing_in(0.5)), 0);
+}
+
+TEST(Soundscape, has_a_beacon_that_quickens_up_to_the_capture_radius) {
+  SoundsConfig config;
+  config.beacon.on = true;
+  const int far = count(config, Earcon::beacon, with_waypoint_in(10.0));
+  EXPECT_NEAR(far, 9, 1);
+  EXPECT_GT(count(config, Earcon::beacon, with_waypoint_in(2.0)), 2 * far);
+  EXPECT_EQ(count(config, Earcon::beacon, with_waypoint_in(1.4)), 0);
+  EXPECT_EQ(count(config, Earcon::beacon, {}), 0);
+}
+
+TEST(Soundscape, has_a_sonar_that_quickens_towards_the_nearest_thing) {
+  SoundsConfig config;
+  config.sonar.on = true;
+  const int far = count(config, Earcon::sonar, with_thing_in(2.5));
+  EXPECT_GT(far, 5);
+  EXPECT_GT(count(config, Earcon::sonar, with_thing_in(0.2)), 3 * far);
+  EXPECT_EQ(count(config, Earcon::sonar, with_thing_in(3.5)), 0);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::sounds
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

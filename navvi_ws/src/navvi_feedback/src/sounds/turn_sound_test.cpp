@@ -1,0 +1,135 @@
+#include "sounds/turn_sound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace navvi_feedback::sounds {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr double kTick = 0.02;  // s
+
+/// A person at a stick who turns to the side of the ticks, and lets go some time after the stop.
+class Turner {
+ public:
+  explicit Turner(const TurnConfig& config) : sound_(config) {}
+
+  /// Makes a turn. \param off  deg, clockwise \return deg, turned too far; negative: too little
+  double turn(double off, double delay, double rate = 1.2) {
+    const double asked = off;
+    std::optional<double> let_go;
+    double speed = 0.0;  // rad/s, counter-clockwise
+    ticks.clear();
+    stops = 0;
+    for (int i = 0; i < 500; ++i) {
+      time_ += kTick;
+      const auto play = sound_.update(off * kDegree, {0.0, speed}, time_);
+      if (play && play->earcon == Earcon::turn) {
+        ticks.push_back(time_);
+        side = play->from.y();
+        if (!let_go) speed = std::copysign(rate, side);
+      }
+      if (play && play->earcon == Earcon::turn_stop) {
+        ++stops;
+        if (!let_go) let_go = time_ + delay;
+      }
+      if (let_go && time_ >= *let_go) speed = 0.0;
+      off += speed * kTick / kDegree;
+    }
+    return asked > 0.0 ? -off : off;
+  }
+
+  TurnSound sound_;
+  std::vector<double> ticks;  ///< s
+  int stops = 0;
+  double side = 0.0;
+
+ private:
+  double time_ = 0.0;  // s
+};
+
+TEST(TurnSound, is_silent_where_there_is_nothing_to_turn) {
+  TurnSound sound{TurnConfig{}};
+  for (double time = 0.0; time < 2.0; time += kTick) {
+    EXPECT_FALSE(sound.update(std::nullopt, {}, time));
+    EXPECT_FALSE(sound.update(10.0 * kDegree, {}, 2.0 + time));
+  }
+}
+
+TEST(TurnSound, passes_over_a_heading_that_is_off_for_a_moment) {
+  TurnSound sound{TurnConfig{}};
+  for (int i = 0; i < 100; ++i)
+    EXPECT_FALSE(sound.update((i % 8 < 6 ? 40.0 : 5.0) * kDegree, {}, i * kTick)) << i;
+}
+
+TEST(TurnSound, ticks_from_the_side_to_turn_to_and_the_faster_the_less_is_left) {
+  for (const double off : {120.0, -120.0}) {
+    Turner person{TurnConfig{}};
+    person.turn(off, 0.4, 0.6);
+    EXPECT_EQ(person.side, off > 0.0 ? -1.0 : 1.0);
+    ASSERT_GT(person.ticks.size(), 6U);
+    const std::vector<double>& ticks = person.ticks;
+    EXPECT_NEAR(ticks[1] - ticks[0], 0.5, 0.03);
+    EXPECT_LT(ticks.back() - ticks[ticks.size() - 2], 0.3);
+    for (std::size_t i = 2; i < ticks.size(); ++i)
+      EXPECT_LT(ticks[i] - ticks[i - 1], ticks[i - 1] - ticks[i - 2] + 0.03);
+  }
+}
+
+TEST(TurnSound, tells_to_stop_so_early_that_the_person_stops_at_the_angle) {
+  for (const double off : {30.0, -60.0, 90.0, 170.0}) {
+    TurnConfig config;
+    config.stopping_delay = 0.4;
+    Turner person{config};
+    EXPECT_NEAR(person.turn(off, 0.4), 0.0, 5.0) << off;
+    EXPECT_EQ(person.stops, 1) << off;
+    config.stopping_delay = 0.0;
+    config.learn = false;
+    Turner late{config};
+    EXPECT_GT(late.turn(off, 0.4), 20.0) << off;
+  }
+}
+
+TEST(TurnSound, learns_how_long_a_person_takes_to_stop) {
+  TurnConfig config;
+  config.stopping_delay = 0.2;
+  Turner person{config};
+  for (int i = 0; i < 15; ++i) person.turn(i % 2 == 0 ? 80.0 : -80.0, 0.6);
+  EXPECT_NEAR(person.sound_.stopping_delay(), 0.6, 0.07);
+  EXPECT_NEAR(person.turn(80.0, 0.6), 0.0, 6.0);
+}
+
+TEST(TurnSound, does_not_learn_from_who_turns_on) {
+  Turner person{TurnConfig{}};
+  person.turn(80.0, 3.0);
+  EXPECT_EQ(person.sound_.stopping_delay(), TurnConfig{}.stopping_delay);
+}
+
+TEST(TurnSound, tells_now_and_then_that_a_robot_drives_where_it_should) {
+  for (const double speed : {0.0, 0.5}) {
+    TurnSound sound{TurnConfig{}};
+    int heard = 0;
+    for (int i = 0; i < 1000; ++i)
+      if (const auto play = sound.update(3.0 * kDegree, {speed, 0.0}, i * kTick))
+        heard += play->earcon == Earcon::on_course ? 1 : 100;
+    EXPECT_EQ(heard, speed > 0.0 ? 4 : 0);
+  }
+}
+
+TEST(TurnSound, ends_without_a_word_where_there_is_no_way_any_more) {
+  TurnSound sound{TurnConfig{}};
+  for (int i = 0; i < 50; ++i) (void)sound.update(90.0 * kDegree, {}, i * kTick);
+  EXPECT_TRUE(sound.sounds());
+  EXPECT_FALSE(sound.update(std::nullopt, {}, 1.0));
+  EXPECT_FALSE(sound.sounds());
+}
+
+}  // namespace
+}  // namespace navvi_feedback::sounds
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
