@@ -41,6 +41,7 @@ RouteCues::RouteCues(const RouteConfig& config)
 
 std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, double time) {
   const Guidance& guidance = *now.guidance;
+  by_sound_ = now.sounds.turn;
   const bool other_corner =
       last_ && (guidance.waypoint - last_->waypoint).norm() > config_.same_corner;
   // What was held was the direction to another place.
@@ -75,7 +76,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
 std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
   if (turning_) {
-    if (!about_to_face(now)) return {};
+    if (by_sound_ || !about_to_face(now)) return {};
     Utterance straight = *direction(guidance);
     straight.kind = "straight";
     straight.fillings.hour = 12;
@@ -86,6 +87,10 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   }
   Utterance way = *direction(guidance);
   if (pending_ == Change::next_corner && *hour_ != 12) {
+    if (by_sound_ && !worth_words(*hour_)) {
+      pending_ = Change::none;
+      return {};
+    }
     if (leads_off_)
       way.priority = Priority::message;
     else
@@ -267,9 +272,16 @@ bool RouteCues::at_hand(const Guidance& guidance, double time) const {
 /// The hour of the turn at the next way-point, if it is near enough to be announced.
 std::optional<int> RouteCues::turn_within_reach(const Guidance& guidance) const {
   const auto turn = clock_hour(guidance.turn_angle, rounding_);
-  if (guidance.waypoint_is_goal || turn == 12 || guidance.waypoint_distance > config_.turn_ahead)
+  if (guidance.waypoint_is_goal || !turn || !worth_words(*turn) ||
+      guidance.waypoint_distance > config_.turn_ahead)
     return std::nullopt;
   return turn;
+}
+
+/// A bend that a sound leads round needs no words.
+bool RouteCues::worth_words(int hour) const {
+  const bool bend = hour == 1 || hour == 11;
+  return hour != 12 && !(bend && by_sound_);
 }
 
 bool RouteCues::turn_ahead_due(const Guidance& guidance, int turn, double time) const {
@@ -284,13 +296,17 @@ bool RouteCues::direction_due(const Guidance& guidance, double time) const {
   if (since < config_.pause) return false;
   if (reminder_ && time >= *reminder_) return true;
   if (at_hand(guidance, time)) return false;
+  // A leg has words once, at its begin; a short one has those of its end.
+  const bool ends_soon = guidance.waypoint_distance < config_.turn_ahead;
+  if (by_sound_ && ends_soon && time - last_commanded_ <= config_.idle) return false;
   if (pending_ == Change::next_corner) return true;
   const bool worse =
       *hour_ != 12 && std::abs(guidance.steer_angle) > std::abs(said_angle_) + kWorse;
-  if ((hour_ != said_hour_ || worse) && !passes_within_reach(guidance)) return true;
+  const bool wrong = hour_ != said_hour_ || worse;
+  if (wrong && !by_sound_ && !passes_within_reach(guidance)) return true;
   const bool ahead = *hour_ == 12 || leads_off_;
   if (time - last_commanded_ > config_.idle) return since >= 2.0 * config_.repeat_direction;
-  return since >= (ahead ? config_.repeat_straight : config_.repeat_direction);
+  return since >= (ahead || by_sound_ ? config_.repeat_straight : config_.repeat_direction);
 }
 
 Utterance RouteCues::said(Utterance utterance, int hour, double time) {

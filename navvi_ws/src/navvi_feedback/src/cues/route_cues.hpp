@@ -14,7 +14,8 @@ namespace navvi_feedback::cues {
 /// Says where to drive while there is a path (R-AUD-1, R-AUD-2), so that a person who only hears
 /// can follow it. All hours are seen from the robot's nose to where to steer. While the robot
 /// turns nothing is said but "straight ahead", early enough to stop a turn of more than one hour
-/// by; once it has settled, the hour that is left.
+/// by; once it has settled, the hour that is left. Where a sound leads to where to steer, words are
+/// for what it cannot tell: each leg once, and turns of more than one hour.
 class RouteCues {
  public:
   explicit RouteCues(const RouteConfig& config);
@@ -50,6 +51,7 @@ class RouteCues {
   [[nodiscard]] bool about_to_face(const Situation& now) const;
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
+  [[nodiscard]] bool worth_words(int hour) const;
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, int turn, double time) const;
   [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
@@ -59,6 +61,7 @@ class RouteCues {
   RouteConfig config_;
   Rounding rounding_;
   SteadyHour steady_;
+  bool by_sound_ = false;                ///< a sound leads to where to steer
   std::optional<Eigen::Vector2d> goal_;  ///< m, in map, the one that was introduced
   std::optional<Guidance> last_;         ///< of the path that is being followed
   std::optional<int> hour_;              ///< to the way-point, now

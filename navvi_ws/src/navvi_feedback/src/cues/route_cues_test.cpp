@@ -59,6 +59,38 @@ class Drive {
 
 using Kinds = std::vector<std::string>;
 
+TEST(RouteCues, leave_corrections_to_the_sound_while_it_is_heard) {
+  for (const bool sound : {true, false}) {
+    Drive drive;
+    drive.now.sounds.turn = sound;
+    drive.settle(0.0, 20.0);
+    Kinds said;
+    for (const double off : {30.0, -30.0, 60.0, 0.0}) {
+      drive.now.guidance = following(off, 15.0);
+      const Kinds more = drive.pass(3.0);
+      said.insert(said.end(), more.begin(), more.end());
+    }
+    EXPECT_EQ(said.empty(), sound);
+  }
+}
+
+TEST(RouteCues, say_a_turn_but_no_bend_where_a_sound_leads_round) {
+  for (const double turn : {90.0, 30.0}) {
+    Drive drive;
+    drive.now.sounds.turn = true;
+    drive.settle(0.0, 20.0);
+    drive.now.guidance = following(0.0, 5.0);
+    drive.now.guidance->turn_angle = rad(turn);
+    const bool worth_words = turn > 45.0;
+    EXPECT_EQ(drive.pass(3.0), worth_words ? Kinds{"turn_ahead"} : Kinds{});
+    drive.now.guidance->waypoint_distance = 0.5;
+    drive.pass(1.0);
+    drive.now.guidance = following(turn, 12.0);
+    drive.now.guidance->waypoint = {10.0, 12.0};
+    EXPECT_EQ(drive.pass(0.5), worth_words ? Kinds{"turn_now"} : Kinds{});
+  }
+}
+
 TEST(RouteCues, introduce_a_new_goal_and_then_the_way_to_it) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
