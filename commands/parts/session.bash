@@ -14,9 +14,6 @@ resolve_view() {
   local name
   for name in vision view; do [[ ! -v arg[$name] ]] || one_of "$name"; done
 }
-  [[ -f $views/${arg[view]}.rviz ]] ||
-    fail "view:=${arg[view]} is unknown; known are: $(cd "$views" && echo *.rviz | sed 's/\.rviz//g')" 2
-}
 
 # A master of its own on the loopback interface. Nodes would also open a port on every interface, which the preloaded
 # library prevents.
