@@ -3,5 +3,5 @@ navvi_check() {
   trial_folder "$@"
   (($# == 1)) || fail "\"$2\" is too much; check takes one trial's folder." 2
   build_workspace
-  rosrun navvi_study check_trial "$trial"
+  "$(program navvi_study check_trial)" "$trial"
 }

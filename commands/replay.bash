@@ -11,7 +11,7 @@ navvi_replay() {
   resolve_view
   build_workspace
   loopback_network
-  rosrun navvi_study summary_from_bag "$trial" || status=$?
+  "$(program navvi_study summary_from_bag)" "$trial" || status=$?
   ((status <= 1)) || fail "this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off."
   log=$trial/replay.log
   [[ -w $trial ]] || log=/dev/null

@@ -13,7 +13,6 @@ navvi_run() {
   begin=$(mktemp)
   announce "$log"
   launch "$launch_files/live.launch" "$log" || true
-  [[ -z $interrupted ]] || say "the session was stopped by Ctrl-C; what it recorded is kept."
   report "$begin" "$log"
 }
 
@@ -94,10 +93,10 @@ announce() {
 # The last word of a session comes from the trial's own summary.
 report() {  # FILE_FROM_BEFORE LOG
   local begin=$1 log=$2 summary
-  rosrun navvi_study close_trials "${arg[out]}"
+  "$(program navvi_study close_trials)" "${arg[out]}"
   summary=$(find "${arg[out]}" -name summary.csv -newer "$begin" -printf '%T@ %p\n' | sort -n | tail -n 1 | cut -d' ' -f2-)
   rm -f "$begin"
   [[ -n $summary ]] ||
     fail "the session ended without a trial; the log $log says why. $(sed 's/.*\]: //; s/\x1b\[[0-9;]*m//g' "$fatal" | tail -n 1)"
-  rosrun navvi_study show_summary "$(dirname "$summary")"
+  "$(script navvi_study show_summary)" "$(dirname "$summary")"
 }

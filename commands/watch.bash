@@ -7,7 +7,7 @@ navvi_watch() {
   watch_words "$@"
   build_workspace
   [[ -n $trial ]] || running_session
-  exec rosrun navvi_study watch_session "${arg[pace]}" "${arg[speech]}" ${trial:+"$trial"}
+  exec "$(script navvi_study watch_session)" "${arg[pace]}" "${arg[speech]}" ${trial:+"$trial"}
 }
 
 watch_words() {

@@ -19,6 +19,11 @@ def navvi(*words, **environment):
     return subprocess.run([str(ROOT / "navvi"), *words], capture_output=True, text=True, env=env, timeout=60)
 
 
+def sentences(result):
+    """What was said beside the result, but for how far a build is."""
+    return [line for line in result.stderr.splitlines() if not line.startswith("navvi: building:")]
+
+
 def test_shell_scripts_are_clean():
     subprocess.run(["shellcheck", ROOT / ".ci" / "run"], check=True)
     whole = "".join(path.read_text() for path in [ROOT / "navvi", *sorted((ROOT / "commands").rglob("*.bash"))])
@@ -57,7 +62,7 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     result = navvi(*words)
     assert result.returncode == 2
     assert sentence in result.stderr
-    assert len(result.stderr.splitlines()) == 1
+    assert len(sentences(result)) == 1
     assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
 
 
@@ -79,7 +84,7 @@ def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
     for name, sentence in [("a.gif", ".svg and .png are allowed"), ("none/a.png", "cannot be written")]:
         result = navvi(*command, "-o", str(tmp_path / name))
         assert result.returncode == 2
-        assert sentence in result.stderr and len(result.stderr.splitlines()) == 1
+        assert sentence in result.stderr and len(sentences(result)) == 1
 
 
 def box(name, size, pose):

@@ -38,12 +38,12 @@ install_packages() {
     sudo -n true 2>/dev/null || fail "sudo would ask for a password and there is no terminal; run \"./navvi setup\" in one, or as root."
     as_root=(sudo -n)
   fi
-  say "installing $(wc -l <<<"$missing") packages of Debian (all together 1.5 GB); this takes some minutes."
+  aside "installing $(wc -l <<<"$missing") packages of Debian (all together 1.5 GB); this takes some minutes."
   # shellcheck disable=SC2086  # one word a package
   with_progress "installing" "$log" installed_percent apt_get $missing ||
     { tail -n 20 "$log" >&2; fail "apt-get could not install the packages; the whole log is in $log. Mend what it says and run \"./navvi setup\" again."; }
   rm -f "$log"
-  say "the packages are installed."
+  aside "the packages are installed."
 }
 apt_get() {
   "${as_root[@]}" dpkg --configure -a &&  # what Ctrl-C may have left behind

@@ -1,6 +1,7 @@
 # What a person reads: plain lines, without colour, and none is written over.
 
 say() { echo "navvi: $1"; }
+aside() { echo "navvi: $1" >&2; }  # what is not the command's result
 
 # fail SENTENCE [EXIT_CODE]: what is wrong, where, and what to do, in one line.
 fail() {
@@ -38,9 +39,9 @@ with_progress() {
   do
     share=$("$percent" "$log")
     if ((${share:-0} > 0 && share < 100)); then
-      say "$what: $share percent done, about $(in_words $(((SECONDS - begin) * (100 - share) / share))) left."
+      aside "$what: $share percent done, about $(in_words $(((SECONDS - begin) * (100 - share) / share))) left."
     else
-      say "$what: $(in_words $((SECONDS - begin))) so far."
+      aside "$what: $(in_words $((SECONDS - begin))) so far."
     fi
   done
   kill "$sleeper" 2>/dev/null || true

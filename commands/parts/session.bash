@@ -55,8 +55,9 @@ launch() {
   trap 'rm -f "$fatal"' EXIT
   trap 'interrupted=yes' INT
   roslaunch "$1" "${args[@]}" 2>&1 | {
-    trap '' INT
-    sed -u -n -e "$no_controls" -e "w $2" -e "/FATAL\|RLException/w $fatal" -e "$for_the_screen"
+    trap 'say "stopped by Ctrl-C; what was recorded is kept."' INT
+    sed -u -n -e "$no_controls" -e "w $2" -e "/FATAL\|RLException/w $fatal" -e "$for_the_screen" <&0 &
+    while kill -0 $! 2>/dev/null; do wait $! || true; done
   }
   local status=${PIPESTATUS[0]}
   trap stopped INT

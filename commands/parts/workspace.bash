@@ -28,8 +28,8 @@ build_workspace() {
   done
   log=$workspace/build$variant.log
   exec {lock}>"$workspace/.lock"
-  flock -n "$lock" || { say "waiting for another build to end."; flock "$lock"; }
-  [[ -f $workspace/build$variant/CMakeCache.txt ]] || say "building; the first time takes about 6 minutes, more on few cores."
+  flock -n "$lock" || { aside "waiting for another build to end."; flock "$lock"; }
+  [[ -f $workspace/build$variant/CMakeCache.txt ]] || aside "building; the first time takes about 6 minutes, more on few cores."
   with_progress "building" "$log" built_percent catkin_build "$variant" "${flags[@]}" "$@" ||
     { grep -E -A6 'error|Error' "$log" | head -n 40 >&2; fail "the build failed; the whole log is in $log. Mend the error above and build again."; }
   exec {lock}>&-

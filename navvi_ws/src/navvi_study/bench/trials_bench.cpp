@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <navvi_config/reader.hpp>
@@ -24,7 +26,7 @@ namespace {
 
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
-    "             [--jobs=1] [--trace[=FROM-TO]] [part/name:=value ...]\n"
+    "             [--jobs=1] [--csv] [--trace[=FROM-TO]] [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
     "A part is sim, nav, feedback or operator, with the names of its node's parameters, such as\n"
     "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
@@ -51,6 +53,7 @@ struct Options {
   int jobs = 1;
   std::optional<Span> trace;  ///< s
   std::vector<std::string> parameters;
+  bool csv = false;
   bool help = false;
 };
 
@@ -106,12 +109,15 @@ Options read_options(const std::vector<std::string>& words) {
       out.jobs = number(option, value, 1, kMostJobs);
     } else if (option == "--trace") {
       out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
+    } else if (option == "--csv") {
+      out.csv = true;
     } else if (option == "--help") {
       out.help = true;
     } else {
       throw UsageError("\"" + word + "\" is no option; allowed are:\n" + kUsage);
     }
   }
+  if (out.trace && out.csv) throw UsageError("--csv is for rows, --trace for what happens.");
   if (out.trace && out.jobs > 1)
     throw UsageError("--trace tells of one trial after the other: it needs --jobs=1.");
   const std::int64_t trials = (std::int64_t{out.seeds.to} - out.seeds.from + 1) *
@@ -209,6 +215,14 @@ void print_titles() {
   std::fflush(stdout);
 }
 
+/// Titles, or a row, as CSV: a cell a field.
+void print_csv(const std::string& first, const std::function<std::string(const char*)>& cell) {
+  std::cout << first;
+  for (const Column& column : columns())
+    for (const char* field : column.fields) std::cout << ',' << std::quoted(cell(field), '"', '"');
+  std::cout << std::endl;
+}
+
 /// All trials in one line.
 class Total {
  public:
@@ -268,7 +282,10 @@ int run(const Options& options) {
   };
   Total total;
   int failed = 0;
-  print_titles();
+  if (options.csv)
+    print_csv("world,seed", [](const char* field) { return std::string(field); });
+  else
+    print_titles();
   // A child a trial: a crash takes only its own trial away.
   record::run_in_children(
       options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
@@ -282,14 +299,19 @@ int run(const Options& options) {
         const Task task = task_of(index);
         const auto row = answer.good ? record::Fields::parse(answer.text) : std::nullopt;
         if (row) {
-          print_row(task, *row);
+          if (options.csv)
+            print_csv(task.world + "," + std::to_string(task.seed),
+                      [&](const char* field) { return row->get(field); });
+          else
+            print_row(task, *row);
           total.add(*row);
         } else {
-          std::printf("%-10s %4d  %s\n", task.world.c_str(), task.seed, answer.text.c_str());
+          std::fprintf(options.csv ? stderr : stdout, "%-10s %4d  %s\n", task.world.c_str(),
+                       task.seed, answer.text.c_str());
           ++failed;
         }
       });
-  total.print();
+  if (!options.csv) total.print();
   return failed == 0 ? 0 : 2;
 }
 
