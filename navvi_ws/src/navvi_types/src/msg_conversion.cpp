@@ -254,9 +254,16 @@ std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg) {
 
 std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg) {
   if (!valid(msg.start) || !valid(msg.goal)) return std::nullopt;
-  return Scenario{msg.world,      msg.world_hash,         msg.seed,
-                  flat(msg.goal), pose_of(msg.start),     msg.start.position.z,
-                  msg.parameters, to_ns(msg.header.stamp)};
+  std::vector<Place> places;
+  for (const navvi_msgs::Place& place : msg.places) {
+    const auto kind = from_number<Place::Kind>(place.kind);
+    if (!kind || place.number == 0 || !valid(place.at) || !valid(place.low) || !valid(place.high))
+      return std::nullopt;
+    places.push_back({*kind, place.number, flat(place.at), {flat(place.low), flat(place.high)}});
+  }
+  return Scenario{msg.world,      msg.world_hash,     msg.seed,
+                  flat(msg.goal), pose_of(msg.start), msg.start.position.z,
+                  places,         msg.parameters,     to_ns(msg.header.stamp)};
 }
 
 std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
@@ -392,6 +399,15 @@ navvi_msgs::Scenario to_msg(const Scenario& scenario) {
   msg.seed = scenario.seed;
   msg.start = pose_msg(scenario.start, scenario.floor);
   msg.goal = point_msg(scenario.goal, scenario.floor);
+  for (const Place& place : scenario.places) {
+    navvi_msgs::Place one;
+    one.kind = static_cast<std::uint8_t>(place.kind);
+    one.number = place.number;
+    one.at = point_msg(place.at, scenario.floor);
+    one.low = point_msg(place.area.min(), scenario.floor);
+    one.high = point_msg(place.area.max(), scenario.floor);
+    msg.places.push_back(one);
+  }
   msg.parameters = scenario.parameters;
   return msg;
 }

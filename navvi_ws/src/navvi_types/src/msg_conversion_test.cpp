@@ -204,6 +204,12 @@ navvi_msgs::Scenario scenario() {
   msg.goal.x = 4.0;
   msg.goal.y = 1.0;
   msg.parameters = "world: busy";
+  msg.places.resize(1);
+  msg.places[0].kind = navvi_msgs::Place::AISLE;
+  msg.places[0].number = 2;
+  msg.places[0].at.x = 0.5;
+  msg.places[0].high.x = 1.0;
+  msg.places[0].high.y = 8.0;
   return msg;
 }
 
@@ -392,6 +398,9 @@ TEST(MsgConversion, EveryNumberOfAGuidanceIsChecked) {
 TEST(MsgConversion, EveryNumberOfAScenarioIsChecked) {
   using Msg = navvi_msgs::Scenario;
   expect_each_checked<Msg>(scenario(), {{LEAF(Msg, goal.x), beyond(kFarthest)},
+                                        {LEAF(Msg, places[0].at.x), beyond(kFarthest)},
+                                        {LEAF(Msg, places[0].low.y), beyond(kFarthest)},
+                                        {LEAF(Msg, places[0].high.x), beyond(kFarthest)},
                                         {LEAF(Msg, goal.y), beyond(kFarthest)},
                                         {LEAF(Msg, goal.z), beyond(kFarthest)},
                                         {LEAF(Msg, start.position.x), beyond(kFarthest)},

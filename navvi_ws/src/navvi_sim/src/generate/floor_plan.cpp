@@ -197,4 +197,35 @@ Area FloorPlan::passage(int row, int crossing) const {
           Eigen::Vector2d(row_start(row) + kRowDepth, whole.max().y())};
 }
 
+std::vector<navvi_types::Place> FloorPlan::places() const {
+  using navvi_types::Place;
+  std::vector<Place> places;
+  std::uint32_t number = 0;
+  const auto add = [&](Place::Kind kind, const Area& area) {
+    places.push_back({kind, ++number, area.center(), area});
+  };
+  for (int i = 0; i < lanes(); ++i)
+    if (docked(i))
+      add(Place::Kind::dock, Area(Eigen::Vector2d(lane(i).min().x(), staging_.min().y()),
+                                  Eigen::Vector2d(lane(i).max().x(), staging_.max().y())));
+  number = 0;
+  for (int block = 0; block < blocks_; ++block)
+    for (int i = 0; i < lanes(); ++i)
+      if (aisle_open(i, block)) add(Place::Kind::aisle, aisle(i, block));
+  number = 0;
+  for (int crossing = 0; crossing < crossings(); ++crossing)
+    add(Place::Kind::cross_aisle, cross_aisle(crossing));
+  number = 0;
+  Area room = hall_;
+  for (int i = 0; i < rows_; ++i) {
+    if (!walled(i)) continue;
+    room.max().x() = row(i, 0).center().x();
+    add(Place::Kind::room, room);
+    room.min().x() = room.max().x();
+  }
+  room.max().x() = hall_.max().x();
+  if (number > 0) add(Place::Kind::room, room);
+  return places;
+}
+
 }  // namespace navvi_sim::generate

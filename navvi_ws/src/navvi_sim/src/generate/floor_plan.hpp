@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <navvi_types/scenario.hpp>
 #include <vector>
 
 #include "description/random.hpp"
@@ -46,6 +47,9 @@ class FloorPlan {
   /// Whether a wall stands between the two racks of the row, with a door in each open passage.
   [[nodiscard]] bool walled(int row) const { return walled_[static_cast<std::size_t>(row)]; }
   [[nodiscard]] bool docked(int lane) const { return docked_[static_cast<std::size_t>(lane)]; }
+  /// Docks and aisles from the west, aisles block by block; cross-aisles from the docks; rooms from
+  /// the west, where walls part them. Smaller ones first where they overlap.
+  [[nodiscard]] std::vector<navvi_types::Place> places() const;
   [[nodiscard]] double door() const { return door_; }  ///< m, width of the doors in walls
 
  private:

@@ -30,6 +30,7 @@ WorldDescription layout(const std::string& name, const LayoutConfig& config, std
 
   WorldDescription world;
   world.name = name;
+  world.places = plan.places();
   const auto add = [&](std::vector<Thing> things) {
     std::move(things.begin(), things.end(), std::back_inserter(world.things));
   };

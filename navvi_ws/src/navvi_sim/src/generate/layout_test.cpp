@@ -512,6 +512,26 @@ TEST(Layouts, contradict_themselves_in_a_sentence_that_names_the_field) {
   }
 }
 
+TEST(Layouts, of_every_preset_name_their_places_and_a_robot_can_stand_in_each) {
+  for (const Preset& known : presets()) {
+    const WorldDescription world = layout(known.name, known.config, 3);
+    const occupancy::OccupancyMap map =
+        occupancy::occupancy_of(world, occupancy::OccupancyConfig{0.1});
+    const scenario::FloorGrid grid(map, 0.0, 1.2);
+    const std::vector<Place> places = scenario::free_places_of(world, map, {});
+    std::map<Place::Kind, int> count;
+    for (const Place& place : places) {
+      ++count[place.kind];
+      EXPECT_TRUE(place.area.contains(place.at)) << known.name;
+      EXPECT_GE(grid.clearance(grid.cell_at(place.at)), 0.5) << known.name;
+    }
+    EXPECT_EQ(count[Place::Kind::dock], known.config.docks) << known.name;
+    EXPECT_GE(count[Place::Kind::aisle], 2) << known.name;
+    EXPECT_GE(count[Place::Kind::cross_aisle], 2) << known.name;
+    EXPECT_EQ(count[Place::Kind::room], known.config.walls > 0 ? known.config.walls + 1 : 0);
+  }
+}
+
 }  // namespace
 }  // namespace navvi_sim::generate
 

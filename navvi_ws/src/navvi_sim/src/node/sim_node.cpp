@@ -126,8 +126,9 @@ void SimNode::publish_static(const scenario::StartAndGoal& scenario) {
   scene_.publish(looks_.standing(stamp()));
   scenario_.publish(navvi_types::to_msg(navvi_types::Scenario{
       description_.name, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
-      scenario.goal, scenario.start, description_.floor_height, setup::recipe(config_, scenario),
-      world().now().stamp()}));
+      scenario.goal, scenario.start, description_.floor_height,
+      scenario::free_places_of(description_, map_, config_.scenario),
+      setup::recipe(config_, scenario), world().now().stamp()}));
 }
 
 void SimNode::log_world(const std::vector<std::string>& notes,

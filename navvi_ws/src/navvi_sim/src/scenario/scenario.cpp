@@ -305,4 +305,24 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
   return drawn;
 }
 
+std::vector<Place> free_places_of(const WorldDescription& world, const occupancy::OccupancyMap& map,
+                                  const ScenarioConfig& config) {
+  std::vector<Place> places;
+  if (world.places.empty()) return places;
+  const FloorGrid grid(map, world.floor_height, config.robot_height);
+  for (Place place : world.places) {
+    const Eigen::Vector2d middle = place.area.center();
+    double nearest = std::numeric_limits<double>::infinity();
+    grid.for_each_in(place.area, [&](std::size_t cell) {
+      const double distance = (grid.centre(cell) - middle).norm();
+      if (grid.clearance(cell) < config.robot_radius + config.clearance || distance >= nearest)
+        return;
+      nearest = distance;
+      place.at = grid.centre(cell);
+    });
+    if (std::isfinite(nearest)) places.push_back(place);
+  }
+  return places;
+}
+
 }  // namespace navvi_sim::scenario

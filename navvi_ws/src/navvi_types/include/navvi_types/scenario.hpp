@@ -1,11 +1,28 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "navvi_types/motion.hpp"
+#include "navvi_types/names.hpp"
 
 namespace navvi_types {
+
+/// A part of the world that has a name, such as dock 2.
+struct Place {
+  enum class Kind : std::uint8_t { dock, aisle, cross_aisle, room };
+
+  Kind kind = Kind::dock;
+  std::uint32_t number = 0;                      ///< from 1, within its kind
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map: where a robot can stand in it
+  Eigen::AlignedBox2d area = Eigen::AlignedBox2d(Eigen::Vector2d::Zero());  ///< m, in map
+};
+[[nodiscard]] constexpr std::array<const char*, 4> names(Place::Kind) {
+  return {"dock", "aisle", "cross_aisle", "room"};
+}
 
 /// The task of a session: world, start and goal.
 struct Scenario {
@@ -15,8 +32,9 @@ struct Scenario {
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();  ///< m, in map
   Pose2 start = {};                                ///< base_link in map
   double floor = 0.0;                              ///< m, height of the floor in map
-  std::string parameters = {};                     ///< YAML, of sim_node
-  std::int64_t stamp = 0;                          ///< ns, ROS time
+  std::vector<Place> places = {};
+  std::string parameters = {};  ///< YAML, of sim_node
+  std::int64_t stamp = 0;       ///< ns, ROS time
 };
 
 /// The state of the world after so many steps, by which a repetition is compared.

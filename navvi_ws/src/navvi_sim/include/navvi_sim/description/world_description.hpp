@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 
 namespace navvi_sim {
 
+using navvi_types::Place;
 using navvi_types::Pose2;
 using navvi_types::ThingClass;
 
@@ -78,8 +80,9 @@ struct Thing {
 /// Everything there is to know of a world before it lives. Frame: map, z up.
 struct WorldDescription {
   std::string name;
-  double floor_height = 0.0;  ///< m, z of the surface the robot drives on
-  std::vector<Thing> things;  ///< a thing's id in the messages is its index here
+  double floor_height = 0.0;       ///< m, z of the surface the robot drives on
+  std::vector<Thing> things;       ///< a thing's id in the messages is its index here
+  std::vector<Place> places = {};  ///< where they are; `at` is their middle, free or not
 };
 
 /// A sentence that says which file or thing is wrong, what is wrong with it, and what is allowed.

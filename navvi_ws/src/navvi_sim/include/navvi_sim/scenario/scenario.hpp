@@ -60,4 +60,10 @@ struct StartAndGoal {
                                          const std::optional<Pose2>& start = std::nullopt,
                                          const std::optional<Eigen::Vector2d>& goal = std::nullopt);
 
+/// The world's places in which the robot can stand, each with the free point that is nearest to its
+/// middle. \param map  of `world`
+[[nodiscard]] std::vector<Place> free_places_of(const WorldDescription& world,
+                                                const occupancy::OccupancyMap& map,
+                                                const ScenarioConfig& config);
+
 }  // namespace navvi_sim::scenario
