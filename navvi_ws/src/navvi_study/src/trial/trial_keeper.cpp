@@ -17,6 +17,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
 constexpr double kHurry = 1.5;                   // s, for a recorder once all must stop
+constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
 std::string list_of(const std::vector<std::string>& words) {
   std::string text;
@@ -66,7 +67,18 @@ void TrialKeeper::take(const Correction& correction, const Moment& now) {
 void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
   readiness_.saw(guidance, now.wall());
+  const bool refused = guidance.state == Guidance::State::goal_refused;
+  if (phase_ == Phase::armed && refused && next_goal_ &&
+      (guidance.goal - *next_goal_).norm() < kSame)
+    next_goal_.reset();
   observe(guidance);
+}
+
+/// From now on it is sent until the guidance shows it.
+void TrialKeeper::change_goal(const Eigen::Vector2d& goal) {
+  goal_ = goal;
+  goal_tries_ = {};
+  record(monitor_.change_goal(goal, std::max(now_.ros_ns, monitor_.latest())));
 }
 
 void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
@@ -97,9 +109,9 @@ void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
     next_goal_ = goal;
     if (!config_.press_to_start) start(goal);
   } else if (phase_ == Phase::running) {
-    goal_ = goal;
+    if (monitor_.goal_taken()) goal_before_ = goal_;
+    change_goal(goal);
     goal_tries_.sent_elsewhere(now.wall());
-    record(monitor_.change_goal(goal, std::max(now.ros_ns, monitor_.latest())));
   }
 }
 
@@ -208,6 +220,7 @@ void TrialKeeper::try_to_start() {
 
 void TrialKeeper::start(const Eigen::Vector2d& goal) {
   next_goal_.reset();
+  goal_before_.reset();
   goal_ = goal;
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);

@@ -92,6 +92,7 @@ class TrialKeeper {
   void show_state();
   [[nodiscard]] TrialState::State state();
   void start(const Eigen::Vector2d& goal);
+  void change_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] record::Fields conditions(const TrialStart& beginning);
   void watch();
   void watch_bag();
@@ -137,6 +138,7 @@ class TrialKeeper {
   BagWatch bag_;
   bool bag_lost_ = false;  ///< and journalled
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> goal_before_;  ///< that was taken, if a later one is refused
   GoalTries goal_tries_;
   TrialFlow flow_;
   double operator_seen_ = 0.0;  ///< when a simulated one last moved its hands
@@ -155,7 +157,8 @@ void TrialKeeper::observe(const Report& report) {
   if (monitor_.reached()) {
     end({"reached", "goal_reached", monitor_.latest()});
   } else if (const auto why = monitor_.refused()) {
-    end({"refused", *why, monitor_.latest()});
+    if (!goal_before_) return end({"refused", *why, monitor_.latest()});
+    return change_goal(*std::exchange(goal_before_, std::nullopt));
   }
 }
 

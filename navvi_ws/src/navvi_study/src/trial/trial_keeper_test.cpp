@@ -195,6 +195,37 @@ TEST_F(Trials, are_separated_by_a_pause_in_which_a_goal_can_be_chosen_again_and_
   EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_START"), 1);
 }
 
+TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  const Eigen::Vector2d bad(500.0, 0.0);
+  keeper_->take_goal(bad, now());
+  goals_.clear();
+  live(0.1, State::goal_refused, bad);
+  ASSERT_FALSE(goals_.empty());
+  EXPECT_EQ(goals_.back(), kScenario.goal);
+  live(1.0, State::following, kScenario.goal);
+  EXPECT_FALSE(happened("TRIAL_END"));
+  EXPECT_TRUE(happened("GOAL_REFUSED"));
+  live(0.1, State::arrived, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
+}
+
+TEST_F(Trials, that_are_to_begin_forget_a_goal_that_is_refused) {
+  config_.press_to_start = true;
+  config_.once = false;
+  begin();
+  live(1.0);
+  keeper_->take_goal({500.0, 0.0}, now());
+  live(0.1);
+  EXPECT_EQ(shown_.back(), TrialState::State::ready);
+  live(0.1, State::goal_refused, {500.0, 0.0});
+  EXPECT_EQ(shown_.back(), TrialState::State::choose_goal);
+}
+
 TEST_F(Trials, do_not_wait_for_ever_for_a_simulated_operator_to_begin) {
   config_.press_to_start = true;
   config_.operator_kind = "simulated";
