@@ -6,11 +6,13 @@
 
 #include "cues/cue_policy.hpp"
 #include "cues/side.hpp"
+#include "menu/menu.hpp"
 #include "sounds/soundscape.hpp"
 
 namespace navvi_feedback::core {
 namespace {
 
+constexpr double kSameGoal = 0.05;    // m
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
 constexpr double kIdle = 6.0;         // s; who does not drive for so long needs no ticks to turn by
 constexpr double kPi = 3.14159265358979323846;
@@ -67,17 +69,21 @@ struct Feedback::Deciders {
   haptics::PatternPlayer patterns;
   sounds::Soundscape soundscape;
   cues::CuePolicy cues;
+  menu::Menu menu;
+  std::optional<cues::Utterance> answer;  ///< of the menu, to what was pressed now
 };
 
 Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& phrases)
     : config_(config),
-      deciders_(new Deciders{
-          drive::Drive(config.drive),
-          drive::Buttons(config.buttons),
-          haptics::Haptics(config.haptics),
-          {},
-          sounds::Soundscape(config.sounds),
-          cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording))}) {}
+      deciders_(
+          new Deciders{drive::Drive(config.drive),
+                       drive::Buttons(config.buttons),
+                       haptics::Haptics(config.haptics),
+                       {},
+                       sounds::Soundscape(config.sounds),
+                       cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording)),
+                       {},
+                       {}}) {}
 
 Feedback::~Feedback() = default;
 
@@ -99,9 +105,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   out.command = drive(input.hands, dt);
   out.alarm_begins = alarm_begins(input);
   const std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
-  const bool start = std::count(pressed.begin(), pressed.end(), drive::Button::start) > 0;
-  if (start && trial_.state == TrialState::State::ready) out.request = TrialRequest::Kind::begin;
-  out.cues = decide_cues(input, pressed, time);
+  out.cues = decide_cues(input, pressed, out, time);
   begin_patterns(out);
   const bool leads = deciders_->cues.leads();
   idle_ = leads && commanded_.linear == 0.0 && commanded_.angular == 0.0 ? idle_ + dt : 0.0;
@@ -206,8 +210,38 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
   return plays;
 }
 
+void Feedback::take_goal(const Eigen::Vector2d& goal) {
+  // One goal may be sent more than once, as until it is taken.
+  if (!goals_.empty() && (goals_.back() - goal).norm() < kSameGoal) return;
+  goals_.push_back(goal);
+  if (goals_.size() > 2) goals_.erase(goals_.begin());
+}
+
+void Feedback::obey(const std::vector<drive::Button>& pressed, Output& out) {
+  menu::Choices choices;
+  choices.trial = trial_.state;
+  if (scenario_) choices.destinations.push_back({cues::PlaceName::task, 0, scenario_->goal});
+  if (goals_.size() == 2) choices.destinations.push_back({cues::PlaceName::last, 0, goals_[0]});
+  if (scenario_)
+    for (const navvi_types::Place& place : scenario_->places)
+      choices.destinations.push_back(
+          {static_cast<cues::PlaceName>(place.kind), static_cast<int>(place.number), place.at});
+  deciders_->answer.reset();
+  for (const drive::Button button : pressed) {
+    if (button == drive::Button::start && trial_.state == TrialState::State::ready &&
+        !deciders_->menu.open()) {
+      out.request = TrialRequest::Kind::begin;
+      continue;
+    }
+    const menu::Menu::Step step = deciders_->menu.press(button, choices);
+    if (step.told) deciders_->answer = step.told;
+    if (step.goal) out.goal = step.goal;
+    if (step.request) out.request = step.request;
+  }
+}
+
 std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
-                                             const std::vector<drive::Button>& pressed,
+                                             const std::vector<drive::Button>& pressed, Output& out,
                                              double time) {
   cues::Situation now;
   now.guidance = guidance_.value;
@@ -222,6 +256,8 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   now.stick_held_unarmed = held_unarmed_;
   now.gate = gate_;
   now.trial = trial_.state;
+  obey(pressed, out);
+  now.menu = deciders_->answer;
   for (const drive::Button button : pressed)
     if (button <= drive::Button::around) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;

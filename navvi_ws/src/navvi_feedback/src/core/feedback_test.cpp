@@ -125,6 +125,35 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
 }
 
+TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
+  Scenario scenario;
+  scenario.goal = {1.0, 2.0};
+  scenario.places = {{navvi_types::Place::Kind::dock, 1, {3.0, 4.0}}};
+  feedback_.take(scenario, time_);
+  const auto press = [&](std::size_t button) {
+    input_.hands.buttons.assign(15, false);
+    input_.hands.buttons[button] = true;
+    const Feedback::Output output = pass(0.02);
+    input_.hands.buttons.assign(15, false);
+    pass(0.1);
+    return output;
+  };
+  constexpr std::size_t kDown = 12, kRight = 14;
+  EXPECT_EQ(press(kDown).cues.at(0).text, "goals");
+  EXPECT_EQ(press(kRight).cues.at(0).text, "the goal of the task");
+  EXPECT_EQ(press(kDown).cues.at(0).text, "dock 1");
+  const Feedback::Output chosen = press(kRight);
+  EXPECT_EQ(chosen.cues.at(0).text, "the goal is now dock 1");
+  EXPECT_EQ(chosen.goal.value().x(), 3.0);
+  feedback_.take_goal({9.0, 9.0});
+  feedback_.take_goal({3.0, 4.0});
+  feedback_.take_goal({3.0, 4.0});
+  press(kDown);
+  press(kRight);
+  EXPECT_EQ(press(kDown).cues.at(0).text, "the goal before");
+  EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
+}
+
 TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);

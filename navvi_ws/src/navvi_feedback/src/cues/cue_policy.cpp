@@ -278,6 +278,11 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
 }
 
 CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
+  if (now.menu) {
+    Utterance label = *now.menu;
+    label.asked = true;
+    return {label};
+  }
   if (!now.question) return {};
   Utterance answer;
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
@@ -316,7 +321,7 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Sounds& s
     if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + text);
     for (const Fillings& more : utterance.also) longer(text + ", " + phrases_.say(kind.kind, more));
     cues.push_back({kind.kind, text, utterance.priority.value_or(kind.priority), kind.max_age,
-                    instead_of(utterance, sounds)});
+                    instead_of(utterance, sounds), utterance.asked});
   }
   std::stable_sort(cues.begin(), cues.end(),
                    [](const Cue& a, const Cue& b) { return a.priority > b.priority; });

@@ -45,6 +45,7 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
   step.events.push_back(event(entry.id, CueStage::queued, cue));
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     // Two things that were hit are two messages of one kind.
+    if (cue.asked && other.cue.asked) return true;
     return other.cue.kind == cue.kind &&
            (cue.priority < Priority::important || other.cue.text == cue.text);
   });
@@ -53,7 +54,7 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
     waiting_.erase(same);
   }
   const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
-    return other.cue.priority < cue.priority;
+    return other.cue.priority < cue.priority || (cue.asked && other.cue.priority == cue.priority);
   });
   waiting_.insert(place, entry);
 }
@@ -74,8 +75,8 @@ void CueQueue::drop_surplus(Step& step) {
     return entry.cue.priority < Priority::important;
   });
   // One place more for the cue that begins in this very step.
-  const bool begins =
-      !waiting_.empty() && (!running_ || waiting_.front().cue.priority > running_->cue.priority);
+  const bool begins = !waiting_.empty() && (!running_ || waiting_.front().cue.asked ||
+                                            waiting_.front().cue.priority > running_->cue.priority);
   const bool lesser_begins = begins && lesser == waiting_.begin();
   const auto room = static_cast<std::ptrdiff_t>(kMaxWaiting + (lesser_begins ? 1 : 0));
   while (waiting_.end() - lesser > room) {
@@ -89,7 +90,7 @@ void CueQueue::begin_next(Step& step) {
   const Entry& next = waiting_.front();
   if (running_) {
     if (running_->cue.priority == Priority::important ||
-        next.cue.priority <= running_->cue.priority)
+        (next.cue.priority <= running_->cue.priority && !next.cue.asked))
       return;
     step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
     step.stop = true;

@@ -51,6 +51,25 @@ TEST(CueQueue, lets_a_higher_priority_cut_a_lower_one) {
   EXPECT_EQ(step.start, "text of b");
 }
 
+TEST(CueQueue, answers_at_once_whatever_but_safety_is_spoken_and_only_the_last_question) {
+  const auto answer = [](const std::string& kind) {
+    Cue asked = cue(kind, Priority::message);
+    asked.asked = true;
+    return asked;
+  };
+  CueQueue queue;
+  (void)queue.update({cue("a", Priority::message), cue("b", Priority::message)}, false, 0.0);
+  EXPECT_EQ(told(queue.update({answer("c")}, true, 0.1)),
+            (Words{"queued c", "cut a", "started c"}));
+  EXPECT_EQ(told(queue.update({answer("d")}, true, 0.2)),
+            (Words{"queued d", "cut c", "started d"}));
+  EXPECT_EQ(told(queue.update({cue("s", Priority::important)}, true, 0.3)),
+            (Words{"queued s", "cut d", "started s"}));
+  EXPECT_EQ(told(queue.update({answer("e")}, true, 0.4)), (Words{"queued e"}));
+  EXPECT_EQ(told(queue.update({answer("f")}, true, 0.5)), (Words{"queued f", "dropped e"}));
+  EXPECT_EQ(told(queue.update({}, false, 0.6)), (Words{"ended s", "started f"}));
+}
+
 TEST(CueQueue, never_lets_an_equal_one_cut) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::text)}, false, 0.0);

@@ -20,9 +20,11 @@ constexpr std::size_t kMaxBytes = 80;
 constexpr std::size_t kMaxWord = 24;
 /// Of any unit; beyond it a distance is not spoken exactly, so that its length is bounded.
 constexpr double kFar = 9999.0;
+constexpr int kMostPlaces = 999;        // likewise, of one name
 constexpr double kFeet = 1.0 / 0.3048;  // in a metre
 
-const std::set<std::string> kPlaceholders = {"direction", "distance", "thing", "side", "where"};
+const std::set<std::string> kPlaceholders = {"direction", "distance", "thing",
+                                             "side",      "where",    "place"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
@@ -40,6 +42,7 @@ std::set<std::string> word_keys() {
     keys.insert(std::string("side_") + side);
     keys.insert(std::string("where_") + side);
   }
+  for (const char* place : names(PlaceName{})) keys.insert(std::string("place_") + place);
   for (const char* wording : kDirections)
     for (int hour = 1; hour <= 12; ++hour)
       keys.insert(std::string(wording) + "_" + std::to_string(hour));
@@ -158,6 +161,8 @@ std::vector<std::string> possible(const std::string& placeholder,
   } else {
     add(placeholder + "_");
   }
+  if (placeholder == "place")
+    for (std::string& text : texts) text += " 999";
   return texts;
 }
 
@@ -267,6 +272,12 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
   if (placeholder == "side" || placeholder == "where") {
     if (!fillings.side) throw missing();
     return words_.at(placeholder + "_" + kSides.at(static_cast<std::size_t>(*fillings.side)));
+  }
+  if (placeholder == "place") {
+    if (!fillings.place) throw missing();
+    const std::string word =
+        words_.at(std::string("place_") + navvi_types::to_string(*fillings.place));
+    return fillings.number > 0 ? word + " " + number(std::min(fillings.number, kMostPlaces)) : word;
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
   return words_.at(wording_.directions + "_" + std::to_string(*fillings.hour));

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <navvi_types/names.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
@@ -17,12 +19,21 @@ using navvi_types::ThingClass;
 
 namespace navvi_feedback::cues {
 
+/// Where a person can go: the parts of the world as in navvi_types::Place, the task's goal, and the
+/// last ones.
+enum class PlaceName { dock, aisle, cross_aisle, room, task, last };
+[[nodiscard]] constexpr std::array<const char*, 6> names(PlaceName) {
+  return {"dock", "aisle", "cross_aisle", "room", "task", "last"};
+}
+
 /// What is put into a phrase: numbers, and words of fixed sets.
 struct Fillings {
   std::optional<int> hour = {};         ///< 1..12
   std::optional<double> distance = {};  ///< m, >= 0
   std::optional<ThingClass> thing = {};
   std::optional<Side> side = {};
+  std::optional<PlaceName> place = {};
+  int number = 0;  ///< of the place; 0: none is said
 };
 
 /// A cue that is not worded yet.
@@ -39,7 +50,7 @@ struct Utterance {
 /// words from the same file, put in. No text of any message can reach the voice.
 ///
 /// Placeholders: {direction} an hour as the wording has it, {distance} a distance with its unit,
-/// {thing} a thing's noun, {side} "left", {where} "on the left".
+/// {thing} a thing's noun, {side} "left", {where} "on the left", {place} "dock 2".
 class Phrases {
  public:
   /// \param file  with the sections voice, phrases, words; in clock, brief and full stand phrases

@@ -88,6 +88,8 @@ Fillings everything() {
   fillings.distance = 8.2;
   fillings.thing = ThingClass::pallet_robot;
   fillings.side = Side::left;
+  fillings.place = PlaceName::dock;
+  fillings.number = 2;
   return fillings;
 }
 
@@ -180,6 +182,15 @@ TEST(Phrases, give_feet_where_they_are_wanted) {
   for (const auto& [metres, text] : table) EXPECT_EQ(phrases.distance(metres), text) << metres;
 }
 
+TEST(Phrases, name_places_with_their_number) {
+  const Phrases phrases(kEnglish);
+  EXPECT_EQ(phrases.say("menu_place", everything()), "dock 2");
+  Fillings task;
+  task.place = PlaceName::task;
+  EXPECT_EQ(phrases.say("goal_chosen", task), "the goal is now the goal of the task");
+  EXPECT_THROW(static_cast<void>(phrases.say("menu_place")), std::logic_error);
+}
+
 TEST(Phrases, round_distances_as_people_say_them) {
   const Phrases phrases(kEnglish);
   const std::vector<std::pair<double, std::string>> table = {
@@ -268,8 +279,12 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
                thing <= static_cast<int>(ThingClass::other); ++thing)
             for (int side = 0; side < 4; ++side)
               for (const double metres : {0.0, 1.5, 1e300}) {
-                const Fillings fillings{hour, metres, static_cast<ThingClass>(thing),
-                                        static_cast<Side>(side)};
+                const Fillings fillings{hour,
+                                        metres,
+                                        static_cast<ThingClass>(thing),
+                                        static_cast<Side>(side),
+                                        PlaceName::cross_aisle,
+                                        1000};
                 ASSERT_TRUE(speakable(phrases.say(kind.kind, fillings))) << kind.kind;
               }
     }

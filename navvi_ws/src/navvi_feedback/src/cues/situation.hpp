@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cues/phrases.hpp"
 #include "navvi_feedback/cues/link.hpp"
 
 namespace navvi_feedback {
@@ -47,6 +48,7 @@ struct Situation {
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
   Links links;
   bool keyboard = false;             ///< the stick is the arrow keys
+  std::optional<Utterance> menu;     ///< what the menu answers to a button
   std::optional<Question> question;  ///< whose button went down since the last update
   bool voice_busy = false;           ///< something is being spoken or waits for it
 

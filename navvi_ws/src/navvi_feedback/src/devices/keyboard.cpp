@@ -36,9 +36,20 @@ drive::InputState read_keys() {
   };
   input.axes = {axis(SDL_SCANCODE_LEFT, SDL_SCANCODE_RIGHT),
                 axis(SDL_SCANCODE_UP, SDL_SCANCODE_DOWN)};
-  input.buttons = {
-      down(SDL_SCANCODE_SPACE), down(SDL_SCANCODE_G), down(SDL_SCANCODE_A), false, false, false,
-      down(SDL_SCANCODE_RETURN)};
+  input.buttons = {down(SDL_SCANCODE_SPACE),
+                   down(SDL_SCANCODE_G),
+                   down(SDL_SCANCODE_A),
+                   false,
+                   down(SDL_SCANCODE_ESCAPE),
+                   false,
+                   down(SDL_SCANCODE_RETURN),
+                   false,
+                   false,
+                   false,
+                   false,
+                   down(SDL_SCANCODE_PAGEUP),
+                   down(SDL_SCANCODE_PAGEDOWN),
+                   down(SDL_SCANCODE_BACKSPACE)};
   return input;
 }
 

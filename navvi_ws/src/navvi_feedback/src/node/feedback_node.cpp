@@ -109,6 +109,7 @@ class FeedbackNode {
     cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
     motors_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
     cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+    goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     requests_ = node_.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
     markers_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
     diagnostics_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
@@ -138,7 +139,11 @@ class FeedbackNode {
     });
     keep<navvi_msgs::DriveState>("navvi/drive_state");
     keep<navvi_msgs::TrialState>("navvi/trial_state");
+    keep<navvi_msgs::Scenario>("navvi/scenario");
     keep<nav_msgs::Odometry>("odom");
+    listen<geometry_msgs::PoseStamped>(
+        "move_base_simple/goal", 10,
+        [this](const Eigen::Vector2d& goal) { feedback_.take_goal(goal); });
     listen<nav_msgs::Path>("navvi/path", 1,
                            [this](const std::vector<Eigen::Vector2d>& path) { path_ = path; });
   }
@@ -177,6 +182,8 @@ class FeedbackNode {
     const core::Feedback::Output output = feedback_.update(input, time);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
+    if (output.goal)
+      goals_.publish(navvi_types::goal_msg(*output.goal, navvi_types::to_ns(ros::Time::now())));
     if (output.request)
       requests_.publish(
           to_msg(TrialRequest{*output.request, navvi_types::to_ns(ros::Time::now())}));
@@ -291,7 +298,7 @@ class FeedbackNode {
   ros::NodeHandle node_;
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_{tf_};
-  ros::Publisher cmd_vel_, joy_out_, motors_, requests_, cues_, markers_, diagnostics_;
+  ros::Publisher cmd_vel_, joy_out_, motors_, goals_, requests_, cues_, markers_, diagnostics_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/scenario.hpp>
 #include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ using navvi_types::DriveState;
 using navvi_types::Guidance;
 using navvi_types::Odometry;
 using navvi_types::Proximity;
+using navvi_types::Scenario;
 using navvi_types::TrialRequest;
 using navvi_types::TrialState;
 }  // namespace navvi_feedback
@@ -67,6 +69,7 @@ class Feedback {
     std::vector<cues::Cue> cues;              ///< to be spoken, most urgent first
     std::vector<sounds::Play> plays;          ///< to be played now
     std::optional<TrialRequest::Kind> request;
+    std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
   };
 
   /// \param phrases  file of the spoken phrases
@@ -82,6 +85,9 @@ class Feedback {
   void take(const DriveState& state, double /*time*/) { gate_ = state.state; }
   void take(const TrialState& state, double /*time*/) { trial_ = state; }
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
+  void take(const Scenario& scenario, double /*time*/) { scenario_ = scenario; }
+  /// Whoever has set it. \param goal  m, in map
+  void take_goal(const Eigen::Vector2d& goal);
   void take(const Contact& contact) { contacts_.push_back(contact); }
 
   /// Call it at 50 Hz.
@@ -111,12 +117,14 @@ class Feedback {
   struct Deciders;
 
   [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
+  /// Carries out what the buttons ask of the trial and the menu.
+  void obey(const std::vector<drive::Button>& pressed, Output& out);
   [[nodiscard]] bool alarm_begins(const Input& input);
   void begin_patterns(const Output& out);
   [[nodiscard]] haptics::Rumble feel(double time, double dt);
   [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input,
                                                    const std::vector<drive::Button>& pressed,
-                                                   double time);
+                                                   Output& out, double time);
   [[nodiscard]] std::vector<sounds::Play> sound(const Input& input, std::vector<cues::Cue>& cues,
                                                 double time);
   [[nodiscard]] std::optional<double> off_course(double time);
@@ -129,6 +137,8 @@ class Feedback {
   Latest<Guidance> guidance_;
   std::optional<DriveState::State> gate_;
   TrialState trial_;
+  std::optional<Scenario> scenario_;
+  std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
   Latest<Velocity> motion_;
   double turned_ = 0.0;            ///< rad, counter-clockwise, since that guidance
   std::vector<Contact> contacts_;  ///< since the last update

@@ -22,6 +22,7 @@ struct Cue {
   Priority priority = Priority::text;
   double max_age = 2.0;                    ///< s after which it is dropped if it has not begun
   std::optional<sounds::Play> sound = {};  ///< played instead of the words
+  bool asked = false;                      ///< the answer to a button
 };
 
 /// How a kind of cue is treated.

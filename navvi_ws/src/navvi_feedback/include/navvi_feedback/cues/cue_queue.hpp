@@ -10,7 +10,8 @@
 namespace navvi_feedback::cues {
 
 /// Decides when each cue is spoken (R-AUD-6). A higher priority cuts a lower one; an equal or lower
-/// one waits; nothing cuts an important one. Below `important` at most two wait; the least
+/// one waits; nothing cuts an important one, and what was asked for cuts all others and takes the
+/// place of what was asked for before. Below `important` at most two wait; the least
 /// important is dropped first. A newer cue of a kind replaces the waiting one, but an important one
 /// only if the text is the same. A cue that has waited beyond max_age is dropped. Every cue that
 /// enters reaches exactly one of ended, cut, dropped.

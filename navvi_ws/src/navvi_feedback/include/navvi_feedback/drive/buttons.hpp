@@ -14,15 +14,21 @@ enum class Button {
   repeat,  ///< the last direction again
   goal,    ///< where it is
   around,  ///< what is near, and on which side
-  start,   ///< begin the trial
+  start,   ///< begin the trial; in the menu, as choose
+  end,     ///< end the trial, when pressed twice
+  next,    ///< of the menu, as the three below
+  previous,
+  choose,
+  back,
 };
-[[nodiscard]] constexpr std::array<const char*, 4> names(Button) {
-  return {"repeat", "goal", "around", "start"};
+constexpr std::size_t kButtons = 9;
+[[nodiscard]] constexpr std::array<const char*, kButtons> names(Button) {
+  return {"repeat", "goal", "around", "start", "end", "next", "previous", "choose", "back"};
 }
 
 /// Which button of the device does what: indices as in Gamepad::input(); -1: none does.
 struct ButtonsConfig {
-  std::array<int, 4> index = {0, 1, 2, 6};
+  std::array<int, kButtons> index = {0, 1, 2, 6, 4, 12, 11, 14, 13};
 
   void describe(navvi_config::Visitor& visit);
 };
