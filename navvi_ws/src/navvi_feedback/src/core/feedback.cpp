@@ -48,6 +48,17 @@ bool fixed(const Contact& contact) {
          contact.thing_class == navvi_types::ThingClass::wall;
 }
 
+/// The smallest place that holds the point.
+std::optional<navvi_types::Place> place_at(const std::optional<Scenario>& scenario,
+                                           const Eigen::Vector2d& point) {
+  std::optional<navvi_types::Place> found;
+  if (!scenario) return found;
+  for (const navvi_types::Place& place : scenario->places)
+    if (place.area.contains(point) && (!found || place.area.volume() < found->area.volume()))
+      found = place;
+  return found;
+}
+
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
 }  // namespace
@@ -245,7 +256,13 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
                                              double time) {
   cues::Situation now;
   now.guidance = guidance_.value;
-  now.goal_angle = input.goal_angle;
+  if (input.robot) {
+    now.place = place_at(scenario_, input.robot->position);
+    if (now.guidance && now.guidance->leads()) {
+      now.goal_angle = navvi_types::clockwise_angle(*input.robot, now.guidance->goal);
+      now.goal_straight = (now.guidance->goal - input.robot->position).norm();
+    }
+  }
   const auto link = [&](const auto& latest) { return latest.link(time, config_.stale); };
   now.links = {pad_link(input.hands), link(motion_), link(nearby_), link(guidance_), input.audio};
   if (now.links.proximity == cues::Link::alive) now.nearby = *nearby_.value;
@@ -259,7 +276,7 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   obey(pressed, out);
   now.menu = deciders_->answer;
   for (const drive::Button button : pressed)
-    if (button <= drive::Button::around) now.question = static_cast<cues::Question>(button);
+    if (button <= drive::Button::help) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;
   now.notices = input.notices;
   const sounds::SoundsConfig& sounds = config_.sounds;

@@ -125,6 +125,25 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
 }
 
+TEST_F(FeedbackTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) {
+  using navvi_types::Place;
+  Scenario scenario;
+  scenario.places = {
+      {Place::Kind::room, 1, {}, {Eigen::Vector2d(-9.0, -9.0), Eigen::Vector2d(9.0, 9.0)}},
+      {Place::Kind::aisle, 2, {}, {Eigen::Vector2d(-1.0, -9.0), Eigen::Vector2d(1.0, 9.0)}}};
+  feedback_.take(scenario, time_);
+  const auto ask = [&] {
+    input_.hands.buttons.assign(15, false);
+    pass(0.6);
+    input_.hands.buttons[3] = true;
+    return pass(0.02).cues.at(0).text;
+  };
+  input_.robot = navvi_types::Pose2{{0.5, 3.0}, 0.0};
+  EXPECT_EQ(ask(), "aisle 2");
+  input_.robot = navvi_types::Pose2{{5.0, 3.0}, 0.0};
+  EXPECT_EQ(ask(), "room 1");
+}
+
 TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   Scenario scenario;
   scenario.goal = {1.0, 2.0};

@@ -83,6 +83,11 @@ const std::vector<CueKind>& cue_kinds() {
       {"goal_info_distance", P::text, 0.5, 4.0},
       {"no_goal", P::text, 0.5, 4.0},
       {"around", P::text, 0.5, 4.0},
+      {"where", P::text, 0.5, 4.0},
+      {"where_place", P::text, 0.5, 4.0},
+      {"where_goal", P::text, 0.5, 4.0},
+      {"help_pad", P::text, 0.5, 4.0},
+      {"help_keys", P::text, 0.5, 4.0},
       {"around_nothing", P::text, 0.5, 4.0},
       {"welcome", P::notification, 5.0, 10.0},
   };

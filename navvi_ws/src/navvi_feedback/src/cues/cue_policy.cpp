@@ -277,6 +277,22 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   return {};
 }
 
+/// All of it from the robot's nose, and as the crow flies.
+Utterance CuePolicy::where_am_i(const Situation& now) const {
+  Utterance told;
+  if (now.place) {
+    told.fillings.place = static_cast<PlaceName>(now.place->kind);
+    told.fillings.number = static_cast<int>(now.place->number);
+  }
+  const bool goal = now.goal_angle && now.guidance && now.guidance->leads();
+  if (goal) {
+    told.fillings.distance = now.goal_straight;
+    told.fillings.hour = route_.hour_of(*now.goal_angle);
+  }
+  told.kind = !goal ? "where_place" : now.place ? "where" : "where_goal";
+  return told;
+}
+
 CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   if (now.menu) {
     Utterance label = *now.menu;
@@ -288,6 +304,12 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
   if (now.question == Question::around) {
     answer = around(now.nearby);
+  } else if (now.question == Question::help) {
+    answer.kind = now.keyboard ? "help_keys" : "help_pad";
+  } else if (now.question == Question::where && (now.place || (to_goal && now.goal_angle))) {
+    answer = where_am_i(now);
+  } else if (to_goal && now.question == Question::turn && !now.guidance->waypoint_is_goal) {
+    answer = route_.next_turn(*now.guidance);
   } else if (to_goal && now.question == Question::goal) {
     answer = route_.goal("goal_info", now);
   } else if (follows_ && halt_.halted()) {

@@ -42,6 +42,7 @@ class CuePolicy {
   [[nodiscard]] Utterance tell_problem(const Situation& now) const;
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
+  [[nodiscard]] Utterance where_am_i(const Situation& now) const;
   [[nodiscard]] Utterances answers(const Situation& now, double time);
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Sounds& sounds,
                                         double time);

@@ -333,6 +333,40 @@ TEST_F(CuePolicyTest, answers_a_question_at_once) {
   EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
 }
 
+TEST_F(CuePolicyTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
+  const auto ask = [this](Question question) {
+    now_.question = question;
+    return pass(0.1);
+  };
+  under_way();
+  now_.goal_angle = 1.6;
+  now_.goal_straight = 12.0;
+  EXPECT_EQ(ask(Question::where), Texts{"goal 12 meters, 3 o'clock from your nose"});
+  now_.place = navvi_types::Place{navvi_types::Place::Kind::aisle, 3};
+  EXPECT_EQ(ask(Question::where), Texts{"aisle 3, goal 12 meters, 3 o'clock from your nose"});
+  now_.guidance->state = Guidance::State::arrived;
+  pass(3.0);
+  EXPECT_EQ(ask(Question::where), Texts{"aisle 3"});
+  now_.place.reset();
+  EXPECT_EQ(ask(Question::where), Texts{"You have reached your destination"});
+}
+
+TEST_F(CuePolicyTest, tells_the_next_turn_and_what_the_buttons_do) {
+  under_way();
+  now_.question = Question::turn;
+  EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"}) << "there is none before the goal";
+  now_.guidance->waypoint_is_goal = false;
+  now_.guidance->turn_angle = 1.6;
+  now_.guidance->waypoint_distance = 18.0;
+  now_.question = Question::turn;
+  EXPECT_EQ(pass(0.1), Texts{"in 18 meters, turn to 3 o'clock"});
+  now_.question = Question::help;
+  EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "lower repeats");
+  now_.keyboard = true;
+  now_.question = Question::help;
+  EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "space repeats");
+}
+
 TEST_F(CuePolicyTest, tells_what_is_around_clockwise_and_the_nearest_on_each_side) {
   now_.guidance.reset();
   now_.question = Question::around;

@@ -153,6 +153,13 @@ std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
   return utterance;
 }
 
+Utterance RouteCues::next_turn(const Guidance& guidance) const {
+  Utterance turn{"turn_ahead"};
+  turn.fillings.hour = hour_of(guidance.turn_angle);
+  turn.fillings.distance = std::max(0.0, guidance.waypoint_distance);
+  return turn;
+}
+
 Utterance RouteCues::goal(const std::string& kind, const Situation& now) const {
   Utterance utterance;
   utterance.fillings.distance = std::max(0.0, now.guidance->goal_distance);

@@ -29,6 +29,11 @@ class RouteCues {
   /// The direction as of now, for a person who asks.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
   /// Distance and, if it is known, hour of the goal. \param kind  "start" or "goal_info"
+  [[nodiscard]] int hour_of(double angle) const {
+    return clock_hour(angle, rounding_).value_or(12);
+  }
+  /// Where it is, and where to it leads.
+  [[nodiscard]] Utterance next_turn(const Guidance& guidance) const;
   [[nodiscard]] Utterance goal(const std::string& kind, const Situation& now) const;
 
   /// The path is gone: when there is one again, say where it leads.

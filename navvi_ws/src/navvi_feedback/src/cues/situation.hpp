@@ -2,6 +2,7 @@
 
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/scenario.hpp>
 #include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ enum class Question {
   way,     ///< the last direction again
   goal,    ///< where it is
   around,  ///< what is near, and on which side
+  where,   ///< in which part of the world the robot is, and the goal from there
+  turn,    ///< the next one
+  help,    ///< what the buttons do
 };
 
 /// Which sounds are heard, and do the work of words.
@@ -39,9 +43,11 @@ struct Sounds {
 struct Situation {
   std::optional<Guidance> guidance;  ///< the latest
   std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if it is known
-  std::vector<NearThing> nearby;     ///< the latest; empty if stale
-  std::vector<Contact> contacts;     ///< begun since the last update
-  Velocity commanded;                ///< what was last sent to the robot
+  double goal_straight = 0.0;        ///< m, to the goal as the crow flies, where that is known
+  std::optional<navvi_types::Place> place;  ///< the smallest that the robot is in
+  std::vector<NearThing> nearby;            ///< the latest; empty if stale
+  std::vector<Contact> contacts;            ///< begun since the last update
+  Velocity commanded;                       ///< what was last sent to the robot
   TrialState::State trial = TrialState::State::free;
   bool stick_held_unarmed = false;        ///< held since before it was neutral, so nothing is sent
   std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale

@@ -36,20 +36,13 @@ drive::InputState read_keys() {
   };
   input.axes = {axis(SDL_SCANCODE_LEFT, SDL_SCANCODE_RIGHT),
                 axis(SDL_SCANCODE_UP, SDL_SCANCODE_DOWN)};
-  input.buttons = {down(SDL_SCANCODE_SPACE),
-                   down(SDL_SCANCODE_G),
-                   down(SDL_SCANCODE_A),
-                   false,
-                   down(SDL_SCANCODE_ESCAPE),
-                   false,
-                   down(SDL_SCANCODE_RETURN),
-                   false,
-                   false,
-                   false,
-                   false,
-                   down(SDL_SCANCODE_PAGEUP),
-                   down(SDL_SCANCODE_PAGEDOWN),
-                   down(SDL_SCANCODE_BACKSPACE)};
+  // In Gamepad's places: south, east, west, north, back, guide, start, sticks, shoulders, arrows.
+  for (const SDL_Scancode key :
+       {SDL_SCANCODE_SPACE, SDL_SCANCODE_G, SDL_SCANCODE_A, SDL_SCANCODE_W, SDL_SCANCODE_ESCAPE,
+        SDL_SCANCODE_H, SDL_SCANCODE_RETURN, SDL_SCANCODE_UNKNOWN, SDL_SCANCODE_UNKNOWN,
+        SDL_SCANCODE_UNKNOWN, SDL_SCANCODE_T, SDL_SCANCODE_PAGEUP, SDL_SCANCODE_PAGEDOWN,
+        SDL_SCANCODE_BACKSPACE, SDL_SCANCODE_UNKNOWN})
+    input.buttons.push_back(down(key));
   return input;
 }
 

@@ -21,7 +21,8 @@ class Keyboard final : private ThreadedDevice {
   Keyboard& operator=(const Keyboard&) = delete;
 
   /// axes: as Gamepad's first two. session: another with each return of the focus. buttons: in
-  /// Gamepad's places: space, G, A; escape and enter at back and start; page up, page down and
+  /// Gamepad's places: space, G, A, W; escape, H, enter and T at back,
+  /// guide, start and the right shoulder; page up, page down and
   /// backspace at up, down and left.
   [[nodiscard]] drive::InputState input() const;
 

@@ -176,7 +176,7 @@ class FeedbackNode {
     input.sounds = mixer_.status().device == devices::Mixer::Status::Device::open;
     input.motors = !source_.pad() || source_.pad()->status().connected;
     input.voice_busy = !speech_.idle();
-    input.goal_angle = goal_angle();
+    input.robot = robot();
     input.notices = notices();
     for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
     const core::Feedback::Output output = feedback_.update(input, time);
@@ -241,14 +241,10 @@ class FeedbackNode {
     return result;
   }
 
-  /// rad, clockwise from the nose to the goal.
-  [[nodiscard]] std::optional<double> goal_angle() const {
-    const std::optional<Guidance>& guidance = feedback_.guidance();
-    if (!guidance || !guidance->leads()) return std::nullopt;
+  /// base_link in map
+  [[nodiscard]] std::optional<navvi_types::Pose2> robot() const {
     try {
-      const auto robot = from_msg(tf_.lookupTransform("map", "base_link", ros::Time(0)).transform);
-      if (!robot) return std::nullopt;
-      return navvi_types::clockwise_angle(*robot, guidance->goal);
+      return from_msg(tf_.lookupTransform("map", "base_link", ros::Time(0)).transform);
     } catch (const tf2::TransformException&) {
       return std::nullopt;
     }

@@ -122,9 +122,7 @@ void ClosedLoop::feed_back() {
   if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand_, stamp())))
     input.hands = *hands;
   input.voice_busy = !queue_.empty();
-  if (const auto& guidance = feedback_.guidance(); guidance && guidance->leads())
-    if (const auto robot = node::from_msg(pose()))
-      input.goal_angle = navvi_types::clockwise_angle(*robot, guidance->goal);
+  input.robot = node::from_msg(pose());
   const navvi_feedback::core::Feedback::Output output = feedback_.update(input, time());
   if (output.command) gate_.receive(node::from_msg(node::to_msg(*output.command)), instant());
   if (rumble_output_.update(output.rumble, time()).feedback)

@@ -55,11 +55,11 @@ class Feedback {
     drive::InputState hands;
     bool keyboard = false;  ///< the hands are on the arrow keys
     cues::Link audio = cues::Link::alive;
-    bool sounds = true;                ///< short sounds can be heard
-    bool motors = true;                ///< false if our own pad is not connected
-    bool voice_busy = false;           ///< something is being spoken or waits for it
-    std::optional<double> goal_angle;  ///< rad, clockwise from the nose to the goal, if known
-    std::vector<std::string> notices;  ///< as Situation::notices
+    bool sounds = true;                       ///< short sounds can be heard
+    bool motors = true;                       ///< false if our own pad is not connected
+    bool voice_busy = false;                  ///< something is being spoken or waits for it
+    std::optional<navvi_types::Pose2> robot;  ///< base_link in map, if known
+    std::vector<std::string> notices;         ///< as Situation::notices
   };
   struct Output {
     std::optional<Velocity> command;  ///< nullopt: nothing is sent

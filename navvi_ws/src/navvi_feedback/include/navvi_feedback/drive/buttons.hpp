@@ -14,6 +14,9 @@ enum class Button {
   repeat,  ///< the last direction again
   goal,    ///< where it is
   around,  ///< what is near, and on which side
+  where,   ///< aisle or room, and the goal from there
+  turn,    ///< the next one
+  help,    ///< what the buttons do
   start,   ///< begin the trial; in the menu, as choose
   end,     ///< end the trial, when pressed twice
   next,    ///< of the menu, as the three below
@@ -21,14 +24,16 @@ enum class Button {
   choose,
   back,
 };
-constexpr std::size_t kButtons = 9;
+constexpr std::size_t kButtons = 12;
 [[nodiscard]] constexpr std::array<const char*, kButtons> names(Button) {
-  return {"repeat", "goal", "around", "start", "end", "next", "previous", "choose", "back"};
+  return {"repeat", "goal", "around", "where",    "turn",   "help",
+          "start",  "end",  "next",   "previous", "choose", "back"};
 }
 
-/// Which button of the device does what: indices as in Gamepad::input(); -1: none does.
+/// Which button of the device does what: indices as in Gamepad::input(); -1: none does. Where
+/// joy_node gives the arrow pad as axes 6 and 7, these stand for the buttons 11 to 14, too.
 struct ButtonsConfig {
-  std::array<int, kButtons> index = {0, 1, 2, 6, 4, 12, 11, 14, 13};
+  std::array<int, kButtons> index = {0, 1, 2, 3, 10, 5, 6, 4, 12, 11, 14, 13};
 
   void describe(navvi_config::Visitor& visit);
 };
