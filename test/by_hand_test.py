@@ -19,7 +19,7 @@ def layout(tmp_path):
 
 def session(master, folder, layout, operator, **more):
     launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), f"operator:={operator}", f"world:={layout}", "once:=false",
-                               "speech:=false", "rviz:=false", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300"],
+                               "speech:=false", "feedback_parameters:={listener: topic}", "rviz:=false", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300"],
                               env=dict(master, **more), stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
     person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/person.py"), operator], env=dict(master, **more), text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)

@@ -22,7 +22,7 @@ class Keys:
         self.processes = [self.start("openbox")]
         for name, topic in ("commands", "/cmd_vel"), ("cues", "/navvi/cues"):
             self.processes.append(self.start("rostopic", "echo", "-p", topic, output=folder / name))
-        self.processes.append(self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false"))
+        self.processes.append(self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false", "_listener:=topic"))
 
     def start(self, *words, output="/dev/null"):
         with open(output, "w") as file:

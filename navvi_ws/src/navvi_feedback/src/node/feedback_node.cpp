@@ -34,6 +34,7 @@ volatile std::sig_atomic_t g_stop = 0;
 struct NodeConfig {
   std::string input = "auto";
   bool speech = true;
+  std::string listener = "device";
   std::string language = "en";
   std::string phrases;
   core::FeedbackConfig feedback;
@@ -46,7 +47,11 @@ struct NodeConfig {
     using navvi_config::OneOf;
     visit(input, "input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
           "where the stick comes from; topic: joy from another driver");
-    visit(speech, "speech", Any{}, "", "false: cues are timed and published, but nothing is heard");
+    visit(speech, "speech", Any{}, "", "false: our own voice and sounds are silent");
+    visit(
+        listener, "listener", OneOf{{"device", "topic"}}, "",
+        "what hears: the sound device, or whoever reads navvi/cues, such as a simulated person or "
+        "a screen reader, with or without a device");
     visit(language, "language", OneOf{{"en", "es"}}, "", "English or Spanish");
     visit(phrases, "phrases", Any{}, "",
           "path of a phrase file for any other language; empty for the one that ships");
@@ -101,7 +106,7 @@ class FeedbackNode {
     tick_timer_.stop();
     cmd_vel_.publish(geometry_msgs::Twist());
     move_motors({}, std::nullopt, now());
-    publish(speech_.finish());
+    publish(as_heard(speech_.finish()));
   }
 
  private:
@@ -173,7 +178,7 @@ class FeedbackNode {
     input.hands = source_.read(time);
     input.keyboard = source_.kind() == devices::InputSource::Kind::keyboard;
     input.audio = audio_link();
-    input.sounds = mixer_.status().device == devices::Mixer::Status::Device::open;
+    input.sounds = heard();
     input.motors = !source_.pad() || source_.pad()->status().connected;
     input.voice_busy = !speech_.idle();
     input.robot = robot();
@@ -189,8 +194,9 @@ class FeedbackNode {
           to_msg(TrialRequest{*output.request, navvi_types::to_ns(ros::Time::now())}));
     if (output.alarm_begins)
       ROS_WARN("There is no audio device: nothing is heard. %s", mixer_.status().detail.c_str());
-    for (const sounds::Play& heard : earcons_.play(output.plays))
-      publish({sound_event(heard, ++sound_id_)});
+    const std::vector<sounds::Play> played = earcons_.play(output.plays);
+    for (const sounds::Play& sound : by_topic() ? output.plays : played)
+      publish({sound_event(sound, ++sound_id_)});
     move_motors(output.rumble, output.pattern, time);
     say(output.cues, time);
     show(time);
@@ -216,7 +222,30 @@ class FeedbackNode {
   void say(const std::vector<cues::Cue>& cues, double time) {
     const std::vector<CueEvent> events = speech_.tick(cues, time);
     feedback_.note(events);
-    publish(events);
+    publish(as_heard(events));
+  }
+
+  [[nodiscard]] bool by_topic() const { return config_.listener == "topic"; }
+  /// What is played now reaches somebody.
+  [[nodiscard]] bool heard() const {
+    return by_topic() || mixer_.status().device == devices::Mixer::Status::Device::open;
+  }
+
+  /// The record holds what can have been heard: words for which there was no device were dropped,
+  /// and where sound is off there are none.
+  [[nodiscard]] std::vector<CueEvent> as_heard(std::vector<CueEvent> events) {
+    if (!config_.speech && !by_topic()) return {};
+    std::vector<CueEvent> result;
+    for (CueEvent& event : events) {
+      if (event.stage == CueStage::started && !heard()) {
+        unheard_ = event.id;
+        event.stage = CueStage::dropped;
+      } else if (event.id == unheard_) {
+        continue;
+      }
+      result.push_back(event);
+    }
+    return result;
   }
 
   [[nodiscard]] cues::Link audio_link() const {
@@ -306,6 +335,7 @@ class FeedbackNode {
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
   std::uint32_t sound_id_ = 0;
+  std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
   visualization_msgs::MarkerArray shown_;
 };
 
