@@ -75,6 +75,7 @@ void FeedbackConfig::describe(navvi_config::Visitor& visit) {
 
 struct Feedback::Deciders {
   drive::Drive drive;
+  drive::Assistance assistance;
   drive::Buttons buttons;
   haptics::Haptics haptics;
   haptics::PatternPlayer patterns;
@@ -88,6 +89,7 @@ Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& ph
     : config_(config),
       deciders_(
           new Deciders{drive::Drive(config.drive),
+                       drive::Assistance(config.drive.assistance),
                        drive::Buttons(config.buttons),
                        haptics::Haptics(config.haptics),
                        {},
@@ -114,6 +116,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   seen_hands_ = seen_hands_ || input.hands.live;
   Output out;
   out.command = drive(input.hands, dt);
+  out.share = assist(out.command, time);
   out.alarm_begins = alarm_begins(input);
   const std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
   out.cues = decide_cues(input, pressed, out, time);
@@ -132,14 +135,27 @@ Feedback::Output Feedback::update(const Input& input, double time) {
 std::optional<Velocity> Feedback::drive(const drive::InputState& hands, double dt) {
   // A device that was opened anew between two ticks was lost between them.
   const bool live = hands.live && (!last_hands_.live || hands.session == last_hands_.session);
-  if (trial_.holds()) deciders_->drive.disarm();
+  const int enable = config_.drive.enable;
+  const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
+  if (trial_.holds() || !enabled) deciders_->drive.disarm();
+  const drive::Stick stick = hands.stick(config_.drive.stick == "right");
   const std::optional<Velocity> velocity =
-      deciders_->drive.update(live ? std::optional<drive::Stick>(hands.stick()) : std::nullopt, dt);
+      deciders_->drive.update(live ? std::optional(stick) : std::nullopt, dt);
   commanded_ = velocity.value_or(Velocity{});
   held_unarmed_ =
-      live && !deciders_->drive.armed() && deflected(deciders_->drive.shaped(hands.stick()));
+      live && enabled && !deciders_->drive.armed() && deflected(deciders_->drive.shaped(stick));
   // The last command of a lost stick is zero; none follows it.
   return velocity || last_hands_.live ? std::optional(commanded_) : std::nullopt;
+}
+
+/// What the person asked for stays the measure of being stuck. \return the share that is left
+double Feedback::assist(std::optional<Velocity>& command, double time) const {
+  if (!command) return 1.0;
+  const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive;
+  const double share = deciders_->assistance.share(
+      *command, nearby_.value.value_or(std::vector<NearThing>{}), fresh);
+  command->linear *= share;
+  return share;
 }
 
 /// The motors report a missing audio device (safety rule 3), once there are any.

@@ -95,6 +95,55 @@ TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
 }
 
+class Driven : public FeedbackTest {
+ protected:
+  /// m/s, with the stick `axes` and the buttons held for 2 s after it was neutral.
+  double speed(const std::string& parameters, const std::vector<double>& axes,
+               const std::vector<bool>& buttons = {}) {
+    FeedbackConfig config;
+    navvi_config::read(config, YAML::Load(parameters), "test");
+    Feedback feedback(config, kEnglish);
+    Feedback::Output output;
+    for (int tick = 0; tick < 125; ++tick, time_ += 0.02) {
+      input_.hands.axes = tick < 25 ? std::vector<double>(axes.size()) : axes;
+      input_.hands.buttons = buttons;
+      if (gap_)
+        feedback.take(Proximity{0, {{ThingClass::shelf, 1, *gap_, {0.8, 0.0}, false}}}, time_);
+      output = feedback.update(input_, time_);
+    }
+    share_ = output.share;
+    return output.command.value().linear;
+  }
+
+  std::optional<double> gap_;
+  double share_ = 1.0;
+};
+
+TEST_F(Driven, by_the_hand_that_is_wanted) {
+  EXPECT_GT(speed("{drive: {stick: right}}", {0.0, 0.0, 0.0, 1.0}), 0.5);
+  EXPECT_EQ(speed("{drive: {stick: right}}", {0.0, 1.0, 0.0, 0.0}), 0.0);
+  EXPECT_GT(speed("{drive: {stick: right}}", {0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0}), 0.5);
+  EXPECT_EQ(speed("{drive: {stick: right}}", {0.0, 1.0}), 0.0) << "there is no right one";
+}
+
+TEST_F(Driven, only_while_the_button_for_it_is_held) {
+  EXPECT_EQ(speed("{drive: {enable: 1}}", {0.0, 1.0}), 0.0);
+  EXPECT_GT(speed("{drive: {enable: 1}}", {0.0, 1.0}, {false, true}), 0.5);
+}
+
+TEST_F(Driven, more_slowly_or_not_at_all_before_a_shelf_where_that_is_wanted) {
+  gap_ = 0.1;
+  const double full = speed("{}", {0.0, 1.0});
+  EXPECT_GT(full, 0.8);
+  EXPECT_EQ(share_, 1.0);
+  EXPECT_NEAR(speed("{drive: {assistance: {mode: slow}}}", {0.0, 1.0}), 0.25 * full, 1e-6);
+  EXPECT_EQ(speed("{drive: {assistance: {mode: stop}}}", {0.0, 1.0}), 0.0);
+  EXPECT_EQ(share_, 0.0);
+  gap_.reset();
+  EXPECT_NEAR(speed("{drive: {assistance: {mode: stop}}}", {0.0, 1.0}), 0.25 * full, 1e-6)
+      << "nothing is known of what is near";
+}
+
 TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   const auto hold_start = [&](bool down) { input_.hands.buttons = std::vector<bool>(7, down); };
   feedback_.take(Odometry{}, time_);

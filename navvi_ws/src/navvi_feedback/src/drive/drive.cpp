@@ -18,6 +18,9 @@ double approach(double value, double wanted, double speed_up, double slow_down, 
 
 void DriveConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
+  visit(stick, "stick", navvi_config::OneOf{{"left", "right"}}, "", "which stick drives");
+  visit(enable, "enable", Range{-1, 255}, "",
+        "index of a button without which nothing drives; -1: none");
   visit(dead_zone, "dead_zone", Range{0.02, 0.5}, "",
         "deflection of the stick that counts as neutral");
   visit(expo, "expo", Range{0.0, 1.0}, "", "0: linear; 1: cubic, finer near the centre");
@@ -31,6 +34,7 @@ void DriveConfig::describe(navvi_config::Visitor& visit) {
         "limit on changes of turning speed");
   visit(arm_hold, "arm_hold", Range{0.3, 5.0}, "s",
         "how long the stick must be neutral before it moves anything");
+  visit.group("assistance", assistance);
 }
 
 Stick Drive::shaped(const Stick& stick) const {

@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <ros/package.h>
 #include <ros/ros.h>
+#include <std_msgs/Float32.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <csignal>
@@ -114,6 +115,7 @@ class FeedbackNode {
     cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
     motors_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
     cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+    assistance_ = node_.advertise<std_msgs::Float32>("navvi/assistance", 1, true);
     goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     requests_ = node_.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
     markers_ = node_.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
@@ -187,6 +189,12 @@ class FeedbackNode {
     const core::Feedback::Output output = feedback_.update(input, time);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
+    if (share_ != output.share) {
+      std_msgs::Float32 share;
+      share.data = static_cast<float>(output.share);
+      assistance_.publish(share);
+      share_ = output.share;
+    }
     if (output.goal)
       goals_.publish(navvi_types::goal_msg(*output.goal, navvi_types::to_ns(ros::Time::now())));
     if (output.request)
@@ -323,7 +331,8 @@ class FeedbackNode {
   ros::NodeHandle node_;
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_{tf_};
-  ros::Publisher cmd_vel_, joy_out_, motors_, goals_, requests_, cues_, markers_, diagnostics_;
+  ros::Publisher cmd_vel_, joy_out_, motors_, assistance_, goals_, requests_, cues_, markers_,
+      diagnostics_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
@@ -334,6 +343,7 @@ class FeedbackNode {
   double last_tick_ = 0.0;              // s, of now()
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
+  std::optional<double> share_;  ///< of the person's speed, last published
   std::uint32_t sound_id_ = 0;
   std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
   visualization_msgs::MarkerArray shown_;

@@ -44,6 +44,7 @@ constexpr const char* kRecorded[] = {"/clock",
                                      "joy/set_feedback",
                                      "move_base_simple/goal",
                                      "navvi/trial_state",
+                                     "navvi/assistance",
                                      "navvi/trial_request",
                                      "/diagnostics",
                                      "navvi/events"};

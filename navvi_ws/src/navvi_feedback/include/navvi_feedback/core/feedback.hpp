@@ -63,6 +63,7 @@ class Feedback {
   };
   struct Output {
     std::optional<Velocity> command;  ///< nullopt: nothing is sent
+    double share = 1.0;  ///< [0, 1], of the person's speed that assistance lets through
     haptics::Rumble rumble;
     std::optional<haptics::Pattern> pattern;  ///< that `rumble` is part of
     bool alarm_begins = false;                ///< the motors begin to report that there is no sound
@@ -117,6 +118,7 @@ class Feedback {
   struct Deciders;
 
   [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
+  [[nodiscard]] double assist(std::optional<Velocity>& command, double time) const;
   /// Carries out what the buttons ask of the trial and the menu.
   void obey(const std::vector<drive::Button>& pressed, Output& out);
   [[nodiscard]] bool alarm_begins(const Input& input);

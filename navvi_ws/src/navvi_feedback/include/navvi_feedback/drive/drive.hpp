@@ -2,8 +2,10 @@
 
 #include <navvi_types/motion.hpp>
 #include <optional>
+#include <string>
 
 #include "navvi_config/field.hpp"
+#include "navvi_feedback/drive/assistance.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Velocity;
@@ -18,6 +20,8 @@ struct Stick {
 };
 
 struct DriveConfig {
+  std::string stick = "left";  ///< left or right
+  int enable = -1;             ///< index of a button
   double dead_zone = 0.12;
   double expo = 0.3;
   double max_forward = 0.9;        // m/s
@@ -27,6 +31,7 @@ struct DriveConfig {
   double deceleration = 2.5;       // m/s^2
   double turn_acceleration = 4.0;  // rad/s^2
   double arm_hold = 0.3;           // s
+  AssistanceConfig assistance;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -14,8 +14,12 @@ struct InputState {
   std::vector<double> axes;   ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
   std::vector<bool> buttons;  ///< what each does: ButtonsConfig
 
-  /// Neutral where there is no such axis.
-  [[nodiscard]] Stick stick() const { return axes.size() < 2 ? Stick{} : Stick{axes[0], axes[1]}; }
+  /// The left stick, or the right one. Neutral where there is none.
+  [[nodiscard]] Stick stick(bool right = false) const {
+    // Drivers that give the arrow pad as axes have a trigger between the sticks.
+    const std::size_t x = !right ? 0 : axes.size() < 8 ? 2 : 3;
+    return axes.size() < x + 2 ? Stick{} : Stick{axes[x], axes[x + 1]};
+  }
   [[nodiscard]] bool button(std::size_t index) const {
     return index < buttons.size() && buttons[index];
   }

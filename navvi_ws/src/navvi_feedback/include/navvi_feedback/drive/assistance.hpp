@@ -1,0 +1,37 @@
+#pragma once
+
+#include <navvi_types/motion.hpp>
+#include <navvi_types/thing.hpp>
+#include <string>
+#include <vector>
+
+#include "navvi_config/field.hpp"
+
+namespace navvi_feedback::drive {
+
+struct AssistanceConfig {
+  std::string mode = "off";   ///< off, slow or stop
+  double least = 0.25;        ///< share of the command that slow leaves
+  double deceleration = 0.8;  ///< m/s^2
+  double margin = 0.15;       ///< m, gap
+  double half_lane = 0.45;    ///< m
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// Slows the person's command before what stands or moves in the lane that the robot drives along.
+/// It never steers: the turning speed is the person's, and away from things nothing is changed.
+class Assistance {
+ public:
+  explicit Assistance(const AssistanceConfig& config) : config_(config) {}
+
+  /// \param nearby  in base_link \param fresh  false: nothing is known of what is near
+  /// \return the share [0, 1] of the wanted linear speed that is let through
+  [[nodiscard]] double share(const navvi_types::Velocity& wanted,
+                             const std::vector<navvi_types::NearThing>& nearby, bool fresh) const;
+
+ private:
+  AssistanceConfig config_;
+};
+
+}  // namespace navvi_feedback::drive
