@@ -1,30 +1,27 @@
 #include "mesh/mesh.hpp"
 
-#include <limits>
-
 namespace navvi_nav::mesh {
 namespace {
 
-/// The point of the polygon nearest to `point`.
+/// The point of the polygon nearest to `point`. A point outside is measured to every edge: by
+/// rounding it may lie beyond one of several edges in line, and nearest to another.
 Point nearest_point(const Mesh& mesh, const Polygon& polygon, Point point) {
-  Point best = point;
-  double best_distance = std::numeric_limits<double>::infinity();
   bool inside = true;
   Point a = mesh.at(polygon.corners.back());
   for (const int corner : polygon.corners) {
     const Point b = mesh.at(corner);
-    if (cross(b - a, point - a) < 0.0) {  // only such an edge can have the nearest point
-      inside = false;
-      const Point candidate = nearest_on_segment(point, a, b);
-      const double away = distance(candidate, point);
-      if (away < best_distance) {
-        best = candidate;
-        best_distance = away;
-      }
-    }
+    inside = inside && cross(b - a, point - a) >= 0.0;
     a = b;
   }
-  return inside ? point : best;
+  if (inside) return point;
+  Point best = a;
+  for (const int corner : polygon.corners) {
+    const Point b = mesh.at(corner);
+    const Point candidate = nearest_on_segment(point, a, b);
+    if (distance(candidate, point) < distance(best, point)) best = candidate;
+    a = b;
+  }
+  return best;
 }
 
 }  // namespace
