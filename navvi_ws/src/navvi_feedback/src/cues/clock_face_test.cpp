@@ -28,6 +28,8 @@ TEST(ClockHour, rounds_to_the_nearest_hour) {
     EXPECT_EQ(clock_hour(rad(degrees), Rounding::nearest), hour) << degrees;
 }
 
+/// Its text says "round to the closest integer", its formula floors. The profile follows the
+/// formula, so that a leg 0.1 degrees to the left is at 11 o'clock there.
 TEST(ClockHour, floors_as_the_paper_prints_it) {
   const std::vector<std::pair<double, int>> table = {{0.0, 12},   {29.9, 12}, {30.1, 1},
                                                      {-0.1, 11},  {90.1, 3},  {179.9, 5},
