@@ -11,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -231,10 +232,21 @@ struct Followed {
   }
 };
 
+/// us, of the faster of two equal runs: the other work of the machine falls out of the worst case.
+double timed(const std::function<void()>& run) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 2; ++i) {
+    const double begin = now();
+    run();
+    least = std::min(least, 1e6 * (now() - begin));
+  }
+  return least;
+}
+
 /// What a user gets: plan() whole, among 0 to 50 discs that have moved since the plan before, and
 /// the path that is followed beside the shortest.
 void follow(Course& c) {
-  constexpr int kPlans = 2000;
+  constexpr int kPlans = 10000;
   search::Search search(search::SearchMethod::exact);
   std::vector<double> whole, part;  // us
   Followed shortest, guide;
@@ -247,12 +259,10 @@ void follow(Course& c) {
     const auto from = mesh.locate(query.start, 0.0);
     const auto to = mesh.locate(query.goal, 0.0);
     if (!from || !to) continue;
-    double begin = now();
-    const plan::Plan plan = c.carved.plan(query.start, query.goal);
-    whole.push_back(1e6 * (now() - begin));
-    begin = now();
-    const search::Found& found = search.find(mesh, *from, *to);
-    part.push_back(1e6 * (now() - begin));
+    plan::Plan plan;
+    search::Found found;
+    whole.push_back(timed([&] { plan = c.carved.plan(query.start, query.goal); }));
+    part.push_back(timed([&] { found = search.find(mesh, *from, *to); }));
     if (plan.status != plan::PlanStatus::found || !found.found) continue;
     guide.add(plan.path, c.carved.nav_mesh().space());
     shortest.add(found.path, c.carved.nav_mesh().space());
