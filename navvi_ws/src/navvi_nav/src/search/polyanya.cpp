@@ -288,7 +288,7 @@ void Polyanya::add(const SearchNode& node, const Point& portal_right, const Poin
   if (is_dominated(node)) return;
   const Point root = at(node.root);
   if (node.right_end && node.left_end) dominance_.insert(node, root);
-  push(node, node.cost + node.heuristic(root, portal_right, portal_left, to_));
+  push(node, node.cost + node.heuristic(root, portal_right, portal_left, to_, price_.turn));
 }
 
 /// True if over another root, which sees the whole portal, the path to each point of the interval

@@ -32,9 +32,9 @@ struct SearchNode {
 
   /// The heuristic of Polyanya: m, from the root through the interval to the goal if nothing else
   /// is in the way. A goal on the root's side of the portal is mirrored at it, which keeps the
-  /// length.
+  /// length. \param turn  m, price of a turn
   [[nodiscard]] double heuristic(Point root_at, Point portal_right_at, Point portal_left_at,
-                                 Point goal) const {
+                                 Point goal, double turn) const {
     const Point edge = portal_left_at - portal_right_at;
     Point target = goal - portal_right_at;
     const double inside = cross(edge, target);
@@ -52,7 +52,7 @@ struct SearchNode {
         (over_right ? right_end : left_end)
             ? border
             : intersection(border, {}, portal_right_at - root_at, portal_left_at - root_at, {});
-    return norm(x) + distance(x, target);
+    return norm(x) + distance(x, target) + turn;
   }
 
  private:
