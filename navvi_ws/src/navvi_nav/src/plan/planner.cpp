@@ -13,11 +13,10 @@ constexpr double kRetreatFarthest = 12.0;  // m, as the crow flies
 constexpr double kRetreatSpare = 0.2;      // m, that a robot keeps from the area it leaves
 constexpr int kRetreatDirections = 16;
 constexpr int kRetreatSearches = 200;
-constexpr double kSlack = 0.02;            // m, of room that a start off the mesh need not keep
-constexpr double kSameGoal = 0.5;          // m, a path that ends so near leads to the same goal
-constexpr double kOnMesh = 1e-3;           // m, from a corner of a path on the mesh to the mesh
-constexpr std::size_t kMostNodes = 15000;  // of a search for another path than the shortest
-constexpr double kSearchedTurn = 0.75;     // of a turn by 90 degrees: what searches charge for each
+constexpr double kSlack = 0.02;         // m, of room that a start off the mesh need not keep
+constexpr double kSameGoal = 0.5;       // m, a path that ends so near leads to the same goal
+constexpr double kOnMesh = 1e-3;        // m, from a corner of a path on the mesh to the mesh
+constexpr double kSearchedTurn = 0.75;  // of a turn by 90 degrees: what searches charge for each
 
 Plan failure(PlanStatus status, std::string detail,
              Guidance::Refusal refusal = Guidance::Refusal::none) {
@@ -250,6 +249,7 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
   const double longest = std::max(config.max_stretch * shortest, shortest + config.max_detour);
   const smooth::GuideCost cost(config.cost, nav_mesh_.mesh(), nav_mesh_.space(),
                                config_.mesh.robot_radius, config_.mesh.preferred_clearance);
+  auto nodes = static_cast<std::size_t>(config.search_effort * shortest);
   Path best = route.plan.path;
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](const Path& path, double gain) {
@@ -258,19 +258,22 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
     best = path;
     least = price;
   };
-  Path tried;
   const auto lead_to = [&](const mesh::Mesh::Place& to, double narrow) {
-    const search::Polyanya::Price price{config.cost.turn_price * kSearchedTurn, narrow, least,
-                                        kMostNodes};
-    const Path path = search_.find_at(price, nav_mesh_.mesh(), route.from, to);
-    if (path == tried) return Path{};
-    tried = path;
-    return smooth::smooth(path, cost, config);
+    if (route.plan.nodes_expanded > nodes) return Path{};  // the shortest was easier to find
+    const search::Found& found =
+        search_.find_at({config.cost.turn_price * kSearchedTurn, narrow, least, nodes},
+                        nav_mesh_.mesh(), route.from, to);
+    nodes -= found.nodes_expanded;
+    cost.allow(config.effort * shortest);
+    return smooth::sketch(found.path, cost, config);
   };
   offer(lead_to(route.to, 0.0), 0.0);
-  if (!std::isfinite(least)) offer(smooth::smooth(route.plan.path, cost, config), 0.0);
+  cost.allow(config.effort * shortest);
+  if (!std::isfinite(least)) offer(smooth::sketch(route.plan.path, cost, config), 0.0);
   if (cost.tight(best) > config.cost.turn_price)
     offer(lead_to(route.to, 2.0 * config.cost.tight), 0.0);
+  cost.allow(config.effort * shortest);
+  offer(smooth::refine(best, cost, config), 0.0);
   const Path known = cost.known_end(followed);
   if (known.size() < 2 || distance(known.back(), best.back()) > kSameGoal) return best;
   const bool all =

@@ -23,13 +23,9 @@ class Polyanya {
     double most = std::numeric_limits<double>::infinity();  ///< m, a path that costs more is none
     std::size_t nodes = ~std::size_t{0};  ///< most that are expanded before the search is given up
   };
+  /// \param price  with that of a turn, the path is nearly the cheapest, not always quite
   /// \param path  gets the path, without points where it does not turn; empty if there is none
   /// \returns true if there is a path
-  bool find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal,
-            Path& path) {
-    return find(mesh, start, goal, Price{}, path);
-  }
-  /// Likewise the cheapest path: its length and price.turn for each turn, exact but for rounding.
   bool find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal,
             const Price& price, Path& path);
   [[nodiscard]] std::size_t nodes_expanded() const { return nodes_expanded_; }

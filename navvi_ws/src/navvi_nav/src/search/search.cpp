@@ -6,16 +6,19 @@ namespace navvi_nav::search {
 
 const Found& Search::find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
                           const mesh::Mesh::Place& goal) {
-  found_.path.clear();
-  if (method_ == SearchMethod::exact) {
-    found_.found = polyanya_.find(mesh, start, goal, found_.path);
-    found_.nodes_expanded = polyanya_.nodes_expanded();
-  } else {
-    const Corridor corridor = centroid_astar(mesh, start, goal, alpha_);
-    found_.found = corridor.found;
-    found_.nodes_expanded = corridor.nodes_expanded;
-    if (corridor.found) found_.path = funnel(start.point, goal.point, corridor.portals);
-  }
+  if (method_ == SearchMethod::exact) return find_at({}, mesh, start, goal);
+  const Corridor corridor = centroid_astar(mesh, start, goal, alpha_);
+  found_.found = corridor.found;
+  found_.nodes_expanded = corridor.nodes_expanded;
+  found_.path = corridor.found ? funnel(start.point, goal.point, corridor.portals) : Path{};
+  found_.length = length_of(found_.path);
+  return found_;
+}
+
+const Found& Search::find_at(const Polyanya::Price& price, const mesh::Mesh& mesh,
+                             const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal) {
+  found_.found = polyanya_.find(mesh, start, goal, price, found_.path);
+  found_.nodes_expanded = polyanya_.nodes_expanded();
   found_.length = length_of(found_.path);
   return found_;
 }

@@ -29,13 +29,9 @@ class Search {
   /// The mesh may have changed since the last query. \returns valid until the next query
   const Found& find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
                     const mesh::Mesh::Place& goal);
-  /// A path by Polyanya at other prices; empty if there is none.
-  [[nodiscard]] Path find_at(const Polyanya::Price& price, const mesh::Mesh& mesh,
-                             const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal) {
-    Path path;
-    polyanya_.find(mesh, start, goal, price, path);
-    return path;
-  }
+  /// A path by Polyanya at other prices, likewise.
+  const Found& find_at(const Polyanya::Price& price, const mesh::Mesh& mesh,
+                       const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal);
 
  private:
   SearchMethod method_;

@@ -1,17 +1,15 @@
 #include "smooth/guide_cost.hpp"
 
 #include <cstring>
-#include <limits>
 
 namespace navvi_nav::smooth {
 namespace {
 
-constexpr double kTouch = 1e-9;      // m, a point so near to the lines of a polygon is in it
+constexpr double kTouch = 1e-9;  // m, a point so near to the lines of a polygon is in it
 constexpr double kNear = 10.0 * kTouch;
 constexpr double kOnMesh = 1e-6;     // m, and an end so near to the mesh on it
 constexpr double kSample = 0.3;      // m, between places where clearance is measured
 constexpr std::size_t kKept = 1024;  // legs, and points
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 const Point kNowhere{std::numeric_limits<double>::quiet_NaN(), 0.0};  // equal to no point
 
@@ -147,14 +145,15 @@ std::optional<int> GuideCost::polygon_at(Point point) const {
   return known.polygon;
 }
 
-double GuideCost::leg(Point a, Point b) const {
+double GuideCost::leg(Point a, Point b, double most) const {
   Leg& known = legs_[hash_of({a.x, a.y, b.x, b.y}) % kKept];
   if (known.a == a && known.b == b) return known.cost;
-  left_ -= 1.0 + distance(a, b);
+  const double cost = measure(a, b, most);
+  if (cost > most) return kNever;
   const std::optional<int> from = polygon_at(a);
   const std::optional<int> to = from ? covers(mesh_, *from, a, b) : std::nullopt;
   if (to) placed(b) = {b, to};
-  known = {a, b, to ? measure(a, b) : kNever};
+  known = {a, b, to ? cost : kNever};
   return known.cost;
 }
 
@@ -173,18 +172,25 @@ void GuideCost::along(Point a, Point b, const Visit& visit) const {
   }
   const int samples = samples_of(a, b);
   const map::Space near{space_.floor, &near_};
-  for (int i = 0; i < samples; ++i)
-    visit(std::max(0.0, gap_in(near, a + ((i + 0.5) / samples) * (b - a)) - radius_));
+  for (int i = 0; i < samples; ++i) {
+    const Point at = a + ((i + 0.5) / samples) * (b - a);
+    if (!visit(std::max(0.0, gap_in(near, at) - radius_))) return;
+  }
 }
 
-double GuideCost::measure(Point a, Point b) const {
-  double dearer = 0.0;
+double GuideCost::measure(Point a, Point b, double most) const {
+  const double length = distance(a, b);
+  const double step = length / samples_of(a, b);
+  double cost = length;
+  left_ -= 1.0;
   along(a, b, [&](double spare) {
-    if (spare >= preferred_) return;
+    left_ -= step;
+    if (spare >= preferred_) return true;
     const double missing = 1.0 - spare / preferred_;
-    dearer += config_.clearance_weight * missing * missing + tight_price(spare);
+    cost += step * (config_.clearance_weight * missing * missing + tight_price(spare));
+    return cost <= most;
   });
-  return distance(a, b) * (1.0 + dearer / samples_of(a, b));
+  return cost;
 }
 
 std::vector<double> GuideCost::near_places(Point a, Point b) const {
@@ -201,6 +207,7 @@ std::vector<double> GuideCost::near_places(Point a, Point b) const {
       }
     }
     ++i;
+    return true;
   });
   if (first < 0) return {};
   const auto share = [samples](int k) { return (k + 0.5) / samples; };
@@ -220,6 +227,7 @@ double GuideCost::tight(const Path& path) const {
     const double step = distance(path[i - 1], path[i]) / samples_of(path[i - 1], path[i]);
     along(path[i - 1], path[i], [&](double spare) {
       if (spare < preferred_) sum += step * tight_price(spare);
+      return true;
     });
   }
   return sum;
@@ -261,8 +269,10 @@ bool GuideCost::less(const Path& path, double than) const {
   if (spent()) return false;
   double least = length_of(path);
   if (least < than) least += at_corners(path);
-  for (std::size_t i = 1; i < path.size() && least < than; ++i)
-    least += leg(path[i - 1], path[i]) - distance(path[i - 1], path[i]);
+  for (std::size_t i = 1; i < path.size() && least < than; ++i) {
+    const double length = distance(path[i - 1], path[i]);
+    least += leg(path[i - 1], path[i], than - least + length) - length;
+  }
   return least < than;
 }
 

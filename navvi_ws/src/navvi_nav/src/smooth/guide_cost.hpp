@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <navvi_config/field.hpp>
 #include <optional>
 #include <vector>
@@ -28,6 +29,8 @@ inline constexpr double kBend = 15.0 / 180.0 * M_PI;
 /// \param polygon  that `a` lies in
 [[nodiscard]] std::optional<int> covers(const mesh::Mesh& mesh, int polygon, Point a, Point b);
 
+inline constexpr double kNever = std::numeric_limits<double>::infinity();  // m, dearer than all
+
 /// The cost of paths on one mesh, which must not change meanwhile. Work is bounded by metres, not
 /// by a clock: equal input gives equal output.
 class GuideCost {
@@ -38,8 +41,8 @@ class GuideCost {
             double radius, double preferred);
 
   /// m: the length, each metre dearer the less clearance it keeps; infinite for a leg that leaves
-  /// the mesh.
-  [[nodiscard]] double leg(Point a, Point b) const;
+  /// the mesh, or costs more than `most` (m).
+  [[nodiscard]] double leg(Point a, Point b, double most = kNever) const;
   /// m: growing with the angle, slower beyond a bend: two turns are dearer than one.
   [[nodiscard]] double turn(Point before, Point at, Point after) const;
   /// m: of a leg between two corners that is too short to announce the second in time.
@@ -55,8 +58,8 @@ class GuideCost {
   /// Shares of the leg at which less than the preferred clearance begins, is least, and ends; none
   /// if there is more all along.
   [[nodiscard]] std::vector<double> near_places(Point a, Point b) const;
-  /// From now on so much is measured at most, or less() is false. \param metres  of legs
-  void allow(double metres) const { left_ = metres; }
+  /// So much more may be measured, or less() is false. \param metres  of legs
+  void allow(double metres) const { left_ = std::max(0.0, left_) + metres; }
   [[nodiscard]] bool spent() const { return left_ <= 0.0; }
 
   [[nodiscard]] const GuideCostConfig& config() const { return config_; }
@@ -77,10 +80,11 @@ class GuideCost {
   [[nodiscard]] std::optional<int> polygon_at(Point point) const;
   /// m: of turns and haste.
   [[nodiscard]] double at_corners(const Path& path) const;
-  /// Calls visit(spare) with the clearance beyond the radius of places along the leg.
+  /// Calls visit(spare) with the clearance beyond the radius of places along the leg, until it
+  /// returns false.
   template <typename Visit>
   void along(Point a, Point b, const Visit& visit) const;
-  [[nodiscard]] double measure(Point a, Point b) const;
+  [[nodiscard]] double measure(Point a, Point b, double most) const;
   /// Of a metre with so much clearance beyond the radius.
   [[nodiscard]] double tight_price(double spare) const {
     return config_.tight_weight * std::max(0.0, 1.0 - spare / config_.tight);
@@ -93,7 +97,7 @@ class GuideCost {
   double preferred_;
   std::vector<Cylinder> cylinders_;  // by x
   double widest_ = 0.0;              // m, radius of a cylinder
-  mutable double left_ = 0.0;  // m
+  mutable double left_ = 0.0;        // m
   // Hash tables in which a later entry replaces an earlier one.
   mutable std::vector<Leg> legs_;
   mutable std::vector<Placed> placed_;

@@ -64,8 +64,21 @@ TEST_F(GuideCosts, stop_being_measured_when_the_allowance_is_spent) {
   const Path path{{1.5, 8}, {12, 8}};
   EXPECT_TRUE(cost_->less(path, 11.0));
   EXPECT_FALSE(cost_->less(path, 10.0));
-  cost_->allow(0.0);
-  EXPECT_FALSE(cost_->less(path, 11.0));
+  const GuideCost poor(GuideCostConfig{}, mesh_.mesh(), mesh_.space(), 0.35, 0.6);
+  EXPECT_FALSE(poor.less(path, 11.0));
+  poor.allow(1.0);
+  EXPECT_TRUE(poor.less(path, 11.0));
+  EXPECT_TRUE(poor.spent());
+  EXPECT_FALSE(poor.less({{1.5, 8}, {6, 8}}, 11.0));
+}
+
+/// A leg whose price is given up early is not taken for one that leaves the mesh later on.
+TEST_F(GuideCosts, of_a_leg_does_not_depend_on_what_was_asked_before) {
+  const Point a{4, 6.4}, b{9, 6.4};
+  EXPECT_TRUE(std::isinf(cost_->leg(a, b, 6.0)));
+  const double price = cost_->leg(a, b);
+  EXPECT_TRUE(std::isfinite(price));
+  EXPECT_DOUBLE_EQ(cost_->leg(a, b, price + 1.0), price);
 }
 
 /// m, from the point to the mesh, by every edge of every polygon.

@@ -16,11 +16,12 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-constexpr std::uint_fast32_t kSeed = 1;        // the same always: equal input, equal path
-constexpr double kRange = 0.3;                 // share of the corners that may go at once
-constexpr double kGain = 1e-6;                 // m, less is rounding
-constexpr int kPushes = 5;                     // places tried on the way off an obstacle
-constexpr double kSteps[] = {0.6, 0.3, 0.15};  // m
+constexpr std::uint_fast32_t kSeed = 1;  // the same always: equal input, equal path
+constexpr double kRange = 0.3;           // share of the corners that may go at once
+constexpr double kGain = 1e-6;           // m, less is rounding
+constexpr int kPushes = 5;               // places tried on the way off an obstacle
+constexpr double kCoarse[] = {0.6};      // m, steps of corners
+constexpr double kFine[] = {0.3, 0.15};
 
 Point unit(Point a) { return norm(a) > 0.0 ? (1.0 / norm(a)) * a : a; }
 
@@ -111,7 +112,7 @@ class Settling {
     if (cost_.leg(a, path_[i + 1]) - norm(leg) < 0.5 * cost_.config().turn_price) return;
     const Point aside = unit({-leg.y, leg.x});
     for (const double share : cost_.near_places(a, path_[i + 1])) {
-      for (const double by : {0.2, -0.2, 0.5, -0.5}) {
+      for (const double by : {0.2, -0.2}) {
         if (replace(i + 1, 0, {a + share * leg + by * aside})) return;
       }
     }
@@ -189,6 +190,20 @@ Path pushed(const Path& path, const GuideCost& cost) {
   return std::isfinite(cost.of(out)) ? out : path;
 }
 
+/// The path when its corners were moved, added and left out, once with each of these steps (m).
+template <typename Steps>
+Path settled(Path path, const Steps& steps, const GuideCost& cost, const SmoothingConfig& config) {
+  Settling settling(path, cost);
+  std::optional<Simplifier> simplifier;
+  for (const double step : steps) {
+    settling.run(step);
+    if (path.size() < 3 || config.attempts == 0) continue;
+    if (!simplifier) simplifier.emplace(cost);
+    simplifier->reduce(path, config.attempts);
+  }
+  return path;
+}
+
 }  // namespace
 
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
@@ -197,7 +212,10 @@ void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   visit(attempts, "attempts", Range{0, 10000}, "",
         "corners that OMPL tries to leave out, in each of three rounds");
   visit(effort, "effort", Range{0.0, 10000.0}, "",
-        "metres of legs that may be measured for each metre of the path");
+        "metres of legs that may be measured for each metre of the shortest path, for each path "
+        "that is compared and once more for the best");
+  visit(search_effort, "search_effort", Range{0.0, 10000.0}, "1/m",
+        "nodes that searches for other paths may expand for each metre of the shortest path");
   visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "", "longest guide path, times the shortest");
   visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
   visit(keep, "keep", Range{0.0, 100.0}, "m",
@@ -205,18 +223,13 @@ void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   cost.describe(visit);
 }
 
-Path smooth(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
-  cost.allow(config.effort * (length_of(path) + static_cast<double>(path.size())));
-  Path out = path.size() > 2 ? pushed(path, cost) : path;
-  Settling settling(out, cost);
-  std::optional<Simplifier> simplifier;
-  for (const double step : kSteps) {
-    settling.run(step);
-    if (out.size() < 3 || config.attempts == 0) continue;
-    if (!simplifier) simplifier.emplace(cost);
-    simplifier->reduce(out, config.attempts);
-  }
+Path sketch(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
+  const Path out = settled(path.size() > 2 ? pushed(path, cost) : path, kCoarse, cost, config);
   return cost.of(out) < cost.of(path) ? out : path;
+}
+
+Path refine(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
+  return settled(path, kFine, cost, config);
 }
 
 }  // namespace navvi_nav::smooth

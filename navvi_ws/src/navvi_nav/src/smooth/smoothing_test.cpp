@@ -8,6 +8,13 @@
 namespace navvi_nav::smooth {
 namespace {
 
+Path smooth(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
+  cost.allow(config.effort * length_of(path));
+  const Path out = sketch(path, cost, config);
+  cost.allow(config.effort * length_of(path));
+  return refine(out, cost, config);
+}
+
 class Smoothing : public testing::Test {
  protected:
   Smoothing() {
