@@ -53,6 +53,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
   if (change != Change::none && pending_ != Change::next_corner) pending_ = change;
   if (other_corner && ahead_told_ && change != Change::next_corner)
     fell_away_ = !turn_within_reach(guidance);
+  if (change == Change::next_corner) turn_announced_ = ahead_told_;
   if (!last_ || change == Change::next_corner ||
       (other_corner && turn_within_reach(guidance) != turn_said_))
     ahead_told_ = false;
@@ -68,6 +69,8 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
     reroutes_ = guidance.reroutes;
     pending_ = Change::none;
     said_hour_.reset();
+    // Ticks say where to turn first.
+    if (by_sound_ && *hour_ != 12) (void)said({}, *hour_, time);
     return {goal("start", now)};
   }
   return tell(now, time);
@@ -87,6 +90,8 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   }
   Utterance way = *direction(guidance);
   if (pending_ == Change::next_corner && *hour_ != 12) {
+    // Ticks lead round what was announced; the words for the leg follow once the robot faces it.
+    if (by_sound_ && turn_announced_) return {};
     if (by_sound_ && !worth_words(*hour_)) {
       pending_ = Change::none;
       return {};
@@ -303,17 +308,18 @@ bool RouteCues::direction_due(const Guidance& guidance, double time) const {
   if (since < config_.pause) return false;
   if (reminder_ && time >= *reminder_) return true;
   if (at_hand(guidance, time)) return false;
+  const bool corner_reached = pending_ == Change::next_corner;
+  const bool idle = time - last_commanded_ > config_.idle;
   // A leg has words once, at its begin; a short one has those of its end.
-  const bool ends_soon = guidance.waypoint_distance < config_.turn_ahead;
-  if (by_sound_ && ends_soon && time - last_commanded_ <= config_.idle) return false;
-  if (pending_ == Change::next_corner) return true;
+  if (by_sound_ && !idle) return corner_reached && guidance.waypoint_distance >= config_.turn_ahead;
+  if (corner_reached) return true;
   const bool worse =
       *hour_ != 12 && std::abs(guidance.steer_angle) > std::abs(said_angle_) + kWorse;
   const bool wrong = hour_ != said_hour_ || worse;
   if (wrong && !by_sound_ && !passes_within_reach(guidance)) return true;
   const bool ahead = *hour_ == 12 || leads_off_;
-  if (time - last_commanded_ > config_.idle) return since >= 2.0 * config_.repeat_direction;
-  return since >= (ahead || by_sound_ ? config_.repeat_straight : config_.repeat_direction);
+  if (idle) return since >= 2.0 * config_.repeat_direction;
+  return since >= (ahead ? config_.repeat_straight : config_.repeat_direction);
 }
 
 Utterance RouteCues::said(Utterance utterance, int hour, double time) {

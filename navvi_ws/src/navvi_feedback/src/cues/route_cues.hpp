@@ -76,6 +76,7 @@ class RouteCues {
   std::uint32_t reroutes_ = 0;           ///< of this goal, said or skipped
   bool made_room_ = false;               ///< the thing to make room for was named
   bool ahead_told_ = false;              ///< this corner's turn_ahead was said
+  bool turn_announced_ = false;          ///< that of the corner that was reached last
   bool fell_away_ = false;               ///< a turn that was announced is no longer to be made
   std::optional<int> turn_said_;         ///< hour of the last turn_ahead
   double turn_said_time_ = 0.0;          ///< s

@@ -74,20 +74,24 @@ TEST(RouteCues, leave_corrections_to_the_sound_while_it_is_heard) {
   }
 }
 
-TEST(RouteCues, say_a_turn_but_no_bend_where_a_sound_leads_round) {
+TEST(RouteCues, say_a_turn_once_and_no_bend_where_a_sound_leads_round) {
   for (const double turn : {90.0, 30.0}) {
-    Drive drive;
-    drive.now.sounds.turn = true;
-    drive.settle(0.0, 20.0);
-    drive.now.guidance = following(0.0, 5.0);
-    drive.now.guidance->turn_angle = rad(turn);
-    const bool worth_words = turn > 45.0;
-    EXPECT_EQ(drive.pass(3.0), worth_words ? Kinds{"turn_ahead"} : Kinds{});
-    drive.now.guidance->waypoint_distance = 0.5;
-    drive.pass(1.0);
-    drive.now.guidance = following(turn, 12.0);
-    drive.now.guidance->waypoint = {10.0, 12.0};
-    EXPECT_EQ(drive.pass(0.5), worth_words ? Kinds{"turn_now"} : Kinds{});
+    for (const bool announced : {true, false}) {
+      Drive drive;
+      drive.now.sounds.turn = true;
+      drive.settle(0.0, 20.0);
+      drive.now.guidance = following(0.0, 5.0);
+      drive.now.guidance->turn_angle = announced ? rad(turn) : 0.0;
+      const bool worth_words = turn > 45.0;
+      EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{"turn_ahead"} : Kinds{});
+      drive.now.guidance->waypoint_distance = 0.5;
+      drive.pass(1.0);
+      drive.now.guidance = following(turn, 12.0);
+      drive.now.guidance->waypoint = {10.0, 12.0};
+      EXPECT_EQ(drive.pass(3.0), worth_words && !announced ? Kinds{"turn_now"} : Kinds{});
+      drive.now.guidance->steer_angle = 0.0;
+      EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{"straight"} : Kinds{});
+    }
   }
 }
 

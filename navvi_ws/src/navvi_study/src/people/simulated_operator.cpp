@@ -226,7 +226,9 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
   const Instruction instruction = understand(sentence.text);
   using Kind = Instruction::Kind;
   if (instruction.kind == Kind::halt || instruction.kind == Kind::bump) told_to_halt_ = true;
-  if (instruction.kind == Kind::turn || instruction.kind == Kind::straight) told_to_halt_ = false;
+  const bool ready = sentence.text.rfind("Ready", 0) == 0;
+  if (ready || instruction.kind == Kind::turn || instruction.kind == Kind::straight)
+    told_to_halt_ = false;
   switch (instruction.kind) {
     case Instruction::Kind::nothing:
       break;
