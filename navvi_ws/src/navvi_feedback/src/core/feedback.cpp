@@ -186,8 +186,8 @@ haptics::Rumble Feedback::feel(double time, double dt) {
   const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
                      motion_.link(time, config_.stale) != cues::Link::lost &&
                      !(arrived && config_.haptics.rest_at_goal);
-  const haptics::Rumble near =
-      deciders_->haptics.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt);
+  const haptics::Rumble near = deciders_->haptics.update(
+      nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt, off_course(time));
   if (const auto pattern = deciders_->patterns.update(dt)) return *pattern;
   const double share = important_ ? config_.haptics.duck : 1.0;
   return {share * near.left, share * near.right};

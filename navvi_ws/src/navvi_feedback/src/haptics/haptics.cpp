@@ -8,6 +8,11 @@
 namespace navvi_feedback::haptics {
 namespace {
 
+/// rad; who heads there by so little feels nothing.
+constexpr double kOnCourse = 0.2;
+/// Of the force that attracts.
+constexpr double kLeast = 0.2;
+
 /// A motor command that the motor can follow: nothing, or at least its starting threshold.
 double motor(double force, double start, double gain) {
   if (force <= 0.0) return 0.0;
@@ -25,6 +30,8 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::OneOf;
   using navvi_config::Range;
   visit(enabled, "enabled", Any{}, "", "false: the motors stay off");
+  visit(steer, "steer", OneOf{{"repulsive", "attractive"}}, "",
+        "what the motors tell all the time: what is near, on its side, or the side to steer to");
   visit(range, "range", Range{0.5, 20.0}, "m", "a thing is felt if its gap is less than this");
   visit(center, "center", Range{0.0, 5.0}, "m",
         "a thing whose nearest point lies less far to the side is felt in both motors");
@@ -107,14 +114,23 @@ void Haptics::stop() {
   force_ = {};
 }
 
-Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt) {
+/// As if something pulled from that side, the harder the more is left to turn.
+std::optional<Haptics::Felt> Haptics::attraction(std::optional<double> off) const {
+  const double from = zone_ ? kOnCourse / 2.0 : kOnCourse;
+  if (!off || std::abs(*off) < from) return std::nullopt;
+  const double far = 2.0 * std::max(1.0, config_.center);  // m, beside the robot
+  return Felt{*off > 0.0 ? -far : far, kLeast + (1.0 - kLeast) * std::min(1.0, std::abs(*off))};
+}
+
+Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt,
+                       std::optional<double> off) {
   if (!fresh || !config_.enabled) {
     stop();
     return {};
   }
   double wanted_left = 0.0;
   double wanted_right = 0.0;
-  if (const auto felt = strongest(things)) {
+  if (const auto felt = config_.steer == "attractive" ? attraction(off) : strongest(things)) {
     felt_for_ += dt;
     zone_ = zone_of(felt->lateral);
     const double ramp = config_.onset > 0.0 ? std::min(1.0, felt_for_ / config_.onset) : 1.0;

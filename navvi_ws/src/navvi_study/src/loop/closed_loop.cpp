@@ -126,7 +126,7 @@ void ClosedLoop::feed_back() {
   const navvi_feedback::core::Feedback::Output output = feedback_.update(input, time());
   if (output.command) gate_.receive(node::from_msg(node::to_msg(*output.command)), instant());
   if (rumble_output_.update(output.rumble, time()).feedback)
-    person_.feel(output.rumble.left, output.rumble.right);
+    person_.feel(output.rumble.left, output.rumble.right, time());
   std::vector<CueEvent> events = speak(output.cues);
   feedback_.note(events);
   for (const navvi_feedback::sounds::Play& play : output.plays)

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
             if (!std::isfinite(motor.intensity)) continue;
             (motor.id == 0 ? left : right) = std::clamp<double>(motor.intensity, 0.0, 1.0);
           }
-          person.feel(left, right);
+          person.feel(left, right, now());
         });
     // The timer beats by the wall clock, but a turn is as long as the world's time says, also where
     // a busy machine slows the world down.

@@ -19,6 +19,7 @@ constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
 constexpr double kListenFirst = 2.5;         // m, likewise
 constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
 constexpr double kTicksOver = 1.2;           // s; ticks that paused for so long are over
+constexpr double kMuchForce = 0.6;           // of the motor that attracts: much is left to turn
 constexpr double kSlowTicks = 0.28;          // s, between two: much is left to turn
 constexpr std::uint64_t kEar = 0x9e3779b97f4a7c15;  // so that the ear draws numbers of its own
 constexpr double kBlindTurn = 3.0;  // m to drive after "turn now", which has no distance
@@ -55,6 +56,8 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
         "of silence while waiting before asking");
   visit(strong_rumble, "strong_rumble", Range{0.0, 1.0}, "",
         "motors above this on both sides slow the hand");
+  visit(touch, "touch", navvi_config::OneOf{{"repulsive", "attractive"}}, "",
+        "what the person was told that a motor means, as feedback/haptics/steer");
   visit(min_sound_reaction, "min_sound_reaction", Range{0.0, 2.0}, "s",
         "of the quickest person, from a short sound to the hand; assumed");
   visit(max_sound_reaction, "max_sound_reaction", Range{0.0, 2.0}, "s", "of the slowest; assumed");
@@ -103,7 +106,8 @@ void SimulatedOperator::follow(const Heard& sound, double time) {
   if (kind == "turn") {
     last_news_ = time;
     const bool same = ticks_ && ticks_->side == sound.side;
-    ticks_ = Ticks{sound.side, time, same ? time - ticks_->last : 0.5};
+    const bool slow = !same || time - ticks_->last > kSlowTicks;
+    ticks_ = Ticks{sound.side, time, sound.much.value_or(slow)};
     if (mode_ == Mode::waiting && !told_to_halt_) mode_ = Mode::driving;
   } else if (kind == "on_course") {
     last_news_ = time;
@@ -133,14 +137,26 @@ void SimulatedOperator::follow(const Heard& sound, double time) {
 StickAndButtons SimulatedOperator::turn_by_ear(double time) const {
   StickAndButtons hand;
   const double side = ticks_->side == Instruction::Side::left ? 1.0 : -1.0;
-  const bool large = ticks_->interval > kSlowTicks;
+  const bool large = ticks_->much;
   hand.left = side * (large ? 1.0 : 0.55);
   if (large || odometer_ >= stop_at_) return hand;
   hand.forward = time < careful_until_ ? 0.5 * config_.slow : 0.7 * config_.slow;
   return hand;
 }
 
-void SimulatedOperator::feel(double left, double right) {
+void SimulatedOperator::feel(double left, double right, double time) {
+  using Side = Instruction::Side;
+  if (config_.touch == "attractive") {
+    // Two motors are a pattern; one is the side to turn to.
+    const bool pulled = (left > 0.0) != (right > 0.0);
+    const double reaction = time + sound_reaction_;
+    if (pulled)
+      heard_.push_back({"turn", left > 0.0 ? Side::left : Side::right, reaction,
+                        std::max(left, right) > kMuchForce});
+    else if (left == 0.0 && ticks_)
+      heard_.push_back({"turn_stop", Side::none, reaction});
+    return;
+  }
   left_motor_ = left;
   right_motor_ = right;
 }

@@ -32,6 +32,7 @@ struct SimulatedOperatorConfig {
   double patience = 12.0;
   double idle_patience = 2.5;
   double strong_rumble = 0.6;
+  std::string touch = "repulsive";
   double min_sound_reaction = 0.2;
   double max_sound_reaction = 0.4;
   double missed_sounds = 0.02;
@@ -60,7 +61,7 @@ class SimulatedOperator {
   /// Only speech that begins, ends or breaks off is heard, and short sounds.
   void hear(const CueEvent& cue, double time);
   /// \param left, right  motors [0, 1]
-  void feel(double left, double right);
+  void feel(double left, double right, double time);
   /// \param time  s, not going back \param dt  s since the last update
   [[nodiscard]] StickAndButtons update(double time, double dt);
 
@@ -82,13 +83,14 @@ class SimulatedOperator {
   struct Heard {
     std::string kind;
     Instruction::Side side = Instruction::Side::none;
-    double time = 0.0;  ///< s: when the hands will follow
+    double time = 0.0;              ///< s: when the hands will follow
+    std::optional<bool> much = {};  ///< is left to turn; nullopt: as slow ticks tell
   };
-  /// The ticks that tell to turn.
+  /// The ticks, or the motor, that tell to turn.
   struct Ticks {
     Instruction::Side side = Instruction::Side::none;
-    double last = 0.0;      ///< s
-    double interval = 0.5;  ///< s, between the last two
+    double last = 0.0;  ///< s
+    bool much = true;   ///< is left to turn
   };
 
   void hear_sound(const CueEvent& cue, double time);

@@ -296,7 +296,7 @@ TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
   const auto covered = [](double motors) {
     Loop loop(1, kAroundACorner);
     for (int i = 0; i < 100; ++i) (void)loop.step();
-    loop.person.feel(motors, motors);
+    loop.person.feel(motors, motors, loop.time);
     loop.say("straight ahead, 20 meters");
     loop.person.hear({1, CueStage::ended}, loop.time);
     for (int i = 0; i < 200; ++i) (void)loop.step();
