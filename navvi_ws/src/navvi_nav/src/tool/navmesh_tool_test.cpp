@@ -86,6 +86,18 @@ TEST_F(NavmeshTool, refuses_what_it_cannot_do_in_a_sentence) {
   }
 }
 
+/// The corridor of a real building, scanned; its floor is rough by a voxel of 0.08 m. The Debian
+/// package liboctomap-dev has it.
+TEST_F(NavmeshTool, leads_along_the_corridor_of_a_building_that_was_scanned) {
+  const std::string scan = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
+  if (!std::filesystem::exists(scan)) GTEST_SKIP() << scan << " is not on this machine";
+  const Answer answer = ask(scan + " --from 0,0 --to 20,0");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  const std::size_t at = answer.text.find("guide path  ");
+  ASSERT_NE(at, std::string::npos) << answer.text;
+  EXPECT_LT(std::stod(answer.text.substr(at + 12)), 21.0);
+}
+
 }  // namespace
 }  // namespace navvi_nav::tool
 
