@@ -192,6 +192,12 @@ std::vector<Outline> mesh_outlines(const Mesh& mesh, const Eigen::Isometry3d& po
   return parts;
 }
 
+/// What rises from a floor is a wall.
+ThingClass standing_look(const Thing& thing, const Shape& shape) {
+  const ThingClass look = look_of(thing, shape);
+  return look == ThingClass::floor ? ThingClass::wall : look;
+}
+
 double area_of(const Eigen::AlignedBox2d& box) { return box.isEmpty() ? 0.0 : box.volume(); }
 
 }  // namespace
@@ -204,12 +210,12 @@ std::vector<Outline> outlines_of(const Thing& thing, double floor) {
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry)) {
       parts = mesh_outlines(**mesh, thing.pose * shape.pose, floor);
       for (Outline& part : parts)
-        if (part.look != ThingClass::floor) part.look = look_of(thing, shape);
+        if (part.look != ThingClass::floor) part.look = standing_look(thing, shape);
     } else {
       parts.push_back(std::visit(Tracer(thing.pose, shape), shape.geometry));
       parts.back().hangs = parts.back().bottom >= floor + kCut;
       parts.back().look =
-          parts.back().top < floor + kDrivenOver ? ThingClass::floor : look_of(thing, shape);
+          parts.back().top < floor + kDrivenOver ? ThingClass::floor : standing_look(thing, shape);
     }
     for (Outline& part : parts) {
       for (const auto* set : {&part.rings, &part.solid, &part.lines})

@@ -94,6 +94,21 @@ TEST(WorldPicture, shows_what_hangs_by_its_outline_alone) {
   EXPECT_EQ(count(svg, "fill=\"#f4f3ee\""), 3u);  // ground, mat, the mesh's floor
 }
 
+TEST(WorldPicture, shows_the_walls_of_a_floor_as_walls_and_whole) {
+  Thing office = box("office", ThingClass::floor, {0, 0, 0}, {30, 20, 0.02});
+  office.shapes.push_back(
+      {Box{{20.0, 0.2, 2.0}}, Eigen::Isometry3d(Eigen::Translation3d(0, 8, 1))});
+  const WorldDescription world{"office", 0.01, {office}};
+  const std::string svg = world_picture(world, somewhere(), "");
+  EXPECT_EQ(count(svg, "fill=\"#4a4a4a\""), 1u);
+  const auto height = [](const std::string& of) {
+    const std::size_t at = of.find("height=\"");
+    return std::stod(of.substr(at + 8));
+  };
+  office.shapes.pop_back();
+  EXPECT_GT(height(svg), height(world_picture({"bare", 0.01, {office}}, somewhere(), "")));
+}
+
 TEST(WorldPicture, is_not_shrunk_by_a_thing_that_lies_far_from_all_others) {
   WorldDescription world{
       "far", 0.0, {box("ground", ThingClass::floor, {0, 0, -0.5}, {300, 300, 1})}};
