@@ -130,7 +130,7 @@ class Picture:
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline:
             subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30, env=self.env)
-            image = Image.open(path).convert("RGB").crop((20, 80, 1900, 1040))
+            image = Image.open(path).convert("RGB").crop((10, 10, 1910, 900))
             if last is not None and numpy.asarray(image).max() > 200 and ImageChops.difference(image, last).getbbox() is None:
                 return image
             last = image

@@ -118,7 +118,8 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   out.command = drive(input.hands, dt);
   out.share = assist(out.command, time);
   out.alarm_begins = alarm_begins(input);
-  const std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
+  std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
+  pressed.insert(pressed.end(), input.asked.begin(), input.asked.end());
   out.cues = decide_cues(input, pressed, out, time);
   begin_patterns(out);
   const bool leads = deciders_->cues.leads();

@@ -353,6 +353,16 @@ TEST_F(FeedbackTest, a_button_that_is_held_asks_once) {
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "no_goal"), 1);
 }
 
+TEST_F(FeedbackTest, what_is_asked_elsewhere_is_answered_like_a_button) {
+  pass(6.0);
+  kinds_.clear();
+  input_.asked = {drive::Button::repeat};
+  pass(0.02);
+  input_.asked.clear();
+  pass(2.0);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "no_goal"), 1);
+}
+
 TEST_F(FeedbackTest, guidance_is_kept_but_not_fresh_for_ever) {
   EXPECT_FALSE(feedback_.guidance());
   Guidance guidance;

@@ -5,6 +5,7 @@
 #include <ros/package.h>
 #include <ros/ros.h>
 #include <std_msgs/Float32.h>
+#include <std_msgs/String.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <csignal>
@@ -94,6 +95,11 @@ class FeedbackNode {
     advertise();
     subscribe();
     hear_of_trials();
+    subscribers_.push_back(node_.subscribe<std_msgs::String>(
+        "navvi/ask", 10, [this](const std_msgs::String::ConstPtr& msg) {
+          if (const auto button = navvi_types::from_word<drive::Button>(msg->data))
+            asked_.push_back(*button);
+        }));
     tick_timer_ =
         node_.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) {
           if (now() - last_tick_ >= 0.9 * kTick) tick();
@@ -185,6 +191,7 @@ class FeedbackNode {
     input.voice_busy = !speech_.idle();
     input.robot = robot();
     input.notices = notices();
+    input.asked = std::exchange(asked_, {});
     for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
     const core::Feedback::Output output = feedback_.update(input, time);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
@@ -337,6 +344,7 @@ class FeedbackNode {
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
   std::vector<Eigen::Vector2d> path_;  ///< m, in map
+  std::vector<drive::Button> asked_;   ///< by topic, not answered yet
   std::vector<std::string> news_;      ///< kinds of cues, not said yet
 
   std::optional<double> markers_time_;  // s, of now()

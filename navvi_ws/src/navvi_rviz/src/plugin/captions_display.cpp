@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <pluginlib/class_list_macros.hpp>
 
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
@@ -230,5 +229,3 @@ Plate& CaptionsDisplay::arrow(const std::string& name, double angle, int size) {
 }
 
 }  // namespace navvi_rviz::plugin
-
-PLUGINLIB_EXPORT_CLASS(navvi_rviz::plugin::CaptionsDisplay, rviz::Display)

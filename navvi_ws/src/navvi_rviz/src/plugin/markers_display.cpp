@@ -5,7 +5,6 @@
 
 #include <QPointer>
 #include <boost/make_shared.hpp>
-#include <pluginlib/class_list_macros.hpp>
 
 #include "look/dress.hpp"
 #include "plugin/chosen.hpp"
@@ -45,5 +44,3 @@ void MarkersDisplay::take(const MarkerArray::ConstPtr& markers) {
 }
 
 }  // namespace navvi_rviz::plugin
-
-PLUGINLIB_EXPORT_CLASS(navvi_rviz::plugin::MarkersDisplay, rviz::Display)

@@ -30,6 +30,9 @@ Reader::Reader() {
   keep(subscribe<navvi_msgs::DriveState, navvi_types::DriveState>(
       node_, "navvi/drive_state", 1, from_msg,
       [this](const navvi_types::DriveState& state) { status_.take(state); }));
+  keep(subscribe<navvi_msgs::TrialState, navvi_types::TrialState>(
+      node_, "navvi/trial_state", 1, from_msg,
+      [this](const navvi_types::TrialState& state) { status_.take(state); }));
   keep(subscribe<nav_msgs::Odometry, navvi_types::Odometry>(
       node_, "odom", 1, from_msg,
       [this](const navvi_types::Odometry& odom) { status_.take_speed(odom.velocity.linear); }));

@@ -91,6 +91,9 @@ void Status::choose_banner(double time, Shown& shown) const {
   if (const auto said = warning(time))
     show(said->text,
          said->kind == "blocked" || said->kind == "make_room" ? Tone::wait : Tone::alarm);
+  using Trial = navvi_types::TrialState::State;
+  if (trial_ == Trial::ready) show("press start", Tone::wait);
+  if (trial_ == Trial::choose_goal) show("choose a goal", Tone::wait);
   if (!guidance_) return;
   if (guidance_->state == Guidance::State::blocked) show("wait", Tone::wait);
   if (guidance_->state == Guidance::State::make_room) show("make room", Tone::wait);

@@ -4,6 +4,7 @@
 #include <navvi_types/cue_event.hpp>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 
@@ -28,6 +29,7 @@ class Status {
   void take(const navvi_types::CueEvent& cue, double time);
   void take(const navvi_types::Guidance& guidance);
   void take(const navvi_types::DriveState& state) { gate_ = state.state; }
+  void take(const navvi_types::TrialState& state) { trial_ = state.state; }
   void take_speed(double speed) { speed_ = speed; }
   /// \param ros_time  s, of the event
   void take_event(const std::string& type, double ros_time);
@@ -48,6 +50,7 @@ class Status {
 
   std::optional<navvi_types::Guidance> guidance_;
   std::optional<navvi_types::DriveState::State> gate_;
+  std::optional<navvi_types::TrialState::State> trial_;
   std::optional<Said> last_, warning_;
   std::string lost_;  ///< sentence while the hands are lost
   double speed_ = 0.0;

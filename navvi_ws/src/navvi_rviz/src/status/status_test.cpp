@@ -68,6 +68,17 @@ TEST(Status, a_lost_controller_is_shown_until_it_is_back) {
   EXPECT_EQ(status.shown(101.0, 0.0).banner, "");
 }
 
+TEST(Status, a_trial_that_waits_says_for_what) {
+  Status status;
+  navvi_types::TrialState trial;
+  trial.state = navvi_types::TrialState::State::ready;
+  status.take(trial);
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "press start");
+  trial.state = navvi_types::TrialState::State::running;
+  status.take(trial);
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "");
+}
+
 TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
   Status status;
   status.take(in(Guidance::State::following));

@@ -59,7 +59,8 @@ class Feedback {
     bool motors = true;                       ///< false if our own pad is not connected
     bool voice_busy = false;                  ///< something is being spoken or waits for it
     std::optional<navvi_types::Pose2> robot;  ///< base_link in map, if known
-    std::vector<std::string> notices;         ///< as Situation::notices
+    std::vector<drive::Button> asked;  ///< by other means than the hands, since the last update
+    std::vector<std::string> notices;  ///< as Situation::notices
   };
   struct Output {
     std::optional<Velocity> command;  ///< nullopt: nothing is sent

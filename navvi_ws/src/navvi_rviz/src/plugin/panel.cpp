@@ -1,0 +1,189 @@
+#include "plugin/panel.hpp"
+
+#include <navvi_msgs/TrialRequest.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <rviz/visualization_frame.h>
+#include <rviz/visualization_manager.h>
+#include <std_msgs/String.h>
+
+#include <QAccessible>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QHBoxLayout>
+#include <QMainWindow>
+#include <QMenuBar>
+#include <QScreen>
+#include <QShortcut>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+#include "plugin/chosen.hpp"
+#include "plugin/paint.hpp"
+
+namespace navvi_rviz::plugin {
+namespace {
+
+constexpr int kRefresh = 100;  // ms
+
+QString number(double value, int decimals, const char* unit) {
+  return QString::number(value, 'f', decimals) + " " + unit;
+}
+
+/// A screen reader says what changed by itself.
+void set_words(QLabel* label, const QString& words, QAccessible::Event event) {
+  if (label->text() == words) return;
+  label->setText(words);
+  QAccessibleEvent said(label, event);
+  QAccessible::updateAccessibility(&said);
+}
+
+}  // namespace
+
+Panel::Panel()
+    : words_row_(new QHBoxLayout),
+      buttons_row_(new QHBoxLayout),
+      state_(add_label("state", 2)),
+      instruction_(add_label("instruction", 3)),
+      distance_(add_label("distance", 1)),
+      speed_(add_label("speed", 1)),
+      clock_(add_label("time", 1)) {
+  setAttribute(Qt::WA_StyledBackground);
+  auto* rows = new QVBoxLayout(this);
+  rows->addLayout(words_row_);
+  rows->addLayout(buttons_row_);
+}
+
+QLabel* Panel::add_label(const char* name, int stretch) {
+  auto* label = new QLabel;
+  label->setObjectName(name);
+  label->setAccessibleDescription(name);
+  label->setFocusPolicy(Qt::TabFocus);
+  label->setWordWrap(true);
+  words_row_->addWidget(label, stretch);
+  return label;
+}
+
+QPushButton* Panel::add_button(const QString& words, const QKeySequence& key,
+                               const std::function<void()>& action) {
+  auto* button = new QPushButton(words + " (" + key.toString() + ")");
+  button->setAccessibleName(words);
+  button->setAccessibleDescription("Key " + key.toString());
+  connect(button, &QPushButton::clicked, this, action);
+  auto* shortcut = new QShortcut(key, this);
+  shortcut->setContext(Qt::ApplicationShortcut);
+  connect(shortcut, &QShortcut::activated, this, action);
+  buttons_row_->addWidget(button);
+  return button;
+}
+
+void Panel::onInitialize() {
+  reader_ = std::make_unique<Reader>();
+  questions_ = node_.advertise<std_msgs::String>("navvi/ask", 10);
+  requests_ = node_.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
+  using Request = navvi_msgs::TrialRequest;
+  add_button("Start", Qt::Key_F5, [this] { request(Request::BEGIN); });
+  add_button("End trial", Qt::Key_F8, [this] { request(Request::END); });
+  add_button("Repeat", Qt::Key_R, [this] { ask("repeat"); });
+  add_button("Goal", Qt::Key_G, [this] { ask("goal"); });
+  add_button("Around", Qt::Key_A, [this] { ask("around"); });
+  const char* const views[] = {"Chase", "Top", "Forward"};
+  for (int i = 0; i < 3; ++i)
+    add_button(views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); });
+  add_button("RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); });
+
+  auto* visions = new QComboBox;
+  visions->setAccessibleName("Vision");
+  for (const std::string& name : look::vision_names())
+    visions->addItem(QString::fromStdString(name));
+  visions->setCurrentText(QString::fromStdString(Chosen::shared().name()));
+  connect(visions, &QComboBox::currentTextChanged, this,
+          [](const QString& name) { Chosen::shared().choose(name.toStdString()); });
+  buttons_row_->addWidget(visions);
+
+  Chosen::shared().on_change([this] { style(); });
+  style();
+  connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
+  timer_.start(kRefresh);
+  QTimer::singleShot(0, this, [this] { fill_screen(); });
+}
+
+void Panel::ask(const std::string& question) {
+  std_msgs::String msg;
+  msg.data = question;
+  questions_.publish(msg);
+}
+
+void Panel::request(std::uint8_t what) {
+  navvi_msgs::TrialRequest msg;
+  msg.header.stamp = ros::Time::now();
+  msg.request = what;
+  requests_.publish(msg);
+}
+
+void Panel::choose_view(int index) {
+  rviz::ViewManager* views = vis_manager_->getViewManager();
+  if (index < views->getNumViews()) views->setCurrentFrom(views->getViewAt(index));
+}
+
+void Panel::fill_screen() {
+  auto* main = qobject_cast<QMainWindow*>(window());
+  auto* dock = qobject_cast<QDockWidget*>(parentWidget());
+  if (!main || !dock) return;
+  dock->setTitleBarWidget(new QWidget(dock));
+  main->addDockWidget(Qt::BottomDockWidgetArea, dock);
+  dock->show();
+  show_chrome(false);
+  main->setGeometry(main->screen()->availableGeometry());
+  main->showMaximized();
+}
+
+void Panel::show_chrome(bool visible) {
+  chrome_ = visible;
+  auto* main = qobject_cast<QMainWindow*>(window());
+  if (!main) return;
+  main->menuBar()->setVisible(visible);
+  main->statusBar()->setVisible(visible);
+  for (QToolBar* bar : main->findChildren<QToolBar*>()) bar->setVisible(visible);
+  for (QDockWidget* dock : main->findChildren<QDockWidget*>())
+    if (dock != parentWidget()) dock->setVisible(visible);
+  if (auto* frame = dynamic_cast<rviz::VisualizationFrame*>(main))
+    frame->setHideButtonVisibility(visible);
+}
+
+void Panel::style() {
+  const look::Vision& vision = Chosen::shared().vision();
+  const QString text = color(vision.text).name(), plate = color(vision.plate).name();
+  const int height = static_cast<int>(vision.text_height);
+  setStyleSheet(
+      QString("QWidget { background: %2; color: %1; font: bold %3px 'DejaVu Sans'; }"
+              "QLabel { padding: 4px; }"
+              "QPushButton, QComboBox { border: 2px solid %1; padding: 4px; font-size: %4px; }"
+              "QPushButton:pressed { background: %1; color: %2; }"
+              "QLabel:focus, QPushButton:focus, QComboBox:focus { border: 5px double %1; }"
+              "QLabel[alarm=\"true\"] { background: %1; color: %2; }")
+          .arg(text, plate)
+          .arg(height)
+          .arg(std::max(20, 2 * height / 3)));
+}
+
+void Panel::refresh() {
+  const status::Shown shown = reader_->shown();
+  const bool alarm = shown.tone == status::Shown::Tone::alarm && !shown.banner.empty();
+  if (state_->property("alarm").toBool() != alarm) {
+    state_->setProperty("alarm", alarm);
+    style();
+  }
+  set_words(state_, QString::fromStdString(shown.banner.empty() ? "drive" : shown.banner),
+            QAccessible::Alert);
+  set_words(instruction_, QString::fromStdString(shown.instruction), QAccessible::NameChanged);
+  set_words(distance_, shown.distance ? number(*shown.distance, 0, "m to go") : "",
+            QAccessible::NameChanged);
+  set_words(speed_, number(shown.speed, 1, "m/s"), QAccessible::NameChanged);
+  const int seconds = static_cast<int>(shown.clock.value_or(0.0));
+  set_words(clock_, QString("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0')),
+            QAccessible::NameChanged);
+}
+
+}  // namespace navvi_rviz::plugin

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <rviz/panel.h>
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QTimer>
+#include <functional>
+#include <memory>
+
+#include "plugin/reader.hpp"
+
+namespace navvi_rviz::plugin {
+
+/// What the guide says and how the trial stands, in words, below the picture; with a button and a
+/// key for each thing that can be asked for. Buttons have names for screen readers. Makes the
+/// picture as large as the screen; F2 shows what else RViz has.
+class Panel : public rviz::Panel {
+ public:
+  Panel();
+  void onInitialize() override;
+
+ private:
+  QLabel* add_label(const char* name, int stretch);
+  QPushButton* add_button(const QString& words, const QKeySequence& key,
+                          const std::function<void()>& action);
+  void ask(const std::string& question);
+  void request(std::uint8_t what);
+  void choose_view(int index);
+  void fill_screen();
+  void show_chrome(bool visible);
+  void style();
+  void refresh();
+
+  std::unique_ptr<Reader> reader_;
+  ros::NodeHandle node_;
+  ros::Publisher questions_, requests_;
+  QHBoxLayout *words_row_, *buttons_row_;
+  QLabel *state_, *instruction_, *distance_, *speed_, *clock_;
+  QTimer timer_;
+  bool chrome_ = false;
+};
+
+}  // namespace navvi_rviz::plugin
