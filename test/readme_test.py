@@ -34,7 +34,7 @@ def test_every_topic_of_the_table_is_named_in_the_code():
 
 
 def test_rostopic_can_show_every_topic():
-    types = {found for row in topic_rows() for found in re.findall(r"\b([a-z0-9_]+_msgs)/([A-Z][A-Za-z]+)", row)}
+    types = {found for row in topic_rows() for found in re.findall(r"\b([a-z0-9_]+_msgs)/([A-Z][A-Za-z0-9]+)", row)}
     assert ("tf2_msgs", "TFMessage") in types
     lines = [f"from {package}.msg import {name}" for package, name in sorted(types)]
     found = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, timeout=60)

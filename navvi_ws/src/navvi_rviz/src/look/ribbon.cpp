@@ -90,6 +90,7 @@ std::vector<Eigen::Vector2d> rounded(const std::vector<Eigen::Vector2d>& line) {
 
 void add_ribbon(const std::vector<Eigen::Vector2d>& line, double from, double to, double height,
                 const Color& color, visualization_msgs::Marker& marker) {
+  if (line.size() < 2) return;
   const std::vector<Eigen::Vector2d> sides = sideways(line);
   const auto place = [&](std::size_t i, double distance) {
     geometry_msgs::Point point;
