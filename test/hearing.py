@@ -44,6 +44,7 @@ def grammar():
         "distance": "<number> meters | one meter | <number> point five meters | zero point five meters",
         "thing": " | ".join(words[key] for key in
                             ("shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other")),
+        "place": " | ".join(value + " [<number>]" for key, value in words.items() if key.startswith("place_")),
         "side": " | ".join(value for key, value in words.items() if key.startswith("side_")),
         "where": " | ".join(value for key, value in words.items() if key.startswith("where_")),
     }
