@@ -235,6 +235,9 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
   }
   const std::vector<sounds::Play> recurring = deciders_->soundscape.update(now, time);
   plays.insert(plays.end(), recurring.begin(), recurring.end());
+  for (sounds::Play& play : plays)
+    if (input.voice_busy && play.earcon != Earcon::hit_shelf && play.earcon != Earcon::hit_obstacle)
+      play.volume *= config.under_words;
   return plays;
 }
 

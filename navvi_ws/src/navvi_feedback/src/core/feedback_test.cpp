@@ -305,6 +305,22 @@ TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
   EXPECT_TRUE(said("shelf_near"));
 }
 
+TEST_F(FeedbackTest, sounds_are_softer_under_words_but_a_hit_is_not) {
+  input_.voice_busy = true;
+  feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+  for (int i = 0; i < 4; ++i) {
+    lead(0.9);
+    pass(0.5);
+  }
+  ASSERT_GT(played(sounds::Earcon::turn), 1);
+  const sounds::SoundsConfig config;
+  for (const sounds::Play& play : plays_) {
+    const bool hit = play.earcon == sounds::Earcon::hit_shelf;
+    const double full = config.family_of(play.earcon).volume;
+    EXPECT_NEAR(play.volume, hit ? full : config.under_words * full, 1e-9);
+  }
+}
+
 TEST_F(FeedbackTest, no_turn_is_counted_down_to_who_must_stop_or_does_not_drive) {
   for (int i = 0; i < 20; ++i) {
     lead(0.9);

@@ -32,6 +32,8 @@ void SoundsConfig::describe(navvi_config::Visitor& visit) {
   visit.group("sonar", sonar);
   visit(capture_radius, "capture_radius", Range{0.2, 5.0}, "m",
         "nearer than this a way-point has no beacon");
+  visit(under_words, "under_words", Range{0.0, 1.0}, "",
+        "share of its volume that a sound has while words are spoken; a hit has it all");
 }
 
 const FamilyConfig& SoundsConfig::family_of(Earcon earcon) const {

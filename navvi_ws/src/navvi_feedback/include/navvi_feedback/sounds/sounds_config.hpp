@@ -33,6 +33,7 @@ struct SoundsConfig {
   FamilyConfig beacon{false};
   FamilyConfig sonar{false};
   double capture_radius = 1.5;  ///< m
+  double under_words = 0.3;
 
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] const FamilyConfig& family_of(Earcon earcon) const;
