@@ -14,7 +14,7 @@ constexpr double kStarting = 3.0;
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
 /// s, without directions after the end of a trial: the session may be about to end, too.
-constexpr double kLastWords = 5.0;
+constexpr double kLastWords = 10.0;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
 /// s, from one word to the next on what a stick that is pushed waits for.

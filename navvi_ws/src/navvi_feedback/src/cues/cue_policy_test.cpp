@@ -277,7 +277,7 @@ TEST_F(CuePolicyTest, gives_no_direction_right_after_the_end_of_a_trial) {
   EXPECT_EQ(pass(0.02), Texts{"time is up, the trial is over"});
   now_.notices.clear();
   now_.guidance->steer_angle = now_.guidance->waypoint_angle = 2.0;
-  EXPECT_EQ(pass(4.0), Texts{});
+  EXPECT_EQ(pass(9.0), Texts{});
   EXPECT_EQ(pass(2.0), Texts{"4 o'clock, 20 meters"}) << "the session goes on";
 }
 
