@@ -24,6 +24,9 @@ void WorldConfig::describe(navvi_config::Visitor& visit) {
   visit(step, "step", Range{0.001, 0.01}, "s", "fixed time step");
   visit(ceiling, "ceiling", Range{0.5, 10.0}, "m",
         "what begins higher above the floor is not near the robot");
+  visit(wait_for_robot, "wait_for_robot", navvi_config::Any{}, "",
+        "the traffic stands until the robot is first driven, so that it is the same however long "
+        "a person waits before that");
   visit.group("robot", robot);
   visit.group("movers", movers);
 }
@@ -86,6 +89,12 @@ World::Status World::step(const navvi_types::Velocity& command, physics::Braking
   if (failed_) return Status::numeric_failure;
   if (!std::isfinite(command.linear) || !std::isfinite(command.angular))
     return Status::command_refused;
+  driven_ = driven_ || command.linear != 0.0 || command.angular != 0.0;
+  if (config_.wait_for_robot && !driven_) {
+    ++steps_;
+    take_snapshot();
+    return Status::running;
+  }
 
   const double speed = now_.robot.velocity.norm();
   // Bullet measures distances at the begin of a step and brakes the robot in the step that brings

@@ -282,6 +282,33 @@ TEST(World, repeats_bit_for_bit_though_other_worlds_lived_between) {
   EXPECT_NE(first, history(8)) << "the seed draws the pauses";
 }
 
+TEST(World, can_wait_for_the_robot_and_then_lives_as_if_it_had_not_waited) {
+  WorldDescription description = floor_only();
+  description.things.push_back(mover_thing({-1, -4}, {-1, 4}, 1.0));
+  WorldConfig config;
+  config.wait_for_robot = true;
+  config.robot.imperfections.slip_noise = 0.1;
+  const auto life_after = [&](int waited) {
+    World world(description, config, {{3, 0}, 0.1}, 7);
+    const Eigen::Vector2d start = world.now().movers.at(0).thing.pose.position;
+    for (int i = 0; i < waited; ++i) EXPECT_EQ(world.step({}), World::Status::running);
+    EXPECT_EQ(world.now().movers.at(0).thing.pose.position, start);
+    EXPECT_NEAR(world.now().time, 0.01 * waited, 1e-9) << "the clock runs";
+    std::vector<Eigen::Vector2d> places;
+    for (int i = 0; i < 3000; ++i) {
+      const bool rests = i % 500 > 400;
+      EXPECT_EQ(world.step({rests ? 0.0 : 0.4, rests ? 0.0 : 0.3}), World::Status::running);
+      places.push_back(world.now().movers[0].thing.pose.position);
+      places.push_back(world.now().robot.position);
+    }
+    EXPECT_GT((places[2000] - start).norm(), 1.0) << "it moves at last, also while the robot rests";
+    return places;
+  };
+  const auto at_once = life_after(0);
+  EXPECT_EQ(at_once, life_after(1));
+  EXPECT_EQ(at_once, life_after(1234));
+}
+
 TEST(World, is_the_same_to_the_robot_whatever_is_far_away) {
   WorldDescription near = floor_only();
   near.things.push_back(box_thing("wall", ThingClass::wall, {4.0, 0, 1}, {0.1, 6, 2}));

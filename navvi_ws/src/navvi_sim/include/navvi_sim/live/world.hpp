@@ -15,8 +15,9 @@
 namespace navvi_sim::live {
 
 struct WorldConfig {
-  double step = 0.01;    ///< s
-  double ceiling = 2.0;  ///< m above the floor: what begins higher is not near the robot
+  double step = 0.01;           ///< s
+  double ceiling = 2.0;         ///< m above the floor: what begins higher is not near the robot
+  bool wait_for_robot = false;  ///< stand still, while the clock runs, until it is first driven
   physics::RobotConfig robot;
   traffic::MoversConfig movers;
 
@@ -86,6 +87,7 @@ class World {
   Snapshot now_;
   std::uint64_t steps_ = 0;
   double last_speed_ = 0.0;  ///< m/s, of the robot, one step earlier than now_
+  bool driven_ = false;      ///< the robot has been told to move
   bool failed_ = false;
 };
 
