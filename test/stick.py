@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push` or `stick.py kill`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `pause` or `intrude`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
        stage held the wheels at zero, the time until the robot stood still, and the fastest speed in the 5 s after that.
+pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the fastest speed from 0.5 s to 3 s after it lives again.
+intrude  a neutral stick while this process itself commands full speed to /cmd_vel, at 1 kHz; prints the fastest speed within 3 s, the
+       fastest with the stick pushed while it goes on, and the node that drive_state names.
 """
 import os
 import signal
@@ -13,6 +16,7 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
+from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from navvi_msgs.msg import DriveState
 from sensor_msgs.msg import Joy
@@ -21,12 +25,13 @@ from sensor_msgs.msg import Joy
 class Stick:
     def __init__(self):
         rospy.init_node("stick", disable_rostime=True)
-        self.speed, self.stopped = 0.0, None
+        self.speed, self.stopped, self.intruder = 0.0, None, ""
         rospy.Subscriber("/odom", Odometry, lambda msg: setattr(self, "speed", msg.twist.twist.linear.x), tcp_nodelay=True)
         rospy.Subscriber("/navvi/drive_state", DriveState, self.note_stop, tcp_nodelay=True)
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
 
     def note_stop(self, msg):
+        self.intruder = msg.intruder
         if msg.state == DriveState.STOPPED:
             self.stopped = time.monotonic()
 
@@ -41,23 +46,51 @@ class Stick:
         return False
 
     def push(self, speed):
-        self.hold(0.0, lambda: False, 2.5)
-        self.hold(1.0, lambda: self.speed >= speed, 3.0)
+        for _ in range(10):  # the nodes may still be on their way
+            self.hold(0.0, lambda: False, 1.0)
+            if self.hold(1.0, lambda: self.speed >= speed, 3.0):
+                return
+
+    @staticmethod
+    def pid(node):
+        return xmlrpc.client.ServerProxy(rosgraph.Master("/stick").lookupNode(node)).getPid("/stick")[2]
+
+    def fastest(self, forward, seconds):
+        speeds = [0.0]
+        self.hold(forward, lambda: speeds.append(abs(self.speed)), seconds)
+        return max(speeds)
+
+    def pause(self):
+        pid = self.pid("/sim_node")
+        os.kill(pid, signal.SIGSTOP)
+        self.hold(1.0, lambda: False, 2.0)
+        os.kill(pid, signal.SIGCONT)
+        self.hold(1.0, lambda: False, 0.5)
+        return (self.fastest(1.0, 2.5),)
+
+    def intrude(self):
+        self.hold(0.0, lambda: False, 1.0)
+        commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1000)
+        command = Twist(linear=Vector3(x=1.0))
+        flood = rospy.Timer(rospy.Duration(0.001), lambda _: commands.publish(command))
+        alone = self.fastest(0.0, 3.0)
+        driven = self.fastest(1.0, 3.0)
+        flood.shutdown()
+        return alone, driven, self.intruder
 
     def kill(self):
-        node = xmlrpc.client.ServerProxy(rosgraph.Master("/stick").lookupNode("/feedback_node"))
-        pid = node.getPid("/stick")[2]
+        pid = self.pid("/feedback_node")
         self.stopped = None
         killed = time.monotonic()
         os.kill(pid, signal.SIGKILL)
         self.hold(1.0, lambda: self.stopped is not None and abs(self.speed) < 1e-3, 5.0)
         still = time.monotonic()
-        fastest = [0.0]
-        self.hold(1.0, lambda: fastest.append(abs(self.speed)), 5.0)
-        return self.stopped - killed, still - killed, max(fastest)
+        return self.stopped - killed, still - killed, self.fastest(1.0, 5.0)
 
 
 if __name__ == "__main__":
+    what = sys.argv[1]
     stick = Stick()
-    stick.push(0.8 if sys.argv[1] == "kill" else 0.3)
-    print(stick.speed, *(stick.kill() if sys.argv[1] == "kill" else ()))
+    stick.push(0.8 if what in ("kill", "pause") else 0.3)
+    pushed = stick.speed
+    print(pushed, *{"push": tuple, "kill": stick.kill, "pause": stick.pause, "intrude": stick.intrude}[what]())

@@ -32,6 +32,15 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
         "commands beyond are clamped and counted");
   visit(absurd_factor, "absurd_factor", Range{1.0, 100.0}, "",
         "commands beyond this many times a limit are rejected");
+  visit(driver, "driver", navvi_config::Any{}, "",
+        "the node whose commands are taken, such as /feedback_node; those of any other are ignored "
+        "and announced; empty: any node may drive");
+}
+
+bool CommandGate::admit(const std::string& node) {
+  if (config_.driver.empty() || node == config_.driver) return true;
+  intruder_ = node;
+  return false;
 }
 
 void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, const Instant& now) {

@@ -127,6 +127,17 @@ TEST_F(Gate, a_command_beyond_the_limits_is_clamped_and_counted) {
   EXPECT_EQ(gate_.clamped(), 1u);
 }
 
+TEST(CommandGate, admits_the_one_driver_and_names_any_other) {
+  CommandGateConfig config;
+  config.driver = "/feedback_node";
+  CommandGate gate{config};
+  EXPECT_TRUE(gate.admit("/feedback_node"));
+  EXPECT_EQ(gate.drive_state(0).intruder, "");
+  EXPECT_FALSE(gate.admit("/teleop"));
+  EXPECT_EQ(gate.drive_state(0).intruder, "/teleop");
+  EXPECT_TRUE(CommandGate(CommandGateConfig{}).admit("/teleop")) << "no driver is named";
+}
+
 }  // namespace
 }  // namespace navvi_safety
 

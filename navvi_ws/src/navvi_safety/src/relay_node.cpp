@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_safety/command_input.hpp>
 #include <navvi_safety/now.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
@@ -16,22 +17,25 @@ int main(int argc, char** argv) {
     navvi_safety::CommandGate gate(config);
     ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("robot/cmd_vel", 1);
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
-    ros::Subscriber commands = node.subscribe<geometry_msgs::Twist>(
-        "cmd_vel", 1, [&](const geometry_msgs::Twist::ConstPtr& msg) {
-          gate.receive(navvi_types::from_msg(*msg), navvi_safety::now());
-        });
-    const auto publish_state = [&] {
-      state.publish(navvi_types::to_msg(gate.drive_state(navvi_types::to_ns(ros::Time::now()))));
+    using Command = ros::MessageEvent<const geometry_msgs::Twist>;
+    const boost::function<void(const Command&)> receive = [&](const Command& command) {
+      navvi_safety::receive(gate, command, navvi_safety::now());
     };
-    auto published = gate.state();
+    ros::Subscriber commands = node.subscribe<geometry_msgs::Twist, const Command&>(
+        "cmd_vel", navvi_safety::kCommandQueue, receive);
+    std::optional<navvi_types::DriveState> published;
+    const auto publish_state = [&] {
+      const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));
+      if (published && published->state == now.state && published->intruder == now.intruder) return;
+      state.publish(navvi_types::to_msg(now));
+      published = now;
+    };
     publish_state();
 
     // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.
     ros::WallTimer timer =
         node.createWallTimer(ros::WallDuration(0.02), [&](const ros::WallTimerEvent&) {
           wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
-          if (gate.state() == published) return;
-          published = gate.state();
           publish_state();
         });
     ros::spin();

@@ -249,7 +249,7 @@ std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg) {
   const auto state = from_number<DriveState::State>(msg.state);
   const auto reason = from_number<DriveState::Reason>(msg.reason);
   if (!state || !reason) return std::nullopt;
-  return DriveState{*state, *reason, msg.rejected, to_ns(msg.header.stamp)};
+  return DriveState{*state, *reason, msg.rejected, to_ns(msg.header.stamp), msg.intruder};
 }
 
 std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg) {
@@ -388,6 +388,7 @@ navvi_msgs::DriveState to_msg(const DriveState& state) {
   msg.state = static_cast<std::uint8_t>(state.state);
   msg.reason = static_cast<std::uint8_t>(state.reason);
   msg.rejected = state.rejected;
+  msg.intruder = state.intruder;
   return msg;
 }
 

@@ -227,6 +227,7 @@ navvi_msgs::DriveState drive_state() {
   msg.state = navvi_msgs::DriveState::STOPPED;
   msg.reason = navvi_msgs::DriveState::COMMAND_INVALID;
   msg.rejected = 3;
+  msg.intruder = "/teleop";
   return msg;
 }
 

@@ -299,6 +299,7 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
     if (button <= drive::Button::help) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;
   now.notices = input.notices;
+  if (intruder_) now.notices.push_back("intruder");
   const sounds::SoundsConfig& sounds = config_.sounds;
   if (sounds.enabled && input.sounds)
     now.sounds = {sounds.turn.on, sounds.shelf.on, sounds.near.on};

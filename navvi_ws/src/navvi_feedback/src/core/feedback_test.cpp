@@ -75,6 +75,16 @@ class FeedbackTest : public testing::Test {
   int alarms_ = 0;
 };
 
+TEST_F(FeedbackTest, says_once_that_another_node_wants_to_drive) {
+  pass(1.0);
+  DriveState drive;
+  drive.state = DriveState::State::running;
+  drive.intruder = "/teleop";
+  feedback_.take(drive, time_);
+  pass(5.0);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "intruder"), 1);
+}
+
 TEST_F(FeedbackTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
   pass(0.5);
   hold(0.0, 1.0);

@@ -4,6 +4,7 @@
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/motion.hpp>
 #include <optional>
+#include <string>
 
 #include "navvi_config/field.hpp"
 
@@ -24,6 +25,7 @@ struct CommandGateConfig {
   double max_linear = 1.5;
   double max_angular = 2.5;
   double absurd_factor = 10.0;
+  std::string driver;  ///< the node that may drive; empty: any
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -38,6 +40,10 @@ class CommandGate {
 
   explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
 
+  /// True if the node may drive: its commands may be received. One that may not is named by
+  /// drive_state() from then on.
+  [[nodiscard]] bool admit(const std::string& node);
+
   /// Takes a command as received. \param command  nullopt for a malformed message. A command that
   /// is not finite or `absurd_factor` beyond the limits is rejected whole and extends nothing; one
   /// beyond the limits is clamped. A command later than `timeout` finds the wheels stopped.
@@ -48,7 +54,7 @@ class CommandGate {
 
   /// As of the last call. \param stamp  ns, of the value
   [[nodiscard]] navvi_types::DriveState drive_state(std::int64_t stamp) const {
-    return {state_, reason_, rejected_, stamp};
+    return {state_, reason_, rejected_, stamp, intruder_};
   }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] Reason reason() const { return reason_; }
@@ -68,6 +74,7 @@ class CommandGate {
   Reason reason_ = Reason::none;
   unsigned rejected_ = 0;
   unsigned clamped_ = 0;
+  std::string intruder_;
 };
 
 }  // namespace navvi_safety

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_safety/command_input.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 #include "live/pacer.hpp"
@@ -36,7 +37,7 @@ class SimNode {
   void publish_static(const scenario::StartAndGoal& scenario);
   void log_world(const std::vector<std::string>& notes,
                  const scenario::StartAndGoal& scenario) const;
-  void receive(const geometry_msgs::Twist::ConstPtr& msg);
+  void receive(const ros::MessageEvent<const geometry_msgs::Twist>& command);
   void tick(const ros::WallTimerEvent& event);
   [[nodiscard]] bool step();
   void publish_state();
@@ -90,8 +91,8 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
 
   ros::NodeHandle commands_node;
   commands_node.setCallbackQueue(&commands_queue_);
-  commands_ = commands_node.subscribe("cmd_vel", 1, &SimNode::receive, this,
-                                      ros::TransportHints().tcpNoDelay());
+  commands_ = commands_node.subscribe("cmd_vel", navvi_safety::kCommandQueue, &SimNode::receive,
+                                      this, ros::TransportHints().tcpNoDelay());
   timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
 }
 
@@ -147,12 +148,8 @@ void SimNode::log_world(const std::vector<std::string>& notes,
            scenario.start.position.y(), scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
 }
 
-void SimNode::receive(const geometry_msgs::Twist::ConstPtr& msg) {
-  const unsigned before = gate_.rejected();
-  gate_.receive(navvi_types::from_msg(*msg), instant());
-  if (gate_.rejected() != before)
-    ROS_WARN_THROTTLE(1.0, "cmd_vel: %u commands rejected, not finite or absurdly large",
-                      gate_.rejected());
+void SimNode::receive(const ros::MessageEvent<const geometry_msgs::Twist>& command) {
+  navvi_safety::receive(gate_, command, instant());
 }
 
 void SimNode::tick(const ros::WallTimerEvent&) {
@@ -212,7 +209,7 @@ void SimNode::publish_state() {
 void SimNode::publish_drive_state() {
   const navvi_types::DriveState now = gate_.drive_state(world().now().stamp());
   if (drive_state_ && drive_state_->state == now.state && drive_state_->reason == now.reason &&
-      drive_state_->rejected == now.rejected)
+      drive_state_->rejected == now.rejected && drive_state_->intruder == now.intruder)
     return;
   drive_.publish(navvi_types::to_msg(now));
   drive_state_ = now;

@@ -328,11 +328,17 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   const bool inside = counts(drive.stamp);
   const bool stopped = drive.state == DriveState::State::stopped;
   const bool stopped_before = std::exchange(stopped_, stopped);
-  if (!inside || drive.reason == DriveState::Reason::none || !stopped || stopped_before) return {};
+  const std::string intruder_before = std::exchange(intruder_, drive.intruder);
+  std::vector<Event> events;
+  if (!inside) return events;
+  if (drive.intruder != intruder_before)
+    events.push_back({"INTRUDER", place().set("node", drive.intruder), drive.stamp});
+  if (drive.reason == DriveState::Reason::none || !stopped || stopped_before) return events;
   record::Fields fields = place();
   fields.set("reason", to_string(drive.reason))
       .set("moved", tally_.path_length > kMoved ? "yes" : "no");
-  return {{"SAFE_STOP", fields, drive.stamp, true}};
+  events.push_back({"SAFE_STOP", fields, drive.stamp, true});
+  return events;
 }
 
 std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {

@@ -168,6 +168,7 @@ class TrialMonitor {
   std::map<navvi_types::Modality, std::string>
       playing_;           ///< kind of the last cue that is no speech
   bool stopped_ = false;  ///< by the last stage before the wheels
+  std::string intruder_;  ///< that stage ignores this node
   std::map<std::string, DeviceState> devices_;
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
   bool goal_taken_ = false;

@@ -279,6 +279,17 @@ TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) 
   EXPECT_EQ(monitor_.observe(stopped(14))[0].fields.get("moved"), "yes");
 }
 
+TEST_F(Monitor, names_each_node_that_wants_to_drive_besides_the_guide) {
+  DriveState drive{DriveState::State::running, {}, 0, 11 * kSecond, "/teleop"};
+  const auto events = monitor_.observe(drive);
+  ASSERT_EQ(types(events), Names{"INTRUDER"});
+  EXPECT_EQ(events[0].fields.get("node"), "/teleop");
+  drive.stamp = 12 * kSecond;
+  EXPECT_TRUE(monitor_.observe(drive).empty());
+  drive.intruder = "/joystick";
+  EXPECT_EQ(types(monitor_.observe(drive)), Names{"INTRUDER"});
+}
+
 TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
   EXPECT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
   EXPECT_TRUE(monitor_.observe(stopped(12)).empty());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "navvi_types/names.hpp"
 
@@ -20,6 +21,7 @@ struct DriveState {
   Reason reason = Reason::none;
   std::uint32_t rejected = 0;  ///< bad commands so far
   std::int64_t stamp = 0;      ///< ns, ROS time
+  std::string intruder = {};   ///< the node that sent commands last though it may not drive
 };
 
 [[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::State) {

@@ -84,7 +84,10 @@ class Feedback {
     guidance_ = {guidance, time};
     turned_ = 0.0;
   }
-  void take(const DriveState& state, double /*time*/) { gate_ = state.state; }
+  void take(const DriveState& state, double /*time*/) {
+    gate_ = state.state;
+    intruder_ = !state.intruder.empty();
+  }
   void take(const TrialState& state, double /*time*/) { trial_ = state; }
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
   void take(const Scenario& scenario, double /*time*/) { scenario_ = scenario; }
@@ -139,6 +142,7 @@ class Feedback {
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;
   std::optional<DriveState::State> gate_;
+  bool intruder_ = false;  ///< that gate ignores another node's commands
   TrialState trial_;
   std::optional<Scenario> scenario_;
   std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
