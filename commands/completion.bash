@@ -29,7 +29,7 @@ possible_words() {
     return
   fi
   case ${words[1]} in
-    run) file=live.launch ;;
+    run) file=live.launch && echo person:= ;;
     replay) file=replay.launch ;;
     watch) printf '%s\n' speech:= pace:= port:= ;;
     build) printf '%s\n' --asan --odr ;;

@@ -1,5 +1,5 @@
 navvi_run() {
-  read_args "$launch_files/live.launch" "$@"
+  read_args "$launch_files/live.launch" "${@/#person:=/feedback/person:=}"
   resolve_operator
   resolve_rviz
   resolve_view

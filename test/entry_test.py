@@ -1,4 +1,5 @@
 """The entry script, the launch files, the views and the parameter files, as they ship."""
+import csv
 import pathlib
 import subprocess
 import xml.etree.ElementTree as ElementTree
@@ -47,6 +48,8 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "wheels/size:=1"], "those of feedback nav operator sim trial can be given"),
     (["run", *SIMULATED, "feedback/haptics/enabld:=1"], "the key \"haptics/enabld\" is unknown"),
     (["run", *SIMULATED, "feedback/speaker/rate:=fast"], "speaker/rate"),
+    (["run", *SIMULATED, "person:=Ann Smith"], "up to 24 letters, digits, - and _"),
+    (["run", *SIMULATED, "person:=a", "person:=b"], "given twice"),
     (["run", *SIMULATED, "seed:=1", "seed:=2"], "given twice"),
     (["run", *SIMULATED, "sim_parameters:={}"], "is unknown"),
     (["run", *SIMULATED, "models:=/nonexistent"], "models:=/nonexistent is no folder"),
@@ -64,6 +67,32 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     assert sentence in result.stderr
     assert len(sentences(result)) == 1
     assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
+
+
+@pytest.mark.parametrize("text, sentence", [
+    ("speaker:\n  rate: 900\n", ", line 2: \"speaker/rate\" is 900; allowed is 80 to 449 words/min."),
+    ("speaker: {rate: 1\n", "this is not YAML"),
+    ("input: pad\n", "the key \"input\" is unknown"),
+])
+def test_a_person_s_wrong_settings_are_refused_before_anything_starts(text, sentence, tmp_path):
+    (tmp_path / "anna.yaml").write_text(text)
+    result = navvi("run", *SIMULATED, "person:=anna", NAVVI_PEOPLE=str(tmp_path))
+    assert result.returncode == 2
+    assert str(tmp_path / "anna.yaml") in result.stderr and sentence in result.stderr
+    assert len(sentences(result)) == 1
+    assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
+
+
+def test_a_person_s_settings_are_used_in_a_session_and_named_in_its_record(tmp_path):
+    (tmp_path / "anna.yaml").write_text("speaker: {rate: 300}\ncues: {wording: {units: feet, verbosity: full}}\n")
+    result = navvi("run", *SIMULATED, "world:=training", "person:=anna", "feedback/cues/wording/units:=meters", f"out:={tmp_path}/out", "limit:=1",
+                   NAVVI_PEOPLE=str(tmp_path))
+    journal = next((tmp_path / "out").glob("trial-*/journal.csv")).read_text()
+    settings = next(word for word in journal.replace("%3d", "=").split(";") if word.startswith("settings=")).split(" ")
+    for word in "feedback/speaker/rate=300", "feedback/cues/wording/units=meters", "feedback/cues/wording/verbosity=full", "feedback/person=anna":
+        assert word in settings, result.stderr
+    with open(next((tmp_path / "out").glob("trial-*/summary.csv"))) as file:
+        assert next(csv.DictReader(file))["parameters"] == "feedback/person=anna feedback/cues/wording/units=meters"
 
 
 @pytest.fixture

@@ -266,6 +266,16 @@ YAML::Node read_words(const std::vector<std::string>& words) {
   return all;
 }
 
+void overlay(YAML::Node base, const YAML::Node& values) {
+  for (const auto& pair : values) {
+    const std::string& key = pair.first.Scalar();
+    if (pair.second.IsMap() && base[key].IsMap())
+      overlay(base[key], pair.second);
+    else
+      base[key] = pair.second;
+  }
+}
+
 void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source) {
   YamlReader reader(node, source);
   describe(reader);

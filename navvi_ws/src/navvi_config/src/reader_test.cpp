@@ -147,6 +147,12 @@ TEST(Words, are_handed_on_as_one_line_of_YAML) {
             "{a: {b: 1.5, d: \"a: b\"}, c: [x, y]}");
 }
 
+TEST(Words, are_laid_over_what_is_there) {
+  const YAML::Node base = YAML::Load("{a: {b: 1, c: 2}, d: [1, 2], e: 3}");
+  overlay(base, read_words({"a/b:=5", "d:=[7]", "f/g:=8"}));
+  EXPECT_EQ(one_line(base), "{a: {b: 5, c: 2}, d: [7], e: 3, f: {g: 8}}");
+}
+
 TEST(Words, without_a_name_or_with_one_twice_are_refused) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"speed"},

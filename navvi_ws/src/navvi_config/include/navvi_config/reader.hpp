@@ -31,6 +31,9 @@ using Describe = std::function<void(Visitor&)>;
 /// \throws ConfigError if a word has no name, or a name is given twice or as value and as map
 [[nodiscard]] YAML::Node read_words(const std::vector<std::string>& words);
 
+/// Puts `values` into the map `base`: maps are joined, anything else is replaced.
+void overlay(YAML::Node base, const YAML::Node& values);
+
 void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source);
 
 /// Overlays `config` with the keys of `node`; keys that are absent keep their value.
@@ -69,9 +72,11 @@ template <typename Config>
 
 /// Answers a program that was called with --parameters: prints the table of `Config`, or, of words
 /// that follow, such as haptics/range:=2, checks that `Config` takes them and prints them as YAML.
+/// \param below  what the words are laid over, by the Config that they make
 /// \return its exit code; nullopt if it was called otherwise
 template <typename Config>
-[[nodiscard]] std::optional<int> print_parameters(int argc, char** argv) {
+[[nodiscard]] std::optional<int> print_parameters(
+    int argc, char** argv, const std::function<YAML::Node(const Config&)>& below = {}) {
   if (argc < 2 || std::string(argv[1]) != "--parameters") return std::nullopt;
   if (argc == 2) {
     std::cout << markdown(table<Config>());
@@ -81,7 +86,9 @@ template <typename Config>
     Config config;
     const YAML::Node words = read_words({argv + 2, argv + argc});
     read(config, words, "the arguments");
-    std::cout << one_line(words) << "\n";
+    const YAML::Node all = below ? below(config) : YAML::Node(YAML::NodeType::Map);
+    overlay(all, words);
+    std::cout << one_line(all) << "\n";
     return 0;
   } catch (const ConfigError& error) {
     std::cerr << error.what() << "\n";

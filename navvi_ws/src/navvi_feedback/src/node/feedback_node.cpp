@@ -2,7 +2,6 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/callback_queue.h>
-#include <ros/package.h>
 #include <ros/ros.h>
 #include <std_msgs/Float32.h>
 #include <std_msgs/String.h>
@@ -13,7 +12,6 @@
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
-#include "cues/phrases.hpp"
 #include "devices/earcon_player.hpp"
 #include "devices/input_source.hpp"
 #include "devices/speech_channel.hpp"
@@ -21,6 +19,8 @@
 #include "navvi_feedback/haptics/rumble_output.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
 #include "node/diagnostics.hpp"
+#include "node/node_config.hpp"
+#include "person/person_file.hpp"
 #include "picture/markers.hpp"
 
 namespace navvi_feedback::node {
@@ -33,49 +33,6 @@ namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
 
-struct NodeConfig {
-  std::string input = "auto";
-  bool speech = true;
-  std::string listener = "device";
-  std::string language = "en";
-  std::string phrases;
-  core::FeedbackConfig feedback;
-  devices::SpeakerConfig speaker;
-  devices::MixerConfig mixer;
-  picture::MarkersConfig markers;
-
-  void describe(navvi_config::Visitor& visit) {
-    using navvi_config::Any;
-    using navvi_config::OneOf;
-    visit(input, "input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
-          "where the stick comes from; topic: joy from another driver");
-    visit(speech, "speech", Any{}, "", "false: our own voice and sounds are silent");
-    visit(
-        listener, "listener", OneOf{{"device", "topic"}}, "",
-        "what hears: the sound device, or whoever reads navvi/cues, such as a simulated person or "
-        "a screen reader, with or without a device");
-    visit(language, "language", OneOf{{"en", "es"}}, "", "English or Spanish");
-    visit(phrases, "phrases", Any{}, "",
-          "path of a phrase file for any other language; empty for the one that ships");
-    feedback.describe(visit);
-    visit.group("speaker", speaker);
-    visit.group("mixer", mixer);
-    visit.group("markers", markers);
-  }
-};
-
-std::string phrases_file(const NodeConfig& config) {
-  if (!config.phrases.empty()) return config.phrases;
-  return ros::package::getPath("navvi_feedback") + "/config/phrases/" + config.language + ".yaml";
-}
-
-/// The voice of the language, unless another one is wanted.
-devices::SpeakerConfig speaker_of(const NodeConfig& config) {
-  devices::SpeakerConfig speaker = config.speaker;
-  if (speaker.voice.empty()) speaker.voice = cues::Phrases(phrases_file(config)).voice();
-  return speaker;
-}
-
 constexpr double kTick = 0.02;  // s
 
 /// Wall time, so that the person hears of a simulation that has stopped.
@@ -85,12 +42,12 @@ class FeedbackNode {
  public:
   explicit FeedbackNode(const NodeConfig& config)
       : config_(config),
-        feedback_(config.feedback, phrases_file(config)),
+        feedback_(config.feedback, config.phrases_file()),
         mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
-        speech_(speaker_of(config), mixer_),
+        speech_(config.voice(), mixer_),
         earcons_(mixer_),
         source_(config.input) {
-    config_.speaker = speaker_of(config);  // for the record
+    config_.speaker = config.voice();  // for the record
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();
     subscribe();
@@ -380,7 +337,14 @@ void spin(FeedbackNode& node) {
 
 int main(int argc, char** argv) {
   using navvi_feedback::node::NodeConfig;
-  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
+  using navvi_feedback::node::PersonConfig;
+  using navvi_feedback::person::PersonFile;
+  if (const auto code =
+          navvi_config::print_parameters<NodeConfig>(argc, argv, [](const NodeConfig& config) {
+            return config.person.empty() ? YAML::Node(YAML::NodeType::Map)
+                                         : PersonFile::of<PersonConfig>(config.person).load();
+          }))
+    return *code;
   // roscpp's own handler would close the topics before the last zero is out.
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})

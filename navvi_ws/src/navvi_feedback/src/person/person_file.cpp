@@ -28,17 +28,6 @@ fs::path folder() {
       "A person's settings have no place: neither NAVVI_PEOPLE nor HOME names a folder.");
 }
 
-/// Maps are joined, anything else is replaced.
-void overlay(YAML::Node base, const YAML::Node& values) {
-  for (const auto& pair : values) {
-    const std::string key = pair.first.Scalar();
-    if (pair.second.IsMap() && base[key].IsMap())
-      overlay(base[key], pair.second);
-    else
-      base[key] = pair.second;
-  }
-}
-
 /// \return 0 or errno; with 0 the bytes are on the disk
 int write_all(const fs::path& path, std::string_view bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -60,10 +49,10 @@ int write_all(const fs::path& path, std::string_view bytes) {
 
 PersonFile::PersonFile(const std::string& name, navvi_config::Describe describe)
     : name_(name), describe_(std::move(describe)) {
-  if (!std::regex_match(name, std::regex("[A-Za-z0-9_-]{1,24}")))
+  if (!std::regex_match(name, std::regex("[A-Za-z0-9][A-Za-z0-9_-]{0,23}")))
     throw ConfigError("\"" + name +
                       "\" is no name for a person's settings; allowed are up to 24 letters, "
-                      "digits, - and _.");
+                      "digits, - and _, a letter or digit first.");
   path_ = folder() / (name + ".yaml");
 }
 
@@ -79,7 +68,7 @@ void PersonFile::save(const std::vector<std::string>& words) const {
   const YAML::Node changes = navvi_config::read_words(words);
   navvi_config::read_fields(describe_, changes, "the settings of " + name_);
   YAML::Node values = load();
-  overlay(values, changes);
+  navvi_config::overlay(values, changes);
   std::error_code failed;
   fs::create_directories(path_.parent_path(), failed);
   const fs::path fresh = path_.string() + "." + std::to_string(::getpid());

@@ -13,7 +13,7 @@ namespace navvi_feedback::person {
 class PersonFile {
  public:
   /// \param describe  the parameters that the file may hold
-  /// \param name  1 to 24 letters, digits, - and _
+  /// \param name  1 to 24 letters, digits, - and _, one of the former two first
   /// \throws navvi_config::ConfigError if the name is another, or no folder is known
   PersonFile(const std::string& name, navvi_config::Describe describe);
   template <typename Config>

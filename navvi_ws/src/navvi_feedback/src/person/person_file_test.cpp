@@ -140,11 +140,11 @@ TEST_F(PersonFileTest, nothing_is_lost_where_nothing_can_be_written) {
 
 TEST_F(PersonFileTest, only_names_that_are_safe_are_taken) {
   for (const char* name :
-       {"", "../anna", "a b", "anna.yaml", "a123456789012345678901234", "\xC3\xA4"})
+       {"", "-anna", "../anna", "a b", "anna.yaml", "a123456789012345678901234", "\xC3\xA4"})
     EXPECT_EQ(refused([&] { (void)PersonFile::of<Config>(name); }),
               "\"" + std::string(name) +
                   "\" is no name for a person's settings; allowed are up to 24 letters, digits, - "
-                  "and _.");
+                  "and _, a letter or digit first.");
   unsetenv("NAVVI_PEOPLE");
   setenv("HOME", "/home/anna", 1);
   EXPECT_EQ(PersonFile::of<Config>("sub-01_b").path(), "/home/anna/.navvi/people/sub-01_b.yaml");

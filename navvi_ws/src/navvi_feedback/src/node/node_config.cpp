@@ -1,0 +1,46 @@
+#include "node/node_config.hpp"
+
+#include <ros/package.h>
+
+#include "cues/phrases.hpp"
+
+namespace navvi_feedback::node {
+
+using navvi_config::Any;
+using navvi_config::OneOf;
+
+void PersonConfig::describe(navvi_config::Visitor& visit) {
+  visit(language, "language", OneOf{{"en", "es"}}, "", "English or Spanish");
+  visit(phrases, "phrases", Any{}, "",
+        "path of a phrase file for any other language; empty for the one that ships");
+  feedback.describe(visit);
+  visit.group("speaker", speaker);
+  visit.group("mixer", mixer);
+  visit.group("markers", markers);
+}
+
+void NodeConfig::describe(navvi_config::Visitor& visit) {
+  visit(input, "input", OneOf{{"auto", "pad", "keyboard", "topic"}}, "",
+        "where the stick comes from; topic: joy from another driver");
+  visit(speech, "speech", Any{}, "", "false: our own voice and sounds are silent");
+  visit(listener, "listener", OneOf{{"device", "topic"}}, "",
+        "what hears: the sound device, or whoever reads navvi/cues, such as a simulated person or "
+        "a screen reader, with or without a device");
+  visit(person, "person", Any{}, "",
+        "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
+        "in it over the profile's");
+  PersonConfig::describe(visit);
+}
+
+std::filesystem::path NodeConfig::phrases_file() const {
+  if (!phrases.empty()) return phrases;
+  return ros::package::getPath("navvi_feedback") + "/config/phrases/" + language + ".yaml";
+}
+
+devices::SpeakerConfig NodeConfig::voice() const {
+  devices::SpeakerConfig voice = speaker;
+  if (voice.voice.empty()) voice.voice = cues::Phrases(phrases_file()).voice();
+  return voice;
+}
+
+}  // namespace navvi_feedback::node

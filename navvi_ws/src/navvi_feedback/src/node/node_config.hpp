@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "devices/mixer.hpp"
+#include "devices/speaker.hpp"
+#include "navvi_feedback/core/feedback.hpp"
+#include "picture/markers.hpp"
+
+namespace navvi_feedback::node {
+
+/// What suits one person and not another, and can be kept in their PersonFile.
+struct PersonConfig {
+  std::string language = "en";
+  std::string phrases;  ///< path; empty for that of the language
+  core::FeedbackConfig feedback;
+  devices::SpeakerConfig speaker;
+  devices::MixerConfig mixer;
+  picture::MarkersConfig markers;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// The parameters of feedback_node.
+struct NodeConfig : PersonConfig {
+  std::string input = "auto";
+  bool speech = true;
+  std::string listener = "device";
+  std::string person;  ///< name of their PersonFile; empty for none
+
+  void describe(navvi_config::Visitor& visit);
+  [[nodiscard]] std::filesystem::path phrases_file() const;
+  /// The voice of the language, unless another one is wanted.
+  [[nodiscard]] devices::SpeakerConfig voice() const;
+};
+
+}  // namespace navvi_feedback::node
