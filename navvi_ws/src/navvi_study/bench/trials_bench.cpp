@@ -184,14 +184,16 @@ const std::vector<Column>& columns() {
       {"reroutes", 8, {"reroutes"}},
       {"churn mean/max", 14, {"churn_mean", "churn_max"}},
       {"turns/min", 9, {"turns"}},
-      {"flips/misled", 12, {"flips", "misled"}},
+      {"flips/reversed/misled", 21, {"flips", "reversed", "misled"}},
       {"cues/words/min talk", 20, {"cues", "words", "talk"}},
-      {"repeats/waits/hasty", 19, {"repeats", "waits", "hasty"}},
+      {"repeats/odds/waits/hasty", 24, {"repeats", "at_odds", "waits", "hasty"}},
+      {"speechless", 10, {"speechless"}},
       {"follow/block/room/noroute/offmesh/other",
        39,
        {"following", "blocked", "make_room", "no_route", "off_mesh", "other"}},
       {"still@", 12, {"still", "still_at"}},
       {"hits", -20, {"hits"}},
+      {"late warned", -12, {"late", "warned"}},
       {"at the end of the standstill", -1, {"why"}},
   };
   return all;
@@ -232,8 +234,9 @@ class Total {
     reached_ += reached ? 1 : 0;
     for (const char* name : {"time", "driven", "shortest"})
       if (reached) sums_[name] += row.number(name).value_or(0.0);
-    for (const char* name : {"reroutes", "churn_mean", "turns", "flips", "misled", "still", "cues",
-                             "words", "talk", "repeats", "waits", "hasty"})
+    for (const char* name :
+         {"reroutes", "churn_mean", "turns", "flips", "misled", "still", "cues", "words", "talk",
+          "repeats", "waits", "hasty", "at_odds", "reversed", "late", "speechless"})
       sums_[name] += row.number(name).value_or(0.0);
     for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh", "other"})
       states_ += row.number(name).value_or(0.0);
@@ -251,13 +254,16 @@ class Total {
         "on the mean %.1f reroutes, churn %.1f m/min, %.1f turns/min, %.1f flips, %.1f misled, "
         "longest standstill %.0f s; blocked %.1f %%, make room %.1f %%, no route %.1f %%, off mesh "
         "%.1f %% of the "
-        "time; %.1f cues and %.0f words a minute, %.0f %% of the time; %.1f repeats, %.1f words to "
-        "wait or stop, %.1f of them hasty\n",
+        "time; %.1f cues and %.0f words a minute, %.0f %% of the time; %.2f repeats, %.1f words to "
+        "wait or stop; in all %.0f of these hasty, %.0f directions reversed, %.0f at odds with "
+        "what "
+        "is ahead, %.0f pushes without a word, %.0f movers hit that were felt or told of late\n",
         reached_, trials_, reached_ > 0 ? get("time") / reached_ : 0.0,
         get("shortest") > 0.0 ? get("driven") / get("shortest") : 0.0, clean_, mean("reroutes"),
         mean("churn_mean"), mean("turns"), mean("flips"), mean("misled"), mean("still"),
         share("blocked"), share("make_room"), share("no_route"), share("off_mesh"), mean("cues"),
-        mean("words"), 100.0 * mean("talk"), mean("repeats"), mean("waits"), mean("hasty"));
+        mean("words"), 100.0 * mean("talk"), mean("repeats"), mean("waits"), get("hasty"),
+        get("reversed"), get("at_odds"), get("speechless"), get("late"));
   }
 
  private:

@@ -17,6 +17,14 @@ constexpr double kJustBefore = 8.0;  // s; of two directions, the later one is n
 constexpr double kSamePlace = 1.5;   // m, likewise
 constexpr double kAnswered = 1.0;    // s, within which a question is answered
 constexpr double kContrary = 75.0 * kPi / 180.0;
+constexpr double kReversed = 105.0 * kPi / 180.0;  // 4 hours, as hours are rounded
+constexpr double kSoon = 4.0;                      // s, within which that confuses
+constexpr double kFelt = 3.0;                      // s before a contact; likewise
+constexpr double kTold = 2.0;                      // s
+constexpr double kLongAgo = 10.0;                  // s; a word before that was no warning
+constexpr double kInVain = 3.0;                    // s
+constexpr double kPushed = 0.2;                    // of the stick
+constexpr double kStill = 0.05;                    // m/s and rad/s
 
 std::string metres(double value) {
   std::array<char, 32> text{};
@@ -43,9 +51,14 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   for (const auto& contact : told.contacts) {
     if (const auto report = node::from_msg(contact)) (void)monitor_.observe(*report);
     if (begun_) ++hits_[contact.thing_class];
+    if (begun_) judge_warning(contact, loop.time());
   }
   if (told.proximity) {
     if (const auto report = node::from_msg(*told.proximity)) (void)monitor_.observe(*report);
+    std::map<std::uint32_t, double> felt;
+    for (const auto& thing : told.proximity->things)
+      felt[thing.id] = felt_.count(thing.id) > 0 ? felt_[thing.id] : loop.time();
+    felt_ = felt;
     nearest_.clear();
     if (!told.proximity->things.empty() && told.proximity->things.front().gap < kNearby)
       nearest_ = told.proximity->things.front().thing_class + " at " +
@@ -57,6 +70,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
     if (report) (void)monitor_.observe(*report);
     if (report && begun_) speech_.hear(*report, loop.time() - asked_ < kAnswered, loop.time());
     if (begun_ && cue.stage == navvi_msgs::Cue::STARTED) listen(loop, cue);
+    if (cue.stage == navvi_msgs::Cue::STARTED) hear(cue, loop.time());
   }
   if (told.guidance) {
     if (const auto report = node::from_msg(*told.guidance)) {
@@ -69,6 +83,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   time_ = loop.time() - *begun_;
   states_[to_string(state_)] += loop.dt();
   stand(loop);
+  push(loop);
   if (monitor_.reached()) result_ = "reached";
   if (monitor_.refused()) result_ = "refused: " + *monitor_.refused();
   return result_ == "timeout" && time_ < limit_;
@@ -116,8 +131,51 @@ void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
         (now.place - said_->place).norm() < kSamePlace &&
         std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kContrary)
       ++flips_;
+    const bool reason = cue.kind == "turn_now" || cue.kind == "make_room" ||
+                        cue.kind.find("route") != std::string::npos;
+    if (!reason && now.time - said_->time < kSoon &&
+        std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kReversed)
+      ++reversed_;
   }
   said_ = now;
+}
+
+void LoopFigures::hear(const navvi_msgs::Cue& cue, double time) {
+  pushed_.reset();
+  for (const char* mover : {"worker", "forklift", "pallet_robot"}) {
+    std::string word = mover;
+    const bool sound = cue.kind.find(word) != std::string::npos;
+    std::replace(word.begin(), word.end(), '_', ' ');
+    if (sound || cue.text.find(word) != std::string::npos) named_[mover].push_back(time);
+  }
+}
+
+void LoopFigures::judge_warning(const navvi_msgs::Contact& contact, double time) {
+  const auto named = named_.find(contact.thing_class);
+  const bool moves = contact.thing_class == "worker" || contact.thing_class == "forklift" ||
+                     contact.thing_class == "pallet_robot";
+  if (!moves) return;
+  double told = 0.0;
+  if (named != named_.end())
+    for (const double said : named->second)
+      if (time - said < kLongAgo) told = std::max(told, time - said);
+  const double felt = felt_.count(contact.id) > 0 ? time - felt_[contact.id] : 0.0;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%s%.1f/%.1f", warned_.empty() ? "" : " ", felt, told);
+  warned_ += text.data();
+  if (felt < kFelt || told < kTold) ++late_;
+}
+
+/// A person who pushes in vain, and hears nothing, does not know why.
+void LoopFigures::push(const ClosedLoop& loop) {
+  const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
+  const bool pushes = std::max(std::abs(loop.hand().forward), std::abs(loop.hand().left)) > kPushed;
+  const bool still = std::abs(robot.forward_speed()) < kStill && std::abs(robot.turn_rate) < kStill;
+  if (!pushes || !still) pushed_.reset();
+  if (!pushed_ && pushes && still) pushed_ = loop.time();
+  if (!pushed_ || loop.time() - *pushed_ < kInVain) return;
+  ++speechless_;
+  pushed_ = loop.time();
 }
 
 void LoopFigures::stand(const ClosedLoop& loop) {
@@ -156,6 +214,8 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
   row.set("churn_max", churn_max_, 1);
   row.set("turns", time_ > 0.0 ? 60.0 * turns_ / time_ : 0.0, 1);
   row.set("flips", std::uint64_t{flips_}).set("misled", std::uint64_t{misled_});
+  row.set("reversed", std::uint64_t{reversed_}).set("late", std::uint64_t{late_});
+  row.set("speechless", std::uint64_t{speechless_}).set("warned", warned_.empty() ? "-" : warned_);
   for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh"}) {
     row.set(name, state(name), 1);
     known += state(name);

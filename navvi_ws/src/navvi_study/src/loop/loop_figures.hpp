@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "loop/closed_loop.hpp"
 #include "loop/speech_figures.hpp"
@@ -24,8 +25,13 @@ class LoopFigures {
 
   /// One row. `time` s since the goal was set; `driven` and `shortest` m; `hits` by class;
   /// `churn_mean` and `churn_max` m/min (Guidance.path_churn); `turns` changes of the announced
-  /// hour a minute; `flips` how often a direction contradicted the one just before; `misled` how
-  /// often the turn that was ordered was not the one announced for it; the states of the guidance
+  /// hour a minute; `flips` how often a direction contradicted the one just before; `reversed` how
+  /// often it led 4 hours or more elsewhere than one within 4 s before, no corner and no new route
+  /// being told; `misled` how often the turn that was ordered was not the one announced for it;
+  /// `warned`: of each contact with what moves, the s before it since when that was felt, and since
+  /// when it was told, and `late`, how many of them were felt < 3 s or told < 2 s before;
+  /// `speechless` how often a stick was pushed in vain for 3 s without a word or a sound;
+  /// the states of the guidance
   /// in s; `still` s, the longest stay within 0.3 m, since `still_at` s, and `why`: what was about
   /// at its end; `hash` of the world's last state; and what SpeechFigures adds.
   [[nodiscard]] record::Fields row(const ClosedLoop& loop) const;
@@ -43,6 +49,9 @@ class LoopFigures {
   void listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue);
   void take(const navvi_msgs::Guidance& guidance);
   void stand(const ClosedLoop& loop);
+  void judge_warning(const navvi_msgs::Contact& contact, double time);
+  void hear(const navvi_msgs::Cue& cue, double time);
+  void push(const ClosedLoop& loop);
   [[nodiscard]] std::string about() const;
 
   double limit_;
@@ -60,7 +69,14 @@ class LoopFigures {
   unsigned turns_ = 0;
   unsigned flips_ = 0;
   unsigned misled_ = 0;
-  double asked_ = -1e9;  ///< s, when the person last asked
+  unsigned reversed_ = 0;
+  unsigned late_ = 0;
+  unsigned speechless_ = 0;
+  std::string warned_;
+  std::map<std::uint32_t, double> felt_;              ///< s, since when, by thing
+  std::map<std::string, std::vector<double>> named_;  ///< s, each time, by class
+  std::optional<double> pushed_;                      ///< s, since when in vain and in silence
+  double asked_ = -1e9;                               ///< s, when the person last asked
   std::optional<Said> said_;
   std::optional<int> announced_;  ///< hour of the turn that comes
   std::map<std::string, double> states_;

@@ -28,6 +28,16 @@ void SpeechFigures::hear(const navvi_types::CueEvent& cue, bool asked, double ti
   const auto last = last_said_.find(cue.text);
   if (!asked && last != last_said_.end() && time - last->second < kSame) ++repeats_;
   last_said_[cue.text] = time;
+  const auto just_now = [&](std::optional<double> then) { return then && time - *then < kObey; };
+  const auto ends = [&](const std::string& end) {
+    return cue.text.size() > end.size() &&
+           cue.text.compare(cue.text.size() - end.size(), end.size(), end) == 0;
+  };
+  const bool straight = cue.text.find("straight ahead") != std::string::npos;
+  const bool ahead = !straight && ends(" ahead");
+  if ((straight && just_now(ahead_)) || (ahead && just_now(straight_))) ++at_odds_;
+  if (straight) straight_ = time;
+  if (ahead) ahead_ = time;
   if (asked) return;
   // What is more urgent than to wait may well follow at once.
   if (waited_ && time - *waited_ < kObey && cue.priority < navvi_types::Priority::important)
@@ -43,7 +53,7 @@ void SpeechFigures::add_to(record::Fields& row, double duration) const {
   row.set("cues", cues_ / minutes, 1).set("words", words_ / minutes, 1);
   row.set("talk", talk_ / std::max(duration, 1.0), 3);
   row.set("repeats", std::uint64_t(repeats_)).set("waits", std::uint64_t(waits_));
-  row.set("hasty", std::uint64_t(hasty_));
+  row.set("hasty", std::uint64_t(hasty_)).set("at_odds", std::uint64_t(at_odds_));
 }
 
 }  // namespace navvi_study::loop

@@ -55,6 +55,16 @@ TEST(SpeechFigures, count_a_wait_that_is_followed_before_it_can_be_obeyed) {
   EXPECT_EQ(row.get("hasty"), "1");
 }
 
+TEST(SpeechFigures, count_straight_ahead_said_beside_what_is_ahead) {
+  SpeechFigures figures;
+  figures.hear(cue(CueStage::started, "shelf_near", "shelf ahead"), false, 0.0);
+  figures.hear(cue(CueStage::started, "straight", "straight ahead, 2 meters"), false, 1.5);
+  figures.hear(cue(CueStage::started, "shelf_near", "shelf on the left"), false, 2.0);
+  figures.hear(cue(CueStage::started, "obstacle_near", "box ahead"), false, 3.0);
+  figures.hear(cue(CueStage::started, "straight", "straight ahead"), false, 5.5);
+  EXPECT_EQ(after(figures, 30.0).get("at_odds"), "2");
+}
+
 }  // namespace
 }  // namespace navvi_study::loop
 
