@@ -46,7 +46,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
       gate_(config.sim.gate),
       navigation_(config.nav),
       feedback_(config.feedback, phrases),
-      person_(config.person, static_cast<std::uint64_t>(config.sim.seed)) {
+      person_(config.person, static_cast<std::uint64_t>(config.sim.seed), phrases) {
   navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
 }
 

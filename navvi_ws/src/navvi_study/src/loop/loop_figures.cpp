@@ -109,12 +109,13 @@ void LoopFigures::take(const navvi_msgs::Guidance& guidance) {
 void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
   if (cue.modality != navvi_msgs::Cue::SPEECH) return;
   spoken_ = cue.text;
+  const auto parts = loop.person().listener().understand(cue.kind, cue.text);
+  if (parts.empty()) return;
+  const people::Instruction& instruction = parts.back();
   if (cue.kind == "turn_ahead") {
-    const people::Instruction turn = people::understand(cue.text);
-    announced_ = turn.hour;
+    announced_ = instruction.hour;
     return;
   }
-  const people::Instruction instruction = people::understand(cue.text);
   const bool turn = instruction.kind == people::Instruction::Kind::turn;
   if (!turn && instruction.kind != people::Instruction::Kind::straight) return;
   const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;

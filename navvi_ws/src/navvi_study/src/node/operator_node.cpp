@@ -1,6 +1,7 @@
 // A simulated person at the stick: hears navvi/cues, feels joy/set_feedback, and knows nothing
 // else.
 
+#include <ros/package.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
@@ -36,8 +37,14 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "operator_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
+    // The person speaks the language of the session.
+    const std::string feedback = ros::names::resolve("feedback_node");
+    std::string phrases = ros::param::param<std::string>(feedback + "/phrases", "");
+    if (phrases.empty())
+      phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/" +
+                ros::param::param<std::string>(feedback + "/language", "en") + ".yaml";
     navvi_study::people::SimulatedOperator person(config.hand,
-                                                  static_cast<std::uint64_t>(config.seed));
+                                                  static_cast<std::uint64_t>(config.seed), phrases);
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 namespace navvi_study::people {
 
@@ -9,6 +8,7 @@ namespace navvi_study::people {
 struct Instruction {
   enum class Kind {
     nothing,     ///< no word for the hands
+    ready,       ///< a goal is told; a direction follows, or sounds lead
     turn,        ///< towards `hour`, then on
     straight,    ///< on as one goes
     turn_ahead,  ///< a turn comes in `distance`
@@ -27,11 +27,5 @@ struct Instruction {
   bool very_close = false;  ///< of what is near
   bool slight = false;      ///< a turn of less than half an hour
 };
-
-/// Whether the words that were heard so far are enough to let go of the stick.
-[[nodiscard]] bool startles(const std::string& heard_so_far);
-
-/// Understands English sentences by their words alone.
-[[nodiscard]] Instruction understand(const std::string& text);
 
 }  // namespace navvi_study::people

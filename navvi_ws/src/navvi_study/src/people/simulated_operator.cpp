@@ -66,8 +66,9 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
         "driven on without a word after a turn that a sound has ended; assumed");
 }
 
-SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed)
-    : config_(config), random_(seed), ear_random_(seed ^ kEar) {
+SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed,
+                                     const std::filesystem::path& phrases)
+    : config_(config), listener_(phrases), random_(seed), ear_random_(seed ^ kEar) {
   const double share = std::uniform_real_distribution<double>(0.0, 1.0)(ear_random_);
   sound_reaction_ = config_.min_sound_reaction +
                     share * std::max(0.0, config_.max_sound_reaction - config_.min_sound_reaction);
@@ -81,7 +82,7 @@ void SimulatedOperator::hear(const CueEvent& cue, double time) {
   if (cue.modality == navvi_types::Modality::sound) return hear_sound(cue, time);
   if (cue.modality != navvi_types::Modality::speech) return;
   if (cue.stage == CueStage::started) {
-    hearing_[cue.id] = {cue.text, heading_, odometer_, time};
+    hearing_[cue.id] = {cue.kind, cue.text, heading_, odometer_, time};
   } else if (cue.stage == CueStage::cut) {
     hearing_.erase(cue.id);
   } else if (cue.stage == CueStage::ended) {
@@ -171,10 +172,11 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
                   unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
   understood_.push_back(sentence);
   // A thing nearby, or a later turn, is no news while waiting for a direction.
-  const Instruction::Kind kind = understand(sentence.text).kind;
-  if (mode_ != Mode::waiting ||
-      (kind != Instruction::Kind::near && kind != Instruction::Kind::turn_ahead))
-    last_news_ = time;
+  const std::vector<Instruction> told = listener_.understand(sentence.kind, sentence.text);
+  const auto idle = [](const Instruction& part) {
+    return part.kind == Instruction::Kind::near || part.kind == Instruction::Kind::turn_ahead;
+  };
+  if (mode_ != Mode::waiting || !std::all_of(told.begin(), told.end(), idle)) last_news_ = time;
 }
 
 void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction) {
@@ -233,20 +235,26 @@ void SimulatedOperator::be_startled(double time) {
   for (const auto& [id, sentence] : hearing_) {
     const double heard = (time - sentence.time - config_.min_reaction) * kCharactersPerSecond;
     if (mode_ != Mode::arrived && heard > 0.0 &&
-        startles(sentence.text.substr(0, static_cast<std::size_t>(heard))))
+        listener_.startles(sentence.kind, sentence.text, heard))
       mode_ = Mode::waiting;
   }
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
-  const Instruction instruction = understand(sentence.text);
+  for (const Instruction& part : listener_.understand(sentence.kind, sentence.text))
+    follow(sentence, part, time);
+}
+
+void SimulatedOperator::follow(const Sentence& sentence, const Instruction& instruction,
+                               double time) {
   using Kind = Instruction::Kind;
   if (instruction.kind == Kind::halt || instruction.kind == Kind::bump) told_to_halt_ = true;
-  const bool ready = sentence.text.rfind("Ready", 0) == 0;
-  if (ready || instruction.kind == Kind::turn || instruction.kind == Kind::straight)
+  if (instruction.kind == Kind::ready || instruction.kind == Kind::turn ||
+      instruction.kind == Kind::straight)
     told_to_halt_ = false;
   switch (instruction.kind) {
     case Instruction::Kind::nothing:
+    case Instruction::Kind::ready:
       break;
     case Instruction::Kind::turn:
       turn_to(sentence, instruction);

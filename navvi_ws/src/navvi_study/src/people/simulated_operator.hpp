@@ -11,6 +11,7 @@
 
 #include "navvi_config/field.hpp"
 #include "people/instruction.hpp"
+#include "people/listener.hpp"
 
 namespace navvi_study {
 using navvi_types::CueEvent;
@@ -56,7 +57,9 @@ struct StickAndButtons {
 /// assumed, not measured.
 class SimulatedOperator {
  public:
-  SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed);
+  /// \param phrases  file of the phrases in the language that the person speaks
+  SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed,
+                    const std::filesystem::path& phrases);
 
   /// Only speech that begins, ends or breaks off is heard, and short sounds.
   void hear(const CueEvent& cue, double time);
@@ -65,6 +68,8 @@ class SimulatedOperator {
   /// \param time  s, not going back \param dt  s since the last update
   [[nodiscard]] StickAndButtons update(double time, double dt);
 
+  /// What it makes of a sentence.
+  [[nodiscard]] const Listener& listener() const { return listener_; }
   [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
   /// What the hands are at, in words, for a trace.
   [[nodiscard]] std::string doing() const;
@@ -73,6 +78,7 @@ class SimulatedOperator {
   enum class Mode { waiting, turning, driving, backing, arrived };
   /// A sentence, and where the operator believed to be when it began.
   struct Sentence {
+    std::string kind;
     std::string text;
     double heading = 0.0;
     double odometer = 0.0;
@@ -98,6 +104,7 @@ class SimulatedOperator {
   [[nodiscard]] StickAndButtons turn_by_ear(double time) const;
   void understood(std::uint32_t id, double time);
   void follow(const Sentence& sentence, double time);
+  void follow(const Sentence& sentence, const Instruction& instruction, double time);
   void turn_to(const Sentence& sentence, const Instruction& instruction);
   void go_for(const Sentence& sentence, const Instruction& instruction);
   void veer(Instruction::Side side, double angle, double until);
@@ -111,6 +118,7 @@ class SimulatedOperator {
   void ask_when_lost(double time);
 
   SimulatedOperatorConfig config_;
+  Listener listener_;
   std::mt19937_64 random_;
   std::mt19937_64 ear_random_;
   double sound_reaction_;  ///< s

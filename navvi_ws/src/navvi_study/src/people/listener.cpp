@@ -1,0 +1,196 @@
+#include "people/listener.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <navvi_config/reader.hpp>
+#include <regex>
+#include <set>
+
+namespace navvi_study::people {
+namespace {
+
+using Kind = Instruction::Kind;
+
+constexpr double kFoot = 0.3048;  // m
+
+/// What each kind of cue is to the hands; those that are not here are for the mind alone.
+Kind meaning(const std::string& kind) {
+  static const std::map<std::string, Kind> meanings = {{"start", Kind::ready},
+                                                       {"start_distance", Kind::ready},
+                                                       {"direction", Kind::turn},
+                                                       {"turn_now", Kind::turn},
+                                                       {"slight", Kind::turn},
+                                                       {"rerouted", Kind::turn},
+                                                       {"make_room", Kind::turn},
+                                                       {"rerouted_blocked", Kind::turn},
+                                                       {"wrong_way", Kind::turn},
+                                                       {"straight", Kind::straight},
+                                                       {"straight_then", Kind::straight},
+                                                       {"turn_cancelled", Kind::straight},
+                                                       {"go_on", Kind::straight},
+                                                       {"turn_ahead", Kind::turn_ahead},
+                                                       {"shelf_near", Kind::near},
+                                                       {"wall_near", Kind::near},
+                                                       {"shelf_close", Kind::near},
+                                                       {"wall_close", Kind::near},
+                                                       {"obstacle_near", Kind::near},
+                                                       {"obstacle_close", Kind::near},
+                                                       {"obstacle_stop", Kind::near},
+                                                       {"obstacle_comes", Kind::near},
+                                                       {"collision_shelf", Kind::bump},
+                                                       {"collision_wall", Kind::bump},
+                                                       {"collision_obstacle", Kind::bump},
+                                                       {"stuck", Kind::bump},
+                                                       {"stuck_unknown", Kind::bump},
+                                                       {"back_away", Kind::bump},
+                                                       {"off_mesh", Kind::bump},
+                                                       {"pad_lost", Kind::halt},
+                                                       {"pad_back", Kind::halt},
+                                                       {"keyboard_lost", Kind::halt},
+                                                       {"robot_stopped", Kind::halt},
+                                                       {"simulator_lost", Kind::halt},
+                                                       {"guidance_lost", Kind::halt},
+                                                       {"no_route", Kind::halt},
+                                                       {"no_map", Kind::halt},
+                                                       {"pose_stale", Kind::halt},
+                                                       {"map_stale", Kind::halt},
+                                                       {"blocked", Kind::halt},
+                                                       {"release_stick", Kind::halt},
+                                                       {"press_start", Kind::begin},
+                                                       {"arrived", Kind::arrived}};
+  const auto found = meanings.find(kind);
+  if (found != meanings.end()) return found->second;
+  return kind.rfind("goal_refused", 0) == 0 ? Kind::halt : Kind::nothing;
+}
+
+std::string literal(const std::string& text) {
+  static const std::regex special(R"([.^$|()\[\]{}*+?\\])");
+  return std::regex_replace(text, special, R"(\$&)");
+}
+
+}  // namespace
+
+Listener::Listener(const std::filesystem::path& phrases) {
+  const YAML::Node root = navvi_config::load_yaml(phrases);
+  for (const char* section : {"phrases", "clock", "brief", "full"})
+    for (const auto& item : root[section])
+      phrases_.emplace(item.first.Scalar(), item.second.Scalar());
+  for (const auto& item : root["words"])
+    words_.emplace_back(item.second.Scalar(), item.first.Scalar());
+  const auto go_on = phrases_.find("go_on");
+  if (go_on != phrases_.end()) go_on_ = go_on->second;
+}
+
+std::vector<Instruction> Listener::understand(const std::string& kind,
+                                              const std::string& text) const {
+  std::vector<Instruction> heard;
+  if (!kind.empty()) {
+    (void)parse(kind, text, heard);
+    return heard;
+  }
+  for (auto known = phrases_.begin(); known != phrases_.end();
+       known = phrases_.upper_bound(known->first))
+    if (heard.clear(); parse(known->first, text, heard) && heard.front().kind != Kind::nothing)
+      break;
+  return heard;
+}
+
+bool Listener::startles(const std::string& kind, const std::string& text, double letters) const {
+  const bool stops = kind == "blocked" || kind == "obstacle_stop" ||
+                     kind.rfind("collision_", 0) == 0 || kind.rfind("stuck", 0) == 0;
+  return stops && letters >= static_cast<double>(std::min(text.find_first_of(" ,"), text.size()));
+}
+
+bool Listener::parse(const std::string& kind, const std::string& text,
+                     std::vector<Instruction>& heard) const {
+  const std::string go_on = go_on_ + ", ";
+  const std::string told = text.rfind(go_on, 0) == 0 ? text.substr(go_on.size()) : text;
+  const auto [begin, end] = phrases_.equal_range(kind);
+  return std::any_of(begin, end,
+                     [&](const auto& known) { return parse(kind, known.second, told, heard); });
+}
+
+bool Listener::parse(const std::string& kind, const std::string& phrase, const std::string& text,
+                     std::vector<Instruction>& heard) const {
+  static const std::regex placeholder(R"(\{(\w+)\})");
+  std::string pattern;
+  std::vector<std::string> slots;
+  std::size_t at = 0;
+  for (std::sregex_iterator slot(phrase.begin(), phrase.end(), placeholder), none; slot != none;
+       ++slot) {
+    const auto begin = static_cast<std::size_t>(slot->position());
+    pattern += literal(phrase.substr(at, begin - at));
+    at = begin + static_cast<std::size_t>(slot->length());
+    slots.push_back((*slot)[1]);
+    const bool numbered = slots.back() == "distance";
+    pattern += numbered ? R"((\d+(?:\.\d+)?) ()" : "()(";
+    const char* bar = "";
+    for (const auto& [word, key] : possible(slots.back())) {
+      pattern += bar + literal(word);
+      bar = "|";
+    }
+    pattern += slots.back() == "place" ? R"()(?: \d+)?)" : ")";
+  }
+  pattern += literal(phrase.substr(at)) + "(?:, (.*))?";
+  std::smatch match;
+  if (!std::regex_match(text, match, std::regex(pattern))) return false;
+  Instruction told;
+  told.kind = meaning(kind);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    fill(told, slots[i], match[2 * i + 2], match[2 * i + 1]);
+  told.slight = kind == "slight";
+  told.very_close = kind.find("_close") != std::string::npos;
+  if (told.slight) told.hour = told.side == Instruction::Side::left ? 11 : 1;
+  if (told.kind == Kind::turn && told.hour == 12) told.kind = Kind::straight;
+  // What comes after it is told again at the corner.
+  if (told.kind == Kind::straight) told.hour = 12;
+  std::vector<Instruction> parts = {told};
+  const std::string rest = match[match.size() - 1];
+  const auto way = {"direction", "slight", "straight", "turn_ahead", "around"};
+  const bool known = rest.empty() || std::any_of(way.begin(), way.end(), [&](const char* more) {
+                       return parse(more, rest, parts);
+                     });
+  if (known) heard.insert(heard.end(), parts.begin(), parts.end());
+  return known;
+}
+
+Listener::Words Listener::possible(const std::string& placeholder) const {
+  static const std::map<std::string, std::set<std::string>> prefixes = {
+      {"direction", {"clock_", "left_right_", "degrees_"}},
+      {"distance", {"meter", "meters", "foot", "feet"}},
+      {"side", {"side_"}},
+      {"where", {"where_"}},
+      {"place", {"place_"}}};
+  const auto wanted = prefixes.find(placeholder);
+  Words words;
+  for (const auto& [word, key] : words_) {
+    const std::string& name = key;
+    const bool fits =
+        wanted == prefixes.end() ||
+        std::any_of(wanted->second.begin(), wanted->second.end(),
+                    [&](const std::string& start) { return name.rfind(start, 0) == 0; });
+    if (fits) words.emplace_back(word, key);
+  }
+  return words;
+}
+
+void Listener::fill(Instruction& told, const std::string& placeholder, const std::string& word,
+                    const std::string& number) const {
+  using Side = Instruction::Side;
+  static const std::map<std::string, Side> sides = {{"ahead", Side::ahead},
+                                                    {"left", Side::left},
+                                                    {"behind", Side::behind},
+                                                    {"right", Side::right}};
+  const Words words = possible(placeholder);
+  const auto known = std::find_if(words.begin(), words.end(),
+                                  [&](const auto& entry) { return entry.first == word; });
+  if (known == words.end()) return;
+  const std::string& key = known->second;
+  const std::string end = key.substr(key.rfind('_') + 1);
+  if (placeholder == "direction") told.hour = std::stoi(end);
+  if (placeholder == "side" || placeholder == "where") told.side = sides.at(end);
+  if (placeholder == "distance")
+    told.distance = std::stod(number) * (key.front() == 'f' ? kFoot : 1.0);
+}
+
+}  // namespace navvi_study::people
