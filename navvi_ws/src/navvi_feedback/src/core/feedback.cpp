@@ -38,7 +38,8 @@ std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
       {"stuck_unknown", Pattern::stuck},   {"press_start", Pattern::ready},
       {"press_enter", Pattern::ready},     {"trial_begins", Pattern::begun},
       {"back_away", Pattern::stuck},       {"arrived", Pattern::arrived},
-      {"rerouted", Pattern::rerouted},     {"rerouted_blocked", Pattern::rerouted}};
+      {"rerouted", Pattern::rerouted},     {"rerouted_blocked", Pattern::rerouted},
+      {"new_route", Pattern::rerouted},    {"way_blocked", Pattern::rerouted}};
   const auto found = patterns.find(kind);
   return found == patterns.end() ? std::nullopt : std::optional(found->second);
 }
@@ -122,6 +123,9 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   pressed.insert(pressed.end(), input.asked.begin(), input.asked.end());
   out.cues = decide_cues(input, pressed, out, time);
   begin_patterns(out);
+  out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
+                                [](const cues::Cue& cue) { return cue.felt; }),
+                 out.cues.end());
   const bool leads = deciders_->cues.leads();
   idle_ = leads && commanded_.linear == 0.0 && commanded_.angular == 0.0 ? idle_ + dt : 0.0;
   if (motion_.value) turned_ += motion_.value->angular * dt;

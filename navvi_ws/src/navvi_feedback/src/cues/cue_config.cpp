@@ -41,6 +41,8 @@ void RouteConfig::describe(navvi_config::Visitor& visit) {
         "no correction while the robot heads to pass the way-point within this distance");
   visit(at_hand, "at_hand", Range{0.0, 5.0}, "m",
         "nearer than this a way-point roughly ahead needs no more directions");
+  visit(join, "join", Any{}, "",
+        "two turns in a row, or what is ahead and the way past it, are one sentence");
 }
 
 void NearConfig::describe(navvi_config::Visitor& visit) {
@@ -71,6 +73,8 @@ void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
         "repeats while the guidance does not lead");
   visit(patience, "patience", Range{1.0, 300.0}, "s",
         "a link that never lived for so long counts as lost");
+  visit(same_text, "same_text", Range{0.0, 60.0}, "s",
+        "a reminder in the same words is only felt within");
   visit.group("wording", wording);
   visit.group("route", route);
   visit.group("near", near);

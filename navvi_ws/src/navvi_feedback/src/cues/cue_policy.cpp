@@ -48,6 +48,14 @@ std::string awaited(const Situation& now) {
   return now.keyboard ? "press_enter" : "press_start";
 }
 
+/// Words that depend on where the robot is.
+bool leads_the_way(const std::string& kind) {
+  static const std::set<std::string> kinds = {
+      "direction", "straight",       "slight",   "straight_then", "turn_ahead",
+      "turn_now",  "turn_cancelled", "rerouted", "make_room",     "rerouted_blocked"};
+  return kinds.count(kind) > 0;
+}
+
 bool refused(const std::string& problem) { return problem.rfind("goal_refused", 0) == 0; }
 
 bool said_once(const std::string& problem) {
@@ -56,6 +64,16 @@ bool said_once(const std::string& problem) {
 
 /// Words to stop, until it is said to go on.
 bool halts(const std::string& kind) { return kind == "blocked" || kind == "obstacle_stop"; }
+
+/// Its words are a reminder: each of the others is for something that has just happened, be it the
+/// same thing that is hit or waited for once more.
+bool tells_nothing_new(const Utterance& utterance) {
+  static const std::set<std::string> reminders = {"stuck",         "stuck_unknown", "back_away",
+                                                  "release_stick", "press_start",   "press_enter",
+                                                  "choose_goal"};
+  const Priority priority = utterance.priority.value_or(cue_kind(utterance.kind).priority);
+  return priority <= Priority::text || reminders.count(utterance.kind) > 0;
+}
 
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
   return {{}, {}, thing, side_of(point)};
@@ -250,10 +268,18 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
   // To a robot that stands without a way to go, what is near is no news, but what comes is.
   const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
                                       std::abs(now.measured->angular) > kMoving);
-  const Utterances told = near_.update(now, follows_ || moves, time);
-  // A person stops for a thing ahead, and then needs a direction.
-  for (const Utterance& utterance : told)
-    if (utterance.fillings.side == Side::ahead) route_.remind(time + kRecover);
+  const bool straight = config_.route.join && time - straight_said_ < kRecover;
+  Utterances told = near_.update(now, follows_ || moves, straight, time);
+  for (Utterance& utterance : told) {
+    if (utterance.fillings.side != Side::ahead) continue;
+    // A person stops for a thing ahead, and then needs a direction.
+    const bool words = !halts(utterance.kind) && follows_ && !instead_of(utterance, now.sounds);
+    const auto way = words ? route_.past(*now.guidance, time) : std::nullopt;
+    if (way)
+      utterance.also = {*way};
+    else
+      route_.remind(time + kRecover);
+  }
   return told;
 }
 
@@ -266,7 +292,7 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
     const bool halted = halt_.update(now, follows_, time);
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halted) return {};
-    return halt_.go_on(route_.update(now, halted, time), time);
+    return halt_.go_on(route_.update(now, halted, time), now.sounds.turn, time);
   }
   halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
@@ -299,18 +325,21 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
     label.asked = true;
     return {label};
   }
-  if (!now.question) return {};
+  // An answer that was dropped is made anew.
+  const auto question = now.question ? now.question : std::exchange(question_, std::nullopt);
+  if (!question) return {};
+  asked_ = question;
   Utterance answer;
   const bool to_goal = follows_ && now.guidance->state == Guidance::State::following;
-  if (now.question == Question::around) {
+  if (question == Question::around) {
     answer = around(now.nearby);
-  } else if (now.question == Question::help) {
+  } else if (question == Question::help) {
     answer.kind = now.keyboard ? "help_keys" : "help_pad";
-  } else if (now.question == Question::where && (now.place || (to_goal && now.goal_angle))) {
+  } else if (question == Question::where && (now.place || (to_goal && now.goal_angle))) {
     answer = where_am_i(now);
-  } else if (to_goal && now.question == Question::turn && !now.guidance->waypoint_is_goal) {
+  } else if (to_goal && question == Question::turn && !now.guidance->waypoint_is_goal) {
     answer = route_.next_turn(*now.guidance);
-  } else if (to_goal && now.question == Question::goal) {
+  } else if (to_goal && question == Question::goal) {
     answer = route_.goal("goal_info", now);
   } else if (follows_ && halt_.halted()) {
     answer = halt_.words();
@@ -324,6 +353,7 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   // An answer is wanted at once, whatever was said just before.
   answer.priority = Priority::message;
   answer.asked = true;
+  answered_ = answer.kind;
   return {answer};
 }
 
@@ -335,19 +365,41 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Sounds& s
     const auto last = last_said_.find(kind.kind);
     if (!utterance.asked && last != last_said_.end() && time - last->second < kind.min_interval)
       continue;
-    last_said_[kind.kind] = time;
     std::string text = phrases_.say(kind.kind, utterance.fillings);
     const auto longer = [&](const std::string& joined) {
       if (speakable(joined)) text = joined;
     };
     if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + text);
-    for (const Fillings& more : utterance.also) longer(text + ", " + phrases_.say(kind.kind, more));
-    cues.push_back({kind.kind, text, utterance.priority.value_or(kind.priority), kind.max_age,
-                    instead_of(utterance, sounds), utterance.asked});
+    for (const Utterance& more : utterance.also)
+      longer(text + ", " + phrases_.say(more.kind, more.fillings));
+    Cue cue{kind.kind,
+            text,
+            utterance.priority.value_or(kind.priority),
+            kind.max_age,
+            instead_of(utterance, sounds),
+            utterance.asked};
+    if (!cue.sound) {
+      const auto same = last_text_.find(text);
+      cue.felt = !cue.asked && same != last_text_.end() && tells_nothing_new(utterance) &&
+                 time - same->second < config_.same_text;
+      if (!cue.felt) last_text_[text] = time;
+      if (utterance.fillings.hour == 12 && !cue.felt) straight_said_ = time;
+    }
+    last_said_[kind.kind] = time;
+    cues.push_back(cue);
   }
   std::stable_sort(cues.begin(), cues.end(),
                    [](const Cue& a, const Cue& b) { return a.priority > b.priority; });
   return cues;
+}
+
+/// It was not heard.
+void CuePolicy::forget(const CueEvent& event) {
+  last_said_.erase(event.kind);
+  last_text_.erase(event.text);
+  near_.unsaid(event.kind);
+  if (leads_the_way(event.kind)) route_.unsaid();
+  if (event.kind == answered_) question_ = asked_;
 }
 
 void CuePolicy::note(const std::vector<CueEvent>& events) {
@@ -362,7 +414,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();
   }
   for (const CueEvent& event : events)
-    if (event.stage == CueStage::dropped && !replaced(event.kind)) last_said_.erase(event.kind);
+    if (event.stage == CueStage::dropped && !replaced(event.kind)) forget(event);
 }
 
 }  // namespace navvi_feedback::cues

@@ -44,6 +44,7 @@ class CuePolicy {
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterance where_am_i(const Situation& now) const;
   [[nodiscard]] Utterances answers(const Situation& now, double time);
+  void forget(const CueEvent& event);
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Sounds& sounds,
                                         double time);
 
@@ -69,6 +70,11 @@ class CuePolicy {
   std::optional<double> problem_said_;  ///< s
   bool arrival_said_ = false;
   std::map<std::string, double> last_said_;  ///< s, by kind
+  std::map<std::string, double> last_text_;  ///< s, by text
+  double straight_said_ = -1e9;              ///< s
+  std::optional<Question> asked_;            ///< the last that was answered
+  std::string answered_;                     ///< the kind of that
+  std::optional<Question> question_;         ///< to be answered anew
   std::map<std::uint32_t, double> hit_;      ///< s, by thing
   std::set<std::string> noticed_;
   std::optional<double> trial_over_;  ///< s, when that was said

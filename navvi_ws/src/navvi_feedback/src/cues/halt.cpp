@@ -46,15 +46,15 @@ bool Halt::update(const Situation& now, bool follows, double time) {
   return false;
 }
 
-std::vector<Utterance> Halt::go_on(std::vector<Utterance> directions, double time) {
+std::vector<Utterance> Halt::go_on(std::vector<Utterance> directions, bool sound, double time) {
   if (!over_since_ || said_) return directions;
-  if (directions.empty() && time - *over_since_ < kDirection) return {};
+  if (directions.empty() && !sound && time - *over_since_ < kDirection) return {};
   over_since_.reset();
   if (directions.empty()) return {{"go_on"}};
   Utterance& first = directions.front();
   // A new route, or to make room, is the end of a wait in words of its own.
-  first.goes_on =
-      first.kind != "make_room" && first.kind != "rerouted" && first.kind != "rerouted_blocked";
+  first.goes_on = first.kind != "make_room" && first.kind.find("route") == std::string::npos &&
+                  first.kind != "way_blocked";
   first.priority = Priority::message;
   return directions;
 }

@@ -27,8 +27,9 @@ class Halt {
   /// \return whether the word still holds
   [[nodiscard]] bool update(const Situation& now, bool follows, double time);
   /// Once the word no longer holds: that the person may go on, with the direction, or alone if
-  /// there is none soon.
-  [[nodiscard]] std::vector<Utterance> go_on(std::vector<Utterance> directions, double time);
+  /// there is none soon, or a sound leads.
+  [[nodiscard]] std::vector<Utterance> go_on(std::vector<Utterance> directions, bool sound,
+                                             double time);
   /// There is no path on which to go on.
   void forget() {
     said_.reset();

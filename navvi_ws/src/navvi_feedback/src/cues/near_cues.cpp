@@ -15,6 +15,8 @@ constexpr double kAround = 3.0;
 constexpr double kLastMoment = 1.0;
 /// s; that a thing comes is said again after so long at the earliest.
 constexpr double kComes = 10.0;
+/// s; a thing that was not about to be hit for so long is a new danger when it is.
+constexpr double kOver = 1.0;
 /// m, from a corner to what stands behind it.
 constexpr double kBehindCorner = 0.5;
 
@@ -65,7 +67,9 @@ bool NearCues::too_soon(const std::string& kind, double time) const {
   return said != said_.end() && time - said->second < cue_kind(kind).min_interval;
 }
 
-std::vector<Utterance> NearCues::update(const Situation& now, bool all, double time) {
+std::vector<Utterance> NearCues::update(const Situation& now, bool all, bool straight,
+                                        double time) {
+  straight_ = straight;
   forecast_.update(now.nearby, time);
   std::optional<Candidate> best;
   consider_collisions(now, time, best);
@@ -103,17 +107,23 @@ void NearCues::consider_collisions(const Situation& now, double time,
   const Side side = side_of_lane(first->nearest);
   const bool comes = first->moving && !approaches(now, side);
   const char* kind = comes ? "obstacle_comes" : "obstacle_stop";
-  // Who still drives at it is told again.
-  if (too_soon(kind, time)) return;
-  // What was driven at, or was said to come, need not be said to come.
-  const bool known = warned_of_ == first->id && time - warned_ < kComes;
-  if (comes && known) return;
+  const bool same = warned_of_ == first->id && time - warned_ < kComes;
+  const bool lasts = same && warned_stop_ && time - danger_ < kOver;
+  if (same) danger_ = time;
+  // News is another thing, one that comes after a danger that was over, or the way into it.
+  if (too_soon(kind, time) || (comes ? same : lasts)) return;
   warned_of_ = first->id;
-  warned_ = time;
+  warned_ = danger_ = time;
+  warned_stop_ = !comes;
   best = Candidate{utterance(kind, first->thing_class, side, false), first->gap,
                    &things_[first->id], Level::close};
   // A side of which this was said needs no more words, either.
   watches_[{first->thing_class, side}] = {Level::close, time};
+}
+
+void NearCues::unsaid(const std::string& kind) {
+  said_.erase(kind);
+  if (kind == "obstacle_stop" || kind == "obstacle_comes") warned_of_.reset();
 }
 
 void NearCues::consider_sides(const Situation& now, double time, std::optional<Candidate>& best) {
@@ -138,7 +148,8 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
     const bool urgent = approaches(now, side);
     if (reached <= watch.said || (best && gap >= best->gap)) continue;
     if (side == Side::behind && !urgent) continue;
-    if (now.voice_busy && !urgent && !now.sounds.shelf) continue;
+    if ((now.voice_busy && !urgent) || (straight_ && side == Side::ahead))
+      if (!now.sounds.shelf) continue;
     const char* kind = reached == Level::close      ? close_kind(thing)
                        : thing == ThingClass::shelf ? "shelf_near"
                                                     : "wall_near";
@@ -163,7 +174,8 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     if (reached <= watch.said || !in_the_way(now, thing.nearest, close)) continue;
     const Side side = side_of_lane(thing.nearest);
     const bool urgent = approaches(now, side);
-    if (now.voice_busy && !urgent && !now.sounds.near) continue;
+    if ((now.voice_busy && !urgent) || (straight_ && side == Side::ahead))
+      if (!now.sounds.near) continue;
     const char* kind = close ? "obstacle_close" : "obstacle_near";
     if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
     best = Candidate{utterance(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
@@ -197,11 +209,11 @@ Utterance around(const std::vector<NearThing>& nearby) {
           (!nearest || thing.gap < nearest->gap))
         nearest = &thing;
     if (!nearest) continue;
-    const Fillings fillings{{}, {}, nearest->thing_class, side};
+    const Utterance thing{"around", {{}, {}, nearest->thing_class, side}};
     if (told.kind == "around")
-      told.also.push_back(fillings);
+      told.also.push_back(thing);
     else
-      told = {"around", fillings};
+      told = thing;
   }
   return told;
 }

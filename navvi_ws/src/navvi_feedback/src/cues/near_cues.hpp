@@ -25,8 +25,14 @@ class NearCues {
   explicit NearCues(const NearConfig& config) : config_(config) {}
 
   /// \param all  false: only what will be hit
+  /// \param straight  the person was just told to go straight ahead: what is there waits, unless it
+  /// will be hit
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, double time);
+  [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, bool straight,
+                                              double time);
+
+  /// Words of this kind were dropped: what they told may be told again at once.
+  void unsaid(const std::string& kind);
 
  private:
   enum class Level { none, near, close };
@@ -57,6 +63,9 @@ class NearCues {
   CollisionForecast forecast_;
   std::optional<std::uint32_t> warned_of_;  ///< what was last to be stopped for, or came, by id
   double warned_ = 0.0;                     ///< s
+  double danger_ = 0.0;                     ///< s, when it was last about to be hit
+  bool warned_stop_ = false;                ///< it was to be stopped for
+  bool straight_ = false;
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
   std::map<std::string, double> said_;     ///< s, by kind
   std::map<std::uint32_t, Watch> things_;  ///< by id

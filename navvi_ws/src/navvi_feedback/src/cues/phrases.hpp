@@ -42,7 +42,7 @@ struct Utterance {
   Fillings fillings = {};
   std::optional<Priority> priority = {};  ///< instead of the kind's own
   bool asked = false;                     ///< by the person: said however often
-  std::vector<Fillings> also = {};        ///< the same is said of these, as far as there is room
+  std::vector<Utterance> also = {};       ///< in the same sentence, as far as there is room
   bool goes_on = false;                   ///< begins with the phrase go_on
 };
 

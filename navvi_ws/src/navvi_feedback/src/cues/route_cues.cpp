@@ -26,6 +26,10 @@ constexpr double kBeside = 0.5;
 constexpr double kKept = 0.1;
 /// m; a robot that turns with a smaller radius turns on the spot.
 constexpr double kSpotRadius = 0.5;
+/// m; where a sound leads, a shorter leg needs no words.
+constexpr double kLongLeg = 10.0;
+/// m; a turn so soon after another is told with it.
+constexpr double kNextTurn = 3.0;
 
 Rounding rounding_of(const std::string& word) {
   return word == "floor" ? Rounding::floor : Rounding::nearest;
@@ -61,7 +65,8 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
   if (halted) {
     // The corner of a robot that stands has not been reached: another plan has replaced it.
     pending_ = Change::none;
-    said_hour_.reset();
+    // After it, ticks lead.
+    if (!by_sound_) said_hour_.reset();
     return {};
   }
   if (new_goal(guidance)) {
@@ -69,9 +74,11 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
     reroutes_ = guidance.reroutes;
     pending_ = Change::none;
     said_hour_.reset();
-    // Ticks say where to turn first.
-    if (by_sound_ && *hour_ != 12) (void)said({}, *hour_, time);
-    return {goal("start", now)};
+    Utterance start = goal("start", now);
+    if (!by_sound_) return {start};
+    // Ticks say where to turn first, but not to drive.
+    if (*hour_ == 12) start.also = {*direction(guidance)};
+    return {said(start, *hour_, time)};
   }
   return tell(now, time);
 }
@@ -79,7 +86,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
 std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
   if (turning_) {
-    if (by_sound_ || !about_to_face(now)) return {};
+    if (by_sound_ || !about_to_face(now) || quiet(time)) return {};
     Utterance straight = *direction(guidance);
     straight.kind = "straight";
     straight.fillings.hour = 12;
@@ -100,6 +107,9 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
       way.priority = Priority::message;
     else
       way.kind = "turn_now";
+    if (const auto turn = turn_within_reach(guidance);
+        turn && config_.join && guidance.waypoint_distance < kNextTurn)
+      way.also = {announce_turn("turn_ahead", way, *turn, time)};
     return {said(way, *hour_, time)};
   }
   if (guidance.state == Guidance::State::make_room && !made_room_) {
@@ -108,6 +118,13 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
     reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
+  }
+  if (by_sound_ && pending_ == Change::reroute) {
+    pending_ = Change::none;
+    if (guidance.reroutes == reroutes_) return {};
+    way.kind = closed_way(guidance) ? "way_blocked" : "new_route";
+    reroutes_ = guidance.reroutes;
+    return {way};
   }
   if (now.voice_busy) return {};
   if (pending_ == Change::reroute && *hour_ != said_hour_) {
@@ -188,6 +205,22 @@ void RouteCues::forget() {
 }
 
 void RouteCues::remind(double time) { reminder_ = time; }
+
+void RouteCues::unsaid() {
+  said_hour_.reset();
+  made_room_ = ahead_told_ = false;
+}
+
+/// Who was just told of what is ahead is not told to drive at it.
+bool RouteCues::quiet(double time) const { return config_.join && reminder_ && time < *reminder_; }
+
+std::optional<Utterance> RouteCues::past(const Guidance& guidance, double time) {
+  const std::optional<int> turn = turn_within_reach(guidance);
+  const std::optional<Utterance> way = hour_ ? direction(guidance) : std::nullopt;
+  if (!config_.join || by_sound_ || !way) return std::nullopt;
+  if (way->kind != "straight") return said(*way, *hour_, time);
+  return turn ? std::optional(announce_turn("turn_ahead", *way, *turn, time)) : std::nullopt;
+}
 
 bool RouteCues::new_goal(const Guidance& guidance) const {
   return !goal_ || (guidance.goal - *goal_).norm() > kSameGoal;
@@ -307,11 +340,12 @@ bool RouteCues::direction_due(const Guidance& guidance, double time) const {
   const double since = time - said_time_;
   if (since < config_.pause) return false;
   if (reminder_ && time >= *reminder_) return true;
+  if (*hour_ == 12 && quiet(time)) return false;
   if (at_hand(guidance, time)) return false;
   const bool corner_reached = pending_ == Change::next_corner;
   const bool idle = time - last_commanded_ > config_.idle;
   // A leg has words once, at its begin; a short one has those of its end.
-  if (by_sound_ && !idle) return corner_reached && guidance.waypoint_distance >= config_.turn_ahead;
+  if (by_sound_ && !idle) return corner_reached && guidance.waypoint_distance >= kLongLeg;
   if (corner_reached) return true;
   const bool worse =
       *hour_ != 12 && std::abs(guidance.steer_angle) > std::abs(said_angle_) + kWorse;

@@ -40,6 +40,10 @@ class RouteCues {
   void pause();
   /// The goal is gone too: the next one is introduced.
   void forget();
+  /// What was said of the way was dropped: it is said anew, as it is then.
+  void unsaid();
+  /// How the path leads past what is ahead, for the same sentence; nothing if it does not.
+  [[nodiscard]] std::optional<Utterance> past(const Guidance& guidance, double time);
   /// Something else was said that makes a person stop: say the direction again soon.
   void remind(double time);
 
@@ -57,6 +61,7 @@ class RouteCues {
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
   [[nodiscard]] bool worth_words(int hour) const;
+  [[nodiscard]] bool quiet(double time) const;
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, int turn, double time) const;
   [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);

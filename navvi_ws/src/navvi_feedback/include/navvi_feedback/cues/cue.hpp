@@ -23,6 +23,7 @@ struct Cue {
   double max_age = 2.0;                    ///< s after which it is dropped if it has not begun
   std::optional<sounds::Play> sound = {};  ///< played instead of the words
   bool asked = false;                      ///< the answer to a button
+  bool felt = false;                       ///< only: its words were said just now
 };
 
 /// How a kind of cue is treated.

@@ -32,6 +32,7 @@ struct RouteConfig {
   double idle = 5.0;              ///< s
   double reach = 0.8;             ///< m
   double at_hand = 1.0;           ///< m
+  bool join = true;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -57,6 +58,7 @@ struct CuePolicyConfig {
   double state_hold = 0.5;       ///< s
   double problem_repeat = 15.0;  ///< s
   double patience = 10.0;        ///< s
+  double same_text = 10.0;       ///< s
   WordingConfig wording;
   RouteConfig route;
   NearConfig near;
