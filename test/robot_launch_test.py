@@ -15,8 +15,8 @@ class Robot:
         self.env = master
         self.processes = []
         self.run("rosparam", "set", "use_sim_time", "true")
-        self.start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", f"_world:={WORLD}")
-        self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "input:=topic",
+        self.start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", "odom:=/robot/odom", f"_world:={WORLD}")
+        self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic",
                    "speech:=false", "rviz:=false", f"out:={folder}")
 
     def run(self, *words, seconds=60):
@@ -63,10 +63,16 @@ def test_a_goal_from_outside_is_followed(robot):
 
 
 def test_the_stick_moves_the_robot_through_the_relay(robot):
-    pushed = robot.run("/usr/bin/python3", str(ROOT / "test/stick.py"), "push")
+    pushed = robot.run("/usr/bin/python3", str(ROOT / "test/stick.py"), "push", "/odom:=/robot/odom")
     assert float(pushed.stdout) >= 0.3, pushed.stderr
 
 
 def test_the_nodes_on_a_robot_are_those_of_the_picture(robot):
     names = set(robot.run("rosnode", "list").stdout.split())
     assert {"/nav_node", "/feedback_node", "/relay_node", "/trial_node"} <= names
+
+
+def test_a_rehearsal_reaches_no_wheels():
+    words = subprocess.run(["roslaunch", "--args", "relay_node", str(ROOT / "launch/robot.launch"), "rehearse:=true",
+                            "wheels:=/robot/cmd_vel"], capture_output=True, text=True, timeout=60).stdout
+    assert "robot/cmd_vel:=/navvi/rehearsed_cmd_vel" in words and ":=/robot/cmd_vel" not in words
