@@ -61,6 +61,7 @@ void MixerConfig::describe(navvi_config::Visitor& visit) {
         "between attempts to open a lost device; ten times that if there never was one");
   visit(hrtf, "hrtf", OneOf{{"auto", "on", "off"}}, "",
         "sound for two ears, so that ahead and behind differ; auto: with headphones");
+  visit(volume, "volume", Range{0.1, 1.0}, "", "gain of all that is heard");
 }
 
 struct Mixer::Handles {
@@ -93,7 +94,10 @@ struct Mixer::Handles {
 };
 
 Mixer::Mixer(const MixerConfig& config, Audio audio)
-    : config_(config), audio_(audio), handles_(std::make_unique<Handles>()) {
+    : config_(config),
+      audio_(audio),
+      volume_(config.volume),
+      handles_(std::make_unique<Handles>()) {
   if (audio_ == Audio::on) open(Status::Device::missing);
 }
 
@@ -184,7 +188,7 @@ void Mixer::report(Status::Device device, const std::string& detail) {
 
 bool Mixer::speak(const Sound& sound, double gain) {
   const std::lock_guard lock(device_mutex_);
-  return connected() && handles_->start(0, sound, gain, Eigen::Vector2d::UnitX());
+  return connected() && handles_->start(0, sound, volume_ * gain, Eigen::Vector2d::UnitX());
 }
 
 bool Mixer::speaking() const {
@@ -210,7 +214,7 @@ bool Mixer::play(const Sound& sound, double gain, const Eigen::Vector2d& from) {
   const std::unique_lock lock(device_mutex_, kPatience);
   if (!lock || !connected()) return false;
   handles_->next = handles_->next % (Handles::kSources - 1) + 1;
-  return handles_->start(handles_->next, sound, gain, from);
+  return handles_->start(handles_->next, sound, volume_ * gain, from);
 }
 
 }  // namespace navvi_feedback::devices

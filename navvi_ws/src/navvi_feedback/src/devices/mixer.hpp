@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -16,6 +17,7 @@ struct MixerConfig {
   std::string device;         ///< name of the OpenAL device; empty for the default one
   double reopen = 2.0;        ///< s, between attempts to open a lost device, x10 if there was none
   std::string hrtf = "auto";  ///< sound for two ears: auto, on, off
+  double volume = 1.0;        ///< of all that is heard, [0.1, 1]
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -51,6 +53,9 @@ class Mixer {
   void tend();
   [[nodiscard]] Status status() const;
 
+  /// From now on. \param volume  as MixerConfig::volume
+  void set_volume(double volume) { volume_ = volume; }
+
   /// Instead of what the voice says. \return false if nothing is heard
   [[nodiscard]] bool speak(const Sound& sound, double gain);
   /// False also if the device was lost.
@@ -75,6 +80,7 @@ class Mixer {
 
   const MixerConfig config_;
   const Audio audio_;
+  std::atomic<double> volume_;
   mutable std::timed_mutex device_mutex_;  ///< of all that OpenAL owns
   std::unique_ptr<Handles> handles_;
   std::chrono::steady_clock::time_point next_attempt_;

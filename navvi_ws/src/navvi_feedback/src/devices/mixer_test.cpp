@@ -47,6 +47,19 @@ TEST(Mixer, plays_a_sound_from_its_side) {
   }
 }
 
+TEST(Mixer, plays_all_as_loud_as_it_is_set) {
+  const auto loudness_at = [](double volume) {
+    MixerConfig config;
+    config.hrtf = "off";
+    Mixer mixer(config, Audio::on);
+    mixer.set_volume(volume);
+    EXPECT_TRUE(mixer.play(tone(3000.0, 0.1), 1.0, kAhead));
+    pause(0.3);
+    return tone_in(heard().left, 3000.0);
+  };
+  EXPECT_NEAR(loudness_at(0.2), 0.2 * loudness_at(1.0), 0.01);
+}
+
 TEST(Mixer, makes_ahead_and_behind_differ_for_two_ears) {
   const double ahead = tone_in(heard_from(kAhead, "on").left, 3000.0);
   const double behind = tone_in(heard_from(kBehind, "on").left, 3000.0);

@@ -56,6 +56,11 @@ Speaker::~Speaker() {
   thread_.join();
 }
 
+void Speaker::set_rate(int rate) {
+  const std::lock_guard lock(mutex_);
+  config_.rate = rate;
+}
+
 void Speaker::start(const std::string& text) {
   const bool fit = cues::speakable(text);
   {
@@ -102,6 +107,7 @@ void Speaker::run(std::promise<void> ready) {
       mixer_.tend();
       continue;
     }
+    voice->set_rate(job->rate);
     const Sound sound = voice->synthesize(*job->text, [&] { return superseded(job->generation); });
     if (!superseded(job->generation)) play(sound, job->generation);
     finish(job->generation, !sound.samples.empty());
@@ -112,7 +118,7 @@ std::optional<Speaker::Job> Speaker::next() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
   if (quit_) return std::nullopt;
-  return Job{std::exchange(request_, std::nullopt), generation_};
+  return Job{std::exchange(request_, std::nullopt), generation_, config_.rate};
 }
 
 bool Speaker::superseded(unsigned long generation) const {

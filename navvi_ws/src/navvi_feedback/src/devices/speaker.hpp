@@ -38,6 +38,9 @@ class Speaker {
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
 
+  /// From the next text on. \param rate  words a minute, 80..449
+  void set_rate(int rate);
+
   /// Begins to speak and returns at once; whatever is being spoken is stopped.
   /// \param text  as speakable() of phrases.hpp; anything else is not spoken and counts as failed
   void start(const std::string& text);
@@ -51,6 +54,7 @@ class Speaker {
   struct Job {
     std::optional<std::string> text;  ///< nullopt: nothing to say, look after the device
     unsigned long generation = 0;
+    int rate = 0;  ///< words a minute
   };
 
   void run(std::promise<void> ready);
@@ -61,7 +65,7 @@ class Speaker {
   void play(const Sound& sound, unsigned long generation);
   void finish(unsigned long generation, bool done);
 
-  const SpeakerConfig config_;
+  SpeakerConfig config_;
   Mixer& mixer_;
 
   mutable std::mutex mutex_;

@@ -20,6 +20,8 @@ class SpeechChannel {
   /// Falls silent and gives every open cue its end, for the shut-down.
   [[nodiscard]] std::vector<CueEvent> finish();
 
+  /// As Speaker::set_rate().
+  void set_rate(int rate) { speaker_.set_rate(rate); }
   [[nodiscard]] Speaker::Status status() const { return speaker_.status(); }
   /// Nothing is spoken and nothing waits.
   [[nodiscard]] bool idle() const { return queue_.empty(); }

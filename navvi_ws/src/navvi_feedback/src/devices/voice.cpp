@@ -79,6 +79,8 @@ Voice::Voice(const std::string& name, int rate, int pitch) {
 
 Voice::~Voice() { in_use = false; }
 
+void Voice::set_rate(int rate) { espeak_SetParameter(espeakRATE, rate, 0); }
+
 Sound Voice::synthesize(const std::string& text, const std::function<bool()>& cancelled) {
   Synthesis synthesis;
   synthesis.sound.rate = sample_rate_;

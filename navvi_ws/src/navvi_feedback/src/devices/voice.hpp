@@ -29,6 +29,9 @@ class Voice {
   Voice(const Voice&) = delete;
   Voice& operator=(const Voice&) = delete;
 
+  /// \param rate  words a minute, 80..449
+  void set_rate(int rate);
+
   /// Markup in the text is read aloud, not obeyed.
   /// \param cancelled  asked often; once true, synthesis ends
   /// \return no samples if it failed or was cancelled
