@@ -30,6 +30,8 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::OneOf;
   using navvi_config::Range;
   visit(enabled, "enabled", Any{}, "", "false: the motors stay off");
+  visit(near, "near", Any{}, "", "false: only patterns are felt, such as that of a hit");
+  visit(strength, "strength", Range{0.1, 1.0}, "", "share of their force that the motors have");
   visit(steer, "steer", OneOf{{"repulsive", "attractive"}}, "",
         "what the motors tell all the time: what is near, on its side, or the side to steer to");
   visit(range, "range", Range{0.5, 20.0}, "m", "a thing is felt if its gap is less than this");
@@ -124,7 +126,7 @@ std::optional<Haptics::Felt> Haptics::attraction(std::optional<double> off) cons
 
 Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt,
                        std::optional<double> off) {
-  if (!fresh || !config_.enabled) {
+  if (!fresh || !config_.enabled || !config_.near) {
     stop();
     return {};
   }
@@ -147,8 +149,8 @@ Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double 
   } else {
     force_ = {wanted_left, wanted_right};
   }
-  return {motor(force_.left, config_.start_left, config_.gain_left),
-          motor(force_.right, config_.start_right, config_.gain_right)};
+  return {motor(config_.strength * force_.left, config_.start_left, config_.gain_left),
+          motor(config_.strength * force_.right, config_.start_right, config_.gain_right)};
 }
 
 }  // namespace navvi_feedback::haptics

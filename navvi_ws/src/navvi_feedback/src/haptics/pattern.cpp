@@ -18,7 +18,8 @@ struct Beat {
 constexpr Beat kRest = {0.1, 0.0, 0.0};
 
 const std::vector<Beat>& beats(Pattern pattern) {
-  static const std::array<std::vector<Beat>, 9> all = {{
+  static const std::array<std::vector<Beat>, 10> all = {{
+      {{0.5, 1.0, 1.0}, kRest},
       {{0.1, 0.5, 0.5}, kRest, {0.1, 0.5, 0.5}, kRest},
       {{0.2, 0.5, 0.5}, kRest},
       {{0.12, 0.6, 0.0}, {0.06, 0.0, 0.0}, {0.12, 0.0, 0.6}, kRest},

@@ -23,6 +23,12 @@ class Soundscape {
 
   explicit Soundscape(const SoundsConfig& config) : config_(config), turn_(config.turn) {}
 
+  /// From now on. What was learnt of turns stays.
+  void use(const SoundsConfig& config) {
+    config_ = config;
+    turn_.use(config.turn);
+  }
+
   /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::vector<Play> update(const Input& now, double time);
 

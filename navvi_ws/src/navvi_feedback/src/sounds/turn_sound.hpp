@@ -19,6 +19,9 @@ class TurnSound {
  public:
   explicit TurnSound(const TurnConfig& config) : config_(config), delay_(config.stopping_delay) {}
 
+  /// From now on.
+  void use(const TurnConfig& config) { config_ = config; }
+
   /// Call it at 50 Hz.
   /// \param off  rad, clockwise from the nose to where to steer; nullopt: nowhere
   /// \param motion  the robot's

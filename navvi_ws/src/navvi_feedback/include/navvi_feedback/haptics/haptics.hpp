@@ -23,6 +23,8 @@ struct Rumble {
 /// Defaults are ours; config/paper.yaml holds what the paper prints.
 struct HapticsConfig {
   bool enabled = true;
+  bool near = true;
+  double strength = 1.0;
   std::string steer = "repulsive";
   double range = 5.0;   // m
   double center = 1.0;  // m
@@ -56,13 +58,16 @@ enum class Zone { left, center, right };
 /// ln(1 + (1 - gap / range)), which peaks at ln 2; with `normalize` it is divided by ln 2.
 [[nodiscard]] double rumble_force(const HapticsConfig& config, double gap);
 
-/// Makes what is nearest felt (R-HAP-1 to 5), what is ahead more than what is behind, or, to attract,
-/// the side to steer to: the pure law, then what keeps a motor from jolting (onset ramp, slew limit)
-/// and from chattering (hysteresis at the range and between the zones).
+/// Makes what is nearest felt (R-HAP-1 to 5), what is ahead more than what is behind, or, to
+/// attract, the side to steer to: the pure law, then what keeps a motor from jolting (onset ramp,
+/// slew limit) and from chattering (hysteresis at the range and between the zones).
 class Haptics {
  public:
   /// \throws navvi_config::ConfigError if `classes` holds a word that is no class
   explicit Haptics(const HapticsConfig& config);
+
+  /// From now on, but for the classes.
+  void use(const HapticsConfig& config) { config_ = config; }
 
   /// \param things  all with finite numbers in base_link; in any order
   /// \param fresh  false when sensing is stale: the motors stop at once

@@ -10,6 +10,7 @@ namespace navvi_feedback::haptics {
 
 /// What is felt besides what is near; the most urgent last.
 enum class Pattern {
+  sample,        ///< one long pulse: how strong the motors are set
   ready,         ///< two light taps: a trial waits for the person
   begun,         ///< one light tap: it runs
   rerouted,      ///< a light tap on the left, then on the right
@@ -21,9 +22,9 @@ enum class Pattern {
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 9> names(Pattern) {
-  return {"ready", "begun",   "rerouted",     "arrived",  "no_sound",
-          "stuck", "stopped", "hit_obstacle", "hit_shelf"};
+[[nodiscard]] constexpr std::array<const char*, 10> names(Pattern) {
+  return {"sample",   "ready", "begun",   "rerouted",     "arrived",
+          "no_sound", "stuck", "stopped", "hit_obstacle", "hit_shelf"};
 }
 
 /// Plays one pattern at a time, instead of what is felt continuously, so that it stands out.
