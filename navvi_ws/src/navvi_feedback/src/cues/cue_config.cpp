@@ -12,6 +12,8 @@ void WordingConfig::describe(navvi_config::Visitor& visit) {
   visit(units, "units", OneOf{{"meters", "feet"}}, "", "of spoken distances");
   visit(verbosity, "verbosity", OneOf{{"brief", "normal", "full"}}, "",
         "how many words a phrase has");
+  visit(way, "way", Any{}, "", "false: directions are said only when they are asked for");
+  visit(near, "near", Any{}, "", "false: what is near is not said; a word to stop always is");
 }
 
 void RouteConfig::describe(navvi_config::Visitor& visit) {

@@ -75,6 +75,15 @@ bool tells_nothing_new(const Utterance& utterance) {
   return priority <= Priority::text || reminders.count(utterance.kind) > 0;
 }
 
+/// Whether the person does without it, unless they ask.
+bool muted(const std::string& kind, const WordingConfig& wording) {
+  static const std::set<std::string> way = {"direction",     "straight",   "slight",
+                                            "straight_then", "turn_ahead", "turn_cancelled"};
+  static const std::set<std::string> near = {"shelf_near", "wall_near",     "shelf_close",
+                                             "wall_close", "obstacle_near", "obstacle_close"};
+  return (!wording.way && way.count(kind) > 0) || (!wording.near && near.count(kind) > 0);
+}
+
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
   return {{}, {}, thing, side_of(point)};
 }
@@ -83,6 +92,11 @@ Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
 
 CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
     : config_(config), phrases_(std::move(phrases)), route_(config.route), near_(config.near) {}
+
+void CuePolicy::use(const WordingConfig& wording) {
+  config_.wording = wording;
+  phrases_.use(wording);
+}
 
 std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const Links links = judge(now, time);
@@ -148,6 +162,7 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
   for (const std::string& notice : notices) {
     if (noticed_.count(notice) > 0) continue;
     say(notice);
+    told.back().fillings.person = now.person;
     if (notice.rfind("trial_", 0) == 0) trial_over_ = time;
   }
   noticed_ = notices;
@@ -362,6 +377,8 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Sounds& s
   std::vector<Cue> cues;
   for (const Utterance& utterance : utterances) {
     const CueKind& kind = cue_kind(utterance.kind);
+    if (!utterance.asked && muted(kind.kind, config_.wording) && !instead_of(utterance, sounds))
+      continue;
     const auto last = last_said_.find(kind.kind);
     if (!utterance.asked && last != last_said_.end() && time - last->second < kind.min_interval)
       continue;

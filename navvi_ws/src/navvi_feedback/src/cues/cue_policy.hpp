@@ -24,6 +24,9 @@ class CuePolicy {
   /// \return the cues decided now, most urgent first
   [[nodiscard]] std::vector<Cue> update(const Situation& now, double time);
 
+  /// From now on.
+  void use(const WordingConfig& wording);
+
   /// The person is to follow the path now.
   [[nodiscard]] bool leads() const { return leads_; }
 

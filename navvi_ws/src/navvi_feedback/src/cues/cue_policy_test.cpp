@@ -271,6 +271,45 @@ TEST_F(CuePolicyTest, says_a_notice_once) {
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
+TEST_F(CuePolicyTest, names_the_person_whose_settings_are_used) {
+  under_way();
+  now_.person = "sub-01_b";
+  now_.notices = {"settings_of"};
+  EXPECT_EQ(pass(1.0), Texts{"settings of sub-01 b"});
+}
+
+TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_no_answer) {
+  WordingConfig wording;
+  wording.way = wording.near = false;
+  policy_.use(wording);
+  now_.goal_angle = 0.0;
+  pass(1.0);
+  now_.commanded.linear = now_.measured->linear = 0.3;
+  now_.nearby = {{ThingClass::shelf, 1, 0.8, {0.5, 1.0}}};
+  EXPECT_EQ(pass(5.0), Texts{});
+  now_.commanded.linear = now_.measured->linear = 1.0;
+  Texts approach;
+  for (double gap = 2.0; gap > 0.5; gap -= 0.1) {
+    now_.nearby = {{ThingClass::shelf, 1, gap, {gap + 0.4, 0.0}}};
+    for (const std::string& text : pass(0.1)) approach.push_back(text);
+  }
+  EXPECT_EQ(approach, Texts{"stop, shelf ahead"});
+  now_.nearby.clear();
+  now_.measured->linear = 0.0;
+  pass(5.0);
+  now_.question = Question::way;
+  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, words_things_otherwise_as_soon_as_it_is_wanted) {
+  under_way();
+  WordingConfig wording;
+  wording.verbosity = "brief";
+  policy_.use(wording);
+  now_.question = Question::way;
+  EXPECT_EQ(pass(0.5), Texts{"straight"});
+}
+
 TEST_F(CuePolicyTest, gives_no_direction_right_after_the_end_of_a_trial) {
   under_way();
   now_.notices = {"trial_time_up"};

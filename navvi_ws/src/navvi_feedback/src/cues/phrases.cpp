@@ -23,8 +23,8 @@ constexpr double kFar = 9999.0;
 constexpr int kMostPlaces = 999;        // likewise, of one name
 constexpr double kFeet = 1.0 / 0.3048;  // in a metre
 
-const std::set<std::string> kPlaceholders = {"direction", "distance", "thing",
-                                             "side",      "where",    "place"};
+const std::set<std::string> kPlaceholders = {"direction", "distance", "thing", "side",  "where",
+                                             "place",     "setting",  "value", "person"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
@@ -36,13 +36,15 @@ std::vector<const char*> things() {
 }
 
 std::set<std::string> word_keys() {
-  std::set<std::string> keys = {"meter", "meters", "foot", "feet"};
+  std::set<std::string> keys = {"meter", "meters", "foot", "feet", "percent"};
   for (const char* thing : things()) keys.insert(thing);
   for (const char* side : kSides) {
     keys.insert(std::string("side_") + side);
     keys.insert(std::string("where_") + side);
   }
   for (const char* place : names(PlaceName{})) keys.insert(std::string("place_") + place);
+  for (const char* setting : names(SettingName{})) keys.insert(std::string("setting_") + setting);
+  for (const char* value : names(SettingValue{})) keys.insert(std::string("value_") + value);
   for (const char* wording : kDirections)
     for (int hour = 1; hour <= 12; ++hour)
       keys.insert(std::string(wording) + "_" + std::to_string(hour));
@@ -161,6 +163,8 @@ std::vector<std::string> possible(const std::string& placeholder,
   } else {
     add(placeholder + "_");
   }
+  if (placeholder == "person") texts = {std::string(kMaxWord, 'a')};
+  if (placeholder == "value") texts.push_back("999 " + words.at("percent"));
   if (placeholder == "place")
     for (std::string& text : texts) text += " 999";
   return texts;
@@ -237,24 +241,28 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   }
 
   Section phrases(name, root, "phrases");
-  phrases_ = phrases.read(kind_keys());
+  auto& always = phrases_["phrases"] = phrases.read(kind_keys());
   for (const CueKind& kind : cue_kinds())
-    if (phrases_.count(kind.kind) == 0) phrases.fail(kind.kind, "is missing");
-  for (const auto& [kind, text] : phrases_) check_phrase(phrases, kind, text, words_);
+    if (always.count(kind.kind) == 0) phrases.fail(kind.kind, "is missing");
+  for (const auto& [kind, text] : always) check_phrase(phrases, kind, text, words_);
 
   for (const std::string& which : instead) {
     Section section(name, root, which);
-    for (const auto& [kind, text] : section.read(kind_keys())) {
-      check_phrase(section, kind, text, words_);
-      if (which == wording.directions || which == wording.verbosity) phrases_[kind] = text;
-    }
+    phrases_[which] = section.read(kind_keys());
+    for (const auto& [kind, text] : phrases_[which]) check_phrase(section, kind, text, words_);
   }
 }
 
 std::string Phrases::say(const std::string& kind, const Fillings& fillings) const {
-  const auto phrase = phrases_.find(kind);
-  if (phrase == phrases_.end()) throw std::logic_error("\"" + kind + "\" has no phrase.");
-  return fill_in(phrase->second, [&](const std::string& name) { return filling(name, fillings); });
+  for (const std::string& section :
+       {wording_.verbosity, wording_.directions, std::string("phrases")}) {
+    const auto phrases = phrases_.find(section);
+    if (phrases == phrases_.end()) continue;
+    if (const auto phrase = phrases->second.find(kind); phrase != phrases->second.end())
+      return fill_in(phrase->second,
+                     [&](const std::string& name) { return filling(name, fillings); });
+  }
+  throw std::logic_error("\"" + kind + "\" has no phrase.");
 }
 
 std::string Phrases::filling(const std::string& placeholder, const Fillings& fillings) const {
@@ -278,6 +286,21 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     const std::string word =
         words_.at(std::string("place_") + navvi_types::to_string(*fillings.place));
     return fillings.number > 0 ? word + " " + number(std::min(fillings.number, kMostPlaces)) : word;
+  }
+  if (placeholder == "person") {
+    std::string spoken = fillings.person;
+    std::replace(spoken.begin(), spoken.end(), '_', ' ');
+    if (!speakable(spoken)) throw missing();
+    return spoken;
+  }
+  if (placeholder == "setting" || placeholder == "value") {
+    if (!fillings.setting) throw missing();
+    if (placeholder == "setting")
+      return words_.at(std::string("setting_") + navvi_types::to_string(*fillings.setting));
+    if (fillings.value)
+      return words_.at(std::string("value_") + navvi_types::to_string(*fillings.value));
+    const std::string text = number(std::clamp(fillings.number, 0, kMostPlaces));
+    return fillings.setting == SettingName::rate ? text : text + " " + words_.at("percent");
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
   return words_.at(wording_.directions + "_" + std::to_string(*fillings.hour));

@@ -26,14 +26,44 @@ enum class PlaceName { dock, aisle, cross_aisle, room, task, last };
   return {"dock", "aisle", "cross_aisle", "room", "task", "last"};
 }
 
-/// What is put into a phrase: numbers, and words of fixed sets.
+/// What a person can set while driving, and to what, besides numbers.
+enum class SettingName {
+  rate,
+  volume,
+  strength,
+  verbosity,
+  touch,
+  way_words,
+  near_words,
+  turn_sound,
+  shelf_sound,
+  near_sound,
+  hit_sound,
+  arrival_sound,
+  beacon,
+  sonar,
+};
+[[nodiscard]] constexpr std::array<const char*, 14> names(SettingName) {
+  return {"rate",      "volume",        "strength",   "verbosity",   "touch",
+          "way_words", "near_words",    "turn_sound", "shelf_sound", "near_sound",
+          "hit_sound", "arrival_sound", "beacon",     "sonar"};
+}
+enum class SettingValue { off, on, brief, normal, full };
+[[nodiscard]] constexpr std::array<const char*, 5> names(SettingValue) {
+  return {"off", "on", "brief", "normal", "full"};
+}
+
+/// What is put into a phrase: numbers, words of fixed sets, and the name of a PersonFile.
 struct Fillings {
   std::optional<int> hour = {};         ///< 1..12
   std::optional<double> distance = {};  ///< m, >= 0
   std::optional<ThingClass> thing = {};
   std::optional<Side> side = {};
   std::optional<PlaceName> place = {};
-  int number = 0;  ///< of the place; 0: none is said
+  int number = 0;  ///< of the place, 0: none is said; or that the setting has
+  std::optional<SettingName> setting = {};
+  std::optional<SettingValue> value = {};  ///< of the setting, where that is no number
+  std::string person = {};                 ///< letters, digits, - and _, at most 24
 };
 
 /// A cue that is not worded yet.
@@ -50,7 +80,8 @@ struct Utterance {
 /// words from the same file, put in. No text of any message can reach the voice.
 ///
 /// Placeholders: {direction} an hour as the wording has it, {distance} a distance with its unit,
-/// {thing} a thing's noun, {side} "left", {where} "on the left", {place} "dock 2".
+/// {thing} a thing's noun, {side} "left", {where} "on the left", {place} "dock 2", {setting} what
+/// can be set, {value} to what, {person} a name.
 class Phrases {
  public:
   /// \param file  with the sections voice, phrases, words; in clock, brief and full stand phrases
@@ -64,6 +95,9 @@ class Phrases {
   /// missing or not finite: a mistake in the program, as the file was checked when it was read
   [[nodiscard]] std::string say(const std::string& kind, const Fillings& fillings = {}) const;
 
+  /// From now on.
+  void use(const WordingConfig& wording) { wording_ = wording; }
+
   /// A distance with its unit: whole metres from 2 m on, halves below, never less than half a
   /// metre; or whole feet, fives from 20 feet on. \param metres  m, finite, >= 0
   [[nodiscard]] std::string distance(double metres) const;
@@ -76,7 +110,7 @@ class Phrases {
 
   WordingConfig wording_;
   std::string voice_;
-  std::map<std::string, std::string> phrases_;
+  std::map<std::string, std::map<std::string, std::string>> phrases_;  ///< by section
   std::map<std::string, std::string> words_;
 };
 

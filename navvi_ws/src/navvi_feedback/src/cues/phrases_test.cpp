@@ -90,6 +90,8 @@ Fillings everything() {
   fillings.side = Side::left;
   fillings.place = PlaceName::dock;
   fillings.number = 2;
+  fillings.setting = SettingName::volume;
+  fillings.person = "anna";
   return fillings;
 }
 
@@ -284,7 +286,10 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
                                         static_cast<ThingClass>(thing),
                                         static_cast<Side>(side),
                                         PlaceName::cross_aisle,
-                                        1000};
+                                        1000,
+                                        static_cast<SettingName>(hour),
+                                        std::nullopt,
+                                        "a23456789_123456789-1234"};
                 ASSERT_TRUE(speakable(phrases.say(kind.kind, fillings))) << kind.kind;
               }
     }

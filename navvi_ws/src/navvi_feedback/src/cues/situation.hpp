@@ -61,6 +61,7 @@ struct Situation {
   Sounds sounds;
 
   std::vector<std::string> notices;  ///< kinds to be said when they come, such as no_rumble
+  std::string person;                ///< whose settings are used
 };
 
 }  // namespace navvi_feedback::cues

@@ -12,6 +12,8 @@ struct WordingConfig {
       "clock";  ///< clock "3 o'clock", left_right "right", degrees "90 degrees right"
   std::string units = "meters";      ///< meters or feet
   std::string verbosity = "normal";  ///< brief, normal or full
+  bool way = true;                   ///< directions are said without being asked for
+  bool near = true;                  ///< likewise what is near; a word to stop always is
 
   void describe(navvi_config::Visitor& visit);
 };
