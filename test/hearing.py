@@ -20,9 +20,11 @@ TENS = "twenty thirty forty fifty sixty seventy eighty ninety".split()
 
 
 def number_words(number):
-    """The words of a number from 0 to 99, or with one decimal."""
+    """The words of a number from 0 to 999, or with one decimal."""
     whole, _, fraction = number.partition(".")
-    value = int(whole)
+    hundreds, value = divmod(int(whole), 100)
+    if hundreds:
+        return [ONES[hundreds], "hundred"] + (["and"] + number_words(str(value)) if value else [])
     words = [ONES[value]] if value < 20 else [TENS[value // 10 - 2]] + ([ONES[value % 10]] if value % 10 else [])
     return words + (["point", ONES[int(fraction)]] if fraction else [])
 
@@ -45,6 +47,10 @@ def grammar():
         "thing": " | ".join(words[key] for key in
                             ("shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other")),
         "place": " | ".join(value + " [<number>]" for key, value in words.items() if key.startswith("place_")),
+        "setting": " | ".join(value for key, value in words.items() if key.startswith("setting_")),
+        "value": "<ones> hundred [and] [<number>] | <number> | <number> percent | one hundred percent | "
+                 + " | ".join(value for key, value in words.items() if key.startswith("value_")),
+        "person": "anna",
         "side": " | ".join(value for key, value in words.items() if key.startswith("side_")),
         "where": " | ".join(value for key, value in words.items() if key.startswith("where_")),
     }

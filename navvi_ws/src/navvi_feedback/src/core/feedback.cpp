@@ -12,7 +12,6 @@
 namespace navvi_feedback::core {
 namespace {
 
-constexpr double kSameGoal = 0.05;    // m
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
 constexpr double kIdle = 6.0;         // s; who does not drive for so long needs no ticks to turn by
 constexpr double kPi = 3.14159265358979323846;
@@ -129,7 +128,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   const bool leads = deciders_->cues.leads();
   idle_ = leads && commanded_.linear == 0.0 && commanded_.angular == 0.0 ? idle_ + dt : 0.0;
   if (motion_.value) turned_ += motion_.value->angular * dt;
-  out.plays = sound(input, out.cues, time);
+  for (const sounds::Play& play : sound(input, out.cues, time)) out.plays.push_back(play);
   out.rumble = feel(time, dt);
   out.pattern = deciders_->patterns.playing();
   contacts_.clear();
@@ -193,7 +192,8 @@ haptics::Rumble Feedback::feel(double time, double dt) {
                      !(arrived && config_.haptics.rest_at_goal);
   const haptics::Rumble near = deciders_->haptics.update(
       nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt, off_course(time));
-  if (const auto pattern = deciders_->patterns.update(dt)) return *pattern;
+  if (const auto pattern = deciders_->patterns.update(dt))
+    return {config_.haptics.strength * pattern->left, config_.haptics.strength * pattern->right};
   const double share = important_ ? config_.haptics.duck : 1.0;
   return {share * near.left, share * near.right};
 }
@@ -245,33 +245,42 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
   return plays;
 }
 
-void Feedback::take_goal(const Eigen::Vector2d& goal) {
-  // One goal may be sent more than once, as until it is taken.
-  if (!goals_.empty() && (goals_.back() - goal).norm() < kSameGoal) return;
-  goals_.push_back(goal);
-  if (goals_.size() > 2) goals_.erase(goals_.begin());
+void Feedback::take(const TrialState& state, double /*time*/) {
+  trial_ = state;
+  deciders_->menu.take(state);
+}
+
+void Feedback::take(const Scenario& scenario, double /*time*/) {
+  scenario_ = scenario;
+  deciders_->menu.take(scenario);
+}
+
+void Feedback::take_goal(const Eigen::Vector2d& goal) { deciders_->menu.take_goal(goal); }
+
+void Feedback::take_settings(const std::map<std::string, std::string>& values) {
+  deciders_->menu.take_settings(values);
+}
+
+void Feedback::use(const FeedbackConfig& config) {
+  config_ = config;
+  deciders_->haptics.use(config.haptics);
+  deciders_->soundscape.use(config.sounds);
+  deciders_->cues.use(config.cues.wording);
 }
 
 void Feedback::obey(const std::vector<drive::Button>& pressed, Output& out) {
-  menu::Choices choices;
-  choices.trial = trial_.state;
-  if (scenario_) choices.destinations.push_back({cues::PlaceName::task, 0, scenario_->goal});
-  if (goals_.size() == 2) choices.destinations.push_back({cues::PlaceName::last, 0, goals_[0]});
-  if (scenario_)
-    for (const navvi_types::Place& place : scenario_->places)
-      choices.destinations.push_back(
-          {static_cast<cues::PlaceName>(place.kind), static_cast<int>(place.number), place.at});
   deciders_->answer.reset();
   for (const drive::Button button : pressed) {
-    if (button == drive::Button::start && trial_.state == TrialState::State::ready &&
-        !deciders_->menu.open()) {
-      out.request = TrialRequest::Kind::begin;
-      continue;
-    }
-    const menu::Menu::Step step = deciders_->menu.press(button, choices);
+    const menu::Menu::Step step = deciders_->menu.press(button);
     if (step.told) deciders_->answer = step.told;
     if (step.goal) out.goal = step.goal;
     if (step.request) out.request = step.request;
+    if (step.change.empty()) continue;
+    out.change = step.change;
+    if (step.felt) deciders_->patterns.begin(haptics::Pattern::sample);
+    if (step.heard)
+      out.plays.push_back(
+          {*step.heard, Eigen::Vector2d::UnitX(), config_.sounds.family_of(*step.heard).volume});
   }
 }
 
@@ -304,6 +313,7 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   now.voice_busy = input.voice_busy;
   now.notices = input.notices;
   if (intruder_) now.notices.push_back("intruder");
+  now.person = input.person;
   const sounds::SoundsConfig& sounds = config_.sounds;
   if (sounds.enabled && input.sounds)
     now.sounds = {sounds.turn.on, sounds.shelf.on, sounds.near.on};

@@ -232,6 +232,43 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
 }
 
+TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_once) {
+  FeedbackConfig config;
+  feedback_.take_settings({{"haptics/strength", "0.7"}, {"sounds/hit/on", "false"}});
+  const auto press = [&](std::size_t button) {
+    input_.hands.buttons.assign(15, false);
+    input_.hands.buttons[button] = true;
+    const Feedback::Output output = pass(0.02);
+    input_.hands.buttons.assign(15, false);
+    return output;
+  };
+  constexpr std::size_t kUp = 11, kDown = 12, kLeft = 13, kRight = 14;
+  EXPECT_EQ(press(kDown).cues.at(0).text, "settings");
+  pass(0.1);
+  EXPECT_EQ(press(kRight).cues.at(0).text, "strength of the motors, 70 percent");
+  pass(0.1);
+  press(kRight);
+  pass(0.1);
+  const Feedback::Output weaker = press(kDown);
+  EXPECT_EQ(weaker.cues.at(0).text, "strength of the motors 60 percent");
+  EXPECT_EQ(weaker.change, "haptics/strength:=0.6");
+  EXPECT_EQ(weaker.pattern, haptics::Pattern::sample);
+  config.haptics.strength = 0.6;
+  feedback_.use(config);
+  EXPECT_NEAR(pass(0.1).rumble.left, 0.6, 1e-9);
+  EXPECT_EQ(pass(0.02).change, "") << "once";
+
+  press(kLeft);
+  pass(0.1);
+  press(kDown);
+  pass(0.1);
+  press(kRight);
+  plays_.clear();
+  pass(0.1);
+  EXPECT_EQ(press(kUp).change, "sounds/hit/on:=true");
+  EXPECT_EQ(played(sounds::Earcon::hit_shelf), 1);
+}
+
 TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);

@@ -1,30 +1,62 @@
 #include "menu/menu.hpp"
 
+#include <utility>
+
 namespace navvi_feedback::menu {
+namespace {
 
-using navvi_types::TrialRequest;
-using navvi_types::TrialState;
+constexpr double kSameGoal = 0.05;  // m
 
-cues::Utterance Destination::say(const char* kind) const {
+}  // namespace
+
+cues::Utterance Menu::Destination::say(const char* kind) const {
   cues::Utterance told{kind};
   told.fillings.place = name;
   told.fillings.number = number;
   return told;
 }
 
-std::vector<Menu::Entry> Menu::entries(List list, const Choices& choices) {
+void Menu::take_goal(const Eigen::Vector2d& goal) {
+  // One goal may be sent more than once, as until it is taken.
+  if (!goals_.empty() && (goals_.back() - goal).norm() < kSameGoal) return;
+  goals_.push_back(goal);
+  if (goals_.size() > 2) goals_.erase(goals_.begin());
+}
+
+std::vector<Menu::Destination> Menu::destinations() const {
+  std::vector<Destination> all;
+  if (scenario_) all.push_back({cues::PlaceName::task, 0, scenario_->goal});
+  if (goals_.size() == 2) all.push_back({cues::PlaceName::last, 0, goals_[0]});
+  if (scenario_)
+    for (const navvi_types::Place& place : scenario_->places)
+      all.push_back(
+          {static_cast<cues::PlaceName>(place.kind), static_cast<int>(place.number), place.at});
+  return all;
+}
+
+std::vector<Menu::Entry> Menu::entries(const Level& level) const {
   std::vector<Entry> entries;
-  switch (list) {
+  switch (level.list) {
     case List::top:
-      if (choices.trial == TrialState::State::ready)
+      if (trial_ == TrialState::State::ready)
         entries.push_back({{"menu_begin"}, {}, {}, TrialRequest::Kind::begin});
-      if (!choices.destinations.empty()) entries.push_back({{"menu_goals"}, List::goals});
-      if (choices.trial == TrialState::State::running) entries.push_back({{"menu_end"}, List::end});
+      if (!destinations().empty()) entries.push_back({{"menu_goals"}, List::goals});
+      if (!values_.empty()) entries.push_back({{"menu_settings"}, List::settings});
+      if (trial_ == TrialState::State::running) entries.push_back({{"menu_end"}, List::end});
       if (entries.empty()) entries.push_back({{"menu_empty"}});
       break;
     case List::goals:
-      for (const Destination& place : choices.destinations)
+      for (const Destination& place : destinations())
         entries.push_back({place.say("menu_place"), {}, place});
+      break;
+    case List::settings:
+      for (const Setting& setting : settings())
+        if (const auto value = values_.find(setting.key); value != values_.end())
+          entries.push_back(
+              {setting.say("setting", value->second), List::setting, {}, {}, &setting});
+      break;
+    case List::setting:
+      entries.push_back({level.setting->say("setting_open", values_.at(level.setting->key))});
       break;
     case List::end:
       entries.push_back({{"menu_end_sure"}, {}, {}, TrialRequest::Kind::end});
@@ -33,16 +65,15 @@ std::vector<Menu::Entry> Menu::entries(List list, const Choices& choices) {
   return entries;
 }
 
-Menu::Step Menu::tell(const Choices& choices) const {
+Menu::Step Menu::tell() const {
   if (path_.empty()) return {cues::Utterance{"menu_closed"}};
-  const std::vector<Entry> list = entries(path_.back().list, choices);
-  return {list.at(path_.back().at).label};
+  return {entries(path_.back()).at(path_.back().at).label};
 }
 
-Menu::Step Menu::choose(const Entry& entry, const Choices& choices) {
+Menu::Step Menu::choose(const Entry& entry) {
   if (entry.opens) {
-    path_.push_back({*entry.opens});
-    return tell(choices);
+    path_.push_back({*entry.opens, 0, entry.setting});
+    return tell();
   }
   Step step;
   step.request = entry.request;
@@ -50,44 +81,63 @@ Menu::Step Menu::choose(const Entry& entry, const Choices& choices) {
     step.goal = entry.goal->at;
     step.told = entry.goal->say("goal_chosen");
   } else if (!entry.request) {
-    return tell(choices);
+    return tell();
   }
   path_.clear();
   return step;
 }
 
-Menu::Step Menu::press(drive::Button button, const Choices& choices) {
+Menu::Step Menu::change(const Setting& setting, bool up) {
+  std::string& value = values_.at(setting.key);
+  value = setting.step(value, up);
+  Step step{setting.say("setting_changed", value)};
+  step.change = setting.key + (":=" + value);
+  if (value == "false") return step;
+  step.felt = setting.felt;
+  step.heard = setting.heard;
+  return step;
+}
+
+Menu::Step Menu::press(drive::Button button) {
   using drive::Button;
   const bool ending = !path_.empty() && path_.back().list == List::end;
+  if (button == Button::start && trial_ == TrialState::State::ready && path_.empty()) {
+    Step step;
+    step.request = TrialRequest::Kind::begin;
+    return step;
+  }
   if (button == Button::end && !ending) {
-    if (choices.trial != TrialState::State::running) return {};
+    if (trial_ != TrialState::State::running) return {};
     path_ = {{}, {List::end}};
-    return tell(choices);
+    return tell();
   }
   if (button == Button::start || button == Button::end) button = Button::choose;
   if (button < Button::next) return {};
-  if (button == Button::back) {
+  const Setting* const setting = path_.empty() ? nullptr : path_.back().setting;
+  if (setting && (button == Button::next || button == Button::previous))
+    return change(*setting, button == Button::previous);
+  if (button == Button::back || setting) {
     if (!path_.empty()) path_.pop_back();
-    return tell(choices);
+    return tell();
   }
   if (path_.empty()) {
     path_.push_back({});
-    return tell(choices);
+    return tell();
   }
   // What can be chosen may have changed since the last press.
-  const std::vector<Entry> list = entries(path_.back().list, choices);
+  const std::vector<Entry> list = entries(path_.back());
   if (list.empty()) {
     path_ = {{}};
-    return tell(choices);
+    return tell();
   }
   std::size_t& at = path_.back().at;
   if (at >= list.size()) {
     at = 0;
-    return tell(choices);
+    return tell();
   }
-  if (button == Button::choose) return choose(list[at], choices);
+  if (button == Button::choose) return choose(list[at]);
   at = (at + (button == Button::next ? 1 : list.size() - 1)) % list.size();
-  return tell(choices);
+  return tell();
 }
 
 }  // namespace navvi_feedback::menu

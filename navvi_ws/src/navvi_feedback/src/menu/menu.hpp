@@ -1,63 +1,84 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <navvi_types/scenario.hpp>
 #include <navvi_types/trial.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cues/phrases.hpp"
+#include "menu/setting.hpp"
 #include "navvi_feedback/drive/buttons.hpp"
+
+namespace navvi_feedback {
+using navvi_types::Scenario;
+using navvi_types::TrialRequest;
+using navvi_types::TrialState;
+}  // namespace navvi_feedback
 
 namespace navvi_feedback::menu {
 
-/// A place that a person can choose as goal.
-struct Destination {
-  cues::PlaceName name = cues::PlaceName::task;
-  int number = 0;                                ///< 0: there is one of that name
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
-
-  [[nodiscard]] cues::Utterance say(const char* kind) const;
-};
-
-/// What can be chosen now.
-struct Choices {
-  std::vector<Destination> destinations;
-  navvi_types::TrialState::State trial = navvi_types::TrialState::State::free;
-};
-
 /// A spoken menu for one hand and no eyes: next, previous, choose, back, each a short press. The
 /// first press of next, previous, choose or start opens it. Nothing has to be held, and nothing
-/// runs out.
+/// runs out. It offers to begin and end the trial, goals by name, and settings.
 class Menu {
  public:
   struct Step {
     std::optional<cues::Utterance> told = {};
     std::optional<Eigen::Vector2d> goal = {};  ///< m, in map, chosen now
-    std::optional<navvi_types::TrialRequest::Kind> request = {};
+    std::optional<TrialRequest::Kind> request = {};
+    std::string change = {};                   ///< such as "speaker/rate:=240"; empty: none
+    bool felt = false;                         ///< an example of it is to be felt
+    std::optional<sounds::Earcon> heard = {};  ///< or heard
   };
 
-  /// Other buttons are ignored.
-  [[nodiscard]] Step press(drive::Button button, const Choices& choices);
+  void take(const Scenario& scenario) { scenario_ = scenario; }
+  void take(const TrialState& trial) { trial_ = trial.state; }
+  /// Whoever has set it. \param goal  m, in map
+  void take_goal(const Eigen::Vector2d& goal);
+  /// What can be set. \param values  by the key of each setting, as parameters have them
+  void take_settings(std::map<std::string, std::string> values) { values_ = std::move(values); }
+
+  /// Other buttons than its own are ignored.
+  [[nodiscard]] Step press(drive::Button button);
   [[nodiscard]] bool open() const { return !path_.empty(); }
 
  private:
-  enum class List { top, goals, end };
+  /// A place that a person can choose as goal.
+  struct Destination {
+    cues::PlaceName name = cues::PlaceName::task;
+    int number = 0;                                ///< 0: there is one of that name
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
+
+    [[nodiscard]] cues::Utterance say(const char* kind) const;
+  };
+  enum class List { top, goals, settings, setting, end };
   struct Entry {
     cues::Utterance label;
     std::optional<List> opens = std::nullopt;
     std::optional<Destination> goal = std::nullopt;
-    std::optional<navvi_types::TrialRequest::Kind> request = std::nullopt;
+    std::optional<TrialRequest::Kind> request = std::nullopt;
+    const Setting* setting = nullptr;
   };
   /// A list, and what was last spoken of it.
   struct Level {
     List list = List::top;
     std::size_t at = 0;
+    const Setting* setting = nullptr;  ///< that is being changed
   };
 
-  [[nodiscard]] static std::vector<Entry> entries(List list, const Choices& choices);
-  [[nodiscard]] Step choose(const Entry& entry, const Choices& choices);
-  [[nodiscard]] Step tell(const Choices& choices) const;
+  [[nodiscard]] std::vector<Destination> destinations() const;
+  [[nodiscard]] std::vector<Entry> entries(const Level& level) const;
+  [[nodiscard]] Step choose(const Entry& entry);
+  [[nodiscard]] Step change(const Setting& setting, bool up);
+  [[nodiscard]] Step tell() const;
 
+  std::optional<Scenario> scenario_;
+  std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
+  TrialState::State trial_ = TrialState::State::free;
+  std::map<std::string, std::string> values_;
   std::vector<Level> path_;  ///< from the top; empty while closed
 };
 

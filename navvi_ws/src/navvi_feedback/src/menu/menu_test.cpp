@@ -12,15 +12,16 @@ using State = navvi_types::TrialState::State;
 class MenuTest : public testing::Test {
  protected:
   MenuTest() {
-    choices_.destinations = {{cues::PlaceName::task, 0, {1.0, 2.0}},
-                             {cues::PlaceName::dock, 1, {3.0, 4.0}},
-                             {cues::PlaceName::dock, 2, {5.0, 6.0}}};
+    scenario_.goal = {1.0, 2.0};
+    scenario_.places = {{navvi_types::Place::Kind::dock, 1, {3.0, 4.0}},
+                        {navvi_types::Place::Kind::dock, 2, {5.0, 6.0}}};
+    menu_.take(scenario_);
   }
 
   /// The last step.
   Menu::Step press(std::initializer_list<Button> buttons) {
     Menu::Step step;
-    for (const Button button : buttons) step = menu_.press(button, choices_);
+    for (const Button button : buttons) step = menu_.press(button);
     return step;
   }
   std::string heard(std::initializer_list<Button> buttons) {
@@ -30,8 +31,10 @@ class MenuTest : public testing::Test {
     return step.told->kind + (number > 0 ? " " + std::to_string(number) : "");
   }
 
+  void trial(State state) { menu_.take(TrialState{state}); }
+
+  Scenario scenario_;
   Menu menu_;
-  Choices choices_;
 };
 
 TEST_F(MenuTest, leads_to_a_goal_by_short_presses_of_one_hand) {
@@ -57,10 +60,11 @@ TEST_F(MenuTest, goes_back_level_by_level_and_says_that_it_is_closed) {
 }
 
 TEST_F(MenuTest, begins_a_trial_and_ends_it_only_when_asked_twice) {
-  choices_.trial = State::ready;
+  trial(State::ready);
+  EXPECT_EQ(press({Button::start}).request, TrialRequest::Kind::begin) << "at once";
   EXPECT_EQ(heard({Button::next}), "menu_begin");
   EXPECT_EQ(press({Button::choose}).request, TrialRequest::Kind::begin);
-  choices_.trial = State::running;
+  trial(State::running);
   EXPECT_EQ(heard({Button::end}), "menu_end_sure");
   EXPECT_EQ(heard({Button::back}), "menu_goals");
   press({Button::back});
@@ -74,12 +78,41 @@ TEST_F(MenuTest, begins_a_trial_and_ends_it_only_when_asked_twice) {
 
 TEST_F(MenuTest, survives_that_what_can_be_chosen_goes_away) {
   press({Button::next, Button::choose, Button::next, Button::next});
-  choices_.destinations.resize(1);
+  scenario_.places.clear();
+  menu_.take(scenario_);
   EXPECT_EQ(heard({Button::choose}), "menu_place") << "said before it is chosen";
-  choices_.destinations.clear();
-  EXPECT_EQ(heard({Button::choose}), "menu_empty");
-  EXPECT_EQ(heard({Button::choose}), "menu_empty");
-  EXPECT_EQ(heard({Button::back}), "menu_closed");
+}
+
+TEST_F(MenuTest, offers_the_goal_before_the_present_one) {
+  for (const double x : {7.0, 8.0, 8.0}) menu_.take_goal({x, 0.0});
+  EXPECT_EQ(heard({Button::next, Button::choose, Button::next}), "menu_place");
+  EXPECT_EQ(press({Button::choose}).goal.value().x(), 7.0);
+}
+
+TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
+  Menu menu;
+  EXPECT_EQ(menu.press(Button::next).told.value().kind, "menu_empty");
+  EXPECT_EQ(menu.press(Button::choose).told.value().kind, "menu_empty");
+  EXPECT_EQ(menu.press(Button::back).told.value().kind, "menu_closed");
+}
+
+TEST_F(MenuTest, changes_a_setting_step_by_step) {
+  menu_.take_settings({{"speaker/rate", "230"}, {"sounds/turn/on", "true"}});
+  EXPECT_EQ(heard({Button::next, Button::next}), "menu_settings");
+  EXPECT_EQ(heard({Button::choose}), "setting 230");
+  EXPECT_EQ(heard({Button::choose}), "setting_open 230");
+  Menu::Step step = press({Button::previous});
+  EXPECT_EQ(step.change, "speaker/rate:=240");
+  EXPECT_EQ(step.told.value().kind, "setting_changed");
+  EXPECT_EQ(step.told.value().fillings.number, 240);
+  EXPECT_EQ(press({Button::next, Button::next}).change, "speaker/rate:=200");
+  EXPECT_EQ(heard({Button::back}), "setting 200");
+  press({Button::next, Button::choose});
+  step = press({Button::next});
+  EXPECT_EQ(step.change, "sounds/turn/on:=false");
+  EXPECT_EQ(step.told.value().fillings.value, cues::SettingValue::off);
+  EXPECT_EQ(press({Button::next}).change, "sounds/turn/on:=false") << "the last of its values";
+  EXPECT_EQ(press({Button::choose}).told.value().kind, "setting") << "done";
 }
 
 }  // namespace

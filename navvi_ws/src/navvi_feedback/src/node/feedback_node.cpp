@@ -8,6 +8,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <csignal>
+#include <future>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -48,6 +49,7 @@ class FeedbackNode {
         earcons_(mixer_),
         source_(config.input) {
     config_.speaker = config.voice();  // for the record
+    offer_settings();
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();
     subscribe();
@@ -68,6 +70,9 @@ class FeedbackNode {
   /// Leaves nothing running, driving or speaking.
   void finish() {
     tick_timer_.stop();
+    if (saving_.valid()) saved();
+    keep_settings();
+    if (saving_.valid()) saved();
     cmd_vel_.publish(geometry_msgs::Twist());
     move_motors({}, std::nullopt, now());
     publish(as_heard(speech_.finish()));
@@ -149,7 +154,9 @@ class FeedbackNode {
     input.robot = robot();
     input.notices = notices();
     input.asked = std::exchange(asked_, {});
+    keep_settings();
     for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
+    input.person = config_.person;
     const core::Feedback::Output output = feedback_.update(input, time);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
@@ -164,6 +171,7 @@ class FeedbackNode {
     if (output.request)
       requests_.publish(
           to_msg(TrialRequest{*output.request, navvi_types::to_ns(ros::Time::now())}));
+    if (!output.change.empty()) change(output.change);
     if (output.alarm_begins)
       ROS_WARN("There is no audio device: nothing is heard. %s", mixer_.status().detail.c_str());
     const std::vector<sounds::Play> played = earcons_.play(output.plays);
@@ -173,6 +181,57 @@ class FeedbackNode {
     say(output.cues, time);
     show(time);
     last_hands_ = input.hands;
+  }
+
+  void offer_settings() {
+    if (!config_.person.empty()) {
+      person_ = person::PersonFile::of<PersonConfig>(config_.person);
+      news_.push_back("settings_of");
+    }
+    std::map<std::string, std::string> values;
+    const auto describe = [this](navvi_config::Visitor& visit) { config_.describe(visit); };
+    for (const navvi_config::Row& row : navvi_config::table_of(describe)) {
+      const bool in_vain = (row.key.rfind("sounds/", 0) == 0 && !config_.feedback.sounds.enabled) ||
+                           (row.key.rfind("haptics/", 0) == 0 && !config_.feedback.haptics.enabled);
+      if (!in_vain) values[row.key] = row.default_value;
+    }
+    feedback_.take_settings(values);
+  }
+
+  /// Holds from now on: here, in the records of trials to come, and if this node is started anew.
+  void change(const std::string& word) {
+    const YAML::Node values = navvi_config::read_words({word});
+    navvi_config::read(config_, values, "the menu");
+    feedback_.use(config_.feedback);
+    speech_.set_rate(config_.speaker.rate);
+    mixer_.set_volume(config_.mixer.volume);
+    const std::size_t end = word.find(":=");
+    ros::param::set("~" + word.substr(0, end), word.substr(end + 2));
+    unsaved_.push_back(word);
+  }
+
+  /// In a thread of its own, for the person drives, and a disk may take seconds.
+  void keep_settings() {
+    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+      saved();
+    if (unsaved_.empty() || saving_.valid()) return;
+    if (!person_) {
+      if (!std::exchange(told_not_kept_, true)) news_.push_back("settings_not_kept");
+      unsaved_.clear();
+      return;
+    }
+    saving_ = std::async(
+        std::launch::async,
+        [person = *person_, words = std::exchange(unsaved_, {})] { person.save(words); });
+  }
+
+  void saved() {
+    try {
+      saving_.get();
+    } catch (const std::exception& error) {
+      ROS_ERROR("%s", error.what());
+      news_.push_back("settings_not_saved");
+    }
   }
 
   void move_motors(const haptics::Rumble& rumble, std::optional<haptics::Pattern> pattern,
@@ -303,6 +362,10 @@ class FeedbackNode {
   std::vector<Eigen::Vector2d> path_;  ///< m, in map
   std::vector<drive::Button> asked_;   ///< by topic, not answered yet
   std::vector<std::string> news_;      ///< kinds of cues, not said yet
+  std::vector<std::string> unsaved_;   ///< settings, as words
+  std::optional<person::PersonFile> person_;
+  std::future<void> saving_;
+  bool told_not_kept_ = false;  ///< that settings hold for this session alone
 
   std::optional<double> markers_time_;  // s, of now()
   double last_tick_ = 0.0;              // s, of now()

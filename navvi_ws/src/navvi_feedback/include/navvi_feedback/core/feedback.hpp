@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
@@ -61,6 +62,7 @@ class Feedback {
     std::optional<navvi_types::Pose2> robot;  ///< base_link in map, if known
     std::vector<drive::Button> asked;  ///< by other means than the hands, since the last update
     std::vector<std::string> notices;  ///< as Situation::notices
+    std::string person;                ///< whose settings are used, if anybody's
   };
   struct Output {
     std::optional<Velocity> command;  ///< nullopt: nothing is sent
@@ -72,6 +74,7 @@ class Feedback {
     std::vector<sounds::Play> plays;          ///< to be played now
     std::optional<TrialRequest::Kind> request;
     std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
+    std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
   };
 
   /// \param phrases  file of the spoken phrases
@@ -88,12 +91,16 @@ class Feedback {
     gate_ = state.state;
     intruder_ = !state.intruder.empty();
   }
-  void take(const TrialState& state, double /*time*/) { trial_ = state; }
+  void take(const TrialState& state, double time);
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
-  void take(const Scenario& scenario, double /*time*/) { scenario_ = scenario; }
+  void take(const Scenario& scenario, double time);
   /// Whoever has set it. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   void take(const Contact& contact) { contacts_.push_back(contact); }
+  /// What the person can set, by parameter.
+  void take_settings(const std::map<std::string, std::string>& values);
+  /// From now on, as far as the person can set it: touch, sounds and wording.
+  void use(const FeedbackConfig& config);
 
   /// Call it at 50 Hz.
   [[nodiscard]] Output update(const Input& input, double time);
@@ -123,7 +130,7 @@ class Feedback {
 
   [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
   [[nodiscard]] double assist(std::optional<Velocity>& command, double time) const;
-  /// Carries out what the buttons ask of the trial and the menu.
+  /// Carries out what the menu makes of the buttons.
   void obey(const std::vector<drive::Button>& pressed, Output& out);
   [[nodiscard]] bool alarm_begins(const Input& input);
   void begin_patterns(const Output& out);
@@ -145,7 +152,6 @@ class Feedback {
   bool intruder_ = false;  ///< that gate ignores another node's commands
   TrialState trial_;
   std::optional<Scenario> scenario_;
-  std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
   Latest<Velocity> motion_;
   double turned_ = 0.0;            ///< rad, counter-clockwise, since that guidance
   std::vector<Contact> contacts_;  ///< since the last update

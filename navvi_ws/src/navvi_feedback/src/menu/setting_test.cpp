@@ -1,0 +1,51 @@
+#include "menu/setting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <navvi_config/reader.hpp>
+
+namespace navvi_feedback::menu {
+namespace {
+
+TEST(Setting, steps_up_and_down_and_stays_at_its_ends) {
+  const Setting& rate = settings().front();
+  EXPECT_EQ(rate.step("220", true), "240");
+  EXPECT_EQ(rate.step("220", false), "200");
+  EXPECT_EQ(rate.step("80", false), "80");
+  EXPECT_EQ(rate.step("440", true), "449");
+  EXPECT_EQ(rate.step("449", true), "449");
+}
+
+TEST(Setting, steps_from_a_value_that_is_none_of_its_own_to_the_next_that_is) {
+  const Setting& rate = settings().front();
+  EXPECT_EQ(rate.step("230", true), "240");
+  EXPECT_EQ(rate.step("230", false), "220");
+  EXPECT_EQ(rate.step("81", false), "80");
+}
+
+TEST(Setting, each_value_can_be_said) {
+  for (const char* language : {"en", "es"}) {
+    const cues::Phrases phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/" + language +
+                                ".yaml");
+    for (const Setting& setting : settings())
+      for (const std::string& value : setting.values)
+        EXPECT_TRUE(cues::speakable(
+            phrases.say("setting_open", setting.say("setting_open", value).fillings)));
+  }
+  const cues::Phrases english(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml");
+  const auto said = [&](std::size_t setting, const char* value) {
+    return english.say("setting_changed", settings()[setting].say("", value).fillings);
+  };
+  EXPECT_EQ(said(0, "240"), "speed of speech 240");
+  EXPECT_EQ(said(2, "0.7"), "strength of the motors 70 percent");
+  EXPECT_EQ(said(3, "full"), "words full");
+  EXPECT_EQ(said(4, "false"), "touch of what is near off");
+}
+
+}  // namespace
+}  // namespace navvi_feedback::menu
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,124 @@
+"""A person's settings: changed while driving, heard and felt at once, kept in their file, true in the records of trials to come."""
+import os
+import subprocess
+import threading
+import time
+
+import pytest
+import rospy
+import yaml
+from navvi_msgs.msg import Cue
+from sensor_msgs.msg import Joy
+
+UP, DOWN, LEFT, RIGHT = 11, 12, 13, 14
+
+
+class Session:
+    """feedback_node, the pad of another driver with its arrow pad, and what is heard and felt."""
+
+    def __init__(self, env, *words):
+        self.said, self.felt, self.down, self.over = [], [], None, False
+        self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
+        self.cues = rospy.Subscriber("/navvi/cues", Cue, self.hear)
+        self.node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic", "_speech:=false", "_listener:=topic", *words], env=env)
+        self.hand = threading.Thread(target=self.hold)
+        self.hand.start()
+        self.until(lambda: self.joy.get_num_connections() > 0 and self.cues.get_num_connections() > 0)
+
+    def hear(self, cue):
+        if cue.stage == Cue.STARTED:
+            (self.said if cue.modality == Cue.SPEECH else self.felt).append(cue.text or cue.kind)
+
+    def hold(self):
+        while not self.over:
+            self.joy.publish(Joy(axes=[0, 0], buttons=[int(i == self.down) for i in range(15)]))
+            time.sleep(0.02)
+
+    def until(self, condition):
+        deadline = time.monotonic() + 20
+        while not condition():
+            assert time.monotonic() < deadline, self.said[-5:]
+            time.sleep(0.02)
+
+    def press(self, *buttons):
+        """Short presses. Returns what is said to the last."""
+        for button in buttons:
+            before = len(self.said)
+            self.down = button
+            time.sleep(0.1)
+            self.down = None
+            self.until(lambda: len(self.said) > before)
+            time.sleep(0.1)
+        return self.said[before]
+
+    def close(self):
+        self.over = True
+        self.hand.join()
+        self.node.terminate()
+        self.node.wait(20)
+        self.cues.unregister()
+        self.joy.unregister()
+
+
+@pytest.fixture(scope="module")
+def env(master):
+    os.environ.update(ROS_MASTER_URI=master["ROS_MASTER_URI"], ROS_IP=master["ROS_IP"])
+    rospy.init_node("person_test", disable_rostime=True, disable_signals=True)
+    return master
+
+
+@pytest.fixture
+def session(env, tmp_path):
+    sessions = []
+
+    def begin(*words):
+        for old in sessions:
+            old.close()
+        sessions[:] = [Session(dict(env, NAVVI_PEOPLE=str(tmp_path)), *words)]
+        return sessions[0]
+
+    yield begin
+    sessions[0].close()
+    rospy.delete_param("/feedback_node")
+
+
+def saved(folder):
+    path = folder / "anna.yaml"
+    return yaml.safe_load(path.read_text()) if path.exists() else {}
+
+
+def test_settings_are_changed_by_the_pad_and_kept(session, tmp_path):
+    pad = session("_person:=anna")
+    pad.until(lambda: "settings of anna" in pad.said)
+    assert pad.press(DOWN) == "settings"
+    assert pad.press(RIGHT) == "speed of speech, 220"
+    assert pad.press(RIGHT) == "speed of speech, 220, up for more, down for less"
+    assert pad.press(UP) == "speed of speech 240"
+    pad.until(lambda: saved(tmp_path) == {"speaker": {"rate": 240}})
+    assert pad.press(LEFT, DOWN, DOWN) == "strength of the motors, 100 percent"
+    assert pad.press(RIGHT, DOWN) == "strength of the motors 90 percent"
+    pad.until(lambda: "sample" in pad.felt)
+    assert pad.press(LEFT, DOWN) == "words, normal"
+    assert pad.press(RIGHT, UP) == "words full"
+    pad.until(lambda: saved(tmp_path) == {"speaker": {"rate": 240}, "haptics": {"strength": 0.9}, "cues": {"wording": {"verbosity": "full"}}})
+    assert "for this session only" not in pad.said
+    # What trials to come name in their record, and what the node takes if it must be started anew.
+    assert rospy.get_param("/feedback_node/speaker/rate") == "240"
+    pad = session("_person:=anna")
+    assert pad.press(DOWN, RIGHT) == "speed of speech, 240"
+
+
+def test_who_has_no_file_is_told_that_settings_are_not_kept(session, tmp_path):
+    pad = session()
+    assert pad.press(DOWN, RIGHT, RIGHT, DOWN) == "speed of speech 200"
+    pad.until(lambda: "for this session only" in pad.said)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_setting_that_cannot_be_written_is_said_and_holds(session, tmp_path):
+    (tmp_path / "people").write_text("a file where a folder should be")
+    (tmp_path / "people").rename(tmp_path / "anna.yaml")
+    pad = session("_person:=anna")
+    assert pad.press(DOWN, RIGHT, RIGHT, DOWN) == "speed of speech 200"
+    pad.until(lambda: "the settings cannot be saved" in pad.said)
+    assert (tmp_path / "anna.yaml").read_text() == "a file where a folder should be"
