@@ -12,6 +12,9 @@ namespace {
 constexpr double kOnCourse = 0.2;
 /// Of the force that attracts.
 constexpr double kLeast = 0.2;
+/// Of a change of a motor's force: what every driver can tell from none, so that a change begins
+/// with the message that asks for it, however soon that comes after the last one.
+constexpr double kStep = 2.0 / 255.0;
 
 /// A motor command that the motor can follow: nothing, or at least its starting threshold.
 double motor(double force, double start, double gain) {
@@ -135,7 +138,8 @@ Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double 
   if (const auto felt = config_.steer == "attractive" ? attraction(off) : strongest(things)) {
     felt_for_ += dt;
     zone_ = zone_of(felt->lateral);
-    const double ramp = config_.onset > 0.0 ? std::min(1.0, felt_for_ / config_.onset) : 1.0;
+    const double ramp =
+        config_.onset > 0.0 ? std::clamp(felt_for_ / config_.onset, kStep, 1.0) : 1.0;
     const double force = ramp * felt->force;
     if (*zone_ != Zone::right) wanted_left = force;
     if (*zone_ != Zone::left) wanted_right = force;
@@ -144,8 +148,9 @@ Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double 
     felt_for_ = 0.0;
   }
   if (config_.slew > 0.0) {
-    force_.left = slewed(force_.left, wanted_left, config_.slew * dt);
-    force_.right = slewed(force_.right, wanted_right, config_.slew * dt);
+    const double limit = std::max(kStep, config_.slew * dt);
+    force_.left = slewed(force_.left, wanted_left, limit);
+    force_.right = slewed(force_.right, wanted_right, limit);
   } else {
     force_ = {wanted_left, wanted_right};
   }

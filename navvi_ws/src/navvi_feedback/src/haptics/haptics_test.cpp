@@ -156,6 +156,19 @@ TEST(Haptics, the_onset_is_a_ramp_and_no_jolt) {
   EXPECT_GT(last, 0.9);
 }
 
+TEST(Haptics, a_change_begins_with_the_message_that_asks_for_it_however_soon_that_comes) {
+  const HapticsConfig config;
+  Haptics haptics(config);
+  RumbleOutput output;
+  const auto moved = [&](double gap, double dt, double time) {
+    return output.update(haptics.update({thing(gap, gap, 0.0)}, true, dt), time).moved;
+  };
+  EXPECT_TRUE(moved(3.0, 0.0, 0.0));
+  for (int i = 1; i < 100; ++i) (void)moved(3.0, 0.02, 0.02 * i);
+  EXPECT_FALSE(moved(3.0, 0.02, 2.0));
+  EXPECT_TRUE(moved(1.0, 0.0, 2.0)) << "at the same moment as the last beat";
+}
+
 TEST(Haptics, a_thing_that_trembles_on_the_range_is_felt_steadily_or_not_at_all) {
   Haptics haptics{HapticsConfig{}};
   int changes = 0;

@@ -29,8 +29,8 @@ RumbleOutput::Due RumbleOutput::update(const Rumble& rumble, double time) {
   Due due;
   due.changed = off(rumble) != off(recorded_) || step >= kJump ||
                 (step >= kStep && elapsed(recorded_at_, time, kRecordPeriod));
-  due.feedback = difference(rumble, sent_) >= kStep || off(rumble) != off(sent_) ||
-                 elapsed(sent_at_, time, kRepeatPeriod);
+  due.moved = difference(rumble, sent_) >= kStep || off(rumble) != off(sent_);
+  due.feedback = due.moved || elapsed(sent_at_, time, kRepeatPeriod);
   if (due.changed) {
     recorded_ = rumble;
     recorded_at_ = time;

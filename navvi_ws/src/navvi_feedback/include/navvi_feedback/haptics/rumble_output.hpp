@@ -14,6 +14,7 @@ class RumbleOutput {
   struct Due {
     bool changed = false;   ///< worth a row of the record
     bool feedback = false;  ///< send the values to other drivers
+    bool moved = false;     ///< and they are other ones
   };
 
   /// \param time  s, of a clock that does not run backwards
