@@ -99,6 +99,7 @@ void CueQueue::begin_next(Step& step) {
   waiting_.pop_front();
   step.events.push_back(event(running_->id, CueStage::started, running_->cue));
   step.start = running_->cue.text;
+  step.asked = running_->cue.asked;
 }
 
 }  // namespace navvi_feedback::cues

@@ -61,6 +61,8 @@ std::vector<Note> notes(sounds::Earcon earcon) {
   switch (earcon) {
     case Earcon::turn:
       return {{V::flute, 700.0, 700.0, 0.05}};
+    case Earcon::turn_click:
+      return {{V::flute, 4000.0, 4000.0, 0.01}};
     case Earcon::turn_stop:
       return {{V::bell, 1568.0, 1568.0, 0.07}, {V::bell, 1046.5, 1046.5, 0.2}};
     case Earcon::on_course:

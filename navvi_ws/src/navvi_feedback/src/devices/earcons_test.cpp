@@ -77,6 +77,13 @@ TEST(Earcons, are_told_apart_by_what_is_heard) {
   }
 }
 
+TEST(Earcons, a_tick_under_words_has_nothing_of_what_words_are_made_of) {
+  const std::vector<double> ear = listen(Earcon::turn_click);
+  for (double frequency = 200.0; frequency < 3000.0; frequency *= 1.2)
+    EXPECT_LT(tone_in(ear, frequency), 0.25 * tone_in(ear, 4000.0)) << frequency << " Hz";
+  EXPECT_LE(synthesize(Earcon::turn_click).duration(), 0.011);
+}
+
 TEST(EarconPlayer, tells_what_was_heard) {
   Mixer off(MixerConfig{}, Audio::off);
   EXPECT_TRUE(EarconPlayer(off).play({{}}).empty());
@@ -87,10 +94,4 @@ TEST(EarconPlayer, tells_what_was_heard) {
 }  // namespace
 }  // namespace navvi_feedback::devices
 
-int main(int argc, char** argv) {
-  navvi_feedback::devices::record_what_is_heard();
-  testing::InitGoogleTest(&argc, argv);
-  const int result = RUN_ALL_TESTS();
-  std::filesystem::remove_all(navvi_feedback::devices::recording_folder());
-  return result;
-}
+int main(int argc, char** argv) { return navvi_feedback::devices::run_recorded_tests(argc, argv); }

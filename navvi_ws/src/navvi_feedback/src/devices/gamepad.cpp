@@ -87,9 +87,10 @@ class Gamepad::Pad {
                               status.firmware != 0 && status.firmware < kFirstCalmFirmware;
   }
 
-  /// \return false if the pad refused the command
-  bool drive(const haptics::Rumble& wish, Clock::time_point now) {
-    if (!has_rumble_) return true;
+  enum class Command { same, another, refused };
+
+  Command drive(const haptics::Rumble& wish, Clock::time_point now) {
+    if (!has_rumble_) return Command::same;
     double least = 0.0;
     if (now - opened_ < kPrime) {
       const double part = std::chrono::duration<double>(now - opened_) / kPrime;
@@ -98,11 +99,13 @@ class Gamepad::Pad {
     const MotorValues wanted(motor_value(std::max(wish.left, least)),
                              motor_value(std::max(wish.right, least)));
     const bool resend = wanted != MotorValues() && now - sent_time_ >= kResend;
-    if (wanted == sent_ && !resend) return true;
+    if (wanted == sent_ && !resend) return Command::same;
+    const Command command = wanted == sent_ ? Command::same : Command::another;
     sent_ = wanted;
     sent_time_ = now;
-    return SDL_GameControllerRumble(pad_.get(), wanted.first, wanted.second,
-                                    static_cast<Uint32>(kExpiry.count())) >= 0;
+    const int result = SDL_GameControllerRumble(pad_.get(), wanted.first, wanted.second,
+                                                static_cast<Uint32>(kExpiry.count()));
+    return result >= 0 ? command : Command::refused;
   }
   void silence() {
     if (has_rumble_) SDL_GameControllerRumble(pad_.get(), 0, 0, 0);
@@ -126,9 +129,10 @@ Gamepad::Status Gamepad::status() const {
   return status_;
 }
 
-void Gamepad::rumble(const haptics::Rumble& rumble) {
+void Gamepad::rumble(const haptics::Rumble& rumble, std::function<void()> called) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (!called_) called_ = std::move(called);
     wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
     wish_time_ = Clock::now();
   }
@@ -200,11 +204,15 @@ void Gamepad::forget_pad() {
 void Gamepad::move_motors(Clock::time_point now) {
   if (!pad_) return;
   haptics::Rumble wish;
+  std::function<void()> called;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (now - wish_time_ < kExpiry) wish = wish_;
+    called = std::exchange(called_, {});
   }
-  if (pad_->drive(wish, now)) return;
+  const Pad::Command command = pad_->drive(wish, now);
+  if (command == Pad::Command::another && called) called();
+  if (command != Pad::Command::refused) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   ++status_.rumble_errors;
 }

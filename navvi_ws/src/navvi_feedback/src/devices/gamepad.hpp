@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -45,7 +46,8 @@ class Gamepad final : private ThreadedDevice {
 
   /// Turns the motors until the next call, but no longer than 300 ms. Returns at once. Values are
   /// clamped to [0, 1]; one that is not finite counts as 0.
-  void rumble(const haptics::Rumble& rumble);
+  /// \param called  in the pad's thread, once the driver was told, if that is another command
+  void rumble(const haptics::Rumble& rumble, std::function<void()> called = {});
 
  private:
   /// The pad that is open, and the last values of its motors. Used by the thread alone.
@@ -66,6 +68,7 @@ class Gamepad final : private ThreadedDevice {
   Status status_;
   haptics::Rumble wish_;
   std::chrono::steady_clock::time_point wish_time_{};
+  std::function<void()> called_;  ///< of the first wish that the thread has not seen
 
   DeviceThread thread_;  ///< the last, for it uses all the others
 };

@@ -155,6 +155,22 @@ TEST_F(GamepadWith, rumble_reaches_the_right_motors_and_expires_without_a_new_wi
   EXPECT_TRUE(eventually([&] { return pad.left() == 0 && pad.right() == 0; }, 600ms));
 }
 
+TEST_F(GamepadWith, who_wishes_is_told_when_the_driver_was_if_that_is_another_command) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  std::this_thread::sleep_for(450ms);  // the priming pulse
+  std::atomic<int> left{-1};
+  gamepad.rumble({0.5, 0.0}, [&] { left = pad.left(); });
+  ASSERT_TRUE(eventually([&] { return left >= 0; }));
+  EXPECT_NEAR(left / 65535.0, 0.5, 0.01);
+  std::atomic<int> again{0};
+  gamepad.rumble({0.5, 0.0}, [&] { ++again; });
+  gamepad.rumble({0.5, 0.0});
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(again, 0);
+}
+
 TEST_F(GamepadWith, a_steady_wish_keeps_the_motors_turning_beyond_the_expiry) {
   Gamepad gamepad;
   VirtualPad pad;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -37,12 +39,17 @@ inline const std::filesystem::path& recording_folder() {
   return folder;
 }
 
-inline void record_what_is_heard() {
+/// main() of a test that listens.
+inline int run_recorded_tests(int argc, char** argv) {
   const std::filesystem::path config = recording_folder() / "alsoft.conf";
   std::ofstream(config) << "[general]\ndrivers=wave\nchannels=stereo\nsample-type=int16\n"
                         << "frequency=44100\n[wave]\nfile="
                         << (recording_folder() / "heard.wav").string() << "\n";
   setenv("ALSOFT_CONF", config.c_str(), 1);
+  testing::InitGoogleTest(&argc, argv);
+  const int result = RUN_ALL_TESTS();
+  std::filesystem::remove_all(recording_folder());
+  return result;
 }
 
 /// What was recorded since the device was opened last.

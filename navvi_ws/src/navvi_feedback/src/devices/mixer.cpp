@@ -199,6 +199,13 @@ bool Mixer::speaking() const {
   return state == AL_PLAYING;
 }
 
+int Mixer::mixed() const {
+  const std::lock_guard lock(device_mutex_);
+  ALint samples = 0;
+  if (connected()) alGetSourcei(handles_->sources[0], AL_SAMPLE_OFFSET, &samples);
+  return samples;
+}
+
 void Mixer::mute() {
   const std::lock_guard lock(device_mutex_);
   // The mixer ramps to the new gain over one period.

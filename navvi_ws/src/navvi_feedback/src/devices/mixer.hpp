@@ -60,6 +60,8 @@ class Mixer {
   [[nodiscard]] bool speak(const Sound& sound, double gain);
   /// False also if the device was lost.
   [[nodiscard]] bool speaking() const;
+  /// Samples of what the voice says that have been mixed, for the device to play next.
+  [[nodiscard]] int mixed() const;
   /// The voice falls silent with the next period of the device (about 10 ms), without a click.
   void mute();
   /// Frees what the voice said. Call it some periods after mute().

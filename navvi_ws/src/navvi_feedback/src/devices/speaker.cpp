@@ -16,10 +16,11 @@ Clock::duration seconds(double value) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
 }
 
-/// Between two looks at a running sound, and at an idle device.
+/// Between two looks at a running sound, at one that is to begin or to end, and at an idle device.
 constexpr auto kPoll = std::chrono::milliseconds(10);
+constexpr auto kCloseLook = std::chrono::milliseconds(1);
 constexpr auto kIdlePoll = std::chrono::milliseconds(250);
-/// What the mixer needs to fade a stopped sound out.
+/// The mixer needs no longer to fade a stopped sound out.
 constexpr auto kFade = std::chrono::milliseconds(25);
 
 }  // namespace
@@ -61,24 +62,26 @@ void Speaker::set_rate(int rate) {
   config_.rate = rate;
 }
 
-void Speaker::start(const std::string& text) {
+void Speaker::start(const std::string& text, std::function<void()> begun) {
   const bool fit = cues::speakable(text);
   {
     const std::lock_guard lock(mutex_);
     ++generation_;
     busy_ = fit;
     request_ = fit ? std::optional(text) : std::nullopt;
+    begun_ = std::move(begun);
     if (!fit) ++status_.failed;
   }
   changed_.notify_all();
 }
 
-void Speaker::stop() {
+void Speaker::stop(std::function<void()> silent) {
   {
     const std::lock_guard lock(mutex_);
     ++generation_;
     busy_ = false;
     request_.reset();
+    silent_ = std::move(silent);
   }
   changed_.notify_all();
 }
@@ -109,7 +112,7 @@ void Speaker::run(std::promise<void> ready) {
     }
     voice->set_rate(job->rate);
     const Sound sound = voice->synthesize(*job->text, [&] { return superseded(job->generation); });
-    if (!superseded(job->generation)) play(sound, job->generation);
+    if (!superseded(job->generation)) play(sound, *job);
     finish(job->generation, !sound.samples.empty());
   }
 }
@@ -118,7 +121,9 @@ std::optional<Speaker::Job> Speaker::next() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
   if (quit_) return std::nullopt;
-  return Job{std::exchange(request_, std::nullopt), generation_, config_.rate};
+  silent_ = {};  // nothing is heard
+  return Job{std::exchange(request_, std::nullopt), generation_, config_.rate,
+             std::exchange(begun_, {})};
 }
 
 bool Speaker::superseded(unsigned long generation) const {
@@ -126,14 +131,21 @@ bool Speaker::superseded(unsigned long generation) const {
   return generation != generation_;
 }
 
-void Speaker::play(const Sound& sound, unsigned long generation) {
+void Speaker::play(const Sound& sound, const Job& job) {
   mixer_.tend();
   const auto end = Clock::now() + seconds(sound.duration());
   bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
+  bool begun = !audible;
   while (true) {
     {
       std::unique_lock lock(mutex_);
-      if (changed_.wait_for(lock, kPoll, [&] { return generation != generation_; })) break;
+      if (changed_.wait_for(lock, begun ? kPoll : kCloseLook,
+                            [&] { return job.generation != generation_; }))
+        break;
+    }
+    if (!begun && mixer_.mixed() > 0) {
+      begun = true;
+      if (job.begun) job.begun();
     }
     if (audible && !mixer_.speaking()) {
       audible = false;
@@ -142,11 +154,27 @@ void Speaker::play(const Sound& sound, unsigned long generation) {
     // What a device that was lost did not play passes in silence, so that the times stay true.
     if (!audible && Clock::now() >= end) break;
   }
-  if (audible && mixer_.speaking()) {
-    mixer_.mute();
-    std::this_thread::sleep_for(kFade);
-  }
+  if (audible && mixer_.speaking()) fall_silent();
   mixer_.stop();
+}
+
+void Speaker::fall_silent() {
+  mixer_.mute();
+  const auto end = Clock::now() + kFade;
+  // The first mix from now on fades out, the next is silent.
+  int mixes = 0;
+  for (int seen = mixer_.mixed(); mixes < 2 && Clock::now() < end;) {
+    std::this_thread::sleep_for(kCloseLook);
+    const int now = mixer_.mixed();
+    if (now != seen) ++mixes;
+    seen = now;
+  }
+  std::function<void()> silent;
+  {
+    const std::lock_guard lock(mutex_);
+    silent = std::exchange(silent_, {});
+  }
+  if (silent) silent();
 }
 
 void Speaker::finish(unsigned long generation, bool done) {

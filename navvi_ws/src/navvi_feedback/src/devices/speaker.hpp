@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <future>
 #include <mutex>
 #include <optional>
@@ -42,10 +43,12 @@ class Speaker {
   void set_rate(int rate);
 
   /// Begins to speak and returns at once; whatever is being spoken is stopped.
+  /// \param begun  in the speaker's thread, once the first sample was mixed
   /// \param text  as speakable() of phrases.hpp; anything else is not spoken and counts as failed
-  void start(const std::string& text);
+  void start(const std::string& text, std::function<void()> begun = {});
   /// Falls silent within 50 ms. Returns at once; busy() is false from here on.
-  void stop();
+  /// \param silent  in the speaker's thread, once what was heard is so no more
+  void stop(std::function<void()> silent = {});
   /// True from start() until the last sample was heard (or would have been).
   [[nodiscard]] bool busy() const;
   [[nodiscard]] Status status() const;
@@ -55,6 +58,7 @@ class Speaker {
     std::optional<std::string> text;  ///< nullopt: nothing to say, look after the device
     unsigned long generation = 0;
     int rate = 0;  ///< words a minute
+    std::function<void()> begun = {};
   };
 
   void run(std::promise<void> ready);
@@ -62,7 +66,8 @@ class Speaker {
   [[nodiscard]] std::optional<Job> next();
   [[nodiscard]] bool superseded(unsigned long generation) const;
   /// Returns when the sound has ended, or was superseded and is silent.
-  void play(const Sound& sound, unsigned long generation);
+  void play(const Sound& sound, const Job& job);
+  void fall_silent();
   void finish(unsigned long generation, bool done);
 
   SpeakerConfig config_;
@@ -71,7 +76,8 @@ class Speaker {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<std::string> request_;
-  unsigned long generation_ = 0;  ///< grows with every start and stop
+  std::function<void()> begun_, silent_;  ///< not called yet
+  unsigned long generation_ = 0;          ///< grows with every start and stop
   bool busy_ = false;
   bool quit_ = false;
   Status status_;

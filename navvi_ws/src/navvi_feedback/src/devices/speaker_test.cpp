@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <navvi_config/reader.hpp>
 #include <vector>
@@ -171,9 +172,26 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   EXPECT_LT(loud_time(), 0.75) << "went on after stop()";
 }
 
+TEST(Speaker, tells_when_words_begin_to_be_heard_and_when_they_end) {
+  Mixer mixer(MixerConfig{}, Audio::on);
+  Speaker speaker(SpeakerConfig{}, mixer);
+  std::atomic<int> begun{0};
+  std::atomic<int> silent{0};
+  speaker.start("You have reached your destination", [&] { ++begun; });
+  ASSERT_TRUE(wait_for([&] { return begun == 1; }));
+  EXPECT_GT(mixer.mixed(), 0);
+  speaker.stop([&] { ++silent; });
+  ASSERT_TRUE(wait_for([&] { return silent == 1; }));
+  speaker.stop([&] { ++silent; });  // nothing is heard that could end
+  speaker.start("stop", [&] { ++begun; });
+  ASSERT_TRUE(wait_for([&] { return begun == 2; }));
+  EXPECT_EQ(silent, 1);
+}
+
 TEST(SpeechChannel, lets_a_safety_cue_be_heard_and_gives_every_cue_its_end) {
   Mixer mixer(MixerConfig{}, Audio::off);
-  SpeechChannel channel(SpeakerConfig{}, mixer);
+  Latencies latencies;
+  SpeechChannel channel(SpeakerConfig{}, mixer, latencies);
   std::vector<CueEvent> events;
   const auto start = Clock::now();
   const auto tick = [&](const std::vector<cues::Cue>& cues) {
@@ -193,13 +211,24 @@ TEST(SpeechChannel, lets_a_safety_cue_be_heard_and_gives_every_cue_its_end) {
   EXPECT_EQ(channel.status().spoken, 1U);
 }
 
+TEST(SpeechChannel, times_words_answers_and_silence) {
+  Mixer mixer(MixerConfig{}, Audio::on);
+  Latencies latencies;
+  SpeechChannel channel(SpeakerConfig{}, mixer, latencies);
+  const auto seen = [&](Chain chain) {
+    return wait_for([&] { return latencies.figures(chain).count == 1; });
+  };
+  (void)channel.tick({{"direction", "3 o'clock, 8 meters", Priority::text, 2.0}}, 0.0);
+  EXPECT_TRUE(seen(Chain::words));
+  cues::Cue answer{"goal_info", "goal 8 meters", Priority::message, 2.0};
+  answer.asked = true;
+  (void)channel.tick({answer}, 0.1, true);
+  EXPECT_TRUE(seen(Chain::silence));
+  EXPECT_TRUE(seen(Chain::answer));
+  EXPECT_EQ(latencies.figures(Chain::words).count, 1U);
+}
+
 }  // namespace
 }  // namespace navvi_feedback::devices
 
-int main(int argc, char** argv) {
-  navvi_feedback::devices::record_what_is_heard();
-  testing::InitGoogleTest(&argc, argv);
-  const int result = RUN_ALL_TESTS();
-  std::filesystem::remove_all(navvi_feedback::devices::recording_folder());
-  return result;
-}
+int main(int argc, char** argv) { return navvi_feedback::devices::run_recorded_tests(argc, argv); }

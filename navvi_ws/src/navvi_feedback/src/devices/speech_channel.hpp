@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "devices/latencies.hpp"
 #include "devices/speaker.hpp"
 #include "navvi_feedback/cues/cue_queue.hpp"
 
@@ -10,12 +11,15 @@ namespace navvi_feedback::devices {
 /// The queue and the voice together.
 class SpeechChannel {
  public:
-  /// \throws DeviceError as Speaker does
-  SpeechChannel(const SpeakerConfig& config, Mixer& mixer) : speaker_(config, mixer) {}
+  /// \param latencies  outlives this \throws DeviceError as Speaker does
+  SpeechChannel(const SpeakerConfig& config, Mixer& mixer, Latencies& latencies)
+      : latencies_(latencies), speaker_(config, mixer) {}
 
   /// Call it at 50 Hz. Returns what happened to which cue, in order; each event is to be published.
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<CueEvent> tick(const std::vector<cues::Cue>& new_cues, double time);
+  /// \param pressed  a button went down that one of the cues answers
+  [[nodiscard]] std::vector<CueEvent> tick(const std::vector<cues::Cue>& new_cues, double time,
+                                           bool pressed = false);
 
   /// Falls silent and gives every open cue its end, for the shut-down.
   [[nodiscard]] std::vector<CueEvent> finish();
@@ -29,6 +33,8 @@ class SpeechChannel {
  private:
   std::vector<CueEvent> apply(cues::CueQueue::Step step);
 
+  Latencies& latencies_;
+  std::optional<Latencies::Clock::time_point> pressed_;  ///< and not answered yet
   cues::CueQueue queue_;
   Speaker speaker_;
 };

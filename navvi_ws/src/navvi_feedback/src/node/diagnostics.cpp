@@ -1,5 +1,8 @@
 #include "node/diagnostics.hpp"
 
+#include <array>
+#include <cstdio>
+
 namespace navvi_feedback::node {
 namespace {
 
@@ -37,14 +40,14 @@ DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
 }  // namespace
 
 DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
-                            const std::string& input, bool live) {
+                            const std::string& input, bool live, bool felt) {
   DiagnosticStatus result;
   // Whether anything can be felt.
   std::string state = input == "keyboard" ? "off" : live ? "works" : "missing";
   if (pad) {
     result = own_pad(*pad);
     state = pad->connected && pad->has_rumble ? "works" : "missing";
-    add(result, "name", pad->name);
+    add(result, "name", pad->connected ? pad->name : "none");
     add(result, "firmware", pad->firmware == 0 ? "unknown" : std::to_string(pad->firmware));
     add(result, "other pads, ignored", std::to_string(pad->others));
     add(result, "rumble errors", std::to_string(pad->rumble_errors));
@@ -53,6 +56,7 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
   } else {
     result = status("navvi/pad", DiagnosticStatus::ERROR, "Nothing comes from the " + input + ".");
   }
+  if (!felt) state = "off";
   add(result, "input", input);
   add(result, "state", state);
   return result;
@@ -94,6 +98,34 @@ DiagnosticStatus speech_status(const devices::Speaker::Status& speaker, const st
   add(result, "spoken", std::to_string(speaker.spoken));
   add(result, "failed", std::to_string(speaker.failed));
   return result;
+}
+
+DiagnosticStatus latency_status(const devices::Latencies& latencies) {
+  DiagnosticStatus result = status("navvi/latency", DiagnosticStatus::OK, "In ms.");
+  for (std::size_t i = 0; i < names(devices::Chain{}).size(); ++i) {
+    const auto chain = static_cast<devices::Chain>(i);
+    const devices::Latencies::Figures figures = latencies.figures(chain);
+    if (figures.count == 0) continue;
+    const auto put = [&](const char* name, double value) {
+      std::array<char, 32> text{};
+      std::snprintf(text.data(), text.size(), "%.1f", value);
+      add(result, navvi_types::to_string(chain) + std::string("_") + name, text.data());
+    };
+    put("p50_ms", figures.p50);
+    put("p99_ms", figures.p99);
+    put("max_ms", figures.longest);
+    add(result, navvi_types::to_string(chain) + std::string("_count"),
+        std::to_string(figures.count));
+  }
+  return result;
+}
+
+std::vector<std::string> notices_of(const devices::Gamepad::Status& pad) {
+  std::vector<std::string> kinds;
+  if (pad.connected && !pad.has_rumble) kinds.push_back("no_rumble");
+  if (pad.connected && pad.has_rumble && pad.jolting_firmware) kinds.push_back("pad_firmware");
+  if (pad.others > 0) kinds.push_back("second_pad");
+  return kinds;
 }
 
 }  // namespace navvi_feedback::node

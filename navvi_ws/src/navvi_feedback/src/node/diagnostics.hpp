@@ -4,8 +4,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "devices/gamepad.hpp"
+#include "devices/latencies.hpp"
 #include "devices/speaker.hpp"
 
 namespace navvi_feedback::node {
@@ -16,10 +18,17 @@ namespace navvi_feedback::node {
 /// \param pad  nullopt if the stick comes from elsewhere
 /// \param input  pad, keyboard or topic
 /// \param live   the stick is alive
+/// \param felt   false: the motors stay off by intent
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus pad_status(
-    const std::optional<devices::Gamepad::Status>& pad, const std::string& input, bool live);
+    const std::optional<devices::Gamepad::Status>& pad, const std::string& input, bool live,
+    bool felt);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus audio_status(const devices::Mixer::Status& mixer);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus speech_status(
     const devices::Speaker::Status& speaker, const std::string& voice);
+/// What a person waited for: "motors p50_ms" and so on; a chain that was never seen has no values.
+[[nodiscard]] diagnostic_msgs::DiagnosticStatus latency_status(const devices::Latencies& latencies);
+
+/// What the person is to be told of the pad, as kinds of cues.
+[[nodiscard]] std::vector<std::string> notices_of(const devices::Gamepad::Status& pad);
 
 }  // namespace navvi_feedback::node

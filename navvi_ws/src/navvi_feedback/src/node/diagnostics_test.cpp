@@ -13,14 +13,37 @@ std::string state_of(const diagnostic_msgs::DiagnosticStatus& status) {
 
 TEST(Diagnostics, tell_a_pad_that_can_be_felt_from_one_that_cannot) {
   devices::Gamepad::Status pad;
-  EXPECT_EQ(state_of(pad_status(pad, "pad", false)), "missing");
+  EXPECT_EQ(state_of(pad_status(pad, "pad", false, true)), "missing");
   pad.connected = true;
-  EXPECT_EQ(state_of(pad_status(pad, "pad", true)), "missing") << "no rumble";
+  EXPECT_EQ(state_of(pad_status(pad, "pad", true, true)), "missing") << "no rumble";
   pad.has_rumble = true;
-  EXPECT_EQ(state_of(pad_status(pad, "pad", true)), "works");
-  EXPECT_EQ(state_of(pad_status(std::nullopt, "keyboard", true)), "off");
-  EXPECT_EQ(state_of(pad_status(std::nullopt, "topic", true)), "works");
-  EXPECT_EQ(state_of(pad_status(std::nullopt, "topic", false)), "missing");
+  EXPECT_EQ(state_of(pad_status(pad, "pad", true, true)), "works");
+  EXPECT_EQ(state_of(pad_status(pad, "pad", true, false)), "off") << "by intent";
+  EXPECT_EQ(state_of(pad_status(std::nullopt, "keyboard", true, true)), "off");
+  EXPECT_EQ(state_of(pad_status(std::nullopt, "topic", true, true)), "works");
+  EXPECT_EQ(state_of(pad_status(std::nullopt, "topic", false, true)), "missing");
+}
+
+TEST(Diagnostics, tell_the_person_of_a_pad_that_jolts_cannot_rumble_or_is_ignored) {
+  devices::Gamepad::Status pad;
+  EXPECT_TRUE(notices_of(pad).empty());
+  pad.connected = pad.has_rumble = pad.jolting_firmware = true;
+  EXPECT_EQ(notices_of(pad), std::vector<std::string>{"pad_firmware"});
+  pad.has_rumble = false;
+  pad.others = 1;
+  EXPECT_EQ(notices_of(pad), (std::vector<std::string>{"no_rumble", "second_pad"}));
+}
+
+TEST(Diagnostics, tell_how_long_the_person_waited_for_what_was_seen) {
+  devices::Latencies latencies;
+  EXPECT_TRUE(latency_status(latencies).values.empty());
+  latencies.add(devices::Chain::motors,
+                devices::Latencies::Clock::now() - std::chrono::milliseconds(20));
+  const diagnostic_msgs::DiagnosticStatus status = latency_status(latencies);
+  ASSERT_EQ(status.values.size(), 4U);
+  EXPECT_EQ(status.values[0].key, "motors_p50_ms");
+  EXPECT_GE(std::stod(status.values[0].value), 20.0);
+  EXPECT_EQ(status.values[3].value, "1");
 }
 
 TEST(Diagnostics, tell_sound_that_is_off_from_sound_that_is_missing) {

@@ -7,6 +7,7 @@
 #include <std_msgs/String.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
 #include <csignal>
 #include <future>
 #include <navvi_config/ros_parameters.hpp>
@@ -34,7 +35,8 @@ namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
 
-constexpr double kTick = 0.02;  // s
+constexpr double kTick = 0.02;    // s
+constexpr double kReport = 0.25;  // s; who waits for it knows within a second that it hangs
 
 /// Wall time, so that the person hears of a simulation that has stopped.
 double now() { return ros::SteadyTime::now().toSec(); }
@@ -45,7 +47,7 @@ class FeedbackNode {
       : config_(config),
         feedback_(config.feedback, config.phrases_file()),
         mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
-        speech_(config.voice(), mixer_),
+        speech_(config.voice(), mixer_, latencies_),
         earcons_(mixer_),
         source_(config.input) {
     config_.speaker = config.voice();  // for the record
@@ -63,7 +65,7 @@ class FeedbackNode {
         node_.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) {
           if (now() - last_tick_ >= 0.9 * kTick) tick();
         });
-    diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
+    diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(kReport),
                                                [this](const ros::WallTimerEvent&) { diagnose(); });
   }
 
@@ -101,11 +103,11 @@ class FeedbackNode {
     // What is felt, hit or to be obeyed does not wait for the next beat.
     listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const Proximity& proximity) {
       feedback_.take(proximity, now());
-      tick();
+      tick(devices::Chain::motors);
     });
     listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const Contact& contact) {
       feedback_.take(contact);
-      tick();
+      tick(devices::Chain::pattern);
     });
     listen<navvi_msgs::Guidance>("navvi/guidance", 1, [this](const Guidance& guidance) {
       const bool news = !feedback_.guidance() || feedback_.guidance()->state != guidance.state;
@@ -113,7 +115,10 @@ class FeedbackNode {
       if (news) tick();
     });
     keep<navvi_msgs::DriveState>("navvi/drive_state");
-    keep<navvi_msgs::TrialState>("navvi/trial_state");
+    listen<navvi_msgs::TrialState>("navvi/trial_state", 1, [this](const TrialState& state) {
+      if (state.state == TrialState::State::running) latencies_.clear();
+      feedback_.take(state, now());
+    });
     keep<navvi_msgs::Scenario>("navvi/scenario");
     keep<nav_msgs::Odometry>("odom");
     listen<geometry_msgs::PoseStamped>(
@@ -140,8 +145,11 @@ class FeedbackNode {
     listen<Msg>(topic, 1, [this](const auto& value) { feedback_.take(value, now()); });
   }
 
-  /// At 50 Hz or more.
-  void tick() {
+  /// At 50 Hz or more. \param caused  the chain that a message begins which has just come
+  void tick(std::optional<devices::Chain> caused = std::nullopt) {
+    const auto begun = devices::Latencies::Clock::now();
+    std::function<void()> called;
+    if (caused) called = [this, chain = *caused, begun] { latencies_.add(chain, begun); };
     const double time = now();
     last_tick_ = time;
     core::Feedback::Input input;
@@ -177,7 +185,7 @@ class FeedbackNode {
     const std::vector<sounds::Play> played = earcons_.play(output.plays);
     for (const sounds::Play& sound : by_topic() ? output.plays : played)
       publish({sound_event(sound, ++sound_id_)});
-    move_motors(output.rumble, output.pattern, time);
+    move_motors(output.rumble, output.pattern, time, called);
     say(output.cues, time);
     show(time);
     last_hands_ = input.hands;
@@ -234,11 +242,14 @@ class FeedbackNode {
     }
   }
 
+  /// \param called  once the driver was told, if that is another command
   void move_motors(const haptics::Rumble& rumble, std::optional<haptics::Pattern> pattern,
-                   double time) {
-    if (devices::Gamepad* pad = source_.pad()) pad->rumble(rumble);
+                   double time, const std::function<void()>& called = {}) {
+    devices::Gamepad* pad = source_.pad();
+    if (pad != nullptr) pad->rumble(rumble, called);
     const haptics::RumbleOutput::Due due = rumble_output_.update(rumble, time);
     if (due.feedback) motors_.publish(feedback_msg(rumble));
+    if (pad == nullptr && due.moved && called) called();
     // The record holds what can have been felt.
     if (due.changed && motors_there()) publish({rumble_event(rumble, pattern, ++rumble_id_)});
   }
@@ -251,7 +262,9 @@ class FeedbackNode {
   }
 
   void say(const std::vector<cues::Cue>& cues, double time) {
-    const std::vector<CueEvent> events = speech_.tick(cues, time);
+    const bool pressed =
+        std::any_of(cues.begin(), cues.end(), [](const cues::Cue& cue) { return cue.asked; });
+    const std::vector<CueEvent> events = speech_.tick(cues, time, pressed);
     feedback_.note(events);
     publish(as_heard(events));
   }
@@ -293,12 +306,7 @@ class FeedbackNode {
   }
 
   [[nodiscard]] std::vector<std::string> notices() const {
-    if (!source_.pad()) return {};
-    const devices::Gamepad::Status pad = source_.pad()->status();
-    std::vector<std::string> result;
-    if (pad.connected && !pad.has_rumble) result.push_back("no_rumble");
-    if (pad.others > 0) result.push_back("second_pad");
-    return result;
+    return source_.pad() ? notices_of(source_.pad()->status()) : std::vector<std::string>{};
   }
 
   /// base_link in map
@@ -336,15 +344,18 @@ class FeedbackNode {
     array.header.stamp = ros::Time::now();
     std::optional<devices::Gamepad::Status> pad;
     if (source_.pad()) pad = source_.pad()->status();
-    array.status = {pad_status(pad, devices::to_string(source_.kind()), last_hands_.live),
+    array.status = {pad_status(pad, devices::to_string(source_.kind()), last_hands_.live,
+                               config_.feedback.haptics.enabled),
                     audio_status(mixer_.status()),
-                    speech_status(speech_.status(), config_.speaker.voice)};
+                    speech_status(speech_.status(), config_.speaker.voice),
+                    latency_status(latencies_)};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }
 
   NodeConfig config_;
   core::Feedback feedback_;
+  devices::Latencies latencies_;  ///< of this trial; before all that times for it
   devices::Mixer mixer_;
   devices::SpeechChannel speech_;
   devices::EarconPlayer earcons_;

@@ -39,6 +39,7 @@ void SoundsConfig::describe(navvi_config::Visitor& visit) {
 const FamilyConfig& SoundsConfig::family_of(Earcon earcon) const {
   switch (earcon) {
     case Earcon::turn:
+    case Earcon::turn_click:
     case Earcon::turn_stop:
     case Earcon::on_course:
       return turn;

@@ -21,7 +21,7 @@ trial::DeviceState state_of(const diagnostic_msgs::DiagnosticStatus& status) {
 std::vector<trial::DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray& msg) {
   std::vector<trial::DeviceReport> reports;
   for (const auto& status : msg.status) {
-    for (const char* device : {"pad", "audio", "speech"}) {
+    for (const char* device : {"pad", "audio", "speech", "latency"}) {
       const std::string name = std::string("navvi/") + device;
       const auto at = status.name.rfind(name);
       if (at == std::string::npos || at + name.size() != status.name.size()) continue;

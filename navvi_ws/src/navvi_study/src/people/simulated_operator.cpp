@@ -104,7 +104,7 @@ void SimulatedOperator::hear_sound(const CueEvent& cue, double time) {
 
 void SimulatedOperator::follow(const Heard& sound, double time) {
   const std::string& kind = sound.kind;
-  if (kind == "turn") {
+  if (kind == "turn" || kind == "turn_click") {
     last_news_ = time;
     const bool same = ticks_ && ticks_->side == sound.side;
     const bool slow = !same || time - ticks_->last > kSlowTicks;

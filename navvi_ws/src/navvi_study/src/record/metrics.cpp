@@ -8,8 +8,9 @@
 namespace navvi_study::record {
 namespace {
 
-/// Columns that summaries of version 0.1.0 lack.
-constexpr const char* kNotIn010[] = {"parameters", "version", "started_utc", "reroute_count"};
+/// Columns that older summaries lack, besides those of the latency.
+constexpr const char* kNewer[] = {"parameters",    "version",       "started_utc",
+                                  "reroute_count", "sounds_played", "patterns_felt"};
 
 std::string seconds(std::int64_t from, std::int64_t to) {
   std::array<char, 40> text{};
@@ -178,11 +179,23 @@ Summary summarize(const std::vector<Row>& rows) {
         return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes";
       })));
   add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
+  for (const char* name : {"sounds_played", "patterns_felt"})
+    add(name, tally ? tally->fields.get(name) : nothing);
+  for (const std::string& name : latency_columns())
+    add(name.c_str(), tally ? tally->fields.get(name) : nothing);
   add("missed_messages", tally ? tally->fields.get("missed_messages") : nothing);
   for (const char* name : {"state_step", "state_hash"})
     add(name, tally ? tally->fields.get(name) : nothing);
   add("bag", bag ? bag->fields.get("state") : nothing);
   return summary;
+}
+
+std::vector<std::string> latency_columns() {
+  std::vector<std::string> names;
+  for (const char* chain : {"motors", "pattern", "words", "answer", "silence"})
+    for (const char* figure : {"_p50_ms", "_p99_ms", "_max_ms"})
+      names.push_back(std::string(chain) + figure);
+  return names;
 }
 
 std::string summary_csv(const Summary& summary) {
@@ -214,7 +227,9 @@ std::optional<Summary> parse_summary(const std::string& text) {
 std::vector<std::string> differences(const Summary& summary, const Summary& recount) {
   const std::map<std::string, std::string> before(summary.begin(), summary.end());
   std::map<std::string, std::string> again(recount.begin(), recount.end());
-  for (const char* name : kNotIn010)
+  std::vector<std::string> newer = latency_columns();
+  newer.insert(newer.end(), std::begin(kNewer), std::end(kNewer));
+  for (const std::string& name : newer)
     if (before.count(name) == 0) again.erase(name);
   std::vector<std::string> sentences;
   for (const auto& [name, cell] : summary) {

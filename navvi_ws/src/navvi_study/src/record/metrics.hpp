@@ -20,6 +20,11 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 /// aborted; one without a start has no figures.
 [[nodiscard]] Summary summarize(const std::vector<Row>& rows);
 
+/// ms, how long the person waited: p50, p99 and max of each chain of feedback_node, from a
+/// proximity message to the motors, a contact to its pattern, a cue to its first sample, a button
+/// to the answer, and the end of words to silence.
+[[nodiscard]] std::vector<std::string> latency_columns();
+
 /// A header and one row.
 [[nodiscard]] std::string summary_csv(const Summary& summary);
 /// nullopt for a text that summary_csv() does not write.

@@ -78,7 +78,7 @@ class Recount {
       places_ = trial::OdometryInMap();
       for (const auto& item : rosbag::View(bag)) see(item, before);
     }
-    record::Fields fields = monitor_.tally_fields();
+    record::Fields fields = monitor_.end_fields();
     const bool reached = monitor_.reached().has_value();
     const std::string told = end_.fields.get("result");
     // What the messages show counts; only ends that no message shows are taken on trust.

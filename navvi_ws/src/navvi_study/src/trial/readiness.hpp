@@ -31,7 +31,8 @@ class Readiness {
   [[nodiscard]] bool saw_any_odometry() const { return odometry_ > kNever; }
   /// s since the last odometry
   [[nodiscard]] double silence(double time) const { return time - odometry_; }
-  /// s since the last report of a device, which feedback_node makes each second; 0 before the first
+  /// s since the last report of a device, of which feedback_node makes four a second; 0 before the
+  /// first
   [[nodiscard]] double feedback_silence(double time) const {
     return feedback_ > kNever ? time - feedback_ : 0.0;
   }

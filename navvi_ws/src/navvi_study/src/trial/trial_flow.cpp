@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kSimulatorLost = 5.0;             // s, without odometry
 constexpr double kGuidanceLost = 10.0;             // s
-constexpr double kFeedbackLost = 5.0;              // s; it reports each second
+constexpr double kFeedbackLost = 5.0;              // s; it reports four times a second
 constexpr double kOperatorLost = 10.0;             // s
 constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
 constexpr double kGoalAgain = 2.0;                 // s, before a goal is sent again

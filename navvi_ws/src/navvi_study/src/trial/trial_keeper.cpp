@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
+constexpr double kSilent = 1.0;                  // s
 constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
 constexpr double kHurry = 1.5;                   // s, for a recorder once all must stop
@@ -231,6 +232,7 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
   enter(Phase::running);
   operator_seen_ = phase_since_;
   bag_.expect_growth(phase_since_);
+  feedback_silent_ = false;
   if (!record({"TRIAL_START", conditions(beginning), beginning.stamp})) return;
   record::Fields where = monitor_.place();
   where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
@@ -291,9 +293,21 @@ void TrialKeeper::watch() {
   signs.odometry_silence = readiness_.silence(now_.wall());
   signs.guidance_silence = readiness_.guidance_silence(now_.wall());
   signs.feedback_silence = readiness_.feedback_silence(now_.wall());
+  watch_feedback(signs.feedback_silence);
   if (simulated()) signs.operator_silence = now_.wall() - operator_seen_;
   if (const auto ending = flow_.watch(signs)) return end(*ending);
   ask_for_goal();
+}
+
+/// A guide that is silent for a second is told and recorded, by who still lives; it may come back,
+/// as on a machine with much to do, and only its loss ends the trial.
+void TrialKeeper::watch_feedback(double silence) {
+  if (feedback_silent_ == (silence > kSilent)) return;
+  feedback_silent_ = !feedback_silent_;
+  if (feedback_silent_)
+    tell(Tone::warning, "The guide is silent: feedback_node has not reported for a second.");
+  record({feedback_silent_ ? "DEVICE_LOST" : "DEVICE_BACK",
+          monitor_.place().set("device", "feedback"), monitor_.latest()});
 }
 
 void TrialKeeper::watch_bag() {
@@ -315,7 +329,7 @@ void TrialKeeper::end(const Ending& ending) {
 void TrialKeeper::write_end() {
   // The goal may have been reached just before the end that was called first.
   ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), journal_->reserve_used());
-  record::Fields fields = monitor_.tally_fields();
+  record::Fields fields = monitor_.end_fields();
   fields.set("result", ending_.result).set("reason", ending_.reason);
   enter(Phase::closing);
   record({"TRIAL_END", fields, ending_.stamp});

@@ -96,6 +96,7 @@ class TrialKeeper {
   [[nodiscard]] record::Fields conditions(const TrialStart& beginning);
   void watch();
   void watch_bag();
+  void watch_feedback(double silence);
   void ask_for_goal();
   void end(const Ending& ending);
   void write_end();
@@ -136,7 +137,8 @@ class TrialKeeper {
   std::filesystem::path folder_;
   std::unique_ptr<record::Journal> journal_;
   BagWatch bag_;
-  bool bag_lost_ = false;  ///< and journalled
+  bool bag_lost_ = false;         ///< and journalled
+  bool feedback_silent_ = false;  ///< likewise
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> goal_before_;  ///< that was taken, if a later one is refused
   GoalTries goal_tries_;

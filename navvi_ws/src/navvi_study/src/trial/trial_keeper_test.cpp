@@ -328,10 +328,20 @@ TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_f
   begin();
   keeper_->take(kScenario, now());
   keeper_->take(DeviceReport{now().ros_ns, "audio", DeviceState::works}, now());
-  live(3.0, State::following, kScenario.goal);
+  live(0.8, State::following, kScenario.goal);
   ASSERT_TRUE(happened("TRIAL_START"));
+  EXPECT_FALSE(happened("DEVICE_LOST"));
+  live(0.5, State::following, kScenario.goal);
+  EXPECT_TRUE(happened("DEVICE_LOST")) << "after a second";
+  EXPECT_NE(said_.find("The guide is silent"), std::string::npos) << said_;
+  EXPECT_FALSE(happened("DEVICE_BACK"));
+  keeper_->take(DeviceReport{now().ros_ns, "audio", DeviceState::works}, now());
+  live(0.5, State::following, kScenario.goal);
+  EXPECT_TRUE(happened("DEVICE_BACK"));
+  live(3.0, State::following, kScenario.goal);
   EXPECT_FALSE(happened("TRIAL_END"));
-  live(10.0, State::following, kScenario.goal);
+  live(7.0, State::following, kScenario.goal);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "DEVICE_LOST"), 2);
   EXPECT_TRUE(happened("TRIAL_END"));
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "record/metrics.hpp"
+
 namespace navvi_study::trial {
 namespace {
 
@@ -11,6 +13,7 @@ using navvi_types::CueStage;
 using navvi_types::Modality;
 using navvi_types::ThingClass;
 
+constexpr std::size_t kReports = 20;         // of latencies; some seconds
 constexpr double kSameGoal = 0.05;           // m
 constexpr double kMoved = 0.05;              // m, driven
 constexpr const char* kNearness = "rumble";  // the kind of what is felt of near things all the time
@@ -79,6 +82,7 @@ void TrialMonitor::start(const TrialStart& start) {
   plans_.reset();
   reroutes_ = 0;
   playing_.clear();
+  latencies_.clear();
   stuck_cues_.clear();
   goal_taken_ = false;
   state_.reset();
@@ -114,10 +118,23 @@ const char* TrialMonitor::zone(double lateral) const {
 record::Fields TrialMonitor::tally_fields() const {
   record::Fields fields = place();
   fields.set("path_length", tally_.path_length).set("cues_spoken", tally_.cues_spoken);
+  fields.set("sounds_played", tally_.sounds_played).set("patterns_felt", tally_.patterns_felt);
   fields.set("reroutes", tally_.reroutes);
   fields.set("missed_messages", tally_.missed_messages);
   fields.set("state_step", world_state_ ? std::to_string(world_state_->step) : "n/a");
   return fields.set("state_hash", world_state_ ? navvi_types::to_hex(world_state_->hash) : "n/a");
+}
+
+record::Fields TrialMonitor::end_fields() const {
+  record::Fields fields = tally_fields();
+  for (auto report = latencies_.rbegin(); report != latencies_.rend(); ++report) {
+    if (end_ && report->stamp > *end_) continue;
+    for (const std::string& name : record::latency_columns())
+      if (const auto known = report->traits.find(name); known != report->traits.end())
+        fields.set(name, known->second);
+    break;
+  }
+  return fields;
 }
 
 std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
@@ -302,7 +319,9 @@ std::optional<Event> TrialMonitor::row_of(const CueEvent& cue) {
   if (cue.modality != Modality::speech) {
     // What is played or felt is reported at each change of strength; a row is for a new kind.
     const std::string before = std::exchange(playing_[cue.modality], begins ? cue.kind : "");
+    if (begins && cue.modality == Modality::sound) ++tally_.sounds_played;
     if (!begins || cue.kind == before || cue.kind == kNearness) return std::nullopt;
+    if (cue.modality == Modality::rumble) ++tally_.patterns_felt;
   }
   record::Fields fields = place();
   fields.set("id", std::uint64_t{cue.id}).set("modality", to_string(cue.modality));
@@ -343,6 +362,10 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
 
 std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
   const bool inside = counts(device.stamp);
+  if (inside && device.device == "latency") {
+    latencies_.push_back(device);
+    if (latencies_.size() > kReports) latencies_.erase(latencies_.begin());
+  }
   const auto known = devices_.find(device.device);
   const bool changed = known != devices_.end() && known->second != device.state;
   devices_[device.device] = device.state;

@@ -42,7 +42,7 @@ enum class DeviceState : std::uint8_t { missing, works, off };
 
 struct DeviceReport {
   std::int64_t stamp = 0;
-  std::string device;  ///< pad, audio, speech
+  std::string device;  ///< pad, audio, speech; latency tells what the person waited for
   DeviceState state = DeviceState::missing;
   std::map<std::string, std::string> traits = {};  ///< such as name, firmware, voice
 };
@@ -84,6 +84,8 @@ struct Tally {
   std::uint64_t replans = 0;
   std::uint64_t reroutes = 0;
   std::uint64_t cues_spoken = 0;
+  std::uint64_t sounds_played = 0;
+  std::uint64_t patterns_felt = 0;
   std::uint64_t missed_messages = 0;
 };
 
@@ -118,9 +120,12 @@ class TrialMonitor {
   [[nodiscard]] const Tally& tally() const { return tally_; }
   /// Where the robot is, as fields.
   [[nodiscard]] record::Fields place() const;
-  /// The figures that no single event carries: path_length, cues_spoken, missed_messages, and the
+  /// The figures that no single event carries: path_length, cues_spoken, sounds_played,
+  /// patterns_felt, missed_messages, and the
   /// last state of the world by step and hash (n/a where there is no simulator).
   [[nodiscard]] record::Fields tally_fields() const;
+  /// These, and how long the person waited for what was felt and heard, as far as it is known.
+  [[nodiscard]] record::Fields end_fields() const;
   /// The guide shows a path to the goal, has arrived, or refused.
   [[nodiscard]] bool goal_taken() const { return goal_taken_; }
   /// ns, when the goal was reached
@@ -170,6 +175,7 @@ class TrialMonitor {
   bool stopped_ = false;  ///< by the last stage before the wheels
   std::string intruder_;  ///< that stage ignores this node
   std::map<std::string, DeviceState> devices_;
+  std::vector<DeviceReport> latencies_;   ///< the last ones, as an end may be told after it
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
   bool goal_taken_ = false;
   std::optional<Guidance::State> state_;

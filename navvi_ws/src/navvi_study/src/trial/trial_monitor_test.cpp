@@ -300,6 +300,37 @@ TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
             Names{"DEVICE_BACK"});
 }
 
+TEST_F(Monitor, counts_sounds_and_felt_patterns_and_keeps_how_long_the_person_waited) {
+  const auto played = [&](navvi_types::Modality modality, const char* kind, int second) {
+    CueEvent cue;
+    cue.stage = navvi_types::CueStage::started;
+    cue.kind = kind;
+    cue.modality = modality;
+    cue.stamp = second * kSecond;
+    return monitor_.observe(cue);
+  };
+  using navvi_types::Modality;
+  EXPECT_EQ(types(played(Modality::sound, "turn", 11)), Names{"CUE"});
+  EXPECT_TRUE(played(Modality::sound, "turn", 12).empty()) << "one row for many ticks";
+  EXPECT_EQ(types(played(Modality::rumble, "hit_shelf", 13)), Names{"CUE"});
+  EXPECT_TRUE(played(Modality::rumble, "hit_shelf", 14).empty()) << "the same pattern goes on";
+  EXPECT_TRUE(played(Modality::rumble, "rumble", 15).empty());
+  DeviceReport report{16 * kSecond, "latency", DeviceState::works};
+  report.traits = {{"motors_p99_ms", "3.5"}, {"another", "1"}};
+  EXPECT_TRUE(monitor_.observe(report).empty());
+  const record::Fields fields = monitor_.end_fields();
+  EXPECT_EQ(fields.get("sounds_played"), "2");
+  EXPECT_EQ(fields.get("patterns_felt"), "1");
+  EXPECT_EQ(fields.get("motors_p99_ms"), "3.5");
+  EXPECT_FALSE(fields.find("another"));
+  EXPECT_FALSE(monitor_.tally_fields().find("motors_p99_ms"));
+  report.stamp = 18 * kSecond;
+  report.traits["motors_p99_ms"] = "9.9";
+  (void)monitor_.observe(report);
+  monitor_.end(17 * kSecond);
+  EXPECT_EQ(monitor_.end_fields().get("motors_p99_ms"), "3.5") << "of the trial, not after it";
+}
+
 }  // namespace
 }  // namespace navvi_study::trial
 

@@ -22,6 +22,7 @@ class CueQueue {
     std::vector<CueEvent> events;
     bool stop = false;                 ///< fall silent, before `start`
     std::optional<std::string> start;  ///< begin to speak this text
+    bool asked = false;                ///< it answers a button
   };
 
   /// \param fresh         cues that were decided since the last call

@@ -24,11 +24,12 @@ enum class Earcon {
   thing_near,  ///< anything else
   thing_close,
   arrived,
-  beacon,  ///< from the next way-point; the faster, the nearer
-  sonar,   ///< from the nearest thing; likewise
+  beacon,      ///< from the next way-point; the faster, the nearer
+  sonar,       ///< from the nearest thing; likewise
+  turn_click,  ///< as turn, while words are spoken: short, and above them
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 18> names(Earcon) {
+[[nodiscard]] constexpr std::array<const char*, 19> names(Earcon) {
   return {"turn",
           "turn_stop",
           "on_course",
@@ -46,7 +47,8 @@ enum class Earcon {
           "thing_close",
           "arrived",
           "beacon",
-          "sonar"};
+          "sonar",
+          "turn_click"};
 }
 
 /// One short sound, to be played now.
