@@ -120,9 +120,7 @@ class Session:
 def session(tmp_path_factory):
     session = Session(tmp_path_factory.mktemp("session"), "operator:=simulated", f"world:={WORLD}", "seed:=3",
                       "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01",
-                      "feedback/drive/expo:=0.2", "nav/replan/pause:=5",
-                      # Ticks over words confuse the recogniser; what sounds is tested where it is mixed.
-                      "feedback/sounds/enabled:=false")
+                      "feedback/drive/expo:=0.2", "nav/replan/pause:=5", "feedback/speaker/pitch:=55")
     try:
         session.watch()
         session.wait_for(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
@@ -155,7 +153,7 @@ def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert "trial_node has ended, and the session with it." in session.text()
     assert not re.search("died|cleanly|={20}", session.text())
     assert summary(trial)["participant"] == "sub-01"
-    assert summary(trial)["parameters"] == "feedback/drive/expo=0.2 nav/replan/pause=5 feedback/sounds/enabled=false"
+    assert summary(trial)["parameters"] == "feedback/drive/expo=0.2 nav/replan/pause=5 feedback/speaker/pitch=55"
     assert re.fullmatch(r"\d+\.\d+\.\d+(\+[0-9a-f]+(-dirty)?)?", summary(trial)["version"])
 
 
@@ -262,3 +260,4 @@ def test_a_recorded_trial_plays_again(session, trial):
     result = subprocess.run([str(ROOT / "navvi"), "replay", str(trial), "rate:=4", "rviz:=false"], env=env, text=True,
                             capture_output=True, timeout=180)
     assert result.returncode == 0, result.stdout[-2000:] + result.stderr[-2000:]
+    assert "The voice is en, at 220 words a minute and pitch 55." in (trial / "replay.log").read_text()

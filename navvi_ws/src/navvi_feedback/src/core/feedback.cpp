@@ -239,9 +239,12 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
   }
   const std::vector<sounds::Play> recurring = deciders_->soundscape.update(now, time);
   plays.insert(plays.end(), recurring.begin(), recurring.end());
-  for (sounds::Play& play : plays)
-    if (input.voice_busy && play.earcon != Earcon::hit_shelf && play.earcon != Earcon::hit_obstacle)
-      play.volume *= config.under_words;
+  // Words win, and yet a turn is counted down. What was hit is as loud as ever.
+  for (sounds::Play& play : plays) {
+    if (!input.voice_busy || &config.family_of(play.earcon) == &config.hit) continue;
+    if (play.earcon == Earcon::turn) play.earcon = Earcon::turn_click;
+    play.volume *= config.under_words;
+  }
   return plays;
 }
 

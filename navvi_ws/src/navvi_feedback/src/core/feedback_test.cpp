@@ -352,14 +352,15 @@ TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
   EXPECT_TRUE(said("shelf_near"));
 }
 
-TEST_F(FeedbackTest, sounds_are_softer_under_words_but_a_hit_is_not) {
+TEST_F(FeedbackTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_still_counted) {
   input_.voice_busy = true;
   feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
   for (int i = 0; i < 4; ++i) {
     lead(0.9);
     pass(0.5);
   }
-  ASSERT_GT(played(sounds::Earcon::turn), 1);
+  EXPECT_EQ(played(sounds::Earcon::turn), 0);
+  ASSERT_GT(played(sounds::Earcon::turn_click), 1);
   const sounds::SoundsConfig config;
   for (const sounds::Play& play : plays_) {
     const bool hit = play.earcon == sounds::Earcon::hit_shelf;
