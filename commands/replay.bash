@@ -7,6 +7,7 @@ navvi_replay() {
   one_of speech
   number rate
   number skip
+  arg[speaker]=${arg[speaker]:-$(speaker_of "$trial/journal.csv")}
   resolve_rviz
   resolve_view
   build_workspace
@@ -20,4 +21,15 @@ navvi_replay() {
   launch "$launch_files/replay.launch" "$log" || [[ -n $interrupted ]] || fail "the replay broke off; the log $log says why."
   ((status == 0)) || fail "the bag and the summary of this trial do not agree, as said at the start."
   say "the replay has ended."
+}
+
+# The voice of a record, as cue_player's parameters; what older records do not tell is left to it.
+speaker_of() {  # JOURNAL
+  local start name words=""
+  start=$(grep -m 1 ',TRIAL_START,' "$1") || true
+  [[ ! $start =~ \;voice=([A-Za-z0-9/_+-]+) || ${BASH_REMATCH[1]} == unknown ]] || words="voice: '${BASH_REMATCH[1]}'"
+  for name in rate pitch volume; do
+    [[ ! $start =~ feedback/speaker/$name=([0-9.]+) ]] || words+=${words:+, }"$name: ${BASH_REMATCH[1]}"
+  done
+  echo "{$words}"
 }

@@ -40,6 +40,9 @@ class CuePlayer {
     const devices::Mixer::Status status = mixer_.status();
     if (status.device == devices::Mixer::Status::Device::missing)
       ROS_WARN("Nothing will be heard: %s.", status.detail.c_str());
+    ROS_INFO("The voice is %s, at %d words a minute and pitch %d.",
+             config.speaker.voice.empty() ? "en" : config.speaker.voice.c_str(),
+             config.speaker.rate, config.speaker.pitch);
     feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
     cues_ = navvi_config::subscribe<navvi_msgs::Cue>(
         node_, "navvi/cues", 100, navvi_types::from_msg,
