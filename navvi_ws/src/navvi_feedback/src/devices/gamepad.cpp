@@ -79,6 +79,10 @@ class Gamepad::Pad {
   void describe(Gamepad::Status& status) const {
     const char* name = SDL_GameControllerName(pad_.get());
     status.name = name ? name : "unnamed";
+    std::array<char, 33> guid{};
+    SDL_JoystickGetGUIDString(SDL_JoystickGetGUID(SDL_GameControllerGetJoystick(pad_.get())),
+                              guid.data(), static_cast<int>(guid.size()));
+    status.guid = guid.data();
     status.instance = instance_;
     status.has_rumble = has_rumble_;
     status.firmware = SDL_GameControllerGetFirmwareVersion(pad_.get());

@@ -21,6 +21,7 @@ class Gamepad final : private ThreadedDevice {
   struct Status {
     bool connected = false;
     std::string name;   ///< as the pad reports it; empty if there is none
+    std::string guid;   ///< SDL's, of this model, in hexadecimal digits; likewise
     int instance = -1;  ///< SDL's instance id; another pad, another id
     bool has_rumble = false;
     unsigned firmware = 0;          ///< 0 if unknown

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "navvi_config/reader.hpp"
 
@@ -65,6 +66,9 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
         "least command that turns the right motor");
   visit(gain_left, "gain_left", Range{0.0, 1.0}, "", "left motor's command at full force");
   visit(gain_right, "gain_right", Range{0.0, 1.0}, "", "right motor's command at full force");
+  visit(pads, "pads", Any{}, "",
+        "pads by their identifier, each with the person's start_left, start_right and gain of both "
+        "motors, such as \"0300-1 0.05 0.07 0.9\"; ./navvi calibrate finds them");
 }
 
 double rumble_force(const HapticsConfig& config, double gap) {
@@ -86,6 +90,32 @@ Haptics::Haptics(const HapticsConfig& config) : config_(config) {
     }
     classes_.push_back(*thing_class);
   }
+  for (const std::string& pad : config.pads) {
+    std::istringstream words(pad);
+    std::string name;
+    std::string more;
+    Motors motors;
+    const bool read =
+        words >> name >> motors.start_left >> motors.start_right >> motors.gain_left &&
+        !(words >> more);
+    const auto within = [](double value, double most) { return value >= 0.0 && value <= most; };
+    if (!read || !within(motors.start_left, 0.5) || !within(motors.start_right, 0.5) ||
+        !within(motors.gain_left, 1.0))
+      throw navvi_config::ConfigError("haptics/pads: \"" + pad +
+                                      "\" is not a pad with its start_left and start_right, 0 to "
+                                      "0.5, and gain, 0 to 1.");
+    motors.gain_right = motors.gain_left;
+    pads_[name] = motors;
+  }
+  use_pad("");
+}
+
+void Haptics::use_pad(const std::string& pad) {
+  pad_ = pad;
+  const auto found = pads_.find(pad);
+  motors_ = found != pads_.end() ? found->second
+                                 : Motors{config_.start_left, config_.start_right,
+                                          config_.gain_left, config_.gain_right};
 }
 
 std::optional<Haptics::Felt> Haptics::strongest(const std::vector<NearThing>& things) const {
@@ -154,8 +184,8 @@ Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double 
   } else {
     force_ = {wanted_left, wanted_right};
   }
-  return {motor(config_.strength * force_.left, config_.start_left, config_.gain_left),
-          motor(config_.strength * force_.right, config_.start_right, config_.gain_right)};
+  return {motor(config_.strength * force_.left, motors_.start_left, motors_.gain_left),
+          motor(config_.strength * force_.right, motors_.start_right, motors_.gain_right)};
 }
 
 }  // namespace navvi_feedback::haptics

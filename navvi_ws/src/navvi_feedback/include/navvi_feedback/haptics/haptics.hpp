@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ struct HapticsConfig {
   double start_right = 0.06;
   double gain_left = 1.0;
   double gain_right = 1.0;
+  std::vector<std::string> pads = {};
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -63,11 +65,17 @@ enum class Zone { left, center, right };
 /// slew limit) and from chattering (hysteresis at the range and between the zones).
 class Haptics {
  public:
-  /// \throws navvi_config::ConfigError if `classes` holds a word that is no class
+  /// \throws navvi_config::ConfigError if `classes` holds a word that is no class, or `pads` what
+  /// is not as described
   explicit Haptics(const HapticsConfig& config);
 
-  /// From now on, but for the classes.
-  void use(const HapticsConfig& config) { config_ = config; }
+  /// From now on, but for the classes and the pads.
+  void use(const HapticsConfig& config) {
+    config_ = config;
+    use_pad(pad_);
+  }
+  /// From here on the motors are those of this pad. \param pad  what identifies it
+  void use_pad(const std::string& pad);
 
   /// \param things  all with finite numbers in base_link; in any order
   /// \param fresh  false when sensing is stale: the motors stop at once
@@ -90,7 +98,18 @@ class Haptics {
   [[nodiscard]] Zone zone_of(double lateral) const;
   void stop();
 
+  /// As in HapticsConfig.
+  struct Motors {
+    double start_left = 0.0;
+    double start_right = 0.0;
+    double gain_left = 1.0;
+    double gain_right = 1.0;
+  };
+
   HapticsConfig config_;
+  std::map<std::string, Motors> pads_;
+  std::string pad_;
+  Motors motors_;
   std::vector<ThingClass> classes_;
   std::optional<Zone> zone_;
   double felt_for_ = 0.0;  // s since the present onset
