@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "cues/cue_policy.hpp"
 #include "cues/side.hpp"
+#include "lessons/calibration.hpp"
+#include "lessons/glossary.hpp"
+#include "lessons/tutorial.hpp"
 #include "menu/menu.hpp"
 #include "sounds/soundscape.hpp"
 
@@ -66,6 +70,8 @@ bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 
 void FeedbackConfig::describe(navvi_config::Visitor& visit) {
   visit(stale, "stale", navvi_config::Range{0.2, 10.0}, "s",
         "guidance, proximity or odometry older than this (wall clock) is lost");
+  visit(lesson, "lesson", navvi_config::OneOf{{"none", "glossary", "tutorial", "calibrate"}}, "",
+        "what is taught before all else; glossary and calibrate want no robot");
   visit.group("drive", drive);
   visit.group("buttons", buttons);
   visit.group("haptics", haptics);
@@ -82,6 +88,9 @@ struct Feedback::Deciders {
   sounds::Soundscape soundscape;
   cues::CuePolicy cues;
   menu::Menu menu;
+  cues::Phrases phrases;
+  std::string pad;                        ///< whose motors are moved
+  lessons::Taught taught;                 ///< of the lesson, now
   std::optional<cues::Utterance> answer;  ///< of the menu, to what was pressed now
 };
 
@@ -96,6 +105,9 @@ Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& ph
                        sounds::Soundscape(config.sounds),
                        cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording)),
                        {},
+                       cues::Phrases(phrases, config.cues.wording),
+                       {},
+                       {},
                        {}}) {}
 
 Feedback::~Feedback() = default;
@@ -103,6 +115,7 @@ Feedback::~Feedback() = default;
 void Feedback::note(const std::vector<CueEvent>& events) {
   deciders_->cues.note(events);
   for (const CueEvent& event : events) {
+    if (event.stage == CueStage::started) begun_.push_back(event.kind);
     if (event.stage == CueStage::started && event.priority == Priority::important)
       important_ = event.id;
     else if (event.id == important_ && event.stage != CueStage::queued)
@@ -114,13 +127,16 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
   last_update_ = time;
   seen_hands_ = seen_hands_ || input.hands.live;
+  if (std::exchange(deciders_->pad, input.pad) != input.pad) deciders_->haptics.use_pad(input.pad);
   Output out;
   out.command = drive(input.hands, dt);
   out.share = assist(out.command, time);
   out.alarm_begins = alarm_begins(input);
   std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
   pressed.insert(pressed.end(), input.asked.begin(), input.asked.end());
+  teach(input, pressed, time);
   out.cues = decide_cues(input, pressed, out, time);
+  hush(out.cues);
   begin_patterns(out);
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
                                 [](const cues::Cue& cue) { return cue.felt; }),
@@ -131,6 +147,9 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   for (const sounds::Play& play : sound(input, out.cues, time)) out.plays.push_back(play);
   out.rumble = feel(time, dt);
   out.pattern = deciders_->patterns.playing();
+  out.lesson_over = lesson_ && lesson_->over() && config_.lesson != "none";
+  if (alone()) out.command.reset();
+  begun_.clear();
   contacts_.clear();
   last_hands_ = input.hands;
   return out;
@@ -141,7 +160,8 @@ std::optional<Velocity> Feedback::drive(const drive::InputState& hands, double d
   const bool live = hands.live && (!last_hands_.live || hands.session == last_hands_.session);
   const int enable = config_.drive.enable;
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
-  if (trial_.holds() || !enabled) deciders_->drive.disarm();
+  const bool held = lesson_ && !lesson_->over() ? !lesson_->drives() : trial_.holds();
+  if (held || !enabled) deciders_->drive.disarm();
   const drive::Stick stick = hands.stick(config_.drive.stick == "right");
   const std::optional<Velocity> velocity =
       deciders_->drive.update(live ? std::optional(stick) : std::nullopt, dt);
@@ -177,6 +197,8 @@ void Feedback::begin_patterns(const Output& out) {
   haptics::PatternPlayer& patterns = deciders_->patterns;
   if (out.alarm_begins) patterns.begin(haptics::Pattern::no_sound);
   if (!config_.haptics.enabled || !config_.haptics.patterns) return;
+  if (const auto& pattern = deciders_->taught.pattern)
+    patterns.begin(*pattern, deciders_->taught.side);
   for (const cues::Cue& cue : out.cues)
     if (const auto pattern = pattern_of(cue.kind)) patterns.begin(*pattern);
   for (const Contact& contact : contacts_) {
@@ -186,12 +208,17 @@ void Feedback::begin_patterns(const Output& out) {
 }
 
 haptics::Rumble Feedback::feel(double time, double dt) {
+  const lessons::Taught& taught = deciders_->taught;
+  if (taught.rumble) return *taught.rumble;
   const bool arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
   const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
                      motion_.link(time, config_.stale) != cues::Link::lost &&
                      !(arrived && config_.haptics.rest_at_goal);
-  const haptics::Rumble near = deciders_->haptics.update(
-      nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt, off_course(time));
+  const haptics::Rumble near =
+      taught.near.empty()
+          ? deciders_->haptics.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt,
+                                      off_course(time))
+          : deciders_->haptics.update(taught.near, true, dt);
   if (const auto pattern = deciders_->patterns.update(dt))
     return {config_.haptics.strength * pattern->left, config_.haptics.strength * pattern->right};
   const double share = important_ ? config_.haptics.duck : 1.0;
@@ -200,6 +227,7 @@ haptics::Rumble Feedback::feel(double time, double dt) {
 
 /// rad, clockwise from the nose to where to steer, if the person is to be told.
 std::optional<double> Feedback::off_course(double time) {
+  if (lesson_ && !lesson_->over() && lesson_->speaks()) return deciders_->taught.off;
   if (!guidance_fresh(time) || !deciders_->cues.leads() || idle_ > kIdle) return std::nullopt;
   return std::remainder(guidance_.value->steer_angle + turned_, 2.0 * kPi);
 }
@@ -225,10 +253,12 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
   cues.erase(std::remove_if(cues.begin(), cues.end(),
                             [](const cues::Cue& cue) { return cue.sound.has_value(); }),
              cues.end());
+  const lessons::Taught& taught = deciders_->taught;
+  plays.insert(plays.end(), taught.plays.begin(), taught.plays.end());
   sounds::Soundscape::Input now;
   now.off = off_course(time);
-  now.motion = motion_.value.value_or(Velocity{});
-  if (now.off && guidance_.value->waypoint_distance > 0.0) {
+  now.motion = taught.motion.value_or(motion_.value.value_or(Velocity{}));
+  if (now.off && guidance_.value && guidance_.value->waypoint_distance > 0.0) {
     const double angle = guidance_.value->waypoint_angle + turned_;
     now.waypoint =
         guidance_.value->waypoint_distance * Eigen::Vector2d(std::cos(angle), -std::sin(angle));
@@ -310,6 +340,11 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   now.gate = gate_;
   now.trial = trial_.state;
   obey(pressed, out);
+  if (alone()) {
+    using cues::Link;
+    now.links = {now.links.pad, Link::alive, Link::alive, Link::alive, input.audio};
+    now.stick_held_unarmed = false;
+  }
   now.menu = deciders_->answer;
   for (const drive::Button button : pressed)
     if (button <= drive::Button::help) now.question = static_cast<cues::Question>(button);
@@ -322,6 +357,62 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
     now.sounds = {sounds.turn.on, sounds.shelf.on, sounds.near.on};
   return deciders_->cues.update(now, time);
 }
+
+void Feedback::begin_lesson(const std::string& name, const std::string& pad) {
+  const cues::Phrases& phrases = deciders_->phrases;
+  if (name == "glossary") {
+    lesson_ = std::make_unique<lessons::Glossary>(phrases, config_.buttons, config_.haptics,
+                                                  config_.sounds);
+  } else if (name == "tutorial") {
+    lesson_ = std::make_unique<lessons::Tutorial>(phrases, config_.buttons);
+  } else if (name == "calibrate") {
+    const double brakes = 0.5 * config_.drive.max_turn / config_.drive.turn_acceleration;
+    lesson_ = std::make_unique<lessons::Calibration>(phrases, config_.buttons, config_.haptics, pad,
+                                                     brakes);
+  }
+}
+
+void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, double time) {
+  lessons::Taught& taught = deciders_->taught;
+  taught = {};
+  // Not before there are hands: a pad may be found a little later, and has motors or not.
+  if (!lesson_ && input.hands.live) begin_lesson(config_.lesson, input.pad);
+  if (!lesson_ || lesson_->over()) return;
+  lessons::Seen seen;
+  seen.pressed = pressed;
+  seen.begun = begun_;
+  seen.stick = deciders_->drive.shaped(input.hands.stick(config_.drive.stick == "right"));
+  seen.keyboard = input.keyboard;
+  seen.quiet = !input.voice_busy;
+  seen.motors = input.felt && config_.haptics.enabled;
+  seen.sounds = input.sounds && config_.sounds.enabled;
+  seen.hit = !contacts_.empty();
+  if (motion_.link(time, config_.stale) == cues::Link::alive) seen.motion = *motion_.value;
+  seen.arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
+  seen.trial = trial_.state;
+  taught = lesson_->update(seen, time);
+  pressed.erase(std::remove_if(pressed.begin(), pressed.end(),
+                               [&](drive::Button button) { return lesson_->takes(button); }),
+                pressed.end());
+}
+
+void Feedback::hush(std::vector<cues::Cue>& cues) const {
+  static const std::set<std::string> needed = {
+      "stuck",         "stuck_unknown", "back_away", "release_stick", "pad_back",
+      "keyboard_back", "audio_back",    "no_rumble", "second_pad",    "pad_firmware"};
+  if (!lesson_ || lesson_->over()) return;
+  if (lesson_->speaks())
+    cues.erase(std::remove_if(cues.begin(), cues.end(),
+                              [](const cues::Cue& cue) {
+                                return !cue.asked && cue.priority != Priority::important &&
+                                       needed.count(cue.kind) == 0;
+                              }),
+               cues.end());
+  const std::vector<cues::Cue>& told = deciders_->taught.cues;
+  cues.insert(cues.end(), told.begin(), told.end());
+}
+
+bool Feedback::alone() const { return config_.lesson != "none" && config_.lesson != "tutorial"; }
 
 cues::Link Feedback::pad_link(const drive::InputState& hands) const {
   if (hands.live) return cues::Link::alive;

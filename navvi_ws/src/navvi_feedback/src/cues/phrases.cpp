@@ -113,13 +113,15 @@ class Section {
       throw ConfigError(file + ": the section \"" + name + "\" is missing or is no map.");
   }
 
-  /// The texts of the section; every key is one of `allowed`, and none comes twice.
-  [[nodiscard]] std::map<std::string, std::string> read(const std::set<std::string>& allowed) {
+  /// The texts of the section; every key is one of `allowed`, if that is given, and none comes
+  /// twice.
+  [[nodiscard]] std::map<std::string, std::string> read(
+      const std::optional<std::set<std::string>>& allowed) {
     std::map<std::string, std::string> texts;
     for (const auto& item : node_) {
       if (!item.first.IsScalar()) fail(item.first, "?", "is no word");
       const std::string key = item.first.Scalar();
-      if (allowed.count(key) == 0) fail(item.first, key, "is not known");
+      if (allowed && allowed->count(key) == 0) fail(item.first, key, "is not known");
       if (!item.second.IsScalar()) fail(item.second, key, "must be one text");
       if (!texts.emplace(key, item.second.Scalar()).second)
         fail(item.first, key, "stands there twice");
@@ -224,11 +226,11 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   const std::vector<std::string> instead = {"clock", "brief", "full"};
   for (const auto& item : root)
     if (const std::string key = item.first.Scalar();
-        key != "voice" && key != "phrases" && key != "words" &&
+        key != "voice" && key != "phrases" && key != "words" && key != "lessons" &&
         std::find(instead.begin(), instead.end(), key) == instead.end())
       throw ConfigError(name + ", line " + std::to_string(item.first.Mark().line + 1) +
                         ": there is no section \"" + key +
-                        "\"; there are voice, phrases, clock, brief, full and words.");
+                        "\"; there are voice, phrases, clock, brief, full, words and lessons.");
   if (!root["voice"] || !root["voice"].IsScalar())
     throw ConfigError(name + ": \"voice\" is missing or no text; it names a voice of espeak-ng.");
   voice_ = root["voice"].Scalar();
@@ -239,6 +241,8 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
     if (words_.count(key) == 0) words.fail(key, "is missing");
     if (!speakable(words_[key])) words.fail(key, "cannot be spoken. " + limits());
   }
+
+  if (root["lessons"]) lessons_ = Section(name, root, "lessons").read(std::nullopt);
 
   Section phrases(name, root, "phrases");
   auto& always = phrases_["phrases"] = phrases.read(kind_keys());

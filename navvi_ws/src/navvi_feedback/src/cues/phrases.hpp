@@ -104,6 +104,8 @@ class Phrases {
 
   /// The voice of espeak-ng that speaks this language.
   [[nodiscard]] const std::string& voice() const { return voice_; }
+  /// What is told in lessons, by key; whoever tells it checks it. Empty where the file has none.
+  [[nodiscard]] const std::map<std::string, std::string>& lessons() const { return lessons_; }
 
  private:
   [[nodiscard]] std::string filling(const std::string& placeholder, const Fillings& fillings) const;
@@ -112,6 +114,7 @@ class Phrases {
   std::string voice_;
   std::map<std::string, std::map<std::string, std::string>> phrases_;  ///< by section
   std::map<std::string, std::string> words_;
+  std::map<std::string, std::string> lessons_;
 };
 
 /// True if `text` may be spoken: UTF-8 of Latin, Greek or Cyrillic letters, digits and " ,.'-",

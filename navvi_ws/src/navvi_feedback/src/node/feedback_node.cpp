@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fstream>
 #include <future>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
@@ -17,6 +18,7 @@
 #include "devices/earcon_player.hpp"
 #include "devices/input_source.hpp"
 #include "devices/speech_channel.hpp"
+#include "lessons/lesson.hpp"
 #include "navvi_feedback/core/feedback.hpp"
 #include "navvi_feedback/haptics/rumble_output.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
@@ -158,6 +160,8 @@ class FeedbackNode {
     input.audio = audio_link();
     input.sounds = heard();
     input.motors = !source_.pad() || source_.pad()->status().connected;
+    input.felt = motors_there();
+    input.pad = source_.pad() ? source_.pad()->status().guid : "joy";
     input.voice_busy = !speech_.idle();
     input.robot = robot();
     input.notices = notices();
@@ -166,6 +170,7 @@ class FeedbackNode {
     for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
     input.person = config_.person;
     const core::Feedback::Output output = feedback_.update(input, time);
+    keep_lesson(output.lesson_over);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
     if (share_ != output.share) {
@@ -240,6 +245,20 @@ class FeedbackNode {
       ROS_ERROR("%s", error.what());
       news_.push_back("settings_not_saved");
     }
+  }
+
+  /// What a lesson finds out is written at once; the program ends with it.
+  void keep_lesson(bool over) {
+    if (!feedback_.lesson()) return;
+    const std::string record = feedback_.lesson()->record();
+    if (!config_.record.empty() && std::exchange(recorded_, record) != record)
+      std::ofstream(config_.record) << record;
+    if (!over) return;
+    const std::vector<std::string> settings = feedback_.lesson()->settings();
+    for (const std::string& setting : settings) ROS_INFO("Found: feedback/%s", setting.c_str());
+    if (!config_.person.empty() && !settings.empty())
+      person::PersonFile::of<PersonConfig>(config_.person).save(settings);
+    g_stop = 1;
   }
 
   /// \param called  once the driver was told, if that is another command
@@ -383,6 +402,7 @@ class FeedbackNode {
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
   std::optional<double> share_;  ///< of the person's speed, last published
+  std::string recorded_;         ///< of the lesson, as it is in the file
   std::uint32_t sound_id_ = 0;
   std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
   visualization_msgs::MarkerArray shown_;

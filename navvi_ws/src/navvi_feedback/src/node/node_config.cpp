@@ -29,6 +29,7 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
   visit(person, "person", Any{}, "",
         "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
         "in it over the profile's");
+  visit(record, "record", Any{}, "", "path of a file for how a lesson went; empty for none");
   PersonConfig::describe(visit);
 }
 

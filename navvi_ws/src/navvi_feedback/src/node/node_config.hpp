@@ -28,6 +28,7 @@ struct NodeConfig : PersonConfig {
   bool speech = true;
   std::string listener = "device";
   std::string person;  ///< name of their PersonFile; empty for none
+  std::string record;
 
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] std::filesystem::path phrases_file() const;

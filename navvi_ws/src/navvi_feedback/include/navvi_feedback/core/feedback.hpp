@@ -33,10 +33,15 @@ using navvi_types::TrialRequest;
 using navvi_types::TrialState;
 }  // namespace navvi_feedback
 
+namespace navvi_feedback::lessons {
+class Lesson;
+}
+
 namespace navvi_feedback::core {
 
 struct FeedbackConfig {
   double stale = 1.0;  ///< s
+  std::string lesson = "none";
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;
@@ -58,6 +63,8 @@ class Feedback {
     cues::Link audio = cues::Link::alive;
     bool sounds = true;                       ///< short sounds can be heard
     bool motors = true;                       ///< false if our own pad is not connected
+    bool felt = true;                         ///< there are motors that somebody feels
+    std::string pad;                          ///< what identifies the motors, without spaces
     bool voice_busy = false;                  ///< something is being spoken or waits for it
     std::optional<navvi_types::Pose2> robot;  ///< base_link in map, if known
     std::vector<drive::Button> asked;  ///< by other means than the hands, since the last update
@@ -75,6 +82,7 @@ class Feedback {
     std::optional<TrialRequest::Kind> request;
     std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
     std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
+    bool lesson_over = false;             ///< of FeedbackConfig::lesson
   };
 
   /// \param phrases  file of the spoken phrases
@@ -107,6 +115,9 @@ class Feedback {
   /// As CuePolicy::note().
   void note(const std::vector<CueEvent>& events);
 
+  /// The lesson that is given, or was; nullptr if there was none.
+  [[nodiscard]] const lessons::Lesson* lesson() const { return lesson_.get(); }
+
   /// The latest guidance, however old.
   [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
   [[nodiscard]] bool guidance_fresh(double time) const {
@@ -130,6 +141,13 @@ class Feedback {
 
   [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
   [[nodiscard]] double assist(std::optional<Velocity>& command, double time) const;
+  void begin_lesson(const std::string& name, const std::string& pad);
+  /// \param pressed  loses what is for the lesson alone
+  void teach(const Input& input, std::vector<drive::Button>& pressed, double time);
+  /// Leaves what may be said while the lesson speaks.
+  void hush(std::vector<cues::Cue>& cues) const;
+  /// There is a lesson and nothing else: no robot.
+  [[nodiscard]] bool alone() const;
   /// Carries out what the menu makes of the buttons.
   void obey(const std::vector<drive::Button>& pressed, Output& out);
   [[nodiscard]] bool alarm_begins(const Input& input);
@@ -145,6 +163,8 @@ class Feedback {
 
   FeedbackConfig config_;
   std::unique_ptr<Deciders> deciders_;
+  std::unique_ptr<lessons::Lesson> lesson_;
+  std::vector<std::string> begun_;  ///< kinds of words that began to be heard since the last update
 
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;

@@ -1,0 +1,185 @@
+#include "lessons/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace navvi_feedback::lessons {
+namespace {
+
+using drive::Button;
+
+constexpr double kPulse = 0.5;   // s, that a motor turns
+constexpr double kAnswer = 1.5;  // s, from the begin of a pulse to the end of its answer
+constexpr double kEvery = 1.2;   // s, from pulse to pulse while the strength is chosen
+constexpr double kStep = 0.1;    // of the strength
+constexpr double kLeastGain = 0.2;
+constexpr double kMargin = 1.2;      // what is felt half the time, times this, is felt
+constexpr std::size_t kSignals = 5;  // to let go of the stick
+constexpr double kDeflected = 0.4;   // of the stick
+constexpr double kLate = 1.5;        // s
+
+std::string key(const char* name) { return std::string("calibrate_") + name; }
+
+bool pressed(const Seen& seen, Button button) {
+  return std::find(seen.pressed.begin(), seen.pressed.end(), button) != seen.pressed.end();
+}
+
+std::string number(double value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> Calibration::texts() {
+  std::vector<std::string> keys;
+  for (const char* name : {"welcome", "no_motors", "left", "right", "only_felt", "not_felt",
+                           "comfort", "halt", "early", "late", "once_more", "done", "end"})
+    keys.push_back(key(name));
+  return keys;
+}
+
+Calibration::Calibration(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
+                         const haptics::HapticsConfig& haptics, std::string pad, double robot_delay)
+    : haptics_(haptics),
+      pad_(std::move(pad)),
+      robot_delay_(robot_delay),
+      teller_(phrases, buttons, texts()) {}
+
+/// s; no two in succession are alike.
+double Calibration::pause() { return 1.0 + 0.37 * (++signals_ * 3 % 5); }
+
+void Calibration::enter(Stage stage, const Seen& seen) {
+  if (!seen.motors && stage < Stage::halt) {
+    teller_.then(key("no_motors"));
+    stage = Stage::halt;
+  }
+  stage_ = stage;
+  staircase_ = {};
+  due_.reset();
+  signalled_.reset();
+  complete_ = stage == Stage::end;
+  const char* const texts[] = {"left", "right", "comfort", "halt", "done"};
+  teller_.then(key(texts[static_cast<std::size_t>(stage)]));
+}
+
+Taught Calibration::update(const Seen& seen, double time) {
+  Taught taught;
+  time_ = time;
+  teller_.hands(seen.keyboard);
+  if (!begun_) {
+    begun_ = true;
+    teller_.tell(key("welcome"));
+    enter(Stage::left, seen);
+  }
+  if (pressed(seen, Button::end) && stage_ != Stage::end) {
+    stage_ = Stage::end;
+    teller_.tell(key("end"));
+  }
+  if (teller_.done() && seen.quiet) {
+    switch (stage_) {
+      case Stage::left:
+      case Stage::right:
+        feel(seen, taught);
+        break;
+      case Stage::comfort:
+        choose(seen, taught);
+        break;
+      case Stage::halt:
+        halt(seen, taught);
+        break;
+      case Stage::end:
+        over_ = true;
+        break;
+    }
+  } else {
+    // What is spoken stands between two signals.
+    due_.reset();
+    signalled_.reset();
+  }
+  taught.cues = teller_.update(seen.quiet);
+  return taught;
+}
+
+void Calibration::feel(const Seen& seen, Taught& taught) {
+  if (!due_) due_ = time_ + pause();
+  const double since = time_ - *due_;
+  const bool felt = pressed(seen, Button::repeat);
+  if (since < 0.0) {
+    if (felt) teller_.tell(key("only_felt"));
+    return;
+  }
+  if (since < kPulse)
+    taught.rumble = stage_ == Stage::left ? haptics::Rumble{staircase_.strength(), 0.0}
+                                          : haptics::Rumble{0.0, staircase_.strength()};
+  if (!felt && since < kAnswer) return;
+  staircase_.answer(felt);
+  due_.reset();
+  if (!staircase_.done()) return;
+  const std::optional<double> threshold = staircase_.threshold();
+  if (!threshold) teller_.then(key("not_felt"));
+  (stage_ == Stage::left ? left_ : right_) = threshold;
+  enter(stage_ == Stage::left ? Stage::right : Stage::comfort, seen);
+}
+
+void Calibration::choose(const Seen& seen, Taught& taught) {
+  if (pressed(seen, Button::previous)) gain_ = std::min(1.0, gain_ + kStep);
+  if (pressed(seen, Button::next)) gain_ = std::max(kLeastGain, gain_ - kStep);
+  if (pressed(seen, Button::previous) || pressed(seen, Button::next) || !due_) due_ = time_;
+  if (std::fmod(time_ - *due_, kEvery) < kPulse) taught.rumble = haptics::Rumble{gain_, gain_};
+  for (const Button button : {Button::start, Button::choose, Button::repeat})
+    if (pressed(seen, button)) return enter(Stage::halt, seen);
+}
+
+void Calibration::halt(const Seen& seen, Taught& taught) {
+  const bool held = std::max(std::abs(seen.stick.x), std::abs(seen.stick.y)) > kDeflected;
+  const bool let_go = seen.stick.x == 0.0 && seen.stick.y == 0.0;
+  if (signalled_) {
+    const double delay = time_ - *signalled_;
+    if (let_go) {
+      delays_.push_back(delay);
+      signalled_.reset();
+      due_.reset();
+      if (delays_.size() >= kSignals) return enter(Stage::end, seen);
+      teller_.then(key("once_more"));
+    } else if (delay > kLate) {
+      teller_.then(key("late"));
+    }
+    return;
+  }
+  if (!due_) {
+    if (held) due_ = time_ + pause();
+    return;
+  }
+  if (let_go) {
+    teller_.then(key("early"));
+  } else if (time_ >= *due_) {
+    signalled_ = time_;
+    taught.plays.push_back({sounds::Earcon::turn_stop, Eigen::Vector2d::UnitX(), 1.0});
+    if (!seen.sounds) taught.rumble = haptics::Rumble{gain_, gain_};
+  }
+}
+
+std::vector<std::string> Calibration::settings() const {
+  std::vector<std::string> words;
+  if (!complete_) return words;
+  if (left_ && right_) {
+    std::string pads;
+    for (const std::string& other : haptics_.pads)
+      if (other.rfind(pad_ + " ", 0) != 0) pads += "\"" + other + "\", ";
+    const auto start = [](double threshold) { return number(std::min(0.5, kMargin * threshold)); };
+    words.push_back("haptics/pads:=[" + pads + "\"" + pad_ + " " + start(*left_) + " " +
+                    start(*right_) + " " + number(gain_) + "\"]");
+  }
+  if (delays_.size() >= kSignals) {
+    std::vector<double> delays = delays_;
+    std::sort(delays.begin(), delays.end());
+    words.push_back("sounds/turn/stopping_delay:=" +
+                    number(delays[delays.size() / 2] + robot_delay_));
+  }
+  return words;
+}
+
+}  // namespace navvi_feedback::lessons

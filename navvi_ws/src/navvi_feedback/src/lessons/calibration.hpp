@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lessons/lesson.hpp"
+#include "lessons/staircase.hpp"
+#include "lessons/teller.hpp"
+
+namespace navvi_feedback::lessons {
+
+/// Finds out, by voice and buttons, what a person feels of each motor, how strong they like it,
+/// and how long they take to let go of the stick at the sound that ends a turn.
+class Calibration : public Lesson {
+ public:
+  /// \param haptics  as set so far; its `pads` are kept
+  /// \param pad  what identifies it; without spaces
+  /// \param robot_delay  s, that the robot adds to the person's delay in a turn
+  /// \throws navvi_config::ConfigError if the phrases lack a text
+  Calibration(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
+              const haptics::HapticsConfig& haptics, std::string pad, double robot_delay);
+
+  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] bool over() const override { return over_; }
+  [[nodiscard]] std::vector<std::string> settings() const override;
+
+  /// The keys of all texts.
+  [[nodiscard]] static std::vector<std::string> texts();
+
+ private:
+  enum class Stage { left, right, comfort, halt, end };
+
+  void enter(Stage stage, const Seen& seen);
+  void feel(const Seen& seen, Taught& taught);
+  void choose(const Seen& seen, Taught& taught);
+  void halt(const Seen& seen, Taught& taught);
+  [[nodiscard]] double pause();
+
+  haptics::HapticsConfig haptics_;
+  std::string pad_;
+  double robot_delay_;
+  Teller teller_;
+  Stage stage_ = Stage::end;
+  bool begun_ = false;
+  bool over_ = false;
+  bool complete_ = false;
+  double time_ = 0.0;  ///< s, of the last update
+
+  Staircase staircase_;
+  std::optional<double> left_, right_;  ///< thresholds
+  double gain_ = 0.7;
+  std::vector<double> delays_;       ///< s
+  std::optional<double> due_;        ///< s, of the next signal
+  std::optional<double> signalled_;  ///< s, of the last one
+  int signals_ = 0;
+};
+
+}  // namespace navvi_feedback::lessons

@@ -1,0 +1,153 @@
+#include "lessons/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <navvi_config/reader.hpp>
+
+#include "navvi_feedback/sounds/sounds_config.hpp"
+
+namespace navvi_feedback::lessons {
+namespace {
+
+using drive::Button;
+
+/// A person who feels from a strength on, and lets go of the stick some time after the sound.
+struct Person {
+  double left = 0.05;
+  double right = 0.12;
+  double likes = 0.5;
+  double delay = 0.35;  ///< s
+
+  /// \return the settings
+  std::vector<std::string> calibrate(Calibration& calibration) {
+    Seen seen;
+    seen.motors = motors;
+    double speaks_until = 0.0;
+    std::optional<double> felt;
+    double go = 1e9;  ///< s, when the stick is let go
+    for (double time = 10.0; time < 600.0 && !calibration.over(); time += 0.02) {
+      seen.quiet = time >= speaks_until;
+      seen.pressed.clear();
+      if (felt && time >= *felt) {
+        seen.pressed = {Button::repeat};
+        felt.reset();
+      }
+      if (kind == "calibrate_comfort" && seen.quiet && strength > 0.0) {
+        seen.pressed = {strength > likes + 0.01 ? Button::next : Button::start};
+      }
+      const bool stick =
+          kind == "calibrate_halt" || kind == "calibrate_once_more" || kind == "calibrate_late";
+      seen.stick.y = stick && seen.quiet && time < go ? 1.0 : 0.0;
+      if (time >= go + 0.1) go = 1e9;
+      const Taught taught = calibration.update(seen, time);
+      for (const cues::Cue& cue : taught.cues) {
+        kind = cue.kind;
+        speaks_until = time + 1.0;
+      }
+      for (std::size_t i = 0; i < taught.plays.size(); ++i) go = time + delay;
+      const bool feels =
+          taught.rumble && (taught.rumble->left >= left || taught.rumble->right >= right);
+      if (kind != "calibrate_comfort" && feels && !was && !felt) felt = time + 0.4;
+      was = taught.rumble.has_value();
+      strength = taught.rumble && kind == "calibrate_comfort" ? taught.rumble->left : 0.0;
+    }
+    EXPECT_TRUE(calibration.over()) << kind;
+    return calibration.settings();
+  }
+  bool motors = true;
+  bool was = false;
+  double strength = 0.0;
+  std::string kind;
+};
+
+Calibration calibration(const haptics::HapticsConfig& haptics = {}) {
+  return {cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"),
+          {},
+          haptics,
+          "abc",
+          0.1};
+}
+
+TEST(Calibration, finds_thresholds_strength_and_delay_and_keeps_other_pads) {
+  haptics::HapticsConfig before;
+  before.pads = {"abc 0.01 0.01 0.3", "other 0.05 0.05 1"};
+  Calibration lesson = calibration(before);
+  const auto words = Person{}.calibrate(lesson);
+  ASSERT_EQ(words.size(), 2U);
+  haptics::HapticsConfig found;
+  sounds::TurnConfig turn;
+  const YAML::Node node = navvi_config::read_words(words);
+  navvi_config::read(found, node["haptics"], "test");
+  navvi_config::read(turn, node["sounds"]["turn"], "test");
+  ASSERT_EQ(found.pads.size(), 2U);
+  EXPECT_EQ(found.pads[0], before.pads[1]);
+  double left = 0.0, right = 0.0, gain = 0.0;
+  ASSERT_EQ(std::sscanf(found.pads[1].c_str(), "abc %lf %lf %lf", &left, &right, &gain), 3);
+  EXPECT_NEAR(left, 1.2 * 0.05, 0.02);
+  EXPECT_NEAR(right, 1.2 * 0.12, 0.04);
+  EXPECT_NEAR(gain, 0.5, 1e-9);
+  EXPECT_NEAR(turn.stopping_delay, 0.35 + 0.1, 0.03);
+
+  // And this is what the motors do then.
+  haptics::Haptics haptics(found);
+  const std::vector<NearThing> touching = {{navvi_types::ThingClass::box, 1, 0.0, {0.4, 0.0}}};
+  haptics::Rumble rumble;
+  haptics.use_pad("abc");
+  for (int i = 0; i < 100; ++i) rumble = haptics.update(touching, true, 0.02);
+  EXPECT_NEAR(rumble.left, 0.5, 1e-6);
+  haptics.use_pad("unknown");
+  for (int i = 0; i < 100; ++i) rumble = haptics.update(touching, true, 0.02);
+  EXPECT_NEAR(rumble.left, 1.0, 1e-6);
+}
+
+TEST(Calibration, measures_the_stick_alone_where_there_are_no_motors) {
+  Calibration lesson = calibration();
+  Person person;
+  person.motors = false;
+  const auto words = person.calibrate(lesson);
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_EQ(words[0].rfind("sounds/turn/stopping_delay:=0.4", 0), 0U) << words[0];
+}
+
+TEST(Calibration, saves_nothing_if_it_is_ended_or_a_motor_is_not_felt) {
+  Calibration lesson = calibration();
+  Seen seen;
+  (void)lesson.update(seen, 0.0);
+  seen.pressed = {Button::end};
+  (void)lesson.update(seen, 0.1);
+  seen.pressed.clear();
+  for (double time = 0.2; time < 1.0; time += 0.02) (void)lesson.update(seen, time);
+  EXPECT_TRUE(lesson.over());
+  EXPECT_TRUE(lesson.settings().empty());
+
+  Calibration numb = calibration();
+  Person person;
+  person.right = 2.0;
+  EXPECT_EQ(person.calibrate(numb).size(), 1U);
+}
+
+TEST(Staircase, finds_what_is_felt_wherever_it_lies) {
+  for (const double threshold : {0.015, 0.03, 0.1, 0.25, 0.4}) {
+    Staircase staircase;
+    int answers = 0;
+    for (; !staircase.done() && answers < 50; ++answers)
+      staircase.answer(staircase.strength() >= threshold);
+    ASSERT_TRUE(staircase.threshold()) << threshold;
+    EXPECT_GT(*staircase.threshold() * 1.2, threshold * 0.9) << threshold;
+    EXPECT_LT(*staircase.threshold(), threshold * 1.3) << threshold;
+    EXPECT_LT(answers, 20);
+  }
+  Staircase always, never;
+  while (!always.done()) always.answer(true);
+  while (!never.done()) never.answer(false);
+  EXPECT_EQ(always.threshold(), 0.01);
+  EXPECT_FALSE(never.threshold());
+}
+
+}  // namespace
+}  // namespace navvi_feedback::lessons
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <navvi_types/guidance.hpp>
+#include <navvi_types/thing.hpp>
+#include <navvi_types/trial.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/cues/cue.hpp"
+#include "navvi_feedback/drive/buttons.hpp"
+#include "navvi_feedback/drive/drive.hpp"
+#include "navvi_feedback/haptics/haptics.hpp"
+#include "navvi_feedback/haptics/pattern.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
+
+namespace navvi_feedback::lessons {
+
+/// What a lesson knows of the person and the robot at one instant.
+struct Seen {
+  std::vector<drive::Button> pressed;  ///< since the last update
+  std::vector<std::string> begun;      ///< kinds of the words that began to be heard since then
+  drive::Stick stick;                  ///< without its dead zone; neutral where there is none
+  bool keyboard = false;
+  bool quiet = true;   ///< nothing is spoken or waits for it
+  bool motors = true;  ///< they can be felt
+  bool sounds = true;  ///< short sounds can be heard
+  bool hit = false;    ///< something was touched since the last update
+  Velocity motion;     ///< of the robot
+  bool arrived = false;
+  navvi_types::TrialState::State trial = navvi_types::TrialState::State::free;
+};
+
+/// What a lesson wants to be heard and felt, by the ways of a session.
+struct Taught {
+  std::vector<cues::Cue> cues;
+  std::vector<sounds::Play> plays;
+  std::optional<haptics::Pattern> pattern;
+  haptics::Zone side = haptics::Zone::center;  ///< of the pattern
+  std::vector<NearThing> near;                 ///< felt as if they were there
+  std::optional<haptics::Rumble> rumble;       ///< instead of what is near
+  std::optional<double> off;                   ///< rad, as TurnSound takes it
+  std::optional<Velocity> motion;              ///< likewise, where not the robot's own
+};
+
+/// Something to learn by ear and hand, one step after another.
+class Lesson {
+ public:
+  virtual ~Lesson() = default;
+
+  /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
+  [[nodiscard]] virtual Taught update(const Seen& seen, double time) = 0;
+  /// Nothing more comes.
+  [[nodiscard]] virtual bool over() const = 0;
+  /// The stick moves the robot.
+  [[nodiscard]] virtual bool drives() const { return false; }
+  /// It speaks: the guide says what is urgent, or asked for, and nothing else.
+  [[nodiscard]] virtual bool speaks() const { return true; }
+  /// The button is for the lesson alone.
+  [[nodiscard]] virtual bool takes(drive::Button /*button*/) const { return true; }
+  /// What came of it so far, as a table in CSV; empty for nothing.
+  [[nodiscard]] virtual std::string record() const { return ""; }
+  /// What is to be kept for the person, as parameters such as haptics/enabled:=true.
+  [[nodiscard]] virtual std::vector<std::string> settings() const { return {}; }
+};
+
+}  // namespace navvi_feedback::lessons

@@ -1,0 +1,77 @@
+#include "lessons/teller.hpp"
+
+#include "navvi_config/reader.hpp"
+
+namespace navvi_feedback::lessons {
+namespace {
+
+constexpr double kPatience = 20.0;  // s
+
+std::string replaced(std::string text, const std::string& name, const std::string& value) {
+  const std::string place = "{" + name + "}";
+  for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place))
+    text.replace(at, place.size(), value);
+  return text;
+}
+
+}  // namespace
+
+Teller::Teller(cues::Phrases phrases, const drive::ButtonsConfig& buttons,
+               const std::vector<std::string>& needed)
+    : phrases_(std::move(phrases)), buttons_(buttons) {
+  for (const std::string& key : needed) {
+    if (phrases_.lessons().count(key) == 0)
+      throw navvi_config::ConfigError("the phrase file lacks lessons/" + key + ".");
+    for (const bool keyboard : {false, true}) {
+      keyboard_ = keyboard;
+      for (const std::string& sentence : sentences(key, {{"count", "99"}, {"all", "99"}}))
+        if (!cues::speakable(sentence))
+          throw navvi_config::ConfigError("the phrase file's lessons/" + key +
+                                          " cannot be spoken: \"" + sentence +
+                                          "\"; allowed are 80 bytes a sentence.");
+    }
+  }
+}
+
+std::vector<std::string> Teller::sentences(const std::string& key, const Fillings& fillings) const {
+  std::string text = phrases_.lessons().at(key);
+  for (std::size_t i = 0; i < drive::kButtons; ++i) {
+    const auto name = phrases_.lessons().find((keyboard_ ? "key_" : "pad_") +
+                                              std::to_string(buttons_.index.at(i)));
+    text = replaced(text, names(drive::Button{}).at(i),
+                    name == phrases_.lessons().end() ? "-" : name->second);
+  }
+  for (const auto& [name, value] : fillings) text = replaced(text, name, value);
+  std::vector<std::string> result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(". ", begin), text.size());
+    result.push_back(text.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return result;
+}
+
+void Teller::then(const std::string& key, const Fillings& fillings) {
+  for (const std::string& sentence : sentences(key, fillings))
+    waiting_.push_back({key, sentence, Priority::message, kPatience, {}, true});
+}
+
+void Teller::tell(const std::string& key, const Fillings& fillings) {
+  waiting_.clear();
+  then(key, fillings);
+  at_once_ = true;
+}
+
+void Teller::then_phrase(const std::string& kind, const cues::Fillings& fillings) {
+  waiting_.push_back({kind, phrases_.say(kind, fillings), Priority::message, kPatience, {}, true});
+}
+
+std::vector<cues::Cue> Teller::update(bool quiet) {
+  if (waiting_.empty() || !(quiet || at_once_)) return {};
+  at_once_ = false;
+  const cues::Cue next = waiting_.front();
+  waiting_.pop_front();
+  return {next};
+}
+
+}  // namespace navvi_feedback::lessons

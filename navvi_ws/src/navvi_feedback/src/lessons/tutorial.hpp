@@ -1,0 +1,105 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lessons/lesson.hpp"
+#include "lessons/teller.hpp"
+
+namespace navvi_feedback::lessons {
+
+/// What a newcomer learns, from letting go of the stick to a first goal. Each step is told, and
+/// passed by doing it; who does something else is told what, and tries again. At the end the
+/// weakest step is practised once more. Next passes over a step, repeat tells it again, end ends
+/// it.
+class Tutorial : public Lesson {
+ public:
+  enum class Task {
+    drive,  ///< straight on, and let go
+    halt,   ///< let go at a word
+    turn,   ///< and stop in time
+    side,   ///< tell on which side something is near
+    press,  ///< a button
+    goal,   ///< a trial
+  };
+  struct Step {
+    const char* name;  ///< also in the keys of its texts
+    Task task;
+    double amount = 0.0;                           ///< m, s or deg clockwise, by the task
+    cues::Side side = cues::Side::ahead;           ///< of the thing
+    drive::Button button = drive::Button::repeat;  ///< to be pressed
+  };
+  [[nodiscard]] static const std::vector<Step>& steps();
+  /// The keys of all texts.
+  [[nodiscard]] static std::vector<std::string> texts();
+
+  /// How a step went.
+  struct Result {
+    std::string step;
+    int tries = 1;
+    double seconds = 0.0;  ///< from its first try on
+    bool passed = false;
+    bool practice = false;  ///< once more, as the weakest
+  };
+
+  /// \throws navvi_config::ConfigError if the phrases lack a text
+  Tutorial(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons);
+
+  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] bool over() const override { return over_; }
+  [[nodiscard]] bool drives() const override;
+  [[nodiscard]] bool speaks() const override { return !in_trial_; }
+  [[nodiscard]] bool takes(drive::Button button) const override;
+  [[nodiscard]] std::string record() const override;
+  [[nodiscard]] const std::vector<Result>& results() const { return results_; }
+
+ private:
+  enum class Phase { telling, doing, leaving };
+  /// What a try came to: nothing yet, well done, or the key of what went wrong.
+  struct Verdict {
+    bool passed = false;
+    std::string wrong = {};
+  };
+
+  void buttons(const Seen& seen);
+  void begin(std::size_t step);
+  void attempt();
+  void act(const Seen& seen, double dt, Taught& taught);
+  void leave(const std::string& key, const Teller::Fillings& fillings = {});
+  void finish(bool passed);
+  void next();
+  [[nodiscard]] std::optional<std::size_t> weakest() const;
+  [[nodiscard]] Verdict judge(const Seen& seen, Taught& taught);
+  [[nodiscard]] Verdict judge_drive(const Seen& seen);
+  [[nodiscard]] Verdict judge_halt(const Seen& seen);
+  [[nodiscard]] Verdict judge_turn(const Seen& seen, Taught& taught);
+  [[nodiscard]] Verdict judge_side(const Seen& seen, Taught& taught);
+  [[nodiscard]] Verdict judge_press(const Seen& seen) const;
+  [[nodiscard]] Verdict judge_goal(const Seen& seen);
+  [[nodiscard]] const Step& step() const { return steps()[at_]; }
+  [[nodiscard]] bool settled() const;
+
+  Teller teller_;
+  Phase phase_ = Phase::telling;
+  std::size_t at_ = 0;
+  bool over_ = false;
+  bool in_trial_ = false;
+  bool practising_ = false;
+  std::vector<Result> results_;       ///< the last is of the step that is being made
+  std::optional<double> step_since_;  ///< s
+  double time_ = 0.0;                 ///< s, of the last update
+  navvi_types::TrialState::State trial_ = navvi_types::TrialState::State::free;
+
+  // Of one try.
+  double since_ = 0.0;            ///< s
+  double driven_ = 0.0;           ///< m, forward
+  double turned_ = 0.0;           ///< rad, counter-clockwise
+  std::optional<double> moving_;  ///< s, since when the robot is fast enough
+  bool told_ = false;             ///< the word in the midst of it
+  std::optional<double> heard_;   ///< s, when that began to be heard
+  std::optional<double> still_;   ///< s, since when the stick is let go and the robot stands
+  std::optional<double> clicked_;
+};
+
+}  // namespace navvi_feedback::lessons

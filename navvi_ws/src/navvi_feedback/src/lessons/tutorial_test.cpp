@@ -1,0 +1,219 @@
+#include "lessons/tutorial.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace navvi_feedback::lessons {
+namespace {
+
+using drive::Button;
+using navvi_types::TrialState;
+
+/// A newcomer with a robot that obeys the stick, who hears each sentence for a second.
+class TutorialTest : public testing::Test {
+ protected:
+  /// What the person does about a step, tick by tick, from the time that it was told.
+  using Hand = std::function<void(double since)>;
+
+  TutorialTest() {
+    hands_ = {
+        {"let_go", [this](double t) { seen_.stick.y = t < 1.0 ? 0.8 : 0.0; }},
+        {"ahead", [this](double t) { seen_.stick.y = said("enough") ? 0.0
+                                                     : t < 8.0      ? 1.0
+                                                                    : 0.0; }},
+        {"halt", [this](double) { seen_.stick.y = heard("stop", 0.5) ? 0.0 : 1.0; }},
+        {"turn_right", [this](double) { seen_.stick.x = off_ && *off_ > 0.2 ? -0.5 : 0.0; }},
+        {"turn_left", [this](double) { seen_.stick.x = off_ && *off_ < -0.2 ? 0.5 : 0.0; }},
+        {"near_right", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? -1.0 : 0.0; }},
+        {"near_ahead", [this](double t) { seen_.stick.y = t > 0.5 && near_ ? 1.0 : 0.0; }},
+        {"near_left", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? 1.0 : 0.0; }},
+        {"press_repeat", [this](double t) { press(Button::repeat, t); }},
+        {"press_around", [this](double t) { press(Button::around, t); }},
+        {"press_where", [this](double t) { press(Button::where, t); }},
+        {"goal", [this](double t) { drive_to_goal(t); }}};
+  }
+
+  void press(Button button, double since) {
+    if (since >= 0.5 && since < 0.52) seen_.pressed = {button};
+  }
+  void drive_to_goal(double since) {
+    seen_.trial = since < 1.0   ? TrialState::State::ready
+                  : since < 6.0 ? TrialState::State::running
+                                : TrialState::State::choose_goal;
+    seen_.arrived = since > 5.9;
+  }
+  [[nodiscard]] bool said(const std::string& name) const {
+    return last_ == "tutorial_" + name || heard_.count("tutorial_" + name) > 0;
+  }
+  [[nodiscard]] bool heard(const std::string& name, double for_seconds) const {
+    const auto at = heard_.find("tutorial_" + name);
+    return at != heard_.end() && time_ - at->second >= for_seconds;
+  }
+
+  /// Until the tutorial ends. \return what was told, in order
+  void run(double most = 400.0) {
+    for (const double end = time_ + most; time_ < end && !tutorial_.over(); time_ += 0.02) tick();
+  }
+  void tick() {
+    seen_.quiet = time_ >= speaks_until_;
+    seen_.pressed = std::exchange(presses_, {});
+    const std::string step = tutorial_.results().empty() ? "" : tutorial_.results().back().step;
+    if (step != step_ || tries_ != told_) {
+      step_ = step;
+      told_ = tries_;
+      acts_since_.reset();
+      heard_.clear();
+    }
+    seen_.stick = {};
+    // Between two sentences it is silent for a moment.
+    if (last_ == "tutorial_" + step && time_ > speaks_until_ + 0.3 && !acts_since_)
+      acts_since_ = time_;
+    if (acts_since_) hands_.at(step)(time_ - *acts_since_);
+    seen_.motion =
+        tutorial_.drives() ? Velocity{0.8 * seen_.stick.y, 1.2 * seen_.stick.x} : Velocity{};
+    const Taught taught = tutorial_.update(seen_, time_);
+    seen_.begun.clear();
+    off_ = taught.off;
+    near_ = !taught.near.empty();
+    for (const cues::Cue& cue : taught.cues) {
+      const bool goes_on = last_ == cue.kind;  // with its next sentence
+      last_ = cue.kind;
+      seen_.begun = {cue.kind};
+      heard_[cue.kind] = time_;
+      all_.push_back(cue.kind);
+      speaks_until_ = time_ + 1.0;
+      if (!goes_on && cue.kind.rfind("tutorial_wrong", 0) == 0) ++tries_;
+    }
+  }
+  [[nodiscard]] auto count(const std::string& name) const {
+    return std::count(all_.begin(), all_.end(), "tutorial_" + name);
+  }
+  [[nodiscard]] const Tutorial::Result& result(std::size_t i) const {
+    return tutorial_.results().at(i);
+  }
+
+  Tutorial tutorial_{cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"),
+                     {}};
+  std::map<std::string, Hand> hands_;
+  Seen seen_;
+  std::vector<Button> presses_;
+  double time_ = 10.0;
+  double speaks_until_ = 0.0;
+  std::optional<double> acts_since_;
+  std::string step_, last_;
+  std::map<std::string, double> heard_;
+  std::vector<std::string> all_;
+  std::optional<double> off_;
+  bool near_ = false;
+  int tries_ = 0;
+  int told_ = 0;
+};
+
+TEST_F(TutorialTest, is_passed_by_doing_each_step_and_practises_the_one_that_took_longest) {
+  run();
+  ASSERT_TRUE(tutorial_.over());
+  const std::size_t steps = Tutorial::steps().size();
+  ASSERT_EQ(tutorial_.results().size(), steps + 1);
+  for (std::size_t i = 0; i < steps; ++i) {
+    EXPECT_EQ(result(i).step, Tutorial::steps()[i].name);
+    EXPECT_TRUE(result(i).passed) << result(i).step;
+    EXPECT_EQ(result(i).tries, 1) << result(i).step;
+  }
+  EXPECT_TRUE(result(steps).practice);
+  EXPECT_NE(result(steps).step, "goal");
+  EXPECT_EQ(count("well"), 1);
+}
+
+TEST_F(TutorialTest, passes_nothing_without_doing_it) {
+  hands_["let_go"] = [](double) {};
+  run(200.0);
+  EXPECT_FALSE(tutorial_.over());
+  EXPECT_EQ(tutorial_.results().size(), 1U);
+  EXPECT_FALSE(result(0).passed);
+  EXPECT_GT(count("let_go"), 3) << "told again now and then";
+}
+
+TEST_F(TutorialTest, tells_what_was_wrong_and_practises_the_weakest_step_at_the_end) {
+  const Hand well = hands_["turn_left"];
+  hands_["turn_left"] = [this, well](double t) {
+    if (tries_ > 0) return well(t);
+    seen_.stick.x = off_ && *off_ < 0.8 ? 0.5 : 0.0;  // 45 degrees too far
+  };
+  run();
+  ASSERT_TRUE(tutorial_.over());
+  EXPECT_EQ(count("wrong_too_far"), 1);
+  EXPECT_EQ(result(4).tries, 2);
+  EXPECT_TRUE(result(4).passed);
+  EXPECT_EQ(tutorial_.results().back().step, "turn_left");
+  EXPECT_TRUE(tutorial_.results().back().practice);
+  EXPECT_EQ(count("done"), 1);
+  EXPECT_NE(tutorial_.record().find("\nturn_left,2,"), std::string::npos) << tutorial_.record();
+}
+
+TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
+  const std::map<std::string, std::map<std::string, Hand>> wrong = {
+      {"let_go",
+       {{"back", [this](double) { seen_.stick.y = -1.0; }},
+        {"crooked", [this](double) { seen_.stick.x = 1.0; }}}},
+      {"ahead", {{"short", [this](double t) { seen_.stick.y = t < 1.0 ? 0.8 : 0.0; }}}},
+      {"halt",
+       {{"late", [this](double) { seen_.stick.y = 1.0; }},
+        {"early", [this](double t) { seen_.stick.y = t < 0.5 ? 1.0 : 0.0; }}}},
+      {"turn_right",
+       {{"side", [this](double) { seen_.stick.x = 0.5; }},
+        {"too_little", [this](double t) { seen_.stick.x = t < 1.0 ? -0.5 : 0.0; }},
+        {"driven", [this](double) { seen_.stick.y = 1.0; }}}},
+      {"near_right", {{"was_right", [this](double t) { seen_.stick.x = t > 0.5 ? 1.0 : 0.0; }}}},
+      {"near_left", {{"was_left", [this](double t) { seen_.stick.y = t > 0.5 ? 1.0 : 0.0; }}}},
+      {"near_ahead", {{"was_ahead", [this](double t) { seen_.stick.x = t > 0.5 ? 1.0 : 0.0; }}}},
+      {"press_around", {{"button", [this](double t) { press(Button::goal, t); }}}}};
+  for (const auto& [step, ways] : wrong)
+    for (const auto& [name, hand] : ways) {
+      const Hand well = hands_.at(step);
+      const Hand ill = hand;
+      const int before = tries_;
+      hands_[step] = [this, well, ill, before](double t) { tries_ == before ? ill(t) : well(t); };
+      for (; time_ < 5000.0 && step_ != step; time_ += 0.02) tick();
+      const auto count_before = count("wrong_" + name);
+      for (const double end = time_ + 30.0; time_ < end && step_ == step; time_ += 0.02) tick();
+      EXPECT_GT(count("wrong_" + name), count_before) << step;
+      EXPECT_NE(step_, step) << "and then passed";
+      hands_[step] = well;
+      tutorial_ =
+          Tutorial(cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"), {});
+      step_ = last_ = "";
+      seen_.trial = TrialState::State::free;
+      seen_.arrived = false;
+    }
+}
+
+TEST_F(TutorialTest, leaves_out_a_step_repeats_it_and_ends_by_buttons) {
+  hands_["let_go"] = [](double) {};
+  run(30.0);
+  presses_ = {Button::next};
+  tick();
+  ASSERT_EQ(tutorial_.results().size(), 2U);
+  EXPECT_FALSE(result(0).passed);
+  presses_ = {Button::end};
+  run(10.0);
+  EXPECT_TRUE(tutorial_.over());
+  EXPECT_EQ(all_.back(), "tutorial_end");
+}
+
+TEST_F(TutorialTest, is_silent_while_the_trial_to_the_goal_runs) {
+  for (; time_ < 300.0 && tutorial_.speaks(); time_ += 0.02) tick();
+  EXPECT_EQ(step_, "goal");
+  EXPECT_TRUE(tutorial_.drives());
+  EXPECT_FALSE(tutorial_.takes(Button::end));
+}
+
+}  // namespace
+}  // namespace navvi_feedback::lessons
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
