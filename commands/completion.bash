@@ -29,7 +29,8 @@ possible_words() {
     return
   fi
   case ${words[1]} in
-    run) file=live.launch && echo person:= ;;
+    run | tutorial) file=live.launch && echo person:= ;;
+    glossary | calibrate) file=lesson.launch && echo person:= ;;
     replay) file=replay.launch ;;
     watch) printf '%s\n' speech:= pace:= port:= ;;
     build) printf '%s\n' --asan --odr ;;

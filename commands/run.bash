@@ -32,8 +32,8 @@ resolve_operator() {
 # What can be refused before anything is built.
 check_words() {
   local folder
-  arg[speech]=${arg[speech]:-auto} arg[profile]=${arg[profile]:-default} arg[once]=${arg[once]:-false}
-  one_of speech profile once
+  arg[speech]=${arg[speech]:-auto} arg[profile]=${arg[profile]:-default} arg[once]=${arg[once]:-false} arg[lesson]=${arg[lesson]:-none}
+  one_of speech profile once lesson
   number limit
   [[ ${arg[participant]:-n/a} =~ ^([A-Za-z0-9_-]{1,32}|n/a)$ ]] ||
     fail "participant:=${arg[participant]} is not allowed; allowed are up to 32 letters, digits, - and _, such as sub-01." 2
@@ -81,6 +81,7 @@ announce() {
     [keyboard]="space repeats the direction, G tells the goal, A what is near."
     [simulated]="what it hears is in the log below, and in \"./navvi watch\"."
   )
+  [[ ${arg[lesson]} != tutorial ]] || drive[${arg[operator]}]="listen; each step of the tutorial is spoken."
   [[ "${parameters[*]}" != *feedback/buttons/* ]] || ask[pad]="as your feedback/buttons say."
   say "a session begins in some seconds: world ${arg[world]}, seed ${arg[seed]:-1}, profile ${arg[profile]}, operator ${arg[operator]}."
   echo "To drive: ${drive[${arg[operator]}]}"

@@ -37,8 +37,8 @@ def words_of(text):
     return words
 
 
-def grammar():
-    """The phrase file as a JSGF grammar."""
+def grammar(told):
+    """The phrase file as a JSGF grammar, with what is told in lessons if that is `told`."""
     document = yaml.safe_load(PHRASES.read_text())
     words = document["words"]
     choices = {
@@ -58,8 +58,15 @@ def grammar():
              f"<number> = <ones> | ({' | '.join(TENS)}) [{' | '.join(ONES[1:10])}];"]
     lines += [f"<{name}> = {value};" for name, value in choices.items()]
     cues = []
-    for template in {**document["phrases"], **document["clock"]}.values():
+    lessons = document["lessons"]
+    names = [words_of(name) for key, name in lessons.items() if key.startswith(("pad_", "key_"))]
+    lines.append(f"<button> = {' | '.join(sorted(set(map(' '.join, names))))};")
+    sentences = [sentence for key, text in lessons.items() if told and not key.startswith(("pad_", "key_")) for sentence in text.split(". ")]
+    for template in [*document["phrases"].values(), *document["clock"].values(), *sentences]:
         text = re.sub(r"[.,]", " ", template.lower())
+        text = re.sub(r"\d+", lambda digits: " ".join(number_words(digits.group())), text)
+        text = re.sub(r"\{(count|all)\}", "<number>", text)
+        text = re.sub(r"\{(?!direction|distance|thing|place|side|where)(\w+)\}", "<button>", text)
         cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
                                "public <cues> = <cue>+;"])  # cues may follow on one another at once
@@ -85,7 +92,7 @@ def utterances(samples, quiet=300, gap=0.22):
         yield first, last + block
 
 
-def transcribe(path):
+def transcribe(path, told=False):
     """Returns a list of (onset in s, words) for a sound file."""
     raw = subprocess.check_output(["sox", "--ignore-length", str(path), "-t", "raw", "-r", str(RATE), "-e", "signed", "-b", "16",
                                    "-c", "1", "-"], stderr=subprocess.DEVNULL)
@@ -93,7 +100,7 @@ def transcribe(path):
     spans = [span for span in utterances(samples) if span[1] - span[0] >= 0.2 * RATE]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "cues.jsgf").write_text(grammar())
+        (folder / "cues.jsgf").write_text(grammar(told))
         (folder / "all").write_text("".join(f"{index}\n" for index in range(len(spans))))
         for index, (first, last) in enumerate(spans):
             (folder / f"{index}.raw").write_bytes(samples[first:last].tobytes())

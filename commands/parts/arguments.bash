@@ -3,7 +3,7 @@
 declare -A arg
 parameters=()
 declare -A allowed=(
-  [operator]="auto pad keyboard simulated" [speech]="auto true false" [profile]="default paper" [once]="true false" [rviz]="auto true false"
+  [operator]="auto pad keyboard simulated" [speech]="auto true false" [profile]="default paper" [once]="true false" [lesson]="none tutorial" [rviz]="auto true false"
   [vision]="high_contrast yellow_on_black large color_blind paper" [view]="chase top forward"
 )
 

@@ -1,0 +1,1 @@
+navvi_glossary() { give_lesson glossary "$@"; }

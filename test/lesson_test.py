@@ -1,0 +1,82 @@
+"""The glossary, the tutorial and the calibration, by ear and hand alone: what is pressed depends on what is said, sounds and is felt."""
+import csv
+import pathlib
+import re
+import subprocess
+
+import pytest
+import yaml
+
+import hearing
+
+pytestmark = pytest.mark.accessibility
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PHRASES = ROOT / "navvi_ws/src/navvi_feedback/config/phrases/en.yaml"
+
+
+def give(env, folder, lesson, launch, *words, **more):
+    """What the person heard and pressed, line by line, and the kinds of it."""
+    session = subprocess.Popen(["roslaunch", str(ROOT / "launch" / launch), f"lesson:={lesson}", *words], env=dict(env, **more),
+                               stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
+    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/pupil.py"), lesson], env=dict(env, **more), text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    try:
+        told, error = person.communicate(timeout=600)
+        assert person.returncode == 0, told[-6000:] + error[-2000:] + (folder / "log").read_text()[-2000:]
+        session.wait(60)
+    finally:
+        person.kill()
+        session.terminate()
+        session.wait(30)
+    print(told)
+    lines = told.splitlines()
+    return lines[:-1], lines[-1]
+
+
+@pytest.fixture
+def env(master):
+    return {key: value for key, value in master.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+
+
+def test_the_glossary_is_heard_from_the_first_signal_to_the_last(env, tmp_path):
+    (tmp_path / "alsoft").write_text(f"[general]\ndrivers = wave\n[wave]\nfile = {tmp_path}/sound.wav\n")
+    _, kinds = give(env, tmp_path, "glossary", "lesson.launch", "operator:=topic", ALSOFT_CONF=str(tmp_path / "alsoft"))
+    texts = yaml.safe_load(PHRASES.read_text())["lessons"]
+    missing = [key for key in texts if key.startswith("glossary_") and f"'{key}'" not in kinds]
+    # Off in a session unless wanted; there are motors.
+    assert sorted(missing) == ["glossary_no_motors", "glossary_sound_beacon", "glossary_sound_sonar"]
+    for signal in "turn", "turn_stop", "worker_close", "hit_shelf", "stuck", "rerouted", "obstacle_stop", "go_on":
+        assert f"'{signal}'" in kinds
+    begin = tmp_path / "begin.wav"
+    subprocess.run(["sox", "--ignore-length", str(tmp_path / "sound.wav"), str(begin), "trim", "0", "20"], check=True)
+    heard = " ".join(" ".join(words) for _, words in hearing.transcribe(begin, told=True))
+    for words in "here is each signal", "arrow down for the next one", "on the left":
+        assert words in heard, heard
+
+
+def test_the_tutorial_is_passed_by_doing_and_practises_what_went_wrong(env, tmp_path):
+    record = tmp_path / "tutorial.csv"
+    lines, kinds = give(env, tmp_path, "tutorial", "live.launch", "operator:=auto", "world:=training", "start:=-6.5,-5,1.57", "goal:=0.2,-1",
+                        "speech:=false", "rviz:=false", f"out:={tmp_path}", "once:=false", "limit:=300",
+                        f"feedback_parameters:={{listener: topic, record: {record}}}")
+    with open(record) as file:
+        rows = list(csv.DictReader(file))
+    assert [row["passed"] for row in rows] == ["yes"] * 13
+    tries = {row["step"]: int(row["tries"]) for row in rows[:-1]}
+    assert tries["turn_right"] > 1 and tries["ahead"] == 1
+    assert (rows[-1]["step"], rows[-1]["practice"]) == ("turn_right", "yes")
+    assert "tutorial_wrong_too_far" in kinds and "tutorial_done" in kinds
+    summaries = [path.read_text() for path in tmp_path.glob("trial-*/summary.csv")]
+    assert len(summaries) == 1 and "goal_reached" in summaries[0]
+    # Words of the guide stand back, but for those to the goal.
+    said = [re.sub(r"^ *[0-9.]+ +", "", line) for line in lines]
+    assert not {"press start to begin", "choose a goal", "welcome, waiting for a goal"} & set(said)
+
+
+def test_a_calibration_is_saved_for_the_person_and_the_pad(env, tmp_path):
+    give(env, tmp_path, "calibrate", "lesson.launch", "operator:=topic", "feedback_parameters:={listener: topic, person: anna}", "speech:=false",
+         NAVVI_PEOPLE=str(tmp_path))
+    saved = yaml.safe_load((tmp_path / "anna.yaml").read_text())
+    name, left, right, gain = saved["haptics"]["pads"][0].split()
+    assert 0.08 < float(left) < 0.17 and 0.16 < float(right) < 0.33 and 0.4 < float(gain) < 0.56
+    assert 0.35 < saved["sounds"]["turn"]["stopping_delay"] < 0.9

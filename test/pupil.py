@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""A person for tests who learns by ear and hand, in a process of its own: `pupil.py glossary`, `tutorial` or `calibrate`, with a pad as
+joy_node gives it. Hears the cues and feels the motors, and knows nothing else. Prints what is heard and pressed."""
+import subprocess
+import sys
+import threading
+import time
+
+import rospy
+from navvi_msgs.msg import Cue
+from sensor_msgs.msg import Joy, JoyFeedbackArray
+
+BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "start": 6, "previous": 11, "next": 12}
+
+
+class Pupil:
+    def __init__(self):
+        rospy.init_node("pupil", disable_rostime=True)
+        self.begun, self.axes, self.down, self.motors = time.monotonic(), [0.0, 0.0], None, (0.0, 0.0)
+        self.last, self.sound, self.silent_since, self.speaking = "", "", 0.0, False
+        self.kinds, self.felt = [], set()
+        self.hand = None
+        self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
+        rospy.Subscriber("/navvi/cues", Cue, self.hear, tcp_nodelay=True)
+        rospy.Subscriber("/joy/set_feedback", JoyFeedbackArray, self.feel, tcp_nodelay=True)
+        threading.Thread(target=self.hold, daemon=True).start()
+
+    def hold(self):
+        while not rospy.is_shutdown():
+            buttons = [0] * 15
+            if self.down:
+                buttons[BUTTONS[self.down]] = 1
+            self.joy.publish(Joy(axes=self.hand or self.axes, buttons=buttons))
+            time.sleep(0.02)
+
+    def tell(self, text):
+        print(f"{time.monotonic() - self.begun:6.1f}  {text}", flush=True)
+
+    def hear(self, cue):
+        if cue.modality == Cue.RUMBLE and cue.kind:
+            self.felt.add(cue.kind)
+        if cue.stage == Cue.STARTED and cue.modality == Cue.SPEECH:
+            self.tell(cue.text)
+            self.last, self.speaking = cue.kind, True
+            self.kinds.append(cue.kind)
+        elif cue.stage == Cue.STARTED and cue.modality == Cue.SOUND:
+            if cue.kind != self.sound:
+                self.tell(f"({cue.kind})")
+            self.sound = cue.kind
+            self.kinds.append(cue.kind)
+        elif cue.modality == Cue.SPEECH and cue.stage in (Cue.ENDED, Cue.CUT):
+            self.speaking, self.silent_since = False, time.monotonic()
+
+    def feel(self, message):
+        self.motors = tuple(motor.intensity for motor in message.array[:2])
+
+    def listening(self):
+        """All is told."""
+        return self.last and not self.speaking and time.monotonic() - self.silent_since > 0.5
+
+    def until(self, condition, seconds, what):
+        deadline = time.monotonic() + seconds
+        while not condition() and not rospy.is_shutdown():
+            if time.monotonic() > deadline:
+                sys.exit(f"in {seconds} s it did not come true that {what}; last heard: {self.last}")
+            time.sleep(0.01)
+
+    def press(self, name):
+        self.tell(f"[{name}]")
+        self.down = name
+        time.sleep(0.12)
+        self.down = None
+
+    def push(self, x, y):
+        self.tell(f"[stick {x} {y}]")
+        self.axes = [x, y]
+
+    def glossary(self):
+        while "glossary_end" not in self.kinds:
+            self.until(self.listening, 60, "it is silent")
+            before = self.last
+            time.sleep(3.2 if before.startswith(("glossary_near", "glossary_sound_turn")) else 1.8)
+            self.press("next")
+            self.until(lambda: self.last != before or self.speaking, 10, "something is told")
+
+    def tutorial(self):
+        late = True
+        while self.last not in ("tutorial_well", "tutorial_done"):
+            self.until(self.listening, 90, "a step is told")
+            step = self.last.replace("tutorial_", "")
+            self.sound = ""
+            if step in ("well", "done"):
+                break
+            if step == "goal":
+                self.to_the_goal()
+            elif step.startswith("press_"):
+                self.press(step.replace("press_", ""))
+            elif step.startswith("near_"):
+                self.until(lambda: max(self.motors) > 0.2, 10, "something is felt")
+                time.sleep(0.3)
+                left, right = self.motors
+                self.push(1.0 if left > 2 * right else -1.0 if right > 2 * left else 0.0, 1.0 if max(left, right) < 2 * min(left, right) else 0.0)
+                time.sleep(0.5)
+            elif step.startswith("turn_"):
+                self.push(-0.6 if step == "turn_right" else 0.6, 0.0)
+                self.until(lambda: self.sound == "turn_stop", 20, "the turn is to end")
+                time.sleep(0.9 if late else 0.2)
+                late = False
+            else:
+                self.push(0.0, 0.8)
+                wanted = {"ahead": "tutorial_enough", "halt": "tutorial_stop"}.get(step)
+                self.until(lambda: not wanted or self.last == wanted, 20, f"{wanted} is said")
+                time.sleep(0.3 if wanted else 1.0)
+            self.push(0.0, 0.0)
+            self.until(lambda: self.last != f"tutorial_{step}", 30, f"something is told after {step}")
+
+    def to_the_goal(self):
+        operator = subprocess.Popen(["rosrun", "navvi_study", "operator_node", "joy:=hand", "__name:=operator_node"])
+        subscriber = rospy.Subscriber("/hand", Joy, lambda hand: setattr(self, "hand", hand.axes), queue_size=1, tcp_nodelay=True)
+        try:
+            self.press("start")
+            self.until(lambda: "arrived" in self.kinds, 200, "the goal is reached")
+        finally:
+            operator.terminate()
+            subscriber.unregister()
+            self.hand = None
+
+    def calibrate(self):
+        """Feels 0.1 on the left, 0.2 on the right, likes 0.5, and lets go after 0.3 s."""
+        felt = False
+        while "calibrate_done" not in self.kinds:
+            left, right = self.motors
+            feels = left > 0.1 or right > 0.2
+            if not self.listening():
+                pass
+            elif self.last in ("calibrate_left", "calibrate_right") and feels and not felt:
+                time.sleep(0.3)
+                self.press("repeat")
+            elif self.last == "calibrate_comfort" and feels and not felt:
+                self.press("next" if left > 0.51 else "start")
+            elif self.last in ("calibrate_halt", "calibrate_once_more", "calibrate_late", "calibrate_early"):
+                self.sound = ""
+                self.push(0.0, 1.0)
+                self.until(lambda: self.sound == "turn_stop", 10, "the signal comes")
+                time.sleep(0.3)
+                before = len(self.kinds)
+                self.push(0.0, 0.0)
+                self.until(lambda: len(self.kinds) > before, 10, "something is told")
+            felt = feels
+            time.sleep(0.01)
+
+
+if __name__ == "__main__":
+    pupil = Pupil()
+    getattr(pupil, sys.argv[1])()
+    print(sorted(set(pupil.kinds) | pupil.felt), flush=True)
