@@ -10,7 +10,7 @@ import rospy
 from navvi_msgs.msg import Cue
 from sensor_msgs.msg import Joy, JoyFeedbackArray
 
-BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "start": 6, "previous": 11, "next": 12}
+BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "help": 5, "start": 6, "previous": 11, "next": 12}
 
 
 class Pupil:
@@ -115,12 +115,14 @@ class Pupil:
             self.until(lambda: self.last != f"tutorial_{step}", 30, f"something is told after {step}")
 
     def to_the_goal(self):
+        follows = [True]
         operator = subprocess.Popen(["rosrun", "navvi_study", "operator_node", "joy:=hand", "__name:=operator_node"])
-        subscriber = rospy.Subscriber("/hand", Joy, lambda hand: setattr(self, "hand", hand.axes), queue_size=1, tcp_nodelay=True)
+        subscriber = rospy.Subscriber("/hand", Joy, lambda hand: setattr(self, "hand", hand.axes if follows else None), queue_size=1, tcp_nodelay=True)
         try:
             self.press("start")
             self.until(lambda: "arrived" in self.kinds, 200, "the goal is reached")
         finally:
+            follows.clear()
             operator.terminate()
             subscriber.unregister()
             self.hand = None

@@ -29,6 +29,7 @@ class Teller {
   void tell(const std::string& key, const Fillings& fillings = {});
   /// After what waits.
   void then(const std::string& key, const Fillings& fillings = {});
+  void forget() { waiting_.clear(); }
   /// A phrase of the guide as it is spoken in a session, after what waits.
   void then_phrase(const std::string& kind, const cues::Fillings& fillings);
 

@@ -16,6 +16,7 @@ constexpr double kSettled = 0.4;            // s, of standing, before a try is j
 constexpr double kAstray = 25.0 * kDegree;  // from straight on
 constexpr double kTurnError = 15.0 * kDegree;
 constexpr double kIdle = 15.0;        // s without a try, before it is told again
+constexpr int kManyTries = 4;         // after which the ways out are told once more
 constexpr double kHaltSpeed = 0.3;    // m/s; faster, it may be told to stop
 constexpr double kHaltAfter = 0.8;    // s, at that speed; more with each try
 constexpr double kClick = 1.2;        // s, from one to the next
@@ -44,7 +45,7 @@ const std::vector<Tutorial::Step>& Tutorial::steps() {
       {"near_right", Task::side, 0.0, cues::Side::right},
       {"near_ahead", Task::side, 0.0, cues::Side::ahead},
       {"near_left", Task::side, 0.0, cues::Side::left},
-      {"press_repeat", Task::press, 0.0, {}, Button::repeat},
+      {"press_help", Task::press, 0.0, {}, Button::help},
       {"press_around", Task::press, 0.0, {}, Button::around},
       {"press_where", Task::press, 0.0, {}, Button::where},
       {"goal", Task::goal},
@@ -96,8 +97,7 @@ bool Tutorial::drives() const {
 bool Tutorial::takes(Button button) const {
   if (in_trial_) return false;
   if (button == Button::start) return step().task != Task::goal;
-  if (button == Button::repeat) return step().task != Task::press;
-  return button > Button::help;
+  return button == Button::repeat || button > Button::help;
 }
 
 void Tutorial::begin(std::size_t step) {
@@ -183,7 +183,13 @@ Taught Tutorial::update(const Seen& seen, double time) {
     begin(0);
   }
   buttons(seen);
+  if (phase_ == Phase::telling && step().task == Task::goal &&
+      seen.trial == TrialState::State::running) {
+    teller_.forget();
+    attempt();  // begun before the last word
+  }
   Taught taught;
+  taught.cues = teller_.update(seen.quiet);
   if (phase_ == Phase::doing)
     act(seen, dt, taught);
   else if (phase_ == Phase::leaving)
@@ -191,7 +197,6 @@ Taught Tutorial::update(const Seen& seen, double time) {
   // Who knows what to do does not wait for the last word. What is still in motion is no try.
   else if (teller_.done() && stands(seen))
     attempt();
-  taught.cues = teller_.update(seen.quiet);
   return taught;
 }
 
@@ -217,6 +222,7 @@ void Tutorial::act(const Seen& seen, double dt, Taught& taught) {
     teller_.tell(key("wrong_" + verdict.wrong));
     if (step().task == Task::goal) return finish(false);
     teller_.then(key(step().name));
+    if (results_.back().tries == kManyTries) teller_.then(key("buttons"));
   } else if (idle && time_ - since_ > kIdle) {
     phase_ = Phase::telling;
     teller_.tell(key(step().name));
@@ -310,7 +316,7 @@ Tutorial::Verdict Tutorial::judge_side(const Seen& seen, Taught& taught) {
 
 Tutorial::Verdict Tutorial::judge_press(const Seen& seen) const {
   for (const Button button : seen.pressed)
-    if (button <= Button::help)
+    if (button <= Button::help && button != Button::repeat)
       return button == step().button ? Verdict{true} : Verdict{false, "button"};
   return {};
 }

@@ -30,7 +30,7 @@ class TutorialTest : public testing::Test {
         {"near_right", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? -1.0 : 0.0; }},
         {"near_ahead", [this](double t) { seen_.stick.y = t > 0.5 && near_ ? 1.0 : 0.0; }},
         {"near_left", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? 1.0 : 0.0; }},
-        {"press_repeat", [this](double t) { press(Button::repeat, t); }},
+        {"press_help", [this](double t) { press(Button::help, t); }},
         {"press_around", [this](double t) { press(Button::around, t); }},
         {"press_where", [this](double t) { press(Button::where, t); }},
         {"goal", [this](double t) { drive_to_goal(t); }}};
@@ -201,6 +201,18 @@ TEST_F(TutorialTest, leaves_out_a_step_repeats_it_and_ends_by_buttons) {
   run(10.0);
   EXPECT_TRUE(tutorial_.over());
   EXPECT_EQ(all_.back(), "tutorial_end");
+}
+
+TEST_F(TutorialTest,
+       leaves_the_word_to_the_guide_at_once_where_the_trial_begins_before_its_last_word) {
+  hands_["goal"] = [](double) {};
+  for (; time_ < 300.0 && step_ != "goal"; time_ += 0.02) tick();
+  seen_.trial = TrialState::State::running;
+  seen_.stick.y = 1.0;
+  seen_.motion.linear = 0.5;
+  for (int i = 0; i < 3; ++i) (void)tutorial_.update(seen_, time_ += 0.02);
+  EXPECT_FALSE(tutorial_.speaks());
+  EXPECT_TRUE(tutorial_.update(seen_, time_ += 0.02).cues.empty());
 }
 
 TEST_F(TutorialTest, is_silent_while_the_trial_to_the_goal_runs) {
