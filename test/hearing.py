@@ -66,7 +66,7 @@ def grammar(told):
         text = re.sub(r"[.,]", " ", template.lower())
         text = re.sub(r"\d+", lambda digits: " ".join(number_words(digits.group())), text)
         text = re.sub(r"\{(count|all)\}", "<number>", text)
-        text = re.sub(r"\{(?!direction|distance|thing|place|side|where)(\w+)\}", "<button>", text)
+        text = re.sub(r"\{(?!direction|distance|thing|place|side|where|setting|value|person)(\w+)\}", "<button>", text)
         cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
                                "public <cues> = <cue>+;"])  # cues may follow on one another at once

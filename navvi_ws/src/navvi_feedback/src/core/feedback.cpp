@@ -308,6 +308,7 @@ void Feedback::obey(const std::vector<drive::Button>& pressed, Output& out) {
     if (step.told) deciders_->answer = step.told;
     if (step.goal) out.goal = step.goal;
     if (step.request) out.request = step.request;
+    if (step.glossary) begin_lesson("glossary", "");
     if (step.change.empty()) continue;
     out.change = step.change;
     if (step.felt) deciders_->patterns.begin(haptics::Pattern::sample);
@@ -377,6 +378,8 @@ void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, do
   taught = {};
   // Not before there are hands: a pad may be found a little later, and has motors or not.
   if (!lesson_ && input.hands.live) begin_lesson(config_.lesson, input.pad);
+  const bool by_menu = config_.lesson == "none";
+  if (by_menu && trial_.state == TrialState::State::running) lesson_.reset();
   if (!lesson_ || lesson_->over()) return;
   lessons::Seen seen;
   seen.pressed = pressed;
@@ -398,8 +401,8 @@ void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, do
 
 void Feedback::hush(std::vector<cues::Cue>& cues) const {
   static const std::set<std::string> needed = {
-      "stuck",         "stuck_unknown", "back_away", "release_stick", "pad_back",
-      "keyboard_back", "audio_back",    "no_rumble", "second_pad",    "pad_firmware"};
+      "arrived",       "stuck",      "stuck_unknown", "back_away", "release_stick", "pad_back",
+      "keyboard_back", "audio_back", "settings_of",   "no_rumble", "second_pad",    "pad_firmware"};
   if (!lesson_ || lesson_->over()) return;
   if (lesson_->speaks())
     cues.erase(std::remove_if(cues.begin(), cues.end(),

@@ -54,6 +54,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"menu_begin", P::message, 0.0, 4.0},
       {"menu_goals", P::message, 0.0, 4.0},
       {"menu_place", P::message, 0.0, 4.0},
+      {"menu_glossary", P::message, 0.0, 4.0},
       {"menu_end", P::message, 0.0, 4.0},
       {"menu_end_sure", P::message, 0.0, 4.0},
       {"menu_empty", P::message, 0.0, 4.0},

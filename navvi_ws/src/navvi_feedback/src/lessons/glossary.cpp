@@ -57,7 +57,7 @@ Glossary::Glossary(const cues::Phrases& phrases, const drive::ButtonsConfig& but
 
 /// What a session does not give is not in its glossary.
 bool Glossary::given(const Entry& entry, const Seen& seen) const {
-  if (entry.near) return seen.motors && haptics_.enabled;
+  if (entry.near) return seen.motors && haptics_.enabled && haptics_.near;
   if (entry.pattern) return seen.motors && haptics_.enabled && haptics_.patterns;
   if (entry.earcon) return seen.sounds && sounds_.enabled && sounds_.family_of(*entry.earcon).on;
   return true;

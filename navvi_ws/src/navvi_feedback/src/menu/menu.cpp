@@ -42,6 +42,8 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
         entries.push_back({{"menu_begin"}, {}, {}, TrialRequest::Kind::begin});
       if (!destinations().empty()) entries.push_back({{"menu_goals"}, List::goals});
       if (!values_.empty()) entries.push_back({{"menu_settings"}, List::settings});
+      if (trial_ != TrialState::State::preparing && trial_ != TrialState::State::running)
+        entries.push_back({{"menu_glossary"}, {}, {}, {}, nullptr, true});
       if (trial_ == TrialState::State::running) entries.push_back({{"menu_end"}, List::end});
       if (entries.empty()) entries.push_back({{"menu_empty"}});
       break;
@@ -77,10 +79,11 @@ Menu::Step Menu::choose(const Entry& entry) {
   }
   Step step;
   step.request = entry.request;
+  step.glossary = entry.glossary;
   if (entry.goal) {
     step.goal = entry.goal->at;
     step.told = entry.goal->say("goal_chosen");
-  } else if (!entry.request) {
+  } else if (!entry.request && !entry.glossary) {
     return tell();
   }
   path_.clear();

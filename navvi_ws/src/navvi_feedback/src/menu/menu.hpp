@@ -22,7 +22,8 @@ namespace navvi_feedback::menu {
 
 /// A spoken menu for one hand and no eyes: next, previous, choose, back, each a short press. The
 /// first press of next, previous, choose or start opens it. Nothing has to be held, and nothing
-/// runs out. It offers to begin and end the trial, goals by name, and settings.
+/// runs out. It offers to begin and end the trial, goals by name, settings, and
+/// the glossary while no trial runs.
 class Menu {
  public:
   struct Step {
@@ -32,6 +33,7 @@ class Menu {
     std::string change = {};                   ///< such as "speaker/rate:=240"; empty: none
     bool felt = false;                         ///< an example of it is to be felt
     std::optional<sounds::Earcon> heard = {};  ///< or heard
+    bool glossary = false;                     ///< is to be given
   };
 
   void take(const Scenario& scenario) { scenario_ = scenario; }
@@ -61,6 +63,7 @@ class Menu {
     std::optional<Destination> goal = std::nullopt;
     std::optional<TrialRequest::Kind> request = std::nullopt;
     const Setting* setting = nullptr;
+    bool glossary = false;
   };
   /// A list, and what was last spoken of it.
   struct Level {

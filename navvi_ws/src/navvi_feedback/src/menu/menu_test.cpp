@@ -91,9 +91,18 @@ TEST_F(MenuTest, offers_the_goal_before_the_present_one) {
 
 TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
   Menu menu;
+  menu.take(TrialState{State::preparing});
   EXPECT_EQ(menu.press(Button::next).told.value().kind, "menu_empty");
   EXPECT_EQ(menu.press(Button::choose).told.value().kind, "menu_empty");
   EXPECT_EQ(menu.press(Button::back).told.value().kind, "menu_closed");
+}
+
+TEST_F(MenuTest, has_the_glossary_while_no_trial_runs) {
+  EXPECT_EQ(heard({Button::next, Button::next}), "menu_glossary");
+  EXPECT_TRUE(press({Button::choose}).glossary);
+  trial(State::running);
+  EXPECT_EQ(heard({Button::next, Button::previous}), "menu_end");
+  EXPECT_EQ(heard({Button::previous}), "menu_goals");
 }
 
 TEST_F(MenuTest, changes_a_setting_step_by_step) {

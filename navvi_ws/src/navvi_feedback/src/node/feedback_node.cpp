@@ -196,6 +196,20 @@ class FeedbackNode {
     last_hands_ = input.hands;
   }
 
+  /// What a lesson finds out is written at once; the program ends with it.
+  void keep_lesson(bool over) {
+    if (!feedback_.lesson()) return;
+    const std::string record = feedback_.lesson()->record();
+    if (!config_.record.empty() && std::exchange(recorded_, record) != record)
+      std::ofstream(config_.record) << record;
+    const std::vector<std::string> settings = feedback_.lesson()->settings();
+    if (std::exchange(found_, settings) != settings) {
+      for (const std::string& setting : settings) ROS_INFO("Found: feedback/%s", setting.c_str());
+      if (person_) person_->save(settings);  // before it is said
+    }
+    if (over) g_stop = 1;
+  }
+
   void offer_settings() {
     if (!config_.person.empty()) {
       person_ = person::PersonFile::of<PersonConfig>(config_.person);
@@ -245,20 +259,6 @@ class FeedbackNode {
       ROS_ERROR("%s", error.what());
       news_.push_back("settings_not_saved");
     }
-  }
-
-  /// What a lesson finds out is written at once; the program ends with it.
-  void keep_lesson(bool over) {
-    if (!feedback_.lesson()) return;
-    const std::string record = feedback_.lesson()->record();
-    if (!config_.record.empty() && std::exchange(recorded_, record) != record)
-      std::ofstream(config_.record) << record;
-    if (!over) return;
-    const std::vector<std::string> settings = feedback_.lesson()->settings();
-    for (const std::string& setting : settings) ROS_INFO("Found: feedback/%s", setting.c_str());
-    if (!config_.person.empty() && !settings.empty())
-      person::PersonFile::of<PersonConfig>(config_.person).save(settings);
-    g_stop = 1;
   }
 
   /// \param called  once the driver was told, if that is another command
@@ -401,8 +401,9 @@ class FeedbackNode {
   double last_tick_ = 0.0;              // s, of now()
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
-  std::optional<double> share_;  ///< of the person's speed, last published
-  std::string recorded_;         ///< of the lesson, as it is in the file
+  std::optional<double> share_;     ///< of the person's speed, last published
+  std::vector<std::string> found_;  ///< by the lesson, and saved
+  std::string recorded_;            ///< of the lesson, as it is in the file
   std::uint32_t sound_id_ = 0;
   std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
   visualization_msgs::MarkerArray shown_;

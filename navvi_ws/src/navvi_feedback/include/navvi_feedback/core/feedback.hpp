@@ -82,7 +82,7 @@ class Feedback {
     std::optional<TrialRequest::Kind> request;
     std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
     std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
-    bool lesson_over = false;             ///< of FeedbackConfig::lesson
+    bool lesson_over = false;  ///< of FeedbackConfig::lesson
   };
 
   /// \param phrases  file of the spoken phrases
