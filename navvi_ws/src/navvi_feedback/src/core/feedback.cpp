@@ -36,13 +36,19 @@ haptics::Zone zone_of(const Contact& contact) {
 /// What is felt when a cue is said; the cues that are not here are for the ear alone.
 std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
   using haptics::Pattern;
-  static const std::map<std::string, Pattern> patterns = {
-      {"robot_stopped", Pattern::stopped}, {"stuck", Pattern::stuck},
-      {"stuck_unknown", Pattern::stuck},   {"press_start", Pattern::ready},
-      {"press_enter", Pattern::ready},     {"trial_begins", Pattern::begun},
-      {"back_away", Pattern::stuck},       {"arrived", Pattern::arrived},
-      {"rerouted", Pattern::rerouted},     {"rerouted_blocked", Pattern::rerouted},
-      {"new_route", Pattern::rerouted},    {"way_blocked", Pattern::rerouted}};
+  static const std::map<std::string, Pattern> patterns = {{"robot_stopped", Pattern::stopped},
+                                                          {"release_stick", Pattern::stopped},
+                                                          {"stuck", Pattern::stuck},
+                                                          {"stuck_unknown", Pattern::stuck},
+                                                          {"press_start", Pattern::ready},
+                                                          {"press_enter", Pattern::ready},
+                                                          {"trial_begins", Pattern::begun},
+                                                          {"back_away", Pattern::stuck},
+                                                          {"arrived", Pattern::arrived},
+                                                          {"rerouted", Pattern::rerouted},
+                                                          {"rerouted_blocked", Pattern::rerouted},
+                                                          {"new_route", Pattern::rerouted},
+                                                          {"way_blocked", Pattern::rerouted}};
   const auto found = patterns.find(kind);
   return found == patterns.end() ? std::nullopt : std::optional(found->second);
 }
@@ -350,6 +356,7 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   for (const drive::Button button : pressed)
     if (button <= drive::Button::help) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;
+  now.touch = input.motors && config_.haptics.enabled && config_.haptics.patterns;
   now.notices = input.notices;
   if (intruder_) now.notices.push_back("intruder");
   now.person = input.person;

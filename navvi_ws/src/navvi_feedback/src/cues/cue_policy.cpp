@@ -18,7 +18,7 @@ constexpr double kLastWords = 10.0;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
 /// s, from one word to the next on what a stick that is pushed waits for.
-constexpr double kHeldBack = 3.0;
+constexpr double kHeldBack = 2.5;
 /// s; the same thing again within it is the same collision.
 constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
@@ -51,8 +51,8 @@ std::string awaited(const Situation& now) {
 /// Words that depend on where the robot is.
 bool leads_the_way(const std::string& kind) {
   static const std::set<std::string> kinds = {
-      "direction", "straight",       "slight",   "straight_then", "turn_ahead",
-      "turn_now",  "turn_cancelled", "rerouted", "make_room",     "rerouted_blocked"};
+      "direction",      "straight", "slight",    "straight_then",    "turn_ahead", "turn_now",
+      "turn_cancelled", "rerouted", "make_room", "rerouted_blocked", "wrong_way",  "off_path"};
   return kinds.count(kind) > 0;
 }
 
@@ -123,7 +123,7 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   links_ = links;
   gate_ = now.gate;
   time_ = time;
-  return phrase(utterances, now.sounds, time);
+  return phrase(utterances, now, time);
 }
 
 Links CuePolicy::judge(const Situation& now, double time) {
@@ -241,6 +241,7 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   else if (now.guidance)
     problem = problem_of(*now.guidance);
   if (follows_) arrival_said_ = false;
+  led_ = led_ || follows_;
   const bool idle = problem.empty() || problem == "welcome" || problem == "arrived";
   if (const std::string wanted = awaited(now); idle && !wanted.empty()) problem = wanted;
 
@@ -254,7 +255,8 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   }
   if (problem_.empty()) return {};
   const bool at_once = problem_ == "arrived" || problem_ == "guidance_lost" || refused(problem_);
-  const bool starting = problem_ == "welcome" || problem_ == "no_map" || problem_ == "pose_stale";
+  const bool starting =
+      problem_ == "welcome" || (!led_ && (problem_ == "no_map" || problem_ == "pose_stale"));
   // Who was just told to stop need not be told to wait as well.
   const bool stopped = problem_ == "blocked" && halt_.halted();
   const bool near =
@@ -284,7 +286,7 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
   const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
                                       std::abs(now.measured->angular) > kMoving);
   const bool straight = config_.route.join && time - straight_said_ < kRecover;
-  Utterances told = near_.update(now, follows_ || moves, straight, time);
+  Utterances told = near_.update(now, follows_ || moves, {straight, halt_.fresh(time)}, time);
   for (Utterance& utterance : told) {
     if (utterance.fillings.side != Side::ahead) continue;
     // A person stops for a thing ahead, and then needs a direction.
@@ -307,7 +309,7 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
     const bool halted = halt_.update(now, follows_, time);
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halted) return {};
-    return halt_.go_on(route_.update(now, halted, time), now.sounds.turn, time);
+    return halt_.go_on(route_.update(now, halted, time), now.sounds.turn && !now.voice_busy, time);
   }
   halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
@@ -372,7 +374,7 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   return {answer};
 }
 
-std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Sounds& sounds,
+std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation& now,
                                    double time) {
   std::vector<Cue> cues;
   for (const Utterance& utterance : utterances) {
@@ -393,12 +395,12 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Sounds& s
             text,
             utterance.priority.value_or(kind.priority),
             kind.max_age,
-            instead_of(utterance, sounds),
+            instead_of(utterance, now.sounds),
             utterance.asked};
     if (!cue.sound) {
       const auto same = last_text_.find(text);
-      cue.felt = !cue.asked && same != last_text_.end() && tells_nothing_new(utterance) &&
-                 time - same->second < config_.same_text;
+      cue.felt = now.touch && !cue.asked && same != last_text_.end() &&
+                 tells_nothing_new(utterance) && time - same->second < config_.same_text;
       if (!cue.felt) last_text_[text] = time;
       if (utterance.fillings.hour == 12 && !cue.felt) straight_said_ = time;
     }

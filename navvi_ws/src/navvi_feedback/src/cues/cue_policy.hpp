@@ -48,7 +48,7 @@ class CuePolicy {
   [[nodiscard]] Utterance where_am_i(const Situation& now) const;
   [[nodiscard]] Utterances answers(const Situation& now, double time);
   void forget(const CueEvent& event);
-  [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Sounds& sounds,
+  [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Situation& now,
                                         double time);
 
   CuePolicyConfig config_;
@@ -72,6 +72,7 @@ class CuePolicy {
   double problem_since_ = 0.0;          ///< s
   std::optional<double> problem_said_;  ///< s
   bool arrival_said_ = false;
+  bool led_ = false;                         ///< there was a path to follow
   std::map<std::string, double> last_said_;  ///< s, by kind
   std::map<std::string, double> last_text_;  ///< s, by text
   double straight_said_ = -1e9;              ///< s

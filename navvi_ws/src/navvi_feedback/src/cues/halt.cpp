@@ -6,8 +6,6 @@
 namespace navvi_feedback::cues {
 namespace {
 
-/// s; a person hears the word, and lets go of the stick.
-constexpr double kObeyed = 2.0;
 /// s, for which the way must be clear.
 constexpr double kClear = 0.5;
 /// s; what is still there then must be driven round.

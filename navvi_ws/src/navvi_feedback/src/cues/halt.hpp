@@ -13,6 +13,8 @@ namespace navvi_feedback::cues {
 /// told to go on. So no word to stop is left without its end.
 class Halt {
  public:
+  static constexpr double kObeyed = 2.0;  ///< s; a person hears the word, and lets go of the stick
+
   /// A word to stop was said.
   void say(const Utterance& words, double time);
   /// The voice has begun to say it.
@@ -37,6 +39,8 @@ class Halt {
   }
 
   [[nodiscard]] bool halted() const { return said_.has_value(); }
+  /// A person has not obeyed it yet.
+  [[nodiscard]] bool fresh(double time) const { return said_ && time - *said_ < kObeyed; }
   /// What was said, while halted.
   [[nodiscard]] const Utterance& words() const { return words_; }
 

@@ -8,7 +8,7 @@ namespace {
 /// s; the gate opens a moment after the stick moves.
 constexpr double kHold = 0.5;
 /// s, between two requests.
-constexpr double kRepeat = 4.0;
+constexpr double kRepeat = 2.5;
 /// m/s and rad/s; a command below these is neutral.
 constexpr double kNeutral = 0.02;
 

@@ -32,7 +32,7 @@ TEST_F(HeldStickTest, asks_for_a_stick_that_is_held_from_the_beginning_again_and
   now_.stick_held_unarmed = true;
   EXPECT_EQ(pass(0.4), 0);
   EXPECT_EQ(pass(0.4), 1);
-  EXPECT_EQ(pass(12.0), 3);
+  EXPECT_EQ(pass(12.0), 4);
   now_.stick_held_unarmed = false;
   EXPECT_EQ(pass(10.0), 0);
 }
@@ -58,7 +58,7 @@ TEST_F(HeldStickTest, passes_over_the_moment_that_a_gate_takes_to_open) {
 TEST_F(HeldStickTest, does_not_add_to_a_cue_that_asked_for_the_same) {
   now_.stick_held_unarmed = true;
   held_.said(time_);
-  EXPECT_EQ(pass(3.9), 0);
+  EXPECT_EQ(pass(2.4), 0);
   EXPECT_EQ(pass(0.4), 1);
 }
 

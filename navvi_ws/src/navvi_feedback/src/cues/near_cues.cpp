@@ -67,9 +67,8 @@ bool NearCues::too_soon(const std::string& kind, double time) const {
   return said != said_.end() && time - said->second < cue_kind(kind).min_interval;
 }
 
-std::vector<Utterance> NearCues::update(const Situation& now, bool all, bool straight,
-                                        double time) {
-  straight_ = straight;
+std::vector<Utterance> NearCues::update(const Situation& now, bool all, Hold hold, double time) {
+  hold_ = hold;
   forecast_.update(now.nearby, time);
   std::optional<Candidate> best;
   consider_collisions(now, time, best);
@@ -111,7 +110,7 @@ void NearCues::consider_collisions(const Situation& now, double time,
   const bool lasts = same && warned_stop_ && time - danger_ < kOver;
   if (same) danger_ = time;
   // News is another thing, one that comes after a danger that was over, or the way into it.
-  if (too_soon(kind, time) || (comes ? same : lasts)) return;
+  if (too_soon(kind, time) || (comes ? same || hold_.comes : lasts)) return;
   warned_of_ = first->id;
   warned_ = danger_ = time;
   warned_stop_ = !comes;
@@ -148,7 +147,7 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
     const bool urgent = approaches(now, side);
     if (reached <= watch.said || (best && gap >= best->gap)) continue;
     if (side == Side::behind && !urgent) continue;
-    if ((now.voice_busy && !urgent) || (straight_ && side == Side::ahead))
+    if ((now.voice_busy && !urgent) || (hold_.ahead && side == Side::ahead))
       if (!now.sounds.shelf) continue;
     const char* kind = reached == Level::close      ? close_kind(thing)
                        : thing == ThingClass::shelf ? "shelf_near"
@@ -174,7 +173,7 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     if (reached <= watch.said || !in_the_way(now, thing.nearest, close)) continue;
     const Side side = side_of_lane(thing.nearest);
     const bool urgent = approaches(now, side);
-    if ((now.voice_busy && !urgent) || (straight_ && side == Side::ahead))
+    if ((now.voice_busy && !urgent) || (hold_.ahead && side == Side::ahead))
       if (!now.sounds.near) continue;
     const char* kind = close ? "obstacle_close" : "obstacle_near";
     if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;

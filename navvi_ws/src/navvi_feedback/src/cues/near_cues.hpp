@@ -22,13 +22,18 @@ namespace navvi_feedback::cues {
 /// once more at `close`, if it moves about.
 class NearCues {
  public:
+  struct Hold {
+    bool ahead = false;
+    bool comes = false;
+  };
+
   explicit NearCues(const NearConfig& config) : config_(config) {}
 
   /// \param all  false: only what will be hit
-  /// \param straight  the person was just told to go straight ahead: what is there waits, unless it
-  /// will be hit
+  /// \param hold  what was just said: to go straight ahead, so that what is there waits, unless it
+  /// will be hit; or to stop, so that what comes waits
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, bool straight,
+  [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, Hold hold,
                                               double time);
 
   /// Words of this kind were dropped: what they told may be told again at once.
@@ -65,7 +70,7 @@ class NearCues {
   double warned_ = 0.0;                     ///< s
   double danger_ = 0.0;                     ///< s, when it was last about to be hit
   bool warned_stop_ = false;                ///< it was to be stopped for
-  bool straight_ = false;
+  Hold hold_;
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
   std::map<std::string, double> said_;     ///< s, by kind
   std::map<std::uint32_t, Watch> things_;  ///< by id

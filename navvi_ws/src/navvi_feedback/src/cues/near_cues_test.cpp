@@ -23,7 +23,7 @@ class NearCuesTest : public testing::Test {
     now_.nearby = nearby;
     std::vector<Side> sides;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
-      for (const Utterance& utterance : cues_.update(now_, true, false, time_)) {
+      for (const Utterance& utterance : cues_.update(now_, true, {}, time_)) {
         sides.push_back(*utterance.fillings.side);
         last_ = utterance;
       }

@@ -30,6 +30,16 @@ constexpr double kSpotRadius = 0.5;
 constexpr double kLongLeg = 10.0;
 /// m; a turn so soon after another is told with it.
 constexpr double kNextTurn = 3.0;
+/// rad, away from where to steer, and s of driving so: that is the wrong way.
+constexpr double kWrongWay = 120.0 * kDegree;
+constexpr double kAstray = 1.5;
+/// m from the path; nearer than the latter one is on it again.
+constexpr double kOffPath = 0.7;
+constexpr double kOnPath = 0.4;
+/// m/s; who drives on the spot is about to turn.
+constexpr double kDrives = 0.1;
+/// s, before the same is said again.
+constexpr double kStillAstray = 10.0;
 
 Rounding rounding_of(const std::string& word) {
   return word == "floor" ? Rounding::floor : Rounding::nearest;
@@ -65,8 +75,12 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
   if (halted) {
     // The corner of a robot that stands has not been reached: another plan has replaced it.
     pending_ = Change::none;
-    // After it, ticks lead.
-    if (!by_sound_) said_hour_.reset();
+    // After it, ticks lead, but not at once where one must not drive ahead.
+    if (!by_sound_ || leads_off_ || worth_words(*hour_))
+      said_hour_.reset();
+    else
+      said_hour_ = hour_;
+    reminder_.reset();
     return {};
   }
   if (new_goal(guidance)) {
@@ -127,6 +141,7 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     return {way};
   }
   if (now.voice_busy) return {};
+  if (const auto astray = stray(now, time)) return {*astray};
   if (pending_ == Change::reroute && *hour_ != said_hour_) {
     way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
     reroutes_ = guidance.reroutes;
@@ -145,6 +160,28 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   if (turn && !ahead_told_ && turn_ahead_due(guidance, *turn, time))
     return {announce_turn("turn_ahead", way, *turn, time)};
   return {};
+}
+
+/// Driving the wrong way, or beside the path, told with the way back.
+std::optional<Utterance> RouteCues::stray(const Situation& now, double time) {
+  const Guidance& guidance = *now.guidance;
+  const bool drives = now.measured && now.measured->linear > kDrives;
+  const bool wrong = drives && std::abs(guidance.steer_angle) > kWrongWay;
+  const double limit = astray_ == "off_path" ? kOnPath : kOffPath;
+  const char* kind = wrong ? "wrong_way" : guidance.path_offset > limit ? "off_path" : "";
+  if (kind != astray_) {
+    astray_ = kind;
+    astray_since_ = time;
+    astray_said_.reset();
+  }
+  if (!config_.join || astray_.empty() || time - astray_since_ < kAstray || !drives) return {};
+  if (astray_said_ && time - *astray_said_ < kStillAstray) return {};
+  astray_said_ = time;
+  Utterance told = *direction(guidance);
+  told.kind = astray_;
+  told.fillings.side = guidance.steer_angle > 0.0 ? Side::right : Side::left;
+  if (!wrong) told.fillings.distance = guidance.path_offset;
+  return said(told, *hour_, time);
 }
 
 Utterance RouteCues::announce_turn(const char* kind, Utterance way, int turn, double time) {

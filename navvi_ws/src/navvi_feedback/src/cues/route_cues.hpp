@@ -66,6 +66,7 @@ class RouteCues {
   [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
   [[nodiscard]] Utterance announce_turn(const char* kind, Utterance way, int turn, double time);
+  [[nodiscard]] std::optional<Utterance> stray(const Situation& now, double time);
   Utterance said(Utterance utterance, int hour, double time);
 
   RouteConfig config_;
@@ -90,6 +91,9 @@ class RouteCues {
   bool turning_ = false;                 ///< on the spot, or not yet settled
   std::optional<double> last_turning_;   ///< s
   double last_commanded_ = 0.0;          ///< s, when the person last moved the stick
+  std::string astray_;                   ///< the wrong way, or off the path, as a kind of cue
+  double astray_since_ = 0.0;            ///< s
+  std::optional<double> astray_said_;    ///< s
   std::optional<double> reminder_;       ///< s, say the direction again from then on
 };
 

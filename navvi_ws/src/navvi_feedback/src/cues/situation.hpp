@@ -59,6 +59,7 @@ struct Situation {
   bool voice_busy = false;           ///< something is being spoken or waits for it
 
   Sounds sounds;
+  bool touch = false;  ///< what is said is felt, too, and so may do without the words
 
   std::vector<std::string> notices;  ///< kinds to be said when they come, such as no_rumble
   std::string person;                ///< whose settings are used

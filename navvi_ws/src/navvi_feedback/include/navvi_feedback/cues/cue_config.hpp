@@ -55,7 +55,7 @@ struct CuePolicyConfig {
   double stuck_time = 1.5;       ///< s
   double stuck_linear = 0.05;    ///< m/s
   double stuck_angular = 0.1;    ///< rad/s
-  double stuck_repeat = 5.0;     ///< s
+  double stuck_repeat = 2.5;     ///< s
   double blocker_gap = 0.5;      ///< m
   double state_hold = 0.5;       ///< s
   double problem_repeat = 15.0;  ///< s
