@@ -244,7 +244,13 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
   using sounds::Earcon;
   const sounds::SoundsConfig& config = config_.sounds;
   std::vector<sounds::Play> plays;
-  if (!config.enabled || !input.sounds) return plays;
+  const bool audible = config.enabled && input.sounds;
+  for (cues::Cue& cue : cues)
+    for (sounds::Play& play : cue.scan) {
+      const sounds::FamilyConfig& family = config.family_of(play.earcon);
+      play.volume = audible && family.on ? family.volume : 0.0;
+    }
+  if (!audible) return plays;
   const auto add = [&](Earcon earcon, const Eigen::Vector2d& from) {
     const sounds::FamilyConfig& family = config.family_of(earcon);
     if (family.on) plays.push_back({earcon, from, family.volume});

@@ -386,17 +386,26 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation
       continue;
     std::string text = phrases_.say(kind.kind, utterance.fillings);
     const auto longer = [&](const std::string& joined) {
-      if (speakable(joined)) text = joined;
+      const bool fits = speakable(joined);
+      if (fits) text = joined;
+      return fits;
     };
+    std::vector<sounds::Play> scan;
+    const auto sounds_from = [&](const Utterance& part) {
+      if (part.from)
+        scan.push_back({earcon_of(part.fillings.thing.value_or(ThingClass::other)), *part.from});
+    };
+    sounds_from(utterance);
     if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + text);
     for (const Utterance& more : utterance.also)
-      longer(text + ", " + phrases_.say(more.kind, more.fillings));
+      if (longer(text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
     Cue cue{kind.kind,
             text,
             utterance.priority.value_or(kind.priority),
             kind.max_age,
             instead_of(utterance, now.sounds),
             utterance.asked};
+    cue.scan = scan;
     if (!cue.sound) {
       const auto same = last_text_.find(text);
       cue.felt = now.touch && !cue.asked && same != last_text_.end() &&

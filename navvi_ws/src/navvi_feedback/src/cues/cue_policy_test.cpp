@@ -406,7 +406,7 @@ TEST_F(CuePolicyTest, tells_the_next_turn_and_what_the_buttons_do) {
   EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "space repeats");
 }
 
-TEST_F(CuePolicyTest, tells_what_is_around_clockwise_and_the_nearest_on_each_side) {
+TEST_F(CuePolicyTest, tells_what_is_around_clockwise_from_the_nearest) {
   now_.guidance.reset();
   now_.question = Question::around;
   EXPECT_EQ(pass(0.1), Texts{"nothing near"});
@@ -417,7 +417,12 @@ TEST_F(CuePolicyTest, tells_what_is_around_clockwise_and_the_nearest_on_each_sid
                  {ThingClass::forklift, 5, 2.9, {3.3, 0.0}, true},
                  {ThingClass::pallet_robot, 6, 3.1, {0.0, 3.5}, true}};
   now_.question = Question::around;
-  EXPECT_EQ(pass(0.1), Texts{"forklift ahead, shelf right, worker behind, wall left"});
+  const std::vector<Cue> told = policy_.update(now_, time_);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].text, "wall left, forklift ahead, shelf right, worker behind");
+  ASSERT_EQ(told[0].scan.size(), 4U);
+  EXPECT_EQ(told[0].scan[1].earcon, sounds::Earcon::forklift_near);
+  EXPECT_EQ(told[0].scan[1].from, Eigen::Vector2d(3.3, 0.0));
 }
 
 TEST_F(CuePolicyTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {

@@ -100,6 +100,7 @@ void CueQueue::begin_next(Step& step) {
   step.events.push_back(event(running_->id, CueStage::started, running_->cue));
   step.start = running_->cue.text;
   step.asked = running_->cue.asked;
+  step.scan = running_->cue.scan;
 }
 
 }  // namespace navvi_feedback::cues

@@ -181,6 +181,23 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
   }
 }
 
+sounds::Earcon earcon_of(ThingClass thing) {
+  using sounds::Earcon;
+  switch (thing) {
+    case ThingClass::shelf:
+    case ThingClass::wall:
+      return Earcon::shelf_near;
+    case ThingClass::worker:
+      return Earcon::worker_near;
+    case ThingClass::forklift:
+      return Earcon::forklift_near;
+    case ThingClass::pallet_robot:
+      return Earcon::pallet_robot_near;
+    default:
+      return Earcon::thing_near;
+  }
+}
+
 std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {
   using sounds::Earcon;
   const std::string& kind = utterance.kind;
@@ -190,31 +207,32 @@ std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds&
   const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
   const bool shelf = thing == ThingClass::shelf || thing == ThingClass::wall;
   if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;
-  const Earcon near = shelf                               ? Earcon::shelf_near
-                      : thing == ThingClass::worker       ? Earcon::worker_near
-                      : thing == ThingClass::forklift     ? Earcon::forklift_near
-                      : thing == ThingClass::pallet_robot ? Earcon::pallet_robot_near
-                                                          : Earcon::thing_near;
+  const Earcon near = earcon_of(thing);
   const auto earcon = close ? static_cast<Earcon>(static_cast<int>(near) + 1) : near;
   return sounds::Play{earcon, direction_of(utterance.fillings.side.value_or(Side::ahead))};
 }
 
 Utterance around(const std::vector<NearThing>& nearby) {
-  Utterance told{"around_nothing"};
+  const auto nearer = [](const NearThing* a, const NearThing* b) { return a->gap < b->gap; };
+  std::vector<const NearThing*> nearest;  // clockwise
   for (const Side side : {Side::ahead, Side::right, Side::behind, Side::left}) {
-    const NearThing* nearest = nullptr;
+    const NearThing* best = nullptr;
     for (const NearThing& thing : nearby)
-      if (thing.gap < kAround && side_of(thing.nearest) == side &&
-          (!nearest || thing.gap < nearest->gap))
-        nearest = &thing;
-    if (!nearest) continue;
-    const Utterance thing{"around", {{}, {}, nearest->thing_class, side}};
-    if (told.kind == "around")
-      told.also.push_back(thing);
-    else
-      told = thing;
+      if (thing.gap < kAround && side_of(thing.nearest) == side && (!best || nearer(&thing, best)))
+        best = &thing;
+    if (best) nearest.push_back(best);
   }
-  return told;
+  if (nearest.empty()) return {"around_nothing"};
+  std::rotate(nearest.begin(), std::min_element(nearest.begin(), nearest.end(), nearer),
+              nearest.end());
+  std::vector<Utterance> told;
+  for (const NearThing* thing : nearest) {
+    told.push_back({"around", {{}, {}, thing->thing_class, side_of(thing->nearest)}});
+    told.back().from = thing->nearest;
+  }
+  Utterance first = told.front();
+  first.also.assign(told.begin() + 1, told.end());
+  return first;
 }
 
 }  // namespace navvi_feedback::cues

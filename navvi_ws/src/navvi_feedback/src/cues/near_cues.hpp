@@ -80,7 +80,11 @@ class NearCues {
 [[nodiscard]] std::optional<sounds::Play> instead_of(const Utterance& utterance,
                                                      const Sounds& sounds);
 
-/// What is around: the nearest thing on each side, clockwise, for a person who asks.
+/// The sound of what is near.
+[[nodiscard]] sounds::Earcon earcon_of(ThingClass thing);
+
+/// What is around: the nearest thing on each side, the nearest of all first, then clockwise, each
+/// with where it is, for a person who asks.
 [[nodiscard]] Utterance around(const std::vector<NearThing>& nearby);
 
 }  // namespace navvi_feedback::cues

@@ -70,10 +70,11 @@ struct Fillings {
 struct Utterance {
   std::string kind = {};
   Fillings fillings = {};
-  std::optional<Priority> priority = {};  ///< instead of the kind's own
-  bool asked = false;                     ///< by the person: said however often
-  std::vector<Utterance> also = {};       ///< in the same sentence, as far as there is room
-  bool goes_on = false;                   ///< begins with the phrase go_on
+  std::optional<Priority> priority = {};     ///< instead of the kind's own
+  bool asked = false;                        ///< by the person: said however often
+  std::vector<Utterance> also = {};          ///< in the same sentence, as far as there is room
+  bool goes_on = false;                      ///< begins with the phrase go_on
+  std::optional<Eigen::Vector2d> from = {};  ///< m, in base_link: its sound comes first, from there
 };
 
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and

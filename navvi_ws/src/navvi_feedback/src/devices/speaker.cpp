@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cues/phrases.hpp"
+#include "devices/earcons.hpp"
 #include "devices/voice.hpp"
 
 namespace navvi_feedback::devices {
@@ -62,7 +63,8 @@ void Speaker::set_rate(int rate) {
   config_.rate = rate;
 }
 
-void Speaker::start(const std::string& text, std::function<void()> begun) {
+void Speaker::start(const std::string& text, std::function<void()> begun,
+                    std::vector<sounds::Play> scan) {
   const bool fit = cues::speakable(text);
   {
     const std::lock_guard lock(mutex_);
@@ -70,6 +72,7 @@ void Speaker::start(const std::string& text, std::function<void()> begun) {
     busy_ = fit;
     request_ = fit ? std::optional(text) : std::nullopt;
     begun_ = std::move(begun);
+    scan_ = std::move(scan);
     if (!fit) ++status_.failed;
   }
   changed_.notify_all();
@@ -96,6 +99,11 @@ Speaker::Status Speaker::status() const {
   return status_;
 }
 
+std::vector<sounds::Play> Speaker::take_played() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(played_, {});
+}
+
 void Speaker::run(std::promise<void> ready) {
   std::optional<Voice> voice;
   try {
@@ -105,16 +113,39 @@ void Speaker::run(std::promise<void> ready) {
     ready.set_exception(std::current_exception());
     return;
   }
-  while (const auto job = next()) {
+  while (auto job = next()) {
     if (!job->text) {
       mixer_.tend();
       continue;
     }
     voice->set_rate(job->rate);
-    const Sound sound = voice->synthesize(*job->text, [&] { return superseded(job->generation); });
-    if (!superseded(job->generation)) play(sound, *job);
-    finish(job->generation, !sound.samples.empty());
+    const bool spoken = speak(*voice, *job);
+    finish(job->generation, spoken);
   }
+}
+
+bool Speaker::speak(Voice& voice, Job& job) {
+  const auto cancelled = [&] { return superseded(job.generation); };
+  std::string rest = *job.text;
+  bool spoken = true;
+  for (std::size_t part = 0; !rest.empty() && !cancelled(); ++part) {
+    const auto comma = part < job.scan.size() ? rest.find(", ") : std::string::npos;
+    const Sound sound = voice.synthesize(rest.substr(0, comma), cancelled);
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    spoken = spoken && !sound.samples.empty();
+    if (part < job.scan.size() && job.scan[part].volume > 0.0) play_first(job.scan[part], job);
+    if (!cancelled()) play(sound, job);
+  }
+  return spoken;
+}
+
+/// Returns when it has been heard, or was superseded.
+void Speaker::play_first(const sounds::Play& play, Job& job) {
+  const Sound sound = synthesize(play.earcon);
+  if (mixer_.play(sound, play.volume, play.from) && job.begun) std::exchange(job.begun, {})();
+  std::unique_lock lock(mutex_);
+  played_.push_back(play);
+  changed_.wait_for(lock, seconds(sound.duration()), [&] { return job.generation != generation_; });
 }
 
 std::optional<Speaker::Job> Speaker::next() {
@@ -123,7 +154,7 @@ std::optional<Speaker::Job> Speaker::next() {
   if (quit_) return std::nullopt;
   silent_ = {};  // nothing is heard
   return Job{std::exchange(request_, std::nullopt), generation_, config_.rate,
-             std::exchange(begun_, {})};
+             std::exchange(begun_, {}), std::exchange(scan_, {})};
 }
 
 bool Speaker::superseded(unsigned long generation) const {
@@ -131,7 +162,7 @@ bool Speaker::superseded(unsigned long generation) const {
   return generation != generation_;
 }
 
-void Speaker::play(const Sound& sound, const Job& job) {
+void Speaker::play(const Sound& sound, Job& job) {
   mixer_.tend();
   const auto end = Clock::now() + seconds(sound.duration());
   bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
@@ -145,7 +176,7 @@ void Speaker::play(const Sound& sound, const Job& job) {
     }
     if (!begun && mixer_.mixed() > 0) {
       begun = true;
-      if (job.begun) job.begun();
+      if (job.begun) std::exchange(job.begun, {})();
     }
     if (audible && !mixer_.speaking()) {
       audible = false;

@@ -7,10 +7,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "devices/mixer.hpp"
 #include "devices/voice.hpp"
 #include "navvi_config/field.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::devices {
 
@@ -43,15 +45,19 @@ class Speaker {
   void set_rate(int rate);
 
   /// Begins to speak and returns at once; whatever is being spoken is stopped.
-  /// \param begun  in the speaker's thread, once the first sample was mixed
   /// \param text  as speakable() of phrases.hpp; anything else is not spoken and counts as failed
-  void start(const std::string& text, std::function<void()> begun = {});
+  /// \param begun  in the speaker's thread, once the first sample was mixed
+  /// \param scan  as Cue::scan; what has no volume is left out
+  void start(const std::string& text, std::function<void()> begun = {},
+             std::vector<sounds::Play> scan = {});
   /// Falls silent within 50 ms. Returns at once; busy() is false from here on.
   /// \param silent  in the speaker's thread, once what was heard is so no more
   void stop(std::function<void()> silent = {});
   /// True from start() until the last sample was heard (or would have been).
   [[nodiscard]] bool busy() const;
   [[nodiscard]] Status status() const;
+  /// Of scans: what has begun since the last call.
+  [[nodiscard]] std::vector<sounds::Play> take_played();
 
  private:
   struct Job {
@@ -59,6 +65,7 @@ class Speaker {
     unsigned long generation = 0;
     int rate = 0;  ///< words a minute
     std::function<void()> begun = {};
+    std::vector<sounds::Play> scan = {};
   };
 
   void run(std::promise<void> ready);
@@ -66,7 +73,10 @@ class Speaker {
   [[nodiscard]] std::optional<Job> next();
   [[nodiscard]] bool superseded(unsigned long generation) const;
   /// Returns when the sound has ended, or was superseded and is silent.
-  void play(const Sound& sound, const Job& job);
+  /// \return false if nothing could be spoken
+  [[nodiscard]] bool speak(Voice& voice, Job& job);
+  void play(const Sound& sound, Job& job);
+  void play_first(const sounds::Play& play, Job& job);
   void fall_silent();
   void finish(unsigned long generation, bool done);
 
@@ -77,7 +87,8 @@ class Speaker {
   std::condition_variable changed_;
   std::optional<std::string> request_;
   std::function<void()> begun_, silent_;  ///< not called yet
-  unsigned long generation_ = 0;          ///< grows with every start and stop
+  std::vector<sounds::Play> scan_, played_;
+  unsigned long generation_ = 0;  ///< grows with every start and stop
   bool busy_ = false;
   bool quit_ = false;
   Status status_;

@@ -188,6 +188,33 @@ TEST(Speaker, tells_when_words_begin_to_be_heard_and_when_they_end) {
   EXPECT_EQ(silent, 1);
 }
 
+TEST(Speaker, plays_each_sound_of_a_scan_from_its_place_before_its_word) {
+  {
+    Mixer mixer(MixerConfig{}, Audio::on);
+    Speaker speaker(SpeakerConfig{}, mixer);
+    const sounds::Play right{sounds::Earcon::sonar, {0.0, -1.0}, 1.0};
+    const sounds::Play left{sounds::Earcon::sonar, {0.0, 1.0}, 1.0};
+    speaker.start("shelf right, wall left", {}, {right, left});
+    ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+    EXPECT_EQ(speaker.take_played().size(), 2U);
+    EXPECT_TRUE(speaker.take_played().empty());
+    pause(0.1);
+  }
+  const Heard all = heard();
+  const std::vector<double> left = loudness(all.left, 441);
+  const std::vector<double> right = loudness(all.right, 441);
+  // Words are as loud on both sides; what is not is a sound from one side.
+  std::string sides;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const char side = left[i] > 0.1 + 3.0 * right[i]   ? 'l'
+                      : right[i] > 0.1 + 3.0 * left[i] ? 'r'
+                      : left[i] > 0.1                  ? 'w'
+                                                       : ' ';
+    if (side != ' ' && (sides.empty() || sides.back() != side)) sides += side;
+  }
+  EXPECT_EQ(sides, "rwlw");
+}
+
 TEST(SpeechChannel, lets_a_safety_cue_be_heard_and_gives_every_cue_its_end) {
   Mixer mixer(MixerConfig{}, Audio::off);
   Latencies latencies;

@@ -19,7 +19,8 @@ std::vector<CueEvent> SpeechChannel::apply(cues::CueQueue::Step step) {
   };
   if (step.stop) speaker_.stop(timed(Chain::silence, now));
   if (step.start && step.asked)
-    speaker_.start(*step.start, timed(Chain::answer, std::exchange(pressed_, {}).value_or(now)));
+    speaker_.start(*step.start, timed(Chain::answer, std::exchange(pressed_, {}).value_or(now)),
+                   step.scan);
   else if (step.start)
     speaker_.start(*step.start, timed(Chain::words, now));
   return std::move(step.events);

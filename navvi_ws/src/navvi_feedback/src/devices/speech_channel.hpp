@@ -21,6 +21,9 @@ class SpeechChannel {
   [[nodiscard]] std::vector<CueEvent> tick(const std::vector<cues::Cue>& new_cues, double time,
                                            bool pressed = false);
 
+  /// As Speaker::take_played().
+  [[nodiscard]] std::vector<sounds::Play> take_played() { return speaker_.take_played(); }
+
   /// Falls silent and gives every open cue its end, for the shut-down.
   [[nodiscard]] std::vector<CueEvent> finish();
 

@@ -190,6 +190,8 @@ class FeedbackNode {
     const std::vector<sounds::Play> played = earcons_.play(output.plays);
     for (const sounds::Play& sound : by_topic() ? output.plays : played)
       publish({sound_event(sound, ++sound_id_)});
+    for (const sounds::Play& sound : speech_.take_played())
+      if (heard()) publish({sound_event(sound, ++sound_id_)});
     move_motors(output.rumble, output.pattern, time, called);
     say(output.cues, time);
     show(time);

@@ -24,6 +24,8 @@ struct Cue {
   std::optional<sounds::Play> sound = {};  ///< played instead of the words
   bool asked = false;                      ///< the answer to a button
   bool felt = false;                       ///< only: its words were said just now
+  /// Each sounds before one of the parts of the words, which commas separate.
+  std::vector<sounds::Play> scan = {};
 };
 
 /// How a kind of cue is treated.

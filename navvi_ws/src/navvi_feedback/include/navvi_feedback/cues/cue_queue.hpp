@@ -23,6 +23,7 @@ class CueQueue {
     bool stop = false;                 ///< fall silent, before `start`
     std::optional<std::string> start;  ///< begin to speak this text
     bool asked = false;                ///< it answers a button
+    std::vector<sounds::Play> scan;    ///< as Cue::scan
   };
 
   /// \param fresh         cues that were decided since the last call
