@@ -33,10 +33,13 @@ haptics::Zone zone_of(const Contact& contact) {
   return haptics::Zone::center;
 }
 
-/// What is felt when a cue is said; the cues that are not here are for the ear alone.
-std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
+/// What is felt when a cue is said; the cues that are not here are for the ear alone, unless
+/// nothing can be heard.
+std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
   using haptics::Pattern;
-  static const std::map<std::string, Pattern> patterns = {{"robot_stopped", Pattern::stopped},
+  static const std::map<std::string, Pattern> patterns = {{"obstacle_stop", Pattern::halt},
+                                                          {"blocked", Pattern::halt},
+                                                          {"robot_stopped", Pattern::stopped},
                                                           {"release_stick", Pattern::stopped},
                                                           {"stuck", Pattern::stuck},
                                                           {"stuck_unknown", Pattern::stuck},
@@ -49,8 +52,10 @@ std::optional<haptics::Pattern> pattern_of(const std::string& kind) {
                                                           {"rerouted_blocked", Pattern::rerouted},
                                                           {"new_route", Pattern::rerouted},
                                                           {"way_blocked", Pattern::rerouted}};
-  const auto found = patterns.find(kind);
-  return found == patterns.end() ? std::nullopt : std::optional(found->second);
+  const auto found = patterns.find(cue.kind);
+  if (found != patterns.end()) return found->second;
+  const bool alarm = cue.priority == Priority::important && cue.kind.rfind("collision_", 0) != 0;
+  return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
 }
 
 bool fixed(const Contact& contact) {
@@ -138,6 +143,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   out.command = drive(input.hands, dt);
   out.share = assist(out.command, time);
   out.alarm_begins = alarm_begins(input);
+  deaf_ = config_.haptics.instead_of_words && input.audio != cues::Link::alive;
   std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
   pressed.insert(pressed.end(), input.asked.begin(), input.asked.end());
   teach(input, pressed, time);
@@ -206,7 +212,7 @@ void Feedback::begin_patterns(const Output& out) {
   if (const auto& pattern = deciders_->taught.pattern)
     patterns.begin(*pattern, deciders_->taught.side);
   for (const cues::Cue& cue : out.cues)
-    if (const auto pattern = pattern_of(cue.kind)) patterns.begin(*pattern);
+    if (const auto pattern = pattern_of(cue, deaf_)) patterns.begin(*pattern);
   for (const Contact& contact : contacts_) {
     patterns.begin(fixed(contact) ? haptics::Pattern::hit_shelf : haptics::Pattern::hit_obstacle,
                    zone_of(contact));
@@ -223,7 +229,7 @@ haptics::Rumble Feedback::feel(double time, double dt) {
   const haptics::Rumble near =
       taught.near.empty()
           ? deciders_->haptics.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt,
-                                      off_course(time))
+                                      off_course(time), deaf_)
           : deciders_->haptics.update(taught.near, true, dt);
   if (const auto pattern = deciders_->patterns.update(dt))
     return {config_.haptics.strength * pattern->left, config_.haptics.strength * pattern->right};

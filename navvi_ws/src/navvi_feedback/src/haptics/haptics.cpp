@@ -50,6 +50,8 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   visit(rest_at_goal, "rest_at_goal", Any{}, "", "what is near is not felt after the arrival");
   visit(patterns, "patterns", Any{}, "",
         "hits, stops, a stuck robot, new routes and the arrival are felt, each by its own pattern");
+  visit(instead_of_words, "instead_of_words", Any{}, "",
+        "while there should be sound and is none, the motors attract, and alarms are felt");
   visit(normalize, "normalize", Any{}, "",
         "log curve: divide by ln 2, so that touching gives full force");
   visit(classes, "classes",
@@ -158,14 +160,15 @@ std::optional<Haptics::Felt> Haptics::attraction(std::optional<double> off) cons
 }
 
 Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt,
-                       std::optional<double> off) {
+                       std::optional<double> off, bool deaf) {
   if (!fresh || !config_.enabled || !config_.near) {
     stop();
     return {};
   }
   double wanted_left = 0.0;
   double wanted_right = 0.0;
-  if (const auto felt = config_.steer == "attractive" ? attraction(off) : strongest(things)) {
+  const bool attract = config_.steer == "attractive" || (deaf && off);
+  if (const auto felt = attract ? attraction(off) : strongest(things)) {
     felt_for_ += dt;
     zone_ = zone_of(felt->lateral);
     const double ramp =

@@ -18,7 +18,7 @@ struct Beat {
 constexpr Beat kRest = {0.1, 0.0, 0.0};
 
 const std::vector<Beat>& beats(Pattern pattern) {
-  static const std::array<std::vector<Beat>, 10> all = {{
+  static const std::array<std::vector<Beat>, 11> all = {{
       {{0.5, 1.0, 1.0}, kRest},
       {{0.1, 0.5, 0.5}, kRest, {0.1, 0.5, 0.5}, kRest},
       {{0.2, 0.5, 0.5}, kRest},
@@ -38,6 +38,7 @@ const std::vector<Beat>& beats(Pattern pattern) {
        {0.08, 0.0, 0.0},
        {0.08, 0.8, 0.8},
        kRest},
+      {{0.1, 1.0, 1.0}, kRest, {0.3, 1.0, 1.0}, kRest},
       {{0.35, 0.9, 0.9}, {0.15, 0.0, 0.0}, {0.35, 0.9, 0.9}, kRest},
       {{0.15, 1.0, 1.0}, kRest, {0.15, 1.0, 1.0}, kRest},
       {{0.5, 1.0, 1.0}, kRest},

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kStep = 0.02;  // s
 
-constexpr Pattern kAll[] = {Pattern::rerouted, Pattern::arrived, Pattern::no_sound,
-                            Pattern::stuck,    Pattern::stopped, Pattern::hit_obstacle,
-                            Pattern::hit_shelf};
+constexpr Pattern kAll[] = {Pattern::rerouted,     Pattern::arrived,  Pattern::no_sound,
+                            Pattern::stuck,        Pattern::stopped,  Pattern::halt,
+                            Pattern::hit_obstacle, Pattern::hit_shelf};
 
 std::vector<std::pair<double, double>> play(PatternPlayer& player) {
   std::vector<std::pair<double, double>> felt;

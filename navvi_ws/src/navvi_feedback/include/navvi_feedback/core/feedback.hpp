@@ -180,6 +180,7 @@ class Feedback {
   drive::InputState last_hands_;
   bool seen_hands_ = false;
   bool alarmed_ = false;                    ///< nothing can be heard, and that was reported
+  bool deaf_ = false;                       ///< likewise, and touch is to do the work of words
   std::optional<std::uint32_t> important_;  ///< the safety phrase that is being spoken
   Velocity commanded_;
   double idle_ = 0.0;  ///< s, since the person last drove, or had reason to

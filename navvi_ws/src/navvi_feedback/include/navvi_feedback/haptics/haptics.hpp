@@ -35,6 +35,7 @@ struct HapticsConfig {
   double duck = 0.3;
   bool rest_at_goal = true;
   bool patterns = true;
+  bool instead_of_words = true;
   bool normalize = true;
   std::vector<std::string> classes = {"box",      "pedestal",     "worker",
                                       "forklift", "pallet_robot", "other"};
@@ -81,8 +82,9 @@ class Haptics {
   /// \param fresh  false when sensing is stale: the motors stop at once
   /// \param dt  s since the last call, >= 0
   /// \param off  rad, clockwise from the nose to where to steer; nullopt: nowhere
+  /// \param deaf  no word can tell that: as if attractive, while it is known
   [[nodiscard]] Rumble update(const std::vector<NearThing>& things, bool fresh, double dt,
-                              std::optional<double> off = std::nullopt);
+                              std::optional<double> off = std::nullopt, bool deaf = false);
 
   /// The zone of what is felt now; nullopt while nothing is.
   [[nodiscard]] std::optional<Zone> zone() const { return zone_; }

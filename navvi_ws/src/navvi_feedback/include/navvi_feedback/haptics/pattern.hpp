@@ -17,14 +17,15 @@ enum class Pattern {
   arrived,       ///< three pulses that rise
   no_sound,      ///< three soft pulses: what the voice cannot say
   stuck,         ///< four quick taps
+  halt,          ///< a short and a long pulse: the word is to stop, or to wait
   stopped,       ///< two long pulses: the robot was stopped
   hit_obstacle,  ///< two hard knocks, on its side
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 10> names(Pattern) {
-  return {"sample",   "ready", "begun",   "rerouted",     "arrived",
-          "no_sound", "stuck", "stopped", "hit_obstacle", "hit_shelf"};
+[[nodiscard]] constexpr std::array<const char*, 11> names(Pattern) {
+  return {"sample", "ready", "begun",   "rerouted",     "arrived",  "no_sound",
+          "stuck",  "halt",  "stopped", "hit_obstacle", "hit_shelf"};
 }
 
 /// Plays one pattern at a time, instead of what is felt continuously, so that it stands out.

@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "navvi_feedback/core/feedback.hpp"
+
+namespace navvi_feedback::core {
+namespace {
+
+const std::string kEnglish = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml";
+
+/// What a person has of a situation, by the names of the record.
+struct Signals {
+  std::set<std::string> said;
+  std::set<std::string> played;
+  std::set<std::string> felt;
+  double left = 0.0;  ///< the most that a motor did
+  double right = 0.0;
+};
+
+using Happens = std::function<void(Feedback&, Feedback::Input&, double)>;
+
+/// A family of cues: what happens, and its signal for each sense. An empty name: none is wanted.
+struct Family {
+  const char* name;
+  Happens happens;  ///< called at 50 Hz
+  const char* word;
+  const char* earcon;
+  const char* pattern;
+  const char* deaf_pattern;
+};
+
+/// The robot follows a path, and the stick is pushed.
+Guidance following(double steer) {
+  Guidance guidance;
+  guidance.state = Guidance::State::following;
+  guidance.goal = {20.0, 5.0};
+  guidance.steer_angle = guidance.waypoint_angle = steer;
+  guidance.waypoint_distance = 8.0;
+  guidance.goal_distance = 25.0;
+  return guidance;
+}
+
+void drive(Feedback& feedback, double time, double steer = 0.0, double speed = 0.5) {
+  feedback.take(following(steer), time);
+  feedback.take(Odometry{0, {}, {speed, 0.0}}, time);
+  feedback.take(Proximity{}, time);
+}
+
+/// Happens once, a second after the beginning.
+bool once(double time) { return time > 11.0 && time < 11.015; }
+
+const std::vector<Family> kFamilies = {
+    {"a shelf is hit on the left",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       drive(feedback, time);
+       if (once(time)) feedback.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+     },
+     "collision_shelf", "hit_shelf", "hit_shelf", "hit_shelf"},
+    {"a worker is hit on the left",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       drive(feedback, time);
+       if (once(time)) feedback.take(Contact{ThingClass::worker, {0.0, 0.4}, 7});
+     },
+     "collision_obstacle", "hit_obstacle", "hit_obstacle", "hit_obstacle"},
+    {"the robot is stopped",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       drive(feedback, time);
+       DriveState state;
+       state.state = time < 11.0 ? DriveState::State::running : DriveState::State::stopped;
+       feedback.take(state, time);
+     },
+     "robot_stopped", "", "stopped", "stopped"},
+    {"the robot is stuck",
+     [](Feedback& feedback, Feedback::Input&, double time) { drive(feedback, time, 0.0, 0.0); },
+     "stuck_unknown", "", "stuck", "stuck"},
+    {"the goal is reached",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       drive(feedback, time);
+       Guidance guidance = following(0.0);
+       if (time > 11.0) guidance.state = Guidance::State::arrived;
+       feedback.take(guidance, time);
+     },
+     "arrived", "arrived", "arrived", "arrived"},
+    {"a mover is about to be hit",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       drive(feedback, time);
+       const double gap = std::max(0.3, 3.0 - 0.9 * (time - 10.0));
+       feedback.take(Proximity{0, {{ThingClass::forklift, 1, gap, {gap + 0.35, 0.0}, true}}}, time);
+     },
+     "obstacle_stop", "", "halt", "halt"},
+    {"something stands in the way for a while",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       drive(feedback, time);
+       Guidance guidance = following(0.0);
+       if (time > 11.0) guidance.state = Guidance::State::blocked;
+       guidance.blocked_by = ThingClass::forklift;
+       guidance.blocked_distance = 1.0;
+       feedback.take(guidance, time);
+     },
+     "blocked", "", "halt", "halt"},
+    {"the guidance is lost",
+     [](Feedback& feedback, Feedback::Input&, double time) {
+       feedback.take(Odometry{0, {}, {0.5, 0.0}}, time);
+       feedback.take(Proximity{}, time);
+       if (time < 11.0) feedback.take(following(0.0), time);
+     },
+     "guidance_lost", "", "", "stopped"},
+    {"the way leads to the right",
+     [](Feedback& feedback, Feedback::Input&, double time) { drive(feedback, time, 1.5); }, "",
+     "turn", "", ""},
+};
+
+enum class Lost { nothing, sound, motors };
+
+Signals signals(const Family& family, Lost lost) {
+  Feedback feedback(FeedbackConfig{}, kEnglish);
+  Feedback::Input input;
+  input.hands.live = true;
+  input.hands.buttons = {false, false};
+  input.motors = lost != Lost::motors;
+  if (lost == Lost::sound) {
+    input.audio = cues::Link::lost;
+    input.sounds = false;
+  }
+  Signals result;
+  for (double time = 10.0; time < 16.0; time += 0.02) {
+    input.hands.axes = {0.0, time < 10.5 ? 0.0 : 1.0};
+    family.happens(feedback, input, time);
+    const Feedback::Output out = feedback.update(input, time);
+    if (lost != Lost::sound) {
+      for (const cues::Cue& cue : out.cues) result.said.insert(cue.kind);
+      for (const sounds::Play& play : out.plays)
+        result.played.insert(navvi_types::to_string(play.earcon));
+    }
+    if (lost == Lost::motors) continue;
+    if (out.pattern) result.felt.insert(navvi_types::to_string(*out.pattern));
+    if (out.pattern) continue;
+    result.left = std::max(result.left, out.rumble.left);
+    result.right = std::max(result.right, out.rumble.right);
+  }
+  return result;
+}
+
+/// \return whether `name` is there, or none is wanted
+bool has(const std::set<std::string>& names, const std::string& name) {
+  return name.empty() || names.count(name) > 0;
+}
+
+TEST(TwoSenses, every_family_is_heard_and_felt_and_by_the_other_sense_alone_where_one_is_lost) {
+  for (const Family& family : kFamilies) {
+    SCOPED_TRACE(family.name);
+    const Signals all = signals(family, Lost::nothing);
+    const Signals deaf = signals(family, Lost::sound);
+    const Signals numb = signals(family, Lost::motors);
+    for (const Signals* heard : {&all, &numb}) {
+      EXPECT_TRUE(has(heard->said, family.word));
+      EXPECT_TRUE(has(heard->played, family.earcon));
+    }
+    EXPECT_TRUE(has(all.felt, family.pattern));
+    EXPECT_TRUE(has(deaf.felt, family.deaf_pattern));
+    EXPECT_TRUE(has(deaf.felt, "no_sound")) << "the loss is told";
+    EXPECT_FALSE(has(all.felt, "no_sound"));
+  }
+}
+
+TEST(TwoSenses, the_motors_lead_the_way_where_no_word_can) {
+  const Family& right = kFamilies.back();
+  EXPECT_EQ(signals(right, Lost::nothing).right, 0.0) << "there is nothing near";
+  const Signals deaf = signals(right, Lost::sound);
+  EXPECT_GT(deaf.right, 0.5);
+  EXPECT_EQ(deaf.left, 0.0);
+}
+
+TEST(TwoSenses, motors_that_cannot_be_felt_are_told) {
+  Feedback feedback(FeedbackConfig{}, kEnglish);
+  Feedback::Input input;
+  input.hands.live = true;
+  input.hands.axes = {0.0, 0.0};
+  input.notices = {"no_rumble"};
+  const std::vector<cues::Cue> cues = feedback.update(input, 10.0).cues;
+  ASSERT_FALSE(cues.empty());
+  EXPECT_EQ(cues[0].kind, "no_rumble");
+}
+
+}  // namespace
+}  // namespace navvi_feedback::core
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
