@@ -269,7 +269,7 @@ class FeedbackNode {
     devices::Gamepad* pad = source_.pad();
     if (pad != nullptr) pad->rumble(rumble, called);
     const haptics::RumbleOutput::Due due = rumble_output_.update(rumble, time);
-    if (due.feedback) motors_.publish(feedback_msg(rumble));
+    if (due.feedback) motors_.publish(feedback_msg(rumble, config_.motors));
     if (pad == nullptr && due.moved && called) called();
     // The record holds what can have been felt.
     if (due.changed && motors_there()) publish({rumble_event(rumble, pattern, ++rumble_id_)});

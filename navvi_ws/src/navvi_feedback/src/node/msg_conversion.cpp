@@ -30,13 +30,15 @@ sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp) 
   return msg;
 }
 
-sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble) {
+sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble,
+                                           const std::string& driver) {
   sensor_msgs::JoyFeedbackArray msg;
   msg.array.resize(2);
   for (std::uint8_t id = 0; id < 2; ++id) {
     msg.array[id].type = sensor_msgs::JoyFeedback::TYPE_RUMBLE;
     msg.array[id].id = id;
-    msg.array[id].intensity = static_cast<float>(id == 0 ? rumble.left : rumble.right);
+    const bool left = (id == 0) == (driver == "joy_node");
+    msg.array[id].intensity = static_cast<float>(left ? rumble.left : rumble.right);
   }
   return msg;
 }

@@ -38,6 +38,8 @@ TEST(ToMsg, rumble_names_both_motors_also_when_they_are_off) {
   EXPECT_EQ(msg.array[0].intensity, 0.0F);
   EXPECT_EQ(msg.array[1].id, 1);
   EXPECT_EQ(msg.array[1].intensity, 0.5F);
+  EXPECT_EQ(feedback_msg({0.25, 0.5}, "ds4_driver").array[0].intensity, 0.5F);
+  EXPECT_EQ(feedback_msg({0.25, 0.5}, "ds4_driver").array[1].intensity, 0.25F);
 }
 
 TEST(ToMsg, a_rumble_is_a_cue_that_is_felt) {

@@ -27,6 +27,7 @@ struct NodeConfig : PersonConfig {
   std::string input = "auto";
   bool speech = true;
   std::string listener = "device";
+  std::string motors = "joy_node";
   std::string person;  ///< name of their PersonFile; empty for none
   std::string record;
 

@@ -6,6 +6,7 @@
 
 #include <navvi_types/cue_event.hpp>
 #include <optional>
+#include <string>
 
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/pattern.hpp"
@@ -17,8 +18,10 @@ namespace navvi_feedback::node {
 [[nodiscard]] std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg);
 
 [[nodiscard]] sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp);
-/// As joy_node takes it: id 0 is the strong (left) motor, id 1 the weak (right) one.
-[[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble);
+/// For joy_node, id 0 is the strong (left) motor and id 1 the weak (right) one; for ds4_driver it
+/// is the other way round. \param driver  one of these names
+[[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble,
+                                                         const std::string& driver = "joy_node");
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
 /// arrival tells it.
 [[nodiscard]] std::optional<std::string> last_words(const navvi_msgs::TrialEvent& msg);
