@@ -74,7 +74,7 @@ check_world() {
 announce() {
   local -A drive=(
     [pad]="press start; then the left stick of the pad drives, up for forward."
-    [keyboard]="press enter; then the arrow keys drive, with Shift slowly, while NavVI's small window has the focus and is green."
+    [keyboard]="press enter; then the arrow keys drive, with Shift slowly, while the picture or NavVI's small window has the focus."
     [simulated]="nothing to do; a simulated person drives."
   ) ask=(
     [pad]="the lower button repeats the direction, the right one tells the goal, the left one what is near."

@@ -1,5 +1,6 @@
 """The keyboard as a stick, under a window manager, with keys pressed as a person presses them."""
 import csv
+import pathlib
 import subprocess
 import time
 
@@ -7,8 +8,11 @@ import pytest
 
 from live_session_test import Display
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
 # How xdotool finds a window, and a word of its title.
 KEYS = ("--class", "feedback_node", "NavVI")
+PICTURE = ("--name", "RViz$", "RViz")
 OTHER = ("--name", "Event Tester", "Event Tester")  # xev's, in the part of RViz
 
 
@@ -53,6 +57,9 @@ class Keys:
 
     def said(self, kind):
         return any(row["field.kind"] == kind for row in self.rows("cues"))
+
+    def run_trial(self):
+        self.processes.append(self.start("rostopic", "pub", "-l", "/navvi/trial_state", "navvi_msgs/TrialState", "{state: 4}"))
 
     def color(self):
         """Red, green and blue in the middle of the keyboard's window."""
@@ -122,3 +129,77 @@ def test_keys_drive_only_where_they_are_meant(keys):
     keys.xdotool("keydown", "Up")
     assert eventually(lambda: keys.command() > 0.8)
     keys.xdotool("keyup", "Up")
+
+
+def test_keys_typed_into_the_picture_drive_too(keys):
+    keys.window(KEYS)
+    keys.env["LIBGL_ALWAYS_SOFTWARE"] = "1"
+    keys.processes.append(keys.start("/usr/bin/rviz", "-d", str(ROOT / "rviz/navvi.rviz")))
+    keys.processes.append(keys.start("xev"))
+    keys.window(OTHER)
+    assert eventually(lambda: keys.xdotool("search", "--onlyvisible", *PICTURE[:2]), 120)
+    time.sleep(5)  # until its panel knows who listens
+    keys.select(PICTURE)
+    time.sleep(2)  # neutral
+    assert keys.has_focus(PICTURE), "the small window takes the focus from the picture"
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.xdotool("keyup", "Up")
+    assert eventually(lambda: keys.command() == 0.0)
+    keys.xdotool("keydown", "Shift", "keydown", "Left")
+    assert eventually(lambda: keys.command("angular.z") > 0.1)
+    time.sleep(1)
+    assert keys.command("angular.z") < 0.5, "Shift is for fine turns"
+    keys.xdotool("keyup", "Left", "keyup", "Shift")
+    keys.xdotool("key", "a")
+    assert eventually(lambda: keys.said("around_nothing"))
+
+    # From the picture to the small window with a key held: neutral is asked for.
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.select(KEYS)
+    assert eventually(lambda: keys.command() == 0.0)
+    time.sleep(2)
+    assert keys.command() == 0.0
+    keys.xdotool("keyup", "Up")
+    keys.select(PICTURE)
+    time.sleep(2)
+
+    # The focus is lost, and returns, with a key held.
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.select(OTHER)
+    assert eventually(lambda: keys.command() == 0.0)
+    assert eventually(lambda: keys.said("keyboard_lost"))
+    keys.select(PICTURE)
+    time.sleep(2)
+    assert keys.command() == 0.0
+    keys.xdotool("keyup", "Up")
+    time.sleep(1)
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.xdotool("keyup", "Up")
+
+    # To close the picture in a trial asks first.
+    keys.run_trial()
+    time.sleep(2)
+    keys.xdotool("key", "alt+F4")
+    assert eventually(lambda: keys.said("menu_end_sure"))
+    assert keys.has_focus(PICTURE)
+
+
+def test_closing_the_small_window_asks_whether_the_trial_is_to_end(keys):
+    keys.processes.append(keys.start("rostopic", "echo", "-p", "/navvi/trial_request", output=keys.folder / "requests"))
+    keys.window(KEYS)
+    assert eventually(lambda: keys.has_focus(KEYS))
+    keys.xdotool("key", "alt+F4")
+    assert eventually(lambda: keys.said("no_trial"))
+    keys.run_trial()
+    time.sleep(2)
+    keys.xdotool("key", "alt+F4")
+    assert eventually(lambda: keys.said("menu_end_sure"))
+    time.sleep(0.3)
+    assert not keys.rows("requests")
+    keys.xdotool("key", "alt+F4")
+    assert eventually(lambda: keys.rows("requests"))
+    assert keys.has_focus(KEYS), "the window stays, and its keys with it"

@@ -59,6 +59,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"menu_end_sure", P::message, 0.0, 4.0},
       {"menu_empty", P::message, 0.0, 4.0},
       {"menu_closed", P::message, 0.0, 4.0},
+      {"no_trial", P::message, 0.0, 4.0},
       {"menu_settings", P::message, 0.0, 4.0},
       {"setting", P::message, 0.0, 4.0},
       {"setting_open", P::message, 0.0, 4.0},

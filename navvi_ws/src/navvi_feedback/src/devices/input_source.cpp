@@ -58,13 +58,17 @@ InputSource::InputSource(const std::string& wanted) {
 void InputSource::receive(const drive::InputState& input, double time) {
   received_ = input;
   received_at_ = time;
+  if (keyboard_ && input.live) keyboard_->leave_focus();
 }
 
 drive::InputState InputSource::read(double time) const {
   if (pad_) return pad_->input();
-  if (keyboard_) return keyboard_->input();
-  if (!received_at_ || time - *received_at_ > kTimeout) return {};
-  return received_;
+  const bool fresh = received_at_ && time - *received_at_ <= kTimeout && received_.live;
+  if (keyboard_) {
+    const drive::InputState own = keyboard_->input();
+    if (own.live || !fresh) return own;
+  }
+  return fresh ? received_ : drive::InputState{};
 }
 
 }  // namespace navvi_feedback::devices

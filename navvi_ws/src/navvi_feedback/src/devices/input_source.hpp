@@ -10,7 +10,8 @@
 
 namespace navvi_feedback::devices {
 
-/// Where the stick comes from: our own pad or keyboard, or another driver's messages.
+/// Where the stick comes from: our own pad or keyboard, or another driver's messages. The
+/// keyboard's keys may also come as messages, from another window that they are typed into.
 class InputSource {
  public:
   enum class Kind { pad, keyboard, topic };
@@ -21,7 +22,7 @@ class InputSource {
   /// later
   explicit InputSource(const std::string& wanted);
 
-  /// A message of another driver. Without effect unless kind() is topic.
+  /// A message of another driver, or of another window. Without effect if kind() is pad.
   /// \param time  s, of the clock that read() is given
   void receive(const drive::InputState& input, double time);
   /// Not live if the device is gone, or if the last message is older than 250 ms.

@@ -17,7 +17,9 @@ constexpr auto kAskPeriod = 500ms;
 constexpr const char* kDrives =
     "NavVI - arrow keys drive, with Shift slowly; space repeats, G: goal, A: around";
 constexpr const char* kWaits = "NavVI - select this window to drive";
-constexpr double kSlow = 0.4;  // of the stick, with Shift
+constexpr double kSlow = 0.4;       // of the stick, with Shift
+constexpr auto kPress = 100ms;      // what is pressed by closing the window is held for
+constexpr std::size_t kEscape = 4;  // its place
 
 /// SDL also has invisible video drivers, and falls back on them.
 bool visible() {
@@ -75,10 +77,10 @@ std::optional<drive::InputState> Keyboard::read() {
   bool uncovered = false;
   while (SDL_PollEvent(&event)) {
     const bool close = event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE;
-    if (close || event.type == SDL_QUIT) return std::nullopt;
+    if (close || event.type == SDL_QUIT) closed_ = std::chrono::steady_clock::now();
     uncovered = uncovered ||
                 (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_EXPOSED);
-    used_ = used_ || event.type == SDL_KEYDOWN;
+    if (event.type == SDL_KEYDOWN) used_ = true;
   }
   const bool focused = (SDL_GetWindowFlags(window_) & SDL_WINDOW_INPUT_FOCUS) != 0;
   if (focused && !focused_) ++session_;
@@ -90,6 +92,8 @@ std::optional<drive::InputState> Keyboard::read() {
     ask_for_focus();
   drive::InputState input = focused ? read_keys() : drive::InputState{};
   input.session = session_;
+  input.buttons.resize(15);
+  if (std::chrono::steady_clock::now() - closed_ < kPress) input.buttons[kEscape] = true;
   return input;
 }
 

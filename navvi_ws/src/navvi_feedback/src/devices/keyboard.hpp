@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 
@@ -11,8 +12,8 @@ struct SDL_Window;
 namespace navvi_feedback::devices {
 
 /// The arrow keys as a stick, with Shift deflected by less than half, from a small window of its
-/// own: green while the keys drive, red while another window has the focus. Then, and once it was
-/// closed, the device counts as lost. Until a first key it takes the focus by itself.
+/// own: green while the keys drive, red while another window has the focus. Then the device counts
+/// as lost. Until a first key it takes the focus by itself. Who closes the window presses escape.
 class Keyboard final : private ThreadedDevice {
  public:
   /// \throws DeviceError with a sentence if there is no display
@@ -25,10 +26,11 @@ class Keyboard final : private ThreadedDevice {
   /// guide, start and the right shoulder; page up, page down and
   /// backspace at up, down and left.
   [[nodiscard]] drive::InputState input() const;
+  /// Takes the focus by itself no more: keys are typed elsewhere.
+  void leave_focus() { used_ = true; }
 
  private:
   void open() override;
-  /// nullopt once the window was closed.
   [[nodiscard]] std::optional<drive::InputState> read() override;
   void close() override;
 
@@ -38,7 +40,8 @@ class Keyboard final : private ThreadedDevice {
   // The thread's own.
   SDL_Window* window_ = nullptr;
   bool focused_ = false;
-  bool used_ = false;  ///< a key was pressed
+  std::atomic<bool> used_{false};  ///< a key was pressed, here or elsewhere
+  std::chrono::steady_clock::time_point closed_{};
   unsigned session_ = 0;
   std::chrono::steady_clock::time_point asked_{};
 

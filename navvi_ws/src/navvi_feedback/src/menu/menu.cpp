@@ -110,7 +110,7 @@ Menu::Step Menu::press(drive::Button button) {
     return step;
   }
   if (button == Button::end && !ending) {
-    if (trial_ != TrialState::State::running) return {};
+    if (trial_ != TrialState::State::running) return {cues::Utterance{"no_trial"}};
     path_ = {{}, {List::end}};
     return tell();
   }

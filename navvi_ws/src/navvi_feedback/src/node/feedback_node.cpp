@@ -102,6 +102,13 @@ class FeedbackNode {
       listen<sensor_msgs::Joy>(
           "joy", 1, [this](const drive::InputState& joy) { source_.receive(joy, now()); });
     }
+    if (source_.kind() == devices::InputSource::Kind::keyboard) {
+      // Without a stick in it, the keys are lost.
+      subscribers_.push_back(node_.subscribe<sensor_msgs::Joy>(
+          "navvi/keys", 1, [this](const sensor_msgs::Joy::ConstPtr& msg) {
+            source_.receive(from_msg(*msg).value_or(drive::InputState{}), now());
+          }));
+    }
     // What is felt, hit or to be obeyed does not wait for the next beat.
     listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const Proximity& proximity) {
       feedback_.take(proximity, now());

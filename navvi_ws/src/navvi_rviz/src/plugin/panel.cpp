@@ -1,6 +1,7 @@
 #include "plugin/panel.hpp"
 
 #include <navvi_msgs/TrialRequest.h>
+#include <rviz/render_panel.h>
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <rviz/visualization_frame.h>
@@ -69,6 +70,7 @@ QPushButton* Panel::add_button(const QString& words, const QKeySequence& key,
                                const std::function<void()>& action) {
   auto* button = new QPushButton(words + " (" + key.toString() + ")");
   button->setAccessibleName(words);
+  button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to who drives
   button->setAccessibleDescription("Key " + key.toString());
   connect(button, &QPushButton::clicked, this, action);
   auto* shortcut = new QShortcut(key, this);
@@ -95,6 +97,7 @@ void Panel::onInitialize() {
 
   auto* visions = new QComboBox;
   visions->setAccessibleName("Vision");
+  visions->setFocusPolicy(Qt::TabFocus);
   for (const std::string& name : look::vision_names())
     visions->addItem(QString::fromStdString(name));
   visions->setCurrentText(QString::fromStdString(Chosen::shared().name()));
@@ -137,6 +140,17 @@ void Panel::fill_screen() {
   show_chrome(false);
   main->setGeometry(main->screen()->availableGeometry());
   main->showMaximized();
+  main->installEventFilter(this);
+  vis_manager_->getRenderPanel()->setFocus();
+}
+
+bool Panel::eventFilter(QObject* target, QEvent* event) {
+  const bool closes = target == window() && event->type() == QEvent::Close;
+  if (!closes || !ros::ok() || !reader_->trial_runs())
+    return rviz::Panel::eventFilter(target, event);
+  ask("end");
+  event->ignore();
+  return true;
 }
 
 void Panel::show_chrome(bool visible) {

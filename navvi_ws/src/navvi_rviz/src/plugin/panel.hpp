@@ -9,17 +9,20 @@
 #include <functional>
 #include <memory>
 
+#include "plugin/keys.hpp"
 #include "plugin/reader.hpp"
 
 namespace navvi_rviz::plugin {
 
 /// What the guide says and how the trial stands, in words, below the picture; with a button and a
 /// key for each thing that can be asked for. Buttons have names for screen readers. Makes the
-/// picture as large as the screen; F2 shows what else RViz has.
+/// picture as large as the screen; F2 shows what else RViz has. While a trial runs, closing the
+/// window asks the person, as the button that ends it does.
 class Panel : public rviz::Panel {
  public:
   Panel();
   void onInitialize() override;
+  bool eventFilter(QObject* target, QEvent* event) override;
 
  private:
   QLabel* add_label(const char* name, int stretch);
@@ -34,6 +37,7 @@ class Panel : public rviz::Panel {
   void refresh();
 
   std::unique_ptr<Reader> reader_;
+  Keys keys_{*this};
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
   QHBoxLayout *words_row_, *buttons_row_;

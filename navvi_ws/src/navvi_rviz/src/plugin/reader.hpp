@@ -14,6 +14,7 @@ class Reader {
   Reader();
   [[nodiscard]] status::Shown shown() const;
   [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
+  [[nodiscard]] bool trial_runs() const { return status_.trial_runs(); }
 
  private:
   ros::NodeHandle node_;

@@ -31,6 +31,9 @@ class Status {
   void take(const navvi_types::DriveState& state) { gate_ = state.state; }
   void take(const navvi_types::TrialState& state) { trial_ = state.state; }
   void take_speed(double speed) { speed_ = speed; }
+  [[nodiscard]] bool trial_runs() const {
+    return trial_ == navvi_types::TrialState::State::running;
+  }
   /// \param ros_time  s, of the event
   void take_event(const std::string& type, double ros_time);
   /// \param state  as in /diagnostics: works, missing, off
