@@ -1,10 +1,11 @@
-"""Whole sessions by hand and ear: three goals by pad alone. Nothing is looked at: what is pressed depends on what
+"""Whole sessions by hand and ear: three goals by pad alone, and by keys alone. Nothing is looked at: what is pressed depends on what
 is said, and the simulated operator drives by ear."""
 import pathlib
 import subprocess
 
 import pytest
 
+from live_session_test import Display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -38,3 +39,14 @@ def session(master, folder, layout, operator, **more):
 def test_three_goals_by_pad_alone(master, tmp_path, layout):
     env = {key: value for key, value in master.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
     session(env, tmp_path, layout, "auto")
+
+
+def test_three_goals_by_keys_alone(master, tmp_path, layout):
+    display = Display()
+    manager = subprocess.Popen(["openbox"], env=dict(master, DISPLAY=display.name), stderr=subprocess.DEVNULL)
+    try:
+        session(master, tmp_path, layout, "keyboard", DISPLAY=display.name)
+    finally:
+        manager.terminate()
+        manager.wait(10)
+        display.close()
