@@ -379,7 +379,7 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation
   std::vector<Cue> cues;
   for (const Utterance& utterance : utterances) {
     const CueKind& kind = cue_kind(utterance.kind);
-    if (!utterance.asked && muted(kind.kind, config_.wording) && !instead_of(utterance, sounds))
+    if (!utterance.asked && muted(kind.kind, config_.wording) && !instead_of(utterance, now.sounds))
       continue;
     const auto last = last_said_.find(kind.kind);
     if (!utterance.asked && last != last_said_.end() && time - last->second < kind.min_interval)

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "lessons/lesson.hpp"
 #include "lessons/staircase.hpp"
 #include "lessons/teller.hpp"
+#include "navvi_feedback/lessons/lesson.hpp"
 
 namespace navvi_feedback::lessons {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lessons/lesson.hpp"
 #include "lessons/teller.hpp"
+#include "navvi_feedback/lessons/lesson.hpp"
 
 namespace navvi_feedback::lessons {
 

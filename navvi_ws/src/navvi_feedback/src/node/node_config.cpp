@@ -27,7 +27,7 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
         "what hears: the sound device, or whoever reads navvi/cues, such as a simulated person or "
         "a screen reader, with or without a device");
   visit(
-      driver, "driver", OneOf{{"joy_node", "ds4_driver"}}, "",
+      motors, "motors", OneOf{{"joy_node", "ds4_driver"}}, "",
       "who moves the motors by joy/set_feedback: motor 0 is the strong, left one to joy_node, the "
       "weak, right one to ds4_driver (with its use_standard_msgs)");
   visit(person, "person", Any{}, "",

@@ -19,6 +19,7 @@
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
 #include "navvi_feedback/haptics/pattern.hpp"
+#include "navvi_feedback/lessons/lesson.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/sounds_config.hpp"
 
@@ -32,10 +33,6 @@ using navvi_types::Scenario;
 using navvi_types::TrialRequest;
 using navvi_types::TrialState;
 }  // namespace navvi_feedback
-
-namespace navvi_feedback::lessons {
-class Lesson;
-}
 
 namespace navvi_feedback::core {
 
