@@ -114,7 +114,7 @@ def test_success_is_told_in_words(words, sentence, tmp_path):
     assert sentence in result.stdout
 
 
-@pytest.mark.parametrize("words", [["fly"], ["run", "x:=1"], ["run", "operator:=pad"], ["replay"], ["check", "/none"], ["bench", "none"],
+@pytest.mark.parametrize("words", [["fly"], ["run", "x:=1"], ["run", "operator:=pad"], ["replay"], ["check", "/none"], ["bench", "none"], ["calibrate"], ["glossary"], ["tutorial", "x:=1"],
                                    ["world", "show", "training", "-o", "a.gif"], ["navmesh"], ["build", "-x"], ["man", "-x"]],
                          ids=lambda words: " ".join(words))
 def test_an_error_begins_with_what_where_and_what_to_do(words):

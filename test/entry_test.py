@@ -59,6 +59,10 @@ def test_shell_scripts_are_clean():
     (["build", "--fast"], "--asan and --odr are allowed"),
     (["parameters", "--xml"], "--csv is allowed"),
     (["replay"], "which trial?"),
+    (["calibrate"], "person:=NAME is needed"),
+    (["glossary", "world:=busy"], "\"world\" is unknown"),
+    (["glossary", "operator:=pad"], "none is connected"),
+    (["tutorial", "lesson:=none"], "given twice"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
 ])
 def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):

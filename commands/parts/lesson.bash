@@ -1,8 +1,8 @@
 # What glossary and calibrate share: feedback_node alone, until it ends.
 
 give_lesson() {  # NAME WORD...
-  local log words=("${@:2}")
-  read_args "$launch_files/lesson.launch" "${words[@]/#person:=/feedback/person:=}"
+  local log given=("${@:2}")
+  read_args "$launch_files/lesson.launch" "${given[@]/#person:=/feedback/person:=}"
   arg[lesson]=$1
   resolve_hands
   allowed[speech]="true false"
@@ -24,5 +24,5 @@ resolve_hands() {
   one_of operator
   if [[ ${arg[operator]} == auto ]]; then has_pad && arg[operator]=pad || arg[operator]=keyboard; fi
   [[ ${arg[operator]} != pad ]] || has_pad || fail "operator:=pad needs a game controller, and none is connected; operator:=keyboard needs none." 2
-  [[ ${arg[operator]} != keyboard ]] || has_display || fail "there is neither a game controller nor a display for the keyboard; one of them is needed." 2
+  [[ ${arg[operator]} != keyboard ]] || has_display || fail "there is neither a game controller nor a display for the keyboard; a lesson needs one of them, such as a pad at USB." 2
 }

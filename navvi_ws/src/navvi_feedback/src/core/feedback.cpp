@@ -100,7 +100,8 @@ struct Feedback::Deciders {
   cues::CuePolicy cues;
   menu::Menu menu;
   cues::Phrases phrases;
-  std::string pad;                        ///< whose motors are moved
+  std::string pad;  ///< whose motors are moved
+  std::unique_ptr<lessons::Lesson> lesson;
   lessons::Taught taught;                 ///< of the lesson, now
   std::optional<cues::Utterance> answer;  ///< of the menu, to what was pressed now
 };
@@ -117,6 +118,7 @@ Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& ph
                        cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording)),
                        {},
                        cues::Phrases(phrases, config.cues.wording),
+                       {},
                        {},
                        {},
                        {}}) {}
@@ -159,7 +161,11 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   for (const sounds::Play& play : sound(input, out.cues, time)) out.plays.push_back(play);
   out.rumble = feel(time, dt);
   out.pattern = deciders_->patterns.playing();
-  out.lesson_over = lesson_ && lesson_->over() && config_.lesson != "none";
+  if (const lessons::Lesson* const lesson = deciders_->lesson.get()) {
+    out.lesson_over = lesson->over() && config_.lesson != "none";
+    out.record = lesson->record();
+    out.settings = lesson->settings();
+  }
   if (alone()) out.command.reset();
   begun_.clear();
   contacts_.clear();
@@ -172,7 +178,7 @@ std::optional<Velocity> Feedback::drive(const drive::InputState& hands, double d
   const bool live = hands.live && (!last_hands_.live || hands.session == last_hands_.session);
   const int enable = config_.drive.enable;
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
-  const bool held = lesson_ && !lesson_->over() ? !lesson_->drives() : trial_.holds();
+  const bool held = teaching() ? !deciders_->lesson->drives() : trial_.holds();
   if (held || !enabled) deciders_->drive.disarm();
   const drive::Stick stick = hands.stick(config_.drive.stick == "right");
   const std::optional<Velocity> velocity =
@@ -239,7 +245,7 @@ haptics::Rumble Feedback::feel(double time, double dt) {
 
 /// rad, clockwise from the nose to where to steer, if the person is to be told.
 std::optional<double> Feedback::off_course(double time) {
-  if (lesson_ && !lesson_->over() && lesson_->speaks()) return deciders_->taught.off;
+  if (teaching() && deciders_->lesson->speaks()) return deciders_->taught.off;
   if (!guidance_fresh(time) || !deciders_->cues.leads() || idle_ > kIdle) return std::nullopt;
   return std::remainder(guidance_.value->steer_angle + turned_, 2.0 * kPi);
 }
@@ -381,14 +387,14 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
 void Feedback::begin_lesson(const std::string& name, const std::string& pad) {
   const cues::Phrases& phrases = deciders_->phrases;
   if (name == "glossary") {
-    lesson_ = std::make_unique<lessons::Glossary>(phrases, config_.buttons, config_.haptics,
-                                                  config_.sounds);
+    deciders_->lesson = std::make_unique<lessons::Glossary>(phrases, config_.buttons,
+                                                            config_.haptics, config_.sounds);
   } else if (name == "tutorial") {
-    lesson_ = std::make_unique<lessons::Tutorial>(phrases, config_.buttons);
+    deciders_->lesson = std::make_unique<lessons::Tutorial>(phrases, config_.buttons);
   } else if (name == "calibrate") {
     const double brakes = 0.5 * config_.drive.max_turn / config_.drive.turn_acceleration;
-    lesson_ = std::make_unique<lessons::Calibration>(phrases, config_.buttons, config_.haptics, pad,
-                                                     brakes);
+    deciders_->lesson = std::make_unique<lessons::Calibration>(phrases, config_.buttons,
+                                                               config_.haptics, pad, brakes);
   }
 }
 
@@ -396,10 +402,10 @@ void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, do
   lessons::Taught& taught = deciders_->taught;
   taught = {};
   // Not before there are hands: a pad may be found a little later, and has motors or not.
-  if (!lesson_ && input.hands.live) begin_lesson(config_.lesson, input.pad);
+  if (!deciders_->lesson && input.hands.live) begin_lesson(config_.lesson, input.pad);
   const bool by_menu = config_.lesson == "none";
-  if (by_menu && trial_.state == TrialState::State::running) lesson_.reset();
-  if (!lesson_ || lesson_->over()) return;
+  if (by_menu && trial_.state == TrialState::State::running) deciders_->lesson.reset();
+  if (!teaching()) return;
   lessons::Seen seen;
   seen.pressed = pressed;
   seen.begun = begun_;
@@ -412,18 +418,19 @@ void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, do
   if (motion_.link(time, config_.stale) == cues::Link::alive) seen.motion = *motion_.value;
   seen.arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
   seen.trial = trial_.state;
-  taught = lesson_->update(seen, time);
-  pressed.erase(std::remove_if(pressed.begin(), pressed.end(),
-                               [&](drive::Button button) { return lesson_->takes(button); }),
-                pressed.end());
+  taught = deciders_->lesson->update(seen, time);
+  pressed.erase(
+      std::remove_if(pressed.begin(), pressed.end(),
+                     [&](drive::Button button) { return deciders_->lesson->takes(button); }),
+      pressed.end());
 }
 
 void Feedback::hush(std::vector<cues::Cue>& cues) const {
   static const std::set<std::string> needed = {
       "arrived",       "stuck",      "stuck_unknown", "back_away", "release_stick", "pad_back",
       "keyboard_back", "audio_back", "settings_of",   "no_rumble", "second_pad",    "pad_firmware"};
-  if (!lesson_ || lesson_->over()) return;
-  if (lesson_->speaks())
+  if (!teaching()) return;
+  if (deciders_->lesson->speaks())
     cues.erase(std::remove_if(cues.begin(), cues.end(),
                               [](const cues::Cue& cue) {
                                 return !cue.asked && cue.priority != Priority::important &&
@@ -433,6 +440,8 @@ void Feedback::hush(std::vector<cues::Cue>& cues) const {
   const std::vector<cues::Cue>& told = deciders_->taught.cues;
   cues.insert(cues.end(), told.begin(), told.end());
 }
+
+bool Feedback::teaching() const { return deciders_->lesson && !deciders_->lesson->over(); }
 
 bool Feedback::alone() const { return config_.lesson != "none" && config_.lesson != "tutorial"; }
 

@@ -177,7 +177,7 @@ class FeedbackNode {
     for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
     input.person = config_.person;
     const core::Feedback::Output output = feedback_.update(input, time);
-    keep_lesson(output.lesson_over);
+    keep_lesson(output);
     if (output.command) cmd_vel_.publish(to_msg(*output.command));
     if (input.hands.live && joy_out_) joy_out_.publish(to_msg(input.hands, ros::Time::now()));
     if (share_ != output.share) {
@@ -206,17 +206,14 @@ class FeedbackNode {
   }
 
   /// What a lesson finds out is written at once; the program ends with it.
-  void keep_lesson(bool over) {
-    if (!feedback_.lesson()) return;
-    const std::string record = feedback_.lesson()->record();
-    if (!config_.record.empty() && std::exchange(recorded_, record) != record)
-      std::ofstream(config_.record) << record;
-    const std::vector<std::string> settings = feedback_.lesson()->settings();
-    if (std::exchange(found_, settings) != settings) {
-      for (const std::string& setting : settings) ROS_INFO("Found: feedback/%s", setting.c_str());
-      if (person_) person_->save(settings);  // before it is said
+  void keep_lesson(const core::Feedback::Output& output) {
+    if (!config_.record.empty() && std::exchange(recorded_, output.record) != output.record)
+      std::ofstream(config_.record) << output.record;
+    if (std::exchange(found_, output.settings) != output.settings) {
+      for (const std::string& word : output.settings) ROS_INFO("Found: feedback/%s", word.c_str());
+      if (person_) person_->save(output.settings);  // before it is said
     }
-    if (over) g_stop = 1;
+    if (output.lesson_over) g_stop = 1;
   }
 
   void offer_settings() {

@@ -79,7 +79,9 @@ class Feedback {
     std::optional<TrialRequest::Kind> request;
     std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
     std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
-    bool lesson_over = false;  ///< of FeedbackConfig::lesson
+    bool lesson_over = false;           ///< of FeedbackConfig::lesson
+    std::string record;                 ///< how it went so far, as a table in CSV
+    std::vector<std::string> settings;  ///< that it has found, such as haptics/enabled:=true
   };
 
   /// \param phrases  file of the spoken phrases
@@ -112,9 +114,6 @@ class Feedback {
   /// As CuePolicy::note().
   void note(const std::vector<CueEvent>& events);
 
-  /// The lesson that is given, or was; nullptr if there was none.
-  [[nodiscard]] const lessons::Lesson* lesson() const { return lesson_.get(); }
-
   /// The latest guidance, however old.
   [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
   [[nodiscard]] bool guidance_fresh(double time) const {
@@ -143,6 +142,8 @@ class Feedback {
   void teach(const Input& input, std::vector<drive::Button>& pressed, double time);
   /// Leaves what may be said while the lesson speaks.
   void hush(std::vector<cues::Cue>& cues) const;
+  /// It is given now.
+  [[nodiscard]] bool teaching() const;
   /// There is a lesson and nothing else: no robot.
   [[nodiscard]] bool alone() const;
   /// Carries out what the menu makes of the buttons.
@@ -160,7 +161,6 @@ class Feedback {
 
   FeedbackConfig config_;
   std::unique_ptr<Deciders> deciders_;
-  std::unique_ptr<lessons::Lesson> lesson_;
   std::vector<std::string> begun_;  ///< kinds of words that began to be heard since the last update
 
   Latest<std::vector<NearThing>> nearby_;
