@@ -6,7 +6,7 @@
 
 #include "lessons/staircase.hpp"
 #include "lessons/teller.hpp"
-#include "navvi_feedback/lessons/lesson.hpp"
+#include "lessons/lesson.hpp"
 
 namespace navvi_feedback::lessons {
 

@@ -6,7 +6,7 @@
 
 #include "lessons/teller.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
-#include "navvi_feedback/lessons/lesson.hpp"
+#include "lessons/lesson.hpp"
 #include "navvi_feedback/sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {

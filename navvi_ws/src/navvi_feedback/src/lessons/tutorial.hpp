@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lessons/teller.hpp"
-#include "navvi_feedback/lessons/lesson.hpp"
+#include "lessons/lesson.hpp"
 
 namespace navvi_feedback::lessons {
 

@@ -20,7 +20,6 @@
 #include "devices/speech_channel.hpp"
 #include "navvi_feedback/core/feedback.hpp"
 #include "navvi_feedback/haptics/rumble_output.hpp"
-#include "navvi_feedback/lessons/lesson.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
 #include "node/diagnostics.hpp"
 #include "node/node_config.hpp"

@@ -19,7 +19,6 @@
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
 #include "navvi_feedback/haptics/pattern.hpp"
-#include "navvi_feedback/lessons/lesson.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/sounds_config.hpp"
 
