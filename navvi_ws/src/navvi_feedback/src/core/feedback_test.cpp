@@ -442,6 +442,25 @@ TEST_F(FeedbackTest, guidance_is_kept_but_not_fresh_for_ever) {
   EXPECT_EQ(feedback_.guidance().value().seq, 5U);
 }
 
+TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
+  FeedbackConfig config;
+  config.haptics.pads = {"abc 0.05 0.05 0.5"};
+  Feedback feedback(config, kEnglish);
+  Feedback::Input input;
+  input.hands.live = true;
+  double time = 10.0;
+  for (const auto& [pad, most] : {std::pair("abc", 0.5), std::pair("other", 1.0)}) {
+    input.pad = pad;
+    Feedback::Output output;
+    for (int i = 0; i < 100; ++i, time += 0.02) {
+      feedback.take(Odometry{}, time);
+      feedback.take(Proximity{0, {{ThingClass::box, 1, 0.0, {0.4, 0.0}}}}, time);
+      output = feedback.update(input, time);
+    }
+    EXPECT_NEAR(output.rumble.left, most, 1e-6) << pad;
+  }
+}
+
 /// Hears each text for half a second, and presses the arrow down when it is silent.
 class Learner {
  public:
