@@ -16,6 +16,8 @@ constexpr int kRetreatSearches = 200;
 constexpr double kSlack = 0.02;         // m, of room that a start off the mesh need not keep
 constexpr double kSameGoal = 0.5;       // m, a path that ends so near leads to the same goal
 constexpr double kOnMesh = 1e-3;        // m, from a corner of a path on the mesh to the mesh
+constexpr double kNode = 1.5;           // m, of legs measured in the time that a node takes
+constexpr double kSearched = 0.7;       // of the work that is left, for another search at most
 constexpr double kSearchedTurn = 0.75;  // of a turn by 90 degrees: what searches charge for each
 
 Plan failure(PlanStatus status, std::string detail,
@@ -79,7 +81,8 @@ Planner::Planner(const PlannerConfig& config)
       nav_mesh_(config.mesh),
       search_(config.search == "exact" ? search::SearchMethod::exact
                                        : search::SearchMethod::centroid_astar,
-              config.alpha) {}
+              config.alpha),
+      smoother_(config.smoothing.attempts) {}
 
 PlanAnswer Planner::answer(const PlanRequest& request) {
   PlanAnswer out;
@@ -249,7 +252,15 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
   const double longest = std::max(config.max_stretch * shortest, shortest + config.max_detour);
   const smooth::GuideCost cost(config.cost, nav_mesh_.mesh(), nav_mesh_.space(),
                                config_.mesh.robot_radius, config_.mesh.preferred_clearance);
-  auto nodes = static_cast<std::size_t>(config.search_effort * shortest);
+  const double all_work = config.effort * shortest;  // m
+  double work =
+      std::max(all_work - kNode * static_cast<double>(route.plan.nodes_expanded), all_work / 3.0);
+  const auto with = [&](double part, const auto& run) {  // of the work that is left
+    cost.allow(part * work);
+    Path out = run();
+    work -= part * work - cost.left();
+    return out;
+  };
   Path best = route.plan.path;
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](const Path& path, double gain) {
@@ -259,21 +270,19 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
     least = price;
   };
   const auto lead_to = [&](const mesh::Mesh::Place& to, double narrow) {
-    if (route.plan.nodes_expanded > nodes) return Path{};  // the shortest was easier to find
+    const auto nodes = static_cast<std::size_t>(std::max(0.0, kSearched * work / kNode));
     const search::Found& found =
         search_.find_at({config.cost.turn_price * kSearchedTurn, narrow, least, nodes},
                         nav_mesh_.mesh(), route.from, to);
-    nodes -= found.nodes_expanded;
-    cost.allow(config.effort * shortest);
-    return smooth::sketch(found.path, cost, config);
+    work -= kNode * static_cast<double>(found.nodes_expanded);
+    return with(0.5, [&] { return smoother_.sketch(found.path, cost); });
   };
   offer(lead_to(route.to, 0.0), 0.0);
-  cost.allow(config.effort * shortest);
-  if (!std::isfinite(least)) offer(smooth::sketch(route.plan.path, cost, config), 0.0);
+  if (!std::isfinite(least))
+    offer(with(0.5, [&] { return smoother_.sketch(route.plan.path, cost); }), 0.0);
   if (cost.tight(best) > config.cost.turn_price)
     offer(lead_to(route.to, 2.0 * config.cost.tight), 0.0);
-  cost.allow(config.effort * shortest);
-  offer(smooth::refine(best, cost, config), 0.0);
+  offer(with(followed.empty() ? 1.0 : 0.7, [&] { return smoother_.refine(best, cost); }), 0.0);
   const Path known = cost.known_end(followed);
   if (known.size() < 2 || distance(known.back(), best.back()) > kSameGoal) return best;
   const bool all =

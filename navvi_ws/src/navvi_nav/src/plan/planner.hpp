@@ -85,6 +85,7 @@ class Planner {
   PlannerConfig config_;
   NavMesh nav_mesh_;
   mutable search::Search search_;  ///< its memory
+  smooth::Smoother smoother_;
 };
 
 }  // namespace navvi_nav::plan

@@ -394,6 +394,31 @@ TEST(Planner, keeps_the_corners_that_are_followed_unless_others_save_enough) {
   EXPECT_EQ(Path(round.end() - 3, round.end()), Path(above.end() - 3, above.end()));
 }
 
+TEST(Planner, has_a_better_path_the_more_work_it_may_do_and_a_whole_one_without_any) {
+  std::vector<double> costs;  // m, of all paths, by the work
+  for (const double effort : {0.0, 30.0, 120.0}) {
+    PlannerConfig config;
+    config.smoothing.effort = effort;
+    costs.push_back(0.0);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      RandomWorld world(seed);
+      Planner planner(config);
+      ASSERT_EQ(planner.set_map(world.map.voxels()).error, "");
+      planner.carve(world.cylinders);
+      const Plan plan = planner.plan(world.start, world.goal);
+      if (plan.status != PlanStatus::found) continue;
+      expect_clear(plan.path, world.map, world.cylinders);
+      EXPECT_TRUE(plan.path == planner.plan(world.start, world.goal).path);
+      const NavMesh& mesh = planner.nav_mesh();
+      const smooth::GuideCost cost(config.smoothing.cost, mesh.mesh(), mesh.space(), kRadius, 0.6);
+      const double own = cost.of(plan.path);
+      if (std::isfinite(own)) costs.back() += own;  // no start or goal off the mesh
+    }
+  }
+  EXPECT_GT(costs[0], costs[1]);
+  EXPECT_GT(costs[1], costs[2]);
+}
+
 /// The judge knows the boxes that the map was made of and the cylinders, not the mesh.
 TEST(Planner, keeps_its_radius_and_its_bounds_on_ten_thousand_paths) {
   const PlannerConfig config;

@@ -60,6 +60,14 @@ double gap_in(const map::Space& space, Point at) {
   return gap;
 }
 
+/// The square of Floor::gap(), cells.
+int gap2_in(const map::Floor& floor, Point at) {
+  const map::Cell cell = floor.cell_at(at);
+  const int x = cell.x - floor.origin().x, y = cell.y - floor.origin().y;
+  const bool inside = x >= 0 && y >= 0 && x < floor.columns() && y < floor.rows();
+  return inside ? floor.gap2_row(cell.y)[x] : 0;
+}
+
 int samples_of(Point a, Point b) {
   return std::max(1, static_cast<int>(std::ceil(distance(a, b) / kSample)));
 }
@@ -125,6 +133,8 @@ GuideCost::GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, cons
       space_(space),
       radius_(radius),
       preferred_(preferred),
+      wide_(static_cast<int>(
+          std::ceil(std::pow((radius + preferred) / space.floor->cell_size(), 2.0)))),
       cylinders_(*space.cylinders),
       legs_(kKept, {kNowhere, kNowhere, 0.0}),
       placed_(kKept, {kNowhere, std::nullopt}) {
@@ -174,7 +184,8 @@ void GuideCost::along(Point a, Point b, const Visit& visit) const {
   const map::Space near{space_.floor, &near_};
   for (int i = 0; i < samples; ++i) {
     const Point at = a + ((i + 0.5) / samples) * (b - a);
-    if (!visit(std::max(0.0, gap_in(near, at) - radius_))) return;
+    const bool wide = near_.empty() && gap2_in(*space_.floor, at) >= wide_;
+    if (!visit(wide ? preferred_ : std::max(0.0, gap_in(near, at) - radius_))) return;
   }
 }
 

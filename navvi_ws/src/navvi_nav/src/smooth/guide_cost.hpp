@@ -58,8 +58,9 @@ class GuideCost {
   /// Shares of the leg at which less than the preferred clearance begins, is least, and ends; none
   /// if there is more all along.
   [[nodiscard]] std::vector<double> near_places(Point a, Point b) const;
-  /// So much more may be measured, or less() is false. \param metres  of legs
-  void allow(double metres) const { left_ = std::max(0.0, left_) + metres; }
+  /// So much may be measured from now on, or less() is false. \param metres  of legs
+  void allow(double metres) const { left_ = metres; }
+  [[nodiscard]] double left() const { return left_; }
   [[nodiscard]] bool spent() const { return left_ <= 0.0; }
 
   [[nodiscard]] const GuideCostConfig& config() const { return config_; }
@@ -95,6 +96,7 @@ class GuideCost {
   map::Space space_;
   double radius_;
   double preferred_;
+  int wide_;                         // cells squared, from which on nothing fixed is near
   std::vector<Cylinder> cylinders_;  // by x
   double widest_ = 0.0;              // m, radius of a cylinder
   mutable double left_ = 0.0;        // m

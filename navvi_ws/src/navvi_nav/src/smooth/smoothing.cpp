@@ -8,7 +8,6 @@
 #include <ompl/util/Console.h>
 
 #include <array>
-#include <optional>
 
 namespace navvi_nav::smooth {
 namespace {
@@ -33,19 +32,20 @@ Point point_of(const ob::State* state) {
 /// A motion between two states of a path is valid if the path is cheaper without those between.
 class Cheaper : public ob::MotionValidator {
  public:
-  Cheaper(const ob::SpaceInformationPtr& information, const std::vector<ob::State*>& states,
-          const GuideCost& cost)
-      : ob::MotionValidator(information), states_(states), cost_(cost) {}
+  Cheaper(const ob::SpaceInformationPtr& information, const std::vector<ob::State*>& states)
+      : ob::MotionValidator(information), states_(states) {}
+  void judge_by(const GuideCost& cost) { cost_ = &cost; }
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
     const auto from = std::find(states_.begin(), states_.end(), a);
     const auto to = std::find(from, states_.end(), b);
-    Path before, after;
+    before_.clear();
+    after_.clear();
     for (auto i = from - std::min<std::ptrdiff_t>(2, from - states_.begin());
          i != to + std::min<std::ptrdiff_t>(3, states_.end() - to); ++i) {
-      before.push_back(point_of(*i));
-      if (i <= from || i >= to) after.push_back(before.back());
+      before_.push_back(point_of(*i));
+      if (i <= from || i >= to) after_.push_back(before_.back());
     }
-    return cost_.less(after, cost_.of(before) - kGain);
+    return cost_->less(after_, cost_->of(before_) - kGain);
   }
   bool checkMotion(const ob::State* a, const ob::State* b,
                    std::pair<ob::State*, double>& last_valid) const override {
@@ -55,42 +55,8 @@ class Cheaper : public ob::MotionValidator {
 
  private:
   const std::vector<ob::State*>& states_;
-  const GuideCost& cost_;
-};
-
-/// OMPL leaves out corners.
-class Simplifier : public og::PathSimplifier {
- public:
-  explicit Simplifier(const GuideCost& cost) : og::PathSimplifier(information()), states_(si_) {
-    rng_.setLocalSeed(kSeed);
-    si_->setMotionValidator(std::make_shared<Cheaper>(si_, states_.getStates(), cost));
-    si_->setup();
-  }
-  void reduce(Path& path, int attempts) {
-    states_.clear();
-    ob::ScopedState<ob::RealVectorStateSpace> state(si_->getStateSpace());
-    for (const Point point : path) {
-      state->values[0] = point.x;
-      state->values[1] = point.y;
-      states_.append(state.get());
-    }
-    const auto most = static_cast<unsigned int>(attempts);
-    if (!reduceVertices(states_, most, most, kRange)) return;
-    path.clear();
-    for (const ob::State* at : states_.getStates()) path.push_back(point_of(at));
-  }
-
- private:
-  static ob::SpaceInformationPtr information() {
-    ompl::msg::noOutputHandler();
-    auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
-    plane->setBounds(-1.0, 1.0);  // nothing is drawn from it
-    auto out = std::make_shared<ob::SpaceInformation>(plane);
-    out->setStateValidityChecker([](const ob::State*) { return true; });  // motions are checked
-    return out;
-  }
-
-  og::PathGeometric states_;
+  const GuideCost* cost_ = nullptr;
+  mutable Path before_, after_;
 };
 
 /// Moves corners and adds some as long as that makes the path cheaper.
@@ -190,20 +156,6 @@ Path pushed(const Path& path, const GuideCost& cost) {
   return std::isfinite(cost.of(out)) ? out : path;
 }
 
-/// The path when its corners were moved, added and left out, once with each of these steps (m).
-template <typename Steps>
-Path settled(Path path, const Steps& steps, const GuideCost& cost, const SmoothingConfig& config) {
-  Settling settling(path, cost);
-  std::optional<Simplifier> simplifier;
-  for (const double step : steps) {
-    settling.run(step);
-    if (path.size() < 3 || config.attempts == 0) continue;
-    if (!simplifier) simplifier.emplace(cost);
-    simplifier->reduce(path, config.attempts);
-  }
-  return path;
-}
-
 }  // namespace
 
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
@@ -212,10 +164,8 @@ void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   visit(attempts, "attempts", Range{0, 10000}, "",
         "corners that OMPL tries to leave out, in each of three rounds");
   visit(effort, "effort", Range{0.0, 10000.0}, "",
-        "metres of legs that may be measured for each metre of the shortest path, for each path "
-        "that is compared and once more for the best");
-  visit(search_effort, "search_effort", Range{0.0, 10000.0}, "1/m",
-        "nodes that searches for other paths may expand for each metre of the shortest path");
+        "metres of legs that may be measured for each metre of the shortest path; a node that a "
+        "search expands counts as 1.5 m, those for the shortest path as two thirds of all at most");
   visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "", "longest guide path, times the shortest");
   visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
   visit(keep, "keep", Range{0.0, 100.0}, "m",
@@ -223,13 +173,70 @@ void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   cost.describe(visit);
 }
 
-Path sketch(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
-  const Path out = settled(path.size() > 2 ? pushed(path, cost) : path, kCoarse, cost, config);
+/// OMPL leaves out corners.
+class Smoother::Simplifier : public og::PathSimplifier {
+ public:
+  Simplifier() : og::PathSimplifier(information()), states_(si_) {
+    cheaper_ = std::make_shared<Cheaper>(si_, states_.getStates());
+    si_->setMotionValidator(cheaper_);
+    si_->setup();
+  }
+  void begin(const GuideCost& cost) {
+    rng_.setLocalSeed(kSeed);
+    cheaper_->judge_by(cost);
+  }
+  void reduce(Path& path, int attempts) {
+    states_.clear();
+    ob::ScopedState<ob::RealVectorStateSpace> state(si_->getStateSpace());
+    for (const Point point : path) {
+      state->values[0] = point.x;
+      state->values[1] = point.y;
+      states_.append(state.get());
+    }
+    const auto most = static_cast<unsigned int>(attempts);
+    if (!reduceVertices(states_, most, most, kRange)) return;
+    path.clear();
+    for (const ob::State* at : states_.getStates()) path.push_back(point_of(at));
+  }
+
+ private:
+  static ob::SpaceInformationPtr information() {
+    ompl::msg::noOutputHandler();
+    auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
+    plane->setBounds(-1.0, 1.0);  // nothing is drawn from it
+    auto out = std::make_shared<ob::SpaceInformation>(plane);
+    out->setStateValidityChecker([](const ob::State*) { return true; });  // motions are checked
+    return out;
+  }
+
+  og::PathGeometric states_;
+  std::shared_ptr<Cheaper> cheaper_;
+};
+
+Smoother::Smoother(int attempts)
+    : attempts_(attempts), simplifier_(std::make_unique<Simplifier>()) {}
+Smoother::Smoother(Smoother&&) noexcept = default;
+Smoother::~Smoother() = default;
+
+Path Smoother::sketch(const Path& path, const GuideCost& cost) const {
+  const Path out = settled(path.size() > 2 ? pushed(path, cost) : path, kCoarse, cost);
   return cost.of(out) < cost.of(path) ? out : path;
 }
 
-Path refine(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
-  return settled(path, kFine, cost, config);
+Path Smoother::refine(const Path& path, const GuideCost& cost) const {
+  return settled(path, kFine, cost);
+}
+
+/// The path when its corners were moved, added and left out, once with each of these steps (m).
+template <typename Steps>
+Path Smoother::settled(Path path, const Steps& steps, const GuideCost& cost) const {
+  Settling settling(path, cost);
+  simplifier_->begin(cost);
+  for (const double step : steps) {
+    settling.run(step);
+    if (path.size() > 2 && attempts_ > 0) simplifier_->reduce(path, attempts_);
+  }
+  return path;
 }
 
 }  // namespace navvi_nav::smooth

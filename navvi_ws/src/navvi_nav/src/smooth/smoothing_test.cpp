@@ -10,9 +10,10 @@ namespace {
 
 Path smooth(const Path& path, const GuideCost& cost, const SmoothingConfig& config) {
   cost.allow(config.effort * length_of(path));
-  const Path out = sketch(path, cost, config);
+  const Smoother smoother(config.attempts);
+  const Path out = smoother.sketch(path, cost);
   cost.allow(config.effort * length_of(path));
-  return refine(out, cost, config);
+  return smoother.refine(out, cost);
 }
 
 class Smoothing : public testing::Test {
