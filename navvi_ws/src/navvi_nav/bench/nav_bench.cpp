@@ -244,12 +244,12 @@ double timed(const std::function<void()>& run) {
 }
 
 /// What a user gets: plan() whole, among 0 to 50 discs that have moved since the plan before, and
-/// the path that is followed beside the shortest.
+/// the path that is followed beside the shortest; then once more, when that path is followed.
 void follow(Course& c) {
   constexpr int kPlans = 10000;
   search::Search search(search::SearchMethod::exact);
-  std::vector<double> whole, part;  // us
-  Followed shortest, guide;
+  std::vector<double> whole, part, again;  // us
+  Followed shortest, guide, kept;
   for (int i = 0; i < kPlans; ++i) {
     std::vector<Cylinder> discs = c.discs(i % 51);
     for (Cylinder& disc : discs) disc.center.x += 0.1 * (i % 7);
@@ -264,6 +264,9 @@ void follow(Course& c) {
     whole.push_back(timed([&] { plan = c.carved.plan(query.start, query.goal); }));
     part.push_back(timed([&] { found = search.find(mesh, *from, *to); }));
     if (plan.status != plan::PlanStatus::found || !found.found) continue;
+    plan::Plan next;
+    again.push_back(timed([&] { next = c.carved.plan(query.start, query.goal, plan.path); }));
+    kept.add(next.path, c.carved.nav_mesh().space());
     guide.add(plan.path, c.carved.nav_mesh().space());
     shortest.add(found.path, c.carved.nav_mesh().space());
   }
@@ -277,6 +280,7 @@ void follow(Course& c) {
   };
   print("shortest path, the search alone", part, shortest);
   print("guide path, all of plan()", whole, guide);
+  print("the same when it is followed", again, kept);
 }
 
 std::size_t bytes_in_use() {
