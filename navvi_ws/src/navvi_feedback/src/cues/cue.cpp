@@ -33,7 +33,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"obstacle_comes", P::message, 1.5, 1.0},
       {"back_away", P::message, 2.0, 1.0},
       {"go_on", P::message, 1.0, 2.0},
-      {"make_room", P::message, 5.0, 1.0},
+      {"make_room", P::message, 1.0, 1.0},
       {"goal_refused_not_finite", P::message, 1.0, 10.0},
       {"goal_refused_unknown_frame", P::message, 1.0, 10.0},
       {"goal_refused_inside_obstacle", P::message, 1.0, 10.0},

@@ -72,7 +72,8 @@ bool tells_nothing_new(const Utterance& utterance) {
                                                   "release_stick", "press_start",   "press_enter",
                                                   "choose_goal"};
   const Priority priority = utterance.priority.value_or(cue_kind(utterance.kind).priority);
-  return priority <= Priority::text || reminders.count(utterance.kind) > 0;
+  const bool introduces = utterance.kind.rfind("start", 0) == 0;
+  return (priority <= Priority::text && !introduces) || reminders.count(utterance.kind) > 0;
 }
 
 /// Whether the person does without it, unless they ask.
@@ -270,6 +271,8 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   if (time - problem_since_ < hold) return {};
   const double pause = awaited_ && now.stick_held_unarmed ? kHeldBack : config_.problem_repeat;
   if (problem_said_ && (said_once(problem_) || time - *problem_said_ < pause)) return {};
+  // What is said too seldom for that is said a little later.
+  if (too_soon(cue_kind(problem_), time)) return {};
   problem_said_ = time;
   if (problem_ == "arrived" && std::exchange(arrival_said_, true)) return {};
   return {tell_problem(now)};
@@ -374,6 +377,11 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   return {answer};
 }
 
+bool CuePolicy::too_soon(const CueKind& kind, double time) const {
+  const auto last = last_said_.find(kind.kind);
+  return last != last_said_.end() && time - last->second < kind.min_interval;
+}
+
 std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation& now,
                                    double time) {
   std::vector<Cue> cues;
@@ -381,9 +389,7 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation
     const CueKind& kind = cue_kind(utterance.kind);
     if (!utterance.asked && muted(kind.kind, config_.wording) && !instead_of(utterance, now.sounds))
       continue;
-    const auto last = last_said_.find(kind.kind);
-    if (!utterance.asked && last != last_said_.end() && time - last->second < kind.min_interval)
-      continue;
+    if (!utterance.asked && too_soon(kind, time)) continue;
     std::string text = phrases_.say(kind.kind, utterance.fillings);
     const auto longer = [&](const std::string& joined) {
       const bool fits = speakable(joined);
@@ -437,6 +443,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     });
   };
   for (const CueEvent& event : events) {
+    if (event.stage == CueStage::started) last_text_[event.text] = time_;
     if (!halts(event.kind)) continue;
     if (event.stage == CueStage::started) halt_.heard(time_);
     if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();

@@ -48,6 +48,7 @@ class CuePolicy {
   [[nodiscard]] Utterance where_am_i(const Situation& now) const;
   [[nodiscard]] Utterances answers(const Situation& now, double time);
   void forget(const CueEvent& event);
+  [[nodiscard]] bool too_soon(const CueKind& kind, double time) const;
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Situation& now,
                                         double time);
 

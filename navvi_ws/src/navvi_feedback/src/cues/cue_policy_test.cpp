@@ -340,7 +340,7 @@ TEST_F(CuePolicyTest, says_what_blocks_a_stuck_robot) {
   EXPECT_EQ(pass(0.3), Texts{"back away, pallet robot ahead"});
   now_.nearby.clear();
   const Texts later = pass(6.0);
-  EXPECT_EQ(std::count(later.begin(), later.end(), "stuck"), 1);
+  EXPECT_EQ(std::count(later.begin(), later.end(), "stuck"), 2);
 }
 
 TEST_F(CuePolicyTest, calls_no_robot_stuck_that_is_not_driven_or_is_held) {

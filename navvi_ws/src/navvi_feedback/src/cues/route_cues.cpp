@@ -40,6 +40,8 @@ constexpr double kOnPath = 0.4;
 constexpr double kDrives = 0.1;
 /// s, before the same is said again.
 constexpr double kStillAstray = 10.0;
+/// s; what is ahead for so long is to be driven round.
+constexpr double kStillAhead = 6.0;
 
 Rounding rounding_of(const std::string& word) {
   return word == "floor" ? Rounding::floor : Rounding::nearest;
@@ -99,8 +101,16 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
 
 std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
+  Utterance way = *direction(guidance);
+  if (guidance.state == Guidance::State::make_room && !made_room_) {
+    made_room_ = true;
+    way.kind = "make_room";
+    way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
+    reroutes_ = guidance.reroutes;
+    return {said(way, *hour_, time)};
+  }
   if (turning_) {
-    if (by_sound_ || !about_to_face(now) || quiet(time)) return {};
+    if (by_sound_ || !about_to_face(now) || quiet(now, time)) return {};
     Utterance straight = *direction(guidance);
     straight.kind = "straight";
     straight.fillings.hour = 12;
@@ -109,7 +119,6 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
       straight = announce_turn("straight_then", straight, *turn, time);
     return {said(straight, 12, time)};
   }
-  Utterance way = *direction(guidance);
   if (pending_ == Change::next_corner && *hour_ != 12) {
     // Ticks lead round what was announced; the words for the leg follow once the robot faces it.
     if (by_sound_ && turn_announced_) return {};
@@ -124,13 +133,6 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     if (const auto turn = turn_within_reach(guidance);
         turn && config_.join && guidance.waypoint_distance < kNextTurn)
       way.also = {announce_turn("turn_ahead", way, *turn, time)};
-    return {said(way, *hour_, time)};
-  }
-  if (guidance.state == Guidance::State::make_room && !made_room_) {
-    made_room_ = true;
-    way.kind = "make_room";
-    way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
-    reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
   if (by_sound_ && pending_ == Change::reroute) {
@@ -152,7 +154,7 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     way.kind = "turn_cancelled";
     return {said(way, *hour_, time)};
   }
-  if (direction_due(guidance, time)) {
+  if (direction_due(now, time)) {
     // Who is told "straight ahead" just before a turn drives past it.
     if (turn && *hour_ == 12) return {announce_turn("straight_then", way, *turn, time)};
     return {said(way, *hour_, time)};
@@ -233,7 +235,7 @@ void RouteCues::pause() {
   hour_.reset();
   steady_.reset();
   pending_ = Change::none;
-  fell_away_ = false;
+  fell_away_ = made_room_ = false;
 }
 
 void RouteCues::forget() {
@@ -248,8 +250,15 @@ void RouteCues::unsaid() {
   made_room_ = ahead_told_ = false;
 }
 
-/// Who was just told of what is ahead is not told to drive at it.
-bool RouteCues::quiet(double time) const { return config_.join && reminder_ && time < *reminder_; }
+/// Who has just heard of what is ahead is not told to drive at it.
+bool RouteCues::quiet(const Situation& now, double time) const {
+  if (!config_.join || !reminder_ || time >= *reminder_ + kStillAhead) return false;
+  const double free = std::min(kInTheWay, now.guidance->waypoint_distance);
+  return time < *reminder_ ||
+         std::any_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
+           return thing.gap < free && side_of_lane(thing.nearest) == Side::ahead;
+         });
+}
 
 std::optional<Utterance> RouteCues::past(const Guidance& guidance, double time) {
   const std::optional<int> turn = turn_within_reach(guidance);
@@ -372,12 +381,13 @@ bool RouteCues::turn_ahead_due(const Guidance& guidance, int turn, double time) 
   return time - said_time_ >= config_.pause;
 }
 
-bool RouteCues::direction_due(const Guidance& guidance, double time) const {
+bool RouteCues::direction_due(const Situation& now, double time) const {
+  const Guidance& guidance = *now.guidance;
   if (!said_hour_) return true;
   const double since = time - said_time_;
   if (since < config_.pause) return false;
+  if (*hour_ == 12 && quiet(now, time)) return false;
   if (reminder_ && time >= *reminder_) return true;
-  if (*hour_ == 12 && quiet(time)) return false;
   if (at_hand(guidance, time)) return false;
   const bool corner_reached = pending_ == Change::next_corner;
   const bool idle = time - last_commanded_ > config_.idle;

@@ -61,9 +61,9 @@ class RouteCues {
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
   [[nodiscard]] bool worth_words(int hour) const;
-  [[nodiscard]] bool quiet(double time) const;
+  [[nodiscard]] bool quiet(const Situation& now, double time) const;
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, int turn, double time) const;
-  [[nodiscard]] bool direction_due(const Guidance& guidance, double time) const;
+  [[nodiscard]] bool direction_due(const Situation& now, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
   [[nodiscard]] Utterance announce_turn(const char* kind, Utterance way, int turn, double time);
   [[nodiscard]] std::optional<Utterance> stray(const Situation& now, double time);

@@ -1,0 +1,218 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <navvi_types/names.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "navvi_feedback/core/feedback.hpp"
+#include "navvi_feedback/cues/cue_queue.hpp"
+
+namespace navvi_feedback::core {
+
+/// For tests: a robot, its world and a voice about one Feedback, and a judge of what is told. The
+/// voice speaks 18 letters a second, and the queue is the true one.
+class SessionJudge {
+ public:
+  /// All that may happen to a person; steady until it is changed.
+  struct Scene {
+    Guidance guidance;
+    std::optional<Velocity> velocity = Velocity{0.8, 0.0};  ///< nullopt: no odometry
+    std::vector<NearThing> nearby;
+    std::vector<Contact> contacts;  ///< begun since the last tick
+    DriveState gate{DriveState::State::running};
+    TrialState::State trial = TrialState::State::free;
+    bool guided = true;    ///< guidance comes
+    bool sensed = true;    ///< proximity comes
+    bool stick = true;     ///< it is connected
+    double forward = 0.8;  ///< stick
+    bool sounds = true;
+    bool motors = true;
+    std::optional<drive::Button> asked;
+    std::vector<std::string> notices;
+  };
+
+  explicit SessionJudge(const FeedbackConfig& config = {})
+      : feedback_(config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml") {
+    Guidance& guidance = now.guidance;
+    guidance.state = Guidance::State::following;
+    guidance.goal = guidance.waypoint = {20.0, 0.0};
+    guidance.waypoint_is_goal = true;
+    guidance.waypoint_distance = guidance.goal_distance = 20.0;
+  }
+
+  /// Lets go of the stick, and then drives until only news is told.
+  void get_under_way() {
+    const double forward = std::exchange(now.forward, 0.0);
+    pass(0.5);
+    now.forward = forward;
+    pass(12.0);
+    forget();
+  }
+
+  void forget() {
+    words.clear();
+    felt.clear();
+    played.clear();
+    complaints.clear();
+  }
+
+  void pass(double seconds) {
+    for (const double end = time + seconds; time < end - 1e-9; time += kTick) tick();
+  }
+
+  Scene now;
+  double time = 10.0;
+  std::vector<std::string> words;    ///< texts that were begun
+  std::set<std::string> felt;        ///< patterns
+  std::set<std::string> played;      ///< earcons
+  std::set<std::string> complaints;  ///< rules that were broken
+
+ private:
+  using Events = std::vector<CueEvent>;
+  struct Known {
+    double queued = 0.0;
+    cues::Cue cue;
+  };
+
+  static constexpr double kTick = 0.02;
+
+  void tick() {
+    if (now.guided) feedback_.take(now.guidance, time);
+    if (now.velocity) feedback_.take(Odometry{0, {}, *now.velocity}, time);
+    if (now.sensed) feedback_.take(Proximity{0, now.nearby}, time);
+    feedback_.take(now.gate, time);
+    feedback_.take(TrialState{now.trial}, time);
+    for (const Contact& contact : now.contacts) feedback_.take(contact);
+    Feedback::Input input;
+    input.hands.live = now.stick;
+    input.hands.axes = {0.0, now.forward};
+    input.hands.buttons = std::vector<bool>(20, false);
+    input.sounds = now.sounds;
+    input.motors = now.motors;
+    input.notices = now.notices;
+    if (now.asked) input.asked = {*now.asked};
+    input.voice_busy = !queue_.empty();
+    const Feedback::Output out = feedback_.update(input, time);
+    if (out.pattern) felt.insert(navvi_types::to_string(*out.pattern));
+    touched_ = out.pattern.has_value();
+    for (const sounds::Play& play : out.plays) played.insert(navvi_types::to_string(play.earcon));
+    const cues::CueQueue::Step step = queue_.update(out.cues, time < speaks_until_, time);
+    if (step.stop) speaks_until_ = time;
+    if (step.start) speaks_until_ = time + 0.15 + static_cast<double>(step.start->size()) / 18.0;
+    feedback_.note(step.events);
+    judge(out.cues, step.events);
+    expect_what_matters();
+    now.contacts.clear();
+    now.asked.reset();
+    last_ = now;
+  }
+
+  /// Rules of the voice: nothing important is cut or waits behind less; nothing is told late, or
+  /// twice for nothing.
+  void judge(const std::vector<cues::Cue>& fresh, const Events& events) {
+    auto next = fresh.begin();
+    for (const CueEvent& event : events) {
+      if (event.stage == CueStage::queued) {
+        known_[event.id] = {time, *next++};
+        decided_[event.kind] = time;
+        continue;
+      }
+      const Known known = known_.at(event.id);
+      const bool important = known.cue.priority == Priority::important;
+      if (event.stage == CueStage::cut && important) complaints.insert("an important cue was cut");
+      if (event.stage != CueStage::started) {
+        known_.erase(event.id);
+        if (event.id == running_) running_ = 0;
+        continue;
+      }
+      if (running_ != 0) complaints.insert("two cues at once");
+      running_ = event.id;
+      words.push_back(event.text);
+      if (time - known.queued > known.cue.max_age + kTick) complaints.insert("a stale cue");
+      for (const auto& [id, other] : known_)
+        if (id != event.id && !important && other.cue.priority == Priority::important)
+          complaints.insert("an important cue waited behind a lesser one");
+      const auto said = said_.find(event.text);
+      static const std::set<std::string> news = {"blocked",        "go_on",     "turn_now",
+                                                 "obstacle_comes", "make_room", "new_route",
+                                                 "way_blocked",    "start",     "start_distance"};
+      const bool reminds = known.cue.priority <= Priority::text || event.kind == "stuck" ||
+                           event.kind == "back_away" || event.kind == "release_stick";
+      if (now.motors && !known.cue.asked && reminds && news.count(event.kind) == 0 &&
+          said != said_.end() && time - said->second < 10.0 - kTick)
+        complaints.insert("the same again: " + event.kind);
+      said_[event.text] = time;
+    }
+  }
+
+  [[nodiscard]] bool decided(const std::string& kind, double within) const {
+    const auto found = decided_.find(kind);
+    return found != decided_.end() && time - found->second <= within;
+  }
+
+  /// Whatever matters is decided within its time, by rules that are written without the policy.
+  void expect_what_matters() {
+    const auto demand = [&](const std::string& kind, double within) {
+      if (!decided(kind, within)) complaints.insert("unsaid: " + kind);
+    };
+    for (const Contact& contact : now.contacts) {
+      const double before = hits_.count(contact.id) > 0 ? hits_[contact.id] : -1e9;
+      if (time - before < 1.5) continue;
+      hits_[contact.id] = time;
+      const std::string name = navvi_types::to_string(contact.thing_class);
+      demand(name == "shelf" || name == "wall" ? "collision_" + name : "collision_obstacle", kTick);
+    }
+    const bool simulated = now.velocity && last_.velocity;
+    alive_ = simulated && now.guided && now.stick && now.trial == TrialState::State::free
+                 ? alive_ + kTick
+                 : 0.0;
+    if (last_.stick && !now.stick) demand("pad_lost", 2.0 + kTick);
+    if (alive_ > 2.0 && last_.gate.state == DriveState::State::running &&
+        now.gate.state == DriveState::State::stopped)
+      demand("robot_stopped", 2.0 + kTick);
+    const bool same = now.guidance.state == last_.guidance.state;
+    steady_ = same && alive_ > 0.0 ? steady_ + kTick : 0.0;
+    static const std::map<Guidance::State, std::string> told = {
+        {Guidance::State::arrived, "arrived"},     {Guidance::State::no_route, "no_route"},
+        {Guidance::State::off_mesh, "off_mesh"},   {Guidance::State::no_map, "no_map"},
+        {Guidance::State::map_stale, "map_stale"}, {Guidance::State::pose_stale, "pose_stale"},
+        {Guidance::State::blocked, "blocked"},     {Guidance::State::make_room, "make_room"}};
+    const auto kind = told.find(now.guidance.state);
+    // A word to stop holds first, and one arrival is told once.
+    const bool halted =
+        decided("obstacle_stop", 9.0) ||
+        (kind != told.end() && kind->second == "make_room" && decided("blocked", 9.0));
+    const bool excused = kind == told.end() || halted || (kind->second == "arrived" && arrived_);
+    if (now.guidance.is_followed()) arrived_ = false;
+    if (decided("arrived", kTick)) arrived_ = true;
+    if (!excused && alive_ > 3.0 && steady_ > 1.0 && steady_ < 1.0 + 1.5 * kTick)
+      demand(kind->second, 5.0 + 1.0);
+    const bool pushes = now.forward > 0.5 && now.velocity && now.velocity->linear == 0.0 &&
+                        now.velocity->angular == 0.0 && now.stick && last_.velocity &&
+                        last_.velocity->linear == 0.0;
+    const bool told_why = touched_ || running_ != 0;
+    in_vain_ = pushes && !told_why ? in_vain_ + kTick : 0.0;
+    if (in_vain_ > 3.0) complaints.insert("pushed for 3 s in silence");
+  }
+
+  Feedback feedback_;
+  cues::CueQueue queue_;
+  double speaks_until_ = 0.0;
+  std::map<std::uint32_t, Known> known_;
+  std::uint32_t running_ = 0;
+  std::map<std::string, double> decided_;  ///< s, by kind
+  std::map<std::string, double> said_;     ///< s, by text
+  std::map<std::uint32_t, double> hits_;   ///< s, by thing
+  Scene last_;
+  double alive_ = 0.0;    ///< s, since when all links have lived
+  double steady_ = 0.0;   ///< s, of the guidance's state
+  double in_vain_ = 0.0;  ///< s
+  bool touched_ = false;
+  bool arrived_ = false;
+};
+
+}  // namespace navvi_feedback::core
