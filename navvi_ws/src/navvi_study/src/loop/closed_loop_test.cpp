@@ -62,7 +62,7 @@ class ClosedLoopIn : public testing::Test {
   record::Fields play(const std::string& world, double limit) {
     config_.sim.world = (folder_ / "world.yaml").string();
     std::ofstream(config_.sim.world) << world;
-    ClosedLoop loop(config_, NAVVI_PHRASES);
+    ClosedLoop loop(config_, phrases_);
     LoopFigures figures(limit);
     trace_.str("");
     LoopTrace trace(trace_, 0.0, limit);
@@ -76,6 +76,7 @@ class ClosedLoopIn : public testing::Test {
 
   fs::path folder_;
   ClosedLoopConfig config_;
+  std::string phrases_ = NAVVI_PHRASES;
   std::ostringstream trace_;
 };
 
@@ -89,6 +90,22 @@ TEST_F(ClosedLoopIn, anEmptyRoomReachesItsGoalWithoutDetourOrContact) {
   EXPECT_LT(row.number("driven").value(), 1.2 * 8.06);
   EXPECT_GT(row.number("driven").value(), 8.06 - 1.2);
   EXPECT_NE(trace_.str().find("says \"Ready. Goal 8 meters"), std::string::npos);
+}
+
+TEST_F(ClosedLoopIn, everyLanguageAndWordingLeadsToTheGoalByWordsAlone) {
+  config_.feedback.sounds.enabled = false;
+  config_.sim.goal = "3,-2";
+  navvi_feedback::cues::WordingConfig& wording = config_.feedback.cues.wording;
+  for (const char* language : {"en.yaml", "es.yaml"})
+    for (const char* directions : {"clock", "left_right", "degrees"})
+      for (const char* verbosity : {"brief", "normal", "full"}) {
+        phrases_ = std::filesystem::path(NAVVI_PHRASES).replace_filename(language);
+        wording.directions = directions;
+        wording.verbosity = verbosity;
+        wording.units = verbosity == std::string("full") ? "feet" : "meters";
+        EXPECT_EQ(play(kRoom, 90.0).get("result"), "reached")
+            << language << " " << directions << " " << verbosity << "\n" << trace_.str();
+      }
 }
 
 TEST_F(ClosedLoopIn, theSameSeedGivesTheSameTrialAndAnotherSeedAnotherOne) {
