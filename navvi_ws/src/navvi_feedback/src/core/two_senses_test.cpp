@@ -48,8 +48,10 @@ void drive(Feedback& feedback, double time, double steer = 0.0, double speed = 0
   feedback.take(Proximity{}, time);
 }
 
-/// Happens once, a second after the beginning.
-bool once(double time) { return time > 11.0 && time < 11.015; }
+/// s, of what happens; the loss of a sense was told before.
+constexpr double kThen = 13.0;
+
+bool once(double time) { return time > kThen + 0.005 && time < kThen + 0.025; }
 
 const std::vector<Family> kFamilies = {
     {"a shelf is hit on the left",
@@ -68,7 +70,7 @@ const std::vector<Family> kFamilies = {
      [](Feedback& feedback, Feedback::Input&, double time) {
        drive(feedback, time);
        DriveState state;
-       state.state = time < 11.0 ? DriveState::State::running : DriveState::State::stopped;
+       state.state = time < kThen ? DriveState::State::running : DriveState::State::stopped;
        feedback.take(state, time);
      },
      "robot_stopped", "", "stopped", "stopped"},
@@ -79,14 +81,14 @@ const std::vector<Family> kFamilies = {
      [](Feedback& feedback, Feedback::Input&, double time) {
        drive(feedback, time);
        Guidance guidance = following(0.0);
-       if (time > 11.0) guidance.state = Guidance::State::arrived;
+       if (time > kThen) guidance.state = Guidance::State::arrived;
        feedback.take(guidance, time);
      },
      "arrived", "arrived", "arrived", "arrived"},
     {"a mover is about to be hit",
      [](Feedback& feedback, Feedback::Input&, double time) {
        drive(feedback, time);
-       const double gap = std::max(0.3, 3.0 - 0.9 * (time - 10.0));
+       const double gap = std::max(0.3, 5.0 - 0.9 * (time - 10.0));
        feedback.take(Proximity{0, {{ThingClass::forklift, 1, gap, {gap + 0.35, 0.0}, true}}}, time);
      },
      "obstacle_stop", "", "halt", "halt"},
@@ -94,7 +96,7 @@ const std::vector<Family> kFamilies = {
      [](Feedback& feedback, Feedback::Input&, double time) {
        drive(feedback, time);
        Guidance guidance = following(0.0);
-       if (time > 11.0) guidance.state = Guidance::State::blocked;
+       if (time > kThen) guidance.state = Guidance::State::blocked;
        guidance.blocked_by = ThingClass::forklift;
        guidance.blocked_distance = 1.0;
        feedback.take(guidance, time);
@@ -104,7 +106,7 @@ const std::vector<Family> kFamilies = {
      [](Feedback& feedback, Feedback::Input&, double time) {
        feedback.take(Odometry{0, {}, {0.5, 0.0}}, time);
        feedback.take(Proximity{}, time);
-       if (time < 11.0) feedback.take(following(0.0), time);
+       if (time < kThen) feedback.take(following(0.0), time);
      },
      "guidance_lost", "", "", "stopped"},
     {"the way leads to the right",
@@ -125,7 +127,7 @@ Signals signals(const Family& family, Lost lost) {
     input.sounds = false;
   }
   Signals result;
-  for (double time = 10.0; time < 16.0; time += 0.02) {
+  for (double time = 10.0; time < 18.0; time += 0.02) {
     input.hands.axes = {0.0, time < 10.5 ? 0.0 : 1.0};
     family.happens(feedback, input, time);
     const Feedback::Output out = feedback.update(input, time);
