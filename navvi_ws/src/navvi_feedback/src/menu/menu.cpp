@@ -1,5 +1,6 @@
 #include "menu/menu.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace navvi_feedback::menu {
@@ -69,7 +70,10 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
 
 Menu::Step Menu::tell() const {
   if (path_.empty()) return {cues::Utterance{"menu_closed"}};
-  return {entries(path_.back()).at(path_.back().at).label};
+  // What can be chosen may have become less meanwhile.
+  const std::vector<Entry> list = entries(path_.back());
+  if (list.empty()) return {cues::Utterance{"menu_empty"}};
+  return {list[std::min(path_.back().at, list.size() - 1)].label};
 }
 
 Menu::Step Menu::choose(const Entry& entry) {

@@ -83,6 +83,15 @@ TEST_F(MenuTest, survives_that_what_can_be_chosen_goes_away) {
   EXPECT_EQ(heard({Button::choose}), "menu_place") << "said before it is chosen";
 }
 
+TEST_F(MenuTest, goes_back_to_a_list_that_has_become_shorter) {
+  menu_.take_settings({{"speaker/rate", "220"}});
+  trial(State::ready);
+  EXPECT_EQ(heard({Button::previous, Button::next, Button::next}), "menu_settings");
+  press({Button::choose});
+  trial(State::preparing);
+  EXPECT_EQ(heard({Button::back}), "menu_settings");
+}
+
 TEST_F(MenuTest, offers_the_goal_before_the_present_one) {
   for (const double x : {7.0, 8.0, 8.0}) menu_.take_goal({x, 0.0});
   EXPECT_EQ(heard({Button::next, Button::choose, Button::next}), "menu_place");
