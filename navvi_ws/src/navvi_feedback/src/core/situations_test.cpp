@@ -90,7 +90,7 @@ const std::vector<Row> kTable = {
     {"the wrong way", [](Scene& now) { lead(now, 170); }, "wrong way, 6 o'clock", "", "turn"},
     // To wait, and why there is no way.
     {"a worker crosses", [](Scene& now) { become(now, State::blocked, kWorker); },
-     "wait, worker in the way", "", ""},
+     "wait, worker in the way", "halt", ""},
     {"a forklift wants to pass",
      [](Scene& now) {
        become(now, State::make_room, kForklift);
