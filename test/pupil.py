@@ -91,6 +91,9 @@ class Pupil:
             self.sound = ""
             if step in ("well", "done"):
                 break
+            if step in ("good", "practice", "buttons") or step.startswith("wrong"):
+                time.sleep(0.05)
+                continue
             if step == "goal":
                 self.to_the_goal()
             elif step.startswith("press_"):

@@ -193,7 +193,7 @@ Taught Tutorial::update(const Seen& seen, double time) {
   if (phase_ == Phase::doing)
     act(seen, dt, taught);
   else if (phase_ == Phase::leaving)
-    over_ = over_ || (teller_.done() && seen.quiet);
+    over_ = over_ || (teller_.done() && taught.cues.empty() && seen.quiet);
   // Who knows what to do does not wait for the last word. What is still in motion is no try.
   else if (teller_.done() && stands(seen))
     attempt();

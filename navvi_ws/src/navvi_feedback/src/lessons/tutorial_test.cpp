@@ -125,6 +125,7 @@ TEST_F(TutorialTest, is_passed_by_doing_each_step_and_practises_the_one_that_too
   EXPECT_TRUE(result(steps).practice);
   EXPECT_NE(result(steps).step, "goal");
   EXPECT_EQ(count("well"), 1);
+  EXPECT_GE(time_, speaks_until_) << "heard to its last word";
 }
 
 TEST_F(TutorialTest, passes_nothing_without_doing_it) {
