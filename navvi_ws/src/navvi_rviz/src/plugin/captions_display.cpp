@@ -18,9 +18,13 @@ namespace navvi_rviz::plugin {
 namespace {
 
 constexpr double kAhead = 4.0;       // m along the path, to where the edge arrow leads
-constexpr double kLeastText = 26.0;  // px, of letters
+constexpr double kLeastText = 26.0;  // px, of capital letters
 constexpr double kMargin = 3.0;      // m, around what the view from above holds
 constexpr double kLargest = 60.0;    // px/m, of that view
+constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
+// Of its distance, by which RViz lifts its follower across its axis.
+constexpr double kLift = 0.2;
+constexpr double kUp = 1.0, kDown = 0.25;  // rad/s, of its turns
 
 Eigen::Vector2d size_of(const Plate& plate) {
   return {plate.size().width(), plate.size().height()};
@@ -44,9 +48,12 @@ CaptionsDisplay::~CaptionsDisplay() = default;
 void CaptionsDisplay::onInitialize() {
   rviz::RenderSystem::get()->prepareOverlays(context_->getSceneManager());
   reader_ = std::make_unique<Reader>();
-  markers_ = update_nh_.subscribe<visualization_msgs::MarkerArray>(
-      "navvi/markers", 1,
-      [this](const visualization_msgs::MarkerArray::ConstPtr& msg) { take(*msg); });
+  using visualization_msgs::MarkerArray;
+  markers_ = update_nh_.subscribe<MarkerArray>(
+      "navvi/markers", 1, [this](const MarkerArray::ConstPtr& msg) { take(*msg); });
+  scene_ = update_nh_.subscribe<MarkerArray>(
+      "navvi/scene", 1,
+      [this](const MarkerArray::ConstPtr& msg) { skyline_ = look::Skyline(*msg); });
 }
 
 void CaptionsDisplay::onDisable() {
@@ -87,7 +94,7 @@ std::optional<navvi_types::Pose2> CaptionsDisplay::robot() const {
   if (!context_->getFrameManager()->getTransform("base_link", ros::Time(), at, turned))
     return std::nullopt;
   return navvi_types::Pose2{{static_cast<double>(at.x), static_cast<double>(at.y)},
-                            static_cast<double>(turned.getYaw(false).valueRadians())};
+                            static_cast<double>(turned.getRoll().valueRadians())};
 }
 
 std::optional<Eigen::Vector3d> CaptionsDisplay::way_ahead(const Eigen::Vector2d& robot) const {
@@ -122,7 +129,7 @@ Plate& CaptionsDisplay::words(const std::string& name, const std::string& text, 
   });
 }
 
-void CaptionsDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
+void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
   const Ogre::Viewport* port = context_->getViewManager()->getCurrent()->getCamera()->getViewport();
   if (!port) return;
   const Eigen::Vector2d picture(port->getActualWidth(), port->getActualHeight());
@@ -135,6 +142,7 @@ void CaptionsDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   show_banner(picture, taken);
   if (const auto pose = robot()) {
     show_from_above(*pose, picture);
+    show_from_behind(*pose, static_cast<double>(wall_dt));
     show_way(*pose, picture, taken);
   }
   show_labels(picture, taken);
@@ -210,15 +218,42 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   screen::Rect all(robot.position);
   if (goal_) all.extend(*goal_).extend(*start_);
   const Eigen::Vector2d room = all.sizes() + Eigen::Vector2d::Constant(2.0 * kMargin);
+  const double banner = std::min(5.0 * height_, 0.3 * picture.y());  // px, above all that
+  const Eigen::Array2d free(picture.x(), picture.y() - banner);
+  const double scale = std::min(kLargest, (free / room.array()).minCoeff());
   rviz::ViewController* view = context_->getViewManager()->getCurrent();
   view->subProp("X")->setValue(all.center().x());
-  view->subProp("Y")->setValue(all.center().y());
-  view->subProp("Scale")->setValue(std::min(kLargest, (picture.array() / room.array()).minCoeff()));
+  view->subProp("Y")->setValue(all.center().y() + 0.5 * banner / scale);
+  view->subProp("Scale")->setValue(scale);
 
   const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
   if (!pixel) return;
   Plate& plate = arrow("robot", robot.yaw, 3 * height_);
   plate.show(pixel->x() - 0.5 * size_of(plate).x(), pixel->y() - 0.5 * size_of(plate).y());
+}
+
+void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, double time) {
+  rviz::ViewController* view = context_->getViewManager()->getCurrent();
+  if (view->getName() != "Chase") return;
+  const double distance = view->subProp("Distance")->getValue().toDouble();
+  rviz::Property* focus = view->subProp("Focal Point");
+  const double ahead = focus->subProp("X")->getValue().toDouble();
+  const Eigen::Vector2d nose(std::cos(robot.yaw), std::sin(robot.yaw));
+  const Eigen::Vector2d aside(-nose.y(), nose.x());
+  double slope = 0.0;
+  for (const double left : {-0.3, 0.0, 0.3}) {
+    const Eigen::Vector2d place = robot.position + left * aside;
+    slope = std::max(slope, skyline_.slope_over({place.x(), place.y(), 0.2}, -nose, distance));
+  }
+  const auto sees_over = [&](double angle) {
+    const double up = distance * (std::sin(angle) + kLift * std::cos(angle));
+    return up >= slope * (distance * (std::cos(angle) - kLift * std::sin(angle)) - ahead);
+  };
+  double wanted = kLowest;
+  while (wanted < kSteepest && !sees_over(wanted)) wanted += 0.01;
+  rviz::Property* pitch = view->subProp("Pitch");
+  const double now = pitch->getValue().toDouble();
+  pitch->setValue(now + std::clamp(wanted - now, -kDown * time, kUp * time));
 }
 
 Plate& CaptionsDisplay::arrow(const std::string& name, double angle, int size) {

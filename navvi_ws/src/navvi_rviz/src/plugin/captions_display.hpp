@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "look/skyline.hpp"
 #include "plugin/plate.hpp"
 #include "plugin/reader.hpp"
 #include "screen/place.hpp"
@@ -20,7 +21,7 @@ namespace navvi_rviz::plugin {
 
 /// Words on the screen: what matters now as a banner, the texts among NavVI's markers as plates
 /// over their places, and an arrow at the edge where the path leaves the picture. Also keeps the
-/// view from above on the robot, its start and its goal.
+/// view from above on the robot, its start and its goal, and lifts the one from behind over racks.
 class CaptionsDisplay : public rviz::Display {
  public:
   ~CaptionsDisplay() override;
@@ -63,13 +64,17 @@ class CaptionsDisplay : public rviz::Display {
   void show_labels(const Eigen::Vector2d& picture, const std::vector<screen::Rect>& taken);
   /// The view from above holds the robot, the start and the goal, and shows where they are.
   void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture);
+  /// The view from behind looks over what stands between it and the robot.
+  /// \param time  s, since it last did so
+  void show_from_behind(const navvi_types::Pose2& robot, double time);
 
   std::unique_ptr<Reader> reader_;
   bool first_ = true;  ///< nothing was drawn yet
-  int height_ = 30;    ///< px, of a line of text
+  int height_ = 26;    ///< px, of capital letters
   std::optional<Eigen::Vector2d> start_,
       goal_;  ///< m, in map: where the robot was when it got its goal
-  ros::Subscriber markers_;
+  ros::Subscriber markers_, scene_;
+  look::Skyline skyline_;
   std::map<int, std::pair<std::string, Eigen::Vector3d>> labels_;  ///< by id, place in map, m
   std::vector<Eigen::Vector3d> path_;                              ///< m, in map
   std::map<std::string, Painted> plates_;

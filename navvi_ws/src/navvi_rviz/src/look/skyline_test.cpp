@@ -1,0 +1,66 @@
+#include "look/skyline.hpp"
+
+#include <gtest/gtest.h>
+
+namespace navvi_rviz::look {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+/// A cube of 1 m, 2 m high, with its middle at (x, 0).
+MarkerArray rack(double x, const char* ns = "shelf") {
+  Marker marker;
+  marker.ns = ns;
+  marker.type = Marker::CUBE_LIST;
+  marker.scale.x = marker.scale.y = 1.0;
+  marker.scale.z = 2.0;
+  marker.points.resize(1);
+  marker.points[0].x = x;
+  marker.points[0].z = 1.0;
+  MarkerArray array;
+  array.markers = {marker};
+  return array;
+}
+
+const Eigen::Vector3d kRobot(0.0, 0.0, 0.3);
+const Eigen::Vector2d kBack(-1.0, 0.0);
+
+TEST(Skyline, of_nothing_is_flat) {
+  EXPECT_EQ(Skyline().slope_over(kRobot, kBack, 6.0), 0.0);
+  EXPECT_EQ(Skyline(rack(-2.0, "floor")).slope_over(kRobot, kBack, 6.0), 0.0);
+}
+
+TEST(Skyline, a_rack_behind_asks_for_a_look_over_its_nearer_edge) {
+  const double slope = Skyline(rack(-2.0)).slope_over(kRobot, kBack, 6.0);
+  EXPECT_GT(slope, 1.7 / 1.5 - 0.01);
+  EXPECT_LT(slope, 1.7 / 1.2);
+}
+
+TEST(Skyline, what_stands_ahead_beside_or_far_away_asks_for_nothing) {
+  EXPECT_EQ(Skyline(rack(2.0)).slope_over(kRobot, kBack, 6.0), 0.0);
+  EXPECT_EQ(Skyline(rack(-9.0)).slope_over(kRobot, kBack, 6.0), 0.0);
+  EXPECT_EQ(Skyline(rack(-2.0)).slope_over({0.0, 1.0, 0.3}, kBack, 6.0), 0.0);
+}
+
+TEST(Skyline, triangles_stand_where_cubes_do) {
+  Marker marker = rack(0.0).markers[0];
+  marker.type = Marker::TRIANGLE_LIST;
+  marker.points.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    marker.points[i].x = -2.0 - 0.1 * static_cast<double>(i);
+    marker.points[i].y = i == 0 ? -0.5 : 0.5;
+    marker.points[i].z = 2.0;
+  }
+  MarkerArray array;
+  array.markers = {marker};
+  EXPECT_GT(Skyline(array).slope_over(kRobot, kBack, 6.0), 0.8);
+}
+
+}  // namespace
+}  // namespace navvi_rviz::look
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
