@@ -48,6 +48,8 @@ Reader::Reader() {
       }));
 }
 
-status::Shown Reader::shown() const { return status_.shown(now(), ros::Time::now().toSec()); }
+status::Shown Reader::shown() {
+  return banner_.hold(status_.shown(now(), ros::Time::now().toSec()), now());
+}
 
 }  // namespace navvi_rviz::plugin

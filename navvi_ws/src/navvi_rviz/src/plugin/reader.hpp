@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "status/status.hpp"
+#include "status/steady_banner.hpp"
 
 namespace navvi_rviz::plugin {
 
@@ -12,13 +12,14 @@ namespace navvi_rviz::plugin {
 class Reader {
  public:
   Reader();
-  [[nodiscard]] status::Shown shown() const;
+  [[nodiscard]] status::Shown shown();
   [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
   [[nodiscard]] bool trial_runs() const { return status_.trial_runs(); }
 
  private:
   ros::NodeHandle node_;
   status::Status status_;
+  status::SteadyBanner banner_;
   std::optional<navvi_types::Guidance> guidance_;
   std::vector<ros::Subscriber> subscribers_;
 };
