@@ -38,7 +38,7 @@ Vision yellow_on_black() {
 Vision large() {
   Vision vision = high_contrast();
   vision.width = 2.0;
-  vision.text_height = 60.0;
+  vision.text_height = 52.0;
   return vision;
 }
 

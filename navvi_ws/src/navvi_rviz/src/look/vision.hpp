@@ -15,7 +15,7 @@ struct Vision {
   Color bright, dark;                 ///< of the two edges around what matters
   Color text, plate;
   double width = 1.0;       ///< times the width of the path, and of the ring around the goal
-  double text_height = 30;  ///< px, of letters on a screen of 1080 rows
+  double text_height = 26;  ///< px, of capital letters on a screen of 1080 rows
 };
 
 /// \return nullptr: there is none of that name

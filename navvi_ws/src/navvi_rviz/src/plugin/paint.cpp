@@ -12,11 +12,13 @@ QColor color(const look::Color& color) {
                           static_cast<double>(color.b));
 }
 
+int font_size(double height) { return static_cast<int>(std::ceil(1.4 * height)); }
+
 QImage paint_words(const QString& words, int height, const look::Vision& vision, bool inverted) {
   QFont font("DejaVu Sans");
-  font.setPixelSize(height);
+  font.setPixelSize(font_size(height));
   font.setBold(true);
-  const int pad = height / 3, line = std::max(2, height / 10);
+  const int pad = height / 2, line = std::max(2, height / 10);
   const QFontMetrics metrics(font);
   QImage image(metrics.horizontalAdvance(words) + 2 * pad + 4 * line,
                metrics.height() + pad + 2 * line, QImage::Format_ARGB32);

@@ -9,8 +9,11 @@ namespace navvi_rviz::plugin {
 
 [[nodiscard]] QColor color(const look::Color& color);
 
+/// px, of a font whose capital letters are `height` px high
+[[nodiscard]] int font_size(double height);
+
 /// Words on a plate with an outline.
-/// \param height    px, of the letters' line
+/// \param height    px, of capital letters
 /// \param inverted  the colours of text and plate change places, for what must not be missed
 [[nodiscard]] QImage paint_words(const QString& words, int height, const look::Vision& vision,
                                  bool inverted);

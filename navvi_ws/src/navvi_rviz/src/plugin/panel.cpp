@@ -44,30 +44,32 @@ void set_words(QLabel* label, const QString& words, QAccessible::Event event) {
 
 Panel::Panel()
     : words_row_(new QHBoxLayout),
-      buttons_row_(new QHBoxLayout),
-      state_(add_label("state", 2)),
-      instruction_(add_label("instruction", 3)),
-      distance_(add_label("distance", 1)),
-      speed_(add_label("speed", 1)),
-      clock_(add_label("time", 1)) {
+      numbers_row_(new QHBoxLayout),
+      questions_row_(new QHBoxLayout),
+      view_row_(new QHBoxLayout),
+      state_(add_label(words_row_, "state", 1)),
+      instruction_(add_label(words_row_, "instruction", 1)),
+      distance_(add_label(numbers_row_, "distance", 1)),
+      speed_(add_label(numbers_row_, "speed", 1)),
+      clock_(add_label(numbers_row_, "time", 0)) {
   setAttribute(Qt::WA_StyledBackground);
   auto* rows = new QVBoxLayout(this);
-  rows->addLayout(words_row_);
-  rows->addLayout(buttons_row_);
+  for (QHBoxLayout* row : {words_row_, numbers_row_, questions_row_, view_row_})
+    rows->addLayout(row);
 }
 
-QLabel* Panel::add_label(const char* name, int stretch) {
+QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
   auto* label = new QLabel;
   label->setObjectName(name);
   label->setAccessibleDescription(name);
   label->setFocusPolicy(Qt::TabFocus);
-  label->setWordWrap(true);
-  words_row_->addWidget(label, stretch);
+  label->setWordWrap(row == words_row_);
+  row->addWidget(label, stretch);
   return label;
 }
 
-QPushButton* Panel::add_button(const QString& words, const QKeySequence& key,
-                               const std::function<void()>& action) {
+void Panel::add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
+                       const std::function<void()>& action) {
   auto* button = new QPushButton(words + " (" + key.toString() + ")");
   button->setAccessibleName(words);
   button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to who drives
@@ -76,8 +78,7 @@ QPushButton* Panel::add_button(const QString& words, const QKeySequence& key,
   auto* shortcut = new QShortcut(key, this);
   shortcut->setContext(Qt::ApplicationShortcut);
   connect(shortcut, &QShortcut::activated, this, action);
-  buttons_row_->addWidget(button);
-  return button;
+  row->addWidget(button, words.size());
 }
 
 void Panel::onInitialize() {
@@ -85,25 +86,30 @@ void Panel::onInitialize() {
   questions_ = node_.advertise<std_msgs::String>("navvi/ask", 10);
   requests_ = node_.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
   using Request = navvi_msgs::TrialRequest;
-  add_button("Start", Qt::Key_F5, [this] { request(Request::BEGIN); });
-  add_button("End trial", Qt::Key_F8, [this] { request(Request::END); });
-  add_button("Repeat", Qt::Key_R, [this] { ask("repeat"); });
-  add_button("Goal", Qt::Key_G, [this] { ask("goal"); });
-  add_button("Around", Qt::Key_A, [this] { ask("around"); });
+  add_button(questions_row_, "Start", Qt::Key_F5, [this] { request(Request::BEGIN); });
+  add_button(questions_row_, "End trial", Qt::Key_F8, [this] { request(Request::END); });
+  add_button(questions_row_, "Repeat", Qt::Key_R, [this] { ask("repeat"); });
+  add_button(questions_row_, "Goal", Qt::Key_G, [this] { ask("goal"); });
+  add_button(questions_row_, "Around", Qt::Key_A, [this] { ask("around"); });
   const char* const views[] = {"Chase", "Top", "Forward"};
   for (int i = 0; i < 3; ++i)
-    add_button(views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); });
-  add_button("RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); });
+    add_button(view_row_, views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); });
+  add_button(view_row_, "RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); });
 
   auto* visions = new QComboBox;
   visions->setAccessibleName("Vision");
+  visions->setAccessibleDescription("Vision");
   visions->setFocusPolicy(Qt::TabFocus);
   for (const std::string& name : look::vision_names())
     visions->addItem(QString::fromStdString(name));
   visions->setCurrentText(QString::fromStdString(Chosen::shared().name()));
   connect(visions, &QComboBox::currentTextChanged, this,
           [](const QString& name) { Chosen::shared().choose(name.toStdString()); });
-  buttons_row_->addWidget(visions);
+  auto* label = new QLabel("&Vision");
+  label->setBuddy(visions);
+  label->setObjectName("vision");
+  view_row_->addWidget(label);
+  view_row_->addWidget(visions);
 
   Chosen::shared().on_change([this] { style(); });
   style();
@@ -169,17 +175,20 @@ void Panel::show_chrome(bool visible) {
 void Panel::style() {
   const look::Vision& vision = Chosen::shared().vision();
   const QString text = color(vision.text).name(), plate = color(vision.plate).name();
-  const int height = static_cast<int>(vision.text_height);
+  // As large for the eye on any screen, but for small ones: there the words would not fit.
+  const double zoom = std::clamp(screen()->size().height() / 1080.0, 0.7, 2.0);
+  const double height = zoom * vision.text_height;
   setStyleSheet(
       QString("QWidget { background: %2; color: %1; font: bold %3px 'DejaVu Sans'; }"
               "QLabel { padding: 4px; }"
-              "QPushButton, QComboBox { border: 2px solid %1; padding: 4px; font-size: %4px; }"
+              "QPushButton, QComboBox, QLabel#vision { font-size: %4px; }"
+              "QPushButton, QComboBox { border: 2px solid %1; padding: 4px; }"
               "QPushButton:pressed { background: %1; color: %2; }"
               "QLabel:focus, QPushButton:focus, QComboBox:focus { border: 5px double %1; }"
               "QLabel[alarm=\"true\"] { background: %1; color: %2; }")
           .arg(text, plate)
-          .arg(height)
-          .arg(std::max(20, 2 * height / 3)));
+          .arg(font_size(height))
+          .arg(font_size(std::max(26.0 * zoom, 0.55 * height))));
 }
 
 void Panel::refresh() {

@@ -25,9 +25,9 @@ class Panel : public rviz::Panel {
   bool eventFilter(QObject* target, QEvent* event) override;
 
  private:
-  QLabel* add_label(const char* name, int stretch);
-  QPushButton* add_button(const QString& words, const QKeySequence& key,
-                          const std::function<void()>& action);
+  QLabel* add_label(QHBoxLayout* row, const char* name, int stretch);
+  void add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
+                  const std::function<void()>& action);
   void ask(const std::string& question);
   void request(std::uint8_t what);
   void choose_view(int index);
@@ -40,7 +40,7 @@ class Panel : public rviz::Panel {
   Keys keys_{*this};
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
-  QHBoxLayout *words_row_, *buttons_row_;
+  QHBoxLayout *words_row_, *numbers_row_, *questions_row_, *view_row_;
   QLabel *state_, *instruction_, *distance_, *speed_, *clock_;
   QTimer timer_;
   bool chrome_ = false;
