@@ -1,39 +1,241 @@
-"""The panel in RViz, as keys reach it."""
+"""The panel in RViz: as a screen reader meets it, by keys, and how large its letters are."""
 import os
-import pathlib
 import subprocess
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import numpy
+import pytest
+
+from picture_test import THINGS, Picture, luminance
+
+pytestmark = pytest.mark.accessibility
+
+QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+BUTTONS = {"Start": "F5", "End trial": "F8", "Repeat": "R", "Goal": "G", "Around": "A", "Chase": "1", "Top": "2", "Forward": "3",
+           "RViz": "F2"}
+LEAST = 26  # px, of capital letters on a screen of 1080 rows
 
 
-def test_keys_ask_and_begin(master):
+def eventually(condition, seconds=60):
+    """What the condition gives at last; what is not there yet may fail."""
+    deadline = time.monotonic() + seconds
+    while True:
+        try:
+            if found := condition():
+                return found
+        except Exception as error:
+            if time.monotonic() > deadline:
+                raise error
+        assert time.monotonic() < deadline, "it did not come true"
+        time.sleep(0.2)
+
+
+class Desk(Picture):
+    """RViz under a window manager, with a session bus on which screen readers find programs. At first it has nothing to draw, for speed."""
+    filled = False
+
+    def furnish(self):
+        read, write = os.pipe()
+        bus = subprocess.Popen(["dbus-daemon", "--session", "--nofork", f"--print-address={write}"], pass_fds=[write], env=self.env, **QUIET)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.env.update(DBUS_SESSION_BUS_ADDRESS=pipe.readline().strip(), QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1")
+        self.processes += [bus, subprocess.Popen(["/usr/libexec/at-spi-bus-launcher", "--launch-immediately"], env=self.env, **QUIET),
+                           subprocess.Popen(["openbox"], env=self.env, **QUIET)]
+        os.environ.update(self.env)
+        import pyatspi
+        pyatspi.setTimeout(30000, 60000)  # ms; a loaded machine draws a picture a second, and answers between two
+        self.registry = pyatspi
+
+    @staticmethod
+    def parts(whole):
+        return [whole.getChildAtIndex(i) for i in range(whole.childCount)]
+
+    def window(self):
+        def window():
+            program = next(program for program in self.parts(self.registry.Registry.getDesktop(0)) if program.name == "rviz")
+            return next(window for window in self.parts(program) if window.name.endswith("RViz"))
+        return eventually(window)
+
+    def panel(self):
+        """All widgets of the panel."""
+        def widgets():
+            dock = next(part for part in self.parts(self.window()) if part.name == "Guide")
+            return next(widgets for widgets in map(self.parts, self.parts(dock)) if len(widgets) > len(BUTTONS))
+        return eventually(widgets)
+
+    def widget(self, word):
+        """By name or, where the name is what it shows, by description."""
+        widgets = self.panel()
+        return next((widget for widget in widgets if widget.description == word), None) or next(
+            widget for widget in widgets if widget.name == word)
+
+    def has(self, widget, state):
+        return widget.getState().contains(getattr(self.registry, "STATE_" + state))
+
+    def press(self, *keys):
+        subprocess.run(["xdotool", "key", *keys], env=self.env, check=True, timeout=20)
+
+    def area(self, word):
+        """px, of a widget on the screen: left, upper, right, lower."""
+        box = self.widget(word).queryComponent().getExtents(self.registry.DESKTOP_COORDS)
+        return box.x, box.y, box.x + box.width, box.y + box.height
+
+
+@pytest.fixture(scope="module")
+def desk(master):
     import rospy
-    from navvi_msgs.msg import TrialRequest
+    from navvi_msgs.msg import Cue, TrialRequest, TrialState
     from std_msgs.msg import String
     os.environ.update(master)
     rospy.init_node("panel_test", disable_signals=True)
-    asked = []
-    subscribers = [rospy.Subscriber("/navvi/ask", String, lambda msg: asked.append(msg.data)),
-                   rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: asked.append(msg.request))]
-    read, write = os.pipe()
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    processes = [subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "+extension", "GLX"],
-                                  pass_fds=[write], **quiet)]
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        env = dict(master, DISPLAY=":" + pipe.readline().strip(), LIBGL_ALWAYS_SOFTWARE="1")
+    desk = Desk(master, "high_contrast")
     try:
-        processes.insert(0, subprocess.Popen(["openbox"], env=env, **quiet))
-        processes.insert(0, subprocess.Popen(["/usr/bin/rviz", "-d", str(ROOT / "rviz/navvi.rviz")], env=env, **quiet))
-        deadline = time.monotonic() + 120
-        while len(set(map(str, asked))) < 4:
-            assert time.monotonic() < deadline, f"only {asked} was asked"
-            time.sleep(1)
-            if all(subscriber.get_num_connections() for subscriber in subscribers):
-                subprocess.run(["xdotool", "key", "r", "g", "a", "F5"], env=env, check=True, timeout=20)
+        desk.asked = []
+        subscribers = [rospy.Subscriber("/navvi/ask", String, lambda msg: desk.asked.append(msg.data)),
+                       rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: desk.asked.append(msg.request))]
+        desk.cues = rospy.Publisher("/navvi/cues", Cue, queue_size=10)
+        desk.state = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
+        eventually(lambda: all(subscriber.get_num_connections() for subscriber in subscribers), 120)
+        eventually(lambda: len(desk.panel()) >= len(BUTTONS) + 6)
+        yield desk
     finally:
-        for process in processes:
-            process.terminate()
-            process.wait()
-    assert set(map(str, asked)) == {"repeat", "goal", "around", str(TrialRequest.BEGIN)}
+        desk.close()
+
+
+def say(desk, text):
+    from navvi_msgs.msg import Cue
+    desk.cues.publish(Cue(stage=Cue.STARTED, modality=Cue.SPEECH, kind="direction", text=text))
+
+
+def set_state(desk, state):
+    from navvi_msgs.msg import TrialState
+    desk.state.publish(TrialState(state=getattr(TrialState, state)))
+
+
+def test_a_screen_reader_meets_each_part_by_role_and_name(desk):
+    panel = desk.panel()
+    buttons = {widget.name: widget.description for widget in panel if widget.getRoleName() == "push button"}
+    assert BUTTONS.items() <= {name: told.removeprefix("Key ") for name, told in buttons.items()}.items()
+    labels = [widget.description for widget in panel if widget.getRoleName() == "label"]
+    assert {"state", "instruction", "distance", "speed", "time"} <= set(labels)
+    assert desk.widget("Vision").getRoleName() == "combo box"
+    for widget in panel:
+        assert widget.name or widget.description, "a part has no name"
+        assert widget.getRoleName() == "label" or desk.has(widget, "FOCUSABLE"), widget.name
+
+
+def test_a_screen_reader_reads_what_was_said_and_what_the_trial_waits_for(desk):
+    set_state(desk, "READY")
+    say(desk, "2 o'clock, 5 meters")
+    eventually(lambda: desk.widget("instruction").name == "2 o'clock, 5 meters")
+    eventually(lambda: desk.widget("state").name == "press start")
+    set_state(desk, "RUNNING")
+    eventually(lambda: desk.widget("state").name == "drive")
+
+
+def test_a_screen_reader_presses_a_button(desk):
+    desk.asked.clear()
+    assert desk.widget("Around").queryAction().doAction(0)
+    eventually(lambda: desk.asked == ["around"])
+
+
+def test_keys_ask_begin_and_end(desk):
+    from navvi_msgs.msg import TrialRequest
+    desk.asked.clear()
+    desk.press("r", "g", "a", "F5", "F8")
+    eventually(lambda: desk.asked == ["repeat", "goal", "around", TrialRequest.BEGIN, TrialRequest.END])
+
+
+def test_the_tab_key_goes_through_all_that_can_be_pressed(desk):
+    widgets = desk.panel()
+    waiting = [widget for widget in widgets if widget.getRoleName() == "push button"]
+    for _ in range(40):
+        desk.press("Tab")
+        time.sleep(0.3)
+        waiting = [widget for widget in waiting if not desk.has(widget, "FOCUSED")]
+        if not waiting:
+            return
+    raise AssertionError([widget.name for widget in waiting])
+
+
+def test_a_key_shows_and_hides_what_else_rviz_has(desk):
+    def bar():
+        return next(part for part in desk.parts(desk.window()) if part.getRoleName() == "menu bar")
+    assert not desk.has(bar(), "SHOWING"), "nothing but picture and panel at first"
+    desk.press("F2")
+    eventually(lambda: desk.has(bar(), "SHOWING"))
+    desk.press("F2")
+    eventually(lambda: not desk.has(bar(), "SHOWING"))
+
+
+def test_keys_choose_the_view(desk, tmp_path):
+    desk.show(THINGS)
+    shots = []
+    for key in ("3", "2", "1", "2"):
+        desk.press(key)
+        time.sleep(1)
+        shots.append(numpy.asarray(desk.shot(tmp_path / "view.png", (10, 40, 1910, 800)), dtype=int))
+    differ = [[(abs(a - b).max(axis=2) > 30).mean() for a in shots] for b in shots]
+    print(numpy.round(differ, 3))
+    assert differ[1][3] < 0.01, "the same key shows the same view"
+    assert min(differ[0][1], differ[0][2], differ[1][2]) > 0.05, "each key shows its own"
+    desk.press("1")
+
+
+# --- how large letters are
+
+def glyph(image, number=0):
+    """The height in px of one letter, which are counted from the left by the gaps between them."""
+    lum = luminance(image)
+    ink = lum > 0.5 if numpy.median(lum) < 0.5 else lum < 0.5
+    edges = numpy.flatnonzero(numpy.diff(numpy.r_[False, ink.any(axis=0), False]))
+    first, last = edges[2 * number], edges[2 * number + 1]
+    rows = numpy.flatnonzero(ink[:, first:last].any(axis=1))
+    return rows[-1] - rows[0] + 1
+
+
+def inside(box, margin):
+    return box[0] + margin, box[1] + margin, box[2] - margin, box[3] - margin
+
+
+def heights(desk, folder):
+    """px, of capital letters in the panel and on a plate, and of small ones without strokes up or down in the banner."""
+    from PIL import ImageChops
+    sight = (10, 40, 1910, 700)
+    desk.show(THINGS)
+    say(desk, "HERE")
+    set_state(desk, "RUNNING")
+    eventually(lambda: desk.widget("instruction").name == "HERE")
+    bare = desk.shot(folder / "bare.png", sight)
+    found = {}
+    for word in ("instruction", "Start", "Goal", "Top", "RViz"):
+        found[word] = glyph(desk.shot(folder / "panel.png", inside(desk.area(word), 8)))
+    label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(6, 0, 0.5))
+    label.text = "GOAL"
+    for name, show, hide, letter in [
+            ("plate", lambda: desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]]), lambda: desk.show(THINGS), 0),
+            ("banner", lambda: set_state(desk, "READY"), lambda: set_state(desk, "RUNNING"), 1)]:
+        show()
+        time.sleep(1)
+        shown = desk.shot(folder / f"{name}.png", sight)
+        box = ImageChops.difference(shown, bare).convert("L").point(lambda v: 255 if v > 40 else 0).getbbox()
+        found[name] = glyph(shown.crop(inside(box, (box[3] - box[1]) // 8)), letter)
+        hide()
+        time.sleep(1)
+    return found
+
+
+def test_letters_are_large_and_twice_as_large_for_who_wants_that(desk, tmp_path):
+    set_state(desk, "RUNNING")
+    plain = heights(desk, tmp_path)
+    print("high_contrast", plain)
+    assert min(plain.values()) >= LEAST
+    desk.press("alt+v")
+    eventually(lambda: desk.has(desk.widget("Vision"), "FOCUSED"))
+    desk.press("l", "a", "r")
+    eventually(lambda: desk.widget("Vision").name == "large")
+    large = heights(desk, tmp_path)
+    print("large", large)
+    assert min(large.values()) >= LEAST
+    assert all(large[part] >= 2 * LEAST for part in ("instruction", "plate", "banner"))

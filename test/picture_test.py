@@ -9,6 +9,7 @@ import pytest
 from PIL import Image, ImageChops, ImageFilter
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+pytestmark = pytest.mark.accessibility
 VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
 KINDS = {"path": ["path"], "goal": ["goal"], "goods": ["box", "pedestal"], "movers": ["worker", "forklift", "pallet_robot", "robot"]}
 THINGS = sum(KINDS.values(), [])
@@ -46,6 +47,7 @@ def edge_contrast(shown, without, near):
 
 class Picture:
     """RViz with a hand-made scene on a virtual screen."""
+    filled = True
 
     def __init__(self, env, vision):
         import rospy
@@ -60,6 +62,8 @@ class Picture:
         os.close(write)
         with os.fdopen(read) as pipe:
             self.env = dict(env, DISPLAY=":" + pipe.readline().strip(), LIBGL_ALWAYS_SOFTWARE="1")
+        self.processes = [self.screen]
+        self.furnish()
         frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         transforms = []
         for parent, child in [("map", "odom"), ("odom", "base_link")]:
@@ -71,9 +75,13 @@ class Picture:
         self.topics = {name: rospy.Publisher(name, MarkerArray, queue_size=10, latch=True)
                        for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers")}
         self.frames = frames
-        self.show(THINGS)
+        if self.filled:
+            self.show(THINGS)
         self.rviz = subprocess.Popen(["rosrun", "rviz", "rviz", "-d", str(ROOT / "rviz/navvi.rviz"), f"_vision:={vision}"],
                                      env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+
+    def furnish(self):
+        """What else runs on the screen before RViz."""
 
     def marker(self, ns, number, kind, points=(), scale=(1, 1, 1), at=(0, 0, 0), color=(0.5, 0.5, 0.5)):
         marker = self.Marker(ns=ns, id=number, type=kind)
@@ -124,13 +132,13 @@ class Picture:
                     marker.action = self.Marker.DELETE
             self.topics[topic].publish(markers)
 
-    def shot(self, path):
-        """The picture once it has come to rest."""
+    def shot(self, path, box=(10, 10, 1910, 800)):
+        """The picture once it has come to rest; without the panel, unless `box` (px) says otherwise."""
         last = None
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline:
             subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30, env=self.env)
-            image = Image.open(path).convert("RGB").crop((10, 10, 1910, 900))
+            image = Image.open(path).convert("RGB").crop(box)
             if last is not None and numpy.asarray(image).max() > 200 and ImageChops.difference(image, last).getbbox() is None:
                 return image
             last = image
@@ -140,8 +148,9 @@ class Picture:
     def close(self):
         os.killpg(self.rviz.pid, 15)
         self.rviz.wait()
-        self.screen.terminate()
-        self.screen.wait()
+        for process in reversed(self.processes):
+            process.terminate()
+            process.wait()
 
 
 @pytest.fixture(scope="module")

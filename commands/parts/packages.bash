@@ -12,6 +12,7 @@ packages=(
   # test and bench
   libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
   shellcheck xvfb x11-utils imagemagick sox openbox xdotool
+  python3-pyatspi at-spi2-core dbus-daemon
 )
 
 missing_packages() {
