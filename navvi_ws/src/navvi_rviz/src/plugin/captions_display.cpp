@@ -141,7 +141,7 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
   std::vector<screen::Rect> taken;
   show_banner(picture, taken);
   if (const auto pose = robot()) {
-    show_from_above(*pose, picture);
+    show_from_above(*pose, picture, taken);
     show_from_behind(*pose, static_cast<double>(wall_dt));
     show_way(*pose, picture, taken);
   }
@@ -208,7 +208,8 @@ bool CaptionsDisplay::from_above() const {
 }
 
 void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
-                                      const Eigen::Vector2d& picture) {
+                                      const Eigen::Vector2d& picture,
+                                      std::vector<screen::Rect>& taken) {
   const auto& guidance = reader_->guidance();
   if (guidance && guidance->leads() && goal_ != guidance->goal) {
     goal_ = guidance->goal;
@@ -217,6 +218,7 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   if (!from_above()) return;
   screen::Rect all(robot.position);
   if (goal_) all.extend(*goal_).extend(*start_);
+  for (const Eigen::Vector3d& place : path_) all.extend(place.head<2>());
   const Eigen::Vector2d room = all.sizes() + Eigen::Vector2d::Constant(2.0 * kMargin);
   const double banner = std::min(5.0 * height_, 0.3 * picture.y());  // px, above all that
   const Eigen::Array2d free(picture.x(), picture.y() - banner);
@@ -229,7 +231,9 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
   if (!pixel) return;
   Plate& plate = arrow("robot", robot.yaw, 3 * height_);
-  plate.show(pixel->x() - 0.5 * size_of(plate).x(), pixel->y() - 0.5 * size_of(plate).y());
+  const Eigen::Vector2d corner = *pixel - 0.5 * size_of(plate);
+  plate.show(corner.x(), corner.y());
+  taken.emplace_back(corner, corner + size_of(plate));
 }
 
 void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, double time) {

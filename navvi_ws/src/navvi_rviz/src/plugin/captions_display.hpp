@@ -62,8 +62,10 @@ class CaptionsDisplay : public rviz::Display {
   void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
                 std::vector<screen::Rect>& taken);
   void show_labels(const Eigen::Vector2d& picture, const std::vector<screen::Rect>& taken);
-  /// The view from above holds the robot, the start and the goal, and shows where they are.
-  void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture);
+  /// The view from above holds the robot, the start, the goal and the path, and shows where they
+  /// are.
+  void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
+                       std::vector<screen::Rect>& taken);
   /// The view from behind looks over what stands between it and the robot.
   /// \param time  s, since it last did so
   void show_from_behind(const navvi_types::Pose2& robot, double time);
