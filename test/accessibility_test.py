@@ -1,7 +1,36 @@
-"""What a person with a screen reader, a braille display or a dumb terminal needs of the command line.
+"""What a person with a screen reader, a braille display, a dumb terminal, little sight or one hand needs: the checklist.
 
-Picture, panel, sound and controls are tested where they are made; tests marked with `pytest.mark.accessibility` run with
-these by `./navvi test accessibility`.
+Each line names the test that holds NavVI to it; `./navvi test accessibility` runs all of them. Those in other files carry the mark
+`accessibility`; CORES runs those in C++.
+
+ 1. No control characters without a terminal, or with NO_COLOR, TERM=dumb, ACCESSIBLE=1: test_a_terminal_gets_no_control_characters,
+    test_without_a_terminal_there_are_no_control_characters.
+ 2. No line is drawn anew: test_progress_comes_in_whole_lines_with_percent_and_time_left (a carriage return is a control character).
+ 3. Progress as whole lines, 5 to 30 s apart: the same.
+ 4. Success in words: test_success_is_told_in_words.
+ 5. An error's first line says what, where and what to do: test_an_error_begins_with_what_where_and_what_to_do; exit codes are
+    documented: test_help_is_short_and_tells_the_exit_codes.
+ 6. Help of at most 40 lines of at most 80 characters: the same.
+ 7. No meaning by colour or column: test_help_is_understood_without_colour_or_column.
+ 8. Each table as csv, too: test_a_table_comes_as_csv_too.
+ 9. Long output goes to a file: test_long_output_goes_to_a_file.
+10. A man page: test_the_manual_holds_every_help.
+11. Every question answerable by option, none waits without a terminal: test_nothing_asks_where_there_is_no_terminal.
+12. Ctrl-C ends within 2 s, with a sentence: test_ctrl_c_ends_long_work_within_two_seconds_and_says_so.
+13. Nothing essential only in RViz: watch_test.py, test_nothing_that_the_guide_knows_is_told_in_the_picture_alone.
+14. The same by speech-dispatcher and on a plain terminal: watch_test.py, test_each_line_is_spoken_and_the_next_waits_until_it_was.
+15. The panel by AT-SPI: panel_test.py, test_a_screen_reader_meets_each_part_by_role_and_name and the two after it.
+16. All functions of the panel by key: panel_test.py, test_the_tab_key_goes_through_all_that_can_be_pressed, test_keys_*;
+    by_hand_test.py, test_a_goal_by_panel_and_keys_alone.
+17. Sizes of letters: panel_test.py, test_letters_are_large_and_twice_as_large_for_who_wants_that.
+18. Contrast: picture_test.py, test_each_thing_or_its_edge_stands_out_from_all_that_it_is_before.
+19. Shape, not hue: picture_test.py, test_path_goal_and_mover_are_found_in_grey_and_as_by_20_200.
+20. No flash above 3 Hz: SteadyBanner in CORES.
+21. Every cue in two senses, each with its own strength and off switch: test_each_sense_has_its_strength_and_its_switch,
+    test_what_is_felt_or_sounds_is_said_too, and what is said is shown: panel_test.py.
+22. Glossary and tutorial: lesson_test.py.
+23. Controls remappable, one hand, no holds: CORES, and by_hand_test.py, test_three_goals_by_pad_alone.
+24. README and reports with headings, alternative texts, table headers: test_documents_have_headings_alt_texts_and_table_headers.
 """
 import os
 import pathlib
@@ -12,6 +41,7 @@ import time
 
 import pytest
 
+pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMMANDS = sorted(path.stem for path in (ROOT / "commands").glob("*.txt"))
 QUIET = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -101,6 +131,12 @@ def test_a_terminal_gets_no_control_characters(words, setting):
     assert text and controls(text) == []
 
 
+@pytest.mark.parametrize("words", [["help"], ["world", "check", "training"], ["parameters", "sim"], ["man"], ["fly"]], ids=" ".join)
+def test_without_a_terminal_there_are_no_control_characters(words):
+    result = navvi(*words, TERM="xterm-256color")
+    assert controls(result.stdout + result.stderr) == []
+
+
 @pytest.mark.parametrize("words, sentence", [
     (["setup"], "is installed"),
     (["build"], "the build is done"),
@@ -135,6 +171,12 @@ def test_a_table_comes_as_csv_too(words):
 
 
 # --- what takes long
+
+def test_long_output_goes_to_a_file():
+    """That of a session does: test_ctrl_c_ends_a_session_soon_and_says_so."""
+    for command in "build", "test":
+        assert f"navvi_ws/{command}.log" in navvi(command, "--help").stdout
+
 
 BASH = f"""set -euo pipefail
 for part in "{ROOT}"/commands/parts/*.bash; do source "$part"; done
@@ -234,6 +276,58 @@ def test_nothing_asks_where_there_is_no_terminal():
         assert not re.search(r"\bread -[a-z]*p\b|\bselect \w+ in\b", text), path.name
         for line in text.splitlines():
             assert "sudo -v" not in line or "-t 0" in line, path.name
+
+
+# --- what is said, felt and heard, and how it is asked for
+
+CORES = [
+    ("navvi_rviz", "steady_banner", "SteadyBanner.does_not_flash_whatever_trembles"),
+    ("navvi_feedback", "buttons", "Buttons.act_once_however_long_they_are_held"),
+    ("navvi_feedback", "buttons", "Buttons.are_those_that_the_person_wants"),
+    ("navvi_feedback", "menu", "MenuTest.leads_to_a_goal_by_short_presses_of_one_hand"),
+    ("navvi_feedback", "feedback", "Driven.by_the_hand_that_is_wanted"),
+    ("navvi_feedback", "feedback", "FeedbackTest.a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt"),
+]
+
+
+@pytest.mark.parametrize("package, file, name", CORES, ids=[name for _, _, name in CORES])
+def test_of_the_cores(package, file, name):
+    program = ROOT / "navvi_ws/devel/lib" / package / f"{package}_{file}_test"
+    result = subprocess.run([str(program), f"--gtest_filter={name}"], capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0 and "[  PASSED  ] 1 test." in result.stdout, result.stdout[-2000:]
+
+
+def test_each_sense_has_its_strength_and_its_switch():
+    import csv
+    told = navvi("parameters", "feedback", "--csv")
+    known = {row["parameter"] for row in csv.DictReader(told.stdout.splitlines())}
+    assert {"speech", "speaker/volume", "haptics/enabled", "haptics/gain_left", "haptics/gain_right", "sounds/enabled"} <= known
+    for family in {name.split("/")[1] for name in known if name.startswith("sounds/") and name.count("/") == 2}:
+        assert {f"sounds/{family}/on", f"sounds/{family}/volume"} <= known, family
+
+
+# What has words, by the names of patterns that are felt and of short sounds.
+SAID = {
+    "ready": "press_start", "begun": "trial_begins", "rerouted": "rerouted", "arrived": "arrived", "stuck": "stuck", "halt": "obstacle_stop", "stopped": "robot_stopped",
+    "hit_obstacle": "collision_obstacle", "hit_shelf": "collision_shelf", "shelf_near": "shelf_near", "shelf_close": "shelf_close",
+    "turn": "direction", "turn_stop": "straight", "on_course": "straight", "beacon": "direction",
+}
+
+
+def test_what_is_felt_or_sounds_is_said_too():
+    """And what is said is shown in the panel, and told by ./navvi watch."""
+    import yaml
+    source = ROOT / "navvi_ws/src/navvi_feedback"
+    phrases = yaml.safe_load((source / "config/phrases/en.yaml").read_text())["phrases"]
+    for header in "haptics/pattern.hpp", "sounds/earcon.hpp":
+        text = (source / "include/navvi_feedback" / header).read_text()
+        names = re.findall(r"^  (\w+),", text[text.index("enum class"):text.index("};")], re.M)
+        assert len(names) > 5
+        for name in names:
+            near = re.fullmatch(r"(\w+?)_(near|close)", name)
+            said = SAID.get(name) or (f"obstacle_{near[2]}" if near else None)
+            # "No sound" cannot be said: it is felt and shown. The others come only when somebody asks for them.
+            assert said in phrases or name in ("no_sound", "sample", "sonar"), name
 
 
 # --- documents
