@@ -65,6 +65,12 @@ bool said_once(const std::string& problem) {
 /// Words to stop, until it is said to go on.
 bool halts(const std::string& kind) { return kind == "blocked" || kind == "obstacle_stop"; }
 
+bool moves(const Utterance& told) {
+  const ThingClass thing = told.fillings.thing.value_or(ThingClass::other);
+  return thing == ThingClass::worker || thing == ThingClass::forklift ||
+         thing == ThingClass::pallet_robot;
+}
+
 /// Its words are a reminder: each of the others is for something that has just happened, be it the
 /// same thing that is hit or waited for once more.
 bool tells_nothing_new(const Utterance& utterance) {
@@ -286,10 +292,10 @@ Utterance CuePolicy::tell_problem(const Situation& now) const {
 
 CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
   // To a robot that stands without a way to go, what is near is no news, but what comes is.
-  const bool moves = now.measured && (std::abs(now.measured->linear) > kMoving ||
-                                      std::abs(now.measured->angular) > kMoving);
+  const bool drives = now.measured && (std::abs(now.measured->linear) > kMoving ||
+                                       std::abs(now.measured->angular) > kMoving);
   const bool straight = config_.route.join && time - straight_said_ < kRecover;
-  Utterances told = near_.update(now, follows_ || moves, {straight, halt_.fresh(time)}, time);
+  Utterances told = near_.update(now, follows_ || drives, {straight, halt_.fresh(time)}, time);
   for (Utterance& utterance : told) {
     if (utterance.fillings.side != Side::ahead) continue;
     // A person stops for a thing ahead, and then needs a direction.
@@ -312,7 +318,11 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
     const bool halted = halt_.update(now, follows_, time);
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halted) return {};
-    return halt_.go_on(route_.update(now, halted, time), now.sounds.turn && !now.voice_busy, time);
+    const Utterances way = route_.update(now, halted, time);
+    // What stands there still does: "go on" comes with the way past it.
+    if (halted && halt_.words().kind == "obstacle_stop" && !moves(halt_.words())) route_.unsaid();
+    if (way.empty() && now.voice_busy && now.sounds.turn) return {};
+    return halt_.go_on(way, now.sounds.turn, time);
   }
   halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
