@@ -25,11 +25,11 @@ navvi_replay() {
 
 # The voice of a record, as cue_player's parameters; what older records do not tell is left to it.
 speaker_of() {  # JOURNAL
-  local start name words=""
+  local start name voice=""
   start=$(grep -m 1 ',TRIAL_START,' "$1") || true
-  [[ ! $start =~ \;voice=([A-Za-z0-9/_+-]+) || ${BASH_REMATCH[1]} == unknown ]] || words="voice: '${BASH_REMATCH[1]}'"
+  [[ ! $start =~ \;voice=([A-Za-z0-9/_+-]+) || ${BASH_REMATCH[1]} == unknown ]] || voice="voice: '${BASH_REMATCH[1]}'"
   for name in rate pitch volume; do
-    [[ ! $start =~ feedback/speaker/$name=([0-9.]+) ]] || words+=${words:+, }"$name: ${BASH_REMATCH[1]}"
+    [[ ! $start =~ feedback/speaker/$name=([0-9.]+) ]] || voice+=${voice:+, }"$name: ${BASH_REMATCH[1]}"
   done
-  echo "{$words}"
+  echo "{$voice}"
 }

@@ -1,13 +1,13 @@
 # A session in the training hall. How each step went goes to the trial's folder, or beside it where there was no trial.
 navvi_tutorial() {
-  local word out=$trials record begin folder status=0 words=()
+  local word out=$trials record begin folder status=0 given=()
   for word in world:=training start:=-6.5,-5,1.57 goal:=0.2,-1; do
-    [[ " $*" == *" world:="* || " $*" == *" ${word%%:=*}:="* ]] || words+=("$word")
+    [[ " $*" == *" world:="* || " $*" == *" ${word%%:=*}:="* ]] || given+=("$word")
   done
   for word in "$@"; do [[ $word != out:=* ]] || out=${word#out:=}; done
   record=$(mktemp) begin=$(mktemp)
   trap : INT
-  "$root/navvi" run "${words[@]}" lesson:=tutorial "feedback/record:=$record" "$@" || status=$?
+  "$root/navvi" run "${given[@]}" lesson:=tutorial "feedback/record:=$record" "$@" || status=$?
   if [[ -s $record ]]; then
     folder=$(find "$out" -name summary.csv -newer "$begin" -printf '%h\n' | sort | tail -n 1)
     word=${folder:+$folder/tutorial.csv}

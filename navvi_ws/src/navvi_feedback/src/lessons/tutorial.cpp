@@ -57,6 +57,7 @@ std::vector<std::string> Tutorial::texts() {
   std::vector<std::string> keys;
   for (const char* name : {"welcome",
                            "buttons",
+                           "keys",
                            "good",
                            "skipped",
                            "enough",
@@ -180,6 +181,7 @@ Taught Tutorial::update(const Seen& seen, double time) {
   if (results_.empty()) {
     teller_.tell(key("welcome"));
     teller_.then(key("buttons"));
+    if (seen.keyboard) teller_.then(key("keys"));
     begin(0);
   }
   buttons(seen);
