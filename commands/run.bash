@@ -34,6 +34,8 @@ check_words() {
   local folder
   arg[speech]=${arg[speech]:-auto} arg[profile]=${arg[profile]:-default} arg[once]=${arg[once]:-false} arg[lesson]=${arg[lesson]:-none}
   one_of speech profile once lesson
+  [[ ${arg[lesson]} == none || ${arg[operator]} != simulated ]] ||
+    fail "the tutorial needs a person: a game controller, or a display for the keyboard, such as with operator:=keyboard." 2
   number limit
   [[ ${arg[participant]:-n/a} =~ ^([A-Za-z0-9_-]{1,32}|n/a)$ ]] ||
     fail "participant:=${arg[participant]} is not allowed; allowed are up to 32 letters, digits, - and _, such as sub-01." 2

@@ -63,6 +63,7 @@ def test_shell_scripts_are_clean():
     (["glossary", "world:=busy"], "\"world\" is unknown"),
     (["glossary", "operator:=pad"], "none is connected"),
     (["tutorial", "lesson:=none"], "given twice"),
+    (["tutorial"], "the tutorial needs a person"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
 ])
 def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
