@@ -1,5 +1,5 @@
-"""Whole sessions by hand and ear: three goals by pad alone, and by keys alone. Nothing is looked at: what is pressed depends on what
-is said, and the simulated operator drives by ear."""
+"""Whole sessions by hand and ear: three goals by pad alone, three by keys alone, and one by the panel's keys in RViz and the driving
+keys. Nothing is looked at: what is pressed depends on what is said, and the simulated operator drives by ear."""
 import pathlib
 import subprocess
 
@@ -7,6 +7,7 @@ import pytest
 
 from live_session_test import Display
 
+pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -18,11 +19,11 @@ def layout(tmp_path):
     return path
 
 
-def session(master, folder, layout, operator, **more):
-    launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), f"operator:={operator}", f"world:={layout}", "once:=false",
-                               "speech:=false", "feedback_parameters:={listener: topic}", "rviz:=false", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300"],
-                              env=dict(master, **more), stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
-    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/person.py"), operator], env=dict(master, **more), text=True,
+def session(env, folder, layout, person, results, *words):
+    launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), f"operator:={'auto' if person == 'auto' else 'keyboard'}", f"world:={layout}", "once:=false",
+                               "speech:=false", "feedback_parameters:={listener: topic}", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300", *words],
+                              env=env, stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
+    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/person.py"), person], env=env, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     try:
         told, error = person.communicate(timeout=600)
@@ -32,21 +33,32 @@ def session(master, folder, layout, operator, **more):
         launch.terminate()
         launch.wait(30)
     print(told)
-    results = [path.read_text().splitlines()[1] for path in sorted(folder.glob("trial-*/summary.csv"))]
-    assert sum("goal_reached" in result for result in results) == 3, results
+    found = [path.read_text().splitlines()[1] for path in sorted(folder.glob("trial-*/summary.csv"))]
+    assert len(found) == len(results) and all(word in row for row, word in zip(found, results)), found
 
 
 def test_three_goals_by_pad_alone(master, tmp_path, layout):
     env = {key: value for key, value in master.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    session(env, tmp_path, layout, "auto")
+    session(env, tmp_path, layout, "auto", ["goal_reached"] * 3, "rviz:=false")
 
 
-def test_three_goals_by_keys_alone(master, tmp_path, layout):
+@pytest.fixture
+def desktop(master):
+    """The environment of a display with a window manager."""
     display = Display()
-    manager = subprocess.Popen(["openbox"], env=dict(master, DISPLAY=display.name), stderr=subprocess.DEVNULL)
+    env = dict(master, DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
+    windows = subprocess.Popen(["openbox"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
-        session(master, tmp_path, layout, "keyboard", DISPLAY=display.name)
+        yield env
     finally:
-        manager.terminate()
-        manager.wait(10)
+        windows.terminate()
+        windows.wait()
         display.close()
+
+
+def test_three_goals_by_keys_alone(desktop, tmp_path, layout):
+    session(desktop, tmp_path, layout, "keyboard", ["goal_reached"] * 3, "rviz:=false")
+
+
+def test_a_goal_by_panel_and_keys_alone(desktop, tmp_path, layout):
+    session(desktop, tmp_path, layout, "panel", ["goal_reached", "aborted"], "rviz:=true")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A person for tests, in a process of its own: `person.py auto` with a pad as joy_node gives it, `person.py keyboard` with keys by xdotool.
-Drives to three goals: the task's, one that it chooses from the spoken menu by name, and the one before that. It hears the cues, and the
+"""A person for tests, in a process of its own: `person.py auto` with a pad as joy_node gives it, `person.py keyboard` with keys by xdotool,
+`person.py panel` with those and the panel's in RViz. The first two drive to three goals: the task's, one that it chooses from the spoken menu by name, and the one before that. It hears the cues, and the
 hand of the simulated operator, which hears them too, holds the stick. Prints what is heard and pressed."""
 import subprocess
 import sys
@@ -9,6 +9,7 @@ import time
 import rospy
 from navvi_msgs.msg import Cue
 from sensor_msgs.msg import Joy
+from std_msgs.msg import String
 
 BUTTONS = {"start": 6, "previous": 11, "next": 12, "back": 13, "choose": 14}
 KEYS = {"start": "Return", "previous": "Prior", "next": "Next", "back": "BackSpace", "choose": "Return"}
@@ -97,8 +98,44 @@ class Person:
             self.drive()
 
 
+WAY = ("trial_begins", "start", "start_distance", "direction", "straight", "straight_then", "slight", "turn_now", "turn_ahead")
+
+
+class AtThePanel(Person):
+    """Begins, asks and ends by the panel's keys, and drives by the others."""
+
+    def window(self, *how):
+        subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", *how, "windowactivate", "--sync"], check=True, timeout=60)
+
+    def panel(self, key, kinds):
+        """Presses it in RViz, returns to the driving keys, and waits for the answer."""
+        print(f"{time.monotonic() - self.begun:6.1f}  [{key}]", flush=True)
+        before = len(self.heard)
+        self.window("--name", "RViz$")
+        subprocess.run(["xdotool", "key", key], check=True, timeout=10)
+        self.window("--class", "feedback_node")
+        self.until(lambda: any(kind in kinds for kind, _ in self.heard[before:]), 20, f"{key} is answered")
+
+    def run(self):
+        asked = rospy.Subscriber("/navvi/ask", String)
+        self.until(asked.get_num_connections, 120, "the panel is there")
+        self.wait_for(("press_start", "press_enter"), 60)
+        # Until a key was used, the window of the driving keys keeps the focus.
+        subprocess.run(["xdotool", "key", "shift"], check=True, timeout=10)
+        time.sleep(1)
+        self.panel("F5", WAY)
+        self.panel("g", ("goal_info", "goal_info_distance"))
+        self.panel("r", WAY)
+        self.wait_for(("arrived",), 200)
+        self.wait_for(("choose_goal",), 30)
+        self.choose("cross aisle 1")
+        self.wait_for(("press_start", "press_enter"), 30)
+        self.panel("F5", WAY)
+        self.panel("F8", ("trial_over",))
+
+
 if __name__ == "__main__":
-    person = Person(sys.argv[1] == "keyboard")
+    person = AtThePanel(True) if sys.argv[1] == "panel" else Person(sys.argv[1] == "keyboard")
     try:
         person.run()
     finally:
