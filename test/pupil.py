@@ -107,7 +107,7 @@ class Pupil:
             elif step.startswith("turn_"):
                 self.push(-0.6 if step == "turn_right" else 0.6, 0.0)
                 self.until(lambda: self.sound == "turn_stop", 20, "the turn is to end")
-                time.sleep(0.9 if late else 0.2)
+                time.sleep(2.0 if late else 0.2)
                 late = False
             else:
                 self.push(0.0, 0.8)

@@ -324,6 +324,7 @@ void Feedback::use(const FeedbackConfig& config) {
   deciders_->haptics.use(config.haptics);
   deciders_->soundscape.use(config.sounds);
   deciders_->cues.use(config.cues.wording);
+  deciders_->phrases.use(config.cues.wording);
 }
 
 void Feedback::obey(const std::vector<drive::Button>& pressed, Output& out) {

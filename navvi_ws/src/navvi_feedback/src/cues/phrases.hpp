@@ -98,6 +98,7 @@ class Phrases {
 
   /// From now on.
   void use(const WordingConfig& wording) { wording_ = wording; }
+  [[nodiscard]] const WordingConfig& wording() const { return wording_; }
 
   /// A distance with its unit: whole metres from 2 m on, halves below, never less than half a
   /// metre; or whole feet, fives from 20 feet on. \param metres  m, finite, >= 0

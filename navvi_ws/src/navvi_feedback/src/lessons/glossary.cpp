@@ -53,10 +53,15 @@ std::vector<std::string> Glossary::texts() {
 
 Glossary::Glossary(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
                    const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds)
-    : haptics_(haptics), sounds_(sounds), entries_(all()), teller_(phrases, buttons, texts()) {}
+    : haptics_(haptics),
+      sounds_(sounds),
+      clock_(phrases.wording().directions == "clock"),
+      entries_(all()),
+      teller_(phrases, buttons, texts()) {}
 
 /// What a session does not give is not in its glossary.
 bool Glossary::given(const Entry& entry, const Seen& seen) const {
+  if (entry.hour > 0) return clock_;
   if (entry.near) return seen.motors && haptics_.enabled && haptics_.near;
   if (entry.pattern) return seen.motors && haptics_.enabled && haptics_.patterns;
   if (entry.earcon) return seen.sounds && sounds_.enabled && sounds_.family_of(*entry.earcon).on;

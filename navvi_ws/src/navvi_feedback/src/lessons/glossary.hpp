@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "lessons/lesson.hpp"
 #include "lessons/teller.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
-#include "lessons/lesson.hpp"
 #include "navvi_feedback/sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {
@@ -44,6 +44,7 @@ class Glossary : public Lesson {
 
   haptics::HapticsConfig haptics_;
   sounds::SoundsConfig sounds_;
+  bool clock_;  ///< directions are hours
   std::vector<Entry> entries_;
   Teller teller_;
   std::size_t at_ = 0;

@@ -116,6 +116,19 @@ TEST(Lessons, have_each_text_in_every_language_and_no_other) {
   }
 }
 
+TEST(Lessons, teach_no_hours_to_who_hears_no_hours) {
+  cues::Phrases degrees = phrases();
+  degrees.use({"degrees"});
+  Glossary glossary(degrees, {}, {}, {});
+  Seen seen;
+  for (double time = 0.0; time < 100.0 && !glossary.over(); time += 0.02) {
+    seen.pressed = {Button::next};
+    for (const cues::Cue& cue : glossary.update(seen, time).cues)
+      EXPECT_EQ(cue.kind.rfind("glossary_hour", 0), std::string::npos) << cue.kind;
+  }
+  EXPECT_TRUE(glossary.over());
+}
+
 TEST(Lessons, refuse_a_phrase_file_that_lacks_a_signal) {
   EXPECT_THROW((Teller{phrases(), {}, {"glossary_felt_new"}}), navvi_config::ConfigError);
 }
