@@ -43,7 +43,7 @@ def test_rostopic_can_show_every_topic():
 
 def test_links_of_the_documents_lead_to_files():
     lost = []
-    for page in [*ROOT.glob("*.md"), *SOURCES.glob("*/README.md")]:
+    for page in [*ROOT.glob("*.md"), *ROOT.glob("doc/*.md"), *SOURCES.glob("*/README.md")]:
         for target in re.findall(r"\]\((?!https?:)([^)#]+)\)", page.read_text()):
             if not (page.parent / target).exists():
                 lost.append(f"{page.relative_to(ROOT)}: {target}")
