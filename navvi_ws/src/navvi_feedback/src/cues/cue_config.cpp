@@ -44,7 +44,7 @@ void RouteConfig::describe(navvi_config::Visitor& visit) {
   visit(at_hand, "at_hand", Range{0.0, 5.0}, "m",
         "nearer than this a way-point roughly ahead needs no more directions");
   visit(join, "join", Any{}, "",
-        "two turns in a row, or what is ahead and the way past it, are one sentence");
+        "two turns in a row are one sentence, and no direction leads straight at what is ahead");
 }
 
 void NearConfig::describe(navvi_config::Visitor& visit) {

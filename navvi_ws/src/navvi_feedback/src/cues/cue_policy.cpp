@@ -296,16 +296,9 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
                                        std::abs(now.measured->angular) > kMoving);
   const bool straight = config_.route.join && time - straight_said_ < kRecover;
   Utterances told = near_.update(now, follows_ || drives, {straight, halt_.fresh(time)}, time);
-  for (Utterance& utterance : told) {
-    if (utterance.fillings.side != Side::ahead) continue;
-    // A person stops for a thing ahead, and then needs a direction.
-    const bool words = !halts(utterance.kind) && follows_ && !instead_of(utterance, now.sounds);
-    const auto way = words ? route_.past(*now.guidance, time) : std::nullopt;
-    if (way)
-      utterance.also = {*way};
-    else
-      route_.remind(time + kRecover);
-  }
+  // A person stops for a thing ahead, and then needs a direction.
+  for (const Utterance& utterance : told)
+    if (utterance.fillings.side == Side::ahead) route_.remind(time + kRecover);
   return told;
 }
 

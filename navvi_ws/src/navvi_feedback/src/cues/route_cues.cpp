@@ -176,7 +176,8 @@ std::optional<Utterance> RouteCues::stray(const Situation& now, double time) {
     astray_since_ = time;
     astray_said_.reset();
   }
-  if (!config_.join || astray_.empty() || time - astray_since_ < kAstray || !drives) return {};
+  // Where words alone lead, they would take the place of the direction.
+  if (!by_sound_ || astray_.empty() || time - astray_since_ < kAstray || !drives) return {};
   if (astray_said_ && time - *astray_said_ < kStillAstray) return {};
   astray_said_ = time;
   Utterance told = *direction(guidance);
@@ -258,14 +259,6 @@ bool RouteCues::quiet(const Situation& now, double time) const {
          std::any_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
            return thing.gap < free && side_of_lane(thing.nearest) == Side::ahead;
          });
-}
-
-std::optional<Utterance> RouteCues::past(const Guidance& guidance, double time) {
-  const std::optional<int> turn = turn_within_reach(guidance);
-  const std::optional<Utterance> way = hour_ ? direction(guidance) : std::nullopt;
-  if (!config_.join || by_sound_ || !way) return std::nullopt;
-  if (way->kind != "straight") return said(*way, *hour_, time);
-  return turn ? std::optional(announce_turn("turn_ahead", *way, *turn, time)) : std::nullopt;
 }
 
 bool RouteCues::new_goal(const Guidance& guidance) const {

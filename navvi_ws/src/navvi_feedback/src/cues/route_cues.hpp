@@ -42,8 +42,6 @@ class RouteCues {
   void forget();
   /// What was said of the way was dropped: it is said anew, as it is then.
   void unsaid();
-  /// How the path leads past what is ahead, for the same sentence; nothing if it does not.
-  [[nodiscard]] std::optional<Utterance> past(const Guidance& guidance, double time);
   /// Something else was said that makes a person stop: say the direction again soon.
   void remind(double time);
 

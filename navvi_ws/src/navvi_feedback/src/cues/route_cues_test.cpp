@@ -554,7 +554,7 @@ TEST(RouteCues, name_once_the_thing_to_make_room_for_and_then_the_way) {
   EXPECT_EQ(drive.last.fillings.hour, 6);
   EXPECT_EQ(drive.pass(1.0), Kinds{});
   drive.now.voice_busy = false;
-  EXPECT_EQ(drive.pass(6.0), Kinds{"wrong_way"});
+  EXPECT_EQ(drive.pass(6.0), Kinds{"direction"}) << "words alone lead";
   drive.now.guidance = following(0.0, 12.0);
   drive.pass(6.0);
   drive.now.guidance = following(90.0, 3.0);
