@@ -310,7 +310,7 @@ def test_each_sense_has_its_strength_and_its_switch():
 SAID = {
     "ready": "press_start", "begun": "trial_begins", "rerouted": "rerouted", "arrived": "arrived", "stuck": "stuck", "halt": "obstacle_stop", "stopped": "robot_stopped",
     "hit_obstacle": "collision_obstacle", "hit_shelf": "collision_shelf", "shelf_near": "shelf_near", "shelf_close": "shelf_close",
-    "turn": "direction", "turn_stop": "straight", "on_course": "straight", "beacon": "direction",
+    "turn": "direction", "turn_click": "direction", "turn_stop": "straight", "on_course": "straight", "beacon": "direction",
 }
 
 
