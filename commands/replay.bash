@@ -23,13 +23,13 @@ navvi_replay() {
   say "the replay has ended."
 }
 
-# The voice of a record, as cue_player's parameters; what older records do not tell is left to it.
+# The voice of a record (%3d is its "="), as cue_player's parameters; what older records do not tell is left to it.
 speaker_of() {  # JOURNAL
   local start name voice=""
   start=$(grep -m 1 ',TRIAL_START,' "$1") || true
   [[ ! $start =~ \;voice=([A-Za-z0-9/_+-]+) || ${BASH_REMATCH[1]} == unknown ]] || voice="voice: '${BASH_REMATCH[1]}'"
   for name in rate pitch volume; do
-    [[ ! $start =~ feedback/speaker/$name=([0-9.]+) ]] || voice+=${voice:+, }"$name: ${BASH_REMATCH[1]}"
+    [[ ! $start =~ feedback/speaker/$name%3d([0-9.]+) ]] || voice+=${voice:+, }"$name: ${BASH_REMATCH[1]}"
   done
   echo "{$voice}"
 }

@@ -173,6 +173,11 @@ class FeedbackNode {
     input.notices = notices();
     input.asked = std::exchange(asked_, {});
     keep_settings();
+    // Where words are heard by topic, whoever listens comes a moment after this node.
+    if (welcomes_ && (config_.listener != "topic" || cues_.getNumSubscribers() > 0)) {
+      welcomes_ = false;
+      news_.push_back("settings_of");
+    }
     for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
     input.person = config_.person;
     const core::Feedback::Output output = feedback_.update(input, time);
@@ -218,7 +223,7 @@ class FeedbackNode {
   void offer_settings() {
     if (!config_.person.empty()) {
       person_ = person::PersonFile::of<PersonConfig>(config_.person);
-      news_.push_back("settings_of");
+      welcomes_ = true;
     }
     std::map<std::string, std::string> values;
     const auto describe = [this](navvi_config::Visitor& visit) { config_.describe(visit); };
@@ -400,6 +405,7 @@ class FeedbackNode {
   std::vector<std::string> unsaved_;   ///< settings, as words
   std::optional<person::PersonFile> person_;
   std::future<void> saving_;
+  bool welcomes_ = false;       ///< the person's settings were loaded, and that is to be said
   bool told_not_kept_ = false;  ///< that settings hold for this session alone
 
   std::optional<double> markers_time_;  // s, of now()
