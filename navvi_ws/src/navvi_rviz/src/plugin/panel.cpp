@@ -46,7 +46,6 @@ Panel::Panel()
     : words_row_(new QHBoxLayout),
       numbers_row_(new QHBoxLayout),
       questions_row_(new QHBoxLayout),
-      menu_row_(new QHBoxLayout),
       view_row_(new QHBoxLayout),
       state_(add_label(words_row_, "state", 1)),
       instruction_(add_label(words_row_, "instruction", 1)),
@@ -55,7 +54,7 @@ Panel::Panel()
       clock_(add_label(numbers_row_, "time", 0)) {
   setAttribute(Qt::WA_StyledBackground);
   auto* rows = new QVBoxLayout(this);
-  for (QHBoxLayout* row : {words_row_, numbers_row_, questions_row_, menu_row_, view_row_})
+  for (QHBoxLayout* row : {words_row_, numbers_row_, questions_row_, view_row_})
     rows->addLayout(row);
 }
 
@@ -92,10 +91,6 @@ void Panel::onInitialize() {
   add_button(questions_row_, "Repeat", Qt::Key_R, [this] { ask("repeat"); });
   add_button(questions_row_, "Goal", Qt::Key_G, [this] { ask("goal"); });
   add_button(questions_row_, "Around", Qt::Key_A, [this] { ask("around"); });
-  add_button(menu_row_, "Menu next", Qt::Key_F3, [this] { ask("next"); });
-  add_button(menu_row_, "Previous", Qt::Key_F4, [this] { ask("previous"); });
-  add_button(menu_row_, "Choose", Qt::Key_F6, [this] { ask("choose"); });
-  add_button(menu_row_, "Back", Qt::Key_F7, [this] { ask("back"); });
   const char* const views[] = {"Chase", "Top", "Forward"};
   for (int i = 0; i < 3; ++i)
     add_button(view_row_, views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); });

@@ -40,7 +40,7 @@ class Panel : public rviz::Panel {
   Keys keys_{*this};
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
-  QHBoxLayout *words_row_, *numbers_row_, *questions_row_, *menu_row_, *view_row_;
+  QHBoxLayout *words_row_, *numbers_row_, *questions_row_, *view_row_;
   QLabel *state_, *instruction_, *distance_, *speed_, *clock_;
   QTimer timer_;
   bool chrome_ = false;
