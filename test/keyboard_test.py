@@ -32,19 +32,30 @@ class Keys:
         with open(output, "w") as file:
             return subprocess.Popen(words, env=self.env, stdout=file, stderr=subprocess.DEVNULL)
 
+    def command_line(self, *words):
+        return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=60).stdout.strip()
+
     def xdotool(self, *words):
-        return subprocess.run(["xdotool", *words], env=self.env, capture_output=True, text=True, timeout=20).stdout.strip()
+        return self.command_line("xdotool", *words)
 
     def window(self, window):
-        assert eventually(lambda: self.xdotool("search", "--onlyvisible", *window[:2])), f"there is no window {window}"
-        return self.xdotool("search", "--onlyvisible", *window[:2]).split()[0]
+        """Its number."""
+        found = []
+        def search():
+            found[:] = self.xdotool("search", "--onlyvisible", *window[:2]).split()
+            return found
+        assert eventually(search, 60), f"there is no window {window}"
+        return found[0]
 
     def has_focus(self, window):
         return window[2] in self.xdotool("getwindowfocus", "getwindowname")
 
-    def select(self, window):
-        self.xdotool("windowactivate", "--sync", self.window(window))
-        assert eventually(lambda: self.has_focus(window))
+    def select(self, window, seconds=15):
+        """As often as it takes: a window that is busy with its start may miss one."""
+        def activate():
+            self.xdotool("windowactivate", self.window(window))
+            return eventually(lambda: self.has_focus(window), 1)
+        assert eventually(activate, seconds), f"{window} does not get the focus"
 
     def rows(self, name):
         with open(self.folder / name) as file:
@@ -138,9 +149,10 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     keys.processes.append(keys.start("xev"))
     keys.window(OTHER)
     assert eventually(lambda: keys.xdotool("search", "--onlyvisible", *PICTURE[:2]), 120)
-    time.sleep(5)  # until its panel knows who listens
-    keys.select(PICTURE)
-    time.sleep(2)  # neutral
+    # Until its panel knows who listens, the small window asks for the focus again and again.
+    assert eventually(lambda: keys.command_line("rostopic", "info", "/navvi/keys").count("(http") == 2, 120)
+    keys.select(PICTURE, 120)
+    time.sleep(3)  # neutral
     assert keys.has_focus(PICTURE), "the small window takes the focus from the picture"
     keys.xdotool("keydown", "Up")
     assert eventually(lambda: keys.command() > 0.8)
