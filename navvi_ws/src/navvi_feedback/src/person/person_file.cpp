@@ -1,14 +1,9 @@
 #include "person/person_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <navvi_config/files.hpp>
 #include <regex>
 #include <sstream>
-#include <string_view>
 
 namespace navvi_feedback::person {
 namespace {
@@ -26,23 +21,6 @@ fs::path folder() {
     return fs::path(home) / ".navvi/people";
   throw ConfigError(
       "A person's settings have no place: neither NAVVI_PEOPLE nor HOME names a folder.");
-}
-
-/// \return 0 or errno; with 0 the bytes are on the disk
-int write_all(const fs::path& path, std::string_view bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return errno;
-  int error = 0;
-  while (!bytes.empty() && error == 0) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written > 0)
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    else if (written == 0 || errno != EINTR)
-      error = written == 0 ? EIO : errno;
-  }
-  if (error == 0 && ::fsync(file) != 0) error = errno;
-  if (::close(file) != 0 && error == 0) error = errno;
-  return error;
 }
 
 }  // namespace
@@ -71,20 +49,12 @@ void PersonFile::save(const std::vector<std::string>& words) const {
   navvi_config::overlay(values, changes);
   std::error_code failed;
   fs::create_directories(path_.parent_path(), failed);
-  const fs::path fresh = path_.string() + "." + std::to_string(::getpid());
-  int error = failed ? failed.value() : write_all(fresh, text(values));
-  if (error == 0 && ::rename(fresh.c_str(), path_.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(fresh.c_str());
-    throw std::runtime_error("The settings of " + name_ + " cannot be written to " +
-                             path_.string() + ": " + std::strerror(error) + ".");
-  }
-  // That the new name lasts needs the folder on the disk, too; the old one would do no harm.
-  const int parent = ::open(path_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (parent >= 0) {
-    ::fsync(parent);
-    ::close(parent);
-  }
+  const std::string lost = "The settings of " + name_ + " are not kept: ";
+  if (failed)
+    throw std::runtime_error(lost + "cannot create " + path_.parent_path().string() + ": " +
+                             failed.message() + ".");
+  if (const auto problem = navvi_config::write_atomically(path_, text(values)))
+    throw std::runtime_error(lost + *problem + ".");
 }
 
 std::string PersonFile::text(const YAML::Node& values) const {

@@ -128,7 +128,7 @@ TEST_F(PersonFileTest, nothing_is_lost_where_nothing_can_be_written) {
   setrlimit(RLIMIT_FSIZE, &full);
   const std::string sentence = refused([] { anna().save({"voice/rate:=310"}); });
   setrlimit(RLIMIT_FSIZE, &old);
-  EXPECT_EQ(sentence, "The settings of anna cannot be written to " +
+  EXPECT_EQ(sentence, "The settings of anna are not kept: cannot write " +
                           (folder_ / "anna.yaml").string() + ": File too large.");
   EXPECT_EQ(content(), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no half file stays";

@@ -10,8 +10,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
-
-#include "record/files.hpp"
+#include <navvi_config/files.hpp>
 
 namespace navvi_study::record {
 namespace {
@@ -35,7 +34,9 @@ int answer_into(std::FILE* file, const std::function<std::string()>& work) {
     code = 2;
   }
   std::string_view rest = answer;
-  return write_all(::fileno(file), rest, SystemCalls::real()) == 0 ? code : 2;
+  return navvi_config::write_all(::fileno(file), rest, navvi_config::SystemCalls::real()) == 0
+             ? code
+             : 2;
 }
 
 /// \return the child's id, or -1

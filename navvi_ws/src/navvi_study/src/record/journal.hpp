@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <navvi_config/files.hpp>
 #include <string>
 #include <vector>
 
-#include "record/files.hpp"
 #include "record/row.hpp"
 
 namespace navvi_study::record {
@@ -27,7 +27,8 @@ class Journal {
   /// std::runtime_error with a sentence if that cannot be done, or less than `min_free` bytes are
   /// free
   Journal(const std::filesystem::path& folder, const std::string& trial,
-          std::uint64_t min_free = kMinFree, SystemCalls calls = SystemCalls::real());
+          std::uint64_t min_free = kMinFree,
+          navvi_config::SystemCalls calls = navvi_config::SystemCalls::real());
   /// Gives the reserve back.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -52,7 +53,7 @@ class Journal {
 
   std::filesystem::path folder_;
   std::string trial_;
-  SystemCalls calls_;
+  navvi_config::SystemCalls calls_;
   int file_ = -1;
   bool reserve_used_ = false;
   std::string problem_;

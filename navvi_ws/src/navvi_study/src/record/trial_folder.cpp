@@ -45,12 +45,14 @@ fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
   throw std::runtime_error("no trial: 999 trials of this second are in " + out.string());
 }
 
-Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
-                      const SystemCalls& calls) {
-  if (const auto problem = write_atomically(folder / "events.csv", events_csv(rows), calls)) {
+navvi_config::Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
+                                    const navvi_config::SystemCalls& calls) {
+  if (const auto problem =
+          navvi_config::write_atomically(folder / "events.csv", events_csv(rows), calls)) {
     return problem;
   }
-  return write_atomically(folder / "summary.csv", summary_csv(summarize(rows)), calls);
+  return navvi_config::write_atomically(folder / "summary.csv", summary_csv(summarize(rows)),
+                                        calls);
 }
 
 std::vector<std::string> recover_trials(const fs::path& out) {

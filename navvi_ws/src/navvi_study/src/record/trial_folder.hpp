@@ -2,10 +2,10 @@
 
 #include <ctime>
 #include <filesystem>
+#include <navvi_config/files.hpp>
 #include <string>
 #include <vector>
 
-#include "record/files.hpp"
 #include "record/row.hpp"
 
 namespace navvi_study::record {
@@ -20,9 +20,9 @@ namespace navvi_study::record {
                                                         std::time_t utc);
 
 /// Writes events.csv and summary.csv from the journal's rows; each is replaced as a whole.
-[[nodiscard]] Problem write_results(const std::filesystem::path& folder,
-                                    const std::vector<Row>& rows,
-                                    const SystemCalls& calls = SystemCalls::real());
+[[nodiscard]] navvi_config::Problem write_results(
+    const std::filesystem::path& folder, const std::vector<Row>& rows,
+    const navvi_config::SystemCalls& calls = navvi_config::SystemCalls::real());
 
 /// Brings every trial under `out` in order that a crash left open. \return sentences, one a trial
 /// that was changed or could not be

@@ -35,7 +35,7 @@ std::string place_of(const Eigen::Vector2d& point) {
 }  // namespace
 
 TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
-                         record::SystemCalls calls)
+                         navvi_config::SystemCalls calls)
     : config_(config),
       outlets_(std::move(outlets)),
       calls_(std::move(calls)),

@@ -48,7 +48,7 @@ class TrialKeeper {
   /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
   /// \param calls  of the journals
   TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
-              record::SystemCalls calls = record::SystemCalls::real());
+              navvi_config::SystemCalls calls = navvi_config::SystemCalls::real());
 
   /// What the other nodes report; for odometry, in odom.
   template <typename Report>
@@ -119,7 +119,7 @@ class TrialKeeper {
 
   TrialNodeConfig config_;
   Outlets outlets_;
-  record::SystemCalls calls_;
+  navvi_config::SystemCalls calls_;
   Moment now_;
 
   Readiness readiness_;

@@ -45,7 +45,7 @@ class Trials : public testing::Test {
       return std::make_unique<BagRecorder>(bag, "recorder", std::vector<std::string>{},
                                            program.string());
     };
-    record::SystemCalls calls = record::SystemCalls::real();
+    navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
     calls.write = [this, write = calls.write](int file, const void* bytes, std::size_t count) {
       if (failures_ == 0) return write(file, bytes, count);
       --failures_;

@@ -1,4 +1,4 @@
-#include "record/files.hpp"
+#include "navvi_config/files.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace navvi_study::record {
+namespace navvi_config {
 namespace fs = std::filesystem;
 
 SystemCalls SystemCalls::real() { return {::write, ::fdatasync, ::fsync, ::rename}; }
@@ -68,4 +68,4 @@ std::optional<std::string> read_file(const fs::path& path) {
   return bytes;
 }
 
-}  // namespace navvi_study::record
+}  // namespace navvi_config
