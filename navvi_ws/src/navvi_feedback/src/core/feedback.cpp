@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
+#include "core/auditory_display.hpp"
+#include "core/haptic_display.hpp"
 #include "cues/cue_policy.hpp"
-#include "cues/side.hpp"
-#include "lessons/calibration.hpp"
-#include "lessons/glossary.hpp"
-#include "lessons/tutorial.hpp"
+#include "lessons/teacher.hpp"
 #include "menu/menu.hpp"
-#include "sounds/soundscape.hpp"
 
 namespace navvi_feedback::core {
 namespace {
@@ -19,50 +15,6 @@ namespace {
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
 constexpr double kIdle = 6.0;         // s; who does not drive for so long needs no ticks to turn by
 constexpr double kPi = 3.14159265358979323846;
-
-haptics::Zone zone_of(const Contact& contact) {
-  switch (cues::side_of(contact.seen_from_robot())) {
-    case cues::Side::left:
-      return haptics::Zone::left;
-    case cues::Side::right:
-      return haptics::Zone::right;
-    case cues::Side::ahead:
-    case cues::Side::behind:
-      break;
-  }
-  return haptics::Zone::center;
-}
-
-/// What is felt when a cue is said; the cues that are not here are for the ear alone, unless
-/// nothing can be heard.
-std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
-  using haptics::Pattern;
-  static const std::map<std::string, Pattern> patterns = {{"obstacle_stop", Pattern::halt},
-                                                          {"blocked", Pattern::halt},
-                                                          {"robot_stopped", Pattern::stopped},
-                                                          {"release_stick", Pattern::stopped},
-                                                          {"stuck", Pattern::stuck},
-                                                          {"stuck_unknown", Pattern::stuck},
-                                                          {"press_start", Pattern::ready},
-                                                          {"press_enter", Pattern::ready},
-                                                          {"trial_begins", Pattern::begun},
-                                                          {"back_away", Pattern::stuck},
-                                                          {"arrived", Pattern::arrived},
-                                                          {"rerouted", Pattern::rerouted},
-                                                          {"rerouted_blocked", Pattern::rerouted},
-                                                          {"new_route", Pattern::rerouted},
-                                                          {"way_blocked", Pattern::rerouted}};
-  const auto found = patterns.find(cue.kind);
-  if (found != patterns.end()) return found->second;
-  const bool alarm = cue.kind == "guidance_lost" ||
-                     (cue.priority == Priority::important && cue.kind.rfind("collision_", 0) != 0);
-  return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
-}
-
-bool fixed(const Contact& contact) {
-  return contact.thing_class == navvi_types::ThingClass::shelf ||
-         contact.thing_class == navvi_types::ThingClass::wall;
-}
 
 /// The smallest place that holds the point.
 std::optional<navvi_types::Place> place_at(const std::optional<Scenario>& scenario,
@@ -92,37 +44,29 @@ void FeedbackConfig::describe(navvi_config::Visitor& visit) {
 }
 
 struct Feedback::Deciders {
+  Deciders(const FeedbackConfig& config, const cues::Phrases& phrases)
+      : drive(config.drive),
+        assistance(config.drive.assistance),
+        buttons(config.buttons),
+        touch(config.haptics),
+        sounds(config.sounds),
+        cues(config.cues, phrases),
+        teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
+                0.5 * config.drive.max_turn / config.drive.turn_acceleration) {}
+
   drive::Drive drive;
   drive::Assistance assistance;
   drive::Buttons buttons;
-  haptics::Haptics haptics;
-  haptics::PatternPlayer patterns;
-  sounds::Soundscape soundscape;
+  HapticDisplay touch;
+  AuditoryDisplay sounds;
   cues::CuePolicy cues;
   menu::Menu menu;
-  cues::Phrases phrases;
-  std::string pad;  ///< whose motors are moved
-  std::unique_ptr<lessons::Lesson> lesson;
-  lessons::Taught taught;                 ///< of the lesson, now
-  std::optional<cues::Utterance> answer;  ///< of the menu, to what was pressed now
+  lessons::Teacher teacher;
 };
 
 Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& phrases)
     : config_(config),
-      deciders_(
-          new Deciders{drive::Drive(config.drive),
-                       drive::Assistance(config.drive.assistance),
-                       drive::Buttons(config.buttons),
-                       haptics::Haptics(config.haptics),
-                       {},
-                       sounds::Soundscape(config.sounds),
-                       cues::CuePolicy(config.cues, cues::Phrases(phrases, config.cues.wording)),
-                       {},
-                       cues::Phrases(phrases, config.cues.wording),
-                       {},
-                       {},
-                       {},
-                       {}}) {}
+      deciders_(new Deciders(config, cues::Phrases(phrases, config.cues.wording))) {}
 
 Feedback::~Feedback() = default;
 
@@ -141,45 +85,46 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
   last_update_ = time;
   seen_hands_ = seen_hands_ || input.hands.live;
-  if (std::exchange(deciders_->pad, input.pad) != input.pad) deciders_->haptics.use_pad(input.pad);
+  auto& [drive, assistance, buttons, touch, sounds, cues, menu, teacher] = *deciders_;
+  touch.use_pad(input.pad);
   Output out;
-  out.command = drive(input.hands, dt);
+  out.command = command(input.hands, dt);
   out.share = assist(out.command, time);
-  out.alarm_begins = alarm_begins(input);
-  deaf_ = config_.haptics.instead_of_words && input.audio != cues::Link::alive;
-  std::vector<drive::Button> pressed = deciders_->buttons.update(input.hands);
+  out.alarm_begins = touch.report(input.audio, input.motors);
+  std::vector<drive::Button> pressed = buttons.update(input.hands);
   pressed.insert(pressed.end(), input.asked.begin(), input.asked.end());
   teach(input, pressed, time);
-  out.cues = decide_cues(input, pressed, out, time);
-  hush(out.cues);
-  begin_patterns(out);
+  const std::optional<cues::Utterance> answer = obey(pressed, input.pad, out);
+  out.cues = cues.update(situation(input, pressed, answer, time), time);
+  teacher.join(out.cues);
+  touch.begin(out.cues, contacts_, teacher.taught());
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
                                 [](const cues::Cue& cue) { return cue.felt; }),
                  out.cues.end());
-  const bool leads = deciders_->cues.leads();
-  idle_ = leads && commanded_.linear == 0.0 && commanded_.angular == 0.0 ? idle_ + dt : 0.0;
+  const bool drives = commanded_.linear != 0.0 || commanded_.angular != 0.0;
+  idle_ = cues.leads() && !drives ? idle_ + dt : 0.0;
   if (motion_.value) turned_ += motion_.value->angular * dt;
-  for (const sounds::Play& play : sound(input, out.cues, time)) out.plays.push_back(play);
-  out.rumble = feel(time, dt);
-  out.pattern = deciders_->patterns.playing();
-  if (const lessons::Lesson* const lesson = deciders_->lesson.get()) {
-    out.lesson_over = lesson->over() && config_.lesson != "none";
-    out.record = lesson->record();
-    out.settings = lesson->settings();
-  }
-  if (alone()) out.command.reset();
+  for (const sounds::Play& play : sounds.update(out.cues, sounds_now(input, time), time))
+    out.plays.push_back(play);
+  out.rumble = touch.update(near_now(time), teacher.taught(), important_.has_value(), dt);
+  out.pattern = touch.playing();
+  out.lesson_over = teacher.over();
+  out.record = teacher.record();
+  out.settings = teacher.settings();
+  if (teacher.alone()) out.command.reset();
   begun_.clear();
   contacts_.clear();
   last_hands_ = input.hands;
   return out;
 }
 
-std::optional<Velocity> Feedback::drive(const drive::InputState& hands, double dt) {
+std::optional<Velocity> Feedback::command(const drive::InputState& hands, double dt) {
   // A device that was opened anew between two ticks was lost between them.
   const bool live = hands.live && (!last_hands_.live || hands.session == last_hands_.session);
   const int enable = config_.drive.enable;
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
-  const bool held = teaching() ? !deciders_->lesson->drives() : trial_.holds();
+  const lessons::Teacher& teacher = deciders_->teacher;
+  const bool held = teacher.teaching() ? teacher.holds() : trial_.holds();
   if (held || !enabled) deciders_->drive.disarm();
   const drive::Stick stick = hands.stick(config_.drive.stick == "right");
   const std::optional<Velocity> velocity =
@@ -201,85 +146,22 @@ double Feedback::assist(std::optional<Velocity>& command, double time) const {
   return share;
 }
 
-/// The motors report a missing audio device (safety rule 3), once there are any.
-bool Feedback::alarm_begins(const Input& input) {
-  if (input.audio == cues::Link::alive) {
-    if (std::exchange(alarmed_, false) &&
-        deciders_->patterns.playing() == haptics::Pattern::no_sound)
-      deciders_->patterns.stop();
-    return false;
-  }
-  return input.motors && !std::exchange(alarmed_, true);
-}
-
-void Feedback::begin_patterns(const Output& out) {
-  haptics::PatternPlayer& patterns = deciders_->patterns;
-  if (out.alarm_begins) patterns.begin(haptics::Pattern::no_sound);
-  if (!config_.haptics.enabled || !config_.haptics.patterns) return;
-  if (const auto& pattern = deciders_->taught.pattern)
-    patterns.begin(*pattern, deciders_->taught.side);
-  for (const cues::Cue& cue : out.cues)
-    if (const auto pattern = pattern_of(cue, deaf_)) patterns.begin(*pattern);
-  for (const Contact& contact : contacts_) {
-    patterns.begin(fixed(contact) ? haptics::Pattern::hit_shelf : haptics::Pattern::hit_obstacle,
-                   zone_of(contact));
-  }
-}
-
-haptics::Rumble Feedback::feel(double time, double dt) {
-  const lessons::Taught& taught = deciders_->taught;
-  if (taught.rumble) return *taught.rumble;
-  const bool arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
-  const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
-                     motion_.link(time, config_.stale) != cues::Link::lost &&
-                     !(arrived && config_.haptics.rest_at_goal);
-  const haptics::Rumble near =
-      taught.near.empty()
-          ? deciders_->haptics.update(nearby_.value.value_or(std::vector<NearThing>{}), fresh, dt,
-                                      off_course(time), deaf_)
-          : deciders_->haptics.update(taught.near, true, dt);
-  if (const auto pattern = deciders_->patterns.update(dt))
-    return {config_.haptics.strength * pattern->left, config_.haptics.strength * pattern->right};
-  const double share = important_ ? config_.haptics.duck : 1.0;
-  return {share * near.left, share * near.right};
-}
-
-/// rad, clockwise from the nose to where to steer, if the person is to be told.
-std::optional<double> Feedback::off_course(double time) {
-  if (teaching() && deciders_->lesson->speaks()) return deciders_->taught.off;
+std::optional<double> Feedback::off_course(double time) const {
+  if (deciders_->teacher.speaks()) return deciders_->teacher.taught().off;
   if (!guidance_fresh(time) || !deciders_->cues.leads() || idle_ > kIdle) return std::nullopt;
   return std::remainder(guidance_.value->steer_angle + turned_, 2.0 * kPi);
 }
 
-/// Takes what sounds out of what is to be said, and adds what sounds besides.
-std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::Cue>& cues,
-                                          double time) {
-  using sounds::Earcon;
-  const sounds::SoundsConfig& config = config_.sounds;
-  std::vector<sounds::Play> plays;
-  const bool audible = config.enabled && input.sounds;
-  for (cues::Cue& cue : cues)
-    for (sounds::Play& play : cue.scan) {
-      const sounds::FamilyConfig& family = config.family_of(play.earcon);
-      play.volume = audible && family.on ? family.volume : 0.0;
-    }
-  if (!audible) return plays;
-  const auto add = [&](Earcon earcon, const Eigen::Vector2d& from) {
-    const sounds::FamilyConfig& family = config.family_of(earcon);
-    if (family.on) plays.push_back({earcon, from, family.volume});
-  };
-  for (const cues::Cue& cue : cues) {
-    if (cue.sound) add(cue.sound->earcon, cue.sound->from);
-    if (cue.kind == "arrived") add(Earcon::arrived, Eigen::Vector2d::UnitX());
-    if (cue.kind.rfind("collision_", 0) != 0) continue;
-    for (const Contact& contact : contacts_)
-      add(fixed(contact) ? Earcon::hit_shelf : Earcon::hit_obstacle, contact.seen_from_robot());
-  }
-  cues.erase(std::remove_if(cues.begin(), cues.end(),
-                            [](const cues::Cue& cue) { return cue.sound.has_value(); }),
-             cues.end());
-  const lessons::Taught& taught = deciders_->taught;
-  plays.insert(plays.end(), taught.plays.begin(), taught.plays.end());
+NearNow Feedback::near_now(double time) const {
+  const bool arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
+  const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
+                     motion_.link(time, config_.stale) != cues::Link::lost &&
+                     !(arrived && config_.haptics.rest_at_goal);
+  return {nearby_.value.value_or(std::vector<NearThing>{}), fresh, off_course(time)};
+}
+
+SoundsNow Feedback::sounds_now(const Input& input, double time) const {
+  const lessons::Taught& taught = deciders_->teacher.taught();
   sounds::Soundscape::Input now;
   now.off = off_course(time);
   now.motion = taught.motion.value_or(motion_.value.value_or(Velocity{}));
@@ -292,15 +174,7 @@ std::vector<sounds::Play> Feedback::sound(const Input& input, std::vector<cues::
     now.nearest = nearby_.value->front().nearest;
     now.gap = nearby_.value->front().gap;
   }
-  const std::vector<sounds::Play> recurring = deciders_->soundscape.update(now, time);
-  plays.insert(plays.end(), recurring.begin(), recurring.end());
-  // Words win, and yet a turn is counted down. What was hit is as loud as ever.
-  for (sounds::Play& play : plays) {
-    if (!input.voice_busy || &config.family_of(play.earcon) == &config.hit) continue;
-    if (play.earcon == Earcon::turn) play.earcon = Earcon::turn_click;
-    play.volume *= config.under_words;
-  }
-  return plays;
+  return {input.sounds, input.voice_busy, contacts_, taught, now};
 }
 
 void Feedback::take(const TrialState& state, double /*time*/) {
@@ -321,32 +195,32 @@ void Feedback::take_settings(const std::map<std::string, std::string>& values) {
 
 void Feedback::use(const FeedbackConfig& config) {
   config_ = config;
-  deciders_->haptics.use(config.haptics);
-  deciders_->soundscape.use(config.sounds);
+  deciders_->touch.use(config.haptics);
+  deciders_->sounds.use(config.sounds);
   deciders_->cues.use(config.cues.wording);
-  deciders_->phrases.use(config.cues.wording);
+  deciders_->teacher.use(config.haptics, config.sounds, config.cues.wording);
 }
 
-void Feedback::obey(const std::vector<drive::Button>& pressed, Output& out) {
-  deciders_->answer.reset();
+std::optional<cues::Utterance> Feedback::obey(const std::vector<drive::Button>& pressed,
+                                              const std::string& pad, Output& out) {
+  std::optional<cues::Utterance> answer;
   for (const drive::Button button : pressed) {
     const menu::Menu::Step step = deciders_->menu.press(button);
-    if (step.told) deciders_->answer = step.told;
+    if (step.told) answer = step.told;
     if (step.goal) out.goal = step.goal;
     if (step.request) out.request = step.request;
-    if (step.glossary) begin_lesson("glossary", "");
+    if (step.glossary) deciders_->teacher.begin("glossary", pad);
     if (step.change.empty()) continue;
     out.change = step.change;
-    if (step.felt) deciders_->patterns.begin(haptics::Pattern::sample);
-    if (step.heard)
-      out.plays.push_back(
-          {*step.heard, Eigen::Vector2d::UnitX(), config_.sounds.family_of(*step.heard).volume});
+    if (step.felt) deciders_->touch.begin(haptics::Pattern::sample);
+    if (step.heard) out.plays.push_back(deciders_->sounds.sample(*step.heard));
   }
+  return answer;
 }
 
-std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
-                                             const std::vector<drive::Button>& pressed, Output& out,
-                                             double time) {
+cues::Situation Feedback::situation(const Input& input, const std::vector<drive::Button>& pressed,
+                                    const std::optional<cues::Utterance>& answer,
+                                    double time) const {
   cues::Situation now;
   now.guidance = guidance_.value;
   if (input.robot) {
@@ -366,13 +240,12 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   now.stick_held_unarmed = held_unarmed_;
   now.gate = gate_;
   now.trial = trial_.state;
-  obey(pressed, out);
-  if (alone()) {
+  if (deciders_->teacher.alone()) {
     using cues::Link;
     now.links = {now.links.pad, Link::alive, Link::alive, Link::alive, input.audio};
     now.stick_held_unarmed = false;
   }
-  now.menu = deciders_->answer;
+  now.menu = answer;
   for (const drive::Button button : pressed)
     if (button <= drive::Button::help) now.question = static_cast<cues::Question>(button);
   now.voice_busy = input.voice_busy;
@@ -383,36 +256,17 @@ std::vector<cues::Cue> Feedback::decide_cues(const Input& input,
   const sounds::SoundsConfig& sounds = config_.sounds;
   if (sounds.enabled && input.sounds)
     now.sounds = {sounds.turn.on, sounds.shelf.on, sounds.near.on};
-  return deciders_->cues.update(now, time);
-}
-
-void Feedback::begin_lesson(const std::string& name, const std::string& pad) {
-  const cues::Phrases& phrases = deciders_->phrases;
-  if (name == "glossary") {
-    deciders_->lesson = std::make_unique<lessons::Glossary>(phrases, config_.buttons,
-                                                            config_.haptics, config_.sounds);
-  } else if (name == "tutorial") {
-    deciders_->lesson = std::make_unique<lessons::Tutorial>(phrases, config_.buttons);
-  } else if (name == "calibrate") {
-    const double brakes = 0.5 * config_.drive.max_turn / config_.drive.turn_acceleration;
-    deciders_->lesson = std::make_unique<lessons::Calibration>(phrases, config_.buttons,
-                                                               config_.haptics, pad, brakes);
-  }
+  return now;
 }
 
 void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, double time) {
-  lessons::Taught& taught = deciders_->taught;
-  taught = {};
-  // Not before there are hands: a pad may be found a little later, and has motors or not.
-  if (!deciders_->lesson && input.hands.live) begin_lesson(config_.lesson, input.pad);
-  const bool by_menu = config_.lesson == "none";
-  if (by_menu && trial_.state == TrialState::State::running) deciders_->lesson.reset();
-  if (!teaching()) return;
   lessons::Seen seen;
   seen.pressed = pressed;
   seen.begun = begun_;
+  seen.hands = input.hands.live;
   seen.stick = deciders_->drive.shaped(input.hands.stick(config_.drive.stick == "right"));
   seen.keyboard = input.keyboard;
+  seen.pad = input.pad;
   seen.quiet = !input.voice_busy;
   seen.motors = input.felt && config_.haptics.enabled;
   seen.sounds = input.sounds && config_.sounds.enabled;
@@ -420,32 +274,12 @@ void Feedback::teach(const Input& input, std::vector<drive::Button>& pressed, do
   if (motion_.link(time, config_.stale) == cues::Link::alive) seen.motion = *motion_.value;
   seen.arrived = guidance_.value && guidance_.value->state == Guidance::State::arrived;
   seen.trial = trial_.state;
-  taught = deciders_->lesson->update(seen, time);
-  pressed.erase(
-      std::remove_if(pressed.begin(), pressed.end(),
-                     [&](drive::Button button) { return deciders_->lesson->takes(button); }),
-      pressed.end());
+  lessons::Teacher& teacher = deciders_->teacher;
+  teacher.update(seen, time);
+  pressed.erase(std::remove_if(pressed.begin(), pressed.end(),
+                               [&](drive::Button button) { return teacher.takes(button); }),
+                pressed.end());
 }
-
-void Feedback::hush(std::vector<cues::Cue>& cues) const {
-  static const std::set<std::string> needed = {
-      "arrived",       "stuck",      "stuck_unknown", "back_away", "release_stick", "pad_back",
-      "keyboard_back", "audio_back", "settings_of",   "no_rumble", "second_pad",    "pad_firmware"};
-  if (!teaching()) return;
-  if (deciders_->lesson->speaks())
-    cues.erase(std::remove_if(cues.begin(), cues.end(),
-                              [](const cues::Cue& cue) {
-                                return !cue.asked && cue.priority != Priority::important &&
-                                       needed.count(cue.kind) == 0;
-                              }),
-               cues.end());
-  const std::vector<cues::Cue>& told = deciders_->taught.cues;
-  cues.insert(cues.end(), told.begin(), told.end());
-}
-
-bool Feedback::teaching() const { return deciders_->lesson && !deciders_->lesson->over(); }
-
-bool Feedback::alone() const { return config_.lesson != "none" && config_.lesson != "tutorial"; }
 
 cues::Link Feedback::pad_link(const drive::InputState& hands) const {
   if (hands.live) return cues::Link::alive;

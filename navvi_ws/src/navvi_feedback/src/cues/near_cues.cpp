@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cues/structure.hpp"
+
 namespace navvi_feedback::cues {
 namespace {
 
@@ -162,7 +164,7 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
   for (auto thing = things_.begin(); thing != things_.end();)
     thing = time - thing->second.last_near > config_.forget ? things_.erase(thing) : ++thing;
   for (const NearThing& thing : now.nearby) {
-    if (thing.thing_class == ThingClass::shelf || thing.thing_class == ThingClass::wall) continue;
+    if (is_structure(thing.thing_class)) continue;
     const auto known = things_.find(thing.id);
     if (known == things_.end() && level(thing.gap, Level::none) == Level::none) continue;
     Watch& watch = known == things_.end() ? things_[thing.id] : known->second;
@@ -205,7 +207,7 @@ std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds&
   const bool close = ends("_close");
   if (!close && !ends("_near")) return std::nullopt;
   const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
-  const bool shelf = thing == ThingClass::shelf || thing == ThingClass::wall;
+  const bool shelf = is_structure(thing);
   if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;
   const Earcon near = earcon_of(thing);
   const auto earcon = close ? static_cast<Earcon>(static_cast<int>(near) + 1) : near;

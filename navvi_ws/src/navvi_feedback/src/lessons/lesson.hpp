@@ -20,8 +20,10 @@ namespace navvi_feedback::lessons {
 struct Seen {
   std::vector<drive::Button> pressed;  ///< since the last update
   std::vector<std::string> begun;      ///< kinds of the words that began to be heard since then
+  bool hands = true;                   ///< there is something to press and to push
   drive::Stick stick;                  ///< without its dead zone; neutral where there is none
   bool keyboard = false;
+  std::string pad = {};  ///< what identifies the motors, without spaces
   bool quiet = true;   ///< nothing is spoken or waits for it
   bool motors = true;  ///< they can be felt
   bool sounds = true;  ///< short sounds can be heard

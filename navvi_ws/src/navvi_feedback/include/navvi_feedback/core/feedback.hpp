@@ -33,7 +33,15 @@ using navvi_types::TrialRequest;
 using navvi_types::TrialState;
 }  // namespace navvi_feedback
 
+namespace navvi_feedback::cues {
+struct Situation;
+struct Utterance;
+}  // namespace navvi_feedback::cues
+
 namespace navvi_feedback::core {
+
+struct NearNow;
+struct SoundsNow;
 
 struct FeedbackConfig {
   double stale = 1.0;  ///< s
@@ -134,29 +142,22 @@ class Feedback {
 
   struct Deciders;
 
-  [[nodiscard]] std::optional<Velocity> drive(const drive::InputState& hands, double dt);
+  [[nodiscard]] std::optional<Velocity> command(const drive::InputState& hands, double dt);
   [[nodiscard]] double assist(std::optional<Velocity>& command, double time) const;
-  void begin_lesson(const std::string& name, const std::string& pad);
   /// \param pressed  loses what is for the lesson alone
   void teach(const Input& input, std::vector<drive::Button>& pressed, double time);
-  /// Leaves what may be said while the lesson speaks.
-  void hush(std::vector<cues::Cue>& cues) const;
-  /// It is given now.
-  [[nodiscard]] bool teaching() const;
-  /// There is a lesson and nothing else: no robot.
-  [[nodiscard]] bool alone() const;
-  /// Carries out what the menu makes of the buttons.
-  void obey(const std::vector<drive::Button>& pressed, Output& out);
-  [[nodiscard]] bool alarm_begins(const Input& input);
-  void begin_patterns(const Output& out);
-  [[nodiscard]] haptics::Rumble feel(double time, double dt);
-  [[nodiscard]] std::vector<cues::Cue> decide_cues(const Input& input,
-                                                   const std::vector<drive::Button>& pressed,
-                                                   Output& out, double time);
-  [[nodiscard]] std::vector<sounds::Play> sound(const Input& input, std::vector<cues::Cue>& cues,
-                                                double time);
-  [[nodiscard]] std::optional<double> off_course(double time);
+  /// Carries out what the menu makes of the buttons. \return its answer
+  std::optional<cues::Utterance> obey(const std::vector<drive::Button>& pressed,
+                                      const std::string& pad, Output& out);
+  [[nodiscard]] cues::Situation situation(const Input& input,
+                                          const std::vector<drive::Button>& pressed,
+                                          const std::optional<cues::Utterance>& answer,
+                                          double time) const;
   [[nodiscard]] cues::Link pad_link(const drive::InputState& hands) const;
+  /// rad, clockwise from the nose to where to steer, if the person is to be told.
+  [[nodiscard]] std::optional<double> off_course(double time) const;
+  [[nodiscard]] NearNow near_now(double time) const;
+  [[nodiscard]] SoundsNow sounds_now(const Input& input, double time) const;
 
   FeedbackConfig config_;
   std::unique_ptr<Deciders> deciders_;
@@ -175,8 +176,6 @@ class Feedback {
   std::optional<double> last_update_;
   drive::InputState last_hands_;
   bool seen_hands_ = false;
-  bool alarmed_ = false;                    ///< nothing can be heard, and that was reported
-  bool deaf_ = false;                       ///< likewise, and touch is to do the work of words
   std::optional<std::uint32_t> important_;  ///< the safety phrase that is being spoken
   Velocity commanded_;
   double idle_ = 0.0;  ///< s, since the person last drove, or had reason to

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lessons/lesson.hpp"
+#include "navvi_feedback/core/feedback.hpp"
+#include "sounds/soundscape.hpp"
+
+namespace navvi_feedback::core {
+
+/// What the sounds of one instant are decided from.
+struct SoundsNow {
+  bool audible = true;      ///< short sounds can be heard
+  bool voice_busy = false;  ///< something is being spoken or waits for it
+  const std::vector<Contact>& contacts;
+  const lessons::Taught& taught;
+  sounds::Soundscape::Input recurring;
+};
+
+/// What is heard besides words.
+class AuditoryDisplay {
+ public:
+  explicit AuditoryDisplay(const sounds::SoundsConfig& config)
+      : config_(config), soundscape_(config) {}
+
+  /// From now on.
+  void use(const sounds::SoundsConfig& config);
+
+  /// Takes what sounds out of what is to be said, and adds what sounds besides.
+  /// \param time  s, of a clock that does not run backwards
+  [[nodiscard]] std::vector<sounds::Play> update(std::vector<cues::Cue>& cues, const SoundsNow& now,
+                                                 double time);
+  /// One of the chosen loudness, from ahead.
+  [[nodiscard]] sounds::Play sample(sounds::Earcon earcon) const;
+
+ private:
+  sounds::SoundsConfig config_;
+  sounds::Soundscape soundscape_;
+};
+
+}  // namespace navvi_feedback::core

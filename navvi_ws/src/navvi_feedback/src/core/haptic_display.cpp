@@ -1,0 +1,98 @@
+#include "core/haptic_display.hpp"
+
+#include <map>
+#include <utility>
+
+#include "cues/side.hpp"
+#include "cues/structure.hpp"
+
+namespace navvi_feedback::core {
+namespace {
+
+haptics::Zone zone_of(const Contact& contact) {
+  switch (cues::side_of(contact.seen_from_robot())) {
+    case cues::Side::left:
+      return haptics::Zone::left;
+    case cues::Side::right:
+      return haptics::Zone::right;
+    case cues::Side::ahead:
+    case cues::Side::behind:
+      break;
+  }
+  return haptics::Zone::center;
+}
+
+/// What is felt when a cue is said; the cues that are not here are for the ear alone, unless
+/// nothing can be heard.
+std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
+  using haptics::Pattern;
+  static const std::map<std::string, Pattern> patterns = {{"obstacle_stop", Pattern::halt},
+                                                          {"blocked", Pattern::halt},
+                                                          {"robot_stopped", Pattern::stopped},
+                                                          {"release_stick", Pattern::stopped},
+                                                          {"stuck", Pattern::stuck},
+                                                          {"stuck_unknown", Pattern::stuck},
+                                                          {"press_start", Pattern::ready},
+                                                          {"press_enter", Pattern::ready},
+                                                          {"trial_begins", Pattern::begun},
+                                                          {"back_away", Pattern::stuck},
+                                                          {"arrived", Pattern::arrived},
+                                                          {"rerouted", Pattern::rerouted},
+                                                          {"rerouted_blocked", Pattern::rerouted},
+                                                          {"new_route", Pattern::rerouted},
+                                                          {"way_blocked", Pattern::rerouted}};
+  const auto found = patterns.find(cue.kind);
+  if (found != patterns.end()) return found->second;
+  const bool alarm = cue.kind == "guidance_lost" ||
+                     (cue.priority == Priority::important && cue.kind.rfind("collision_", 0) != 0);
+  return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
+}
+
+}  // namespace
+
+void HapticDisplay::use(const haptics::HapticsConfig& config) {
+  config_ = config;
+  near_.use(config);
+}
+
+void HapticDisplay::use_pad(const std::string& pad) {
+  if (std::exchange(pad_, pad) != pad) near_.use_pad(pad);
+}
+
+bool HapticDisplay::report(cues::Link audio, bool motors) {
+  deaf_ = config_.instead_of_words && audio != cues::Link::alive;
+  if (audio == cues::Link::alive) {
+    if (std::exchange(alarmed_, false) && playing() == haptics::Pattern::no_sound) patterns_.stop();
+    return false;
+  }
+  const bool begins = motors && !std::exchange(alarmed_, true);
+  if (begins) patterns_.begin(haptics::Pattern::no_sound);
+  return begins;
+}
+
+void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
+                          const lessons::Taught& taught) {
+  if (!config_.enabled || !config_.patterns) return;
+  if (taught.pattern) patterns_.begin(*taught.pattern, taught.side);
+  for (const cues::Cue& cue : cues)
+    if (const auto pattern = pattern_of(cue, deaf_)) patterns_.begin(*pattern);
+  for (const Contact& contact : contacts) {
+    patterns_.begin(cues::is_structure(contact.thing_class) ? haptics::Pattern::hit_shelf
+                                                            : haptics::Pattern::hit_obstacle,
+                    zone_of(contact));
+  }
+}
+
+haptics::Rumble HapticDisplay::update(const NearNow& near, const lessons::Taught& taught,
+                                      bool urgent, double dt) {
+  if (taught.rumble) return *taught.rumble;
+  const haptics::Rumble felt =
+      taught.near.empty() ? near_.update(near.things, near.fresh, dt, near.off_course, deaf_)
+                          : near_.update(taught.near, true, dt);
+  if (const auto pattern = patterns_.update(dt))
+    return {config_.strength * pattern->left, config_.strength * pattern->right};
+  const double share = urgent ? config_.duck : 1.0;
+  return {share * felt.left, share * felt.right};
+}
+
+}  // namespace navvi_feedback::core

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lessons/lesson.hpp"
+#include "navvi_feedback/core/feedback.hpp"
+
+namespace navvi_feedback::core {
+
+/// What is near at one instant.
+struct NearNow {
+  std::vector<NearThing> things;
+  bool fresh = false;                ///< they are known, and to be felt
+  std::optional<double> off_course;  ///< rad, clockwise from the nose to where to steer
+};
+
+/// What the hands feel: what is near, and patterns above it.
+class HapticDisplay {
+ public:
+  explicit HapticDisplay(const haptics::HapticsConfig& config) : config_(config), near_(config) {}
+
+  /// From now on.
+  void use(const haptics::HapticsConfig& config);
+  /// \param pad  whose motors are moved
+  void use_pad(const std::string& pad);
+  /// The motors report a missing audio device (safety rule 3), once there are any.
+  /// \return true if they begin to
+  bool report(cues::Link audio, bool motors);
+  void begin(haptics::Pattern pattern) { patterns_.begin(pattern); }
+  /// The patterns of what is said, was touched and is taught.
+  void begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
+             const lessons::Taught& taught);
+
+  /// \param urgent  a safety phrase is being spoken
+  [[nodiscard]] haptics::Rumble update(const NearNow& near, const lessons::Taught& taught,
+                                       bool urgent, double dt);
+  [[nodiscard]] std::optional<haptics::Pattern> playing() const { return patterns_.playing(); }
+
+ private:
+  haptics::HapticsConfig config_;
+  haptics::Haptics near_;
+  haptics::PatternPlayer patterns_;
+  std::string pad_;
+  bool alarmed_ = false;  ///< nothing can be heard, and that was reported
+  bool deaf_ = false;     ///< likewise, and touch is to do the work of words
+};
+
+}  // namespace navvi_feedback::core

@@ -1,0 +1,64 @@
+#include "lessons/teacher.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "lessons/calibration.hpp"
+#include "lessons/glossary.hpp"
+#include "lessons/tutorial.hpp"
+
+namespace navvi_feedback::lessons {
+
+using navvi_types::TrialState;
+
+Teacher::Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
+                 const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
+                 double robot_delay)
+    : first_(std::move(first)),
+      phrases_(std::move(phrases)),
+      buttons_(buttons),
+      haptics_(haptics),
+      sounds_(sounds),
+      robot_delay_(robot_delay) {}
+
+void Teacher::use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
+                  const cues::WordingConfig& wording) {
+  haptics_ = haptics;
+  sounds_ = sounds;
+  phrases_.use(wording);
+}
+
+void Teacher::begin(const std::string& lesson, const std::string& pad) {
+  if (lesson == "glossary") {
+    lesson_ = std::make_unique<Glossary>(phrases_, buttons_, haptics_, sounds_);
+  } else if (lesson == "tutorial") {
+    lesson_ = std::make_unique<Tutorial>(phrases_, buttons_);
+  } else if (lesson == "calibrate") {
+    lesson_ = std::make_unique<Calibration>(phrases_, buttons_, haptics_, pad, robot_delay_);
+  }
+}
+
+void Teacher::update(const Seen& seen, double time) {
+  taught_ = {};
+  // A pad may be found a little later, and has motors or not.
+  if (!lesson_ && seen.hands) begin(first_, seen.pad);
+  if (first_ == "none" && seen.trial == TrialState::State::running) lesson_.reset();
+  if (teaching()) taught_ = lesson_->update(seen, time);
+}
+
+void Teacher::join(std::vector<cues::Cue>& cues) const {
+  static const std::set<std::string> needed = {
+      "arrived",       "stuck",      "stuck_unknown", "back_away", "release_stick", "pad_back",
+      "keyboard_back", "audio_back", "settings_of",   "no_rumble", "second_pad",    "pad_firmware"};
+  if (speaks())
+    cues.erase(std::remove_if(cues.begin(), cues.end(),
+                              [](const cues::Cue& cue) {
+                                return !cue.asked && cue.priority != Priority::important &&
+                                       needed.count(cue.kind) == 0;
+                              }),
+               cues.end());
+  cues.insert(cues.end(), taught_.cues.begin(), taught_.cues.end());
+}
+
+}  // namespace navvi_feedback::lessons

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cues/phrases.hpp"
+#include "lessons/lesson.hpp"
+#include "navvi_feedback/sounds/sounds_config.hpp"
+
+namespace navvi_feedback::lessons {
+
+/// Gives the lesson that comes before all else, and those that the person chooses.
+class Teacher {
+ public:
+  /// \param first  "glossary", "tutorial" or "calibrate"; "none": no lesson comes before all else
+  /// \param robot_delay  s, as Calibration takes it
+  Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
+          const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
+          double robot_delay);
+
+  /// For the lessons that begin from now on.
+  void use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
+           const cues::WordingConfig& wording);
+
+  /// \param pad  whose motors are felt
+  /// \throws navvi_config::ConfigError if the phrases lack a text of the lesson
+  void begin(const std::string& lesson, const std::string& pad);
+  /// Call it at 50 Hz. The first lesson begins as soon as there are hands; one that was chosen ends
+  /// with the beginning of a trial. \param time  s, of a clock that does not run backwards
+  void update(const Seen& seen, double time);
+
+  /// A lesson is given now.
+  [[nodiscard]] bool teaching() const { return lesson_ && !lesson_->over(); }
+  /// The first lesson wants no robot: nothing else goes on.
+  [[nodiscard]] bool alone() const { return first_ != "none" && first_ != "tutorial"; }
+  /// The stick does not move the robot.
+  [[nodiscard]] bool holds() const { return teaching() && !lesson_->drives(); }
+  [[nodiscard]] bool speaks() const { return teaching() && lesson_->speaks(); }
+  /// The button is for the lesson alone.
+  [[nodiscard]] bool takes(drive::Button button) const {
+    return teaching() && lesson_->takes(button);
+  }
+  [[nodiscard]] const Taught& taught() const { return taught_; }
+  /// Leaves what may be said while a lesson speaks, and adds what the lesson says.
+  void join(std::vector<cues::Cue>& cues) const;
+
+  /// The first lesson is over.
+  [[nodiscard]] bool over() const { return first_ != "none" && lesson_ && lesson_->over(); }
+  /// As Lesson::record().
+  [[nodiscard]] std::string record() const { return lesson_ ? lesson_->record() : ""; }
+  /// As Lesson::settings().
+  [[nodiscard]] std::vector<std::string> settings() const {
+    return lesson_ ? lesson_->settings() : std::vector<std::string>();
+  }
+
+ private:
+  std::string first_;
+  cues::Phrases phrases_;
+  drive::ButtonsConfig buttons_;
+  haptics::HapticsConfig haptics_;
+  sounds::SoundsConfig sounds_;
+  double robot_delay_;
+  std::unique_ptr<Lesson> lesson_;
+  Taught taught_;  ///< now
+};
+
+}  // namespace navvi_feedback::lessons
