@@ -105,16 +105,24 @@ class AtThePanel(Person):
     """Begins, asks and ends by the panel's keys, and drives by the others."""
 
     def window(self, *how):
-        subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", *how, "windowactivate", "--sync"], check=True, timeout=60)
+        """Selects it, as often as it takes."""
+        def xdotool(*words):
+            return subprocess.run(["xdotool", *words], stdout=subprocess.PIPE, text=True, timeout=60).stdout.split()
+        found = xdotool("search", "--sync", "--onlyvisible", *how)
+        def selected():
+            xdotool("windowactivate", found[0])
+            time.sleep(0.3)
+            return xdotool("getwindowfocus")[:1] == found[:1] or xdotool("getactivewindow")[:1] == found[:1]
+        self.until(selected, 60, f"{how} is selected")
 
     def panel(self, key, kinds):
-        """Presses it in RViz, returns to the driving keys, and waits for the answer."""
+        """Presses it in RViz, waits for the answer, and returns to the driving keys."""
         print(f"{time.monotonic() - self.begun:6.1f}  [{key}]", flush=True)
         before = len(self.heard)
         self.window("--name", "RViz$")
-        subprocess.run(["xdotool", "key", key], check=True, timeout=10)
+        subprocess.run(["xdotool", "keydown", key, "sleep", "0.15", "keyup", key], check=True, timeout=10)
+        self.until(lambda: any(kind in kinds for kind, _ in self.heard[before:]), 60, f"{key} is answered")
         self.window("--class", "feedback_node")
-        self.until(lambda: any(kind in kinds for kind, _ in self.heard[before:]), 20, f"{key} is answered")
 
     def run(self):
         asked = rospy.Subscriber("/navvi/ask", String)

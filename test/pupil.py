@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A person for tests who learns by ear and hand, in a process of its own: `pupil.py glossary`, `tutorial` or `calibrate`, with a pad as
+"""A person for tests who learns by ear and hand, in a process of its own: `pupil.py glossary`, `glossary_begins`, `tutorial` or `calibrate`, with a pad as
 joy_node gives it. Hears the cues and feels the motors, and knows nothing else. Prints what is heard and pressed."""
 import subprocess
 import sys
@@ -18,7 +18,7 @@ class Pupil:
         rospy.init_node("pupil", disable_rostime=True)
         self.begun, self.axes, self.down, self.motors = time.monotonic(), [0.0, 0.0], None, (0.0, 0.0)
         self.last, self.sound, self.silent_since, self.speaking = "", "", 0.0, False
-        self.kinds, self.felt = [], set()
+        self.kinds, self.felt, self.signals = [], set(), 0
         self.hand = None
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
         rospy.Subscriber("/navvi/cues", Cue, self.hear, tcp_nodelay=True)
@@ -39,9 +39,10 @@ class Pupil:
     def hear(self, cue):
         if cue.modality == Cue.RUMBLE and cue.kind:
             self.felt.add(cue.kind)
+        self.signals += cue.stage == Cue.STARTED and cue.modality != Cue.SPEECH
         if cue.stage == Cue.STARTED and cue.modality == Cue.SPEECH:
             self.tell(cue.text)
-            self.last, self.speaking = cue.kind, True
+            self.last, self.speaking, self.signals = cue.kind, True, 0
             self.kinds.append(cue.kind)
         elif cue.stage == Cue.STARTED and cue.modality == Cue.SOUND:
             if cue.kind != self.sound:
@@ -75,13 +76,22 @@ class Pupil:
         self.tell(f"[stick {x} {y}]")
         self.axes = [x, y]
 
-    def glossary(self):
+    def glossary(self, signals=99):
+        """To the end, or ends it after so many."""
         while "glossary_end" not in self.kinds:
             self.until(self.listening, 60, "it is silent")
+            turns = self.last.startswith(("glossary_near", "glossary_sound_turn"))
+            # Of words the signal is the next phrase.
+            self.until(lambda: turns or self.signals or not self.last.startswith("glossary"), 10, "the signal is given")
+            time.sleep(3.2 if turns else 0.1)
+            self.until(self.listening, 60, "it is silent")
+            signals -= 1
             before = self.last
-            time.sleep(3.2 if before.startswith(("glossary_near", "glossary_sound_turn")) else 1.8)
-            self.press("next")
+            self.press("next" if signals > 0 else "end")
             self.until(lambda: self.last != before or self.speaking, 10, "something is told")
+
+    def glossary_begins(self):
+        self.glossary(2)
 
     def tutorial(self):
         late = True
