@@ -78,6 +78,7 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     ("speaker:\n  rate: 900\n", ", line 2: \"speaker/rate\" is 900; allowed is 80 to 449 words/min."),
     ("speaker: {rate: 1\n", "this is not YAML"),
     ("input: pad\n", "the key \"input\" is unknown"),
+    ("lesson: glossary\n", "the key \"lesson\" is unknown"),
 ])
 def test_a_person_s_wrong_settings_are_refused_before_anything_starts(text, sentence, tmp_path):
     (tmp_path / "anna.yaml").write_text(text)

@@ -34,8 +34,6 @@ bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 
 void FeedbackConfig::describe(navvi_config::Visitor& visit) {
   visit(stale, "stale", navvi_config::Range{0.2, 10.0}, "s",
         "guidance, proximity or odometry older than this (wall clock) is lost");
-  visit(lesson, "lesson", navvi_config::OneOf{{"none", "glossary", "tutorial", "calibrate"}}, "",
-        "what is taught before all else; glossary and calibrate want no robot");
   visit.group("drive", drive);
   visit.group("buttons", buttons);
   visit.group("haptics", haptics);

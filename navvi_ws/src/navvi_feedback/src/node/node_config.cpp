@@ -34,6 +34,8 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
         "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
         "in it over the profile's");
   visit(record, "record", Any{}, "", "path of a file for how a lesson went; empty for none");
+  visit(feedback.lesson, "lesson", OneOf{{"none", "glossary", "tutorial", "calibrate"}}, "",
+        "what is taught before all else; glossary and calibrate want no robot");
   PersonConfig::describe(visit);
 }
 

@@ -45,7 +45,7 @@ struct SoundsNow;
 
 struct FeedbackConfig {
   double stale = 1.0;  ///< s
-  std::string lesson = "none";
+  std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;
