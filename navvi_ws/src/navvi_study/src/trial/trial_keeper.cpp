@@ -17,7 +17,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr double kSilent = 1.0;                  // s
 constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
-constexpr double kHurry = 1.5;                   // s, for a recorder once all must stop
+constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
 constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
 std::string list_of(const std::vector<std::string>& words) {
