@@ -164,6 +164,7 @@ def test_without_speech_dispatcher_that_is_said(trial, tmp_path):
 
 def test_a_running_session_is_found_and_told_to_its_end(tmp_path):
     env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    env["TMPDIR"] = str(tmp_path)  # where watch looks for sessions; another may run beside the test
     session = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=training", "limit:=25",
                                 f"out:={tmp_path}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=env,
                                start_new_session=True)
@@ -171,7 +172,7 @@ def test_a_running_session_is_found_and_told_to_its_end(tmp_path):
         for line in session.stdout:
             if "has begun" in line:
                 break
-        text = navvi_watch().communicate(timeout=90)[0]
+        text = navvi_watch(TMPDIR=str(tmp_path)).communicate(timeout=90)[0]
     finally:
         if session.poll() is None:
             os.killpg(session.pid, signal.SIGINT)
