@@ -43,7 +43,7 @@ check_parameters() {
     arg[${part}_parameters]=$("$node" --parameters "${own[@]}") || exit 2
   done
   arg[parameters]="${parameters[*]//:=/=}"  # roslaunch ignores a value with := in it
-  arg[version]=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$workspace/src/navvi_study/package.xml")
+  arg[version]=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$(share navvi_study)/package.xml")
   arg[version]+=$(git -C "$root" describe --always --dirty --abbrev=12 --exclude='*' 2>/dev/null | sed 's/^/+/' || true)
 }
 

@@ -1,17 +1,19 @@
 # What NavVI needs of Debian 12, and how it gets there.
 
+run_packages=(
+  rviz rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
+  python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
+  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
+  python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
+)
 packages=(
   # build
   build-essential ccache cmake catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev libompl-dev liboctomap-dev libbullet-dev
   libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libsdformat-dev libtinyxml2-dev libassimp-dev libeigen3-dev zlib1g-dev libpng-dev pkg-config
-  # run
-  rviz rosbash espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
-  python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
-  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
-  python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
+  "${run_packages[@]}"
   # test and bench
   libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
-  shellcheck xvfb x11-utils imagemagick sox openbox xdotool
+  shellcheck xvfb x11-utils imagemagick sox openbox xdotool lintian
   python3-pyatspi at-spi2-core dbus-daemon
 )
 

@@ -30,7 +30,7 @@ loopback_network() {
   unset ROS_HOSTNAME
   export LD_PRELOAD=$devel/lib/libnavvi_loopback.so
 }
-second_terminal() { echo "source ${devel#"$PWD"/}/setup.bash; export ROS_MASTER_URI=$ROS_MASTER_URI ROS_IP=127.0.0.1"; }
+second_terminal() { echo "$([[ ! -f $devel/setup.bash ]] || echo "source ${devel#"$PWD"/}/setup.bash; ")export ROS_MASTER_URI=$ROS_MASTER_URI ROS_IP=127.0.0.1"; }
 
 # Of all that roslaunch and the nodes say, which goes to the log, a person reads on the screen: warnings, errors, which
 # trial begins and ends, and which node ended. roslaunch frames the end of a required node as a death, also where it has

@@ -17,6 +17,10 @@ with_sanitizers=(-DCMAKE_BUILD_TYPE=None -DNAVVI_ODR_CHECK=ON
 
 # build_workspace [--asan|--odr] [target ...]
 build_workspace() {
+  if [[ -z $workspace ]]; then
+    source_ros "$devel"
+    return
+  fi
   install_packages
   local variant="" flags=(-DCMAKE_BUILD_TYPE=RelWithDebInfo) log lock found
   if [[ ${1:-} == --asan || ${1:-} == --odr ]]; then

@@ -1,0 +1,61 @@
+"""What is installed runs without its sources, and is a package of Debian that lintian takes."""
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / "navvi_ws/build"
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """The install space, elsewhere than it was meant for."""
+    folder = tmp_path_factory.mktemp("installed")
+    subprocess.run(["cmake", "--install", str(BUILD), "--strip"], env=dict(os.environ, DESTDIR=str(folder)), check=True,
+                   stdout=subprocess.DEVNULL, timeout=300)
+    return folder / str(ROOT / "navvi_ws/install").lstrip("/")
+
+
+def run(folder, home, *words):
+    """In another folder, with an environment that knows nothing of the workspace."""
+    env = {"HOME": str(home), "TMPDIR": str(home), "PATH": "/usr/bin:/bin:/usr/sbin:/sbin"}
+    return subprocess.run(["bash", "-c", f"source {folder}/setup.bash && exec \"$@\"", "bash", *words], cwd=home, env=env, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
+
+
+def test_a_session_by_the_installed_command_reaches_its_goal(installed, tmp_path):
+    result = run(installed, tmp_path, "navvi", "run", "operator:=simulated", "world:=training", "rviz:=false", "speech:=auto")
+    assert result.returncode == 0 and "The goal was reached" in result.stdout, result.stdout
+    assert len(list(tmp_path.glob(".navvi/trials/trial-*/summary.csv"))) == 1
+    assert "./navvi" not in result.stdout
+
+
+def test_the_launch_files_are_found_by_their_package(installed, tmp_path):
+    result = run(installed, tmp_path, "roslaunch", "navvi", "live.launch", "operator:=simulated", "--nodes")
+    assert result.returncode == 0 and "/sim_node" in result.stdout, result.stdout
+
+
+def test_what_builds_is_not_installed(installed, tmp_path):
+    for command in "build", "test", "setup", "bench", "deb":
+        result = run(installed, tmp_path, "navvi", command)
+        assert result.returncode == 2 and "is no sub-command" in result.stdout
+
+
+def test_no_installed_text_names_the_sources(installed):
+    texts = [path for path in installed.glob("share/**/*") if path.is_file() and "cmake" not in path.parts]
+    assert len(texts) > 50
+    assert [path for path in texts if str(ROOT).encode() in path.read_bytes()] == []
+
+
+def test_the_package_of_debian_is_one_that_lintian_takes(tmp_path):
+    made = subprocess.run([str(ROOT / "navvi"), "deb", str(tmp_path)], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=900)
+    assert made.returncode == 0, made.stdout
+    package = next(tmp_path.glob("navvi_*.deb"))
+    result = subprocess.run(["lintian", "--fail-on", "error", str(package)], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=600)
+    assert result.returncode == 0, result.stdout
+    names = subprocess.run(["dpkg-deb", "-c", str(package)], text=True, stdout=subprocess.PIPE, check=True).stdout
+    for name in "./usr/bin/navvi ", "./usr/share/man/man1/navvi.1.gz", "./usr/lib/udev/rules.d/60-navvi-pads.rules", "./usr/lib/navvi_nav/nav_node":
+        assert name in names
+    assert all(line.split(None, 5)[5].startswith("./usr") or line.endswith(" ./") for line in names.splitlines())
