@@ -33,11 +33,6 @@ using navvi_types::TrialRequest;
 using navvi_types::TrialState;
 }  // namespace navvi_feedback
 
-namespace navvi_feedback::cues {
-struct Situation;
-struct Utterance;
-}  // namespace navvi_feedback::cues
-
 namespace navvi_feedback::core {
 
 struct NearNow;

@@ -15,6 +15,9 @@ using navvi_types::Priority;
 
 namespace navvi_feedback::cues {
 
+struct Situation;  // what cues are decided from
+struct Utterance;  // what is to be told, before it is put into words
+
 /// One spoken message, before it is spoken.
 struct Cue {
   std::string kind;  ///< the phrase's key, such as turn_now
