@@ -218,7 +218,8 @@ plan::PlanRequest Navigator::send(double time, Guidance::Replan reason) {
 void Navigator::ask_for_path(plan::PlanRequest& request, Point robot) {
   request.goal = goal_.place;
   request.start = robot;
-  if (path_.mode() == PathMode::to_goal) request.followed = path_.remaining(robot);
+  if (path_.mode() == PathMode::to_goal || path_.mode() == PathMode::closed)
+    request.followed = path_.remaining(robot);
   if (keeper_.holds_paths())
     request.predicted =
         forecast_.predicted(path_.remaining(robot), observation_.obstacles(), observation_.pace());
@@ -255,7 +256,10 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
     case plan::PlanStatus::found:
     case plan::PlanStatus::closed:
     case plan::PlanStatus::retreat:
-      if (!keeps_path(plan, reason, time)) change_path(plan, reason, time);
+      if (!keeps_path(plan, reason, time))
+        change_path(plan, reason, time);
+      else if (plan.status == plan::PlanStatus::found && path_.mode() == PathMode::closed)
+        path_.set_mode(PathMode::to_goal);
       guidance_.state = Guidance::State::following;
       guidance_.detail = plan.detail;
       follow_progress(time);
@@ -295,7 +299,6 @@ bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, doub
   choice.fresh = {plan.path, forecast(plan.path)};
   choice.strayed = path_.strayed(*robot);
   choice.sees_waypoint = path_.follower().sees_next(*robot, {map_.floor.get(), &none});
-  choice.reaches_waypoint = path_.follower().sees_next(*robot, space());
   return keeper_.decide(choice);
 }
 

@@ -359,6 +359,18 @@ TEST_F(Guided, stays_with_a_path_that_serves_and_leaves_it_for_one_that_is_much_
   EXPECT_GT(status().path_churn, 5.0);
 }
 
+TEST_F(Guided, stays_with_a_path_that_was_closed_once_it_is_free_again) {
+  put_before(8.0);
+  finds(plan::PlanStatus::closed, straight_, 0.2);
+  things_.clear();
+  finds(plan::PlanStatus::found, {{2, 5}, {8, 6}, {14, 5}}, 5.0);
+  EXPECT_EQ(navigator_.path(), straight_);
+  EXPECT_EQ(status().state, Guidance::State::following);
+  put_before(8.0);  // it is one that leads to the goal, and is left like any other
+  finds(plan::PlanStatus::found, {{2, 5}, {8, 2}, {14, 5}}, 10.0);
+  EXPECT_EQ(navigator_.path().size(), 3U);
+}
+
 TEST_F(Guided, leaves_a_path_that_serves_for_a_new_goal_or_from_far_off_it) {
   finds(plan::PlanStatus::found, straight_, 0.1);
   const Path other{{2, 5}, {13, 4}};

@@ -6,6 +6,7 @@ namespace {
 constexpr double kLetGo = 0.5;                // s, that it must be clear before a wait ends
 constexpr double kBack = 120.0 / 180 * M_PI;  // rad, from the course that is followed
 constexpr double kCourse = 1.0;               // m, how much of a path makes its course
+constexpr double kSafer = 1.0;                // s, by which a collision must be later
 
 /// From the path's start to the point kCourse along it.
 Point course_of(const Path& path) {
@@ -17,6 +18,11 @@ Point course_of(const Path& path) {
     left -= length;
   }
   return path.back() - path.front();
+}
+
+bool safer(const PathKeeper::Candidate& followed, const PathKeeper::Candidate& fresh) {
+  return fresh.path.size() >= 2 &&
+         fresh.conflict.time_to_collision > followed.conflict.time_to_collision + kSafer;
 }
 
 bool leads_back(const Path& followed, const Path& fresh) {
@@ -34,8 +40,9 @@ void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   visit(gain_length, "gain_length", Range{0.0, 10.0}, "m",
         "length by which it must be shorter besides");
   visit(gain_back, "gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back");
-  visit(hold_time, "hold_time", Range{0.0, 60.0}, "s",
-        "a path cut by moving things is kept so long at most; 0: never kept");
+  visit(
+      hold_time, "hold_time", Range{0.0, 60.0}, "s",
+      "a path is kept so long at most while moving things on it would hit who drives on; 0: never");
   visit(hold_choice, "hold_choice", Range{0.0, 60.0}, "s",
         "a path chosen because of moving things is kept so long at least, if no collision is "
         "forecast within as long");
@@ -54,7 +61,7 @@ bool PathKeeper::update(double time, const Conflict& conflict) {
   } else if (time - wait_time_ > kLetGo) {
     wait_.reset();
   }
-  if (is_far(conflict)) return true;
+  if (goes_on_safely(conflict)) return true;
   if (conflict.state == Conflict::State::crossing || waits_safely(conflict))
     return goes_on(time, true) && !conflict.hits_either_way();
   if (conflict.state != Conflict::State::oncoming) since_.reset();
@@ -69,14 +76,19 @@ bool PathKeeper::decide(const Choice& choice) {
       choice.reason == Guidance::Replan::map_changed || choice.strayed)
     return false;
   if (held) return choice.sees_waypoint;
-  const bool cut = choice.followed.conflict.cut.has_value();
-  if (choice.found == plan::PlanStatus::retreat)
-    return choice.mode == PathMode::retreat && !cut && choice.sees_waypoint;
+  const Conflict& conflict = choice.followed.conflict;
+  const bool cut = conflict.cut || conflict.waypoint_taken;
+  if (!choice.sees_waypoint) return false;
+  if (choice.found == plan::PlanStatus::retreat) return choice.mode == PathMode::retreat && !cut;
   if (choice.found == plan::PlanStatus::closed)
-    return choice.mode == PathMode::closed && choice.sees_waypoint &&
-           !worth_changing(Guidance::Replan::period, choice.followed.path, choice.fresh.path);
-  return choice.mode == PathMode::to_goal && !cut && choice.reaches_waypoint &&
-         !worth_changing(choice.reason, choice.followed.path, fresh.path);
+    return choice.mode == PathMode::closed && !shorter(choice.followed.path, choice.fresh.path);
+  const bool leads =
+      choice.mode == PathMode::to_goal || (holds_paths() && choice.mode == PathMode::closed);
+  const bool evades = choice.reason == Guidance::Replan::path_carved ||
+                      choice.reason == Guidance::Replan::waypoint_blocked;
+  const bool better = evades ? !holds_paths() || safer(choice.followed, fresh)
+                             : shorter(choice.followed.path, fresh.path);
+  return leads && !cut && !better;
 }
 
 /// True to keep the path although `fresh` is at hand: as update(), or nothing is hit within
@@ -84,14 +96,12 @@ bool PathKeeper::decide(const Choice& choice) {
 /// was chosen within hold_choice.
 bool PathKeeper::holds(double time, const Candidate& followed, const Candidate& fresh) {
   const Conflict& conflict = followed.conflict;
-  const bool safer = conflict.hits_either_way() && fresh.path.size() >= 2 &&
-                     fresh.conflict.time_to_collision > conflict.time_to_collision;
-  if (is_far(conflict)) return true;
+  if (goes_on_safely(conflict)) return true;
   const bool far_round = conflict.state == Conflict::State::oncoming &&
                          length_of(fresh.path) > length_of(followed.path) + config_.hold_detour;
   const bool passes =
       conflict.state == Conflict::State::crossing || waits_safely(conflict) || far_round;
-  if (goes_on(time, passes && !safer)) return true;
+  if (goes_on(time, passes && !(conflict.hits_either_way() && safer(followed, fresh)))) return true;
   if (!holds_paths() || conflict.time_to_collision <= config_.hold_choice) return false;
   const bool just_chosen = chosen_ && time - *chosen_ < config_.hold_choice;
   return just_chosen ||
@@ -125,11 +135,7 @@ bool PathKeeper::evades(const Conflict& conflict) const {
          (conflict.state == Conflict::State::oncoming || conflict.hits_either_way());
 }
 
-bool PathKeeper::worth_changing(Guidance::Replan reason, const Path& followed,
-                                const Path& fresh) const {
-  if (reason != Guidance::Replan::period && reason != Guidance::Replan::too_slow &&
-      reason != Guidance::Replan::obstacle_near)
-    return true;
+bool PathKeeper::shorter(const Path& followed, const Path& fresh) const {
   if (fresh.size() < 2) return false;
   const double back = leads_back(followed, fresh) ? config_.gain_back : 0.0;
   return length_of(fresh) + back < worthwhile(length_of(followed));
@@ -143,9 +149,14 @@ bool PathKeeper::waits_safely(const Conflict& conflict) const {
   return must_wait(conflict) && !conflict.hits_waiting;
 }
 
-bool PathKeeper::is_far(const Conflict& conflict) const {
-  return holds_paths() && conflict.state == Conflict::State::oncoming &&
-         conflict.time_to_meeting > config_.hold_meeting;
+bool PathKeeper::goes_on_safely(const Conflict& conflict) {
+  if (!holds_paths() || conflict.state == Conflict::State::clear ||
+      conflict.state == Conflict::State::stationary)
+    return false;
+  const bool safely = !conflict.hits_waiting && !std::isfinite(conflict.time_to_collision);
+  if (safely) since_.reset();
+  return safely || (conflict.state == Conflict::State::oncoming &&
+                    conflict.time_to_meeting > config_.hold_meeting);
 }
 
 }  // namespace navvi_nav::guide

@@ -28,9 +28,9 @@ class PathKeeper {
  public:
   explicit PathKeeper(const PathKeeperConfig& config) : config_(config) {}
 
-  /// Call it on every tick. \returns true to keep the path without a search: all obstacles that cut
-  /// it leave it soon, and have not cut it for hold_time, or the first one comes but is not met
-  /// within hold_meeting
+  /// Call it on every tick. \returns true to keep the path without a search: no obstacle that cuts
+  /// it will hit the robot, or all leave it soon and have not closed it for hold_time, or the first
+  /// one comes but is not met within hold_meeting
   [[nodiscard]] bool update(double time, const Conflict& conflict);
 
   struct Candidate {
@@ -42,15 +42,15 @@ class PathKeeper {
     Guidance::Replan reason = Guidance::Replan::none;
     PathMode mode = PathMode::to_goal;  ///< of the path that is followed
     plan::PlanStatus found = plan::PlanStatus::no_route;
-    Candidate followed;             ///< the rest of it, from the robot
-    Candidate fresh;                ///< found by the search
-    bool strayed = false;           ///< the robot is off its path
-    bool sees_waypoint = false;     ///< no wall stands between the robot and its next way-point
-    bool reaches_waypoint = false;  ///< nor does an obstacle
+    Candidate followed;          ///< the rest of it, from the robot
+    Candidate fresh;             ///< found by the search
+    bool strayed = false;        ///< the robot is off its path
+    bool sees_waypoint = false;  ///< no wall stands between the robot and its next way-point
   };
   /// Call it after every search while a path is followed. \returns true to keep that path. It is
   /// kept, too, while only an obstacle far ahead closes it, or a moving one that would make the
-  /// person turn back or go a long way round: it may have left by then.
+  /// person turn back or go a long way round: it may have left by then. A free path is left for one
+  /// that is shorter by `gain`, or on which something is hit a second later.
   [[nodiscard]] bool decide(const Choice& choice);
   /// A path was chosen now because of obstacles.
   void chose(double time) { chosen_ = time; }
@@ -69,9 +69,8 @@ class PathKeeper {
   [[nodiscard]] double worthwhile(double followed) const {
     return followed * (1.0 - config_.gain) - config_.gain_length;
   }
-  /// False if `fresh` is not shorter by enough.
-  [[nodiscard]] bool worth_changing(Guidance::Replan reason, const Path& followed,
-                                    const Path& fresh) const;
+  /// True if `fresh` is shorter by enough.
+  [[nodiscard]] bool shorter(const Path& followed, const Path& fresh) const;
   /// True if the robot should wait for a moving thing right in front of it.
   [[nodiscard]] bool must_wait(const Conflict& conflict) const;
 
@@ -79,7 +78,8 @@ class PathKeeper {
   [[nodiscard]] bool holds(double time, const Candidate& followed, const Candidate& fresh);
   [[nodiscard]] bool is_near(double at) const { return at <= config_.wait_distance; }
   [[nodiscard]] bool waits_safely(const Conflict& conflict) const;
-  [[nodiscard]] bool is_far(const Conflict& conflict) const;
+  /// True if nothing that cuts the path hits a robot that drives on or waits, or it is still far.
+  [[nodiscard]] bool goes_on_safely(const Conflict& conflict);
   [[nodiscard]] bool goes_on(double time, bool held);
 
   PathKeeperConfig config_;

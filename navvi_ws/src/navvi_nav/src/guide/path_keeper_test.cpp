@@ -18,7 +18,7 @@ class Holding : public testing::Test {
     out.at = 4.0;
     out.cut = Conflict::Cut{1, 4.0};
     out.time_to_meeting = time_to_meeting;
-    out.time_to_collision = state == Conflict::State::crossing ? kNever : 1.0;
+    out.time_to_collision = state == Conflict::State::crossing ? 4.0 : 1.0;
     return out;
   }
   /// A search for any reason found a path (if it is not empty), while the robot sees its way-point.
@@ -30,7 +30,7 @@ class Holding : public testing::Test {
     out.found = fresh.path.empty() ? plan::PlanStatus::no_route : plan::PlanStatus::found;
     out.followed = followed;
     out.fresh = fresh;
-    out.sees_waypoint = out.reaches_waypoint = true;
+    out.sees_waypoint = true;
     return out;
   }
   /// Asks every 0.5 s. \returns s for which a path is kept after a search
@@ -50,6 +50,19 @@ class Holding : public testing::Test {
 TEST_F(Holding, waits_for_what_crosses_whatever_else_there_is) {
   for (const Path& fresh : {longer_, back_, slight_, Path{}})
     EXPECT_DOUBLE_EQ(kept(fresh, conflict(Conflict::State::crossing)), config_.hold_time);
+}
+
+TEST_F(Holding, stays_behind_what_drives_on_ahead_as_long_as_nothing_would_be_hit) {
+  for (const auto state : {Conflict::State::crossing, Conflict::State::oncoming}) {
+    Conflict ahead = conflict(state, 3.0);
+    ahead.time_to_collision = kNever;
+    EXPECT_DOUBLE_EQ(kept(slight_, ahead), 20.0);  // as long as it was asked
+    PathKeeper keeper(config_);
+    EXPECT_TRUE(keeper.update(0.0, ahead));
+    EXPECT_TRUE(keeper.update(60.0, ahead));
+    ahead.hits_waiting = true;
+    EXPECT_LT(kept(slight_, ahead), 20.0);
+  }
 }
 
 TEST_F(Holding, evades_what_comes_only_when_it_is_close) {
@@ -201,7 +214,7 @@ class Keeping : public testing::Test {
   }
   Keeping() {
     choice_.followed.path = round_;
-    choice_.sees_waypoint = choice_.reaches_waypoint = true;
+    choice_.sees_waypoint = true;
   }
   PathKeeper keeper_{PathKeeperConfig{}};
   PathKeeper::Choice choice_;
@@ -213,14 +226,12 @@ class Keeping : public testing::Test {
 TEST_F(Keeping, keeps_a_path_that_is_hardly_longer) {
   const PathKeeper& keeper = keeper_;
   const auto on = [](double length) { return Path{{0, 0}, {length, 0}}; };
-  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(9.5)));
-  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::too_slow, on(10.0), on(11.0)));
-  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(8.0)));
-  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(-8.0)));  // back
-  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::period, on(10.0), on(-4.0)));
-  EXPECT_FALSE(keeper.worth_changing(Guidance::Replan::period, on(10.0), {}));
-  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::path_carved, on(10.0), on(12.0)));
-  EXPECT_TRUE(keeper.worth_changing(Guidance::Replan::new_goal, on(10.0), on(12.0)));
+  EXPECT_FALSE(keeper.shorter(on(10.0), on(9.5)));
+  EXPECT_FALSE(keeper.shorter(on(10.0), on(11.0)));
+  EXPECT_TRUE(keeper.shorter(on(10.0), on(8.0)));
+  EXPECT_FALSE(keeper.shorter(on(10.0), on(-8.0)));  // back
+  EXPECT_TRUE(keeper.shorter(on(10.0), on(-4.0)));
+  EXPECT_FALSE(keeper.shorter(on(10.0), {}));
 }
 
 TEST_F(Keeping, keeps_a_path_that_serves_and_leaves_it_for_one_that_is_much_shorter) {
@@ -237,9 +248,30 @@ TEST_F(Keeping, leaves_a_path_for_a_new_goal_or_map_or_from_far_off_it) {
 }
 
 TEST_F(Keeping, leaves_a_path_that_is_cut_or_whose_way_point_is_out_of_sight) {
-  choice_.reaches_waypoint = false;
+  choice_.sees_waypoint = false;
   EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
-  choice_.reaches_waypoint = true;
+  choice_.sees_waypoint = true;
+  choice_.followed.conflict.cut = Conflict::Cut{1, 4.0};
+  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
+}
+
+TEST_F(Keeping, leaves_a_free_path_for_one_on_which_something_is_hit_a_second_later) {
+  const auto evades = [this](double followed, double fresh) {
+    choice_.followed.conflict.hits_waiting = true;
+    choice_.followed.conflict.time_to_collision = followed;
+    choice_.fresh.conflict.time_to_collision = fresh;
+    return !keeps(plan::PlanStatus::found, less_round_, Guidance::Replan::path_carved);
+  };
+  EXPECT_FALSE(evades(1.5, 1.5));
+  EXPECT_FALSE(evades(1.5, 2.4));
+  EXPECT_TRUE(evades(1.5, 2.6));
+  EXPECT_TRUE(evades(1.5, kNever));
+}
+
+TEST_F(Keeping, keeps_a_path_that_was_closed_and_is_free_again) {
+  choice_.mode = PathMode::closed;
+  EXPECT_TRUE(keeps(plan::PlanStatus::found, less_round_));
+  EXPECT_FALSE(keeps(plan::PlanStatus::found, straight_));
   choice_.followed.conflict.cut = Conflict::Cut{1, 4.0};
   EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
 }
@@ -249,7 +281,6 @@ TEST_F(Keeping, keeps_a_closed_path_while_the_only_one_is_closed) {
   choice_.mode = PathMode::closed;
   EXPECT_TRUE(keeps(plan::PlanStatus::closed, less_round_));
   EXPECT_FALSE(keeps(plan::PlanStatus::closed, straight_));
-  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
   EXPECT_FALSE(keeps(plan::PlanStatus::retreat, less_round_));
 }
 
