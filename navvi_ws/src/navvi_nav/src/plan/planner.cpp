@@ -17,7 +17,7 @@ constexpr double kSlack = 0.02;         // m, of room that a start off the mesh 
 constexpr double kSameGoal = 0.5;       // m, a path that ends so near leads to the same goal
 constexpr double kOnMesh = 1e-3;        // m, from a corner of a path on the mesh to the mesh
 constexpr double kNode = 1.5;           // m, of legs measured in the time that a node takes
-constexpr double kSearched = 0.7;       // of the work that is left, for another search at most
+constexpr double kSearched = 0.85;      // of the work that is left, for another search at most
 constexpr double kSearchedTurn = 0.75;  // of a turn by 90 degrees: what searches charge for each
 
 Plan failure(PlanStatus status, std::string detail,
@@ -277,10 +277,14 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
     work -= kNode * static_cast<double>(found.nodes_expanded);
     return with(0.5, [&] { return smoother_.sketch(found.path, cost); });
   };
-  offer(lead_to(route.to, 0.0), 0.0);
+  // A search at other prices hardly ever expands fewer nodes than the one for the shortest path.
+  const auto affords = [&] {
+    return kSearched * work >= kNode * static_cast<double>(route.plan.nodes_expanded);
+  };
+  if (affords()) offer(lead_to(route.to, 0.0), 0.0);
   if (!std::isfinite(least))
     offer(with(0.5, [&] { return smoother_.sketch(route.plan.path, cost); }), 0.0);
-  if (cost.tight(best) > config.cost.turn_price)
+  if (affords() && cost.tight(best) > config.cost.turn_price)
     offer(lead_to(route.to, 2.0 * config.cost.tight), 0.0);
   offer(with(followed.empty() ? 1.0 : 0.7, [&] { return smoother_.refine(best, cost); }), 0.0);
   const Path known = cost.known_end(followed);
