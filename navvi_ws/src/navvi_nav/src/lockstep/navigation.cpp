@@ -55,6 +55,12 @@ void Navigation::set_goal(const Eigen::Vector2d& goal) { parts_->navigator.set_g
 
 bool Navigation::has_map() const { return parts_->navigator.has_map(); }
 
+std::vector<Eigen::Vector2d> Navigation::path() const {
+  std::vector<Eigen::Vector2d> out;
+  for (const Point point : parts_->navigator.path()) out.emplace_back(point.x, point.y);
+  return out;
+}
+
 bool Navigation::plan_waits() const { return parts_->answer.has_value(); }
 
 std::optional<navvi_types::Guidance> Navigation::update(double time) {

@@ -42,6 +42,8 @@ class Navigation {
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] bool has_map() const;
+  /// From where the robot was when it was planned to the goal; empty if none is followed.
+  [[nodiscard]] std::vector<Eigen::Vector2d> path() const;
 
   /// True if a plan waits for the next beat, which is then due at once.
   [[nodiscard]] bool plan_waits() const;
