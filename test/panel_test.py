@@ -1,6 +1,7 @@
 """The panel in RViz: as a screen reader meets it, by keys, and how large its letters are."""
 import os
 import subprocess
+import tempfile
 import time
 
 import numpy
@@ -33,16 +34,16 @@ def eventually(condition, seconds=60):
 class Desk(Picture):
     """RViz under a window manager, with a session bus on which screen readers find programs. At first it has nothing to draw, for speed."""
     filled = False
-    readable = True  # Qt does not reach every machine's accessibility bus
 
     def furnish(self):
+        self.folder = tempfile.TemporaryDirectory()  # where the accessibility bus has its socket
+        self.env["XDG_RUNTIME_DIR"] = self.folder.name
         read, write = os.pipe()
         bus = subprocess.Popen(["dbus-daemon", "--session", "--nofork", f"--print-address={write}"], pass_fds=[write], env=self.env, **QUIET)
         os.close(write)
         with os.fdopen(read) as pipe:
-            self.env.update(DBUS_SESSION_BUS_ADDRESS=pipe.readline().strip(), QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1")
-        self.processes += [bus, subprocess.Popen(["/usr/libexec/at-spi-bus-launcher", "--launch-immediately"], env=self.env, **QUIET),
-                           subprocess.Popen(["openbox"], env=self.env, **QUIET)]
+            self.env["DBUS_SESSION_BUS_ADDRESS"] = pipe.readline().strip()
+        self.processes += [bus, subprocess.Popen(["openbox"], env=self.env, **QUIET)]
         os.environ.update(self.env)
         import pyatspi
         pyatspi.setTimeout(30000, 60000)  # ms; a loaded machine draws a picture a second, and answers between two
@@ -53,9 +54,6 @@ class Desk(Picture):
         return [whole.getChildAtIndex(i) for i in range(whole.childCount)]
 
     def window(self):
-        if not self.readable:
-            pytest.skip("RViz is not on this machine's accessibility bus")
-
         def window():
             program = next(program for program in self.parts(self.registry.Registry.getDesktop(0)) if program.name == "rviz")
             return next(window for window in self.parts(program) if window.name.endswith("RViz"))
@@ -100,11 +98,8 @@ def desk(master):
                        rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: desk.asked.append(msg.request))]
         desk.cues = rospy.Publisher("/navvi/cues", Cue, queue_size=10)
         desk.state = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
-        eventually(lambda: all(subscriber.get_num_connections() for subscriber in subscribers), 120)
-        try:
-            eventually(lambda: len(desk.panel()) >= len(BUTTONS) + 6)
-        except (Exception, AssertionError):
-            desk.readable = False
+        eventually(lambda: all(link.get_num_connections() for link in [*subscribers, desk.cues, desk.state]), 120)
+        eventually(lambda: desk.has(desk.window(), "ACTIVE"))
         yield desk
     finally:
         desk.close()

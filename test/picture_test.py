@@ -57,7 +57,8 @@ class Picture:
         from visualization_msgs.msg import Marker, MarkerArray
         self.Marker, self.Point, self.Color = Marker, Point, ColorRGBA
         read, write = os.pipe()
-        self.screen = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1920x1080x24", "+extension", "GLX"],
+        # As on a desktop, what one program leaves at the root window stays when it goes.
+        self.screen = subprocess.Popen(["Xvfb", "-noreset", "-displayfd", str(write), "-screen", "0", "1920x1080x24", "+extension", "GLX"],
                                        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as pipe:
@@ -77,8 +78,8 @@ class Picture:
         self.frames = frames
         if self.filled:
             self.show(THINGS)
-        self.rviz = subprocess.Popen(["rosrun", "rviz", "rviz", "-d", str(ROOT / "rviz/navvi.rviz"), f"_vision:={vision}"],
-                                     env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}"], env=self.env,
+                                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True))
 
     def furnish(self):
         """What else runs on the screen before RViz."""
@@ -146,8 +147,6 @@ class Picture:
         raise AssertionError("the picture does not come to rest")
 
     def close(self):
-        os.killpg(self.rviz.pid, 15)
-        self.rviz.wait()
         for process in reversed(self.processes):
             process.terminate()
             process.wait()

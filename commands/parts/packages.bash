@@ -5,6 +5,7 @@ run_packages=(
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
   python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
+  at-spi2-core dbus-bin x11-utils
 )
 packages=(
   # build
@@ -13,8 +14,8 @@ packages=(
   "${run_packages[@]}"
   # test and bench
   libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
-  shellcheck xvfb x11-utils imagemagick sox openbox xdotool lintian
-  python3-pyatspi at-spi2-core dbus-daemon
+  shellcheck xvfb imagemagick sox openbox xdotool lintian
+  python3-pyatspi dbus-daemon
 )
 
 missing_packages() {
