@@ -8,6 +8,7 @@ navvi_replay() {
   number rate
   number skip
   arg[speaker]=${arg[speaker]:-$(speaker_of "$trial/journal.csv")}
+  arg[mesh]=${arg[mesh]:-$(mesh_of "$trial/journal.csv")}
   resolve_rviz
   resolve_view
   build_workspace
@@ -16,7 +17,7 @@ navvi_replay() {
   ((status <= 1)) || fail "this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off."
   log=$trial/replay.log
   [[ -w $trial ]] || log=/dev/null
-  say "replaying $trial; Ctrl-C stops it."
+  say "replaying $trial; Ctrl-C stops it. For ROS tools, in a second terminal: $(second_terminal)"
   arg[bag]=$trial/trial.bag
   launch "$launch_files/replay.launch" "$log" || [[ -n $interrupted ]] || fail "the replay broke off; the log $log says why."
   ((status == 0)) || fail "the bag and the summary of this trial do not agree, as said at the start."
@@ -32,4 +33,9 @@ speaker_of() {  # JOURNAL
     [[ ! $start =~ feedback/speaker/$name%3d([0-9.]+) ]] || voice+=${voice:+, }"$name: ${BASH_REMATCH[1]}"
   done
   echo "{$voice}"
+}
+
+# The parameters of a record's mesh, as nav_node's.
+mesh_of() {  # JOURNAL
+  echo "{$(grep -m 1 ',TRIAL_START,' "$1" | grep -o 'nav/mesh/[a-z_]*%3d[^ ;]*' | sed 's,nav/mesh/,,; s/%3d/: /' | paste -sd,)}"
 }

@@ -29,7 +29,9 @@ TOPICS = {
     "/navvi/guidance", "/navvi/navmesh", "/joy", "/joy/set_feedback", "/cmd_vel", "/navvi/cues", "/navvi/markers",
     "/navvi/events", "/diagnostics",
 }
-BAGGED = TOPICS - {"/clock", "/occupied_cells_vis_array"}
+BAGGED = TOPICS - {"/clock", "/occupied_cells_vis_array", "/navvi/navmesh"}
+MOST_BYTES = 55_000  # of a bag, for each simulated second: 0.2 GB an hour
+PICTURE = ["/navvi/scene", "/navvi/scene_moving", "/navvi/navmesh", "/navvi/markers", "/navvi/path"]
 
 
 class Display:
@@ -176,8 +178,16 @@ def test_an_outsider_reads_the_octomap_by_its_public_md5(session):
 
 def test_the_bag_holds_the_topics_and_agrees_with_the_summary(trial):
     info = subprocess.check_output(["rosbag", "info", "-y", "-k", "topics", str(trial / "trial.bag")], text=True)
-    assert BAGGED - {"/navvi/contacts"} <= set(re.findall(r"topic: (\S+)", info))
+    bagged = set(re.findall(r"topic: (\S+)", info))
+    assert BAGGED - {"/navvi/contacts"} <= bagged
+    assert not {"/navvi/navmesh", "/navvi/scene_moving"} & bagged, "a replay makes them anew"
     subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(trial)], check=True, timeout=120)
+
+
+def test_an_hour_of_a_session_is_less_than_a_fifth_of_a_gigabyte(trial):
+    with rosbag.Bag(str(trial / "trial.bag")) as bag:
+        seconds = bag.get_end_time() - bag.get_start_time()
+        assert bag.size < MOST_BYTES * seconds, (bag.size, seconds)
 
 
 def test_a_bag_of_another_version_is_named_as_one(trial, tmp_path):
@@ -256,10 +266,34 @@ def test_the_picture_shows_path_goal_boxes_and_robot(session):
     assert count["path"] > 100 and count["boxes"] > 100, count
 
 
-def test_a_recorded_trial_plays_again(session, trial):
+def test_a_recorded_trial_plays_again(session, trial, tmp_path):
     env = dict(os.environ, ALSOFT_DRIVERS="null")
     env.pop("DISPLAY", None)
-    result = subprocess.run([str(ROOT / "navvi"), "replay", str(trial), "rate:=4", "rviz:=false"], env=env, text=True,
-                            capture_output=True, timeout=180)
-    assert result.returncode == 0, result.stdout[-2000:] + result.stderr[-2000:]
+    replay = subprocess.Popen([str(ROOT / "navvi"), "replay", str(trial), "rate:=4", "rviz:=false"], env=env, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    said = ""
+    while "ROS_MASTER_URI" not in said:
+        line = replay.stdout.readline()
+        assert line, said
+        said += line
+    uri = re.search(r"ROS_MASTER_URI=(\S+)", said).group(1)
+    while not rosgraph.is_master_online(uri):
+        time.sleep(0.05)
+    seen = tmp_path / "seen.bag"
+    watcher = subprocess.Popen(["/usr/lib/rosbag/record", "-q", "-O", str(seen), *PICTURE],
+                               env=dict(env, ROS_MASTER_URI=uri, ROS_IP="127.0.0.1"), stdout=subprocess.DEVNULL)
+    said += replay.communicate(timeout=180)[0]
+    watcher.send_signal(signal.SIGINT)
+    watcher.wait(20)
+    assert replay.returncode == 0, said[-2000:]
     assert "The voice is en, at 220 words a minute and pitch 55." in (trial / "replay.log").read_text()
+    # The whole picture, and in it the robot where it was.
+    with rosbag.Bag(str(trial / "trial.bag")) as bag:
+        places = {message.header.stamp: message.pose.pose.position for _, message, _ in bag.read_messages(["/odom"])}
+    with rosbag.Bag(str(seen)) as bag:
+        assert {topic for topic, _, _ in bag.read_messages()} == set(PICTURE)
+        robots = [marker for _, scene, _ in bag.read_messages(["/navvi/scene_moving"]) for marker in scene.markers
+                  if (marker.ns, marker.id) == ("robot", 0)]
+    shown = [(robot.pose.position, places[robot.header.stamp]) for robot in robots if robot.header.stamp in places]
+    assert len(shown) > 10
+    assert all((at.x, at.y) == (was.x, was.y) for at, was in shown)

@@ -16,7 +16,7 @@
 #include "navvi_sim/live/world.hpp"
 #include "navvi_sim/node/msg_conversion.hpp"
 #include "navvi_sim/read/world_source.hpp"
-#include "scene/scene.hpp"
+#include "navvi_sim/scene/scene.hpp"
 
 namespace {
 

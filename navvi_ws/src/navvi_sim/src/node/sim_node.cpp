@@ -16,9 +16,9 @@
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/live/session.hpp"
 #include "navvi_sim/node/msg_conversion.hpp"
+#include "navvi_sim/scene/scene.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 #include "read/thing_table.hpp"
-#include "scene/scene.hpp"
 
 namespace navvi_sim::node {
 namespace {

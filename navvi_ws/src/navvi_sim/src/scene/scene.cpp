@@ -1,4 +1,4 @@
-#include "scene/scene.hpp"
+#include "navvi_sim/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

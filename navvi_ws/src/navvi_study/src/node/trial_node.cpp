@@ -20,19 +20,18 @@ volatile sig_atomic_t g_stop = 0;
 constexpr double kStep = 0.05;  // s, of the wall timer
 constexpr std::uint32_t kQueue = 1000;
 
+// All but what a replay makes anew of these: what moves in the picture, and the mesh.
 constexpr const char* kRecorded[] = {"/clock",
                                      "/tf",
                                      "/tf_static",
                                      "odom",
                                      "octomap_binary",
                                      "navvi/scene",
-                                     "navvi/scene_moving",
                                      "navvi/obstacles",
                                      "navvi/proximity",
                                      "navvi/contacts",
                                      "navvi/path",
                                      "navvi/guidance",
-                                     "navvi/navmesh",
                                      "navvi/markers",
                                      "navvi/cues",
                                      "navvi/scenario",

@@ -52,22 +52,28 @@ RecordedSession session_in_bag(const std::filesystem::path& path) {
   return session;
 }
 
-std::string first_difference(const RecordedSession& recorded) {
+RepeatedWorld world_of(const RecordedSession& recorded) {
   YAML::Node parameters = YAML::Load(recorded.parameters);
   // Up to 0.1.0 every record named the parameters of that version's "warehouse", used or not.
   for (const char* retired : {"box_fill", "forklift_speed", "pallet_robot_speed", "worker_speed"})
     parameters.remove(retired);
   navvi_sim::setup::SimNodeConfig config;
   navvi_config::read(config, parameters, "the recorded parameters");
-  const navvi_sim::WorldDescription world = navvi_sim::setup::load_world(config).world;
+  navvi_sim::WorldDescription world = navvi_sim::setup::load_world(config).world;
   if (navvi_sim::world_hash(world) != recorded.world_hash)
     throw std::runtime_error("the world \"" + config.world +
                              "\" is no longer the one that was recorded: its hash is " +
                              navvi_sim::world_hash(world) + ", and was " + recorded.world_hash);
   const auto start = config.start_pose();
   if (!start) throw std::runtime_error("the recorded parameters do not say where the robot began");
-  navvi_sim::live::Session session(world, config.life, *start,
-                                   static_cast<std::uint64_t>(config.seed));
+  return {
+      navvi_sim::live::Session(world, config.life, *start, static_cast<std::uint64_t>(config.seed)),
+      std::move(world), config.life};
+}
+
+std::string first_difference(const RecordedSession& recorded) {
+  RepeatedWorld world = world_of(recorded);
+  navvi_sim::live::Session& session = world.session;
   double equal_until = -1.0;
   for (const navvi_types::StateHash& state : recorded.states) {
     if (navvi_sim::live::replay(session, recorded.commands, state.step) !=

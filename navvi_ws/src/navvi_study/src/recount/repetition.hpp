@@ -19,6 +19,15 @@ struct RecordedSession {
 /// damaged file: call this in a child process.
 [[nodiscard]] RecordedSession session_in_bag(const std::filesystem::path& bag);
 
+/// The recorded world, built anew as it was before its first step.
+struct RepeatedWorld {
+  navvi_sim::live::Session session;
+  navvi_sim::WorldDescription description;
+  navvi_sim::live::WorldConfig config;
+};
+/// \throws std::runtime_error with a sentence if the world cannot be built as it was
+[[nodiscard]] RepeatedWorld world_of(const RecordedSession& recorded);
+
 /// Builds the recorded world anew, steps it with the recorded commands, and compares each recorded
 /// state. \return empty if all are equal, or a sentence on where they first differ
 /// \throws std::runtime_error with a sentence if the world cannot be built as it was

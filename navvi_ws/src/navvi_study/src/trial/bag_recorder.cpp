@@ -23,7 +23,8 @@ BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
   // Small chunks lose little when the recorder is killed; the default min-space leaves an empty bag
   // and success behind.
   std::vector<std::string> words = {
-      program, "-q", "-O", bag.string(), "--chunksize=64", "--min-space=50M", "--tcpnodelay"};
+      program,           "-q",           "-O",   bag.string(), "--chunksize=64",
+      "--min-space=50M", "--tcpnodelay", "--bz2"};
   words.insert(words.end(), topics.begin(), topics.end());
   words.push_back("__name:=" + node_name);
   std::vector<char*> arguments;

@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kStart = 6.0;   // s, for the recorder to listen
 constexpr double kSettle = 0.5;  // s, for links to come up before the first event
-constexpr double kStill = 3.0;   // s, without growth
+constexpr double kStill = 10.0;  // s, without growth; a compressed bag grows by whole chunks
 constexpr double kClose = 8.0;   // s, for the recorder to close the bag
 
 }  // namespace

@@ -68,9 +68,9 @@ TEST_F(Bag, is_lost_when_it_stops_to_grow) {
   BagWatch bag(recorder("echo some >\"$3.active\"; exec sleep 60"), 10.0);
   ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.active"); }));
   bag.expect_growth(20.0);
-  EXPECT_TRUE(bag.growing(22.9));
-  EXPECT_TRUE(bag.growing(24.0)) << "it grew just before";
-  EXPECT_FALSE(bag.growing(26.0));
+  EXPECT_TRUE(bag.growing(29.9));
+  EXPECT_TRUE(bag.growing(31.0)) << "it grew just before";
+  EXPECT_FALSE(bag.growing(40.0));
   bag.kill();
 }
 

@@ -354,7 +354,7 @@ TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
   live(2.0);
   ASSERT_TRUE(happened("TRIAL_START"));
   EXPECT_FALSE(happened("BAG_LOST"));
-  live(4.0, State::following, kScenario.goal);
+  live(11.0, State::following, kScenario.goal);
   EXPECT_EQ(std::count(events_.begin(), events_.end(), "BAG_LOST"), 1);
   EXPECT_NE(said_.find("The bag does not grow"), std::string::npos) << said_;
   live(0.1, State::arrived, kScenario.goal);
