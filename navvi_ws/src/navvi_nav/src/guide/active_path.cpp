@@ -53,8 +53,9 @@ bool ActivePath::arrived(Point robot, const map::Space& space) const {
          follower_.arrived(robot, space);
 }
 
-void ActivePath::report(Guidance& out, const Pose2& robot, double pace) const {
-  follower_.report(out, robot);
+void ActivePath::report(Guidance& out, const Pose2& robot, const map::Floor& floor,
+                        double pace) const {
+  follower_.report(out, robot, floor);
   if (!leads_to_goal_) out.waypoint_is_goal = false;
   out.eta = out.goal_distance / pace;
   out.shortest_length = shortest_length_;

@@ -58,7 +58,7 @@ class ActivePath {
   [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
 
   /// Fills in where the path leads. \pre following()
-  void report(Guidance& out, const Pose2& robot, double pace) const;
+  void report(Guidance& out, const Pose2& robot, const map::Floor& floor, double pace) const;
   /// Fills in how often it changed, followed or not.
   void report_changes(Guidance& out, double time) const;
 

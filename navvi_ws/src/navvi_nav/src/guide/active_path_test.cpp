@@ -25,7 +25,7 @@ class Following : public testing::Test {
   [[nodiscard]] Guidance status() const {
     Guidance out;
     path_.report_changes(out, 100.0);
-    path_.report(out, {{robot_.x, robot_.y}, 0.0}, 0.7);
+    path_.report(out, {{robot_.x, robot_.y}, 0.0}, {}, 0.7);
     return out;
   }
   ActivePath path_{ActivePathConfig{}};

@@ -449,7 +449,7 @@ TEST(PathFollower, measures_angles_clockwise_from_the_nose) {
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{0, 0}, {4, 0}, {4, -4}});
   Guidance heading;
-  follower.report(heading, {{0, 1}, 0.0});
+  follower.report(heading, {{0, 1}, 0.0}, {});
   EXPECT_NEAR(heading.turn_angle, M_PI / 2 - std::atan2(1, 4), 1e-12);
   EXPECT_NEAR(heading.waypoint_angle, std::atan2(1, 4), 1e-12);
   EXPECT_NEAR(heading.path_offset, 1.0, 1e-12);
@@ -457,18 +457,37 @@ TEST(PathFollower, measures_angles_clockwise_from_the_nose) {
 }
 
 TEST(PathFollower, steers_to_the_path_ahead_so_that_a_drift_shows_early) {
+  SmallWorld world;
+  world.room(24, 12);
+  plan::NavMesh mesh(plan::NavMeshConfig{});
+  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
   PathFollower follower{PathFollowerConfig{}};
-  follower.follow({{0, 0}, {20, 0}, {20, 5}});
+  follower.follow({{2, 2}, {22, 2}, {22, 7}});
   Guidance heading;
   const auto steer = [&](double x, double y) {
-    follower.report(heading, {{x, y}, 0.0});
+    follower.report(heading, {{x, y}, 0.0}, *mesh.space().floor);
     return heading.steer_angle;
   };
-  EXPECT_NEAR(steer(5, 0), 0.0, 1e-12);
-  EXPECT_NEAR(steer(5, 0.5), std::atan2(0.5, 3.0), 1e-12);
+  EXPECT_NEAR(steer(7, 2), 0.0, 1e-12);
+  EXPECT_NEAR(steer(7, 2.5), std::atan2(0.5, 3.0), 1e-12);
   EXPECT_NEAR(heading.waypoint_angle, std::atan2(0.5, 15.0), 1e-12);
-  EXPECT_NEAR(steer(18, 0.5), std::atan2(0.5, 2.0), 1e-12);  // not past the way-point
-  EXPECT_NEAR(steer(5, 4), std::atan2(4, 15.0), 1e-12);      // far off: to the way-point
+  EXPECT_NEAR(steer(20, 2.5), std::atan2(0.5, 2.0), 1e-12);  // not past the way-point
+  EXPECT_NEAR(steer(7, 6), std::atan2(4, 15.0), 1e-12);      // far off: to the way-point
+}
+
+TEST(PathFollower, steers_clear_of_a_corner_beside_the_path) {
+  SmallWorld world;
+  world.room(12, 6).box(4, 2.5, 0, 12, 6, 1.0);  // its corner juts out to the left of the path
+  plan::NavMesh mesh(plan::NavMeshConfig{});
+  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  PathFollower follower{PathFollowerConfig{}};
+  follower.follow({{1, 1.8}, {11, 1.8}});
+  const Point robot{3.6, 2.3};  // it drifted to the left, and is about to hit that corner
+  Guidance heading;
+  follower.report(heading, {{robot.x, robot.y}, 0.0}, *mesh.space().floor);
+  const Point to{std::cos(heading.steer_angle), -std::sin(heading.steer_angle)};
+  EXPECT_FALSE(mesh.space().segment_clear(robot, robot + 1.0 * Point{1.0, -0.5 / 3.0}, 0.34));
+  EXPECT_TRUE(mesh.space().segment_clear(robot, robot + 0.6 * to, 0.34));
 }
 
 TEST(PathFollower, keeps_a_corner_that_would_be_cut_through_a_shelf) {

@@ -7,6 +7,7 @@ constexpr double kNearPath = 1.5;  // m, a robot farther off steers for the way-
 constexpr double kSlack = 0.02;    // m, of room that need not be kept
 constexpr double kCut = 0.2;       // m, a leg with less room is cut
 constexpr double kSample = 0.1;    // m
+constexpr double kShorter = 0.8;   // of the way to steer for, at each try
 constexpr double kOnPath = 0.5;    // m, a robot nearer to a later leg has passed its start
 
 /// m, from the segment to the nearest thing, sampled.
@@ -34,6 +35,8 @@ void PathFollowerConfig::describe(navvi_config::Visitor& visit) {
   visit(
       steer_ahead, "steer_ahead", Range{0.5, 1e6}, "m",
       "directions are to the path so far ahead of the robot, or to the way-point if it is nearer");
+  visit(least_ahead, "least_ahead", Range{0.1, 1e6}, "m",
+        "or to a nearer point of the path, but not nearer than this, if what stands is in between");
 }
 
 double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
@@ -102,14 +105,27 @@ bool PathFollower::arrived(Point robot, const map::Space& space) const {
 }
 
 /// Towards a far way-point a drift off the path shows too late; a nearer point turns the same drift
-/// into a larger angle.
-Point PathFollower::steer_point(Point robot) const {
+/// into a larger angle. A robot beside its path, next to a corner or a wall, is led off that first.
+Point PathFollower::steer_point(Point robot, const map::Floor& floor) const {
   const Point start = path_[next_ - 1];
   const Point leg = path_[next_] - start;
   const Point nearest = nearest_on_segment(robot, start, path_[next_]);
   const double left = distance(nearest, path_[next_]);
-  if (left <= config_.steer_ahead || distance(robot, nearest) > kNearPath) return path_[next_];
-  return nearest + (config_.steer_ahead / norm(leg)) * leg;
+  if (distance(robot, nearest) > kNearPath) return path_[next_];
+  const auto ahead = [&](double by) {
+    return by < left ? nearest + (by / norm(leg)) * leg : path_[next_];
+  };
+  const std::vector<Cylinder> none;
+  const map::Space still{&floor, &none};
+  const double own = still.clearance(robot);
+  const auto free = [&](Point target) {
+    const double room = std::min(own, least_room(nearest, target, still)) - kSlack;
+    return still.segment_clear(robot, target, std::clamp(room, 0.0, config_.sight_radius));
+  };
+  double by = std::min(left, config_.steer_ahead);
+  while (by > config_.least_ahead && !free(ahead(by)))
+    by = std::max(config_.least_ahead, kShorter * by);
+  return ahead(by);
 }
 
 double PathFollower::offset(Point robot) const {
@@ -119,7 +135,7 @@ double PathFollower::offset(Point robot) const {
   return least;
 }
 
-void PathFollower::report(Guidance& out, const Pose2& robot) const {
+void PathFollower::report(Guidance& out, const Pose2& robot, const map::Floor& floor) const {
   const Point at = to_point(robot.position);
   const Point ahead{std::cos(robot.yaw), std::sin(robot.yaw)};
   const Point leg = path_[next_] - at;
@@ -127,7 +143,7 @@ void PathFollower::report(Guidance& out, const Pose2& robot) const {
   out.waypoint_is_goal = next_ + 1 == path_.size();
   out.waypoint_distance = norm(leg);
   out.waypoint_angle = clockwise(ahead, leg);
-  out.steer_angle = clockwise(ahead, steer_point(at) - at);
+  out.steer_angle = clockwise(ahead, steer_point(at, floor) - at);
   out.turn_angle = out.waypoint_is_goal ? 0.0 : clockwise(leg, path_[next_ + 1] - path_[next_]);
   out.goal_distance = length_of(remaining(at));
   out.path_offset = offset(at);

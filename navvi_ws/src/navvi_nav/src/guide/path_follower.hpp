@@ -17,6 +17,7 @@ struct PathFollowerConfig {
   double easy_radius = 0.6;
   double close = 0.4;
   double steer_ahead = 3.0;
+  double least_ahead = 0.8;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -47,11 +48,11 @@ class PathFollower {
   /// m, from the robot to the nearest point of the path. following() must hold.
   [[nodiscard]] double offset(Point robot) const;
   /// Fills in where the path leads, from the way-point to the path's offset. following() must hold.
-  void report(Guidance& out, const Pose2& robot) const;
+  void report(Guidance& out, const Pose2& robot, const map::Floor& floor) const;
 
  private:
   [[nodiscard]] bool sees(Point robot, Point target, const map::Space& space) const;
-  [[nodiscard]] Point steer_point(Point robot) const;
+  [[nodiscard]] Point steer_point(Point robot, const map::Floor& floor) const;
   [[nodiscard]] bool leaves_corner(Point robot, const map::Space& space) const;
   [[nodiscard]] bool reached(Point robot, const map::Space& space) const;
 
