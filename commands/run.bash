@@ -36,6 +36,8 @@ check_words() {
   one_of speech profile once lesson
   [[ ${arg[lesson]} == none || ${arg[operator]} != simulated ]] ||
     fail "the tutorial needs a person: a game controller, or a display for the keyboard, such as with operator:=keyboard." 2
+  [[ ${arg[speech]} != false || ${arg[operator]} != simulated ]] ||
+    fail "the simulated person drives by what it hears, and with speech:=false that is nothing; leave speech out, or drive yourself, such as with operator:=keyboard." 2
   number limit
   [[ ${arg[participant]:-n/a} =~ ^([A-Za-z0-9_-]{1,32}|n/a)$ ]] ||
     fail "participant:=${arg[participant]} is not allowed; allowed are up to 32 letters, digits, - and _, such as sub-01." 2

@@ -39,6 +39,7 @@ def test_shell_scripts_are_clean():
     (["run", "profile:=mine"], "allowed are: default paper"),
     (["run", "operator:=simulated", "rviz:=true"], "needs a display"),
     (["run", "operator:=keyboard"], "needs a display"),
+    (["run", *SIMULATED, "speech:=false"], "the simulated person drives by what it hears"),
     (["run", *SIMULATED, "view:=wide"], "allowed are: chase top forward"),
     (["run", *SIMULATED, "vision:=x-ray"], "allowed are: high_contrast"),
     (["run", *SIMULATED, "once:=maybe"], "allowed are: true false"),
