@@ -5,6 +5,7 @@ import difflib
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import threading
@@ -188,6 +189,16 @@ def test_an_hour_of_a_session_is_less_than_a_fifth_of_a_gigabyte(trial):
     with rosbag.Bag(str(trial / "trial.bag")) as bag:
         seconds = bag.get_end_time() - bag.get_start_time()
         assert bag.size < MOST_BYTES * seconds, (bag.size, seconds)
+
+
+def test_a_cue_of_a_node_that_woke_after_the_end_is_not_counted(trial, tmp_path):
+    for name in "summary.csv", "trial.bag":
+        shutil.copy(trial / name, tmp_path)
+    with rosbag.Bag(str(tmp_path / "trial.bag"), "a") as bag:
+        cue = next(cue for _, cue, _ in bag.read_messages("/navvi/cues") if cue.modality == cue.SPEECH and cue.stage == cue.STARTED)
+        cue.id += 100000
+        bag.write("/navvi/cues", cue, rospy.Time(bag.get_end_time() + 1.0))
+    subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(tmp_path)], check=True, timeout=120)
 
 
 def test_a_bag_of_another_version_is_named_as_one(trial, tmp_path):

@@ -42,20 +42,27 @@ trial::TrialMonitorConfig config_of(const record::Row& row) {
 }
 
 /// What trial_node itself said: when the trial began and ended, and its goals.
-std::vector<record::Row> events_in(const rosbag::Bag& bag) {
-  std::vector<record::Row> rows;
+struct Told {
+  std::vector<record::Row> events;
+  ros::Time over;  ///< when the bag got the end: what came later was counted by nobody
+};
+
+Told told_in(const rosbag::Bag& bag) {
+  Told told;
   for (const auto& item : rosbag::View(bag, rosbag::TypeQuery("navvi_msgs/TrialEvent"))) {
     const auto msg = message_of<navvi_msgs::TrialEvent>(item);
     const auto row = msg ? node::from_msg(*msg) : std::nullopt;
-    if (row) rows.push_back(*row);
+    if (!row) continue;
+    told.events.push_back(*row);
+    if (row->type == "TRIAL_END") told.over = item.getTime();
   }
-  return rows;
+  return told;
 }
 
 class Recount {
  public:
-  explicit Recount(const std::vector<record::Row>& events) {
-    for (const auto& row : events) {
+  explicit Recount(const Told& told) : over_(told.over) {
+    for (const auto& row : told.events) {
       if (row.type == "TRIAL_START") start_ = row;
       if (row.type == "GOAL_SET") goals_.push_back(row);
       if (row.type == "TRIAL_END") end_ = row;
@@ -76,7 +83,7 @@ class Recount {
         change_goals_until(start_.sim_ns);
       }
       places_ = trial::OdometryInMap();
-      for (const auto& item : rosbag::View(bag)) see(item, before);
+      for (const auto& item : rosbag::View(bag, ros::TIME_MIN, over_)) see(item, before);
     }
     record::Fields fields = monitor_.end_fields();
     const bool reached = monitor_.reached().has_value();
@@ -151,6 +158,7 @@ class Recount {
   trial::OdometryInMap places_;
   record::Row start_;
   record::Row end_;
+  ros::Time over_;
   std::vector<record::Row> goals_;
   std::size_t next_goal_ = 0;
   std::vector<record::Row> rows_;
@@ -161,7 +169,7 @@ class Recount {
 std::vector<record::Row> rows_from_bag(const std::filesystem::path& path) {
   rosbag::Bag bag;
   bag.open(path.string(), rosbag::bagmode::Read);
-  Recount recount(events_in(bag));
+  Recount recount(told_in(bag));
   recount.replay(bag);
   return recount.rows();
 }
