@@ -82,7 +82,7 @@ void SimulatedOperator::hear(const CueEvent& cue, double time) {
   if (cue.modality == navvi_types::Modality::sound) return hear_sound(cue, time);
   if (cue.modality != navvi_types::Modality::speech) return;
   if (cue.stage == CueStage::started) {
-    hearing_[cue.id] = {cue.kind, cue.text, heading_, odometer_, time};
+    hearing_[cue.id] = {cue.kind, cue.text, heading_, odometer_, time, time};
   } else if (cue.stage == CueStage::cut) {
     hearing_.erase(cue.id);
   } else if (cue.stage == CueStage::ended) {
@@ -261,7 +261,8 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
       straight_before_ = false;
       break;
     case Instruction::Kind::straight:
-      target_ = sentence.heading;
+      // A turn that a sound has led since is not turned back.
+      if (turned_by_ear_ < sentence.begun) target_ = sentence.heading;
       turn_speed_ = 0.0;
       mode_ = std::abs(target_ - heading_) > 0.1 ? Mode::turning : Mode::driving;
       go_for(sentence, instruction);
@@ -331,6 +332,7 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
   if (ticks_ && (mode_ == Mode::turning || mode_ == Mode::driving)) {
     mode_ = Mode::driving;
     target_ = heading_;
+    turned_by_ear_ = time;
     return turn_by_ear(time);
   }
   if (mode_ == Mode::turning) {

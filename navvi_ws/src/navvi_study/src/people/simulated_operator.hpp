@@ -82,7 +82,8 @@ class SimulatedOperator {
     std::string text;
     double heading = 0.0;
     double odometer = 0.0;
-    double time = 0.0;  ///< s: begun, or, once understood, when the hands will follow
+    double begun = 0.0;  ///< s
+    double time = 0.0;   ///< s: begun, or, once understood, when the hands will follow
   };
 
   /// A short sound, as the ear takes it.
@@ -124,6 +125,7 @@ class SimulatedOperator {
   double sound_reaction_;  ///< s
   std::deque<Heard> heard_;
   std::optional<Ticks> ticks_;
+  double turned_by_ear_ = -1e9;  ///< s
   bool told_to_halt_ = true;
   double turn_gain_;   ///< turns asked for are made this much too far
   double speed_gain_;  ///< distances are believed this much too long

@@ -192,6 +192,24 @@ TEST(SimulatedOperator, turns_by_what_sounds_and_too_far_where_that_ends_late) {
   }
 }
 
+TEST(SimulatedOperator, does_not_turn_back_what_a_sound_led_while_it_was_told_to_go_on) {
+  Loop loop(1, {{100.0, 0.0}});
+  loop.say("straight ahead, 9 meters");
+  for (int i = 0; i < 200; ++i) loop.step();
+  loop.say("go on");
+  for (int i = 0; i < 40; ++i) {
+    if (i % 10 == 0) loop.person.hear(sound("turn", 0.6, 0.0), loop.time);
+    loop.step();
+  }
+  loop.person.hear(sound("turn_stop", 0.3, 0.3), loop.time);
+  for (int i = 0; i < 30; ++i) loop.step();
+  const double turned = loop.yaw;
+  EXPECT_GT(turned, 0.1);
+  loop.person.hear({2, CueStage::ended}, loop.time);
+  for (int i = 0; i < 100; ++i) loop.step();
+  EXPECT_NEAR(loop.yaw, turned, 0.1);
+}
+
 TEST(SimulatedOperator, finds_a_goal_behind_its_back) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Loop loop(seed, {{-5.0, 0.5}});
