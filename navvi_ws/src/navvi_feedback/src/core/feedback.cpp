@@ -162,6 +162,7 @@ SoundsNow Feedback::sounds_now(const Input& input, double time) const {
   const lessons::Taught& taught = deciders_->teacher.taught();
   sounds::Soundscape::Input now;
   now.off = off_course(time);
+  now.fine = deciders_->cues.leads_off();
   now.motion = taught.motion.value_or(motion_.value.value_or(Velocity{}));
   if (now.off && guidance_.value && guidance_.value->waypoint_distance > 0.0) {
     const double angle = guidance_.value->waypoint_angle + turned_;

@@ -29,6 +29,8 @@ class CuePolicy {
 
   /// The person is to follow the path now.
   [[nodiscard]] bool leads() const { return leads_; }
+  /// And it leads off something near, so that a small turn counts.
+  [[nodiscard]] bool leads_off() const { return leads_ && route_.leads_off(); }
 
   /// Takes note of what became of the cues: one that was dropped may be said again at once.
   void note(const std::vector<CueEvent>& events);

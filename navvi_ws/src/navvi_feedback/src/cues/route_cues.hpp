@@ -42,6 +42,9 @@ class RouteCues {
   void forget();
   /// What was said of the way was dropped: it is said anew, as it is then.
   void unsaid();
+
+  /// Straight ahead would lead into something near, or along it.
+  [[nodiscard]] bool leads_off() const { return leads_off_; }
   /// Something else was said that makes a person stop: say the direction again soon.
   void remind(double time);
 

@@ -22,7 +22,8 @@ bool due(std::optional<double>& last, double distance, double range, double time
 
 std::vector<Play> Soundscape::update(const Input& now, double time) {
   std::vector<Play> plays;
-  const auto turn = turn_.update(config_.turn.on ? now.off : std::nullopt, now.motion, time);
+  const auto turn =
+      turn_.update(config_.turn.on ? now.off : std::nullopt, now.fine, now.motion, time);
   if (turn) plays.push_back(*turn);
   if (config_.beacon.on && now.waypoint && now.waypoint->norm() > config_.capture_radius &&
       due(beacon_, now.waypoint->norm(), kFar, time))

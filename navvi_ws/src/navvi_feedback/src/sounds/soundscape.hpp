@@ -15,6 +15,7 @@ class Soundscape {
   /// All that it is decided from. Points are m, in base_link.
   struct Input {
     std::optional<double> off;                ///< as TurnSound takes it
+    bool fine = false;                        ///< likewise
     Velocity motion;                          ///< likewise
     std::optional<Eigen::Vector2d> waypoint;  ///< if there is one to go to
     std::optional<Eigen::Vector2d> nearest;   ///< point of the nearest thing

@@ -11,6 +11,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kFastest = 0.10;
 constexpr double kSlowest = 0.50;
 constexpr double kMost = 90.0 * kDegree;
+/// Of what a turn otherwise begins at.
+constexpr double kFine = 0.5;
 /// s, for which a heading must be off: a path that swings past is no reason to turn.
 constexpr double kHold = 0.2;
 /// rad/s; slower counts as not turning, and teaches nothing.
@@ -29,7 +31,7 @@ double interval(double off) {
 
 }  // namespace
 
-std::optional<Play> TurnSound::update(std::optional<double> off, const Velocity& motion,
+std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, const Velocity& motion,
                                       double time) {
   const double rate = motion.angular;
   learn(rate, time);
@@ -40,7 +42,8 @@ std::optional<Play> TurnSound::update(std::optional<double> off, const Velocity&
   }
   const Eigen::Vector2d side(0.0, *off > 0.0 ? -1.0 : 1.0);
   if (!counting_) {
-    if (std::abs(*off) <= config_.begin * kDegree || stopping_)
+    const double begin = fine ? std::max(kFine * config_.begin, config_.done) : config_.begin;
+    if (std::abs(*off) <= begin * kDegree || stopping_)
       off_since_.reset();
     else if (!off_since_)
       off_since_ = time;

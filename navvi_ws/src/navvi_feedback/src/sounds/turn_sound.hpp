@@ -24,10 +24,11 @@ class TurnSound {
 
   /// Call it at 50 Hz.
   /// \param off  rad, clockwise from the nose to where to steer; nullopt: nowhere
+  /// \param fine  a turn of half as much as usual counts
   /// \param motion  the robot's
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::optional<Play> update(std::optional<double> off, const Velocity& motion,
-                                           double time);
+  [[nodiscard]] std::optional<Play> update(std::optional<double> off, bool fine,
+                                           const Velocity& motion, double time);
 
   /// It is counting now.
   [[nodiscard]] bool sounds() const { return counting_; }

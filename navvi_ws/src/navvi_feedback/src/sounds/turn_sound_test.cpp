@@ -25,7 +25,7 @@ class Turner {
     stops = 0;
     for (int i = 0; i < 500; ++i) {
       time_ += kTick;
-      const auto play = sound_.update(off * kDegree, {0.0, speed}, time_);
+      const auto play = sound_.update(off * kDegree, false, {0.0, speed}, time_);
       if (play && play->earcon == Earcon::turn) {
         ticks.push_back(time_);
         side = play->from.y();
@@ -53,15 +53,15 @@ class Turner {
 TEST(TurnSound, is_silent_where_there_is_nothing_to_turn) {
   TurnSound sound{TurnConfig{}};
   for (double time = 0.0; time < 2.0; time += kTick) {
-    EXPECT_FALSE(sound.update(std::nullopt, {}, time));
-    EXPECT_FALSE(sound.update(10.0 * kDegree, {}, 2.0 + time));
+    EXPECT_FALSE(sound.update(std::nullopt, false, {}, time));
+    EXPECT_FALSE(sound.update(10.0 * kDegree, false, {}, 2.0 + time));
   }
 }
 
 TEST(TurnSound, passes_over_a_heading_that_is_off_for_a_moment) {
   TurnSound sound{TurnConfig{}};
   for (int i = 0; i < 100; ++i)
-    EXPECT_FALSE(sound.update((i % 8 < 6 ? 40.0 : 5.0) * kDegree, {}, i * kTick)) << i;
+    EXPECT_FALSE(sound.update((i % 8 < 6 ? 40.0 : 5.0) * kDegree, false, {}, i * kTick)) << i;
 }
 
 TEST(TurnSound, ticks_from_the_side_to_turn_to_and_the_faster_the_less_is_left) {
@@ -112,17 +112,28 @@ TEST(TurnSound, tells_now_and_then_that_a_robot_drives_where_it_should) {
     TurnSound sound{TurnConfig{}};
     int heard = 0;
     for (int i = 0; i < 1000; ++i)
-      if (const auto play = sound.update(3.0 * kDegree, {speed, 0.0}, i * kTick))
+      if (const auto play = sound.update(3.0 * kDegree, false, {speed, 0.0}, i * kTick))
         heard += play->earcon == Earcon::on_course ? 1 : 100;
     EXPECT_EQ(heard, speed > 0.0 ? 4 : 0);
   }
 }
 
+TEST(TurnSound, counts_a_small_turn_down_where_that_matters) {
+  for (const bool fine : {false, true}) {
+    TurnSound sound{TurnConfig{}};
+    int ticks = 0;
+    for (int i = 0; i < 50; ++i)
+      if (const auto play = sound.update(10.0 * kDegree, fine, {}, i * kTick))
+        ticks += play->earcon == Earcon::turn ? 1 : 0;
+    EXPECT_EQ(ticks > 0, fine);
+  }
+}
+
 TEST(TurnSound, ends_without_a_word_where_there_is_no_way_any_more) {
   TurnSound sound{TurnConfig{}};
-  for (int i = 0; i < 50; ++i) (void)sound.update(90.0 * kDegree, {}, i * kTick);
+  for (int i = 0; i < 50; ++i) (void)sound.update(90.0 * kDegree, false, {}, i * kTick);
   EXPECT_TRUE(sound.sounds());
-  EXPECT_FALSE(sound.update(std::nullopt, {}, 1.0));
+  EXPECT_FALSE(sound.update(std::nullopt, false, {}, 1.0));
   EXPECT_FALSE(sound.sounds());
 }
 
