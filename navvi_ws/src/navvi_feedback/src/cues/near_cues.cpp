@@ -19,6 +19,8 @@ constexpr double kLastMoment = 1.0;
 constexpr double kComes = 10.0;
 /// s; a thing that was not about to be hit for so long is a new danger when it is.
 constexpr double kOver = 1.0;
+/// s to a collision; who has not kept off by then is to stop.
+constexpr double kTooLate = 0.7;
 /// m, from a corner to what stands behind it.
 constexpr double kBehindCorner = 0.5;
 
@@ -107,17 +109,23 @@ void NearCues::consider_collisions(const Situation& now, double time,
   if (first == nullptr) return;
   const Side side = side_of_lane(first->nearest);
   const bool comes = first->moving && !approaches(now, side);
-  const char* kind = comes ? "obstacle_comes" : "obstacle_stop";
   const bool same = warned_of_ == first->id && time - warned_ < kComes;
-  const bool lasts = same && warned_stop_ && time - danger_ < kOver;
+  // Who drives along a shelf is not told to stop for it again and again, but to keep off.
+  const Utterance keep_off =
+      utterance(close_kind(first->thing_class), first->thing_class, side, true);
+  const bool along = same && warned_stop_ && !first->moving && side != Side::ahead &&
+                     soonest > kTooLate && instead_of(keep_off, now.sounds);
+  const std::string kind = comes ? "obstacle_comes" : along ? keep_off.kind : "obstacle_stop";
+  const bool lasts = same && warned_stop_ && !kept_off_ && time - danger_ < kOver;
   if (same) danger_ = time;
   // News is another thing, one that comes after a danger that was over, or the way into it.
   if (too_soon(kind, time) || (comes ? same || hold_.comes : lasts)) return;
   warned_of_ = first->id;
   warned_ = danger_ = time;
   warned_stop_ = !comes;
-  best = Candidate{utterance(kind, first->thing_class, side, false), first->gap,
-                   &things_[first->id], Level::close};
+  kept_off_ = along;
+  best = Candidate{along ? keep_off : utterance(kind.c_str(), first->thing_class, side, false),
+                   first->gap, &things_[first->id], Level::close};
   // A side of which this was said needs no more words, either.
   watches_[{first->thing_class, side}] = {Level::close, time};
 }

@@ -70,6 +70,7 @@ class NearCues {
   double warned_ = 0.0;                     ///< s
   double danger_ = 0.0;                     ///< s, when it was last about to be hit
   bool warned_stop_ = false;                ///< it was to be stopped for
+  bool kept_off_ = false;                   ///< and then only to be kept off
   Hold hold_;
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
   std::map<std::string, double> said_;     ///< s, by kind

@@ -213,6 +213,30 @@ TEST_F(StopTest, a_shelf_that_the_robot_slowly_nears_abeam_is_stopped_for) {
   EXPECT_GT(gap, 0.01);
 }
 
+TEST_F(StopTest,
+       who_drives_along_a_shelf_hears_stop_once_then_a_sound_then_stop_at_the_last_moment) {
+  now_.measured->linear = 0.4;
+  now_.sounds.shelf = true;
+  double gap = 0.0;
+  const auto near = [&](double from) {
+    Sides said;
+    for (gap = from; gap > 0.0 && said.empty(); gap -= 0.05 * 0.02)
+      said = pass(0.02, {shelf(gap, {0.0, 0.35 + gap})});
+    EXPECT_EQ(said, Sides{Side::left});
+    return last_.kind;
+  };
+  pass(1.0, {shelf(0.2, {0.0, 0.55})});
+  EXPECT_EQ(near(0.2), "obstacle_stop");
+  pass(3.0, {shelf(0.2, {0.0, 0.55})});
+  EXPECT_EQ(near(0.2), "shelf_close");
+  EXPECT_EQ(last_.priority, Priority::message);
+  EXPECT_EQ(near(gap), "obstacle_stop") << "who does not keep off";
+  EXPECT_GT(gap, 0.05);
+  now_.sounds.shelf = false;
+  pass(4.0, {shelf(0.2, {0.0, 0.55})});
+  EXPECT_EQ(near(0.2), "obstacle_stop") << "where there are no sounds";
+}
+
 TEST_F(StopTest, what_is_passed_is_not_stopped_for) {
   now_.measured->linear = 0.9;
   for (double x = 3.0; x > -3.0; x -= 0.018) {
