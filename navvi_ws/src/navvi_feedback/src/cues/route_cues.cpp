@@ -157,6 +157,11 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   if (direction_due(now, time)) {
     // Who is told "straight ahead" just before a turn drives past it.
     if (turn && *hour_ == 12) return {announce_turn("straight_then", way, *turn, time)};
+    // The route changed while the person waited.
+    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind == "direction") {
+      way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+      reroutes_ = guidance.reroutes;
+    }
     return {said(way, *hour_, time)};
   }
   if (turn && !ahead_told_ && turn_ahead_due(guidance, *turn, time))

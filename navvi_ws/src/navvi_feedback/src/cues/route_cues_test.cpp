@@ -375,6 +375,20 @@ TEST(RouteCues, say_that_the_old_way_is_blocked_once_for_each_reroute) {
   EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
 }
 
+TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
+  for (const bool sound : {true, false}) {
+    Drive drive;
+    drive.now.sounds.turn = sound;
+    drive.settle(0.0, 30.0);
+    drive.now.guidance->reroutes = 1;
+    drive.now.guidance->waypoint = {0.0, -12.0};
+    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(120.0);
+    EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
+    EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+    EXPECT_EQ(drive.last.fillings.hour, 4);
+  }
+}
+
 TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
   Drive drive;
   drive.settle(90.0, 8.0);
