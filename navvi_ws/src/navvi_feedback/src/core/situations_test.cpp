@@ -129,7 +129,18 @@ const std::vector<Row> kTable = {
      [](Scene& now) {
        push(now, {thing(kBox, 0.1, 0.4, 0.0), thing(kShelf, 0.2, -0.5, 0.0)});
      },
-     "stuck, box ahead", "stuck", ""},
+     "stuck, box ahead, try 3 o'clock", "stuck", ""},
+    {"a shelf on the left, the nose at its end",
+     [](Scene& now) {
+       push(now, {thing(kShelf, 0.05, 0.3, 0.26), thing(kBox, 0.3, -0.65, 0.0)});
+     },
+     "stuck, shelf ahead, try 2 o'clock", "stuck", ""},
+    {"boxed in",
+     [](Scene& now) {
+       push(now, {thing(kBox, 0.1, 0.45, 0.0), thing(kBox, 0.1, 0.0, 0.45),
+                  thing(kShelf, 0.1, 0.0, -0.45), thing(kShelf, 0.1, -0.45, 0.0)});
+     },
+     "stuck, box ahead, shelf right, shelf behind, box left", "stuck", ""},
     {"nothing near", [](Scene& now) { push(now, {}); }, "stuck", "stuck", ""},
     {"the robot was stopped",
      [](Scene& now) {

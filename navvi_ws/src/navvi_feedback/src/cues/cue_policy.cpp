@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "cues/clock_face.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -23,6 +26,8 @@ constexpr double kHeldBack = 2.5;
 constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
 constexpr double kMoving = 0.05;
+/// m; what is less far ahead is beside.
+constexpr double kBeside = 0.05;
 
 /// Why the guidance does not lead anywhere, as a kind of cue; empty if it does.
 std::string problem_of(const Guidance& guidance) {
@@ -89,6 +94,20 @@ bool muted(const std::string& kind, const WordingConfig& wording) {
   static const std::set<std::string> near = {"shelf_near", "wall_near",     "shelf_close",
                                              "wall_close", "obstacle_near", "obstacle_close"};
   return (!wording.way && way.count(kind) > 0) || (!wording.near && near.count(kind) > 0);
+}
+
+/// rad, clockwise from the nose
+double angle_of(int hour) { return hour * kHourDegrees * M_PI / 180.0; }
+
+/// Whether a robot that turned there could drive on.
+bool is_free(int hour, const std::vector<NearThing>& nearby, double gap) {
+  const double angle = angle_of(hour);
+  const Eigen::Vector2d way(std::cos(angle), -std::sin(angle));
+  return std::none_of(nearby.begin(), nearby.end(), [&](const NearThing& thing) {
+    const Eigen::Vector2d& at = thing.nearest;
+    const double across = way.x() * at.y() - way.y() * at.x();
+    return thing.gap <= gap && way.dot(at) > kBeside && std::abs(across) <= kHalfLane;
+  });
 }
 
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
@@ -231,12 +250,24 @@ CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
     if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
       blocker = &thing;
   if (!blocker) return {{"stuck_unknown"}};
-  const Fillings fillings = where(blocker->thing_class, blocker->nearest);
-  const bool free_behind =
-      std::none_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
-        return thing.gap <= config_.blocker_gap && side_of(thing.nearest) == Side::behind;
-      });
-  return {{fillings.side == Side::ahead && free_behind ? "back_away" : "stuck", fillings}};
+  Fillings fillings = where(blocker->thing_class, blocker->nearest);
+  const auto free = [&](int hour) { return is_free(hour, now.nearby, config_.blocker_gap); };
+  if (fillings.side == Side::ahead && free(6)) return {{"back_away", fillings}};
+  const double wanted = follows_ ? now.guidance->steer_angle : 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int hour = 1; hour <= 12; ++hour) {
+    const double aside = std::abs(std::remainder(angle_of(hour) - wanted, 2.0 * M_PI));
+    if (aside >= least || !free(hour)) continue;
+    least = aside;
+    fillings.hour = hour;
+  }
+  if (fillings.hour) return {{"stuck", fillings}};
+  Utterance boxed_in{"stuck_unknown"};
+  const Utterance sides = around(now.nearby);
+  boxed_in.also = sides.also;
+  boxed_in.also.insert(boxed_in.also.begin(), sides);
+  for (Utterance& side : boxed_in.also) side.from.reset();  // words alone are sooner over
+  return {boxed_in};
 }
 
 CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,

@@ -118,7 +118,7 @@ TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   EXPECT_EQ(phrases.say("obstacle_close", everything()), "pallet robot very close, on the left");
   EXPECT_EQ(phrases.say("release_stick"), "release the stick");
   EXPECT_EQ(phrases.say("collision_obstacle", everything()), "hit a pallet robot on the left");
-  EXPECT_EQ(phrases.say("stuck", everything()), "stuck, pallet robot left");
+  EXPECT_EQ(phrases.say("stuck", everything()), "stuck, pallet robot left, try 3 o'clock");
   EXPECT_EQ(phrases.say("arrived"), "You have reached your destination");
 }
 

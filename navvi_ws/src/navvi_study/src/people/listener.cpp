@@ -40,7 +40,7 @@ Kind meaning(const std::string& kind) {
                                                        {"collision_shelf", Kind::bump},
                                                        {"collision_wall", Kind::bump},
                                                        {"collision_obstacle", Kind::bump},
-                                                       {"stuck", Kind::bump},
+                                                       {"stuck", Kind::turn},
                                                        {"stuck_unknown", Kind::bump},
                                                        {"back_away", Kind::bump},
                                                        {"off_mesh", Kind::bump},
