@@ -62,7 +62,7 @@ def grammar(told):
     names = [words_of(name) for key, name in lessons.items() if key.startswith(("pad_", "key_"))]
     lines.append(f"<button> = {' | '.join(sorted(set(map(' '.join, names))))};")
     sentences = [sentence for key, text in lessons.items() if told and not key.startswith(("pad_", "key_")) for sentence in text.split(". ")]
-    for template in [*document["phrases"].values(), *document["clock"].values(), *sentences]:
+    for template in [*(text for part in ("phrases", "again", "clock") for text in document[part].values()), *sentences]:
         text = re.sub(r"[.,]", " ", template.lower())
         text = re.sub(r"\d+", lambda digits: " ".join(number_words(digits.group())), text)
         text = re.sub(r"\{(count|all)\}", "<number>", text)

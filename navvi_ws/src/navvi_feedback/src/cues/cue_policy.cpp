@@ -416,6 +416,25 @@ bool CuePolicy::too_soon(const CueKind& kind, double time) const {
   return last != last_said_.end() && time - last->second < kind.min_interval;
 }
 
+/// As much of it as may be spoken at once.
+CuePolicy::Sentence CuePolicy::word(const Utterance& utterance, bool again) const {
+  Sentence told{phrases_.say(utterance.kind, utterance.fillings, again), {}};
+  const auto longer = [&](const std::string& joined) {
+    const bool fits = speakable(joined);
+    if (fits) told.text = joined;
+    return fits;
+  };
+  const auto sounds_from = [&](const Utterance& part) {
+    if (part.from)
+      told.scan.push_back({earcon_of(part.fillings.thing.value_or(ThingClass::other)), *part.from});
+  };
+  sounds_from(utterance);
+  if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + told.text);
+  for (const Utterance& more : utterance.also)
+    if (longer(told.text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
+  return told;
+}
+
 std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation& now,
                                    double time) {
   std::vector<Cue> cues;
@@ -424,34 +443,24 @@ std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation
     if (!utterance.asked && muted(kind.kind, config_.wording) && !instead_of(utterance, now.sounds))
       continue;
     if (!utterance.asked && too_soon(kind, time)) continue;
-    std::string text = phrases_.say(kind.kind, utterance.fillings);
-    const auto longer = [&](const std::string& joined) {
-      const bool fits = speakable(joined);
-      if (fits) text = joined;
-      return fits;
-    };
-    std::vector<sounds::Play> scan;
-    const auto sounds_from = [&](const Utterance& part) {
-      if (part.from)
-        scan.push_back({earcon_of(part.fillings.thing.value_or(ThingClass::other)), *part.from});
-    };
-    sounds_from(utterance);
-    if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + text);
-    for (const Utterance& more : utterance.also)
-      if (longer(text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
-    Cue cue{kind.kind,
-            text,
-            utterance.priority.value_or(kind.priority),
-            kind.max_age,
-            instead_of(utterance, now.sounds),
-            utterance.asked};
-    cue.scan = scan;
-    if (!cue.sound) {
+    const auto age = [&](const std::string& text) {
       const auto same = last_text_.find(text);
-      cue.felt = now.touch && !cue.asked && same != last_text_.end() &&
-                 tells_nothing_new(utterance) && time - same->second < config_.same_text;
-      if (!cue.felt) last_text_[text] = time;
-      if (utterance.fillings.hour == 12 && !cue.felt) straight_said_ = time;
+      return same == last_text_.end() ? std::numeric_limits<double>::infinity()
+                                      : time - same->second;
+    };
+    const auto sound = instead_of(utterance, now.sounds);
+    Sentence told = word(utterance, false);
+    const bool again = !utterance.asked && !sound && age(told.text) < config_.same_text;
+    const bool felt = again && now.touch && tells_nothing_new(utterance);
+    if (again && !felt)
+      if (Sentence other = word(utterance, true); age(other.text) > age(told.text)) told = other;
+    Cue cue{kind.kind,    told.text, utterance.priority.value_or(kind.priority),
+            kind.max_age, sound,     utterance.asked};
+    cue.felt = felt;
+    cue.scan = told.scan;
+    if (!sound && !felt) {
+      last_text_[cue.text] = time;
+      if (utterance.fillings.hour == 12) straight_said_ = time;
     }
     last_said_[kind.kind] = time;
     cues.push_back(cue);

@@ -37,6 +37,10 @@ class CuePolicy {
 
  private:
   using Utterances = std::vector<Utterance>;
+  struct Sentence {
+    std::string text;
+    std::vector<sounds::Play> scan;  ///< of its parts
+  };
 
   [[nodiscard]] Links judge(const Situation& now, double time);
   [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links, double time);
@@ -51,6 +55,7 @@ class CuePolicy {
   [[nodiscard]] Utterances answers(const Situation& now, double time);
   void forget(const CueEvent& event);
   [[nodiscard]] bool too_soon(const CueKind& kind, double time) const;
+  [[nodiscard]] Sentence word(const Utterance& utterance, bool again) const;
   [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Situation& now,
                                         double time);
 

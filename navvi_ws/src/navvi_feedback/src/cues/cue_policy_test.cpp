@@ -134,6 +134,24 @@ TEST_F(CuePolicyTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
   EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"});
 }
 
+TEST_F(CuePolicyTest, says_the_same_once_more_in_other_words) {
+  under_way();
+  now_.sounds.turn = true;
+  now_.guidance->blocked_distance = 5.0;
+  now_.guidance->blocked_by = ThingClass::worker;
+  Texts said;
+  for (int i = 0; i < 2; ++i) {
+    now_.guidance->state = Guidance::State::blocked;
+    for (const std::string& text : pass(1.0)) said.push_back(text);
+    now_.guidance->state = Guidance::State::following;
+    for (const std::string& text : pass(3.0)) said.push_back(text);
+  }
+  EXPECT_EQ(said, (Texts{"wait, worker in the way", "go on", "wait again, worker", "go on again"}));
+  pass(10.0);
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(1.0), Texts{"wait, worker in the way"}) << "that is long ago";
+}
+
 TEST_F(CuePolicyTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
   under_way();
   now_.guidance->blocked_distance = 5.0;
@@ -470,7 +488,7 @@ TEST_F(CuePolicyTest, says_every_thing_that_is_hit_but_the_same_only_once_in_a_w
   EXPECT_EQ(pass(0.5), Texts{"hit a box on the left"});
   pass(3.0);
   now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}};
-  EXPECT_EQ(pass(0.1), Texts{"hit a box ahead"});
+  EXPECT_EQ(pass(0.1), Texts{"hit again, box ahead"});
 }
 
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {

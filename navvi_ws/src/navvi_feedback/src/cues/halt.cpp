@@ -7,7 +7,7 @@ namespace navvi_feedback::cues {
 namespace {
 
 /// s, for which the way must be clear.
-constexpr double kClear = 0.5;
+constexpr double kClear = 0.8;
 /// s; what is still there then must be driven round.
 constexpr double kLongest = 8.0;
 /// s, that "go on" waits for a direction.

@@ -223,14 +223,15 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   const YAML::Node root = navvi_config::load_yaml(file);
   const std::string name = file.string();
   if (!root.IsMap()) throw ConfigError(name + ": it must be a map of sections.");
-  const std::vector<std::string> instead = {"clock", "brief", "full"};
+  const std::vector<std::string> instead = {"again", "clock", "brief", "full"};
   for (const auto& item : root)
     if (const std::string key = item.first.Scalar();
         key != "voice" && key != "phrases" && key != "words" && key != "lessons" &&
         std::find(instead.begin(), instead.end(), key) == instead.end())
-      throw ConfigError(name + ", line " + std::to_string(item.first.Mark().line + 1) +
-                        ": there is no section \"" + key +
-                        "\"; there are voice, phrases, clock, brief, full, words and lessons.");
+      throw ConfigError(
+          name + ", line " + std::to_string(item.first.Mark().line + 1) +
+          ": there is no section \"" + key +
+          "\"; there are voice, phrases, again, clock, brief, full, words and lessons.");
   if (!root["voice"] || !root["voice"].IsScalar())
     throw ConfigError(name + ": \"voice\" is missing or no text; it names a voice of espeak-ng.");
   voice_ = root["voice"].Scalar();
@@ -257,9 +258,10 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   }
 }
 
-std::string Phrases::say(const std::string& kind, const Fillings& fillings) const {
+std::string Phrases::say(const std::string& kind, const Fillings& fillings, bool again) const {
   for (const std::string& section :
-       {wording_.verbosity, wording_.directions, std::string("phrases")}) {
+       {std::string("again"), wording_.verbosity, wording_.directions, std::string("phrases")}) {
+    if (section == "again" && !again) continue;
     const auto phrases = phrases_.find(section);
     if (phrases == phrases_.end()) continue;
     if (const auto phrase = phrases->second.find(kind); phrase != phrases->second.end())

@@ -86,7 +86,8 @@ struct Utterance {
 class Phrases {
  public:
   /// \param file  with the sections voice, phrases, words; in clock, brief and full stand phrases
-  /// that are said instead where that wording is wanted, brief and full before clock
+  /// that are said instead where that wording is wanted, brief and full before clock, and in again
+  /// what is said instead of the same words once more
   /// \throws navvi_config::ConfigError with file, line and key if the file is missing or no YAML,
   /// if a kind of cue_kinds() has no phrase or a word is missing, if a key or placeholder is
   /// unknown, or if a text, filled in any way, would not be speakable().
@@ -94,7 +95,9 @@ class Phrases {
 
   /// \throws std::logic_error for an unknown kind, a filling that the phrase needs and that is
   /// missing or not finite: a mistake in the program, as the file was checked when it was read
-  [[nodiscard]] std::string say(const std::string& kind, const Fillings& fillings = {}) const;
+  /// \param again  what it has for what was just said, if it has
+  [[nodiscard]] std::string say(const std::string& kind, const Fillings& fillings = {},
+                                bool again = false) const;
 
   /// From now on.
   void use(const WordingConfig& wording) { wording_ = wording; }

@@ -72,7 +72,7 @@ std::string literal(const std::string& text) {
 
 Listener::Listener(const std::filesystem::path& phrases) {
   const YAML::Node root = navvi_config::load_yaml(phrases);
-  for (const char* section : {"phrases", "clock", "brief", "full"})
+  for (const char* section : {"phrases", "again", "clock", "brief", "full"})
     for (const auto& item : root[section])
       phrases_.emplace(item.first.Scalar(), item.second.Scalar());
   for (const auto& item : root["words"])
