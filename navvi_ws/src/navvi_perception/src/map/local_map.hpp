@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <utility>
+#include <vector>
+
+#include "sight/sight.hpp"
+
+namespace navvi_perception::map {
+
+struct MapConfig {
+  double resolution = 0.05;  ///< m, edge of a voxel
+  double bound = 8.0;        ///< m, along x and y to each side of the robot; beyond it only the
+                             ///< prior map is kept
+  double floor = 0.0;        ///< m, z of the floor in map
+  double low = 0.04;         ///< m above the floor; what ends lower is floor
+  double high = 0.8;         ///< m above the floor; what begins higher does not matter
+  double hit = 0.7;          ///< probability that what a ray meets is there
+  double miss = 0.4;         ///< probability that what a ray passes is there
+  double forget = 60.0;      ///< s, in which a sure voxel is forgotten that is not seen again
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// A vertical stack of voxels: x and y in voxels; (0, 0) has its lower corner at the origin of map.
+using Column = std::pair<int, int>;
+
+/// What stands: an octomap::OcTree of what was seen around the robot, over the prior map. The one
+/// user of OctoMap. Frame: map.
+class LocalMap {
+ public:
+  enum class Known { nothing, clear, standing };
+
+  /// \param prior  may be without cells. What it shows is kept for good, each occupied cell from
+  /// the
+  ///               floor up to `high`
+  explicit LocalMap(const MapConfig& config, const sight::Prior& prior = {});
+  ~LocalMap();
+
+  /// Takes in what stands and what is clear; forgets what is beyond the bound or was not seen for
+  /// long.
+  void insert(const sight::Sight& sight);
+  /// Whether something stands within a voxel of the point, or the point is clear.
+  [[nodiscard]] Known at(const Eigen::Vector3d& point) const;
+  /// True for what is between `low` and `high`, m above the floor.
+  [[nodiscard]] bool matters(const Eigen::Vector3d& point) const {
+    return point.z() > config_.floor + config_.low && point.z() < config_.floor + config_.high;
+  }
+  /// Columns where something stands, whose middle is within `radius` m of the place along x and y.
+  [[nodiscard]] std::vector<Column> standing(const Eigen::Vector2d& place, double radius) const;
+  [[nodiscard]] double resolution() const { return config_.resolution; }  ///< m
+  /// All of it as OcTree::writeBinaryData: what stands, and the floor below what is clear, which is
+  /// taken to be flat.
+  [[nodiscard]] std::vector<std::int8_t> bytes() const;
+
+ private:
+  struct Trees;
+
+  void fade(const sight::Sight& sight);
+  [[nodiscard]] Column column_of(const Eigen::Vector2d& place) const;
+  /// -1 where the prior knows nothing, else whether the column is occupied.
+  [[nodiscard]] int prior_at(const Column& column) const;
+
+  MapConfig config_;
+  Column low_{0, 0};  ///< of the prior's columns
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::int8_t> prior_;
+  std::unique_ptr<Trees> trees_;
+  std::int64_t faded_ = 0;                            ///< ns, when fade() was last done
+  Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();  ///< m, of what is kept
+};
+
+}  // namespace navvi_perception::map

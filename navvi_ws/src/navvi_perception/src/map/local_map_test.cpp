@@ -1,0 +1,102 @@
+#include "map/local_map.hpp"
+
+#include <gtest/gtest.h>
+#include <octomap/octomap.h>
+
+#include <sstream>
+
+namespace navvi_perception::map {
+namespace {
+
+using Known = LocalMap::Known;
+
+sight::Sight ray(const Eigen::Vector3d& end, double time, double robot_x = 0.0) {
+  sight::Sight sight;
+  sight.stamp = static_cast<std::int64_t>(time * 1e9);
+  sight.robot.position.x() = robot_x;
+  sight.origin = {robot_x, 0.0, 0.12};
+  sight.hits = {end};
+  return sight;
+}
+
+octomap::OcTree read(const LocalMap& map) {
+  const std::vector<std::int8_t> bytes = map.bytes();
+  std::istringstream in(std::string(bytes.begin(), bytes.end()));
+  octomap::OcTree tree(map.resolution());
+  if (!bytes.empty()) tree.readBinaryData(in);
+  return tree;
+}
+
+TEST(LocalMap, knows_nothing_at_first) {
+  const LocalMap map{MapConfig()};
+  EXPECT_EQ(map.at({1.0, 0.0, 0.1}), Known::nothing);
+  EXPECT_TRUE(map.bytes().empty());
+  EXPECT_TRUE(map.standing({0.0, 0.0}, 5.0).empty());
+}
+
+TEST(LocalMap, what_a_ray_met_stands_and_what_it_passed_often_is_clear) {
+  LocalMap map{MapConfig()};
+  for (int i = 0; i < 3; ++i) map.insert(ray({2.02, 0.02, 0.12}, 1.0 + 0.1 * i));
+  EXPECT_EQ(map.at({2.02, 0.02, 0.12}), Known::standing);
+  EXPECT_EQ(map.at({1.02, 0.01, 0.12}), Known::clear);
+  EXPECT_EQ(map.at({3.0, 0.0, 0.12}), Known::nothing);
+  EXPECT_EQ(map.standing({0.0, 0.0}, 5.0), (std::vector<Column>{{40, 0}}));
+  const octomap::OcTree tree = read(map);
+  EXPECT_TRUE(tree.isNodeOccupied(tree.search(2.02, 0.02, 0.12)));
+  EXPECT_TRUE(tree.isNodeOccupied(tree.search(1.02, 0.01, -0.02))) << "the floor below the ray";
+}
+
+TEST(LocalMap, a_thing_that_rays_pass_again_is_gone) {
+  LocalMap map{MapConfig()};
+  for (int i = 0; i < 10; ++i) map.insert(ray({2.02, 0.02, 0.12}, 1.0 + 0.1 * i));
+  for (int i = 0; i < 12; ++i) map.insert(ray({4.02, 0.02, 0.12}, 3.0 + 0.1 * i));
+  EXPECT_EQ(map.at({2.02, 0.02, 0.12}), Known::clear);
+}
+
+TEST(LocalMap, forgets_in_time_what_is_not_seen_again) {
+  MapConfig config;
+  config.forget = 5.0;
+  LocalMap map(config);
+  map.insert(ray({2.02, 0.02, 0.12}, 1.0));
+  for (int i = 0; i < 8; ++i) map.insert(ray({-2.02, 0.02, 0.12}, 2.0 + i));
+  EXPECT_NE(map.at({2.02, 0.02, 0.12}), Known::standing);
+  EXPECT_EQ(map.at({-2.02, 0.02, 0.12}), Known::standing);
+}
+
+TEST(LocalMap, keeps_only_what_is_within_its_bound_of_the_robot) {
+  LocalMap map{MapConfig()};
+  map.insert(ray({2.02, 0.02, 0.12}, 1.0));
+  map.insert(ray({22.02, 0.02, 0.12}, 3.0, 20.0));
+  EXPECT_EQ(map.at({2.02, 0.02, 0.12}), Known::nothing);
+  EXPECT_EQ(map.at({22.02, 0.02, 0.12}), Known::standing);
+}
+
+TEST(LocalMap, floor_and_what_is_overhead_do_not_stand) {
+  LocalMap map{MapConfig()};
+  map.insert(ray({2.02, 0.02, 0.01}, 1.0));
+  map.insert(ray({2.02, 0.02, 1.5}, 2.0));
+  EXPECT_TRUE(map.standing({0.0, 0.0}, 5.0).empty());
+}
+
+TEST(LocalMap, a_prior_map_of_another_resolution_is_kept_whatever_is_seen) {
+  sight::Prior prior{0.10, {-1.0, -1.0}, 20, 20, std::vector<std::int8_t>(400, 0)};
+  prior.cells[10 * 20 + 15] = 100;  // x 0.5 to 0.6, y 0 to 0.1
+  prior.cells[0] = -1;
+  LocalMap map(MapConfig(), prior);
+  for (int i = 0; i < 20; ++i) map.insert(ray({0.9, 0.05, 0.12}, 1.0 + 0.1 * i));
+  EXPECT_EQ(map.at({0.55, 0.05, 0.12}), Known::standing);
+  EXPECT_EQ(map.at({-0.5, 0.5, 0.12}), Known::clear);
+  EXPECT_EQ(map.at({-0.97, -0.97, 0.12}), Known::nothing);
+  const octomap::OcTree tree = read(map);
+  EXPECT_TRUE(tree.isNodeOccupied(tree.search(0.57, 0.07, 0.62)));
+  EXPECT_TRUE(tree.isNodeOccupied(tree.search(-0.5, 0.5, -0.02)));
+  EXPECT_EQ(tree.search(-0.97, -0.97, -0.02), nullptr) << "unknown cells have no floor";
+}
+
+}  // namespace
+}  // namespace navvi_perception::map
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,248 @@
+#include "see/perception.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "clusters/clusters.hpp"
+#include "map/local_map.hpp"
+#include "tracks/tracker.hpp"
+
+namespace navvi_perception::see {
+namespace {
+
+constexpr double kShift =
+    0.5;  // m, that the robot drives before standing things are looked up anew
+
+double seconds(std::int64_t stamp) { return static_cast<double>(stamp) * 1e-9; }
+
+/// The point of a column that is nearest to `place`, m.
+Eigen::Vector2d nearest_of(const map::Column& column, double side, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d low(column.first * side, column.second * side);
+  return place.cwiseMax(low).cwiseMin(low + Eigen::Vector2d(side, side));
+}
+
+}  // namespace
+
+struct PerceptionConfig::Values {
+  map::MapConfig map;
+  tracks::TrackConfig tracks;
+  double robot_radius = 0.35;     ///< m; what is nearer than this is the robot itself
+  double detection_radius = 5.0;  ///< m
+  double gap = 0.35;              ///< m, between points of one thing
+  int points = 3;                 ///< of a thing, at least
+  double narrowest = 0.25;        ///< m, radius of a moving thing at least
+  double widest = 3.5;            ///< m; what is longer does not move
+  double wall = 2.0;              ///< m; what stands and is longer is called a wall
+  double map_rate = 5.0;          ///< Hz, at most, at which a sensor's sights go into the map
+  double period = 1.0;            ///< s
+
+  void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Range;
+    visit.group("map", map);
+    visit.group("tracks", tracks);
+    visit(robot_radius, "robot_radius", Range{0.05, 3.0}, "m",
+          "of the robot's hull; what is nearer to its middle is the robot itself");
+    visit(detection_radius, "detection_radius", Range{0.5, 20.0}, "m",
+          "gap up to which things are reported as near");
+    visit(gap, "gap", Range{0.05, 2.0}, "m", "points no farther apart are one thing");
+    visit(points, "points", Range{1, 100}, "", "least points of a thing that may move");
+    visit(narrowest, "narrowest", Range{0.05, 2.0}, "m", "least radius of a thing that may move");
+    visit(widest, "widest", Range{0.5, 15.0}, "m", "what is longer does not move");
+    visit(wall, "wall", Range{0.5, 100.0}, "m",
+          "what stands and is at least so long is called a wall, a rack too; all else is other");
+    visit(map_rate, "map_rate", Range{0.1, 100.0}, "Hz",
+          "at most, at which a sensor's sights go into the map");
+    visit(period, "period", Range{0.1, 60.0}, "s", "least time between two maps");
+  }
+};
+
+PerceptionConfig::PerceptionConfig() : values_(std::make_unique<Values>()) {}
+PerceptionConfig::PerceptionConfig(const PerceptionConfig& other)
+    : values_(std::make_unique<Values>(*other.values_)) {}
+PerceptionConfig& PerceptionConfig::operator=(const PerceptionConfig& other) {
+  *values_ = *other.values_;
+  return *this;
+}
+PerceptionConfig::~PerceptionConfig() = default;
+
+void PerceptionConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
+double PerceptionConfig::resolution() const { return values_->map.resolution; }
+
+struct Perception::Parts {
+  struct Sensor {
+    tracks::Tracker tracker;
+    std::int64_t mapped = 0;  ///< ns
+  };
+
+  Parts(const PerceptionConfig::Values& values, const sight::Prior& prior)
+      : config(values), map(values.map, prior) {}
+
+  /// The points that the map does not explain.
+  [[nodiscard]] std::vector<Eigen::Vector3d> strange(const std::vector<Eigen::Vector3d>& hits,
+                                                     std::vector<Eigen::Vector3d>& rest) const;
+  void look_up(const navvi_types::Pose2& robot);
+  /// Tracks that are told: of a lower sensor where two see the same.
+  template <typename Visit>
+  void for_each_track(const Visit& visit) const;
+
+  PerceptionConfig::Values config;
+  map::LocalMap map;
+  std::vector<Sensor> sensors;
+  clusters::StandingThings standing;
+  std::uint32_t next_id = 1;
+  Eigen::Vector2d looked_up = Eigen::Vector2d::Constant(1e9);
+  bool map_new = true;             ///< since standing things were looked up
+  bool untold = true;              ///< since the map was told
+  std::int64_t told = 0;           ///< ns
+  std::vector<std::int8_t> bytes;  ///< that were told
+};
+
+Perception::Perception(const PerceptionConfig& config, const sight::Prior& prior)
+    : parts_(std::make_unique<Parts>(*config.values_, prior)) {}
+Perception::~Perception() = default;
+
+std::vector<Eigen::Vector3d> Perception::Parts::strange(const std::vector<Eigen::Vector3d>& hits,
+                                                        std::vector<Eigen::Vector3d>& rest) const {
+  std::vector<Eigen::Vector3d> found;
+  for (const Eigen::Vector3d& hit : hits) {
+    const bool moved_here = map.matters(hit) && map.at(hit) == map::LocalMap::Known::clear;
+    (moved_here ? found : rest).push_back(hit);
+  }
+  return found;
+}
+
+void Perception::take(const sight::Sight& sight) {
+  Parts& parts = *parts_;
+  const PerceptionConfig::Values& config = parts.config;
+  while (parts.sensors.size() <= sight.sensor)
+    parts.sensors.push_back({tracks::Tracker(config.tracks), 0});
+  Parts::Sensor& sensor = parts.sensors[sight.sensor];
+
+  sight::Sight stands = sight;
+  stands.hits.clear();
+  std::vector<Eigen::Vector3d> others;
+  for (const Eigen::Vector3d& hit : sight.hits)
+    if ((hit.head<2>() - sight.robot.position).norm() > config.robot_radius) others.push_back(hit);
+  const std::vector<Eigen::Vector3d> points = parts.strange(others, stands.hits);
+  std::vector<clusters::Cluster> found =
+      clusters::clusters_of(points, config.gap, static_cast<std::size_t>(config.points),
+                            config.narrowest, sight.origin.head<2>());
+  const auto large = std::partition(found.begin(), found.end(), [&](const clusters::Cluster& one) {
+    return one.length <= config.widest;
+  });
+  const auto add = [&](const clusters::Cluster& cluster) {
+    for (const std::size_t i : cluster.members) stands.hits.push_back(points[i]);
+  };
+  std::for_each(large, found.end(), add);
+  found.erase(large, found.end());
+  const std::vector<std::size_t> tracks =
+      sensor.tracker.update(found, points, seconds(sight.stamp), parts.next_id);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (sensor.tracker.now()[tracks[i]].settled) add(found[i]);
+
+  if (seconds(sight.stamp - sensor.mapped) * config.map_rate < 1.0 - 1e-6) return;
+  sensor.mapped = sight.stamp;
+  parts.map.insert(stands);
+  parts.map_new = parts.untold = true;
+}
+
+template <typename Visit>
+void Perception::Parts::for_each_track(const Visit& visit) const {
+  std::vector<const tracks::Track*> told;
+  for (const Sensor& sensor : sensors) {
+    const std::size_t before = told.size();
+    for (const tracks::Track& track : sensor.tracker.now()) {
+      const bool known =
+          std::any_of(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(before),
+                      [&](const tracks::Track* other) {
+                        return (other->place - track.place).norm() < other->radius + track.radius;
+                      });
+      if (known || !sensor.tracker.sure(track)) continue;
+      told.push_back(&track);
+      visit(track, sensor.tracker.drives(track));
+    }
+  }
+}
+
+navvi_types::Obstacles Perception::obstacles(std::int64_t stamp) const {
+  navvi_types::Obstacles out{stamp, {}};
+  const double floor = parts_->config.map.floor;
+  parts_->for_each_track([&](const tracks::Track& track, bool drives) {
+    navvi_types::MovingThing thing;
+    thing.id = track.id;
+    thing.pose.position = track.place;
+    if (drives) {
+      thing.velocity = track.velocity;
+      thing.pose.yaw = std::atan2(track.velocity.y(), track.velocity.x());
+    }
+    thing.radius = track.radius;
+    thing.height = track.top - floor;
+    thing.floor = floor;
+    out.things.push_back(thing);
+  });
+  return out;
+}
+
+void Perception::Parts::look_up(const navvi_types::Pose2& robot) {
+  if (!map_new && (robot.position - looked_up).norm() < kShift) return;
+  map_new = false;
+  looked_up = robot.position;
+  const double reach = config.detection_radius + config.robot_radius + 2.0 * kShift;
+  const int apart = std::max(1, static_cast<int>(config.gap / map.resolution()));
+  (void)standing.update(map.standing(robot.position, reach), apart, next_id);
+}
+
+navvi_types::Proximity Perception::proximity(const navvi_types::Pose2& robot, std::int64_t stamp) {
+  using navvi_types::ThingClass;
+  Parts& parts = *parts_;
+  const PerceptionConfig::Values& config = parts.config;
+  parts.look_up(robot);
+  navvi_types::Proximity out{stamp, {}, config.detection_radius};
+  const auto add = [&](std::uint32_t id, ThingClass thing_class, const Eigen::Vector2d& nearest,
+                       bool moving) {
+    const double gap = (nearest - robot.position).norm() - config.robot_radius;
+    if (gap <= config.detection_radius)
+      out.things.push_back({thing_class, id, gap, robot.to_local(nearest), moving});
+  };
+  const auto nearer = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return (a - robot.position).squaredNorm() < (b - robot.position).squaredNorm();
+  };
+  const double side = parts.map.resolution();
+  for (const clusters::StandingThings::StandingThing& thing : parts.standing.now()) {
+    Eigen::Vector2d best = Eigen::Vector2d::Constant(1e9);
+    map::Column low = thing.cells.front(), high = low;
+    for (const map::Column& column : thing.cells) {
+      low = {std::min(low.first, column.first), std::min(low.second, column.second)};
+      high = {std::max(high.first, column.first), std::max(high.second, column.second)};
+      const Eigen::Vector2d point = nearest_of(column, side, robot.position);
+      if (nearer(point, best)) best = point;
+    }
+    const int longest = std::max(high.first - low.first, high.second - low.second) + 1;
+    add(thing.id, longest * side >= config.wall ? ThingClass::wall : ThingClass::other, best,
+        false);
+  }
+  parts.for_each_track([&](const tracks::Track& track, bool) {
+    add(track.id, ThingClass::other,
+        *std::min_element(track.surface.begin(), track.surface.end(), nearer), track.mover);
+  });
+  std::sort(out.things.begin(), out.things.end(), [](const auto& a, const auto& b) {
+    return a.gap != b.gap ? a.gap < b.gap : a.id < b.id;
+  });
+  return out;
+}
+
+std::optional<std::vector<std::int8_t>> Perception::map(std::int64_t stamp) {
+  Parts& parts = *parts_;
+  const double since = seconds(stamp - parts.told);
+  if (!parts.untold || (!parts.bytes.empty() && since >= 0.0 && since < parts.config.period))
+    return std::nullopt;
+  parts.untold = false;
+  parts.told = stamp;
+  std::vector<std::int8_t> bytes = parts.map.bytes();
+  if (bytes.empty() || bytes == parts.bytes) return std::nullopt;
+  parts.bytes = std::move(bytes);
+  return parts.bytes;
+}
+
+}  // namespace navvi_perception::see

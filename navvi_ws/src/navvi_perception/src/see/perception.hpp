@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <navvi_types/thing.hpp>
+#include <optional>
+#include <vector>
+
+#include "sight/sight.hpp"
+
+namespace navvi_perception::see {
+
+/// The parameters of perception_node's core.
+class PerceptionConfig {
+ public:
+  PerceptionConfig();
+  PerceptionConfig(const PerceptionConfig& other);
+  PerceptionConfig& operator=(const PerceptionConfig& other);
+  ~PerceptionConfig();
+
+  void describe(navvi_config::Visitor& visit);
+  [[nodiscard]] double resolution() const;  ///< m, of the map
+
+ private:
+  friend class Perception;
+  struct Values;
+  std::unique_ptr<Values> values_;
+};
+
+/// What a robot's own sensors tell of what stands and what moves around it. What it cannot know it
+/// does not guess: whatever it sees is of class other, but for long standing things, which it calls
+/// walls (a rack is one, too). Frame: map, but for proximity. No clock: the same sights give the
+/// same answers.
+class Perception {
+ public:
+  explicit Perception(const PerceptionConfig& config, const sight::Prior& prior = {});
+  ~Perception();
+
+  /// \param sight  finite, and not older than the one before
+  void take(const sight::Sight& sight);
+
+  /// What the standing map does not explain, with its velocity if it moves. \param stamp  ns
+  [[nodiscard]] navvi_types::Obstacles obstacles(std::int64_t stamp) const;
+  /// The nearest surface of each of these and of each standing thing. \param robot  base_link
+  [[nodiscard]] navvi_types::Proximity proximity(const navvi_types::Pose2& robot,
+                                                 std::int64_t stamp);
+  /// A binary OcTree, if it is to be told again: it has changed, and the last is `period` old.
+  [[nodiscard]] std::optional<std::vector<std::int8_t>> map(std::int64_t stamp);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace navvi_perception::see

@@ -1,0 +1,253 @@
+#include "see/perception.hpp"
+
+#include <gtest/gtest.h>
+#include <octomap/octomap.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+#include <sstream>
+
+namespace navvi_perception::see {
+namespace {
+
+using navvi_types::Pose2;
+using navvi_types::ThingClass;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRange = 12.0;  // m
+
+/// A hall of 12 m x 8 m about the origin, with boxes and discs, seen by a lidar with a ray a
+/// degree.
+class Hall {
+ public:
+  struct Disc {
+    Eigen::Vector2d at;
+    double radius;
+  };
+  Eigen::AlignedBox2d box{Eigen::Vector2d(2.0, 1.0), Eigen::Vector2d(2.8, 1.6)};
+  std::vector<Disc> discs;
+  Pose2 robot;
+  bool own_body = false;  ///< half of the rays end at the robot's own mast
+
+  [[nodiscard]] sight::Sight look(double time) {
+    sight::Sight sight;
+    sight.stamp = std::llround(time * 1e9);
+    sight.robot = robot;
+    sight.origin = {robot.position.x(), robot.position.y(), 0.12};
+    for (int i = 0; i < 360; ++i) {
+      const double angle = robot.yaw + i * kPi / 180.0;
+      const Eigen::Vector2d way(std::cos(angle), std::sin(angle));
+      double range = std::min(kRange, wall(way));
+      range = std::min(range, to_box(way));
+      for (const Disc& disc : discs) range = std::min(range, to_disc(disc, way));
+      if (own_body && i > 90 && i < 270) range = 0.2;
+      const double measured = range + noise_(random_);
+      const Eigen::Vector2d end = robot.position + measured * way;
+      (range < kRange ? sight.hits : sight.clear).emplace_back(end.x(), end.y(), 0.12);
+    }
+    return sight;
+  }
+  [[nodiscard]] static sight::Prior prior() {
+    sight::Prior prior{0.05, {-6.5, -4.5}, 260, 180, {}};
+    for (int y = 0; y < prior.height; ++y)
+      for (int x = 0; x < prior.width; ++x)
+        prior.cells.push_back(x < 10 || y < 10 || x >= 250 || y >= 170 ? 100 : 0);
+    return prior;
+  }
+
+ private:
+  [[nodiscard]] double wall(const Eigen::Vector2d& way) const {
+    const double x = way.x() > 0 ? 6.0 - robot.position.x() : -6.0 - robot.position.x();
+    const double y = way.y() > 0 ? 4.0 - robot.position.y() : -4.0 - robot.position.y();
+    return std::min(std::abs(way.x()) > 1e-9 ? x / way.x() : 1e9,
+                    std::abs(way.y()) > 1e-9 ? y / way.y() : 1e9);
+  }
+  [[nodiscard]] double to_box(const Eigen::Vector2d& way) const {
+    double enter = 0.0, leave = 1e9;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double a = (box.min()[axis] - robot.position[axis]) / way[axis];
+      const double b = (box.max()[axis] - robot.position[axis]) / way[axis];
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    return enter < leave ? enter : 1e9;
+  }
+  [[nodiscard]] double to_disc(const Disc& disc, const Eigen::Vector2d& way) const {
+    const Eigen::Vector2d to = disc.at - robot.position;
+    const double along = to.dot(way);
+    const double across2 = to.squaredNorm() - along * along;
+    const double half2 = disc.radius * disc.radius - across2;
+    return along > 0.0 && half2 > 0.0 ? along - std::sqrt(half2) : 1e9;
+  }
+
+  std::mt19937 random_{7};
+  std::normal_distribution<double> noise_{0.0, 0.01};
+};
+
+struct Seen {
+  std::set<std::uint32_t> ids;
+  int told = 0, moving = 0;
+};
+
+class PerceptionTest : public testing::Test {
+ protected:
+  /// Looks 10 times a second. \param each  what happens before a look, with the time
+  template <typename Each>
+  Seen live(double until, const Each& each) {
+    Seen seen;
+    for (; time_ < until - 1e-9; time_ += 0.1) {
+      each(time_);
+      perception_->take(hall_.look(time_));
+      for (const auto& thing : obstacles().things) {
+        seen.ids.insert(thing.id);
+        ++seen.told;
+        if (thing.velocity.norm() > 0.0) ++seen.moving;
+      }
+    }
+    return seen;
+  }
+  [[nodiscard]] navvi_types::Obstacles obstacles() const {
+    return perception_->obstacles(std::llround(time_ * 1e9));
+  }
+  [[nodiscard]] navvi_types::Proximity proximity() {
+    return perception_->proximity(hall_.robot, std::llround(time_ * 1e9));
+  }
+  void with_prior() { perception_.emplace(PerceptionConfig(), Hall::prior()); }
+
+  Hall hall_;
+  double time_ = 1.0;
+  std::optional<Perception> perception_{std::in_place, PerceptionConfig()};
+};
+
+TEST_F(PerceptionTest, sees_nothing_in_nothing) {
+  sight::Sight sight;
+  perception_->take(sight);
+  EXPECT_TRUE(obstacles().things.empty());
+  EXPECT_TRUE(proximity().things.empty());
+}
+
+TEST_F(PerceptionTest, takes_no_wall_for_a_mover_while_the_robot_drives) {
+  for (const bool prior : {false, true}) {
+    if (prior) with_prior();
+    time_ = 1.0;
+    const Seen seen = live(13.0, [&](double time) {
+      hall_.robot.position = {-4.0 + 0.6 * (time - 1.0), -1.0};
+      hall_.robot.yaw = 0.3 * std::sin(time);
+    });
+    EXPECT_EQ(seen.moving, 0) << (prior ? "with" : "without") << " a prior map";
+  }
+}
+
+TEST_F(PerceptionTest, follows_a_crossing_worker_under_one_number_with_its_velocity) {
+  for (const bool prior : {false, true}) {
+    perception_.emplace(PerceptionConfig());
+    if (prior) with_prior();
+    time_ = 1.0;
+    hall_.discs = {};
+    (void)live(2.0, [](double) {});
+    hall_.discs = {{{1.5, -3.0}, 0.24}};
+    std::set<std::uint32_t> ids;
+    std::optional<double> told;
+    const double from = time_;
+    (void)live(from + 4.0, [&](double time) {
+      hall_.discs[0].at.y() = -3.0 + 1.2 * (time - from);
+      for (const auto& thing : obstacles().things) {
+        if ((thing.pose.position - hall_.discs[0].at).norm() > 0.5) continue;
+        ids.insert(thing.id);
+        EXPECT_EQ(thing.thing_class, ThingClass::other);
+        if (thing.velocity.norm() == 0.0) continue;
+        if (!told) told = time - from;
+        if (time - from < 1.5) continue;
+        EXPECT_NEAR(thing.velocity.x(), 0.0, 0.25) << time;
+        EXPECT_NEAR(thing.velocity.y(), 1.2, 0.25) << time;
+      }
+    });
+    EXPECT_EQ(ids.size(), 1U);
+    ASSERT_TRUE(told);
+    EXPECT_LE(*told, 0.7);
+  }
+}
+
+TEST_F(PerceptionTest, a_thing_put_down_is_an_obstacle_first_and_then_part_of_the_map) {
+  with_prior();
+  (void)live(2.0, [](double) {});
+  hall_.discs = {{{-2.0, 2.0}, 0.3}};
+  const Seen first = live(4.0, [](double) {});
+  EXPECT_GE(first.told, 10);
+  EXPECT_EQ(first.moving, 0);
+  (void)live(9.0, [](double) {});
+  EXPECT_TRUE(obstacles().things.empty());
+  bool found = false;
+  for (const auto& thing : proximity().things)
+    found = found || (thing.nearest - Eigen::Vector2d(-2.0, 2.0)).norm() < 0.4;
+  EXPECT_TRUE(found);
+}
+
+TEST_F(PerceptionTest, forgets_a_mover_that_left_and_leaves_no_trace_of_it) {
+  hall_.discs = {{{1.5, -3.0}, 0.24}};
+  (void)live(12.0, [&](double time) {
+    if (time > 4.0) hall_.discs[0].at.y() = -3.0 + 1.0 * (time - 4.0);
+    if (time > 8.0) hall_.discs.clear();
+    if (time > 8.0) hall_.discs.push_back({{50.0, 0.0}, 0.2});
+  });
+  EXPECT_TRUE(obstacles().things.empty());
+  for (const auto& thing : proximity().things)
+    EXPECT_GT((thing.nearest - Eigen::Vector2d(1.5, -1.0)).norm(), 0.8) << thing.nearest;
+}
+
+TEST_F(PerceptionTest, tells_the_nearest_surface_of_each_thing_to_a_voxel) {
+  (void)live(5.0, [](double) {});
+  const navvi_types::Proximity near = proximity();
+  ASSERT_GE(near.things.size(), 2U);
+  EXPECT_EQ(near.detection_radius, 5.0);
+  const auto& box = near.things[0];
+  EXPECT_EQ(box.thing_class, ThingClass::other);
+  EXPECT_NEAR(box.gap, std::hypot(2.0, 1.0) - 0.35, 0.08);
+  EXPECT_NEAR((box.nearest - Eigen::Vector2d(2.0, 1.0)).norm(), 0.0, 0.12);
+  EXPECT_EQ(near.things[1].thing_class, ThingClass::wall);
+  EXPECT_NEAR(near.things[1].gap, 4.0 - 0.35, 0.08);
+  for (const auto& thing : near.things) EXPECT_FALSE(thing.moving);
+}
+
+TEST_F(PerceptionTest, a_standing_thing_keeps_its_number_while_the_robot_drives_by) {
+  std::set<std::uint32_t> boxes;
+  (void)live(12.0, [&](double time) {
+    hall_.robot.position.x() = -1.0 + 0.4 * (time - 1.0);
+    if (time < 3.0) return;
+    for (const auto& thing : proximity().things)
+      if ((hall_.robot.to_parent(thing.nearest) - Eigen::Vector2d(2.4, 1.3)).norm() < 0.7)
+        boxes.insert(thing.id);
+  });
+  EXPECT_EQ(boxes.size(), 1U);
+}
+
+TEST_F(PerceptionTest, the_robot_does_not_see_itself) {
+  hall_.own_body = true;
+  (void)live(5.0, [&](double time) { hall_.robot.yaw = 0.2 * time; });
+  for (const auto& thing : proximity().things) EXPECT_GT(thing.gap, 0.5);
+  EXPECT_TRUE(obstacles().things.empty());
+}
+
+TEST_F(PerceptionTest, tells_a_map_that_octomap_reads_and_only_when_it_changed) {
+  with_prior();
+  const auto first = perception_->map(0);
+  ASSERT_TRUE(first);
+  std::istringstream in(std::string(first->begin(), first->end()));
+  octomap::OcTree tree(0.05);
+  tree.readBinaryData(in);
+  EXPECT_TRUE(tree.isNodeOccupied(tree.search(0.0, 0.0, -0.02)));  // the floor
+  EXPECT_TRUE(tree.isNodeOccupied(tree.search(6.02, 0.0, 0.12)));  // a wall
+  EXPECT_EQ(tree.search(0.0, 0.0, 0.12), nullptr);                 // above the floor
+  EXPECT_FALSE(perception_->map(2'000'000'000));
+  (void)live(4.0, [](double) {});  // the box is news
+  EXPECT_TRUE(perception_->map(4'000'000'000));
+}
+
+}  // namespace
+}  // namespace navvi_perception::see
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

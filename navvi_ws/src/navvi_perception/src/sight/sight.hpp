@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <navvi_types/motion.hpp>
+#include <vector>
+
+namespace navvi_perception::sight {
+
+/// What one sensor saw at one instant. Frame: map.
+struct Sight {
+  std::int64_t stamp = 0;    ///< ns, ROS time
+  std::size_t sensor = 0;    ///< which it was; where two see the same thing, the lower one tells it
+  navvi_types::Pose2 robot;  ///< base_link
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, of its rays
+  std::vector<Eigen::Vector3d> hits;                 ///< m, where rays ended
+  std::vector<Eigen::Vector3d> clear = {};           ///< m, as far as rays went that met nothing
+};
+
+/// The part of nav_msgs/OccupancyGrid that is known beforehand: what stands for good.
+struct Prior {
+  double resolution = 0.05;                          ///< m, edge of a cell
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, lower corner of cell (0, 0) in map
+  int width = 0;                                     ///< cells along x
+  int height = 0;                                    ///< cells along y
+  std::vector<std::int8_t> cells;  ///< row by row: -1 unknown, else 0 (free) to 100 (occupied)
+};
+
+}  // namespace navvi_perception::sight
