@@ -36,7 +36,7 @@ possible_words() {
     build) printf '%s\n' --asan --odr ;;
     test) echo --asan ;;
     parameters) echo --csv ;;
-    world) printf '%s\n' list check show write && world_names ;;
+    world) printf '%s\n' list check show write map && world_names ;;
     help) command_list | cut -d: -f1 ;;
   esac
   echo --help

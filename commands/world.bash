@@ -17,7 +17,7 @@ navvi_world() {
     *)
       build_workspace world_tool
       draw "$(program navvi_sim world_tool)" "$@"
-      [[ ${1:-} != write ]] || say "the world is in $3."
+      [[ ${1:-} != write && ${1:-} != map ]] || say "the world is in $3."
       ;;
   esac
 }

@@ -9,6 +9,7 @@
 
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
+#include "occupancy/octree.hpp"
 #include "picture/world_picture.hpp"
 #include "read/layout_world.hpp"
 #include "read/sdf_writer.hpp"
@@ -21,12 +22,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kUsage =
     "world list                                   the worlds that have a name\n"
-    "world check NAME|FILE [-o FILE.bt] [--config FILE.yaml] [name:=value ...]   what a session "
+    "world check NAME|FILE [-o FILE.bt|FILE.ot] [--config FILE.yaml] [name:=value ...]   what a "
+    "session "
     "makes\n"
     "      of it; -o saves its OctoMap\n"
     "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
     "      ./navvi also takes FILE.png\n"
     "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
+    "world map NAME|FILE FILE.bt|FILE.ot [--config FILE.yaml] [name:=value ...]   its OctoMap;\n"
+    "      octomap/free:=true marks free space, too\n"
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"
     "such as length:=80; `./navvi parameters` lists them all. --config takes a file like those of "
@@ -99,19 +103,6 @@ Request load(const Words& words) {
   return request;
 }
 
-/// As octomap writes it (OcTree::writeBinary).
-std::string bt_file(const occupancy::OccupancyMap& map) {
-  std::size_t nodes = 1;
-  map.for_each_node([&](const occupancy::OccupiedCube&, bool) { ++nodes; });
-  std::ostringstream file;
-  file.precision(17);
-  file << "# Octomap OcTree binary file\nid OcTree\nsize " << nodes << "\nres " << map.resolution()
-       << "\ndata\n";
-  file.write(reinterpret_cast<const char*>(map.stream().data()),
-             static_cast<std::streamsize>(map.stream().size()));
-  return file.str();
-}
-
 void write_file(const fs::path& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
   file << content;
@@ -145,14 +136,37 @@ void print(const Request& request, const scenario::StartAndGoal& scenario) {
             << '\n';
 }
 
+/// \param path  ends in .bt, for occupied and free alone, or .ot, for probabilities
+void write_octomap(const fs::path& path, const occupancy::OccupancyMap& map) {
+  const auto tree = occupancy::octree_of(map);
+  if (!(path.extension() == ".ot" ? tree->write(path.string()) : tree->writeBinary(path.string())))
+    throw WorldError("the file '" + path.string() + "' cannot be written");
+}
+
+void check_octomap(const fs::path& path) {
+  if (path.extension() != ".bt" && path.extension() != ".ot")
+    throw UsageError("'" + path.string() + "' is no OctoMap file; allowed are .bt and .ot");
+}
+
 void check(const Words& words) {
-  const fs::path path = words.out.value_or("");
-  if (words.out && path.extension() != ".bt")
-    throw UsageError("'" + path.string() + "' is no OctoMap file; allowed is .bt");
+  if (words.out) check_octomap(*words.out);
   const Request request = load(words);
   const auto map = setup::map_of(request.config.session, request.loaded.world);
   print(request, setup::scenario_of(request.config.session, request.loaded.world, map));
-  if (words.out) write_file(path, bt_file(map));
+  if (words.out) write_octomap(*words.out, map);
+}
+
+void write_map(const Words& words) {
+  const fs::path path = words.plain[2];
+  check_octomap(path);
+  const Request request = load(words);
+  const setup::SimNodeConfig& session = request.config.session;
+  auto map = setup::map_of(session, request.loaded.world);
+  if (session.octomap.free) map = occupancy::with_free_space(map, request.loaded.world);
+  write_octomap(path, map);
+  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
+  std::cout << map.resolution() << " m a voxel, " << occupancy::octree_of(map)->size()
+            << " nodes in " << path.string() << '\n';
 }
 
 void show(const Words& words) {
@@ -197,8 +211,11 @@ struct Command {
   void (*run)(const Words&);
 };
 
-constexpr Command kCommands[] = {
-    {"list", 1, list}, {"check", 2, check}, {"show", 2, show}, {"write", 3, write}};
+constexpr Command kCommands[] = {{"list", 1, list},
+                                 {"check", 2, check},
+                                 {"show", 2, show},
+                                 {"write", 3, write},
+                                 {"map", 3, write_map}};
 
 void run(const Words& words) {
   const std::string name = words.plain.empty() ? "" : words.plain.front();

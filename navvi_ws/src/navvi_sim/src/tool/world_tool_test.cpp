@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace {
@@ -54,6 +55,27 @@ TEST_F(WorldTool, lists_the_worlds_that_have_a_name) {
   EXPECT_EQ(answer.code, 0);
   for (const char* name : {"warehouse", "training", "easy", "busy", "narrow", "maze"})
     EXPECT_NE(answer.text.find(name), std::string::npos) << name;
+}
+
+TEST_F(WorldTool, writes_the_octomap_by_the_library_and_with_free_space_if_wanted) {
+  const Answer plain = run("map training a.bt");
+  EXPECT_EQ(plain.code, 0) << plain.text;
+  octomap::OcTree tree(1.0);
+  ASSERT_TRUE(tree.readBinary((folder_ / "a.bt").string()));
+  EXPECT_NE(plain.text.find(std::to_string(tree.size()) + " nodes in a.bt"), std::string::npos);
+  EXPECT_EQ(run("map training b.ot octomap/free:=true").code, 0);
+  std::unique_ptr<octomap::AbstractOcTree> read(
+      octomap::AbstractOcTree::read((folder_ / "b.ot").string()));
+  const auto* marked = dynamic_cast<octomap::OcTree*>(read.get());
+  ASSERT_NE(marked, nullptr);
+  std::size_t occupied = 0;
+  std::size_t free = 0;
+  for (auto leaf = marked->begin_leafs(); leaf != marked->end_leafs(); ++leaf)
+    ++(marked->isNodeOccupied(*leaf) ? occupied : free);
+  EXPECT_GT(free, 1000U);
+  EXPECT_EQ(occupied, tree.getNumLeafNodes());
+  EXPECT_EQ(run("map training a.png").code, 2);
+  EXPECT_EQ(run("map training /proc/a.bt").code, 2);
 }
 
 TEST_F(WorldTool, shows_a_world_as_a_picture_and_says_what_is_in_it) {

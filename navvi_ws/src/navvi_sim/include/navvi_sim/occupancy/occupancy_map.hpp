@@ -18,7 +18,7 @@ struct OccupiedCube {
 /// A pruned octree of occupied space as octomap writes it in binary (OcTree::writeBinaryData),
 /// which is what octomap_msgs/Octomap carries: from the root down, for each inner node two bits a
 /// child, the first child in the lowest bits, then its inner children in order. 00 is unknown, 01
-/// as a number (low bit) free, 10 occupied, 11 inner. Nothing is free here.
+/// as a number (low bit) free, 10 occupied, 11 inner.
 class OccupancyMap {
  public:
   static constexpr int kDepth = 16;                  ///< levels of octomap's trees
@@ -33,8 +33,8 @@ class OccupancyMap {
   [[nodiscard]] double resolution() const { return resolution_; }  ///< m
   [[nodiscard]] const std::vector<std::int8_t>& stream() const { return stream_; }
 
-  /// Calls visit(OccupiedCube, whole) for each node below the root, a node before its children:
-  /// `whole` if all of the cube is occupied, and else a part.
+  /// Calls visit(OccupiedCube, whole) for each node below the root that is not free, a node before
+  /// its children: `whole` if all of the cube is occupied, and else a part.
   template <typename Visit>
   void for_each_node(const Visit& visit) const {
     std::size_t at = 0;
@@ -61,7 +61,7 @@ class OccupancyMap {
     const int half = cube.side / 2;
     for (unsigned i = 0; i < 8; ++i) {
       const unsigned kind = bits >> (2 * i) & 3U;
-      if (kind == 0) continue;
+      if (kind < 2) continue;
       const OccupiedCube child{cube.x + ((i & 1U) ? half : 0), cube.y + ((i & 2U) ? half : 0),
                                cube.z + ((i & 4U) ? half : 0), half};
       visit(child, kind == 2);
