@@ -9,7 +9,7 @@
 
 #include "recount/repetition.hpp"
 
-namespace navvi_study {
+namespace navvi_study::tool {
 namespace {
 
 class ScenePlayer {
@@ -46,7 +46,7 @@ class ScenePlayer {
 };
 
 }  // namespace
-}  // namespace navvi_study
+}  // namespace navvi_study::tool
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "scene_player");
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const navvi_study::ScenePlayer player(argv[1]);
+    const navvi_study::tool::ScenePlayer player(argv[1]);
     ros::spin();
   } catch (const std::exception& error) {
     ROS_WARN("What moved is not in the picture: %s.", error.what());
