@@ -3,6 +3,8 @@
 namespace navvi_nav::guide {
 namespace {
 
+constexpr double kWayAhead = 3.0;  // m, that must be free of obstacles to keep a path
+
 std::optional<double> age_of(std::optional<double> then, double now) {
   if (!then) return std::nullopt;
   return std::max(0.0, now - *then);
@@ -299,6 +301,7 @@ bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, doub
   choice.fresh = {plan.path, forecast(plan.path)};
   choice.strayed = path_.strayed(*robot);
   choice.sees_waypoint = path_.follower().sees_next(*robot, {map_.floor.get(), &none});
+  choice.way_is_free = path_.follower().sees_next(*robot, space(), kWayAhead);
   return keeper_.decide(choice);
 }
 

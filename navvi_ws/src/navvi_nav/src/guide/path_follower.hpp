@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <navvi_config/field.hpp>
 #include <navvi_types/guidance.hpp>
 
@@ -41,9 +43,12 @@ class PathFollower {
   void advance(Point robot, const map::Space& space);
   /// True if the robot is near enough to the goal and nothing stands in between.
   [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
-  /// True if nothing stands between the robot and the next way-point. following() must hold.
-  [[nodiscard]] bool sees_next(Point robot, const map::Space& space) const {
-    return sees(robot, path_[next_], space);
+  /// True if nothing stands on the first `within` m from the robot to the next way-point.
+  /// following() must hold.
+  [[nodiscard]] bool sees_next(Point robot, const map::Space& space,
+                               double within = std::numeric_limits<double>::infinity()) const {
+    const Point leg = path_[next_] - robot;
+    return sees(robot, robot + std::min(1.0, within / std::max(norm(leg), 1e-9)) * leg, space);
   }
   /// m, from the robot to the nearest point of the path. following() must hold.
   [[nodiscard]] double offset(Point robot) const;

@@ -88,7 +88,7 @@ bool PathKeeper::decide(const Choice& choice) {
                       choice.reason == Guidance::Replan::waypoint_blocked;
   const bool better = evades ? !holds_paths() || safer(choice.followed, fresh)
                              : shorter(choice.followed.path, fresh.path);
-  return leads && !cut && !better;
+  return leads && !cut && choice.way_is_free && !better;
 }
 
 /// True to keep the path although `fresh` is at hand: as update(), or nothing is hit within

@@ -46,6 +46,7 @@ class PathKeeper {
     Candidate fresh;             ///< found by the search
     bool strayed = false;        ///< the robot is off its path
     bool sees_waypoint = false;  ///< no wall stands between the robot and its next way-point
+    bool way_is_free = false;    ///< nor does an obstacle on the first metres of that way
   };
   /// Call it after every search while a path is followed. \returns true to keep that path. It is
   /// kept, too, while only an obstacle far ahead closes it, or a moving one that would make the

@@ -30,7 +30,7 @@ class Holding : public testing::Test {
     out.found = fresh.path.empty() ? plan::PlanStatus::no_route : plan::PlanStatus::found;
     out.followed = followed;
     out.fresh = fresh;
-    out.sees_waypoint = true;
+    out.sees_waypoint = out.way_is_free = true;
     return out;
   }
   /// Asks every 0.5 s. \returns s for which a path is kept after a search
@@ -214,7 +214,7 @@ class Keeping : public testing::Test {
   }
   Keeping() {
     choice_.followed.path = round_;
-    choice_.sees_waypoint = true;
+    choice_.sees_waypoint = choice_.way_is_free = true;
   }
   PathKeeper keeper_{PathKeeperConfig{}};
   PathKeeper::Choice choice_;
@@ -251,6 +251,9 @@ TEST_F(Keeping, leaves_a_path_that_is_cut_or_whose_way_point_is_out_of_sight) {
   choice_.sees_waypoint = false;
   EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
   choice_.sees_waypoint = true;
+  choice_.way_is_free = false;
+  EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
+  choice_.way_is_free = true;
   choice_.followed.conflict.cut = Conflict::Cut{1, 4.0};
   EXPECT_FALSE(keeps(plan::PlanStatus::found, less_round_));
 }
