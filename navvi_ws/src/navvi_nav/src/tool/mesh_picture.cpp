@@ -92,7 +92,8 @@ void draw_mesh(Canvas& canvas, const mesh::Mesh& mesh) {
 void draw_path(Canvas& canvas, const Path& path) {
   canvas.add(
       "<polyline fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" "
-      "stroke=\"#8a00d4\" stroke-width=\"5\" points=\"");
+      "stroke=\"#8a00d4\" stroke-width=\"%.1f\" points=\"",
+      0.31 * canvas.line());
   for (const Point point : path) canvas.place(point);
   canvas.add("\"/>\n");
 }
@@ -147,11 +148,12 @@ std::string svg_of(const PictureOf& what) {
              "fill=\"#ff9a3c\" stroke=\"#7a3d00\" stroke-width=\"1\"");
   if (!what.path.empty()) draw_path(canvas, what.path);
   for (const Point point : what.path)
-    draw_dot(canvas, point, 4.5, "fill=\"#ffffff\" stroke=\"#8a00d4\" stroke-width=\"2.5\"");
+    draw_dot(canvas, point, 0.28 * canvas.line(),
+             "fill=\"#ffffff\" stroke=\"#8a00d4\" stroke-width=\"2.5\"");
   if (!what.path.empty()) {
-    draw_dot(canvas, what.path.front(), 7.0,
+    draw_dot(canvas, what.path.front(), 0.44 * canvas.line(),
              "fill=\"#1fa340\" stroke=\"#ffffff\" stroke-width=\"2\"");
-    draw_dot(canvas, what.path.back(), 7.0,
+    draw_dot(canvas, what.path.back(), 0.44 * canvas.line(),
              "fill=\"#e01020\" stroke=\"#ffffff\" stroke-width=\"2\"");
   }
   draw_legend(canvas, what);
