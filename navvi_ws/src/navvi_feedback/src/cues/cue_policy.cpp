@@ -486,7 +486,10 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     });
   };
   for (const CueEvent& event : events) {
-    if (event.stage == CueStage::started) last_text_[event.text] = time_;
+    if (event.stage == CueStage::started) {
+      last_text_[event.text] = time_;
+      if (event.kind == answered_) answered_.clear();
+    }
     if (!halts(event.kind)) continue;
     if (event.stage == CueStage::started) halt_.heard(time_);
     if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();

@@ -206,6 +206,19 @@ TEST_F(CuePolicyTest, a_question_during_a_wait_is_answered_by_it_however_often) 
   }
 }
 
+TEST_F(CuePolicyTest,
+       an_answer_that_was_heard_is_not_given_again_for_a_later_cue_that_was_dropped) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::forklift;
+  pass(1.0);
+  now_.question = Question::way;
+  pass(0.1);
+  policy_.note({{2, CueStage::started, last_.kind, last_.text}});
+  policy_.note({{3, CueStage::dropped, last_.kind, last_.text}});
+  EXPECT_EQ(pass(0.1), Texts{});
+}
+
 TEST_F(CuePolicyTest, nothing_cuts_the_word_to_stop_and_the_way_on_follows_it) {
   under_way();
   NearThing forklift{ThingClass::forklift, 5, 1.8, {2.2, 0.0}, true};

@@ -119,7 +119,8 @@ void NearCues::consider_collisions(const Situation& now, double time,
   const bool lasts = same && warned_stop_ && !kept_off_ && time - danger_ < kOver;
   if (same) danger_ = time;
   // News is another thing, one that comes after a danger that was over, or the way into it.
-  if (too_soon(kind, time) || (comes ? same || hold_.comes : lasts)) return;
+  const bool came = comes && (hold_.comes || (same && !warned_stop_));
+  if (too_soon(kind, time) || came || lasts) return;
   warned_of_ = first->id;
   warned_ = danger_ = time;
   warned_stop_ = !comes;

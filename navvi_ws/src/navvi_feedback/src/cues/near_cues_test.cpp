@@ -269,6 +269,25 @@ TEST_F(StopTest, a_robot_that_stands_hears_what_comes_and_from_where) {
       << "it was said";
 }
 
+TEST_F(StopTest, what_was_stopped_for_is_told_again_from_the_side_once_it_is_a_danger_anew) {
+  now_.measured->linear = 0.3;
+  NearThing robot{ThingClass::pallet_robot, 3, 2.0, {2.4, 0.0}, true};
+  while (last_.kind != "obstacle_stop" && robot.gap > 0.1) {
+    approach(robot, 0.3, 1.0);
+    robot.gap = gap_;
+    robot.nearest.x() = gap_ + 0.4;
+  }
+  ASSERT_EQ(last_.kind, "obstacle_stop");
+  pass(3.0, {robot});  // it is waited for, and then driven past, too near
+  robot = {ThingClass::pallet_robot, 3, 0.4, {0.5, -0.6}, true};
+  Sides said;
+  for (; robot.gap > 0.0 && said.empty(); robot.gap -= 0.006) {
+    robot.nearest = Eigen::Vector2d(0.5, -0.6).normalized() * (robot.gap + 0.38);
+    said = pass(0.02, {robot});
+  }
+  EXPECT_EQ(said, Sides{Side::right});
+}
+
 TEST_F(NearCuesTest, names_a_thing_again_only_after_it_was_gone_for_a_while) {
   now_.measured->linear = 0.5;
   const auto box = [](double gap) { return NearThing{ThingClass::box, 4, gap, kAhead, false}; };
