@@ -118,6 +118,10 @@ Menu::Step Menu::press(drive::Button button) {
     path_ = {{}, {List::end}};
     return tell();
   }
+  if (button == Button::settings) {
+    path_ = {{}, {List::settings}};
+    return tell();
+  }
   if (button == Button::start || button == Button::end) button = Button::choose;
   if (button < Button::next) return {};
   const Setting* const setting = path_.empty() ? nullptr : path_.back().setting;

@@ -106,6 +106,16 @@ TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
   EXPECT_EQ(menu.press(Button::back).told.value().kind, "menu_closed");
 }
 
+TEST_F(MenuTest, opens_at_the_settings_from_wherever_it_is) {
+  EXPECT_EQ(heard({Button::settings}), "menu_empty");
+  menu_.take_settings({{"speaker/rate", "220"}});
+  EXPECT_EQ(heard({Button::settings}), "setting 220");
+  EXPECT_EQ(heard({Button::choose, Button::settings}), "setting 220");
+  EXPECT_EQ(heard({Button::choose}), "setting_open 220");
+  press({Button::back, Button::back});
+  EXPECT_EQ(heard({Button::back}), "menu_closed");
+}
+
 TEST_F(MenuTest, has_the_glossary_while_no_trial_runs) {
   EXPECT_EQ(heard({Button::next, Button::next}), "menu_glossary");
   EXPECT_TRUE(press({Button::choose}).glossary);

@@ -23,17 +23,18 @@ enum class Button {
   previous,
   choose,
   back,
+  settings,  ///< opens the menu there
 };
-constexpr std::size_t kButtons = 12;
+constexpr std::size_t kButtons = 13;
 [[nodiscard]] constexpr std::array<const char*, kButtons> names(Button) {
-  return {"repeat", "goal", "around", "where",    "turn",   "help",
-          "start",  "end",  "next",   "previous", "choose", "back"};
+  return {"repeat", "goal", "around",   "where",  "turn", "help",    "start",
+          "end",    "next", "previous", "choose", "back", "settings"};
 }
 
 /// Which button of the device does what: indices as in Gamepad::input(); -1: none does. Where
 /// joy_node gives the arrow pad as axes 6 and 7, these stand for the buttons 11 to 14, too.
 struct ButtonsConfig {
-  std::array<int, kButtons> index = {0, 1, 2, 3, 10, 5, 6, 4, 12, 11, 14, 13};
+  std::array<int, kButtons> index = {0, 1, 2, 3, 10, 5, 6, 4, 12, 11, 14, 13, -1};
 
   void describe(navvi_config::Visitor& visit);
 };
