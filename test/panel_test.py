@@ -1,5 +1,7 @@
 """The panel in RViz: as a screen reader meets it, by keys, and how large its letters are."""
+import functools
 import os
+import re
 import subprocess
 import tempfile
 import time
@@ -7,13 +9,14 @@ import time
 import numpy
 import pytest
 
-from picture_test import THINGS, Picture, luminance
+from picture_test import ROOT, THINGS, Picture, luminance
 
 pytestmark = pytest.mark.accessibility
 
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 BUTTONS = {"Start": "F5", "End trial": "F8", "Repeat": "R", "Goal": "G", "Around": "A", "Chase": "1", "Top": "2", "Forward": "3",
-           "RViz": "F2"}
+           "RViz": "F2", "Settings": "F3"}
+MENU = {"Down": "PgDown", "Up": "PgUp", "Choose": "Return", "Back": "Backspace"}
 LEAST = 26  # px, of capital letters on a screen of 1080 rows
 
 
@@ -59,18 +62,25 @@ class Desk(Picture):
             return next(window for window in self.parts(program) if window.name.endswith("RViz"))
         return eventually(window)
 
+    @functools.cached_property
     def panel(self):
-        """All widgets of the panel."""
+        """All widgets of the panel, shown or not. They last as long as RViz; each question to it waits for the next picture."""
+        def ends(part):
+            return sum(map(ends, self.parts(part)), []) if part.getRoleName() in ("filler", "layered pane") else [part]
+
         def widgets():
             dock = next(part for part in self.parts(self.window()) if part.name == "Guide")
-            return next(widgets for widgets in map(self.parts, self.parts(dock)) if len(widgets) > len(BUTTONS))
+            found = sum(map(ends, self.parts(dock)), [])
+            return found if len(found) > len(BUTTONS) + len(MENU) + 6 else None
         return eventually(widgets)
+
+    @functools.cached_property
+    def named(self):
+        return {word: widget for widget in self.panel for word in (widget.name, widget.description)}
 
     def widget(self, word):
         """By name or, where the name is what it shows, by description."""
-        widgets = self.panel()
-        return next((widget for widget in widgets if widget.description == word), None) or next(
-            widget for widget in widgets if widget.name == word)
+        return self.named[word]
 
     def has(self, widget, state):
         return widget.getState().contains(getattr(self.registry, "STATE_" + state))
@@ -116,11 +126,11 @@ def set_state(desk, state):
 
 
 def test_a_screen_reader_meets_each_part_by_role_and_name(desk):
-    panel = desk.panel()
+    panel = desk.panel
     buttons = {widget.name: widget.description for widget in panel if widget.getRoleName() == "push button"}
-    assert BUTTONS.items() <= {name: told.removeprefix("Key ") for name, told in buttons.items()}.items()
+    assert buttons == {name: f"Key {key}" for name, key in {**BUTTONS, **MENU}.items()}
     labels = [widget.description for widget in panel if widget.getRoleName() == "label"]
-    assert {"state", "instruction", "distance", "speed", "time"} <= set(labels)
+    assert {"state", "instruction", "distance", "speed", "time", "menu"} <= set(labels)
     assert desk.widget("Vision").getRoleName() == "combo box"
     for widget in panel:
         assert widget.name or widget.description, "a part has no name"
@@ -142,6 +152,49 @@ def test_a_screen_reader_presses_a_button(desk):
     eventually(lambda: desk.asked == ["around"])
 
 
+@pytest.fixture
+def guide(desk):
+    """What the guide says with a pad of another driver, and nothing near."""
+    node = subprocess.Popen([ROOT / "navvi_ws/devel/lib/navvi_feedback/feedback_node", "_input:=topic", "_listener:=topic"], env=desk.env, **QUIET)
+    try:
+        yield
+    finally:
+        node.terminate()
+        node.wait()
+
+
+def test_settings_are_changed_by_keys_and_by_a_screen_reader(desk, guide):
+    menu = desk.widget("menu")
+
+    def offered(*words):
+        return eventually(lambda: all(word in menu.name for word in words))
+
+    def ask():  # until there is a guide to answer
+        desk.press("F3")
+        return eventually(lambda: menu.name, 10)
+    set_state(desk, "RUNNING")
+    eventually(ask)
+    offered("speed of speech")
+    eventually(lambda: desk.has(desk.widget("Down"), "SHOWING") and not desk.has(desk.widget("Start"), "SHOWING"))
+    desk.press("Next")
+    offered("volume")
+    desk.press("Prior")
+    offered("speed of speech")
+    desk.press("Return")
+    offered("speed of speech", "up for more")
+    before = int(re.search(r"\d+", menu.name)[0])
+    desk.press("Prior")
+    eventually(lambda: int(re.search(r"\d+", menu.name)[0]) > before)
+    assert desk.widget("Down").queryAction().doAction(0)
+    eventually(lambda: int(re.search(r"\d+", menu.name)[0]) <= before)
+    for _ in range(3):
+        before = menu.name
+        desk.press("BackSpace")
+        eventually(lambda: menu.name != before)
+    assert menu.name == ""
+    eventually(lambda: desk.has(desk.widget("Settings"), "SHOWING"))
+
+
 def test_keys_ask_begin_and_end(desk):
     from navvi_msgs.msg import TrialRequest
     desk.asked.clear()
@@ -149,9 +202,27 @@ def test_keys_ask_begin_and_end(desk):
     eventually(lambda: desk.asked == ["repeat", "goal", "around", TrialRequest.BEGIN, TrialRequest.END])
 
 
+def test_no_plate_lies_over_the_robot(desk, tmp_path):
+    sight = (10, 40, 1910, 700)
+    set_state(desk, "RUNNING")
+    desk.show([thing for thing in THINGS if thing != "robot"])
+    label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(-0.2, 0, 0))
+    label.text = "in 1.5 m, 10 o'clock"
+    without = desk.shot(tmp_path / "without.png", sight)
+    desk.show(THINGS)
+    time.sleep(1)
+    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
+    desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]])
+    time.sleep(1)
+    plated = numpy.asarray(desk.shot(tmp_path / "plated.png", sight), dtype=int)
+    robot = abs(bare - numpy.asarray(without, dtype=int)).max(axis=2) > 30
+    assert robot.sum() > 500 and (abs(plated - bare).max(axis=2) > 30).sum() > 2000, "robot and plate are there"
+    assert (abs(plated - bare).max(axis=2)[robot] > 30).sum() == 0
+    desk.show(THINGS)
+
+
 def test_the_tab_key_goes_through_all_that_can_be_pressed(desk):
-    widgets = desk.panel()
-    waiting = [widget for widget in widgets if widget.getRoleName() == "push button"]
+    waiting = [desk.widget(name) for name in BUTTONS]
     for _ in range(40):
         desk.press("Tab")
         time.sleep(0.3)

@@ -17,10 +17,12 @@
 namespace navvi_rviz::plugin {
 namespace {
 
-constexpr double kAhead = 4.0;       // m along the path, to where the edge arrow leads
-constexpr double kLeastText = 26.0;  // px, of capital letters
-constexpr double kMargin = 3.0;      // m, around what the view from above holds
-constexpr double kLargest = 60.0;    // px/m, of that view
+constexpr double kAhead[] = {2.0, 4.0};  // m along the path, to where the edge arrow leads
+constexpr double kLeastText = 26.0;      // px, of capital letters
+constexpr double kMargin = 3.0;          // m, around what the view from above holds
+constexpr double kRobot = 0.3;           // m, half of what plates leave free of the robot
+constexpr double kGoal = 1.2;            // m, the same of the goal, from above
+constexpr double kLargest = 60.0;        // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
 // Of its distance, by which RViz lifts its follower across its axis.
 constexpr double kLift = 0.2;
@@ -97,20 +99,6 @@ std::optional<navvi_types::Pose2> CaptionsDisplay::robot() const {
                             static_cast<double>(turned.getRoll().valueRadians())};
 }
 
-std::optional<Eigen::Vector3d> CaptionsDisplay::way_ahead(const Eigen::Vector2d& robot) const {
-  if (path_.empty()) return std::nullopt;
-  const auto away = [&](const Eigen::Vector3d& place) { return (place.head<2>() - robot).norm(); };
-  const auto nearest = std::min_element(
-      path_.begin(), path_.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); });
-  double left = kAhead;
-  for (auto i = nearest; i + 1 != path_.end(); ++i) {
-    const Eigen::Vector3d leg = *(i + 1) - *i;
-    if (leg.norm() >= left) return *i + leg * (left / leg.norm());
-    left -= leg.norm();
-  }
-  return path_.back();
-}
-
 Plate& CaptionsDisplay::painted(const std::string& name, const std::string& key,
                                 const std::function<QImage()>& paint) {
   Painted& entry = plates_[name];
@@ -144,6 +132,7 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
     show_from_above(*pose, picture, taken);
     show_from_behind(*pose, static_cast<double>(wall_dt));
     show_way(*pose, picture, taken);
+    if (const auto place = place_of(pose->position, kRobot)) taken.push_back(*place);
   }
   show_labels(picture, taken);
 }
@@ -167,14 +156,17 @@ void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture,
 
 void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
                                std::vector<screen::Rect>& taken) {
-  const auto way = way_ahead(robot.position);
-  if (!way) return;
-  Seen seen = see(*way);
-  // What is ahead, but below the picture, is just before the robot.
-  if (seen.pixel && robot.to_local(way->head<2>()).x() > 0.0)
-    seen.pixel->y() = std::min(seen.pixel->y(), picture.y() - 1.0);
   const int size = 4 * height_;
-  const auto arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture, 0.5 * size);
+  std::optional<screen::EdgeArrow> arrow;
+  for (const double ahead : kAhead) {
+    const auto way = screen::way_ahead(path_, robot.position, ahead);
+    if (!way || arrow) break;
+    Seen seen = see(*way);
+    // What is ahead, but below the picture, is just before the robot.
+    if (seen.pixel && robot.to_local(way->head<2>()).x() > 0.0)
+      seen.pixel->y() = std::min(seen.pixel->y(), picture.y() - 1.0);
+    arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture, 0.5 * size);
+  }
   if (!arrow) return;
   Plate& plate = this->arrow("edge", arrow->angle, size);
   const Eigen::Vector2d corner = arrow->at - 0.5 * size_of(plate);
@@ -203,6 +195,19 @@ void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture,
   for (std::size_t i = 0; i < plates.size(); ++i) plates[i]->show(corners[i].x(), corners[i].y());
 }
 
+std::optional<screen::Rect> CaptionsDisplay::place_of(const Eigen::Vector2d& thing,
+                                                      double half) const {
+  screen::Rect place;
+  for (const double x : {-half, half})
+    for (const double y : {-half, half})
+      for (const double z : {0.0, 2.0 * half}) {
+        const Seen seen = see({thing.x() + x, thing.y() + y, z});
+        if (!seen.pixel) return std::nullopt;
+        place.extend(*seen.pixel);
+      }
+  return place;
+}
+
 bool CaptionsDisplay::from_above() const {
   return context_->getViewManager()->getCurrent()->getClassId() == "rviz/TopDownOrtho";
 }
@@ -227,6 +232,8 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   view->subProp("X")->setValue(all.center().x());
   view->subProp("Y")->setValue(all.center().y() + 0.5 * banner / scale);
   view->subProp("Scale")->setValue(scale);
+  if (goal_)
+    if (const auto place = place_of(*goal_, kGoal)) taken.push_back(*place);
 
   const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
   if (!pixel) return;

@@ -48,8 +48,6 @@ class CaptionsDisplay : public rviz::Display {
   [[nodiscard]] Seen see(const Eigen::Vector3d& place) const;
   /// base_link in the fixed frame.
   [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
-  /// A place on the path a little ahead of the robot, m.
-  [[nodiscard]] std::optional<Eigen::Vector3d> way_ahead(const Eigen::Vector2d& robot) const;
   /// The plate of that name with these words on it.
   Plate& words(const std::string& name, const std::string& text, int height, bool inverted);
   Plate& painted(const std::string& name, const std::string& key,
@@ -58,6 +56,10 @@ class CaptionsDisplay : public rviz::Display {
   /// An arrow's plate. \param angle  rad, counter-clockwise from right
   Plate& arrow(const std::string& name, double angle, int size);
   [[nodiscard]] bool from_above() const;
+  /// Of something on the screen. \param half  m, of its size
+  /// \return nullopt: not before the camera
+  [[nodiscard]] std::optional<screen::Rect> place_of(const Eigen::Vector2d& thing,
+                                                     double half) const;
   void show_banner(const Eigen::Vector2d& picture, std::vector<screen::Rect>& taken);
   void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
                 std::vector<screen::Rect>& taken);

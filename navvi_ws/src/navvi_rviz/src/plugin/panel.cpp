@@ -9,6 +9,7 @@
 #include <std_msgs/String.h>
 
 #include <QAccessible>
+#include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QHBoxLayout>
@@ -27,6 +28,7 @@ namespace navvi_rviz::plugin {
 namespace {
 
 constexpr int kRefresh = 100;  // ms
+constexpr int kPadding = 4;    // px, around words
 
 QString number(double value, int decimals, const char* unit) {
   return QString::number(value, 'f', decimals) + " " + unit;
@@ -34,6 +36,10 @@ QString number(double value, int decimals, const char* unit) {
 
 /// A screen reader says what changed by itself.
 void set_words(QLabel* label, const QString& words, QAccessible::Event event) {
+  // Docks do not ask how high wrapped words are; two lines always, or the picture changes its size.
+  if (label->wordWrap())
+    label->setMinimumHeight(std::max(2 * label->fontMetrics().lineSpacing() + 2 * kPadding,
+                                     label->heightForWidth(label->width())));
   if (label->text() == words) return;
   label->setText(words);
   QAccessibleEvent said(label, event);
@@ -47,15 +53,30 @@ Panel::Panel()
       numbers_row_(new QHBoxLayout),
       questions_row_(new QHBoxLayout),
       view_row_(new QHBoxLayout),
+      offer_row_(new QHBoxLayout),
+      menu_row_(new QHBoxLayout),
       state_(add_label(words_row_, "state", 1)),
       instruction_(add_label(words_row_, "instruction", 1)),
       distance_(add_label(numbers_row_, "distance", 1)),
       speed_(add_label(numbers_row_, "speed", 1)),
-      clock_(add_label(numbers_row_, "time", 0)) {
+      clock_(add_label(numbers_row_, "time", 0)),
+      menu_(add_label(offer_row_, "menu", 1)),
+      pages_(new QStackedWidget) {
   setAttribute(Qt::WA_StyledBackground);
+  menu_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* rows = new QVBoxLayout(this);
-  for (QHBoxLayout* row : {words_row_, numbers_row_, questions_row_, view_row_})
-    rows->addLayout(row);
+  rows->addLayout(words_row_);
+  rows->addLayout(numbers_row_);
+  rows->addWidget(pages_);
+  for (const auto& [upper, lower] :
+       {std::pair{questions_row_, view_row_}, {offer_row_, menu_row_}}) {
+    auto* page = new QWidget;
+    auto* both = new QVBoxLayout(page);
+    both->setContentsMargins(0, 0, 0, 0);
+    both->addLayout(upper);
+    both->addLayout(lower);
+    pages_->addWidget(page);
+  }
 }
 
 QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
@@ -68,33 +89,69 @@ QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
   return label;
 }
 
-void Panel::add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
-                       const std::function<void()>& action) {
+QPushButton* Panel::add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
+                               const std::function<void()>& action, QWidget* scope) {
   auto* button = new QPushButton(words + " (" + key.toString() + ")");
   button->setAccessibleName(words);
   button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to who drives
   button->setAccessibleDescription("Key " + key.toString());
   connect(button, &QPushButton::clicked, this, action);
-  auto* shortcut = new QShortcut(key, this);
+  auto* shortcut = new QShortcut(key, scope);
   shortcut->setContext(Qt::ApplicationShortcut);
   connect(shortcut, &QShortcut::activated, this, action);
   row->addWidget(button, words.size());
+  return button;
 }
 
 void Panel::onInitialize() {
   reader_ = std::make_unique<Reader>();
   questions_ = node_.advertise<std_msgs::String>("navvi/ask", 10);
   requests_ = node_.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
+  add_questions();
+  add_views();
+  add_menu();
+  Chosen::shared().on_change([this] { style(); });
+  style();
+  connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
+  timer_.start(kRefresh);
+  QTimer::singleShot(0, this, [this] { fill_screen(); });
+}
+
+void Panel::add_questions() {
   using Request = navvi_msgs::TrialRequest;
-  add_button(questions_row_, "Start", Qt::Key_F5, [this] { request(Request::BEGIN); });
-  add_button(questions_row_, "End trial", Qt::Key_F8, [this] { request(Request::END); });
-  add_button(questions_row_, "Repeat", Qt::Key_R, [this] { ask("repeat"); });
-  add_button(questions_row_, "Goal", Qt::Key_G, [this] { ask("goal"); });
-  add_button(questions_row_, "Around", Qt::Key_A, [this] { ask("around"); });
+  add_button(
+      questions_row_, "Start", Qt::Key_F5, [this] { request(Request::BEGIN); }, this);
+  add_button(
+      questions_row_, "End trial", Qt::Key_F8, [this] { request(Request::END); }, this);
+  add_button(
+      questions_row_, "Repeat", Qt::Key_R, [this] { ask("repeat"); }, this);
+  add_button(
+      questions_row_, "Goal", Qt::Key_G, [this] { ask("goal"); }, this);
+  add_button(
+      questions_row_, "Around", Qt::Key_A, [this] { ask("around"); }, this);
+}
+
+void Panel::add_menu() {
+  QWidget* const page = pages_->widget(1);
+  const auto add = [&](const char* words, const QKeySequence& key, const char* question) {
+    return add_button(
+        menu_row_, words, key, [this, question] { ask(question); }, page);
+  };
+  down_ = add("Down", Qt::Key_PageDown, "next");
+  add("Up", Qt::Key_PageUp, "previous");
+  add("Choose", Qt::Key_Return, "choose");
+  add("Back", Qt::Key_Backspace, "back");
+}
+
+void Panel::add_views() {
   const char* const views[] = {"Chase", "Top", "Forward"};
   for (int i = 0; i < 3; ++i)
-    add_button(view_row_, views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); });
-  add_button(view_row_, "RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); });
+    add_button(
+        view_row_, views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); }, this);
+  add_button(
+      view_row_, "RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); }, this);
+  settings_ = add_button(
+      view_row_, "Settings", Qt::Key_F3, [this] { ask("settings"); }, this);
 
   auto* visions = new QComboBox;
   visions->setAccessibleName("Vision");
@@ -110,12 +167,6 @@ void Panel::onInitialize() {
   label->setObjectName("vision");
   view_row_->addWidget(label);
   view_row_->addWidget(visions);
-
-  Chosen::shared().on_change([this] { style(); });
-  style();
-  connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
-  timer_.start(kRefresh);
-  QTimer::singleShot(0, this, [this] { fill_screen(); });
 }
 
 void Panel::ask(const std::string& question) {
@@ -180,25 +231,38 @@ void Panel::style() {
   const double height = zoom * vision.text_height;
   setStyleSheet(
       QString("QWidget { background: %2; color: %1; font: bold %3px 'DejaVu Sans'; }"
-              "QLabel { padding: 4px; }"
-              "QPushButton, QComboBox, QLabel#vision { font-size: %4px; }"
+              "QLabel { padding: %5px; }"
+              "QPushButton, QComboBox, QLabel#vision, QLabel#menu { font-size: %4px; }"
               "QPushButton, QComboBox { border: 2px solid %1; padding: 4px; }"
               "QPushButton:pressed { background: %1; color: %2; }"
               "QLabel:focus, QPushButton:focus, QComboBox:focus { border: 5px double %1; }"
               "QLabel[alarm=\"true\"] { background: %1; color: %2; }")
           .arg(text, plate)
           .arg(font_size(height))
-          .arg(font_size(std::max(26.0 * zoom, 0.55 * height))));
+          .arg(font_size(std::max(26.0 * zoom, 0.55 * height)))
+          .arg(kPadding));
+}
+
+void Panel::show_menu(const QString& words) {
+  set_words(menu_, words, QAccessible::Alert);
+  QWidget* const page = pages_->widget(words.isEmpty() ? 0 : 1);
+  QWidget* const last = pages_->currentWidget();
+  if (page == last) return;
+  const bool focus = last->isAncestorOf(QApplication::focusWidget());
+  pages_->setCurrentWidget(page);
+  if (focus) (words.isEmpty() ? settings_ : down_)->setFocus();
 }
 
 void Panel::refresh() {
   const status::Shown shown = reader_->shown();
+  show_menu(QString::fromStdString(shown.menu));
   const bool alarm = shown.tone == status::Shown::Tone::alarm && !shown.banner.empty();
   if (state_->property("alarm").toBool() != alarm) {
     state_->setProperty("alarm", alarm);
     style();
   }
-  set_words(state_, QString::fromStdString(shown.banner.empty() ? "drive" : shown.banner),
+  const std::string calm = shown.sound ? "drive" : "drive, no sound";
+  set_words(state_, QString::fromStdString(shown.banner.empty() ? calm : shown.banner),
             QAccessible::Alert);
   set_words(instruction_, QString::fromStdString(shown.instruction), QAccessible::NameChanged);
   set_words(distance_, shown.distance ? number(*shown.distance, 0, "m to go") : "",

@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QStackedWidget>
 #include <QTimer>
 #include <functional>
 #include <memory>
@@ -15,7 +16,8 @@
 namespace navvi_rviz::plugin {
 
 /// What the guide says and how the trial stands, in words, below the picture; with a button and a
-/// key for each thing that can be asked for. Buttons have names for screen readers. Makes the
+/// key for each thing that can be asked for. While the spoken menu is open, what it offers and its
+/// keys are in the place of the other buttons. Buttons have names for screen readers. Makes the
 /// picture as large as the screen; F2 shows what else RViz has. While a trial runs, closing the
 /// window asks the person, as the button that ends it does.
 class Panel : public rviz::Panel {
@@ -26,8 +28,13 @@ class Panel : public rviz::Panel {
 
  private:
   QLabel* add_label(QHBoxLayout* row, const char* name, int stretch);
-  void add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
-                  const std::function<void()>& action);
+  /// \param scope  the key works while this is visible
+  QPushButton* add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
+                          const std::function<void()>& action, QWidget* scope);
+  void add_questions();
+  void add_views();
+  void add_menu();
+  void show_menu(const QString& words);
   void ask(const std::string& question);
   void request(std::uint8_t what);
   void choose_view(int index);
@@ -40,8 +47,10 @@ class Panel : public rviz::Panel {
   Keys keys_{*this};
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
-  QHBoxLayout *words_row_, *numbers_row_, *questions_row_, *view_row_;
-  QLabel *state_, *instruction_, *distance_, *speed_, *clock_;
+  QHBoxLayout *words_row_, *numbers_row_, *questions_row_, *view_row_, *offer_row_, *menu_row_;
+  QLabel *state_, *instruction_, *distance_, *speed_, *clock_, *menu_;
+  QStackedWidget* pages_;  ///< the buttons; in their place the spoken menu's while it is open
+  QPushButton *settings_ = nullptr, *down_ = nullptr;
   QTimer timer_;
   bool chrome_ = false;
 };

@@ -44,7 +44,7 @@ Reader::Reader() {
       "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
         for (const auto& device : array->status)
           for (const auto& pair : device.values)
-            if (pair.key == "state") status_.take_device(device.name, pair.value);
+            if (pair.key == "state") status_.take_device(device.name, pair.value, now());
       }));
 }
 

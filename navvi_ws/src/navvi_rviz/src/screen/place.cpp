@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace navvi_rviz::screen {
 namespace {
 
 constexpr double kGap = 8.0;  // px, between plates, and from a plate to its place
+constexpr int kSteps = 30;    // of half a plate, to each side
 
 Rect rect_at(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) {
   return {corner, corner + size};
@@ -26,20 +28,24 @@ std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates, const Eigen
   for (const Plate& plate : plates) {
     const Eigen::Vector2d wish =
         plate.anchor - Eigen::Vector2d(0.5 * plate.size.x(), plate.size.y() + kGap);
+    const auto free = [&](const Eigen::Vector2d& corner) {
+      const Rect mine = rect_at(corner, plate.size);
+      return std::none_of(used.begin(), used.end(), [&](const Rect& other) {
+        return mine.intersects(Rect(other.min().array() - kGap, other.max().array() + kGap));
+      });
+    };
+    // Aside only where there is no room above or below.
     Eigen::Vector2d corner = into(wish, plate.size, picture);
-    // Up and down from the wish in steps, until it is free.
-    const double step = 0.5 * plate.size.y() + kGap;
-    for (int i = 0; i <= 80; ++i) {
-      const double down = (i % 2 == 0 ? -1.0 : 1.0) * step * ((i + 1) / 2);
-      const Eigen::Vector2d trial = into(wish + Eigen::Vector2d(0.0, down), plate.size, picture);
-      const Rect mine = rect_at(trial, plate.size);
-      if (std::none_of(used.begin(), used.end(), [&](const Rect& other) {
-            return mine.intersects(Rect(other.min().array() - kGap, other.max().array() + kGap));
-          })) {
+    double best = free(corner) ? 0.0 : std::numeric_limits<double>::infinity();
+    const Eigen::Vector2d step = 0.5 * plate.size + Eigen::Vector2d(kGap, kGap);
+    for (int across = -kSteps; across <= kSteps && best > 0.0; ++across)
+      for (int down = -kSteps; down <= kSteps; ++down) {
+        const Eigen::Vector2d way = step.cwiseProduct(Eigen::Vector2d(across, down));
+        const Eigen::Vector2d trial = into(wish + way, plate.size, picture);
+        if (way.norm() >= best || !free(trial)) continue;
+        best = way.norm();
         corner = trial;
-        break;
       }
-    }
     corners.push_back(corner);
     used.push_back(rect_at(corner, plate.size));
   }
@@ -60,6 +66,31 @@ std::optional<EdgeArrow> edge_arrow(const Eigen::Vector3d& seen,
                                 half.y() / std::max(1e-9, std::abs(way.y())));
   const Eigen::Vector2d at = 0.5 * picture + reach * Eigen::Vector2d(way.x(), -way.y());
   return EdgeArrow{at, std::atan2(way.y(), way.x())};
+}
+
+std::optional<Eigen::Vector3d> way_ahead(const std::vector<Eigen::Vector3d>& path,
+                                         const Eigen::Vector2d& robot, double ahead) {
+  if (path.empty()) return std::nullopt;
+  // On each leg the place that is nearest; its share of the leg.
+  std::size_t leg = 0;
+  double share = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Eigen::Vector2d from = path[i].head<2>(), way = path[i + 1].head<2>() - from;
+    const double part =
+        std::clamp((robot - from).dot(way) / std::max(1e-9, way.squaredNorm()), 0.0, 1.0);
+    const double away = (from + part * way - robot).norm();
+    if (away >= nearest) continue;
+    nearest = away;
+    leg = i;
+    share = part;
+  }
+  for (; leg + 1 < path.size(); ++leg, share = 0.0) {
+    const Eigen::Vector3d way = path[leg + 1] - path[leg];
+    const double left = (1.0 - share) * way.norm();
+    if (left > ahead) return path[leg] + (share + ahead / way.norm()) * way;
+    ahead -= left;
+  }
+  return path.back();
 }
 
 }  // namespace navvi_rviz::screen

@@ -35,4 +35,10 @@ struct EdgeArrow {
                                                   const std::optional<Eigen::Vector2d>& inside,
                                                   const Eigen::Vector2d& picture, double margin);
 
+/// \param path   m, in map
+/// \param ahead  m along it, from its place that is nearest to the robot
+/// \return the path's end, if it is nearer; nullopt: there is no path
+[[nodiscard]] std::optional<Eigen::Vector3d> way_ahead(const std::vector<Eigen::Vector3d>& path,
+                                                       const Eigen::Vector2d& robot, double ahead);
+
 }  // namespace navvi_rviz::screen

@@ -25,6 +25,23 @@ TEST(Place, plates_lie_inside_and_never_over_each_other_or_what_is_taken) {
   }
 }
 
+TEST(Place, large_plates_in_a_low_picture_go_aside) {
+  const Eigen::Vector2d low(1920.0, 560.0);
+  const std::vector<Rect> taken = {{Eigen::Vector2d(500.0, 10.0), Eigen::Vector2d(1400.0, 260.0)},
+                                   {Eigen::Vector2d(850.0, 290.0), Eigen::Vector2d(1060.0, 500.0)}};
+  const std::vector<Plate> plates = {{{950.0, 300.0}, {280.0, 110.0}},
+                                     {{950.0, 280.0}, {740.0, 110.0}},
+                                     {{950.0, 400.0}, {310.0, 110.0}}};
+  std::vector<Rect> rects = taken;
+  const auto corners = place(plates, low, taken);
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    const Rect mine(corners[i], corners[i] + plates[i].size);
+    for (const Rect& other : rects)
+      EXPECT_LE(mine.intersection(other).sizes().minCoeff(), 0.0) << i;
+    rects.push_back(mine);
+  }
+}
+
 TEST(Place, a_plate_alone_is_over_the_middle_of_its_place) {
   const auto corners = place({{{960.0, 540.0}, {200.0, 40.0}}}, kPicture, {});
   EXPECT_DOUBLE_EQ(corners[0].x(), 860.0);
@@ -45,6 +62,15 @@ TEST(EdgeArrow, points_down_to_what_is_behind_the_camera_and_to_its_side) {
   EXPECT_NEAR(behind->at.y(), 1020.0, 1e-6);
   EXPECT_NEAR(behind->angle, -0.5 * M_PI, 1e-6);
   EXPECT_LT(edge_arrow({-5.0, 0.0, 5.0}, std::nullopt, kPicture, 60.0)->at.x(), 900.0);
+}
+
+TEST(WayAhead, is_counted_from_the_robot_on_a_leg_however_long_it_is) {
+  const std::vector<Eigen::Vector3d> path = {{0, 0, 0}, {10, 0, 0}, {10, 5, 0}};
+  EXPECT_TRUE(way_ahead(path, {4.0, 0.5}, 2.0)->isApprox(Eigen::Vector3d(6, 0, 0)));
+  EXPECT_TRUE(way_ahead(path, {9.0, 0.5}, 2.0)->isApprox(Eigen::Vector3d(10, 1, 0)));
+  EXPECT_TRUE(way_ahead(path, {10.0, 4.5}, 2.0)->isApprox(Eigen::Vector3d(10, 5, 0)));
+  EXPECT_FALSE(way_ahead({}, {0.0, 0.0}, 2.0));
+  EXPECT_TRUE(way_ahead({{1, 1, 0}}, {0.0, 0.0}, 2.0)->isApprox(Eigen::Vector3d(1, 1, 0)));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@ namespace {
 
 using navvi_types::Guidance;
 
-constexpr double kHeld = 10.0;  // s; "stop" and "wait" hold until a word follows, but not for ever
+// s; "stop" and "wait" hold until a word follows, but not for ever; nor does "no sound" hide the
+// way.
+constexpr double kHeld = 10.0;
 constexpr double kShown = 4.0;  // s, of other warnings
 
 /// Cues that hold until the next word about the way.
@@ -25,6 +27,15 @@ const std::set<std::string> kWarnings = {"collision_shelf", "collision_wall", "c
 const std::set<std::string> kReleasing = {"go_on",    "direction",       "straight",
                                           "slight",   "straight_then",   "turn_now",
                                           "rerouted", "rerouted_blocked"};
+
+/// What the spoken menu says while it is open, and what closes it.
+bool offers(const std::string& kind) {
+  static const std::set<std::string> settings = {"setting", "setting_open", "setting_changed"};
+  return (kind.rfind("menu_", 0) == 0 && kind != "menu_closed") || settings.count(kind) > 0;
+}
+bool closes(const std::string& kind) {
+  return kind == "menu_closed" || kind == "goal_chosen" || kind.rfind("glossary", 0) == 0;
+}
 
 std::string sentence_of(Guidance::State state) {
   static const std::map<Guidance::State, std::string> sentences = {
@@ -42,7 +53,12 @@ std::string sentence_of(Guidance::State state) {
 
 void Status::take(const navvi_types::CueEvent& cue, double time) {
   using navvi_types::CueStage;
-  if (cue.modality != navvi_types::Modality::speech || cue.stage != CueStage::started) return;
+  if (cue.modality != navvi_types::Modality::speech) return;
+  // The menu goes on, also where its word comes too late to be spoken.
+  if (cue.stage == CueStage::queued && offers(cue.kind)) menu_ = cue.text;
+  if (cue.stage == CueStage::queued && closes(cue.kind)) menu_.clear();
+  // Where nothing can be heard, what would have been is dropped.
+  if (cue.stage != CueStage::started && !(silent_ && cue.stage == CueStage::dropped)) return;
   last_ = Said{cue.kind, cue.text, time};
   if (kWarnings.count(cue.kind) > 0) warning_ = last_;
   if (kReleasing.count(cue.kind) > 0 && warning_ && kHolding.count(warning_->kind) > 0)
@@ -50,6 +66,14 @@ void Status::take(const navvi_types::CueEvent& cue, double time) {
   if (cue.kind == "pad_lost") lost_ = "controller lost";
   if (cue.kind == "keyboard_lost") lost_ = cue.text;
   if (cue.kind == "pad_back" || cue.kind == "keyboard_back") lost_.clear();
+}
+
+void Status::take(const navvi_types::TrialState& state) {
+  if (trial_ != state.state) menu_.clear();
+  trial_ = state.state;
+  if (trial_ != navvi_types::TrialState::State::running || state.stamp == 0) return;
+  begun_ = 1e-9 * static_cast<double>(state.stamp);
+  ended_.reset();
 }
 
 void Status::take(const Guidance& guidance) {
@@ -67,8 +91,12 @@ void Status::take_event(const std::string& type, double ros_time) {
   if (type == "TRIAL_END") ended_ = ros_time;
 }
 
-void Status::take_device(const std::string& name, const std::string& state) {
-  if (name == "navvi/audio") sound_ = state != "missing";
+void Status::take_device(const std::string& name, const std::string& state, double time) {
+  if (name != "navvi/audio") return;
+  if (state != "missing")
+    silent_.reset();
+  else if (!silent_)
+    silent_ = time;
 }
 
 std::optional<Status::Said> Status::warning(double time) const {
@@ -99,17 +127,18 @@ void Status::choose_banner(double time, Shown& shown) const {
   if (guidance_->state == Guidance::State::make_room) show("make room", Tone::wait);
   if (guidance_->state == Guidance::State::arrived) show("arrived", Tone::good);
   show(sentence_of(guidance_->state), Tone::alarm);
-  if (!sound_) show("no sound", Tone::wait);
+  if (silent_ && time - *silent_ < kHeld) show("no sound", Tone::wait);
 }
 
 Shown Status::shown(double time, double ros_time) const {
   Shown shown;
   choose_banner(time, shown);
   if (last_) shown.instruction = last_->text;
+  shown.menu = menu_;
   if (guidance_ && guidance_->leads()) shown.distance = guidance_->goal_distance;
   shown.speed = std::abs(speed_);
   if (begun_) shown.clock = std::max(0.0, ended_.value_or(ros_time) - *begun_);
-  shown.sound = sound_;
+  shown.sound = !silent_;
   return shown;
 }
 

@@ -17,6 +17,7 @@ struct Shown {
   std::string banner = {};  ///< what matters most now, such as "stop, worker ahead"; empty: nothing
   Tone tone = Tone::calm;   ///< of the banner
   std::string instruction = {};         ///< what the guide said last
+  std::string menu = {};                ///< what the spoken menu offers; empty while it is closed
   std::optional<double> distance = {};  ///< m, left to the goal along the path
   double speed = 0.0;                   ///< m/s, >= 0
   std::optional<double> clock = {};     ///< s, since the trial began
@@ -29,7 +30,7 @@ class Status {
   void take(const navvi_types::CueEvent& cue, double time);
   void take(const navvi_types::Guidance& guidance);
   void take(const navvi_types::DriveState& state) { gate_ = state.state; }
-  void take(const navvi_types::TrialState& state) { trial_ = state.state; }
+  void take(const navvi_types::TrialState& state);
   void take_speed(double speed) { speed_ = speed; }
   [[nodiscard]] bool trial_runs() const {
     return trial_ == navvi_types::TrialState::State::running;
@@ -37,7 +38,7 @@ class Status {
   /// \param ros_time  s, of the event
   void take_event(const std::string& type, double ros_time);
   /// \param state  as in /diagnostics: works, missing, off
-  void take_device(const std::string& name, const std::string& state);
+  void take_device(const std::string& name, const std::string& state, double time);
 
   /// \param ros_time  s, of the same clock as the events
   [[nodiscard]] Shown shown(double time, double ros_time) const;
@@ -56,9 +57,10 @@ class Status {
   std::optional<navvi_types::TrialState::State> trial_;
   std::optional<Said> last_, warning_;
   std::string lost_;  ///< sentence while the hands are lost
+  std::string menu_;
   double speed_ = 0.0;
   std::optional<double> begun_, ended_;  ///< s, ROS time
-  bool sound_ = true;
+  std::optional<double> silent_;         ///< since when nothing can be heard
 };
 
 }  // namespace navvi_rviz::status

@@ -82,8 +82,11 @@ TEST(Status, a_trial_that_waits_says_for_what) {
 TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
   Status status;
   status.take(in(Guidance::State::following));
-  status.take_device("navvi/audio", "missing");
+  status.take_device("navvi/audio", "missing", 0.0);
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "no sound");
+  status.take_device("navvi/audio", "missing", 10.0);
+  EXPECT_EQ(status.shown(11.0, 0.0).banner, "") << "it would hide the way";
+  EXPECT_FALSE(status.shown(11.0, 0.0).sound);
   status.take(in(Guidance::State::arrived));
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "arrived");
   EXPECT_EQ(status.shown(0.0, 0.0).tone, Shown::Tone::good);
@@ -97,6 +100,39 @@ TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
     status.take(cue, 0.0);
   }
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "");
+}
+
+TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
+  Status status;
+  status.take_device("navvi/audio", "missing", 0.0);
+  CueEvent cue = said("direction", "2 o'clock, 5 meters");
+  cue.stage = CueStage::dropped;
+  status.take(cue, 0.0);
+  EXPECT_EQ(status.shown(0.0, 0.0).instruction, "2 o'clock, 5 meters");
+}
+
+TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
+  Status status;
+  const auto queued = [](const std::string& kind, const std::string& text) {
+    CueEvent cue = said(kind, text);
+    cue.stage = CueStage::queued;
+    return cue;
+  };
+  status.take(queued("setting", "volume, 50 percent"), 0.0);
+  status.take(said("direction", "2 o'clock, 5 meters"), 1.0);
+  EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");
+  EXPECT_EQ(status.shown(1.0, 0.0).instruction, "2 o'clock, 5 meters");
+  status.take(queued("menu_closed", "menu closed"), 2.0);
+  EXPECT_EQ(status.shown(2.0, 0.0).menu, "");
+  status.take(queued("menu_begin", "begin the trial"), 3.0);
+  status.take(navvi_types::TrialState{navvi_types::TrialState::State::running});
+  EXPECT_EQ(status.shown(3.0, 0.0).menu, "") << "it was chosen";
+}
+
+TEST(Status, the_clock_is_right_for_a_picture_that_comes_later) {
+  Status status;
+  status.take(navvi_types::TrialState{navvi_types::TrialState::State::running, 10'000'000'000});
+  EXPECT_EQ(status.shown(0.0, 70.0).clock, 60.0);
 }
 
 TEST(Status, the_clock_runs_from_the_trials_start_to_its_end) {
