@@ -20,7 +20,8 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 13. Nothing essential only in RViz: watch_test.py, test_nothing_that_the_guide_knows_is_told_in_the_picture_alone.
 14. The same by speech-dispatcher and on a plain terminal: watch_test.py, test_each_line_is_spoken_and_the_next_waits_until_it_was.
 15. The panel by AT-SPI: panel_test.py, test_a_screen_reader_meets_each_part_by_role_and_name and the two after it.
-16. All functions of the panel by key: panel_test.py, test_the_tab_key_goes_through_all_that_can_be_pressed, test_keys_*;
+16. All functions of the panel by key: panel_test.py, test_the_tab_key_goes_through_all_that_can_be_pressed, test_keys_*,
+    test_the_menu_is_shown_and_driven_by_keys_and_by_a_screen_reader;
     by_hand_test.py, test_a_goal_by_panel_and_keys_alone.
 17. Sizes of letters: panel_test.py, test_letters_are_large_and_twice_as_large_for_who_wants_that.
 18. Contrast: picture_test.py, test_each_thing_or_its_edge_stands_out_from_all_that_it_is_before.
