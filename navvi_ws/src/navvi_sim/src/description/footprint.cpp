@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace navvi_sim {
 namespace {
@@ -13,16 +14,22 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// The direction out of `polygon` over its edge from corner i; nullopt where two corners are one.
+std::optional<Eigen::Vector2d> outwards_of(const Polygon& polygon, std::size_t i) {
+  const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+  const double length = edge.norm();
+  if (length < 1e-12) return std::nullopt;
+  return Eigen::Vector2d(edge.y() / length, -edge.x() / length);
+}
+
 /// True if a line along one of `a`'s edges separates the two by `gap`.
 bool separated(const Polygon& a, const Polygon& b, double gap) {
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Eigen::Vector2d edge = a[(i + 1) % a.size()] - a[i];
-    const double length = edge.norm();
-    if (length < 1e-12) continue;
-    const Eigen::Vector2d outwards(edge.y() / length, -edge.x() / length);
+    const std::optional<Eigen::Vector2d> outwards = outwards_of(a, i);
+    if (!outwards) continue;
     double nearest = std::numeric_limits<double>::max();
     for (const Eigen::Vector2d& corner : b)
-      nearest = std::min(nearest, outwards.dot(corner - a[i]));
+      nearest = std::min(nearest, outwards->dot(corner - a[i]));
     if (nearest > 0.0 && nearest >= gap) return true;
   }
   return false;
@@ -52,6 +59,18 @@ Polygon convex_hull(std::vector<Eigen::Vector2d> points) {
 
 bool overlap(const Polygon& a, const Polygon& b, double gap) {
   return !separated(a, b, gap) && !separated(b, a, gap);
+}
+
+Ground::Ground(const Polygon& polygon) {
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (const auto outwards = outwards_of(polygon, i)) edges_.push_back({polygon[i], *outwards});
+}
+
+bool Ground::holds(const Eigen::Vector2d& point, double gap) const {
+  return std::none_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
+    const double away = edge.outwards.dot(point - edge.corner);
+    return away > 0.0 && away >= gap;
+  });
 }
 
 std::vector<Eigen::Vector3d> hull_points(const Geometry& geometry) {

@@ -17,6 +17,21 @@ using Polygon = std::vector<Eigen::Vector2d>;
 /// gap of 0; with a gap, corners that face each other count as near a little early.
 [[nodiscard]] bool overlap(const Polygon& a, const Polygon& b, double gap);
 
+/// A convex polygon that is asked about many points.
+class Ground {
+ public:
+  explicit Ground(const Polygon& polygon);
+  /// As overlap() of the polygon and the point.
+  [[nodiscard]] bool holds(const Eigen::Vector2d& point, double gap) const;
+
+ private:
+  struct Edge {
+    Eigen::Vector2d corner;
+    Eigen::Vector2d outwards;
+  };
+  std::vector<Edge> edges_;
+};
+
 /// The points of which a geometry is the hull, tight within 2 % of a radius, in its own frame.
 [[nodiscard]] std::vector<Eigen::Vector3d> hull_points(const Geometry& geometry);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 #include <utility>
 
 #include "navvi_sim/description/world_description.hpp"
@@ -148,25 +147,37 @@ void FloorGrid::measure_clearance() {
 }
 
 std::vector<std::uint8_t> FloorGrid::walls_around() const {
-  std::vector<std::uint8_t> count(size(), 0);
-  std::vector<bool> met(size());
-  const auto width = static_cast<long>(width_);
-  const auto height = static_cast<long>(height_);
-  for (long direction = 0; direction < 9; ++direction) {
-    const long dx = direction % 3 - 1;
-    const long dy = direction / 3 - 1;
-    if (dx == 0 && dy == 0) continue;
-    // From the side to which the direction leads, so that the cell ahead is known.
-    for (long j = 0; j < height; ++j)
-      for (long i = 0; i < width; ++i) {
-        const long x = dx > 0 ? width - 1 - i : i;
-        const long y = dy > 0 ? height - 1 - j : j;
-        const auto cell = static_cast<std::size_t>(y * width + x);
-        const auto ahead = static_cast<std::size_t>((y + dy) * width + x + dx);
-        const bool ends = x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= height;
-        met[cell] = blocked_[cell] || (!ends && met[ahead]);
-        if (met[cell]) ++count[cell];
+  // Each row with a rim of one cell in which nothing stands.
+  const std::size_t w = width_ + 2;
+  std::vector<std::uint8_t> count(size(), 0), here(w, 0), ahead(w, 0);
+  const std::vector<std::uint8_t> blocked(blocked_.begin(), blocked_.end());
+  // Along a row, from the end to which the direction leads.
+  for (std::size_t y = 0; y < height_; ++y) {
+    std::uint8_t* row = &count[y * width_];
+    const std::uint8_t* stands = &blocked[y * width_];
+    bool left = false, right = false;
+    for (std::size_t x = 0; x < width_; ++x) {
+      left = left || stands[x] != 0;
+      if (left) ++row[x];
+    }
+    for (std::size_t x = width_; x-- > 0;) {
+      right = right || stands[x] != 0;
+      if (right) ++row[x];
+    }
+  }
+  // From row to row, up and down, each straight and to both sides.
+  for (const bool up : {true, false}) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      std::fill(ahead.begin(), ahead.end(), std::uint8_t{0});
+      for (std::size_t j = 0; j < height_; ++j) {
+        const std::size_t y = up ? height_ - 1 - j : j;
+        for (std::size_t x = 0; x < width_; ++x) {
+          here[x + 1] = blocked[y * width_ + x] | ahead[x + side];
+          if (here[x + 1]) ++count[y * width_ + x];
+        }
+        std::swap(here, ahead);
       }
+    }
   }
   return count;
 }
@@ -184,37 +195,56 @@ std::size_t FloorGrid::cell_at(const Eigen::Vector2d& point) const {
   return static_cast<std::size_t>(index.y()) * width_ + static_cast<std::size_t>(index.x());
 }
 
-FloorGrid::Ways FloorGrid::ways_from(std::size_t start, double least) const {
-  Ways ways{std::vector<float>(size(), std::numeric_limits<float>::infinity()),
-            std::vector<std::size_t>(size(), kNone)};
-  using Entry = std::pair<float, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  ways.length[start] = 0.0F;
-  open.push({0.0F, start});
+template <typename Visit>
+void FloorGrid::for_each_neighbour(std::size_t cell, Visit visit) const {
   const auto straight = static_cast<float>(cell_size_);
   const float diagonal = straight * std::sqrt(2.0F);
-  while (!open.empty()) {
-    const auto [length, cell] = open.top();
-    open.pop();
-    if (length > ways.length[cell]) continue;
-    const auto x = static_cast<long>(cell % width_);
-    const auto y = static_cast<long>(cell / width_);
-    for (long dy = -1; dy <= 1; ++dy)
-      for (long dx = -1; dx <= 1; ++dx) {
-        const long nx = x + dx;
-        const long ny = y + dy;
-        if (nx < 0 || ny < 0 || nx >= static_cast<long>(width_) || ny >= static_cast<long>(height_))
-          continue;
-        const std::size_t next =
-            static_cast<std::size_t>(ny) * width_ + static_cast<std::size_t>(nx);
-        const float longer = length + (dx != 0 && dy != 0 ? diagonal : straight);
-        if (clearance_[next] < least || longer >= ways.length[next]) continue;
+  const std::size_t x = cell % width_;
+  const std::size_t y = cell / width_;
+  const std::size_t last_x = std::min(x + 1, width_ - 1);
+  const std::size_t last_y = std::min(y + 1, height_ - 1);
+  for (std::size_t j = y - std::min<std::size_t>(y, 1); j <= last_y; ++j)
+    for (std::size_t i = x - std::min<std::size_t>(x, 1); i <= last_x; ++i)
+      if (i != x || j != y) visit(j * width_ + i, i != x && j != y ? diagonal : straight);
+}
+
+/// Dijkstra's search with buckets (Dial, 1969): within a length of one step the order is of no
+/// matter.
+FloorGrid::Ways FloorGrid::ways_from(std::size_t start, double least) const {
+  Ways ways{std::vector<float>(size(), std::numeric_limits<float>::infinity())};
+  using Entry = std::pair<float, std::size_t>;
+  std::array<std::vector<Entry>, 4> open;  // by steps: those of now, and up to three more
+  const auto steps = [this](float length) {
+    return static_cast<std::size_t>(length / static_cast<float>(cell_size_));
+  };
+  ways.length[start] = 0.0F;
+  open[0].push_back({0.0F, start});
+  for (std::size_t now = 0, empty = 0; empty < open.size(); ++now) {
+    std::vector<Entry>& bucket = open[now % open.size()];
+    empty = bucket.empty() ? empty + 1 : 0;
+    for (std::size_t i = 0; i < bucket.size(); ++i) {  // it may grow meanwhile
+      const auto [length, cell] = bucket[i];
+      if (length > ways.length[cell]) continue;
+      for_each_neighbour(cell, [&](std::size_t next, float step) {
+        const float longer = length + step;
+        if (longer >= ways.length[next] || clearance_[next] < least) return;
         ways.length[next] = longer;
-        ways.before[next] = cell;
-        open.push({longer, next});
-      }
+        open[steps(longer) % open.size()].push_back({longer, next});
+      });
+    }
+    bucket.clear();
   }
   return ways;
+}
+
+std::size_t FloorGrid::before(const Ways& ways, std::size_t cell) const {
+  std::size_t best = kNone;
+  for_each_neighbour(cell, [&](std::size_t from, float step) {
+    if (ways.length[from] + step == ways.length[cell] &&
+        (best == kNone || ways.length[from] < ways.length[best]))
+      best = from;
+  });
+  return best;
 }
 
 bool FloorGrid::sees(std::size_t from, std::size_t to, double least) const {
@@ -235,7 +265,7 @@ bool FloorGrid::sees(std::size_t from, std::size_t to, double least) const {
 std::vector<Eigen::Vector2d> FloorGrid::way_back(const Ways& ways, std::size_t cell,
                                                  double least) const {
   std::vector<std::size_t> cells;
-  for (; cell != kNone; cell = ways.before[cell]) cells.push_back(cell);
+  for (; cell != kNone; cell = before(ways, cell)) cells.push_back(cell);
   std::vector<Eigen::Vector2d> way{centre(cells.front())};
   for (std::size_t at = 0; at + 1 < cells.size();) {
     std::size_t stride = 1;

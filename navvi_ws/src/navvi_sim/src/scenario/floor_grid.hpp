@@ -58,10 +58,12 @@ class FloorGrid {
   /// Shortest ways over cells with a clearance of `least` or more (and `start` itself), in steps
   /// to the 8 neighbours.
   struct Ways {
-    std::vector<float> length;        ///< m, from the start; infinite where no way leads
-    std::vector<std::size_t> before;  ///< the cell before this one on the way, kNone for the start
+    std::vector<float> length;  ///< m, from the start; infinite where no way leads
   };
   [[nodiscard]] Ways ways_from(std::size_t start, double least) const;
+  /// The cell before `cell` on the way: of several, the one nearest to the start, and then the
+  /// first of the grid; kNone for the start.
+  [[nodiscard]] std::size_t before(const Ways& ways, std::size_t cell) const;
 
   /// From `cell` to where the ways begin, pulled taut: each line goes as far as it sees with a
   /// clearance of `least`. m, in map
@@ -72,6 +74,11 @@ class FloorGrid {
   [[nodiscard]] bool sees(std::size_t from, std::size_t to, double least) const;
 
  private:
+  /// Calls `visit` with each of the 8 neighbours of a cell, in their order, and the length of the
+  /// step there, m.
+  template <typename Visit>
+  void for_each_neighbour(std::size_t cell, Visit visit) const;
+
   /// \param low_x, low_y  voxels, of the grid's corner
   /// \param floor  voxels
   void mark(const occupancy::OccupancyMap& map, int low_x, int low_y, int floor, double headroom);

@@ -23,9 +23,9 @@ FreePlaces::FreePlaces(const WorldDescription& world, const FloorGrid& grid,
   for (std::size_t cell = 0; cell < grid.size(); ++cell)
     if (grid.clearance(cell) >= clear) all_.push_back(cell);
   Places inside;
-  const Polygon hull = hull_of_what_stands(world);
+  const Ground hull(hull_of_what_stands(world));
   std::copy_if(all_.begin(), all_.end(), std::back_inserter(inside),
-               [&](std::size_t cell) { return overlap(hull, {grid.centre(cell)}, 0.0); });
+               [&](std::size_t cell) { return hull.holds(grid.centre(cell), 0.0); });
   if (!inside.empty()) all_ = std::move(inside);
   Places enclosed;
   const std::vector<std::uint8_t> walls = grid.walls_around();
@@ -59,15 +59,13 @@ Polygon hull_of_what_stands(const WorldDescription& world) {
 void FreePlaces::find_quiet() {
   const double gap = config_.robot_radius + config_.off_lanes;
   std::vector<bool> swept(grid_.size(), false);
-  Polygon place(1);
   for (const Polygon& ground : traffic::swept_ground(world_, config_.movers)) {
     Eigen::AlignedBox2d bounds;
     for (const Eigen::Vector2d& corner : ground) bounds.extend(corner);
+    const Ground edges(ground);
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(gap);
     grid_.for_each_in({bounds.min() - reach, bounds.max() + reach}, [&](std::size_t cell) {
-      if (swept[cell]) return;
-      place[0] = grid_.centre(cell);
-      swept[cell] = overlap(ground, place, gap);
+      if (!swept[cell]) swept[cell] = edges.holds(grid_.centre(cell), gap);
     });
   }
   std::copy_if(all_.begin(), all_.end(), std::back_inserter(quiet_),

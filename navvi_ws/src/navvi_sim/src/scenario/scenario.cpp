@@ -244,9 +244,11 @@ std::size_t ScenarioSampler::draw(const FloorGrid::Ways& ways, const std::vector
 Pose2 ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
   const Eigen::Vector2d place = grid_.centre(cell);
   std::size_t ahead = cell;
-  while (ways.before[ahead] != FloorGrid::kNone &&
-         static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead)
-    ahead = ways.before[ahead];
+  while (static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead) {
+    const std::size_t next = grid_.before(ways, ahead);
+    if (next == FloorGrid::kNone) break;
+    ahead = next;
+  }
   const Eigen::Vector2d view = grid_.centre(ahead) - place;
   return {place, std::atan2(view.y(), view.x())};
 }
