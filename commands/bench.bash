@@ -10,5 +10,5 @@ navvi_bench() {
     echo "$name"
     "$bench" "${@:2}"
   done
-  [[ -n $found ]] || fail "no benchmark's name contains \"$filter\"; sim, nav, latency and trials do." 2
+  [[ -n $found ]] || fail "no benchmark's name contains \"$filter\"; sim, nav, latency, loop and trials do." 2
 }
