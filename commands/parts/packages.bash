@@ -9,7 +9,7 @@ run_packages=(
 )
 packages=(
   # build
-  build-essential ccache cmake catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev libompl-dev liboctomap-dev libbullet-dev
+  build-essential ccache cmake catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev liboctomap-dev libbullet-dev
   libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libsdformat-dev libtinyxml2-dev libassimp-dev libeigen3-dev zlib1g-dev libpng-dev pkg-config
   "${run_packages[@]}"
   # test and bench

@@ -26,9 +26,12 @@ namespace {
 
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
-    "             [--jobs=1] [--csv] [--trace[=FROM-TO]] [part/name:=value ...]\n"
+    "             [--sensing=truth|lidar|robot] [--jobs=1] [--csv] [--trace[=FROM-TO]]\n"
+    "             [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
-    "A part is sim, nav, feedback or operator, with the names of its node's parameters, such as\n"
+    "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
+    "A part is sim, nav, feedback, operator or perception, with the names of its node's "
+    "parameters, such as\n"
     "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
 
 constexpr std::int64_t kMostTrials = 100000;
@@ -105,6 +108,8 @@ Options read_options(const std::vector<std::string>& words) {
       out.limit = number(option, value, 1);
     } else if (option == "--profile") {
       out.profile = value;
+    } else if (option == "--sensing") {
+      out.parameters.push_back("sim/sensing:=" + value);
     } else if (option == "--jobs") {
       out.jobs = number(option, value, 1, kMostJobs);
     } else if (option == "--trace") {
@@ -193,6 +198,7 @@ const std::vector<Column>& columns() {
        {"following", "blocked", "make_room", "no_route", "off_mesh", "other"}},
       {"still@", 12, {"still", "still_at"}},
       {"hits", -20, {"hits"}},
+      {"passed/missed/ghosts/lag", 24, {"passed", "missed", "ghosts", "lag"}},
       {"late warned", -12, {"late", "warned"}},
       {"at the end of the standstill", -1, {"why"}},
   };
@@ -234,9 +240,9 @@ class Total {
     reached_ += reached ? 1 : 0;
     for (const char* name : {"time", "driven", "shortest"})
       if (reached) sums_[name] += row.number(name).value_or(0.0);
-    for (const char* name :
-         {"reroutes", "churn_mean", "turns", "flips", "misled", "still", "cues", "words", "talk",
-          "repeats", "waits", "hasty", "at_odds", "reversed", "late", "speechless"})
+    for (const char* name : {"reroutes", "churn_mean", "turns", "flips", "misled", "still", "cues",
+                             "words", "talk", "repeats", "waits", "hasty", "at_odds", "reversed",
+                             "late", "speechless", "passed", "missed", "ghosts"})
       sums_[name] += row.number(name).value_or(0.0);
     for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh", "other"})
       states_ += row.number(name).value_or(0.0);

@@ -4,13 +4,14 @@
 
 #include <cmath>
 #include <sstream>
+#include <unordered_set>
 
 namespace navvi_perception::map {
 namespace {
 
 constexpr double kOccupiedAbove = 65.0;  // per cent, as map_server's occupied_thresh
 constexpr double kFadeEach = 1.0;        // s
-constexpr double kFollow = 1.0;          // m, that the robot drives before the bound follows
+constexpr double kFollow = 4.0;          // m, that the robot drives before the bound follows
 constexpr float kSurelyClear = -1.0F;    // log-odds; three rays at 0.4
 constexpr double kOnBorder = 1e-6;       // voxels, against rounding
 
@@ -32,6 +33,8 @@ void MapConfig::describe(navvi_config::Visitor& visit) {
         "above the floor; what begins higher is over the robot's head");
   visit(hit, "hit", Range{0.51, 0.99}, "", "probability that what a ray meets is there");
   visit(miss, "miss", Range{0.01, 0.49}, "", "probability that what a ray passes is there");
+  visit(slack, "slack", Range{0.0, 1.0}, "m",
+        "what is seen so near a thing of the prior map belongs to it");
   visit(forget, "forget", Range{1.0, 1e6}, "s",
         "in which a sure voxel is forgotten that is not seen again");
 }
@@ -40,6 +43,23 @@ struct LocalMap::Trees {
   explicit Trees(double resolution) : prior(resolution), seen(resolution) {}
   octomap::OcTree prior;  ///< pruned
   octomap::OcTree seen;   ///< leaves of full depth only
+  /// Of `seen`, and when changed() was last asked.
+  std::unordered_set<std::uint64_t> occupied, told;
+
+  static std::uint64_t packed(const octomap::OcTreeKey& key) {
+    return std::uint64_t{key[0]} << 32 | std::uint64_t{key[1]} << 16 | std::uint64_t{key[2]};
+  }
+  static octomap::OcTreeKey unpacked(std::uint64_t key) {
+    return {static_cast<octomap::key_type>(key >> 32), static_cast<octomap::key_type>(key >> 16),
+            static_cast<octomap::key_type>(key)};
+  }
+  template <typename Update>
+  void update(const octomap::OcTreeKey& key, Update by) {
+    if (seen.isNodeOccupied(seen.updateNode(key, by, true)))
+      occupied.insert(packed(key));
+    else if (!occupied.empty())
+      occupied.erase(packed(key));
+  }
 };
 
 LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
@@ -67,9 +87,9 @@ LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
       const int value =
           prior.cells[number(cell.y(), prior.height) * static_cast<std::size_t>(prior.width) +
                       number(cell.x(), prior.width)];
-      prior_.push_back(value < 0 ? std::int8_t{-1} : std::int8_t{value > kOccupiedAbove});
+      prior_.push_back(value < 0 ? kUnknown : value > kOccupiedAbove ? kOccupied : kClear);
       if (value < 0) continue;
-      const int up_to = prior_.back() == 1 ? top : 0;
+      const int up_to = prior_.back() == kOccupied ? top : 0;
       for (int z = -1; z < up_to; ++z)
         trees_->prior.updateNode(
             to_octomap({middle.x(), middle.y(), config_.floor + (z + 0.5) * side}), true, true);
@@ -77,9 +97,26 @@ LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
   }
   trees_->prior.updateInnerOccupancy();
   trees_->prior.prune();
+  widen_prior();
 }
 
 LocalMap::~LocalMap() = default;
+
+void LocalMap::widen_prior() {
+  const int reach = static_cast<int>(std::ceil(config_.slack / config_.resolution - kOnBorder));
+  const auto at = [this](int x, int y) -> Prior& {
+    return prior_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(x)];
+  };
+  for (int y = 0; y < rows_; ++y)
+    for (int x = 0; x < columns_; ++x)
+      for (int dy = -reach; at(x, y) == kOccupied && dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx) {
+          const int near_x = std::clamp(x + dx, 0, columns_ - 1);
+          const int near_y = std::clamp(y + dy, 0, rows_ - 1);
+          if (at(near_x, near_y) != kOccupied) at(near_x, near_y) = kNear;
+        }
+}
 
 void LocalMap::insert(const sight::Sight& sight) {
   octomap::Pointcloud cloud;
@@ -87,17 +124,18 @@ void LocalMap::insert(const sight::Sight& sight) {
     for (const Eigen::Vector3d& end : *ends) cloud.push_back(to_octomap(end));
   const octomap::point3d origin = to_octomap(sight.origin);
   octomap::KeySet free, occupied;
-  trees_->seen.computeUpdate(cloud, origin, free, occupied, config_.bound);
+  trees_->seen.computeDiscreteUpdate(cloud, origin, free, occupied, config_.bound);
   octomap::KeySet hit;
   for (const Eigen::Vector3d& end : sight.hits) {
     octomap::OcTreeKey key;
-    if (matters(end) && trees_->seen.coordToKeyChecked(to_octomap(end), key) &&
-        occupied.count(key) > 0)
+    if (matters(end) && prior_at(column_of(end.head<2>())) < kNear &&
+        trees_->seen.coordToKeyChecked(to_octomap(end), key) &&
+        (end - sight.origin).norm() <= config_.bound)
       hit.insert(key);
   }
   for (const octomap::OcTreeKey& key : free)
-    if (hit.count(key) == 0) trees_->seen.updateNode(key, false, true);
-  for (const octomap::OcTreeKey& key : hit) trees_->seen.updateNode(key, true, true);
+    if (hit.count(key) == 0) trees_->update(key, false);
+  for (const octomap::OcTreeKey& key : hit) trees_->update(key, true);
   if (static_cast<double>(sight.stamp - faded_) * 1e-9 >= kFadeEach || sight.stamp < faded_)
     fade(sight);
 }
@@ -109,18 +147,19 @@ void LocalMap::fade(const sight::Sight& sight) {
   faded_ = sight.stamp;
   const auto loss = static_cast<float>(-seen.getClampingThresMaxLog() *
                                        std::clamp(since, 0.0, 2.0 * kFadeEach) / config_.forget);
-  std::vector<octomap::OcTreeKey> fading;
-  for (auto leaf = seen.begin_leafs(), end = seen.end_leafs(); leaf != end; ++leaf)
-    if (leaf->getLogOdds() > 0.0F) fading.push_back(leaf.getKey());
-  for (const octomap::OcTreeKey& key : fading) seen.updateNode(key, loss, true);
+  const auto fading = trees_->occupied;
+  for (const std::uint64_t key : fading) trees_->update(Trees::unpacked(key), loss);
   if ((sight.robot.position - middle_).norm() < kFollow) return;
   // Written anew, as OcTree::deleteNode of the last leaf of a node stops at an assertion (1.9.7).
   middle_ = sight.robot.position;
   octomap::OcTree kept(config_.resolution);
-  for (auto leaf = seen.begin_leafs(), end = seen.end_leafs(); leaf != end; ++leaf)
-    if ((Eigen::Vector2d(leaf.getX(), leaf.getY()) - middle_).cwiseAbs().maxCoeff() <=
-        config_.bound)
+  for (auto leaf = seen.begin_leafs(), end = seen.end_leafs(); leaf != end; ++leaf) {
+    const Eigen::Vector2d away = Eigen::Vector2d(leaf.getX(), leaf.getY()) - middle_;
+    if (away.cwiseAbs().maxCoeff() <= config_.bound)
       kept.setNodeValue(leaf.getKey(), leaf->getLogOdds(), true);
+    else
+      trees_->occupied.erase(Trees::packed(leaf.getKey()));
+  }
   seen.swapContent(kept);
 }
 
@@ -129,32 +168,29 @@ Column LocalMap::column_of(const Eigen::Vector2d& place) const {
           static_cast<int>(std::floor(place.y() / config_.resolution))};
 }
 
-int LocalMap::prior_at(const Column& column) const {
+LocalMap::Prior LocalMap::prior_at(const Column& column) const {
   const int x = column.first - low_.first;
   const int y = column.second - low_.second;
-  if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return -1;
+  if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return kUnknown;
   return prior_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
                 static_cast<std::size_t>(x)];
 }
 
 LocalMap::Known LocalMap::at(const Eigen::Vector3d& point) const {
-  const octomap::OcTree& seen = trees_->seen;
-  const Column column = column_of(point.head<2>());
+  const Prior prior = prior_at(column_of(point.head<2>()));
   octomap::OcTreeKey key;
-  if (!seen.coordToKeyChecked(to_octomap(point), key)) return Known::nothing;
+  if (prior >= kNear) return Known::standing;
+  if (!trees_->seen.coordToKeyChecked(to_octomap(point), key)) return Known::nothing;
   for (int dx = -1; dx <= 1; ++dx)
-    for (int dy = -1; dy <= 1; ++dy) {
-      if (prior_at({column.first + dx, column.second + dy}) == 1) return Known::standing;
-      for (int dz = -1; dz <= 1; ++dz) {
-        const octomap::OcTreeKey near(static_cast<octomap::key_type>(key[0] + dx),
-                                      static_cast<octomap::key_type>(key[1] + dy),
-                                      static_cast<octomap::key_type>(key[2] + dz));
-        const octomap::OcTreeNode* node = seen.search(near);
-        if (node && seen.isNodeOccupied(node)) return Known::standing;
-      }
-    }
-  const octomap::OcTreeNode* here = seen.search(key);
-  const bool clear = prior_at(column) == 0 || (here && here->getLogOdds() < kSurelyClear);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dz = -1; dz <= 1; ++dz)
+        if (trees_->occupied.count(Trees::packed({static_cast<octomap::key_type>(key[0] + dx),
+                                                  static_cast<octomap::key_type>(key[1] + dy),
+                                                  static_cast<octomap::key_type>(key[2] + dz)})) >
+            0)
+          return Known::standing;
+  const octomap::OcTreeNode* here = trees_->seen.search(key);
+  const bool clear = prior == kClear || (here && here->getLogOdds() < kSurelyClear);
   return clear ? Known::clear : Known::nothing;
 }
 
@@ -164,33 +200,34 @@ std::vector<Column> LocalMap::standing(const Eigen::Vector2d& place, double radi
   const Column high = column_of(place.array() + radius);
   for (int y = low.second; y <= high.second; ++y)
     for (int x = low.first; x <= high.first; ++x)
-      if (prior_at({x, y}) == 1) found.emplace_back(x, y);
-  const octomap::OcTree& seen = trees_->seen;
-  const auto corner = [&](double side) {
-    return to_octomap({place.x() + side * radius, place.y() + side * radius,
-                       config_.floor + (side < 0.0 ? 0.0 : config_.high)});
-  };
-  const octomap::point3d lowest = corner(-1.0), highest = corner(1.0);
-  for (auto leaf = seen.begin_leafs_bbx(lowest, highest), end = seen.end_leafs_bbx(); leaf != end;
-       ++leaf)
-    if (seen.isNodeOccupied(*leaf)) found.push_back(column_of({leaf.getX(), leaf.getY()}));
+      if (prior_at({x, y}) == kOccupied) found.emplace_back(x, y);
+  for (const std::uint64_t key : trees_->occupied) {
+    const octomap::point3d middle = trees_->seen.keyToCoord(Trees::unpacked(key));
+    const Column column = column_of({middle.x(), middle.y()});
+    if (column.first >= low.first && column.first <= high.first && column.second >= low.second &&
+        column.second <= high.second)
+      found.push_back(column);
+  }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
+bool LocalMap::changed() {
+  const bool same = !prior_.empty() && trees_->told == trees_->occupied;
+  trees_->told = trees_->occupied;
+  return !same;
+}
+
 std::vector<std::int8_t> LocalMap::bytes() const {
   octomap::OcTree all(trees_->prior);
+  for (const std::uint64_t key : trees_->occupied) all.updateNode(Trees::unpacked(key), true);
   const octomap::OcTree& seen = trees_->seen;
-  for (auto leaf = seen.begin_leafs(), end = seen.end_leafs(); leaf != end; ++leaf) {
-    const octomap::point3d at = leaf.getCoordinate();
-    if (seen.isNodeOccupied(*leaf)) all.updateNode(at, true, true);
-    if (at.z() > config_.floor && prior_at(column_of({at.x(), at.y()})) < 0)
-      all.updateNode(to_octomap({at.x(), at.y(), config_.floor - 0.5 * config_.resolution}), true,
-                     true);
-  }
-  all.updateInnerOccupancy();
-  all.prune();
+  for (auto leaf = seen.begin_leafs(), end = seen.end_leafs(); prior_.empty() && leaf != end;
+       ++leaf)
+    if (leaf.getZ() > config_.floor)
+      all.updateNode(
+          to_octomap({leaf.getX(), leaf.getY(), config_.floor - 0.5 * config_.resolution}), true);
   std::ostringstream out;
   if (all.getRoot()) all.writeBinaryData(out);
   const std::string text = out.str();

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sight/sight.hpp"
+#include "navvi_perception/sight/sight.hpp"
 
 namespace navvi_perception::map {
 
@@ -21,6 +21,7 @@ struct MapConfig {
   double high = 0.8;         ///< m above the floor; what begins higher does not matter
   double hit = 0.7;          ///< probability that what a ray meets is there
   double miss = 0.4;         ///< probability that what a ray passes is there
+  double slack = 0.1;        ///< m; what is seen so near a thing of the prior map belongs to it
   double forget = 60.0;      ///< s, in which a sure voxel is forgotten that is not seen again
 
   void describe(navvi_config::Visitor& visit);
@@ -44,7 +45,7 @@ class LocalMap {
   /// Takes in what stands and what is clear; forgets what is beyond the bound or was not seen for
   /// long.
   void insert(const sight::Sight& sight);
-  /// Whether something stands within a voxel of the point, or the point is clear.
+  /// Whether something stands at the point, by a voxel or the slack, or the point is clear.
   [[nodiscard]] Known at(const Eigen::Vector3d& point) const;
   /// True for what is between `low` and `high`, m above the floor.
   [[nodiscard]] bool matters(const Eigen::Vector3d& point) const {
@@ -56,20 +57,24 @@ class LocalMap {
   /// All of it as OcTree::writeBinaryData: what stands, and the floor below what is clear, which is
   /// taken to be flat.
   [[nodiscard]] std::vector<std::int8_t> bytes() const;
+  /// True if bytes() may differ from what they were at the last call of this.
+  [[nodiscard]] bool changed();
 
  private:
   struct Trees;
 
   void fade(const sight::Sight& sight);
   [[nodiscard]] Column column_of(const Eigen::Vector2d& place) const;
-  /// -1 where the prior knows nothing, else whether the column is occupied.
-  [[nodiscard]] int prior_at(const Column& column) const;
+  /// What the prior map knows of a column.
+  enum Prior : std::int8_t { kUnknown, kClear, kNear, kOccupied };
+  [[nodiscard]] Prior prior_at(const Column& column) const;
+  void widen_prior();
 
   MapConfig config_;
   Column low_{0, 0};  ///< of the prior's columns
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::int8_t> prior_;
+  std::vector<Prior> prior_;
   std::unique_ptr<Trees> trees_;
   std::int64_t faded_ = 0;                            ///< ns, when fade() was last done
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();  ///< m, of what is kept

@@ -1,4 +1,4 @@
-#include "see/perception.hpp"
+#include "navvi_perception/see/perception.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ struct PerceptionConfig::Values {
   double narrowest = 0.25;        ///< m, radius of a moving thing at least
   double widest = 3.5;            ///< m; what is longer does not move
   double wall = 2.0;              ///< m; what stands and is longer is called a wall
-  double map_rate = 5.0;          ///< Hz, at most, at which a sensor's sights go into the map
+  double map_rate = 2.5;          ///< Hz, at most, at which a sensor's sights go into the map
   double period = 1.0;            ///< s
 
   void describe(navvi_config::Visitor& visit) {
@@ -96,6 +96,7 @@ struct Perception::Parts {
   bool untold = true;              ///< since the map was told
   std::int64_t told = 0;           ///< ns
   std::vector<std::int8_t> bytes;  ///< that were told
+  std::uint32_t bumps = 0;
 };
 
 Perception::Perception(const PerceptionConfig& config, const sight::Prior& prior)
@@ -232,6 +233,17 @@ navvi_types::Proximity Perception::proximity(const navvi_types::Pose2& robot, st
   return out;
 }
 
+navvi_types::Contact Perception::bump(const navvi_types::Pose2& robot, std::int64_t stamp) {
+  navvi_types::Contact contact;
+  contact.robot = robot;
+  contact.point = robot.to_parent({parts_->config.robot_radius, 0.0});
+  contact.floor = parts_->config.map.floor;
+  contact.seq = ++parts_->bumps;
+  contact.counts[contact.thing_class] = contact.seq;
+  contact.stamp = stamp;
+  return contact;
+}
+
 std::optional<std::vector<std::int8_t>> Perception::map(std::int64_t stamp) {
   Parts& parts = *parts_;
   const double since = seconds(stamp - parts.told);
@@ -239,6 +251,7 @@ std::optional<std::vector<std::int8_t>> Perception::map(std::int64_t stamp) {
     return std::nullopt;
   parts.untold = false;
   parts.told = stamp;
+  if (!parts.map.changed() && !parts.bytes.empty()) return std::nullopt;
   std::vector<std::int8_t> bytes = parts.map.bytes();
   if (bytes.empty() || bytes == parts.bytes) return std::nullopt;
   parts.bytes = std::move(bytes);

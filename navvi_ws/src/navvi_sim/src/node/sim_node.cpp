@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/Bool.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -18,12 +19,62 @@
 #include "navvi_sim/node/msg_conversion.hpp"
 #include "navvi_sim/scene/scene.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
+#include "node/sensor_conversion.hpp"
 #include "read/thing_table.hpp"
 
 namespace navvi_sim::node {
 namespace {
 
 constexpr double kTick = 0.005;  // s, wall clock; shorter than a step, for an even pace
+constexpr const char* kLidarFrame = "laser";
+constexpr const char* kCameraFrame = "camera_link";
+
+/// The sensors of the robot and its bumper, where there are any: what they publish is all that a
+/// robot knows of the world.
+class RobotSensors {
+ public:
+  RobotSensors(ros::NodeHandle& node, const setup::SimNodeConfig& config,
+               const WorldDescription& world, const occupancy::OccupancyMap& map)
+      : columns_(config.camera.columns), sensors_(world) {
+    const auto seed = static_cast<std::uint64_t>(config.seed);
+    lidar_.emplace(config.lidar, seed);
+    scan_ = node.advertise<sensor_msgs::LaserScan>("scan", 5);
+    if (config.sensing == "robot") {
+      camera_.emplace(config.camera, ~seed);
+      points_ = node.advertise<sensor_msgs::PointCloud2>("points", 5);
+    }
+    bumper_ = node.advertise<std_msgs::Bool>("bumper", 10, true);
+    prior_ = node.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+    prior_.publish(to_msg(occupancy::slice_of(map, world.floor_height, config.lidar.height),
+                          world.floor_height));
+  }
+
+  [[nodiscard]] std::vector<geometry_msgs::TransformStamped> mounts() const {
+    std::vector<geometry_msgs::TransformStamped> frames{mount_msg(*lidar_, kLidarFrame)};
+    if (camera_) frames.push_back(mount_msg(*camera_, kCameraFrame));
+    return frames;
+  }
+
+  void publish(const live::Session& session) {
+    const live::Snapshot& now = session.world().now();
+    if (session.due(lidar_->rate()))
+      scan_.publish(scan_msg(*lidar_, sensors_.look(*lidar_, now), kLidarFrame));
+    if (camera_ && session.due(camera_->rate()))
+      points_.publish(cloud_msg(*camera_, sensors_.look(*camera_, now), columns_, kCameraFrame));
+    // A pulse a contact.
+    std_msgs::Bool bumped;
+    bumped.data = !now.contacts.empty();
+    if (bumped.data != bumped_) bumper_.publish(bumped);
+    bumped_ = bumped.data;
+  }
+
+ private:
+  int columns_;
+  sensors::Sensors sensors_;
+  std::optional<sensors::Sensor> lidar_, camera_;
+  ros::Publisher scan_, points_, bumper_, prior_;
+  bool bumped_ = false;
+};
 
 class SimNode {
  public:
@@ -56,6 +107,7 @@ class SimNode {
   WorldDescription description_;
   occupancy::OccupancyMap map_;
   std::optional<live::Session> session_;
+  std::optional<RobotSensors> robot_sensors_;
   scene::Scene looks_;
   navvi_safety::CommandGate gate_;
   live::Pacer pacer_;
@@ -84,6 +136,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
                    static_cast<std::uint64_t>(config_.seed));
 
   advertise();
+  if (config_.sensing != "truth") robot_sensors_.emplace(node_, config_, description_, map_);
   log_world(loaded.notes, scenario);
   publish_static(scenario);
   publish_drive_state();
@@ -123,6 +176,7 @@ void SimNode::advertise() {
 void SimNode::publish_static(const scenario::StartAndGoal& scenario) {
   if (!config_.life.robot.imperfections.odometry_drifts())
     static_transforms_.sendTransform(odom_msg(world().now()));
+  if (robot_sensors_) static_transforms_.sendTransform(robot_sensors_->mounts());
   octomap_.publish(to_msg(
       config_.octomap.free ? occupancy::with_free_space(map_, description_) : map_, ros::Time()));
   scene_.publish(looks_.standing(stamp()));
@@ -182,6 +236,7 @@ bool SimNode::step() {
     return false;
   }
   publish_state();
+  if (robot_sensors_) robot_sensors_->publish(*session_);
   publish_drive_state();
   publish_record();
   return true;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "description/hash.hpp"
+#include "physics/bullet_shapes.hpp"
 
 namespace navvi_sim::physics {
 namespace {
@@ -22,41 +23,6 @@ constexpr int kThing = 2;
 constexpr std::uint64_t kGatherEach = 10;  // steps
 constexpr double kEnter = 1.0;             // m, at which a thing comes into Bullet's world
 constexpr double kLeave = 1.5;             // m, at which it leaves
-
-btVector3 to_bt(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
-
-Eigen::Vector3d from_bt(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-btTransform to_bt(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  return btTransform(btQuaternion(static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()),
-                                  static_cast<btScalar>(q.z()), static_cast<btScalar>(q.w())),
-                     to_bt(Eigen::Vector3d(pose.translation())));
-}
-
-/// A mesh that Bullet reads in place.
-struct MeshShape {
-  explicit MeshShape(const Mesh& mesh) {
-    btIndexedMesh part;
-    part.m_numTriangles = static_cast<int>(mesh.triangles.size());
-    part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(mesh.triangles.data());
-    part.m_triangleIndexStride = sizeof(mesh.triangles[0]);
-    part.m_numVertices = static_cast<int>(mesh.vertices.size());
-    part.m_vertexBase = reinterpret_cast<const unsigned char*>(mesh.vertices.data());
-    part.m_vertexStride = sizeof(mesh.vertices[0]);
-    part.m_vertexType = PHY_FLOAT;
-    triangles.addIndexedMesh(part, PHY_INTEGER);
-    shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
-    shape->setMargin(0);
-  }
-  btTriangleIndexVertexArray triangles;
-  std::unique_ptr<btBvhTriangleMeshShape> shape;
-};
-
-/// The meshes of a world, each made once.
-using MeshShapes = std::map<const Mesh*, std::unique_ptr<MeshShape>>;
 
 /// One thing in Bullet.
 struct Presence {
@@ -97,7 +63,6 @@ struct Physics::Impl {
 
   void add_robot(const RobotConfig& config, double floor, const Eigen::Vector2d& position,
                  double yaw);
-  btCollisionShape* shape_of(const Part& part, Presence& owner);
   void enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover);
   void gather(const std::vector<MoverState>& movers);
   void find_touches();
@@ -134,30 +99,10 @@ void Physics::Impl::add_robot(const RobotConfig& config, double floor,
   world.addRigidBody(robot.get(), kRobot, kThing);
 }
 
-btCollisionShape* Physics::Impl::shape_of(const Part& part, Presence& owner) {
-  std::unique_ptr<btConvexInternalShape> shape;
-  if (const auto* box = std::get_if<Box>(&part.geometry)) {
-    shape = std::make_unique<btBoxShape>(to_bt(Eigen::Vector3d(0.5 * box->size)));
-    shape->setMargin(0);
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&part.geometry)) {
-    shape = std::make_unique<btCylinderShapeZ>(
-        to_bt(Eigen::Vector3d(cylinder->radius, cylinder->radius, 0.5 * cylinder->length)));
-    shape->setMargin(0);
-  } else if (const auto* sphere = std::get_if<Sphere>(&part.geometry)) {
-    shape = std::make_unique<btSphereShape>(static_cast<btScalar>(sphere->radius));
-  } else {
-    return meshes.at(std::get<std::shared_ptr<const Mesh>>(part.geometry).get())->shape.get();
-  }
-  owner.shapes.push_back(std::move(shape));
-  return owner.shapes.back().get();
-}
-
 /// \param pose  of a thing that moves
 void Physics::Impl::enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover) {
   Presence presence;
-  auto compound = std::make_unique<btCompoundShape>();
-  for (const Part& part : body.parts)
-    compound->addChildShape(to_bt(part.pose), shape_of(part, presence));
+  auto compound = compound_of(body, meshes, presence.shapes);
   const btTransform at = body.moves ? to_bt(pose) : btTransform::getIdentity();
   if (body.moves) {
     auto rigid = std::make_unique<btRigidBody>(
@@ -251,12 +196,7 @@ Physics::Physics(const Bodies& bodies, double floor, const RobotConfig& robot,
   impl_->world.setGravity(btVector3(0, 0, 0));
   impl_->world.setForceUpdateAllAabbs(false);
   impl_->world.getSolverInfo().m_numIterations = 20;
-  for (const Body& body : bodies.all())
-    for (const Part& part : body.parts)
-      if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.geometry)) {
-        auto& shape = impl_->meshes[mesh->get()];
-        if (!shape) shape = std::make_unique<MeshShape>(**mesh);
-      }
+  impl_->meshes = meshes_of(bodies);
   impl_->add_robot(robot, floor, position, yaw);
   impl_->world.updateAabbs();
 }

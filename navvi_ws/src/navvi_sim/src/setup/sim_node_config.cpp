@@ -83,6 +83,11 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   visit.group("scenario", scenario);
   visit.group("octomap", octomap);
   visit.group("gate", gate);
+  visit(sensing, "sensing", navvi_config::OneOf{{"truth", "lidar", "robot"}}, "",
+        "the sensors of the robot: none, as the truth is told; a lidar; or a lidar and a depth "
+        "camera");
+  visit.group("lidar", lidar);
+  visit.group("camera", camera);
 }
 
 read::Workers SimNodeConfig::worker_choice() const {

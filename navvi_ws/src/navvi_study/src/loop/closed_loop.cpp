@@ -29,25 +29,30 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
   visit.group("nav", nav);
   visit.group("feedback", feedback);
   visit.group("operator", person);
+  visit.group("perception", perception);
 }
 
-ClosedLoop::Setting::Setting(const navvi_sim::setup::SimNodeConfig& config)
-    : world(navvi_sim::setup::load_world(config).world) {
-  const navvi_sim::occupancy::OccupancyMap occupancy = navvi_sim::setup::map_of(config, world);
-  scenario = navvi_sim::setup::scenario_of(config, world, occupancy);
-  map = navvi_sim::node::to_msg(occupancy, ros::Time());
+ClosedLoop::Setting::Setting(const ClosedLoopConfig& config)
+    : world(navvi_sim::setup::load_world(config.sim).world) {
+  const navvi_sim::occupancy::OccupancyMap occupancy = navvi_sim::setup::map_of(config.sim, world);
+  scenario = navvi_sim::setup::scenario_of(config.sim, world, occupancy);
+  if (config.sim.sensing == "truth")
+    map = navvi_sim::node::to_msg(occupancy, ros::Time());
+  else
+    senses.emplace(config.sim, config.perception, world, occupancy);
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases)
     : config_(config),
-      setting_(config.sim),
+      setting_(config),
       session_(setting_.world, config.sim.life, setting_.scenario.start,
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav),
       feedback_(config.feedback, phrases),
       person_(config.person, static_cast<std::uint64_t>(config.sim.seed), phrases) {
-  navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
+  if (!setting_.senses)
+    navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
 }
 
 bool ClosedLoop::step() {
@@ -82,19 +87,34 @@ void ClosedLoop::sense() {
     feedback_.take(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
-    if (const auto felt = node::from_msg(published_.contacts.back())) feedback_.take(*felt);
+    const auto felt = node::from_msg(published_.contacts.back());
+    if (felt && !setting_.senses) feedback_.take(*felt);
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
     published_.proximity =
         navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
-    if (const auto proximity = node::from_msg(*published_.proximity))
-      feedback_.take(*proximity, time());
+    const auto proximity = node::from_msg(*published_.proximity);
+    if (proximity && !setting_.senses) feedback_.take(*proximity, time());
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
     published_.obstacles = navvi_types::to_msg(session_.world().obstacles());
-    if (const auto obstacles = node::from_msg(*published_.obstacles))
-      navigation_.set_obstacles(*obstacles, time());
+    const auto obstacles = node::from_msg(*published_.obstacles);
+    if (obstacles && !setting_.senses) navigation_.set_obstacles(*obstacles, time());
   }
+  if (setting_.senses) sense_by_robot();
+}
+
+void ClosedLoop::sense_by_robot() {
+  RobotSenses::News news = setting_.senses->look(session_);
+  for (const navvi_types::Contact& contact : news.contacts)
+    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) feedback_.take(*felt);
+  if (news.proximity)
+    if (const auto proximity = node::from_msg(navvi_types::to_msg(*news.proximity)))
+      feedback_.take(*proximity, time());
+  perceived_ = std::nullopt;
+  if (news.obstacles) perceived_ = node::from_msg(navvi_types::to_msg(*news.obstacles));
+  if (perceived_) navigation_.set_obstacles(*perceived_, time());
+  if (news.map) navigation_.set_map(std::move(*news.map), "OcTree", setting_.senses->resolution());
 }
 
 geometry_msgs::Transform ClosedLoop::pose() const {

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "loop/robot_senses.hpp"
 #include "people/simulated_operator.hpp"
 
 namespace navvi_study::loop {
@@ -29,6 +30,8 @@ struct ClosedLoopConfig {
   navvi_nav::lockstep::NavigationConfig nav;
   navvi_feedback::core::FeedbackConfig feedback;
   people::SimulatedOperatorConfig person;
+  navvi_perception::see::PerceptionConfig
+      perception;  ///< used where sim's sensing is not the truth
 
   /// As in live.launch: the simulated robot climbs neither steps nor ramps.
   ClosedLoopConfig();
@@ -42,7 +45,9 @@ struct ClosedLoopConfig {
 /// (the figures are in the .cpp). The same config gives the same session, bit for bit.
 class ClosedLoop {
  public:
-  /// What was told in one step, in the order of the loop.
+  /// What was told in one step, in the order of the loop. Contacts, proximity and obstacles are
+  /// true; guidance and feedback get these or, by sim's parameter sensing, what the robot's sensors
+  /// tell.
   struct Messages {
     nav_msgs::Odometry odometry;
     std::vector<navvi_msgs::Contact> contacts;
@@ -73,6 +78,14 @@ class ClosedLoop {
   [[nodiscard]] const Messages& told() const { return published_; }
   [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
   [[nodiscard]] const people::StickAndButtons& hand() const { return hand_; }
+  /// nullptr where the truth is told.
+  [[nodiscard]] const RobotSenses* senses() const {
+    return setting_.senses ? &*setting_.senses : nullptr;
+  }
+  /// What the sensors told in this step of what moves.
+  [[nodiscard]] const std::optional<navvi_types::Obstacles>& perceived() const {
+    return perceived_;
+  }
 
  private:
   /// What is there before anything moves.
@@ -80,12 +93,14 @@ class ClosedLoop {
     navvi_sim::WorldDescription world;
     navvi_sim::scenario::StartAndGoal scenario;
     octomap_msgs::Octomap map;
+    std::optional<RobotSenses> senses = {};  ///< where the truth is not told
 
-    explicit Setting(const navvi_sim::setup::SimNodeConfig& config);
+    explicit Setting(const ClosedLoopConfig& config);
   };
 
   [[nodiscard]] bool turn_wheels();
   void sense();
+  void sense_by_robot();
   void navigate();
   void feed_back();
   [[nodiscard]] std::vector<CueEvent> speak(const std::vector<navvi_feedback::cues::Cue>& cues);
@@ -109,6 +124,7 @@ class ClosedLoop {
   people::StickAndButtons hand_;
   bool begun_ = false;
   Messages published_;
+  std::optional<navvi_types::Obstacles> perceived_;
 };
 
 }  // namespace navvi_study::loop

@@ -80,6 +80,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
     if (begun_) take(*told.guidance);
   }
   if (!begun_) return true;
+  sensing_.watch(loop);
   time_ = loop.time() - *begun_;
   states_[to_string(state_)] += loop.dt();
   stand(loop);
@@ -223,6 +224,7 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
   }
   row.set("other", std::max(0.0, time_ - known), 1);
   speech_.add_to(row, time_);
+  sensing_.add_to(row);
   row.set("still", still_, 1).set("still_at", still_at_, 1).set("why", why_);
   return row.set("hash", navvi_types::to_hex(loop.session().world().state_hash()));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "loop/closed_loop.hpp"
+#include "loop/sensing_figures.hpp"
 #include "loop/speech_figures.hpp"
 #include "people/instruction.hpp"
 #include "trial/trial_monitor.hpp"
@@ -33,7 +34,7 @@ class LoopFigures {
   /// `speechless` how often a stick was pushed in vain for 3 s without a word or a sound;
   /// the states of the guidance
   /// in s; `still` s, the longest stay within 0.3 m, since `still_at` s, and `why`: what was about
-  /// at its end; `hash` of the world's last state; and what SpeechFigures adds.
+  /// at its end; `hash` of the world's last state; and what SpeechFigures and SensingFigures add.
   [[nodiscard]] record::Fields row(const ClosedLoop& loop) const;
 
  private:
@@ -57,6 +58,7 @@ class LoopFigures {
   double limit_;
   trial::TrialMonitor monitor_;
   SpeechFigures speech_;
+  SensingFigures sensing_;
   std::optional<double> begun_;  ///< s
   double time_ = 0.0;            ///< s since then
   std::string result_ = "timeout";

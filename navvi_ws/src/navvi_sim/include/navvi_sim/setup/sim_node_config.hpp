@@ -9,6 +9,7 @@
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/read/world_source.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
+#include "navvi_sim/sensors/sensors.hpp"
 
 namespace navvi_sim::setup {
 
@@ -29,6 +30,9 @@ struct SimNodeConfig {
   scenario::ScenarioConfig scenario;
   occupancy::OccupancyConfig octomap;
   navvi_safety::CommandGateConfig gate;
+  std::string sensing = "truth";  ///< truth, lidar, or robot: what NavVI gets of the world
+  sensors::LidarConfig lidar;
+  sensors::CameraConfig camera;
 
   /// The gate is quicker than it must be, so that the wheels stand still, and do not just begin
   /// to brake, within 250 ms of the last command.

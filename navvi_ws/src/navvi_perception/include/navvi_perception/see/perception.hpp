@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "sight/sight.hpp"
+#include "navvi_perception/sight/sight.hpp"
 
 namespace navvi_perception::see {
 
@@ -37,7 +37,7 @@ class Perception {
   explicit Perception(const PerceptionConfig& config, const sight::Prior& prior = {});
   ~Perception();
 
-  /// \param sight  finite, and not older than the one before
+  /// \param sight  finite, and not older than the one before of the same sensor
   void take(const sight::Sight& sight);
 
   /// What the standing map does not explain, with its velocity if it moves. \param stamp  ns
@@ -45,6 +45,8 @@ class Perception {
   /// The nearest surface of each of these and of each standing thing. \param robot  base_link
   [[nodiscard]] navvi_types::Proximity proximity(const navvi_types::Pose2& robot,
                                                  std::int64_t stamp);
+  /// A bumper was touched: it tells that, not where, so the contact is at the robot's nose.
+  [[nodiscard]] navvi_types::Contact bump(const navvi_types::Pose2& robot, std::int64_t stamp);
   /// A binary OcTree, if it is to be told again: it has changed, and the last is `period` old.
   [[nodiscard]] std::optional<std::vector<std::int8_t>> map(std::int64_t stamp);
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <geometry_msgs/Transform.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <octomap_msgs/Octomap.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "navvi_perception/sight/sight.hpp"
+
+namespace navvi_perception::node {
+
+// Incoming messages. nullopt for one that no sensor can have meant: it is dropped whole (safety
+// rule 2).
+
+/// The scan with finite angles, times and limits, and one range in order at least. As in REP-117
+/// +inf is a ray that met nothing and NaN one without a measurement; what lies nearer than
+/// range_min counts as NaN.
+[[nodiscard]] std::optional<sensor_msgs::LaserScan::ConstPtr> from_msg(
+    const sensor_msgs::LaserScan& msg);
+/// The cloud with x, y and z as floats, as much data as it announces, at most 4 million points and
+/// one finite point at least. A point that is not finite is a pixel without a measurement.
+[[nodiscard]] std::optional<sensor_msgs::PointCloud2::ConstPtr> from_msg(
+    const sensor_msgs::PointCloud2& msg);
+/// nullopt also where it is turned, or its resolution is not within 0.01 and 1 m.
+[[nodiscard]] std::optional<sight::Prior> from_msg(const nav_msgs::OccupancyGrid& msg);
+
+/// nullopt if a number is not finite or too far, or the rotation none.
+[[nodiscard]] std::optional<Eigen::Isometry3d> pose_of(const geometry_msgs::Transform& transform);
+
+/// The finite points of a cloud that was checked, every k-th so that `most` remain at most, m.
+[[nodiscard]] std::vector<Eigen::Vector3d> points_of(const sensor_msgs::PointCloud2& cloud,
+                                                     std::size_t most);
+
+/// The scan with rays that met nothing as long as the sensor sees, so that they are points, too.
+[[nodiscard]] sensor_msgs::LaserScan with_clear_rays(sensor_msgs::LaserScan scan);
+/// Adds a scan's points to the hits, or where rays met nothing to what is clear.
+/// \param cloud  made of with_clear_rays(scan) by laser_geometry with channel Index, in map
+void add_points(const sensor_msgs::LaserScan& scan, const sensor_msgs::PointCloud2& cloud,
+                sight::Sight& sight);
+
+/// \param bytes  as OcTree::writeBinaryData
+[[nodiscard]] octomap_msgs::Octomap map_msg(const std::vector<std::int8_t>& bytes,
+                                            double resolution, std::int64_t stamp,
+                                            const std::string& frame);
+
+}  // namespace navvi_perception::node

@@ -1,0 +1,134 @@
+#include "node/msg_conversion.hpp"
+
+#include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <functional>
+#include <limits>
+
+namespace navvi_perception::node {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+sensor_msgs::LaserScan scan() {
+  sensor_msgs::LaserScan msg;
+  msg.header.frame_id = "laser";
+  msg.angle_increment = 0.1F;
+  msg.range_min = 0.1F;
+  msg.range_max = 10.0F;
+  msg.ranges = {1.0F, kInf, kNan, 0.0F};
+  return msg;
+}
+
+sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points) {
+  sensor_msgs::PointCloud2 msg;
+  msg.header.frame_id = "camera";
+  sensor_msgs::PointCloud2Modifier modifier(msg);
+  modifier.setPointCloud2FieldsByString(1, "xyz");
+  modifier.resize(points.size());
+  sensor_msgs::PointCloud2Iterator<float> x(msg, "x");
+  for (const Eigen::Vector3f& point : points) {
+    for (int i = 0; i < 3; ++i) x[i] = point[i];
+    ++x;
+  }
+  return msg;
+}
+
+TEST(MsgConversion, takes_a_scan_with_rays_that_met_nothing_or_have_no_measurement) {
+  const auto good = from_msg(scan());
+  ASSERT_TRUE(good);
+  EXPECT_LT(with_clear_rays(**good).ranges[1], 10.0F);
+  EXPECT_GT(with_clear_rays(**good).ranges[1], 9.99F);
+}
+
+TEST(MsgConversion, drops_a_scan_that_no_lidar_can_have_meant) {
+  const std::vector<std::function<void(sensor_msgs::LaserScan&)>> faults = {
+      [](auto& msg) { msg.header.frame_id = ""; },
+      [](auto& msg) { msg.ranges.clear(); },
+      [](auto& msg) {
+        msg.ranges = {kNan, kNan};
+      },
+      [](auto& msg) {
+        msg.ranges = {20.0F, -kInf};
+      },
+      [](auto& msg) { msg.ranges.assign(200'000, 1.0F); },
+      [](auto& msg) { msg.angle_min = kNan; },
+      [](auto& msg) { msg.angle_increment = kNan; },
+      [](auto& msg) { msg.angle_increment = 3.0F; },
+      [](auto& msg) { msg.range_max = kInf; },
+      [](auto& msg) { msg.range_min = kNan; },
+      [](auto& msg) { msg.range_min = 11.0F; },
+      [](auto& msg) { msg.time_increment = kNan; },
+      [](auto& msg) { msg.time_increment = 10.0F; },
+  };
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    sensor_msgs::LaserScan msg = scan();
+    faults[i](msg);
+    EXPECT_FALSE(from_msg(msg)) << i;
+  }
+}
+
+TEST(MsgConversion, takes_the_finite_points_of_a_cloud_and_thins_them) {
+  const sensor_msgs::PointCloud2 msg =
+      cloud({{1, 2, 3}, {kNan, 0, 0}, {4, 5, 6}, {7, 8, 9}, {0, kInf, 0}});
+  ASSERT_TRUE(from_msg(msg));
+  EXPECT_EQ(points_of(msg, 100).size(), 3U);
+  EXPECT_EQ(points_of(msg, 3).size(), 2U);  // every second: the first, third and fifth
+  EXPECT_EQ(points_of(msg, 3)[1], Eigen::Vector3d(4, 5, 6));
+}
+
+TEST(MsgConversion, drops_a_cloud_that_is_not_whole) {
+  const std::vector<std::function<void(sensor_msgs::PointCloud2&)>> faults = {
+      [](auto& msg) { msg.header.frame_id = ""; },
+      [](auto& msg) { msg = cloud({}), msg.header.frame_id = "camera"; },
+      [](auto& msg) {
+        msg = cloud({{kNan, kNan, kNan}});
+      },
+      [](auto& msg) { msg.data.pop_back(); },
+      [](auto& msg) { msg.width = 4'000'000'000U; },
+      [](auto& msg) { msg.height = 4'000'000'000U; },
+      [](auto& msg) { msg.row_step = 4'000'000'000U; },
+      [](auto& msg) { msg.point_step = 4; },
+      [](auto& msg) { msg.fields.pop_back(); },
+      [](auto& msg) { msg.fields[2].offset = 4'000'000'000U; },
+      [](auto& msg) { msg.fields[0].datatype = sensor_msgs::PointField::INT8; },
+      [](auto& msg) { msg.is_bigendian = true; },
+  };
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    sensor_msgs::PointCloud2 msg = cloud({{1, 2, 3}, {4, 5, 6}});
+    ASSERT_TRUE(from_msg(msg));
+    faults[i](msg);
+    EXPECT_FALSE(from_msg(msg)) << i;
+  }
+}
+
+TEST(MsgConversion, takes_a_prior_map_that_lies_flat_and_is_whole) {
+  nav_msgs::OccupancyGrid msg;
+  msg.info.resolution = 0.05F;
+  msg.info.width = 2;
+  msg.info.height = 1;
+  msg.info.origin.orientation.w = 1.0;
+  msg.data = {-1, 100};
+  ASSERT_TRUE(from_msg(msg));
+  EXPECT_EQ(from_msg(msg)->cells, (std::vector<std::int8_t>{-1, 100}));
+  msg.data = {-2, 100};
+  EXPECT_FALSE(from_msg(msg));
+  msg.data = {0};
+  EXPECT_FALSE(from_msg(msg));
+  msg.data = {0, 0};
+  msg.info.origin.position.x = static_cast<double>(kNan);
+  EXPECT_FALSE(from_msg(msg));
+  msg.info.origin.position.x = 0.0;
+  msg.info.origin.orientation.z = 0.5;
+  EXPECT_FALSE(from_msg(msg));
+}
+
+}  // namespace
+}  // namespace navvi_perception::node
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,208 @@
+// perception_node from outside: a robot with a lidar, a camera and a bumper is played to it.
+
+#include <gtest/gtest.h>
+#include <navvi_msgs/Contact.h>
+#include <navvi_msgs/Obstacles.h>
+#include <navvi_msgs/Proximity.h>
+#include <octomap_msgs/Octomap.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <std_msgs/Bool.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace navvi_perception {
+namespace {
+
+constexpr double kPatience = 30.0;  // s
+constexpr double kRoom = 3.0;       // m, from the robot to each of four walls
+
+/// A robot at (10, 0) in a square room; its lidar sits 0.2 m ahead of its middle.
+class PerceptionNodeTest : public testing::Test {
+ protected:
+  PerceptionNodeTest() {
+    scans_ = node_.advertise<sensor_msgs::LaserScan>("scan", 5);
+    clouds_ = node_.advertise<sensor_msgs::PointCloud2>("points", 5);
+    bumper_ = node_.advertise<std_msgs::Bool>("bumper", 5);
+    subscribers_ = {take<octomap_msgs::Octomap>("octomap_binary", map_),
+                    take<navvi_msgs::Obstacles>("navvi/obstacles", obstacles_),
+                    take<navvi_msgs::Proximity>("navvi/proximity", near_),
+                    take<navvi_msgs::Contact>("navvi/contacts", contact_)};
+    timer_ = node_.createWallTimer(ros::WallDuration(0.1),
+                                   [this](const ros::WallTimerEvent&) { play(); });
+  }
+
+  template <typename Message>
+  ros::Subscriber take(const std::string& topic, std::optional<Message>& into) {
+    return node_.subscribe<Message>(
+        topic, 10, [&into](const typename Message::ConstPtr& msg) { into = *msg; });
+  }
+
+  void frame(const char* parent, const char* child, double x, double z) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = ros::Time::now();
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    transform.transform.translation.x = x;
+    transform.transform.translation.z = z;
+    transform.transform.rotation.w = 1.0;
+    broadcaster_.sendTransform(transform);
+  }
+
+  /// Of the room, with a disc of 0.2 m in it if there is one.
+  [[nodiscard]] sensor_msgs::LaserScan scan() const {
+    sensor_msgs::LaserScan msg;
+    msg.header.stamp = ros::Time::now();
+    msg.header.frame_id = "laser";
+    msg.angle_increment = static_cast<float>(M_PI / 180.0);
+    msg.range_min = 0.05F;
+    msg.range_max = 10.0F;
+    for (int i = 0; i < 360; ++i) {
+      const double x = std::cos(i * M_PI / 180.0), y = std::sin(i * M_PI / 180.0);
+      double range =
+          std::min(std::abs(x) > 1e-6 ? (x > 0 ? kRoom - 0.2 : kRoom + 0.2) / std::abs(x) : 1e9,
+                   std::abs(y) > 1e-6 ? kRoom / std::abs(y) : 1e9);
+      if (disc_y_) {
+        const double along = 1.3 * x + *disc_y_ * y;
+        const double half2 = 0.04 - (1.69 + *disc_y_ * *disc_y_ - along * along);
+        if (along > 0 && half2 > 0) range = along - std::sqrt(half2);
+      }
+      msg.ranges.push_back(static_cast<float>(range));
+    }
+    return msg;
+  }
+
+  void play() {
+    frame("map", "base_link", 10.0, 0.0);
+    frame("base_link", "laser", 0.2, 0.15);
+    if (disc_y_) *disc_y_ += 0.08;
+    sensor_msgs::LaserScan msg = scan();
+    if (spoil_) spoil_(msg);
+    scans_.publish(msg);
+  }
+
+  bool until(const std::function<bool()>& done) {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
+    while (!done() && ros::WallTime::now() < end && ros::ok())
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+    return done();
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher scans_, clouds_, bumper_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer timer_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  std::optional<double> disc_y_;  ///< m, in laser
+  std::function<void(sensor_msgs::LaserScan&)> spoil_;
+  std::optional<octomap_msgs::Octomap> map_;
+  std::optional<navvi_msgs::Obstacles> obstacles_;
+  std::optional<navvi_msgs::Proximity> near_;
+  std::optional<navvi_msgs::Contact> contact_;
+};
+
+TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
+  ASSERT_TRUE(until([this] { return near_ && !near_->things.empty(); }));
+  EXPECT_EQ(near_->header.frame_id, "base_link");
+  EXPECT_EQ(near_->things[0].thing_class, "wall");
+  EXPECT_NEAR(near_->things[0].gap, kRoom - 0.35, 0.15);
+  ASSERT_TRUE(until([this] { return map_.has_value(); }));
+  EXPECT_EQ(map_->id, "OcTree");
+  EXPECT_EQ(map_->header.frame_id, "map");
+
+  // The walls are known now; who walks by is a mover.
+  disc_y_ = -2.0;
+  ASSERT_TRUE(until([this] {
+    return obstacles_ && !obstacles_->obstacles.empty() &&
+           obstacles_->obstacles[0].velocity.y > 0.5;
+  }));
+  EXPECT_EQ(obstacles_->header.frame_id, "map");
+  EXPECT_EQ(obstacles_->obstacles[0].thing_class, "other");
+  EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3);
+  disc_y_.reset();
+
+  // A box too low for the lidar.
+  ASSERT_TRUE(until([this] {
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.stamp = ros::Time::now();
+    cloud.header.frame_id = "base_link";
+    sensor_msgs::PointCloud2Modifier modifier(cloud);
+    modifier.setPointCloud2FieldsByString(1, "xyz");
+    modifier.resize(100);
+    sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
+    for (int i = 0; i < 100; ++i, ++x) {
+      x[0] = 1.0F;
+      x[1] = static_cast<float>(i % 10) * 0.03F;
+      x[2] = static_cast<float>(i / 10) * 0.01F;
+    }
+    clouds_.publish(cloud);
+    for (const auto& thing : near_->things)
+      if (std::abs(thing.gap - 0.65) < 0.1) return true;
+    return false;
+  }));
+}
+
+TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_on_after_them) {
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  const std::vector<std::function<void(sensor_msgs::LaserScan&)>> faults = {
+      [](auto& msg) { msg.angle_increment = std::numeric_limits<float>::quiet_NaN(); },
+      [](auto& msg) { msg.ranges.clear(); },
+      [](auto& msg) { msg.header.frame_id = "no_such_frame"; },
+      [](auto& msg) { msg.header.stamp += ros::Duration(60.0); },
+      [](auto& msg) { msg.header.stamp -= ros::Duration(60.0); },
+      [](auto& msg) { msg.ranges.assign(1'000'000, 1.0F); },
+  };
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    spoil_ = faults[i];
+    int sent = 0;
+    const auto counted = [&, this](auto& msg) {
+      ++sent;
+      faults[i](msg);
+    };
+    // Those sent before may still be under way; after ten bad ones nothing is told any more.
+    spoil_ = counted;
+    ASSERT_TRUE(until([&] { return sent >= 10; })) << i;
+    obstacles_.reset();
+    ASSERT_TRUE(until([&] { return sent >= 15; })) << i;
+    EXPECT_FALSE(obstacles_) << i;
+    spoil_ = {};
+    ASSERT_TRUE(until([this] { return obstacles_.has_value(); })) << i;
+  }
+}
+
+TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_is_one_contact_ahead) {
+  ASSERT_TRUE(until([this] { return near_.has_value() && bumper_.getNumSubscribers() > 0; }));
+  std_msgs::Bool pressed;
+  pressed.data = 1;
+  ASSERT_TRUE(until([&, this] {
+    bumper_.publish(pressed);
+    return contact_.has_value();
+  }));
+  EXPECT_EQ(contact_->thing_class, "other");
+  EXPECT_EQ(contact_->seq, 1U);
+  EXPECT_NEAR(contact_->point.x, 10.35, 1e-6);
+  contact_.reset();
+  std_msgs::Bool released;
+  bumper_.publish(released);
+  ASSERT_TRUE(until([&, this] {
+    bumper_.publish(pressed);
+    return contact_.has_value();
+  }));
+  EXPECT_EQ(contact_->seq, 2U);
+}
+
+}  // namespace
+}  // namespace navvi_perception
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "perception_node_test");
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

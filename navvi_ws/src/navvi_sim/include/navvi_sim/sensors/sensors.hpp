@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <optional>
+#include <vector>
+
+#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/live/world.hpp"
+
+namespace navvi_sim::sensors {
+
+/// A lidar that turns in a plane, about x of base_link.
+struct LidarConfig {
+  double rate = 10.0;       ///< Hz
+  double field = 360.0;     ///< degrees, half of it to each side of its x axis
+  int rays = 360;           ///< spread over the field
+  double x = 0.0;           ///< m, in base_link
+  double height = 0.12;     ///< m above the floor; the base of a rack is 0.15 m high
+  double nearest = 0.1;     ///< m
+  double farthest = 12.0;   ///< m
+  double noise = 0.01;      ///< m, standard deviation
+  double dropouts = 0.005;  ///< share of rays without a measurement
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// A camera that measures depth, a ray a pixel.
+struct CameraConfig {
+  double rate = 5.0;       ///< Hz
+  double field = 87.0;     ///< degrees, from left to right
+  int columns = 64;        ///< pixels
+  int rows = 40;           ///< pixels, as wide as they are high
+  double x = 0.25;         ///< m, in base_link
+  double height = 0.45;    ///< m above the floor
+  double pitch = 20.0;     ///< degrees, downwards
+  double nearest = 0.3;    ///< m
+  double farthest = 4.0;   ///< m
+  double noise = 0.002;    ///< m at 1 m, standard deviation; it grows with the square of the range
+  double dropouts = 0.01;  ///< share of pixels without a measurement
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+/// What one sensor measured at one instant.
+struct Reading {
+  std::int64_t stamp = 0;     ///< ns
+  std::vector<float> ranges;  ///< m, along each of Sensor::rays(); as in REP-117 NaN where nothing
+                              ///< was measured, infinity where nothing was met
+  std::vector<std::uint32_t> movers;  ///< the thing that each ray truly met, if it has a route,
+                                      ///< else kNoMover; for who judges, not for who senses
+  static constexpr std::uint32_t kNoMover = 0xffffffffU;
+};
+
+/// Rays from one place on the robot. Noise and drop-outs are drawn from a seed.
+class Sensor {
+ public:
+  Sensor(const LidarConfig& config, std::uint64_t seed);
+  Sensor(const CameraConfig& config, std::uint64_t seed);
+  ~Sensor();
+  Sensor(Sensor&& other) noexcept;
+
+  [[nodiscard]] double rate() const;
+  [[nodiscard]] double nearest() const;                            ///< m
+  [[nodiscard]] double farthest() const;                           ///< m
+  [[nodiscard]] const Eigen::Isometry3d& mount() const;            ///< in base_link
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& rays() const;  ///< unit vectors, own frame
+
+ private:
+  friend class Sensors;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// The sensors of a simulated robot: what their rays meet of the world, its movers and its floor.
+class Sensors {
+ public:
+  explicit Sensors(const WorldDescription& description);
+  ~Sensors();
+
+  [[nodiscard]] Reading look(Sensor& sensor, const live::Snapshot& now) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace navvi_sim::sensors
