@@ -32,8 +32,8 @@ resolve_operator() {
 # What can be refused before anything is built.
 check_words() {
   local folder
-  arg[speech]=${arg[speech]:-auto} arg[profile]=${arg[profile]:-default} arg[once]=${arg[once]:-false} arg[lesson]=${arg[lesson]:-none}
-  one_of speech profile once lesson
+  arg[speech]=${arg[speech]:-auto} arg[profile]=${arg[profile]:-default} arg[once]=${arg[once]:-false} arg[lesson]=${arg[lesson]:-none} arg[sensing]=${arg[sensing]:-truth}
+  one_of speech profile once lesson sensing
   [[ ${arg[lesson]} == none || ${arg[operator]} != simulated ]] ||
     fail "the tutorial needs a person: a game controller, or a display for the keyboard, such as with operator:=keyboard." 2
   [[ ${arg[speech]} != false || ${arg[operator]} != simulated ]] ||

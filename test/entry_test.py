@@ -191,7 +191,7 @@ def test_each_view_file_offers_chase_top_and_forward(path):
     assert {view["Name"] for view in views} >= {"Chase", "Top", "Forward"}
 
 
-NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback", "feedback_node"),
+NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback", "feedback_node"), ("navvi_perception", "perception_node"),
          ("navvi_safety", "relay_node"), ("navvi_study", "trial_node"), ("navvi_study", "operator_node")]
 
 

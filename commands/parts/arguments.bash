@@ -4,7 +4,7 @@ declare -A arg
 parameters=()
 declare -A allowed=(
   [operator]="auto pad keyboard simulated" [speech]="auto true false" [profile]="default paper" [once]="true false" [lesson]="none tutorial" [rviz]="auto true false"
-  [vision]="high_contrast yellow_on_black large color_blind paper" [view]="chase top forward"
+  [sensing]="truth lidar robot" [vision]="high_contrast yellow_on_black large color_blind paper" [view]="chase top forward"
 )
 
 # The names that a launch file takes from a person; some are set here, so that the record tells the truth.

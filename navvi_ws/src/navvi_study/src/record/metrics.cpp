@@ -165,8 +165,10 @@ Summary summarize(const std::vector<Row>& rows) {
   const Row* last = end ? end : (rows.empty() ? nullptr : &rows.back());
   add("elapsed_s", reached ? reached->fields.get("elapsed")
                            : (start ? seconds(start->sim_ns, last->sim_ns) : nothing));
-  add("shelf_collision_count", count_of(rows, "COLLISION", "shelf"));
-  add("obstacle_collision_count", count_of(rows, "COLLISION", "obstacle"));
+  const bool blind = start && start->fields.get("contacts", "counted") == "unknown";
+  for (const char* what : {"shelf", "obstacle"})
+    add((what + std::string("_collision_count")).c_str(),
+        blind ? "unknown" : count_of(rows, "COLLISION", what));
   add("path_length_m", tally ? tally->fields.get("path_length") : nothing);
   add("first_path_length_m", route ? route->fields.get("first_path_length") : nothing);
   add("obstacle_proximity_count", count_of(rows, "PROXIMITY_ENTER", "obstacle"));

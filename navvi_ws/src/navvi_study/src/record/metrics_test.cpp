@@ -48,6 +48,17 @@ TEST(Summary, of_nothing_has_the_same_columns_and_no_figures) {
   EXPECT_EQ(columns({})["result"], "aborted");
 }
 
+TEST(Summary, where_nothing_tells_of_contacts_they_are_unknown_and_not_0) {
+  for (const char* contacts : {"counted", "unknown"}) {
+    Trial trial;
+    trial.add(100.0, "TRIAL_START", Fields().set("contacts", contacts));
+    auto summary = columns(trial.rows);
+    const bool counted = contacts == std::string("counted");
+    EXPECT_EQ(summary["shelf_collision_count"], counted ? "0" : "unknown");
+    EXPECT_EQ(summary["obstacle_collision_count"], counted ? "0" : "unknown");
+  }
+}
+
 TEST(Summary, counts_what_the_rows_say) {
   Trial trial = example();
   trial.add(106.0, "TRIAL_END", Fields().set("result", "reached").set("reason", "goal_reached"));

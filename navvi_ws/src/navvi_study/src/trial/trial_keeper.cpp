@@ -261,6 +261,7 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("pad_firmware", readiness_.trait("pad", "firmware"));
   fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);
+  fields.set("contacts", config_.contacts);
   fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
   fields.set("shelf_contacts", beginning.shelf_count);
   fields.set("obstacle_contacts", beginning.obstacle_count);

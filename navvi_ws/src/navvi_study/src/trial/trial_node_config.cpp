@@ -42,6 +42,8 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(parameters, "parameters", Any{}, "",
         "those of nodes that were set besides the profile's, as they stand in the summary");
   visit(version, "version", Any{}, "", "of NavVI, as it stands in the summary");
+  visit(contacts, "contacts", OneOf{{"counted", "unknown"}}, "",
+        "unknown where nothing tells of contacts: the summary then says so, and not 0");
   visit(require, "require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities");
   visit(once, "once", Any{}, "", "end after one trial");
   visit(press_to_start, "press_to_start", Any{}, "",

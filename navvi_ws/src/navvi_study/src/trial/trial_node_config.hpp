@@ -17,6 +17,7 @@ struct TrialNodeConfig {
   std::string profile = "default";
   std::string parameters;
   std::string version = "n/a";
+  std::string contacts = "counted";
   std::vector<std::string> require;
   bool once = true;
   bool press_to_start = false;

@@ -1,0 +1,42 @@
+"""`./navvi run sensing:=robot`: the guide knows only what the robot's sensors show, and the record the truth."""
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LIVE = ROOT / "launch/live.launch"
+TOLD = ("octomap_binary", "navvi/obstacles", "navvi/proximity", "navvi/contacts")
+
+
+def arguments_of(node, *words):
+    return subprocess.run(["roslaunch", "--args", node, str(LIVE), "operator:=simulated", "rviz:=false", *words],
+                          capture_output=True, text=True, timeout=60).stdout
+
+
+@pytest.mark.parametrize("node", ["nav_node", "feedback_node", "perception_node"])
+def test_who_guides_gets_what_is_seen_and_not_the_truth(node):
+    words = arguments_of(node, "sensing:=robot")
+    for topic in TOLD:
+        assert re.search(rf"\b{topic}:=/?navvi/seen/\w+", words), words
+
+
+@pytest.mark.parametrize("node", ["sim_node", "trial_node"])
+def test_the_record_is_of_the_truth(node):
+    assert "navvi/seen" not in arguments_of(node, "sensing:=robot")
+
+
+def test_the_truth_is_told_where_nothing_else_is_asked_for():
+    assert "navvi/seen" not in arguments_of("nav_node")
+    assert "perception_node" not in subprocess.run(
+        ["roslaunch", "--nodes", str(LIVE), "operator:=simulated", "rviz:=false"], capture_output=True, text=True, timeout=60).stdout
+
+
+def test_a_session_by_the_robots_own_sensors_reaches_its_goal(tmp_path):
+    done = subprocess.run([str(ROOT / "navvi"), "run", "world:=training", "operator:=simulated", "rviz:=false", "sensing:=robot",
+                           "limit:=200", f"out:={tmp_path}"], capture_output=True, text=True, timeout=900)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    log = next(tmp_path.glob("session-*.log")).read_text()
+    assert "A prior map of" in log
+    assert "Map taken" in log
