@@ -145,13 +145,17 @@ void LoopTrace::tell_guidance(double time, const navvi_msgs::Guidance& guidance)
 
 void LoopTrace::tell_state(const ClosedLoop& loop) {
   const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
-  line(loop.time(), text("robot %.2f,%.2f heading %.0f, %.2f m/s, %+.0f deg/s | ",
-                         robot.position.x(), robot.position.y(), kDegrees * robot.yaw,
-                         robot.forward_speed(), -kDegrees * robot.turn_rate) +
-                        guidance_text(guidance_) + " | hand " + loop.person().doing() +
-                        text(", stick %+.2f right %+.2f forward | near ", -loop.hand().left,
-                             loop.hand().forward) +
-                        things_text(proximity_) + " | movers " + movers_text(robot, obstacles_));
+  line(loop.time(),
+       text("robot %.2f,%.2f heading %.0f, %.2f m/s, %+.0f deg/s | ", robot.position.x(),
+            robot.position.y(), kDegrees * robot.yaw, robot.forward_speed(),
+            -kDegrees * robot.turn_rate) +
+           guidance_text(guidance_) + " | hand " + loop.person().doing() +
+           text(", stick %+.2f right %+.2f forward | near ", -loop.hand().left,
+                loop.hand().forward) +
+           things_text(proximity_) + " | movers " + movers_text(robot, obstacles_) +
+           (loop.perceived()
+                ? " | seen " + movers_text(robot, navvi_types::to_msg(*loop.perceived()))
+                : std::string()));
 }
 
 }  // namespace navvi_study::loop
