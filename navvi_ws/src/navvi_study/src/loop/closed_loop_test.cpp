@@ -147,6 +147,33 @@ TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHa
             std::string::npos);
 }
 
+/// A worker who crosses the room, and a pedestal too low for the lidar's plane on the straight way.
+const std::string kCrossing = R"(
+  - {name: pedestal, class: pedestal, pose: [-1, 0.1, 0.05], shapes: [{box: [0.6, 0.6, 0.1]}]}
+  - name: worker
+    class: worker
+    pose: [1.5, -2, 0]
+    shapes: [{box: [0.4, 0.4, 1.45], pose: [0, 0, 0.725]}]
+    route: {waypoints: [[1.5, -2.4], [1.5, 2.4]], speed: 0.8}
+)";
+
+TEST_F(ClosedLoopIn, aRobotsOwnSensorsLeadPastAWorkerAndACameraPastWhatIsTooLowForTheLidar) {
+  config_.sim.sensing = "robot";
+  const record::Fields row = play(kRoom + kCrossing, 120.0);
+  EXPECT_EQ(row.get("result"), "reached") << trace_.str();
+  EXPECT_EQ(row.get("hits"), "-") << trace_.str();
+  EXPECT_GE(row.number("passed").value(), 1.0);
+  EXPECT_EQ(row.get("missed"), "0");
+  EXPECT_LE(row.number("ghosts").value(), 1.0);
+  EXPECT_LT(row.number("lag").value(), 1.0);
+  const std::string trace = trace_.str();
+  EXPECT_EQ(play(kRoom + kCrossing, 120.0), row);
+  EXPECT_EQ(trace_.str(), trace);
+  config_.sim.sensing = "lidar";
+  EXPECT_NE(play(kRoom + kCrossing, 30.0).get("hits").find("pedestal"), std::string::npos)
+      << "the known limit of a lidar alone";
+}
+
 /// Voxels that a robot of 0.35 m must keep from, as a map of sim_node holds them.
 class Voxels {
  public:
