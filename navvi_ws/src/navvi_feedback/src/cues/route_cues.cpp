@@ -158,7 +158,7 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     // Who is told "straight ahead" just before a turn drives past it.
     if (turn && *hour_ == 12) return {announce_turn("straight_then", way, *turn, time)};
     // The route changed while the person waited.
-    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind == "direction") {
+    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind != "slight") {
       way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
       reroutes_ = guidance.reroutes;
     }

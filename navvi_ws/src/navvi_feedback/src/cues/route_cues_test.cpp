@@ -376,17 +376,22 @@ TEST(RouteCues, say_that_the_old_way_is_blocked_once_for_each_reroute) {
 }
 
 TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
-  for (const bool sound : {true, false}) {
-    Drive drive;
-    drive.now.sounds.turn = sound;
-    drive.settle(0.0, 30.0);
-    drive.now.guidance->reroutes = 1;
-    drive.now.guidance->waypoint = {0.0, -12.0};
-    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(120.0);
-    EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
-    EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
-    EXPECT_EQ(drive.last.fillings.hour, 4);
-  }
+  for (const bool sound : {true, false})
+    for (const auto& [angle, hour] : {std::pair(120.0, 4), std::pair(0.0, 12)}) {
+      Drive drive;
+      drive.now.sounds.turn = sound;
+      drive.settle(0.0, 30.0);
+      drive.now.guidance->reroutes = 1;
+      drive.now.guidance->waypoint = {0.0, -12.0};
+      drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(angle);
+      EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
+      // Straight ahead needs no words where the turn sounds.
+      const bool told = !sound || hour != 12;
+      EXPECT_EQ(drive.pass(2.0), told ? Kinds{"rerouted"} : Kinds{});
+      if (told) {
+        EXPECT_EQ(drive.last.fillings.hour, hour);
+      }
+    }
 }
 
 TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
