@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 import hearing
+from live_session_test import Display
 
 pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -16,9 +17,11 @@ PHRASES = ROOT / "navvi_ws/src/navvi_feedback/config/phrases/en.yaml"
 
 def give(env, folder, lesson, launch, *words, **more):
     """What the person heard and pressed, line by line, and the kinds of it."""
+    # Of the last test's parameters the master of this module would keep what is not given now.
+    subprocess.run(["rosparam", "delete", "/feedback_node"], env=env, stderr=subprocess.DEVNULL)
     session = subprocess.Popen(["roslaunch", str(ROOT / "launch" / launch), f"lesson:={lesson.split('_')[0]}", *words], env=dict(env, **more),
                                stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
-    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/pupil.py"), lesson], env=dict(env, **more), text=True,
+    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/pupil.py"), lesson, *(["keys"] if "DISPLAY" in env else [])], env=dict(env, **more), text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     try:
         told, error = person.communicate(timeout=600)
@@ -53,6 +56,29 @@ def test_the_glossary_is_understood_and_ended_at_will(env, tmp_path):
     heard = " ".join(" ".join(words) for _, words in hearing.transcribe(begin, told=True))
     for words in "here is each signal", "arrow down for the next one", "on the left":
         assert words in heard, heard
+
+
+@pytest.fixture
+def desktop(env):
+    """With a display and a window manager."""
+    display = Display()
+    env = dict(env, DISPLAY=display.name)
+    windows = subprocess.Popen(["openbox"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield env
+    finally:
+        windows.terminate()
+        windows.wait()
+        display.close()
+
+
+def test_the_glossary_is_given_in_spanish_by_keys_and_without_motors(desktop, tmp_path):
+    lines, kinds = give(desktop, tmp_path, "glossary_begins", "lesson.launch", "operator:=keyboard",
+                        "feedback_parameters:={language: es, listener: topic}", "speech:=false")
+    assert "'glossary_no_motors'" in kinds and "'glossary_end'" in kinds and "'glossary_near_left'" not in kinds
+    spanish = yaml.safe_load(PHRASES.with_name("es.yaml").read_text())["lessons"]
+    assert lines[-1].endswith(spanish["glossary_end"]), lines
+    assert any("página abajo para la siguiente" in line for line in lines), "the keys are named"
 
 
 def test_the_glossary_is_given_from_the_first_signal_to_the_last(env, tmp_path):

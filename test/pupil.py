@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A person for tests who learns by ear and hand, in a process of its own: `pupil.py glossary`, `glossary_begins`, `tutorial` or `calibrate`, with a pad as
-joy_node gives it. Hears the cues and feels the motors, and knows nothing else. Prints what is heard and pressed."""
+joy_node gives it, or after these the word `keys` with keys by xdotool. Hears the cues and feels the motors, and knows nothing else. Prints what is heard and pressed."""
 import subprocess
 import sys
 import threading
@@ -10,20 +10,24 @@ import rospy
 from navvi_msgs.msg import Cue
 from sensor_msgs.msg import Joy, JoyFeedbackArray
 
+KEYS = {"repeat": "space", "around": "a", "where": "w", "end": "Escape", "help": "h", "start": "Return", "previous": "Prior", "next": "Next"}
 BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "help": 5, "start": 6, "previous": 11, "next": 12}
 
 
 class Pupil:
-    def __init__(self):
+    def __init__(self, keys):
         rospy.init_node("pupil", disable_rostime=True)
+        self.keys = keys
         self.begun, self.axes, self.down, self.motors = time.monotonic(), [0.0, 0.0], None, (0.0, 0.0)
         self.last, self.sound, self.silent_since, self.speaking = "", "", 0.0, False
         self.kinds, self.felt, self.signals = [], set(), 0
         self.hand = None
-        self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
+        if not keys:
+            self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
         rospy.Subscriber("/navvi/cues", Cue, self.hear, tcp_nodelay=True)
         rospy.Subscriber("/joy/set_feedback", JoyFeedbackArray, self.feel, tcp_nodelay=True)
-        threading.Thread(target=self.hold, daemon=True).start()
+        if not keys:
+            threading.Thread(target=self.hold, daemon=True).start()
 
     def hold(self):
         while not rospy.is_shutdown():
@@ -68,6 +72,9 @@ class Pupil:
 
     def press(self, name):
         self.tell(f"[{name}]")
+        if self.keys:
+            subprocess.run(["xdotool", "keydown", KEYS[name], "sleep", "0.12", "keyup", KEYS[name]], check=True, timeout=10)
+            return
         self.down = name
         time.sleep(0.12)
         self.down = None
@@ -166,6 +173,6 @@ class Pupil:
 
 
 if __name__ == "__main__":
-    pupil = Pupil()
+    pupil = Pupil(sys.argv[2:] == ["keys"])
     getattr(pupil, sys.argv[1])()
     print(sorted(set(pupil.kinds) | pupil.felt), flush=True)
