@@ -43,8 +43,9 @@ std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
                                                           {"way_blocked", Pattern::rerouted}};
   const auto found = patterns.find(cue.kind);
   if (found != patterns.end()) return found->second;
-  const bool alarm = cue.kind == "guidance_lost" ||
-                     (cue.priority == Priority::important && cue.kind.rfind("collision_", 0) != 0);
+  const bool alarm =
+      cue.kind == "guidance_lost" ||
+      (cue.priority == Priority::important && cues::family_of(cue.kind) != cues::Family::hit);
   return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
 }
 

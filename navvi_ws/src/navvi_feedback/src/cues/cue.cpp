@@ -6,13 +6,14 @@ namespace navvi_feedback::cues {
 
 const std::vector<CueKind>& cue_kinds() {
   using P = Priority;
-  // kind, priority, least interval in s, largest age in s
+  using F = Family;
+  // kind, priority, least interval in s, largest age in s, family
   static const std::vector<CueKind> kinds = {
       // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy.
-      {"collision_shelf", P::important, 0.0, 3.0},
-      {"collision_wall", P::important, 0.0, 3.0},
-      {"collision_obstacle", P::important, 0.0, 3.0},
-      {"obstacle_stop", P::important, 3.0, 1.0},
+      {"collision_shelf", P::important, 0.0, 3.0, F::hit},
+      {"collision_wall", P::important, 0.0, 3.0, F::hit},
+      {"collision_obstacle", P::important, 0.0, 3.0, F::hit},
+      {"obstacle_stop", P::important, 3.0, 1.0, F::halt},
       {"pad_lost", P::important, 2.0, 10.0},
       {"keyboard_lost", P::important, 2.0, 10.0},
       {"robot_stopped", P::important, 2.0, 4.0},
@@ -22,18 +23,18 @@ const std::vector<CueKind>& cue_kinds() {
       {"stuck", P::message, 2.0, 1.0},
       {"stuck_unknown", P::message, 2.0, 2.0},
       {"arrived", P::message, 1.0, 10.0},
-      {"turn_now", P::message, 1.0, 1.0},
+      {"turn_now", P::message, 1.0, 1.0, F::route},
       {"guidance_lost", P::message, 5.0, 5.0},
       {"no_route", P::message, 5.0, 5.0},
       {"off_mesh", P::message, 5.0, 5.0},
       {"no_map", P::message, 5.0, 5.0},
       {"pose_stale", P::message, 5.0, 5.0},
       {"map_stale", P::message, 5.0, 5.0},
-      {"blocked", P::message, 3.0, 1.0},
+      {"blocked", P::message, 3.0, 1.0, F::halt},
       {"obstacle_comes", P::message, 1.5, 1.0},
       {"back_away", P::message, 2.0, 1.0},
       {"go_on", P::message, 1.0, 2.0},
-      {"make_room", P::message, 1.0, 1.0},
+      {"make_room", P::message, 1.0, 1.0, F::route},
       {"goal_refused_not_finite", P::message, 1.0, 10.0},
       {"goal_refused_unknown_frame", P::message, 1.0, 10.0},
       {"goal_refused_inside_obstacle", P::message, 1.0, 10.0},
@@ -74,24 +75,24 @@ const std::vector<CueKind>& cue_kinds() {
       // The way.
       {"start", P::text, 2.0, 10.0},
       {"start_distance", P::text, 2.0, 10.0},
-      {"direction", P::text, 1.0, 1.0},
-      {"straight", P::text, 1.0, 1.0},
-      {"slight", P::text, 1.0, 1.0},
-      {"straight_then", P::text, 1.0, 1.0},
-      {"turn_ahead", P::text, 2.0, 1.0},
-      {"wrong_way", P::message, 2.0, 1.0},
-      {"off_path", P::text, 2.0, 1.0},
-      {"turn_cancelled", P::text, 1.0, 1.0},
-      {"rerouted", P::text, 4.0, 1.0},
-      {"rerouted_blocked", P::text, 4.0, 1.0},
+      {"direction", P::text, 1.0, 1.0, F::way},
+      {"straight", P::text, 1.0, 1.0, F::way},
+      {"slight", P::text, 1.0, 1.0, F::way},
+      {"straight_then", P::text, 1.0, 1.0, F::way},
+      {"turn_ahead", P::text, 2.0, 1.0, F::way},
+      {"wrong_way", P::message, 2.0, 1.0, F::route},
+      {"off_path", P::text, 2.0, 1.0, F::route},
+      {"turn_cancelled", P::text, 1.0, 1.0, F::way},
+      {"rerouted", P::text, 4.0, 1.0, F::route},
+      {"rerouted_blocked", P::text, 4.0, 1.0, F::route},
       {"new_route", P::message, 4.0, 1.0},
       {"way_blocked", P::message, 4.0, 1.0},
-      {"shelf_near", P::text, 1.5, 1.0},
-      {"wall_near", P::text, 1.5, 1.0},
-      {"shelf_close", P::text, 1.5, 1.0},
-      {"wall_close", P::text, 1.5, 1.0},
-      {"obstacle_near", P::text, 1.5, 1.0},
-      {"obstacle_close", P::text, 1.5, 1.0},
+      {"shelf_near", P::text, 1.5, 1.0, F::near},
+      {"wall_near", P::text, 1.5, 1.0, F::near},
+      {"shelf_close", P::text, 1.5, 1.0, F::near},
+      {"wall_close", P::text, 1.5, 1.0, F::near},
+      {"obstacle_near", P::text, 1.5, 1.0, F::near},
+      {"obstacle_close", P::text, 1.5, 1.0, F::near},
       // On demand, and by the way.
       {"goal_info", P::text, 0.5, 1.0},
       {"goal_info_distance", P::text, 0.5, 1.0},
@@ -108,10 +109,24 @@ const std::vector<CueKind>& cue_kinds() {
   return kinds;
 }
 
-const CueKind& cue_kind(const std::string& kind) {
+namespace {
+
+const CueKind* find(const std::string& kind) {
   for (const CueKind& known : cue_kinds())
-    if (kind == known.kind) return known;
+    if (kind == known.kind) return &known;
+  return nullptr;
+}
+
+}  // namespace
+
+const CueKind& cue_kind(const std::string& kind) {
+  if (const CueKind* const known = find(kind)) return *known;
   throw std::logic_error("\"" + kind + "\" is no kind of cue.");
+}
+
+Family family_of(const std::string& kind) {
+  const CueKind* const known = find(kind);
+  return known ? known->family : Family::other;
 }
 
 }  // namespace navvi_feedback::cues

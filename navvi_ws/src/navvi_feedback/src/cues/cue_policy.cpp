@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 #include <utility>
-
-#include "cues/clock_face.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -26,8 +24,6 @@ constexpr double kHeldBack = 2.5;
 constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
 constexpr double kMoving = 0.05;
-/// m; what is less far ahead is beside.
-constexpr double kBeside = 0.05;
 
 /// Why the guidance does not lead anywhere, as a kind of cue; empty if it does.
 std::string problem_of(const Guidance& guidance) {
@@ -53,61 +49,16 @@ std::string awaited(const Situation& now) {
   return now.keyboard ? "press_enter" : "press_start";
 }
 
-/// Words that depend on where the robot is.
-bool leads_the_way(const std::string& kind) {
-  static const std::set<std::string> kinds = {
-      "direction",      "straight", "slight",    "straight_then",    "turn_ahead", "turn_now",
-      "turn_cancelled", "rerouted", "make_room", "rerouted_blocked", "wrong_way",  "off_path"};
-  return kinds.count(kind) > 0;
-}
-
 bool refused(const std::string& problem) { return problem.rfind("goal_refused", 0) == 0; }
 
 bool said_once(const std::string& problem) {
   return problem == "arrived" || problem == "welcome" || refused(problem);
 }
 
-/// Words to stop, until it is said to go on.
-bool halts(const std::string& kind) { return kind == "blocked" || kind == "obstacle_stop"; }
-
 bool moves(const Utterance& told) {
   const ThingClass thing = told.fillings.thing.value_or(ThingClass::other);
   return thing == ThingClass::worker || thing == ThingClass::forklift ||
          thing == ThingClass::pallet_robot;
-}
-
-/// Its words are a reminder: each of the others is for something that has just happened, be it the
-/// same thing that is hit or waited for once more.
-bool tells_nothing_new(const Utterance& utterance) {
-  static const std::set<std::string> reminders = {"stuck",         "stuck_unknown", "back_away",
-                                                  "release_stick", "press_start",   "press_enter",
-                                                  "choose_goal"};
-  const Priority priority = utterance.priority.value_or(cue_kind(utterance.kind).priority);
-  const bool introduces = utterance.kind.rfind("start", 0) == 0;
-  return (priority <= Priority::text && !introduces) || reminders.count(utterance.kind) > 0;
-}
-
-/// Whether the person does without it, unless they ask.
-bool muted(const std::string& kind, const WordingConfig& wording) {
-  static const std::set<std::string> way = {"direction",     "straight",   "slight",
-                                            "straight_then", "turn_ahead", "turn_cancelled"};
-  static const std::set<std::string> near = {"shelf_near", "wall_near",     "shelf_close",
-                                             "wall_close", "obstacle_near", "obstacle_close"};
-  return (!wording.way && way.count(kind) > 0) || (!wording.near && near.count(kind) > 0);
-}
-
-/// rad, clockwise from the nose
-double angle_of(int hour) { return hour * kHourDegrees * M_PI / 180.0; }
-
-/// Whether a robot that turned there could drive on.
-bool is_free(int hour, const std::vector<NearThing>& nearby, double gap) {
-  const double angle = angle_of(hour);
-  const Eigen::Vector2d way(std::cos(angle), -std::sin(angle));
-  return std::none_of(nearby.begin(), nearby.end(), [&](const NearThing& thing) {
-    const Eigen::Vector2d& at = thing.nearest;
-    const double across = way.x() * at.y() - way.y() * at.x();
-    return thing.gap <= gap && way.dot(at) > kBeside && std::abs(across) <= kHalfLane;
-  });
 }
 
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
@@ -117,12 +68,11 @@ Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
 }  // namespace
 
 CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
-    : config_(config), phrases_(std::move(phrases)), route_(config.route), near_(config.near) {}
-
-void CuePolicy::use(const WordingConfig& wording) {
-  config_.wording = wording;
-  phrases_.use(wording);
-}
+    : config_(config),
+      phrasing_(std::move(phrases), config.same_text),
+      route_(config.route),
+      near_(config.near),
+      stuck_(config) {}
 
 std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const Links links = judge(now, time);
@@ -135,21 +85,24 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   add(lost_and_found(now, links, time));
   add(collisions(now, time));
   add(release(now, links, time));
-  add(stuck(now, time));
+  if (const auto held = stuck_.update(now, follows_, time)) {
+    route_.remind(time + kRecover);
+    add({*held});
+  }
   if (awaited_ && now.trial == TrialState::State::running) add({{"trial_begins"}});
   awaited_ = !awaited(now).empty();
   add(guidance_state(now, links, time));
   add(near(now, time));
   const Utterances answer = answers(now, time);
   for (const Utterance& utterance : utterances)
-    if (halts(utterance.kind)) halt_.say(utterance, time);
+    if (family_of(utterance.kind) == Family::halt) halt_.say(utterance, time);
   add(answer);
   add(route(now, links, time));
   leads_ = follows_ && links.pad == Link::alive && !halt_.halted() && !trial_over_;
   links_ = links;
   gate_ = now.gate;
   time_ = time;
-  return phrase(utterances, now, time);
+  return phrasing_.cues_of(utterances, now, time);
 }
 
 Links CuePolicy::judge(const Situation& now, double time) {
@@ -221,55 +174,6 @@ CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& link
   return {*request};
 }
 
-CuePolicy::Utterances CuePolicy::stuck(const Situation& now, double time) {
-  // Commands near the thresholds may well move the robot more slowly than these.
-  const bool commanded = std::abs(now.commanded.linear) > 2.0 * config_.stuck_linear ||
-                         std::abs(now.commanded.angular) > 2.0 * config_.stuck_angular;
-  const bool still = now.measured && std::abs(now.measured->linear) < config_.stuck_linear &&
-                     std::abs(now.measured->angular) < config_.stuck_angular;
-  const bool held =
-      now.gate == DriveState::State::stopped || now.gate == DriveState::State::waiting;
-  if (!commanded || !still || held) {
-    blocked_since_.reset();
-    stuck_said_.reset();
-    return {};
-  }
-  if (!blocked_since_) blocked_since_ = time;
-  if (time - *blocked_since_ <= config_.stuck_time) return {};
-  if (stuck_said_ && time - *stuck_said_ < config_.stuck_repeat) return {};
-  stuck_said_ = time;
-  route_.remind(time + kRecover);
-
-  // What lies where the person wants to go blocks more than what is merely nearer.
-  const NearThing* blocker = nullptr;
-  const auto rank = [&](const NearThing& thing) {
-    const bool in_the_way = thing.nearest.x() * now.commanded.linear >= 0.0;
-    return std::make_pair(in_the_way ? 0 : 1, thing.gap);
-  };
-  for (const NearThing& thing : now.nearby)
-    if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
-      blocker = &thing;
-  if (!blocker) return {{"stuck_unknown"}};
-  Fillings fillings = where(blocker->thing_class, blocker->nearest);
-  const auto free = [&](int hour) { return is_free(hour, now.nearby, config_.blocker_gap); };
-  if (fillings.side == Side::ahead && free(6)) return {{"back_away", fillings}};
-  const double wanted = follows_ ? now.guidance->steer_angle : 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int hour = 1; hour <= 12; ++hour) {
-    const double aside = std::abs(std::remainder(angle_of(hour) - wanted, 2.0 * M_PI));
-    if (aside >= least || !free(hour)) continue;
-    least = aside;
-    fillings.hour = hour;
-  }
-  if (fillings.hour) return {{"stuck", fillings}};
-  Utterance boxed_in{"stuck_unknown"};
-  const Utterance sides = around(now.nearby);
-  boxed_in.also = sides.also;
-  boxed_in.also.insert(boxed_in.also.begin(), sides);
-  for (Utterance& side : boxed_in.also) side.from.reset();  // words alone are sooner over
-  return {boxed_in};
-}
-
 CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,
                                                 double time) {
   if (links.simulator == Link::lost) return {};
@@ -309,7 +213,7 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
   const double pause = awaited_ && now.stick_held_unarmed ? kHeldBack : config_.problem_repeat;
   if (problem_said_ && (said_once(problem_) || time - *problem_said_ < pause)) return {};
   // What is said too seldom for that is said a little later.
-  if (too_soon(cue_kind(problem_), time)) return {};
+  if (phrasing_.too_soon(cue_kind(problem_), time)) return {};
   problem_said_ = time;
   if (problem_ == "arrived" && std::exchange(arrival_said_, true)) return {};
   return {tell_problem(now)};
@@ -325,7 +229,7 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
   // To a robot that stands without a way to go, what is near is no news, but what comes is.
   const bool drives = now.measured && (std::abs(now.measured->linear) > kMoving ||
                                        std::abs(now.measured->angular) > kMoving);
-  const bool straight = config_.route.join && time - straight_said_ < kRecover;
+  const bool straight = config_.route.join && time - phrasing_.straight_said() < kRecover;
   Utterances told = near_.update(now, follows_ || drives, {straight, halt_.fresh(time)}, time);
   // A person stops for a thing ahead, and then needs a direction.
   for (const Utterance& utterance : told)
@@ -411,71 +315,12 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   return {answer};
 }
 
-bool CuePolicy::too_soon(const CueKind& kind, double time) const {
-  const auto last = last_said_.find(kind.kind);
-  return last != last_said_.end() && time - last->second < kind.min_interval;
-}
-
-/// As much of it as may be spoken at once.
-CuePolicy::Sentence CuePolicy::word(const Utterance& utterance, bool again) const {
-  Sentence told{phrases_.say(utterance.kind, utterance.fillings, again), {}};
-  const auto longer = [&](const std::string& joined) {
-    const bool fits = speakable(joined);
-    if (fits) told.text = joined;
-    return fits;
-  };
-  const auto sounds_from = [&](const Utterance& part) {
-    if (part.from)
-      told.scan.push_back({earcon_of(part.fillings.thing.value_or(ThingClass::other)), *part.from});
-  };
-  sounds_from(utterance);
-  if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + told.text);
-  for (const Utterance& more : utterance.also)
-    if (longer(told.text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
-  return told;
-}
-
-std::vector<Cue> CuePolicy::phrase(const Utterances& utterances, const Situation& now,
-                                   double time) {
-  std::vector<Cue> cues;
-  for (const Utterance& utterance : utterances) {
-    const CueKind& kind = cue_kind(utterance.kind);
-    if (!utterance.asked && muted(kind.kind, config_.wording) && !instead_of(utterance, now.sounds))
-      continue;
-    if (!utterance.asked && too_soon(kind, time)) continue;
-    const auto age = [&](const std::string& text) {
-      const auto same = last_text_.find(text);
-      return same == last_text_.end() ? std::numeric_limits<double>::infinity()
-                                      : time - same->second;
-    };
-    const auto sound = instead_of(utterance, now.sounds);
-    Sentence told = word(utterance, false);
-    const bool again = !utterance.asked && !sound && age(told.text) < config_.same_text;
-    const bool felt = again && now.touch && tells_nothing_new(utterance);
-    if (again && !felt)
-      if (Sentence other = word(utterance, true); age(other.text) > age(told.text)) told = other;
-    Cue cue{kind.kind,    told.text, utterance.priority.value_or(kind.priority),
-            kind.max_age, sound,     utterance.asked};
-    cue.felt = felt;
-    cue.scan = told.scan;
-    if (!sound && !felt) {
-      last_text_[cue.text] = time;
-      if (utterance.fillings.hour == 12) straight_said_ = time;
-    }
-    last_said_[kind.kind] = time;
-    cues.push_back(cue);
-  }
-  std::stable_sort(cues.begin(), cues.end(),
-                   [](const Cue& a, const Cue& b) { return a.priority > b.priority; });
-  return cues;
-}
-
 /// It was not heard.
 void CuePolicy::forget(const CueEvent& event) {
-  last_said_.erase(event.kind);
-  last_text_.erase(event.text);
+  const Family family = family_of(event.kind);
+  phrasing_.forget(event);
   near_.unsaid(event.kind);
-  if (leads_the_way(event.kind)) route_.unsaid();
+  if (family == Family::way || family == Family::route) route_.unsaid();
   if (event.kind == answered_) question_ = asked_;
 }
 
@@ -487,10 +332,10 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
   };
   for (const CueEvent& event : events) {
     if (event.stage == CueStage::started) {
-      last_text_[event.text] = time_;
+      phrasing_.heard(event, time_);
       if (event.kind == answered_) answered_.clear();
     }
-    if (!halts(event.kind)) continue;
+    if (family_of(event.kind) != Family::halt) continue;
     if (event.stage == CueStage::started) halt_.heard(time_);
     if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();
   }

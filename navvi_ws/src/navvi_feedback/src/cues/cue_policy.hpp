@@ -8,9 +8,10 @@
 #include "cues/halt.hpp"
 #include "cues/held_stick.hpp"
 #include "cues/near_cues.hpp"
-#include "cues/phrases.hpp"
+#include "cues/phrasing.hpp"
 #include "cues/route_cues.hpp"
 #include "cues/situation.hpp"
+#include "cues/stuck.hpp"
 #include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
@@ -25,7 +26,7 @@ class CuePolicy {
   [[nodiscard]] std::vector<Cue> update(const Situation& now, double time);
 
   /// From now on.
-  void use(const WordingConfig& wording);
+  void use(const WordingConfig& wording) { phrasing_.use(wording); }
 
   /// The person is to follow the path now.
   [[nodiscard]] bool leads() const { return leads_; }
@@ -37,15 +38,10 @@ class CuePolicy {
 
  private:
   using Utterances = std::vector<Utterance>;
-  struct Sentence {
-    std::string text;
-    std::vector<sounds::Play> scan;  ///< of its parts
-  };
 
   [[nodiscard]] Links judge(const Situation& now, double time);
   [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances collisions(const Situation& now, double time);
-  [[nodiscard]] Utterances stuck(const Situation& now, double time);
   [[nodiscard]] Utterances release(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterance tell_problem(const Situation& now) const;
@@ -54,40 +50,32 @@ class CuePolicy {
   [[nodiscard]] Utterance where_am_i(const Situation& now) const;
   [[nodiscard]] Utterances answers(const Situation& now, double time);
   void forget(const CueEvent& event);
-  [[nodiscard]] bool too_soon(const CueKind& kind, double time) const;
-  [[nodiscard]] Sentence word(const Utterance& utterance, bool again) const;
-  [[nodiscard]] std::vector<Cue> phrase(const Utterances& utterances, const Situation& now,
-                                        double time);
 
   CuePolicyConfig config_;
-  Phrases phrases_;
+  Phrasing phrasing_;
   RouteCues route_;
   NearCues near_;
   HeldStick held_;
+  Stuck stuck_;
   Halt halt_;
 
   std::optional<double> first_update_;  ///< s
   double time_ = 0.0;                   ///< s, of the last update
   Links links_;                         ///< as of the last update
   std::optional<DriveState::State> gate_;
-  bool awaited_ = false;                 ///< a trial waits for the person
-  bool follows_ = false;                 ///< there is a fresh path now
-  bool leads_ = false;                   ///< and no word against following it
-  std::optional<double> blocked_since_;  ///< s, commanded without moving
-  std::optional<double> stuck_said_;     ///< s
-  std::string problem_;                  ///< why the guidance does not lead, as a cue kind
+  bool awaited_ = false;  ///< a trial waits for the person
+  bool follows_ = false;  ///< there is a fresh path now
+  bool leads_ = false;    ///< and no word against following it
+  std::string problem_;   ///< why the guidance does not lead, as a cue kind
   Eigen::Vector2d problem_goal_ = Eigen::Vector2d::Zero();
   double problem_since_ = 0.0;          ///< s
   std::optional<double> problem_said_;  ///< s
   bool arrival_said_ = false;
-  bool led_ = false;                         ///< there was a path to follow
-  std::map<std::string, double> last_said_;  ///< s, by kind
-  std::map<std::string, double> last_text_;  ///< s, by text
-  double straight_said_ = -1e9;              ///< s
-  std::optional<Question> asked_;            ///< the last that was answered
-  std::string answered_;                     ///< the kind of that
-  std::optional<Question> question_;         ///< to be answered anew
-  std::map<std::uint32_t, double> hit_;      ///< s, by thing
+  bool led_ = false;                     ///< there was a path to follow
+  std::optional<Question> asked_;        ///< the last that was answered
+  std::string answered_;                 ///< the kind of that
+  std::optional<Question> question_;     ///< to be answered anew
+  std::map<std::uint32_t, double> hit_;  ///< s, by thing
   std::set<std::string> noticed_;
   std::optional<double> trial_over_;  ///< s, when that was said
 };

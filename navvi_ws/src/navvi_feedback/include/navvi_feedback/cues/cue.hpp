@@ -31,17 +31,30 @@ struct Cue {
   std::vector<sounds::Play> scan = {};
 };
 
+/// Kinds that are treated alike.
+enum class Family {
+  other,
+  hit,    ///< something was touched
+  halt,   ///< to stop, until it is said to go on
+  way,    ///< where to steer, as the person may do without
+  route,  ///< where to steer, as they may not
+  near,   ///< what is near, where nothing need be done
+};
+
 /// How a kind of cue is treated.
 struct CueKind {
   const char* kind;
   Priority priority;
   double min_interval;  ///< s, the least time between two of the same kind
   double max_age;       ///< s, as Cue::max_age
+  Family family = Family::other;
 };
 
 /// Every kind there is. Each has a phrase.
 [[nodiscard]] const std::vector<CueKind>& cue_kinds();
 /// \throws std::logic_error for a kind that is none
 [[nodiscard]] const CueKind& cue_kind(const std::string& kind);
+/// Family::other for what is no kind of cue, such as a pattern or a text of a lesson.
+[[nodiscard]] Family family_of(const std::string& kind);
 
 }  // namespace navvi_feedback::cues

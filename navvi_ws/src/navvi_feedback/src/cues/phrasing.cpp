@@ -1,0 +1,95 @@
+#include "cues/phrasing.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "cues/near_cues.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// Its words are a reminder: each of the others is for something that has just happened, be it the
+/// same thing that is hit or waited for once more.
+bool tells_nothing_new(const Utterance& utterance) {
+  static const std::set<std::string> reminders = {"stuck",         "stuck_unknown", "back_away",
+                                                  "release_stick", "press_start",   "press_enter",
+                                                  "choose_goal"};
+  const Priority priority = utterance.priority.value_or(cue_kind(utterance.kind).priority);
+  const bool introduces = utterance.kind.rfind("start", 0) == 0;
+  return (priority <= Priority::text && !introduces) || reminders.count(utterance.kind) > 0;
+}
+
+/// Whether the person does without it, unless they ask.
+bool muted(const CueKind& kind, const WordingConfig& wording) {
+  return (!wording.way && kind.family == Family::way) ||
+         (!wording.near && kind.family == Family::near);
+}
+
+}  // namespace
+
+bool Phrasing::too_soon(const CueKind& kind, double time) const {
+  const auto last = last_said_.find(kind.kind);
+  return last != last_said_.end() && time - last->second < kind.min_interval;
+}
+
+/// As much of it as may be spoken at once.
+Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const {
+  Sentence told{phrases_.say(utterance.kind, utterance.fillings, again), {}};
+  const auto longer = [&](const std::string& joined) {
+    const bool fits = speakable(joined);
+    if (fits) told.text = joined;
+    return fits;
+  };
+  const auto sounds_from = [&](const Utterance& part) {
+    if (part.from)
+      told.scan.push_back({earcon_of(part.fillings.thing.value_or(ThingClass::other)), *part.from});
+  };
+  sounds_from(utterance);
+  if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + told.text);
+  for (const Utterance& more : utterance.also)
+    if (longer(told.text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
+  return told;
+}
+
+std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, const Situation& now,
+                                   double time) {
+  std::vector<Cue> cues;
+  for (const Utterance& utterance : utterances) {
+    const CueKind& kind = cue_kind(utterance.kind);
+    if (!utterance.asked && muted(kind, phrases_.wording()) && !instead_of(utterance, now.sounds))
+      continue;
+    if (!utterance.asked && too_soon(kind, time)) continue;
+    const auto age = [&](const std::string& text) {
+      const auto same = last_text_.find(text);
+      return same == last_text_.end() ? std::numeric_limits<double>::infinity()
+                                      : time - same->second;
+    };
+    const auto sound = instead_of(utterance, now.sounds);
+    Sentence told = word(utterance, false);
+    const bool again = !utterance.asked && !sound && age(told.text) < same_text_;
+    const bool felt = again && now.touch && tells_nothing_new(utterance);
+    if (again && !felt)
+      if (Sentence other = word(utterance, true); age(other.text) > age(told.text)) told = other;
+    Cue cue{kind.kind,    told.text, utterance.priority.value_or(kind.priority),
+            kind.max_age, sound,     utterance.asked};
+    cue.felt = felt;
+    cue.scan = told.scan;
+    if (!sound && !felt) {
+      last_text_[cue.text] = time;
+      if (utterance.fillings.hour == 12) straight_said_ = time;
+    }
+    last_said_[kind.kind] = time;
+    cues.push_back(cue);
+  }
+  std::stable_sort(cues.begin(), cues.end(),
+                   [](const Cue& a, const Cue& b) { return a.priority > b.priority; });
+  return cues;
+}
+
+void Phrasing::forget(const CueEvent& event) {
+  last_said_.erase(event.kind);
+  last_text_.erase(event.text);
+}
+
+}  // namespace navvi_feedback::cues

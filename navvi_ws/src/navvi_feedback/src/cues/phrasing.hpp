@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+#include "navvi_feedback/cues/cue.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Puts what is to be told into words, sounds or touch: not too soon after the same kind, and not
+/// in the same words twice within some seconds.
+class Phrasing {
+ public:
+  /// \param same_text  s, within which the same words are not said twice
+  Phrasing(Phrases phrases, double same_text)
+      : phrases_(std::move(phrases)), same_text_(same_text) {}
+
+  /// From now on.
+  void use(const WordingConfig& wording) { phrases_.use(wording); }
+
+  /// \return the most urgent first
+  [[nodiscard]] std::vector<Cue> cues_of(const std::vector<Utterance>& utterances,
+                                         const Situation& now, double time);
+  /// One of this kind would not be said now.
+  [[nodiscard]] bool too_soon(const CueKind& kind, double time) const;
+  /// s, when "straight ahead" was last said
+  [[nodiscard]] double straight_said() const { return straight_said_; }
+
+  void heard(const CueEvent& event, double time) { last_text_[event.text] = time; }
+  /// It was not heard, and may be said at once.
+  void forget(const CueEvent& event);
+
+ private:
+  struct Sentence {
+    std::string text;
+    std::vector<sounds::Play> scan;  ///< of its parts
+  };
+  [[nodiscard]] Sentence word(const Utterance& utterance, bool again) const;
+
+  Phrases phrases_;
+  double same_text_;
+  std::map<std::string, double> last_said_;  ///< s, by kind
+  std::map<std::string, double> last_text_;  ///< s, by text
+  double straight_said_ = -1e9;              ///< s
+};
+
+}  // namespace navvi_feedback::cues
