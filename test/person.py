@@ -56,7 +56,7 @@ class Person:
             self.down = name
             time.sleep(0.15)
             self.down = None
-            time.sleep(0.15)
+        time.sleep(0.15)
         self.until(lambda: len(self.heard) > before, 3, f"{name} is answered")
         return self.heard[before][1]
 
@@ -124,6 +124,14 @@ class AtThePanel(Person):
         self.until(lambda: any(kind in kinds for kind, _ in self.heard[before:]), 60, f"{key} is answered")
         self.window("--class", "feedback_node")
 
+    def change_a_setting(self):
+        """The first one, which the panel's key opens, to its next value; then the menu is closed."""
+        self.panel("F3", ("setting",))
+        before = len(self.heard)
+        for key in "choose", "next", "back", "back", "back":
+            self.press(key)
+        self.until(lambda: {"setting_open", "setting_changed", "menu_closed"} <= {kind for kind, _ in self.heard[before:]}, 20, "the setting is changed")
+
     def run(self):
         asked = rospy.Subscriber("/navvi/ask", String)
         self.until(asked.get_num_connections, 120, "the panel is there")
@@ -134,6 +142,7 @@ class AtThePanel(Person):
         self.panel("F5", WAY)
         self.panel("g", ("goal_info", "goal_info_distance"))
         self.panel("r", WAY)
+        self.change_a_setting()
         self.wait_for(("arrived",), 200)
         self.wait_for(("choose_goal",), 30)
         self.choose("cross aisle 1")

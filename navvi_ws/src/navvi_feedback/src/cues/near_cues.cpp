@@ -211,10 +211,8 @@ sounds::Earcon earcon_of(ThingClass thing) {
 
 std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {
   using sounds::Earcon;
-  const std::string& kind = utterance.kind;
-  const auto ends = [&](const char* end) { return kind.find(end) != std::string::npos; };
-  const bool close = ends("_close");
-  if (!close && !ends("_near")) return std::nullopt;
+  if (family_of(utterance.kind) != Family::near) return std::nullopt;
+  const bool close = utterance.kind.find("_close") != std::string::npos;
   const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
   const bool shelf = is_structure(thing);
   if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;

@@ -324,6 +324,17 @@ TEST_F(NearCuesTest, adds_nothing_to_a_collision) {
   EXPECT_EQ(pass(5.0, {shelf(0.0, kLeft)}), Sides{});
 }
 
+TEST(InsteadOf, sounds_stand_for_what_is_near_and_for_no_other_words) {
+  const Sounds all{true, true, true};
+  for (const CueKind& kind : cue_kinds()) {
+    Utterance told{kind.kind};
+    told.fillings.thing = ThingClass::shelf;
+    told.fillings.side = Side::left;
+    EXPECT_EQ(instead_of(told, all).has_value(), kind.family == Family::near) << kind.kind;
+  }
+  EXPECT_FALSE(instead_of({"menu_closed"}, all)) << "a menu is not a thing";
+}
+
 }  // namespace
 }  // namespace navvi_feedback::cues
 
