@@ -53,8 +53,16 @@ Description: drive a robot through a warehouse by touch, sound and what sight th
  to turn, and in which a researcher runs repeatable trials.
 T
   echo "activate-noawait ldconfig" >"$1/DEBIAN/triggers"
-  printf '#!/bin/sh\nset -e\n[ "$1" != configure ] || py3compile -p navvi\n' >"$1/DEBIAN/postinst"
-  printf '#!/bin/sh\nset -e\npy3clean -p navvi\n' >"$1/DEBIAN/prerm"
+  cat >"$1/DEBIAN/postinst" <<'T'
+#!/bin/sh
+set -e
+[ "$1" != configure ] || py3compile -p navvi
+T
+  cat >"$1/DEBIAN/prerm" <<'T'
+#!/bin/sh
+set -e
+py3clean -p navvi
+T
   chmod 755 "$1"/DEBIAN/{postinst,prerm}
 }
 

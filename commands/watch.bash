@@ -29,7 +29,7 @@ watch_words() {
 running_session() {
   local file port ports=()
   for file in "${TMPDIR:-/tmp}"/navvi-port-*.lock; do
-    port=${file//[^0-9]/}
+    port=${file##*-} port=${port%.lock}
     [[ ! -f $file ]] || flock -n "$file" true || ports+=("$port")
   done
   [[ -z ${arg[port]:-} ]] || ports=("${arg[port]}")

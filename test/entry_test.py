@@ -46,7 +46,7 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "world:=office"], "'office' is no world; allowed are"),
     (["run", *SIMULATED, "world:=training", "start:=here"], "not of the form x,y,yaw"),
     (["run", *SIMULATED, "participant:=Ann Smith"], "letters, digits, - and _"),
-    (["run", *SIMULATED, "wheels/size:=1"], "those of feedback nav operator sim trial can be given"),
+    (["run", *SIMULATED, "wheels/size:=1"], "those of feedback nav operator perception sim trial can be given"),
     (["run", *SIMULATED, "feedback/haptics/enabld:=1"], "the key \"haptics/enabld\" is unknown"),
     (["run", *SIMULATED, "feedback/speaker/rate:=fast"], "speaker/rate"),
     (["run", *SIMULATED, "person:=Ann Smith"], "up to 24 letters, digits, - and _"),

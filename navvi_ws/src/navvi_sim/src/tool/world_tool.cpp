@@ -139,8 +139,16 @@ void print(const Request& request, const scenario::StartAndGoal& scenario) {
 /// \param path  ends in .bt, for occupied and free alone, or .ot, for probabilities
 void write_octomap(const fs::path& path, const occupancy::OccupancyMap& map) {
   const auto tree = occupancy::octree_of(map);
-  if (!(path.extension() == ".ot" ? tree->write(path.string()) : tree->writeBinary(path.string())))
-    throw WorldError("the file '" + path.string() + "' cannot be written");
+  std::ostringstream content;
+  if (path.extension() == ".ot") {
+    tree->write(content);
+  } else {
+    // The header of OcTree::writeBinary, which would also print " done." to the terminal.
+    content << "# Octomap OcTree binary file\nid " << tree->getTreeType() << "\nsize " << tree->size()
+            << "\nres " << tree->getResolution() << "\ndata\n";
+    tree->writeBinaryData(content);
+  }
+  write_file(path, content.str());
 }
 
 void check_octomap(const fs::path& path) {
