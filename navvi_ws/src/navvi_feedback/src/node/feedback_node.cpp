@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
-#include <future>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
+#include "cues/heard_words.hpp"
 #include "devices/earcon_player.hpp"
 #include "devices/input_source.hpp"
 #include "devices/speech_channel.hpp"
@@ -23,7 +23,7 @@
 #include "navvi_feedback/node/msg_conversion.hpp"
 #include "node/diagnostics.hpp"
 #include "node/node_config.hpp"
-#include "person/person_file.hpp"
+#include "person/settings_saver.hpp"
 #include "picture/markers.hpp"
 
 namespace navvi_feedback::node {
@@ -73,9 +73,7 @@ class FeedbackNode {
   /// Leaves nothing running, driving or speaking.
   void finish() {
     tick_timer_.stop();
-    if (saving_.valid()) saved();
-    keep_settings();
-    if (saving_.valid()) saved();
+    report(saver_->finish());
     cmd_vel_.publish(geometry_msgs::Twist());
     move_motors({}, std::nullopt, now());
     publish(as_heard(speech_.finish()));
@@ -172,7 +170,7 @@ class FeedbackNode {
     input.robot = robot();
     input.notices = notices();
     input.asked = std::exchange(asked_, {});
-    keep_settings();
+    report(saver_->update());
     // Where words are heard by topic, whoever listens comes a moment after this node.
     if (welcomes_ && (config_.listener != "topic" || cues_.getNumSubscribers() > 0)) {
       welcomes_ = false;
@@ -225,6 +223,7 @@ class FeedbackNode {
       person_ = person::PersonFile::of<PersonConfig>(config_.person);
       welcomes_ = true;
     }
+    saver_.emplace(person_);
     std::map<std::string, std::string> values;
     const auto describe = [this](navvi_config::Visitor& visit) { config_.describe(visit); };
     for (const navvi_config::Row& row : navvi_config::table_of(describe)) {
@@ -244,30 +243,13 @@ class FeedbackNode {
     mixer_.set_volume(config_.mixer.volume);
     const std::size_t end = word.find(":=");
     ros::param::set("~" + word.substr(0, end), word.substr(end + 2));
-    unsaved_.push_back(word);
+    saver_->save(word);
   }
 
-  /// In a thread of its own, for the person drives, and a disk may take seconds.
-  void keep_settings() {
-    if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-      saved();
-    if (unsaved_.empty() || saving_.valid()) return;
-    if (!person_) {
-      if (!std::exchange(told_not_kept_, true)) news_.push_back("settings_not_kept");
-      unsaved_.clear();
-      return;
-    }
-    saving_ = std::async(
-        std::launch::async,
-        [person = *person_, words = std::exchange(unsaved_, {})] { person.save(words); });
-  }
-
-  void saved() {
-    try {
-      saving_.get();
-    } catch (const std::exception& error) {
-      ROS_ERROR("%s", error.what());
-      news_.push_back("settings_not_saved");
+  void report(const std::vector<person::SettingsSaver::Failure>& failures) {
+    for (const auto& [cue, detail] : failures) {
+      if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
+      news_.push_back(cue);
     }
   }
 
@@ -304,21 +286,10 @@ class FeedbackNode {
     return by_topic() || mixer_.status().device == devices::Mixer::Status::Device::open;
   }
 
-  /// The record holds what can have been heard: words for which there was no device were dropped,
-  /// and where sound is off there are none.
-  [[nodiscard]] std::vector<CueEvent> as_heard(std::vector<CueEvent> events) {
+  /// Where sound is off there are no words.
+  [[nodiscard]] std::vector<CueEvent> as_heard(const std::vector<CueEvent>& events) {
     if (!config_.speech && !by_topic()) return {};
-    std::vector<CueEvent> result;
-    for (CueEvent& event : events) {
-      if (event.stage == CueStage::started && !heard()) {
-        unheard_ = event.id;
-        event.stage = CueStage::dropped;
-      } else if (event.id == unheard_) {
-        continue;
-      }
-      result.push_back(event);
-    }
-    return result;
+    return heard_words_.of(events, heard());
   }
 
   [[nodiscard]] cues::Link audio_link() const {
@@ -402,11 +373,9 @@ class FeedbackNode {
   std::vector<Eigen::Vector2d> path_;  ///< m, in map
   std::vector<drive::Button> asked_;   ///< by topic, not answered yet
   std::vector<std::string> news_;      ///< kinds of cues, not said yet
-  std::vector<std::string> unsaved_;   ///< settings, as words
   std::optional<person::PersonFile> person_;
-  std::future<void> saving_;
-  bool welcomes_ = false;       ///< the person's settings were loaded, and that is to be said
-  bool told_not_kept_ = false;  ///< that settings hold for this session alone
+  std::optional<person::SettingsSaver> saver_;
+  bool welcomes_ = false;  ///< the person's settings were loaded, and that is to be said
 
   std::optional<double> markers_time_;  // s, of now()
   double last_tick_ = 0.0;              // s, of now()
@@ -416,7 +385,7 @@ class FeedbackNode {
   std::vector<std::string> found_;  ///< by the lesson, and saved
   std::string recorded_;            ///< of the lesson, as it is in the file
   std::uint32_t sound_id_ = 0;
-  std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
+  cues::HeardWords heard_words_;
   visualization_msgs::MarkerArray shown_;
 };
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "navvi_types/cue_event.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Keeps out of the record what nobody can have heard.
+class HeardWords {
+ public:
+  /// \param heard  what is played now reaches somebody
+  /// \return the events; words that start unheard are dropped instead, and say no more
+  [[nodiscard]] std::vector<navvi_types::CueEvent> of(std::vector<navvi_types::CueEvent> events,
+                                                      bool heard);
+
+ private:
+  std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
+};
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,73 @@
+#include "person/settings_saver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace navvi_feedback::person {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Config {
+  int rate = 220;
+  int volume = 50;
+  void describe(navvi_config::Visitor& visit) {
+    visit(rate, "rate", navvi_config::Range{80.0, 449.0}, "words/min", "rate of speech");
+    visit(volume, "volume", navvi_config::Range{0.0, 100.0}, "%", "volume of speech");
+  }
+};
+
+class SettingsSaverTest : public testing::Test {
+ protected:
+  SettingsSaverTest() {
+    fs::remove_all(folder_);
+    setenv("NAVVI_PEOPLE", folder_.c_str(), 1);
+  }
+  ~SettingsSaverTest() override { fs::remove_all(folder_); }
+  static PersonFile anna() { return PersonFile::of<Config>("anna"); }
+
+  const fs::path folder_ = fs::path(testing::TempDir()) / "navvi_people" / "of_a_saver";
+};
+
+TEST_F(SettingsSaverTest, saves_all_there_is_before_the_end) {
+  SettingsSaver saver(anna());
+  saver.save("rate:=300");
+  EXPECT_TRUE(saver.update().empty());
+  saver.save("rate:=310");  // while the first is being written
+  saver.save("volume:=80");
+  EXPECT_TRUE(saver.finish().empty());
+  EXPECT_EQ(anna().load()["rate"].as<int>(), 310);
+  EXPECT_EQ(anna().load()["volume"].as<int>(), 80);
+}
+
+TEST_F(SettingsSaverTest, without_a_file_says_once_that_nothing_is_kept) {
+  SettingsSaver saver(std::nullopt);
+  EXPECT_TRUE(saver.update().empty());
+  saver.save("rate:=300");
+  const std::vector<SettingsSaver::Failure> failures = saver.update();
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_EQ(failures[0].cue, "settings_not_kept");
+  saver.save("rate:=310");
+  EXPECT_TRUE(saver.finish().empty());
+}
+
+TEST_F(SettingsSaverTest, tells_what_cannot_be_written) {
+  fs::create_directories(folder_.parent_path());
+  std::ofstream(folder_) << "a file where the folder should be";
+  SettingsSaver saver(anna());
+  saver.save("rate:=300");
+  const std::vector<SettingsSaver::Failure> failures = saver.finish();
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_EQ(failures[0].cue, "settings_not_saved");
+  EXPECT_NE(failures[0].detail.find(folder_.string()), std::string::npos) << failures[0].detail;
+}
+
+}  // namespace
+}  // namespace navvi_feedback::person
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
