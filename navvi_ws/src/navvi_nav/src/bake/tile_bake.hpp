@@ -1,39 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "map/floor.hpp"
-#include "mesh/mesh.hpp"
+#include "bake/tile_cells.hpp"
 
 namespace navvi_nav::bake {
 
-/// The open cells of one square tile.
-struct TileCells {
-  map::Cell origin;  ///< lower cell
-  int size = 0;      ///< cells along a side
-  /// Row by row, 1: open. A border of one cell around the tile is looked at too: (size + 2)^2.
-  std::vector<std::uint8_t> open;
-  /// Parts of the tile, smallest_part(size) cells wide, of which finer cells are known: those
-  /// count.
-  std::vector<TileCells> fine;
-
-  [[nodiscard]] bool operator==(const TileCells& other) const {
-    return origin.x == other.origin.x && origin.y == other.origin.y && size == other.size &&
-           open == other.open && fine == other.fine;
-  }
-};
-
 /// Cells along the side of a tile that was quartered as often as it can be; 8 at least.
 [[nodiscard]] int smallest_part(int size);
-
-struct BakeConfig {
-  double contour_error = 1.0;  ///< cells by which a wall may be drawn nearer to smooth it
-  int max_edge = 0;            ///< cells, longer walls are split; 0: never
-  int max_corners = 12;        ///< of a polygon, 3 to 12
-  int merge_region = 400;      ///< cells, smaller watershed regions join a neighbour
-  int grow = 0;                ///< steps, at most half a cell: every wall moves out by so much
-};
 
 /// What Recast makes of a tile (R-NAV-3): watershed regions, contours, convex polygons. (Recast
 /// cuts ears and merges, it makes no constrained Delaunay triangulation.)
