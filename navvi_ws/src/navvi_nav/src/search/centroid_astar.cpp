@@ -34,9 +34,9 @@ bool lies_on(Point point, const mesh::Interval& portal) {
 
 }  // namespace
 
-Corridor centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
-                        const mesh::Mesh::Place& goal, double alpha) {
-  Corridor out;
+Found centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
+                     const mesh::Mesh::Place& goal, double alpha) {
+  Found out;
   std::vector<Node> nodes(mesh.polygons.size());
   const auto at = [&nodes](int polygon) -> Node& {
     return nodes[static_cast<std::size_t>(polygon)];
@@ -74,13 +74,16 @@ Corridor centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
     }
   }
   if (!out.found) return out;
+  std::vector<mesh::Interval> portals;
   for (int index = goal.polygon; index != start.polygon; index = at(index).parent) {
     const Node& node = at(index);
     const mesh::Portal& portal =
         mesh.polygon(node.parent).portals[static_cast<std::size_t>(node.portal)];
-    out.portals.push_back({mesh.at(portal.right), mesh.at(portal.left)});
+    portals.push_back({mesh.at(portal.right), mesh.at(portal.left)});
   }
-  std::reverse(out.portals.begin(), out.portals.end());
+  std::reverse(portals.begin(), portals.end());
+  out.path = funnel(start.point, goal.point, portals);
+  out.length = length_of(out.path);
   return out;
 }
 

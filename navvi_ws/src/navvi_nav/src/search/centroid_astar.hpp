@@ -3,21 +3,15 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "search/found.hpp"
 
 namespace navvi_nav::search {
 
-/// The portals from start to goal, or none.
-struct Corridor {
-  bool found = false;
-  std::vector<mesh::Interval> portals;  ///< that are crossed; none if one polygon holds both
-  std::size_t nodes_expanded = 0;
-};
-
 /// A* on graph G (R-NAV-6): nodes are polygon centroids, edges join neighbours, and
 /// f = g + alpha * Euclidean distance to the goal. With alpha <= 1 the heuristic is admissible and
-/// consistent on G. Ties go to the smaller index, so repeats are equal.
-[[nodiscard]] Corridor centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
-                                      const mesh::Mesh::Place& goal, double alpha);
+/// consistent on G. Ties go to the smaller index, so repeats are equal. The path is the funnel's.
+[[nodiscard]] Found centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
+                                   const mesh::Mesh::Place& goal, double alpha);
 
 /// The shortest polyline from `start` to `goal` that crosses each portal in order (R-NAV-7).
 /// Simple Stupid Funnel, after Mononen, "Simple Stupid Funnel Algorithm", 2010; linear in the

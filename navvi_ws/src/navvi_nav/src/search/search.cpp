@@ -7,11 +7,7 @@ namespace navvi_nav::search {
 const Found& Search::find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
                           const mesh::Mesh::Place& goal) {
   if (method_ == SearchMethod::exact) return find_at({}, mesh, start, goal);
-  const Corridor corridor = centroid_astar(mesh, start, goal, alpha_);
-  found_.found = corridor.found;
-  found_.nodes_expanded = corridor.nodes_expanded;
-  found_.path = corridor.found ? funnel(start.point, goal.point, corridor.portals) : Path{};
-  found_.length = length_of(found_.path);
+  found_ = centroid_astar(mesh, start, goal, alpha_);
   return found_;
 }
 

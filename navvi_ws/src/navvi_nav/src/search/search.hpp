@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cstddef>
-
 #include "mesh/mesh.hpp"
+#include "search/found.hpp"
 #include "search/polyanya.hpp"
 
 namespace navvi_nav::search {
@@ -10,13 +9,6 @@ namespace navvi_nav::search {
 enum class SearchMethod {
   exact,           ///< the shortest path: Polyanya
   centroid_astar,  ///< the paper's: A* on centroids, then the funnel (R-NAV-6, R-NAV-7)
-};
-
-struct Found {
-  bool found = false;
-  Path path;            ///< from start to goal; one point if they are the same
-  double length = 0.0;  ///< m
-  std::size_t nodes_expanded = 0;
 };
 
 /// Finds paths between places on a mesh. Keeps its memory: the exact method allocates nothing once

@@ -103,17 +103,17 @@ TEST(Mesh, locates_the_nearest_point_within_reach_only) {
 TEST(Search, from_a_triangle_to_itself_crosses_nothing) {
   const mesh::Mesh mesh = corner_mesh(2);
   const auto place = mesh.locate({0.6, 0.3}, 0.0);
-  const Corridor corridor = centroid_astar(mesh, *place, *place, 1.0);
-  EXPECT_TRUE(corridor.found);
-  EXPECT_TRUE(corridor.portals.empty());
-  EXPECT_EQ(corridor.nodes_expanded, 1U);
+  const Found found = centroid_astar(mesh, *place, *place, 1.0);
+  EXPECT_TRUE(found.found);
+  EXPECT_EQ(found.path, Path{place->point});
+  EXPECT_EQ(found.nodes_expanded, 1U);
 }
 
 TEST(Search, tells_that_nothing_joins_two_triangles) {
   const mesh::Mesh mesh = mesh::join({triangle(0, 0, 1, 0, 0, 1), triangle(5, 5, 6, 5, 5, 6)}, 1.0);
-  const Corridor corridor =
+  const Found found =
       centroid_astar(mesh, *mesh.locate({0.2, 0.2}, 0.0), *mesh.locate({5.2, 5.2}, 0.0), 1.0);
-  EXPECT_FALSE(corridor.found);
+  EXPECT_FALSE(found.found);
 }
 
 TEST(Search, takes_the_shorter_way_round_a_block) {
