@@ -61,6 +61,12 @@ bool moves(const Utterance& told) {
          thing == ThingClass::pallet_robot;
 }
 
+/// That there is another route, which explains the next direction.
+bool new_route(const std::string& kind) {
+  return kind == "rerouted" || kind == "rerouted_blocked" || kind == "new_route" ||
+         kind == "way_blocked";
+}
+
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
   return {{}, {}, thing, side_of(point)};
 }
@@ -321,6 +327,7 @@ void CuePolicy::forget(const CueEvent& event) {
   phrasing_.forget(event);
   near_.unsaid(event.kind);
   if (family == Family::way || family == Family::route) route_.unsaid();
+  if (new_route(event.kind)) route_.route_unsaid();
   if (event.kind == answered_) question_ = asked_;
 }
 
@@ -339,8 +346,10 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     if (event.stage == CueStage::started) halt_.heard(time_);
     if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();
   }
-  for (const CueEvent& event : events)
-    if (event.stage == CueStage::dropped && !replaced(event.kind)) forget(event);
+  for (const CueEvent& event : events) {
+    const bool cut = event.stage == CueStage::cut && new_route(event.kind);
+    if (cut || (event.stage == CueStage::dropped && !replaced(event.kind))) forget(event);
+  }
 }
 
 }  // namespace navvi_feedback::cues

@@ -239,6 +239,19 @@ TEST_F(CuePolicyTest, nothing_cuts_the_word_to_stop_and_the_way_on_follows_it) {
   EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"});
 }
 
+TEST_F(CuePolicyTest, says_once_more_that_the_route_is_new_if_that_was_cut) {
+  under_way();
+  now_.guidance->waypoint = {0.0, 5.0};
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = -M_PI / 2.0;
+  now_.guidance->waypoint_distance = 5.0;
+  now_.guidance->reroutes = 1;
+  EXPECT_EQ(pass(1.0), Texts{"new route, 9 o'clock, 5 meters"});
+  policy_.note({{1, CueStage::started, last_.kind, last_.text}});
+  EXPECT_EQ(pass(0.5), Texts{});
+  policy_.note({{1, CueStage::cut, last_.kind, last_.text}});
+  EXPECT_EQ(pass(0.5), Texts{"new route, 9 o'clock, 5 meters"});
+}
+
 TEST_F(CuePolicyTest, says_that_the_map_is_too_old) {
   under_way();
   now_.guidance->state = Guidance::State::map_stale;

@@ -256,6 +256,12 @@ void RouteCues::unsaid() {
   made_room_ = ahead_told_ = false;
 }
 
+void RouteCues::route_unsaid() {
+  --reroutes_;
+  pending_ = Change::reroute;
+  if (!by_sound_) said_hour_.reset();
+}
+
 /// Who has just heard of what is ahead is not told to drive at it.
 bool RouteCues::quiet(const Situation& now, double time) const {
   if (!config_.join || !reminder_ || time >= *reminder_ + kStillAhead) return false;

@@ -42,6 +42,8 @@ class RouteCues {
   void forget();
   /// What was said of the way was dropped: it is said anew, as it is then.
   void unsaid();
+  /// Likewise that the route is new.
+  void route_unsaid();
 
   /// Straight ahead would lead into something near, or along it.
   [[nodiscard]] bool leads_off() const { return leads_off_; }
