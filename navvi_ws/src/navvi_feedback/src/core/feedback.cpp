@@ -155,7 +155,9 @@ NearNow Feedback::near_now(double time) const {
   const bool fresh = nearby_.link(time, config_.stale) == cues::Link::alive &&
                      motion_.link(time, config_.stale) != cues::Link::lost &&
                      !(arrived && config_.haptics.rest_at_goal);
-  return {nearby_.value.value_or(std::vector<NearThing>{}), fresh, off_course(time)};
+  const bool asked = others_.link(time, config_.stale) == cues::Link::alive;
+  return {nearby_.value.value_or(std::vector<NearThing>{}), fresh, off_course(time),
+          asked ? *others_.value : haptics::Rumble{}};
 }
 
 SoundsNow Feedback::sounds_now(const Input& input, double time) const {

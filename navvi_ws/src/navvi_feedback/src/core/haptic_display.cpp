@@ -1,5 +1,6 @@
 #include "core/haptic_display.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -93,7 +94,9 @@ haptics::Rumble HapticDisplay::update(const NearNow& near, const lessons::Taught
   if (const auto pattern = patterns_.update(dt))
     return {config_.strength * pattern->left, config_.strength * pattern->right};
   const double share = urgent ? config_.duck : 1.0;
-  return {share * felt.left, share * felt.right};
+  const double others = config_.enabled ? config_.strength : 0.0;
+  return {share * std::max(felt.left, others * near.others.left),
+          share * std::max(felt.right, others * near.others.right)};
 }
 
 }  // namespace navvi_feedback::core

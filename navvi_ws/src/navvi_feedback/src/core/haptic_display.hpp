@@ -14,6 +14,7 @@ struct NearNow {
   std::vector<NearThing> things;
   bool fresh = false;                ///< they are known, and to be felt
   std::optional<double> off_course;  ///< rad, clockwise from the nose to where to steer
+  haptics::Rumble others;            ///< what other programs want to be felt
 };
 
 /// What the hands feel: what is near, and patterns above it.

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "devices/input_source.hpp"
+#include "devices/virtual_pad.hpp"
 
 // A device is its own clock: these tests wait, each for an event with a deadline.
 
@@ -29,63 +30,6 @@ bool eventually(const std::function<bool()>& condition,
   }
   return condition();
 }
-
-/// A DualSense in memory, and what its motors were told.
-class VirtualPad {
- public:
-  explicit VirtualPad(bool has_rumble = true) {
-    SDL_VirtualJoystickDesc desc = {};
-    desc.version = SDL_VIRTUAL_JOYSTICK_DESC_VERSION;
-    desc.type = SDL_JOYSTICK_TYPE_GAMECONTROLLER;
-    desc.naxes = SDL_CONTROLLER_AXIS_MAX;
-    desc.nbuttons = SDL_CONTROLLER_BUTTON_MAX;
-    desc.vendor_id = 0x054c;
-    desc.product_id = 0x0ce6;
-    desc.name = "virtual pad";
-    desc.userdata = this;
-    if (has_rumble) desc.Rumble = &VirtualPad::on_rumble;
-    const int index = SDL_JoystickAttachVirtualEx(&desc);
-    EXPECT_GE(index, 0) << SDL_GetError();
-    joystick_ = SDL_JoystickOpen(index);
-    EXPECT_NE(joystick_, nullptr);
-    instance_ = SDL_JoystickInstanceID(joystick_);
-  }
-  ~VirtualPad() {
-    detach();
-    SDL_JoystickClose(joystick_);
-  }
-  VirtualPad(const VirtualPad&) = delete;
-  VirtualPad& operator=(const VirtualPad&) = delete;
-
-  void detach() {
-    for (int index = 0; index < SDL_NumJoysticks(); ++index) {
-      if (SDL_JoystickGetDeviceInstanceID(index) == instance_) SDL_JoystickDetachVirtual(index);
-    }
-  }
-  void stick(double x, double y) {
-    SDL_JoystickSetVirtualAxis(joystick_, SDL_CONTROLLER_AXIS_LEFTX, raw(x));
-    SDL_JoystickSetVirtualAxis(joystick_, SDL_CONTROLLER_AXIS_LEFTY, raw(y));
-  }
-  void press(int button, bool down) {
-    SDL_JoystickSetVirtualButton(joystick_, button, down ? 1 : 0);
-  }
-  [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
-  [[nodiscard]] int left() const { return left_; }
-  [[nodiscard]] int right() const { return right_; }
-
- private:
-  static Sint16 raw(double value) { return static_cast<Sint16>(std::lround(value * 32767.0)); }
-  static int on_rumble(void* self, Uint16 low, Uint16 high) {
-    static_cast<VirtualPad*>(self)->left_ = low;
-    static_cast<VirtualPad*>(self)->right_ = high;
-    return 0;
-  }
-
-  SDL_Joystick* joystick_ = nullptr;
-  SDL_JoystickID instance_ = -1;
-  std::atomic<int> left_{-1};
-  std::atomic<int> right_{-1};
-};
 
 class GamepadWith : public testing::Test {
  protected:

@@ -99,6 +99,18 @@ class FeedbackNode {
       listen<sensor_msgs::Joy>(
           "joy", 1, [this](const drive::InputState& joy) { source_.receive(joy, now()); });
     }
+    if (config_.others_rumble && source_.pad() != nullptr) {
+      using Wish = ros::MessageEvent<const sensor_msgs::JoyFeedbackArray>;
+      const boost::function<void(const Wish&)> feel = [this](const Wish& wish) {
+        if (wish.getPublisherName() == ros::this_node::getName()) return;
+        if (const auto rumble = from_msg(*wish.getConstMessage(), config_.motors))
+          feedback_.take(*rumble, now());
+        else
+          ROS_WARN_THROTTLE(5.0, "A message on joy/set_feedback is malformed and was dropped.");
+      };
+      subscribers_.push_back(node_.subscribe<sensor_msgs::JoyFeedbackArray>(
+          "joy/set_feedback", 10, feel, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+    }
     if (source_.kind() == devices::InputSource::Kind::keyboard) {
       // Without a stick in it, the keys are lost.
       subscribers_.push_back(node_.subscribe<sensor_msgs::Joy>(

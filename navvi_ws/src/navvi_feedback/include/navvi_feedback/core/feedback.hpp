@@ -106,6 +106,8 @@ class Feedback {
   /// Whoever has set it. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   void take(const Contact& contact) { contacts_.push_back(contact); }
+  /// What another program wants to be felt, until it is stale.
+  void take(const haptics::Rumble& others, double time) { others_ = {others, time}; }
   /// What the person can set, by parameter.
   void take_settings(const std::map<std::string, std::string>& values);
   /// From now on, as far as the person can set it: touch, sounds and wording.
@@ -160,6 +162,7 @@ class Feedback {
 
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;
+  Latest<haptics::Rumble> others_;
   std::optional<DriveState::State> gate_;
   bool intruder_ = false;  ///< that gate ignores another node's commands
   TrialState trial_;

@@ -22,6 +22,10 @@ namespace navvi_feedback::node {
 /// is the other way round. \param driver  one of these names
 [[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble,
                                                          const std::string& driver = "joy_node");
+/// What it wants to be felt: a motor that it does not name rests. Forces out of [0, 1] are
+/// rejected.
+[[nodiscard]] std::optional<haptics::Rumble> from_msg(const sensor_msgs::JoyFeedbackArray& msg,
+                                                      const std::string& driver);
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
 /// arrival tells it.
 [[nodiscard]] std::optional<std::string> last_words(const navvi_msgs::TrialEvent& msg);
