@@ -21,8 +21,8 @@ def navvi(*words, **environment):
 
 
 def sentences(result):
-    """What was said beside the result, but for how far a build is."""
-    return [line for line in result.stderr.splitlines() if not line.startswith("navvi: building:")]
+    """What was said beside the result, but for how far a build is, or another test's."""
+    return [line for line in result.stderr.splitlines() if not line.startswith(("navvi: building:", "navvi: waiting for another build"))]
 
 
 def test_shell_scripts_are_clean():
