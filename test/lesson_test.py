@@ -41,6 +41,20 @@ def env(master):
     return {key: value for key, value in master.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
 
 
+@pytest.fixture
+def desktop(env):
+    """With a display and a window manager."""
+    display = Display()
+    env = dict(env, DISPLAY=display.name)
+    windows = subprocess.Popen(["openbox"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield env
+    finally:
+        windows.terminate()
+        windows.wait()
+        display.close()
+
+
 def sound_of(tmp_path):
     """Where what is heard is written to, and how the mixer is told so."""
     (tmp_path / "alsoft").write_text(f"[general]\ndrivers = wave\n[wave]\nfile = {tmp_path}/sound.wav\n")
@@ -56,20 +70,6 @@ def test_the_glossary_is_understood_and_ended_at_will(env, tmp_path):
     heard = " ".join(" ".join(words) for _, words in hearing.transcribe(begin, told=True))
     for words in "here is each signal", "arrow down for the next one", "on the left":
         assert words in heard, heard
-
-
-@pytest.fixture
-def desktop(env):
-    """With a display and a window manager."""
-    display = Display()
-    env = dict(env, DISPLAY=display.name)
-    windows = subprocess.Popen(["openbox"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        yield env
-    finally:
-        windows.terminate()
-        windows.wait()
-        display.close()
 
 
 def test_the_glossary_is_given_in_spanish_by_keys_and_without_motors(desktop, tmp_path):
@@ -92,9 +92,11 @@ def test_the_glossary_is_given_from_the_first_signal_to_the_last(env, tmp_path):
         assert f"'{signal}'" in kinds
 
 
-def test_the_tutorial_is_passed_by_doing_and_practises_what_went_wrong(env, tmp_path):
+@pytest.mark.parametrize("hands", ["auto", "keyboard"])
+def test_the_tutorial_is_passed_by_doing_and_practises_what_went_wrong(request, env, tmp_path, hands):
     record = tmp_path / "tutorial.csv"
-    lines, kinds = give(env, tmp_path, "tutorial", "live.launch", "operator:=auto", "world:=training", "start:=-6.5,-5,1.57", "goal:=0.2,-1",
+    env = env if hands == "auto" else request.getfixturevalue("desktop")
+    lines, kinds = give(env, tmp_path, "tutorial", "live.launch", f"operator:={hands}", "world:=training", "start:=-6.5,-5,1.57", "goal:=0.2,-1",
                         "speech:=false", "rviz:=false", f"out:={tmp_path}", "once:=false", "limit:=300",
                         f"feedback_parameters:={{listener: topic, record: {record}}}")
     with open(record) as file:
@@ -118,3 +120,11 @@ def test_a_calibration_is_saved_for_the_person_and_the_pad(env, tmp_path):
     name, left, right, gain = saved["haptics"]["pads"][0].split()
     assert 0.08 < float(left) < 0.17 and 0.16 < float(right) < 0.33 and 0.4 < float(gain) < 0.56
     assert 0.35 < saved["sounds"]["turn"]["stopping_delay"] < 0.9
+
+
+def test_a_calibration_by_keys_finds_how_early_a_turn_is_to_end(desktop, tmp_path):
+    _, kinds = give(desktop, tmp_path, "calibrate", "lesson.launch", "operator:=keyboard", "feedback_parameters:={listener: topic, person: anna}", "speech:=false",
+                    NAVVI_PEOPLE=str(tmp_path))
+    assert "'calibrate_no_motors'" in kinds
+    saved = yaml.safe_load((tmp_path / "anna.yaml").read_text())
+    assert "haptics" not in saved and 0.35 < saved["sounds"]["turn"]["stopping_delay"] < 0.9

@@ -20,6 +20,7 @@ class Pupil:
         self.keys = keys
         self.begun, self.axes, self.down, self.motors = time.monotonic(), [0.0, 0.0], None, (0.0, 0.0)
         self.last, self.sound, self.silent_since, self.speaking = "", "", 0.0, False
+        self.sides, self.held = (0.0, 0.0), set()
         self.kinds, self.felt, self.signals = [], set(), 0
         self.hand = None
         if not keys:
@@ -51,7 +52,7 @@ class Pupil:
         elif cue.stage == Cue.STARTED and cue.modality == Cue.SOUND:
             if cue.kind != self.sound:
                 self.tell(f"({cue.kind})")
-            self.sound = cue.kind
+            self.sound, self.sides = cue.kind, (cue.left, cue.right)
             self.kinds.append(cue.kind)
         elif cue.modality == Cue.SPEECH and cue.stage in (Cue.ENDED, Cue.CUT):
             self.speaking, self.silent_since = False, time.monotonic()
@@ -81,7 +82,16 @@ class Pupil:
 
     def push(self, x, y):
         self.tell(f"[stick {x} {y}]")
-        self.axes = [x, y]
+        self.hold_keys(x, y) if self.keys else setattr(self, "axes", [x, y])
+
+    def hold_keys(self, left, forward):
+        wanted = {key for key, on in (("Left", left > 0.3), ("Right", left < -0.3), ("Up", forward > 0.3), ("Down", forward < -0.3)) if on}
+        if 0.3 < abs(left) < 0.7:
+            wanted.add("Shift")
+        words = [word for key in self.held - wanted for word in ("keyup", key)] + [word for key in wanted - self.held for word in ("keydown", key)]
+        self.held = wanted
+        if words:
+            subprocess.run(["xdotool", *words], check=True, timeout=10)
 
     def glossary(self, signals=99):
         """To the end, or ends it after so many."""
@@ -108,7 +118,7 @@ class Pupil:
             self.sound = ""
             if step in ("well", "done"):
                 break
-            if step in ("good", "practice", "buttons") or step.startswith("wrong"):
+            if step in ("good", "practice", "buttons", "keys") or step.startswith("wrong"):
                 time.sleep(0.05)
                 continue
             if step == "goal":
@@ -116,9 +126,9 @@ class Pupil:
             elif step.startswith("press_"):
                 self.press(step.replace("press_", ""))
             elif step.startswith("near_"):
-                self.until(lambda: max(self.motors) > 0.2, 10, "something is felt")
+                self.until(lambda: max(self.motors) > 0.2 or self.sound, 10, "something is felt or sounds")
                 time.sleep(0.3)
-                left, right = self.motors
+                left, right = self.sides if self.keys else self.motors
                 self.push(1.0 if left > 2 * right else -1.0 if right > 2 * left else 0.0, 1.0 if max(left, right) < 2 * min(left, right) else 0.0)
                 time.sleep(0.5)
             elif step.startswith("turn_"):
@@ -134,10 +144,15 @@ class Pupil:
             self.push(0.0, 0.0)
             self.until(lambda: self.last != f"tutorial_{step}", 30, f"something is told after {step}")
 
+    def steer(self, axes):
+        if self.keys:
+            self.hold_keys(*axes)
+        self.hand = axes
+
     def to_the_goal(self):
         follows = [True]
         operator = subprocess.Popen(["rosrun", "navvi_study", "operator_node", "joy:=hand", "__name:=operator_node"])
-        subscriber = rospy.Subscriber("/hand", Joy, lambda hand: setattr(self, "hand", hand.axes if follows else None), queue_size=1, tcp_nodelay=True)
+        subscriber = rospy.Subscriber("/hand", Joy, lambda hand: self.steer(hand.axes if follows else [0.0, 0.0]), queue_size=1, tcp_nodelay=True)
         try:
             self.press("start")
             self.until(lambda: "arrived" in self.kinds, 200, "the goal is reached")
