@@ -2,6 +2,7 @@
 
 #include <octomap/octomap.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <unordered_set>
@@ -19,6 +20,34 @@ octomap::point3d to_octomap(const Eigen::Vector3d& point) {
   return octomap::point3d(static_cast<float>(point.x()), static_cast<float>(point.y()),
                           static_cast<float>(point.z()));
 }
+
+/// The voxels of a box, each taken once.
+class Once {
+ public:
+  Once(const octomap::OcTreeKey& least, const octomap::OcTreeKey& most)
+      : least_(least),
+        size_{most[0] - least[0] + std::size_t{1}, most[1] - least[1] + std::size_t{1},
+              most[2] - least[2] + std::size_t{1}},
+        taken_(size_[0] * size_[1] * size_[2]) {}
+
+  /// False if it was taken before, or is not in the box.
+  [[nodiscard]] bool take(const octomap::OcTreeKey& key) {
+    std::size_t at = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      const auto along = static_cast<std::size_t>(key[i] - least_[i]);  // huge where negative
+      if (along >= size_[i]) return false;
+      at = at * size_[i] + along;
+    }
+    const bool first = !taken_[at];
+    taken_[at] = true;
+    return first;
+  }
+
+ private:
+  octomap::OcTreeKey least_;
+  std::array<std::size_t, 3> size_;
+  std::vector<bool> taken_;
+};
 
 }  // namespace
 
@@ -53,11 +82,18 @@ struct LocalMap::Trees {
     return {static_cast<octomap::key_type>(key >> 32), static_cast<octomap::key_type>(key >> 16),
             static_cast<octomap::key_type>(key)};
   }
-  template <typename Update>
-  void update(const octomap::OcTreeKey& key, Update by) {
-    if (seen.isNodeOccupied(seen.updateNode(key, by, true)))
+  /// \param by  log-odds
+  void update(const octomap::OcTreeKey& key, float by) {
+    octomap::OcTreeNode* node = seen.search(key);
+    const float before = node ? node->getLogOdds() : 0.0F;
+    if (node && by < 0.0F && before <= seen.getClampingThresMinLog()) return;
+    if (node)
+      seen.updateNodeLogOdds(node, by);  // without a second way down the tree
+    else
+      node = seen.updateNode(key, by, true);
+    if (seen.isNodeOccupied(node))
       occupied.insert(packed(key));
-    else if (!occupied.empty())
+    else if (before >= seen.getOccupancyThresLog())
       occupied.erase(packed(key));
   }
 };
@@ -119,23 +155,39 @@ void LocalMap::widen_prior() {
 }
 
 void LocalMap::insert(const sight::Sight& sight) {
-  octomap::Pointcloud cloud;
-  for (const auto* ends : {&sight.hits, &sight.clear})
-    for (const Eigen::Vector3d& end : *ends) cloud.push_back(to_octomap(end));
-  const octomap::point3d origin = to_octomap(sight.origin);
-  octomap::KeySet free, occupied;
-  trees_->seen.computeDiscreteUpdate(cloud, origin, free, occupied, config_.bound);
+  // What OcTree::insertPointCloud does, whose hash sets would take most of the time.
+  const Eigen::Vector3d reach(config_.bound, config_.bound, 0.0);
+  Eigen::Vector3d low = sight.origin - reach, high = sight.origin + reach;
+  low.z() = std::min(sight.origin.z(), config_.floor - 0.5 * config_.resolution);
+  high.z() = std::max(sight.origin.z(), config_.floor + config_.high);
+  octomap::OcTree& seen = trees_->seen;
+  octomap::OcTreeKey key, least, most;
+  if (!seen.coordToKeyChecked(to_octomap(low), least) ||
+      !seen.coordToKeyChecked(to_octomap(high), most))
+    return;
+  Once once(least, most);
+  std::vector<octomap::point3d> ends;
   octomap::KeySet hit;
-  for (const Eigen::Vector3d& end : sight.hits) {
-    octomap::OcTreeKey key;
-    if (matters(end) && prior_at(column_of(end.head<2>())) < kNear &&
-        trees_->seen.coordToKeyChecked(to_octomap(end), key) &&
-        (end - sight.origin).norm() <= config_.bound)
-      hit.insert(key);
+  for (const auto* part : {&sight.hits, &sight.clear})
+    for (const Eigen::Vector3d& end : *part) {
+      const Eigen::Vector3d way = end - sight.origin;
+      const double rise = (way.z() > 0.0 ? high : low).z() - sight.origin.z();
+      const double share =
+          std::min(config_.bound / way.norm(), way.z() == 0.0 ? 1.0 : rise / way.z());
+      const octomap::point3d there = to_octomap(sight.origin + std::min(share, 1.0) * way);
+      key = seen.coordToKey(there);
+      if (share >= 1.0 && part == &sight.hits && matters(end) &&
+          prior_at(column_of(end.head<2>())) < kNear)
+        hit.insert(key);
+      if (share < 1.0 || once.take(key)) ends.push_back(there);
+    }
+  octomap::KeyRay ray;
+  for (const octomap::point3d& end : ends) {
+    if (!seen.computeRayKeys(to_octomap(sight.origin), end, ray)) continue;
+    for (const octomap::OcTreeKey& passed : ray)
+      if (once.take(passed)) trees_->update(passed, seen.getProbMissLog());
   }
-  for (const octomap::OcTreeKey& key : free)
-    if (hit.count(key) == 0) trees_->update(key, false);
-  for (const octomap::OcTreeKey& key : hit) trees_->update(key, true);
+  for (const octomap::OcTreeKey& met : hit) trees_->update(met, seen.getProbHitLog());
   if (static_cast<double>(sight.stamp - faded_) * 1e-9 >= kFadeEach || sight.stamp < faded_)
     fade(sight);
 }
