@@ -49,6 +49,31 @@ class Once {
   std::vector<bool> taken_;
 };
 
+/// OcTree::search, which begins where the last one ended: those of a ray are near each other.
+class Path {
+ public:
+  /// nullptr if no voxel is kept there. \param tree  since the first find() none of its nodes went
+  [[nodiscard]] octomap::OcTreeNode* find(const octomap::OcTree& tree,
+                                          const octomap::OcTreeKey& key) {
+    const int apart = (key[0] ^ last_[0]) | (key[1] ^ last_[1]) | (key[2] ^ last_[2]);
+    while (depth_ > 0 && apart >> (kDepth - depth_) != 0) --depth_;
+    last_ = key;
+    nodes_[0] = tree.getRoot();
+    for (; nodes_[0] && depth_ < kDepth; ++depth_) {
+      const unsigned child = octomap::computeChildIdx(key, kDepth - 1 - depth_);
+      if (!tree.nodeChildExists(nodes_[depth_], child)) return nullptr;
+      nodes_[depth_ + 1] = tree.getNodeChild(nodes_[depth_], child);
+    }
+    return nodes_[depth_];
+  }
+
+ private:
+  static constexpr int kDepth = 16;  // of an octomap::OcTree
+  std::array<octomap::OcTreeNode*, kDepth + 1> nodes_{};
+  int depth_ = 0;  ///< down to which nodes_ leads to last_
+  octomap::OcTreeKey last_{0, 0, 0};
+};
+
 }  // namespace
 
 void MapConfig::describe(navvi_config::Visitor& visit) {
@@ -72,6 +97,7 @@ struct LocalMap::Trees {
   explicit Trees(double resolution) : prior(resolution), seen(resolution) {}
   octomap::OcTree prior;  ///< pruned
   octomap::OcTree seen;   ///< leaves of full depth only
+  Path path;              ///< in `seen`
   /// Of `seen`, and when changed() was last asked.
   std::unordered_set<std::uint64_t> occupied, told;
 
@@ -84,7 +110,7 @@ struct LocalMap::Trees {
   }
   /// \param by  log-odds
   void update(const octomap::OcTreeKey& key, float by) {
-    octomap::OcTreeNode* node = seen.search(key);
+    octomap::OcTreeNode* node = path.find(seen, key);
     const float before = node ? node->getLogOdds() : 0.0F;
     if (node && by < 0.0F && before <= seen.getClampingThresMinLog()) return;
     if (node)
@@ -213,6 +239,7 @@ void LocalMap::fade(const sight::Sight& sight) {
       trees_->occupied.erase(Trees::packed(leaf.getKey()));
   }
   seen.swapContent(kept);
+  trees_->path = {};
 }
 
 Column LocalMap::column_of(const Eigen::Vector2d& place) const {
