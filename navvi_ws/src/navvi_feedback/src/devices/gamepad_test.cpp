@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "devices/input_source.hpp"
-#include "devices/virtual_pad.hpp"
+#include "virtual_pad.hpp"
 
 // A device is its own clock: these tests wait, each for an event with a deadline.
 

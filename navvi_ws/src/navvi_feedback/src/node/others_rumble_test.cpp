@@ -5,9 +5,9 @@
 #include <thread>
 
 #include "devices/gamepad.hpp"
-#include "devices/virtual_pad.hpp"
 #include "navvi_feedback/core/feedback.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
+#include "virtual_pad.hpp"
 
 namespace navvi_feedback::node {
 namespace {
