@@ -106,6 +106,7 @@ void Navigator::reset_times() {
   conflict_ = {};
   sent_.carved.reset();
   if (sent_.since) sent_.since = 0.0;
+  if (map_.sent) map_.sent = 0.0;
 }
 
 /// An arrival or a refusal is still true when the map is old.
@@ -122,13 +123,15 @@ bool Navigator::undecided(double time) const {
 std::optional<plan::PlanRequest> Navigator::update(double time) {
   observation_.update(time);
   const Conflict now = follow_progress(time);
-  if (sent_.since) return std::nullopt;
-  if (map_.new_map || map_.new_grid) {
-    plan::PlanRequest request = send(time, Guidance::Replan::map_changed);
+  if ((map_.new_map || map_.new_grid) && !map_.sent) {
+    map_.sent = sent_.carved = time;
+    plan::PlanRequest request;
+    request.obstacles = observation_.obstacles();
     request.map = std::exchange(map_.new_map, nullptr);
     request.grid = std::exchange(map_.new_grid, nullptr);
     return request;
   }
+  if (sent_.since) return std::nullopt;
   if (const std::optional<Guidance::Replan> reason = decide_replan(time, now)) {
     plan::PlanRequest request = send(time, *reason);
     ask_for_path(request, to_point(pose(time)->position));
@@ -235,9 +238,10 @@ void Navigator::ask_for_path(plan::PlanRequest& request, Point robot) {
 }
 
 void Navigator::deliver(const plan::PlanAnswer& answer, double time) {
-  const std::optional<double> as_of = std::exchange(sent_.since, std::nullopt);
+  const bool of_map = answer.map_taken || !answer.map_error.empty();
+  const std::optional<double> as_of = std::exchange(of_map ? map_.sent : sent_.since, std::nullopt);
   if (answer.map_taken) {
-    map_.changed = goal_.planned;
+    map_.changed = goal_.planned || sent_.since;
     map_.time = as_of;
   }
   if (answer.floor && !answer.floor->empty()) {

@@ -62,7 +62,7 @@ class Navigator {
   void reset_times();
 
   /// Brings everything up to `time`. \returns the next request to the planner, if one is due and
-  /// none is being answered
+  /// none of its kind is being answered: those that bring a map, and all others
   [[nodiscard]] std::optional<plan::PlanRequest> update(double time);
   void deliver(const plan::PlanAnswer& answer, double time);
 
@@ -91,6 +91,7 @@ class Navigator {
     std::shared_ptr<const plan::MapMessage> new_map;
     std::shared_ptr<const map::OccupancyGrid> new_grid;
     bool octomap_came = false;
+    std::optional<double> sent;       ///< s, when the one that is being baked was
     bool changed = false;             ///< since the last plan
     std::optional<double> time;       ///< s, when the map in use came
     std::optional<double> mesh_time;  ///< s, of the moving things in the mesh

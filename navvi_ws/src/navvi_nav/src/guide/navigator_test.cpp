@@ -288,6 +288,29 @@ TEST_F(Lockstep, plans_again_when_the_map_changed) {
   for (const Point point : navigator_.path()) EXPECT_LT(point.y, 6.0);
 }
 
+TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
+  load();
+  navigator_.set_goal({14, 5});
+  world_.box(6, 7, 0, 9, 10, 1.0);
+  navigator_.set_map(message_of(world_));
+  const auto next = [&] {
+    time_ += kTick;
+    navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, time_);
+    return navigator_.update(time_);
+  };
+  const auto map = next();
+  ASSERT_TRUE(map && map->brings_map());
+  const auto asked = next();
+  ASSERT_TRUE(asked && asked->goal);
+  const plan::PlanAnswer on_old = planner_.answer(*asked);
+  navigator_.deliver(planner_.answer(*map), time_);
+  navigator_.deliver(on_old, time_);
+  EXPECT_GT(navigator_.path()[1].y, 7.0);
+  tick(2);
+  EXPECT_EQ(status().replan_reason, Guidance::Replan::map_changed);
+  for (const Point point : navigator_.path()) EXPECT_LT(point.y, 6.0);
+}
+
 TEST_F(Lockstep, survives_time_jumping_back) {
   load();
   navigator_.set_goal({14, 5});

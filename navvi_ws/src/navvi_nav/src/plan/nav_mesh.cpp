@@ -53,7 +53,7 @@ map::SurveyConfig survey_config(const NavMeshConfig& config) {
           config.floor_height, config.threads,      config.robot_radius};
 }
 
-MeshUpdate NavMesh::set_map(map::MapSurvey survey) {
+bake::BakedMap NavMesh::bake(map::MapSurvey survey) const {
   bake::MapBakeConfig how;
   how.margin = margin(survey.cell_size);
   how.reach = config_.preferred_clearance + 2.0 * survey.cell_size;
@@ -63,7 +63,10 @@ MeshUpdate NavMesh::set_map(map::MapSurvey survey) {
   how.max_corners = config_.polygon_corners;
   how.fine_parts = !config_.whole_cell_erosion;
   how.threads = config_.threads;
-  bake::BakedMap baked = bake::bake_map(std::move(survey), how, &baked_);
+  return bake::bake_map(std::move(survey), how, &baked_);
+}
+
+MeshUpdate NavMesh::take(bake::BakedMap baked) {
   if (!baked.error.empty()) return {baked.error, 0, 0, 0};
   const std::shared_ptr<const map::Floor> before = std::exchange(floor_, baked.floor);
   baked_ = std::move(baked);

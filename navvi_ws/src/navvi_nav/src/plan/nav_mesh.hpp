@@ -60,17 +60,26 @@ class NavMesh {
 
   /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
   /// changed keep their polygons.
-  MeshUpdate set_map(map::MapSurvey survey);
-  MeshUpdate set_map(const map::MapBytes& bytes) {
+  /// \param map  anything that bake() takes
+  template <typename Map>
+  MeshUpdate set_map(Map&& map) {
+    return take(bake(std::forward<Map>(map)));
+  }
+  /// The first part of set_map(), nearly all of its time. Another thread may do it while this one
+  /// carves and plans; only one at a time, and take() must follow before the next.
+  [[nodiscard]] bake::BakedMap bake(map::MapSurvey survey) const;
+  [[nodiscard]] bake::BakedMap bake(const map::MapBytes& bytes) const {
     map::MapSurvey survey = map::survey_map(map::read_voxels(bytes), survey_config(config_));
-    return set_map(std::move(survey));  // when the voxels are gone: they are many
+    return bake(std::move(survey));  // when the voxels are gone: they are many
   }
-  MeshUpdate set_map(const map::Voxels& voxels) {
-    return set_map(map::survey_map(voxels, survey_config(config_)));
+  [[nodiscard]] bake::BakedMap bake(const map::Voxels& voxels) const {
+    return bake(map::survey_map(voxels, survey_config(config_)));
   }
-  MeshUpdate set_map(const map::OccupancyGrid& grid) {
-    return set_map(map::read_grid(grid, survey_config(config_)));
+  [[nodiscard]] bake::BakedMap bake(const map::OccupancyGrid& grid) const {
+    return bake(map::read_grid(grid, survey_config(config_)));
   }
+  /// The rest of it.
+  MeshUpdate take(bake::BakedMap baked);
   /// Makes the holes those of `cylinders`: the hole of one whose id is gone heals. One that moved
   /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
   /// `carve_changed` of the carved area changed (R-NAV-5).

@@ -84,10 +84,10 @@ Planner::Planner(const PlannerConfig& config)
               config.alpha),
       smoother_(config.smoothing.attempts) {}
 
-PlanAnswer Planner::answer(const PlanRequest& request) {
+PlanAnswer Planner::answer(const PlanRequest& request, bake::BakedMap baked) {
   PlanAnswer out;
   try {
-    out.mesh = take_map(request);
+    if (request.brings_map()) out.mesh = nav_mesh_.take(std::move(baked));
     out.map_error = out.mesh.error;
     out.map_taken = request.brings_map() && out.map_error.empty();
     carve(joined(request.obstacles, request.predicted));
@@ -109,12 +109,18 @@ PlanAnswer Planner::answer(const PlanRequest& request) {
   return out;
 }
 
-MeshUpdate Planner::take_map(const PlanRequest& request) {
-  if (request.grid) return set_map(*request.grid);
-  if (!request.map) return {};
-  const MapMessage& map = *request.map;
-  return set_map(
-      map::MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution});
+bake::BakedMap Planner::bake(const PlanRequest& request) const {
+  bake::BakedMap failed;
+  try {
+    if (request.grid) return nav_mesh_.bake(*request.grid);
+    if (!request.map) return {};
+    const MapMessage& map = *request.map;
+    return nav_mesh_.bake(
+        map::MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution});
+  } catch (const std::exception& error) {
+    failed.error = error.what();
+  }
+  return failed;
 }
 
 /// Clear of where the obstacles will be, or else of where they are: these are carved then.

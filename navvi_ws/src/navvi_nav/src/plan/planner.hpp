@@ -29,7 +29,14 @@ class Planner {
   /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
   /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
   /// there is room outside of it. No exception leaves it.
-  [[nodiscard]] PlanAnswer answer(const PlanRequest& request);
+  [[nodiscard]] PlanAnswer answer(const PlanRequest& request) {
+    return answer(request, bake(request));
+  }
+  /// Likewise. \param baked  what bake() made of the request
+  [[nodiscard]] PlanAnswer answer(const PlanRequest& request, bake::BakedMap baked);
+  /// Nearly all the work on a request's map, if it brings one: as NavMesh::bake, it may be done
+  /// while another thread has other requests answered. No exception leaves it.
+  [[nodiscard]] bake::BakedMap bake(const PlanRequest& request) const;
 
   /// \param map  anything that NavMesh::set_map takes
   template <typename Map>
@@ -67,7 +74,6 @@ class Planner {
     std::optional<Point> goal = {};   ///< and one to here after it
     bool leaves_hole = false;         ///< the leg from the start
   };
-  [[nodiscard]] MeshUpdate take_map(const PlanRequest& request);
   [[nodiscard]] Plan plan(const PlanRequest& request);
   [[nodiscard]] Plan plan_without_obstacles(const PlanRequest& request, const Plan& blocked);
   [[nodiscard]] Route search(Point start, Point goal) const;

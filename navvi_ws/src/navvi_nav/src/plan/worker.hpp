@@ -10,16 +10,17 @@
 
 namespace navvi_nav::plan {
 
-/// Owns the Planner, and answers one request at a time in another thread.
+/// Owns the Planner, and answers requests in other threads: one at a time, and besides one that
+/// brings a map, so that paths are found on the old mesh while a new one is baked.
 class Worker {
  public:
   /// \param done  called in that thread once an answer can be taken
   Worker(const PlannerConfig& config, std::function<void()> done)
       : done_(std::move(done)), planner_(config) {}
 
-  /// The previous request's answer must have been taken.
+  /// The answer to the previous request of its kind must have been taken.
   void start(PlanRequest request);
-  /// The answer, once.
+  /// An answer, once.
   [[nodiscard]] std::optional<PlanAnswer> take();
   /// Plans in the caller's thread, as Planner::plan_near. \returns nullopt if a request kept the
   /// planner busy for longer than `patience` (s)
@@ -29,8 +30,11 @@ class Worker {
   const std::function<void()> done_;
   std::timed_mutex busy_;  // guards planner_
   Planner planner_;
-  std::future<PlanAnswer> answer_;
-  std::future<void> thread_;  // last: its destructor waits for the thread
+  struct Job {
+    std::future<PlanAnswer> answer;
+    std::future<void> thread;  // its destructor waits for the thread
+  };
+  Job plan_, map_;  // last
 };
 
 }  // namespace navvi_nav::plan
