@@ -48,9 +48,9 @@ std::vector<Contestant> among_discs(Course& course) {
   return {
       ours,
       {"Detour, TileCache's mesh",
-       [&course](const Query& q) { return course.tile_cache_query.locate(q.start, q.goal); },
-       [&course] { return course.tile_cache_query.search(); },
-       [&course](const std::vector<Cylinder>& discs) { course.tile_cache.place(discs); }},
+       [&course](const Query& q) { return course.tile_cache_query->locate(q.start, q.goal); },
+       [&course] { return course.tile_cache_query->search(); },
+       [&course](const std::vector<Cylinder>& discs) { course.tile_cache->place(discs); }},
   };
 }
 

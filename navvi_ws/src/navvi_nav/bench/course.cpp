@@ -1,7 +1,10 @@
 #include "course.hpp"
 
+#include <ctime>
+#include <limits>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 
 #include "octomap_tree.hpp"
 
@@ -33,6 +36,12 @@ std::vector<GridPolygon> grid(const plain::Detour& detour) {
 
 }  // namespace
 
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 Course::Course(Hall hall, std::uint32_t seed)
     : name(hall.name()),
       seed(seed),
@@ -43,8 +52,6 @@ Course::Course(Hall hall, std::uint32_t seed)
       columns(tree),
       detour(columns, config.mesh.robot_radius, config.mesh.robot_height),
       detour_query(detour.mesh()),
-      tile_cache(columns, config.mesh.robot_radius, config.mesh.robot_height, kTile),
-      tile_cache_query(tile_cache.mesh()),
       detours_mesh(mesh::join(grid(detour), tree.getResolution())) {
   ours.set_map(voxels_of(tree));
   carved.set_map(voxels_of(tree));
@@ -54,6 +61,42 @@ Course::Course(Hall hall, std::uint32_t seed)
     Point goal = somewhere(random);
     while (component(goal) != component(start)) goal = somewhere(random);
     queries.push_back({start, goal});
+  }
+  choose_tile();
+  octomap::OcTree with_box(tree);
+  for (double x = -0.5; x < 0.5; x += tree.getResolution())
+    for (double y = -0.5; y < 0.5; y += tree.getResolution())
+      with_box.updateNode(queries[0].start.x + x, queries[0].start.y + y, 0.05, true);
+  changed_bytes = bytes_of(with_box);
+}
+
+void Course::choose_tile() {
+  constexpr int kDiscs = 50;
+  constexpr int kMoves = 20;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int size : {16, 24, 32, 48, 64}) {
+    try {
+      auto cache = std::make_unique<plain::TileCache>(columns, config.mesh.robot_radius,
+                                                      config.mesh.robot_height, size);
+      auto query = std::make_unique<plain::Query>(cache->mesh());
+      std::vector<Cylinder> moved = discs(kDiscs);
+      cache->place(moved);
+      const double begin = now();
+      for (std::size_t i = 0; i < kMoves; ++i) {
+        for (Cylinder& disc : moved) disc.center.x += i % 2 == 0 ? 0.3 : -0.3;
+        cache->place(moved);
+        if (query->locate(queries[i].start, queries[i].goal)) (void)query->search();
+      }
+      const double took = tiles_tried[size] = 1e3 * (now() - begin) / kMoves;
+      cache->place({});
+      if (took >= least) continue;
+      least = took;
+      tile = size;
+      tile_cache_query = std::move(query);
+      tile_cache = std::move(cache);
+    } catch (const std::runtime_error&) {
+      tiles_tried[size] = std::numeric_limits<double>::infinity();
+    }
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,12 +19,14 @@ struct Query {
   Point goal;
 };
 
+/// s, of the processor, by this thread
+[[nodiscard]] double now();
+
 /// One hall with the meshes that are made of it, and what they are asked.
 struct Course {
   static constexpr int kQueries = 500;
   static constexpr double kRoom = 0.65;  ///< m, from the ends of a query to anything
   static constexpr double kNear = 0.5;   ///< m, from such an end to a mesh at most
-  static constexpr int kTile = 32;       ///< cells, TileCache's fastest to change of 32 to 128
 
   /// \param seed  of clutter and queries
   Course(Hall hall, std::uint32_t seed);
@@ -35,18 +39,23 @@ struct Course {
   std::uint32_t seed;
   plan::PlannerConfig config;
   octomap::OcTree tree;
-  std::vector<std::int8_t> bytes;  ///< the tree as octomap_msgs carries it, binary
+  std::vector<std::int8_t> bytes;          ///< the tree as octomap_msgs carries it, binary
+  std::vector<std::int8_t> changed_bytes;  ///< the same with one box more
   plan::Planner ours;
   plan::Planner carved;  ///< the same mesh, to make holes in
   plain::Columns columns;
   plain::Detour detour;
   plain::Query detour_query;
-  plain::TileCache tile_cache;
-  plain::Query tile_cache_query;
+  int tile = 0;  ///< cells, of TileCache's tiles: the fastest
+  std::map<int, double>
+      tiles_tried;  ///< by that size, ms for 50 discs moved and a path; infinite where it fails
+  std::unique_ptr<plain::TileCache> tile_cache;
+  std::unique_ptr<plain::Query> tile_cache_query;
   mesh::Mesh detours_mesh;  ///< the very polygons that Detour searches, for our searches
   std::vector<Query> queries;
 
  private:
+  void choose_tile();
   [[nodiscard]] Point somewhere(std::mt19937& random) const;
   [[nodiscard]] int component(Point point) const;
 };

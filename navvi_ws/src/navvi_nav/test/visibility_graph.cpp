@@ -1,16 +1,19 @@
 #include "visibility_graph.hpp"
 
-#include <limits>
 #include <queue>
 #include <set>
 
 namespace navvi_nav {
 namespace {
 
-constexpr double kNear = 1e-9;  // m
+constexpr double kNear = 1e-9;   // m
+constexpr double kSquare = 2.0;  // m, of the grid in which walls are looked up
 
 /// m, how far `c` lies left of the line from `a` through `b`
 double left_of(Point a, Point b, Point c) { return cross(b - a, c - a) / norm(b - a); }
+
+Point lower(Point a, Point b) { return {std::min(a.x, b.x) - kNear, std::min(a.y, b.y) - kNear}; }
+Point upper(Point a, Point b) { return {std::max(a.x, b.x) + kNear, std::max(a.y, b.y) + kNear}; }
 
 int sign(double value) { return value > kNear ? 1 : value < -kNear ? -1 : 0; }
 
@@ -33,6 +36,24 @@ VisibilityGraph::VisibilityGraph(const mesh::Mesh& mesh) : mesh_(mesh) {
       in[static_cast<std::size_t>(to)].push_back(mesh.at(to) - mesh.at(from));
     }
   }
+  Point low, high;
+  for (const mesh::Vertex& vertex : mesh.vertices) {
+    low = lower(low, vertex.at);
+    high = upper(high, vertex.at);
+  }
+  wall_grid_ = polygon_grid_ = mesh::BoxGrid(low, high, kSquare);
+  for (std::size_t i = 0; i < walls_.size(); ++i)
+    wall_grid_.add(static_cast<int>(i), lower(walls_[i].from, walls_[i].to),
+                   upper(walls_[i].from, walls_[i].to));
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    if (mesh.polygons[i].corners.empty()) continue;
+    low = high = mesh.at(mesh.polygons[i].corners[0]);
+    for (const int corner : mesh.polygons[i].corners) {
+      low = lower(low, mesh.at(corner));
+      high = upper(high, mesh.at(corner));
+    }
+    polygon_grid_.add(static_cast<int>(i), low, high);
+  }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (in[i].empty()) continue;
     // One wall in, one out, and a left turn between them: a nook, where no path turns.
@@ -50,16 +71,18 @@ VisibilityGraph::VisibilityGraph(const mesh::Mesh& mesh) : mesh_(mesh) {
 }
 
 bool VisibilityGraph::inside(Point point) const {
-  for (const mesh::Polygon& polygon : mesh_.polygons) {
+  bool inside = false;
+  polygon_grid_.visit(lower(point, point), upper(point, point), [&](int index) {
+    const mesh::Polygon& polygon = mesh_.polygon(index);
     bool in = polygon.corners.size() > 2;
     for (std::size_t k = 0; in && k < polygon.corners.size(); ++k) {
       const Point a = mesh_.at(polygon.corners[k]);
       const Point b = mesh_.at(polygon.corners[(k + 1) % polygon.corners.size()]);
       in = left_of(a, b, point) >= -kNear;
     }
-    if (in) return true;
-  }
-  return false;
+    inside = inside || in;
+  });
+  return inside;
 }
 
 bool VisibilityGraph::leaves(int vertex, Point direction) const {
@@ -94,19 +117,28 @@ bool VisibilityGraph::visible(Point a, Point b) const {
   };
   std::vector<Touch> touches;
   std::vector<std::pair<double, std::pair<double, bool>>> beside;  // walls along the line
-  for (const Wall& wall : walls_) {
+  bool crossed = false;
+  const auto look = [&](int index) {
+    const Wall& wall = walls_[static_cast<std::size_t>(index)];
     const int from = sign(left_of(a, b, wall.from));
     const int to = sign(left_of(a, b, wall.to));
     if (from * to < 0) {
       const int begin = sign(left_of(wall.from, wall.to, a));
       const int end = sign(left_of(wall.from, wall.to, b));
-      if (begin * end < 0) return false;
+      crossed = crossed || begin * end < 0;
     }
     const double at = dot(wall.from - a, ahead);
     const double on = dot(wall.to - a, ahead);
     if (from == 0) touches.push_back({at, to > 0, to < 0});
     if (to == 0) touches.push_back({on, from > 0, from < 0});
     if (from == 0 && to == 0) beside.push_back({std::min(at, on), {std::max(at, on), on < at}});
+  };
+  const int parts = 1 + static_cast<int>(length / kSquare);
+  for (int i = 0; i < parts; ++i) {
+    const Point begin = a + (static_cast<double>(i) / parts) * (b - a);
+    const Point end = a + (static_cast<double>(i + 1) / parts) * (b - a);
+    wall_grid_.visit(lower(begin, end), upper(begin, end), look);
+    if (crossed) return false;
   }
   std::vector<double> cuts{0.0, length};
   for (const Touch& touch : touches) {
@@ -133,7 +165,7 @@ bool VisibilityGraph::visible(Point a, Point b) const {
 }
 
 std::vector<double> VisibilityGraph::reach(Point from) const {
-  std::vector<double> out(nodes_.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> out(nodes_.size(), kNoWay);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (nodes_[i].at == from ||
         (leaves(nodes_[i].vertex, from - nodes_[i].at) && visible(from, nodes_[i].at)))
@@ -142,32 +174,45 @@ std::vector<double> VisibilityGraph::reach(Point from) const {
   return out;
 }
 
-std::optional<double> VisibilityGraph::distance(const mesh::Mesh::Place& start,
-                                                const mesh::Mesh::Place& goal) {
-  if (mesh_.polygon(start.polygon).component != mesh_.polygon(goal.polygon).component)
-    return std::nullopt;
-  if (visible(start.point, goal.point)) return navvi_nav::distance(start.point, goal.point);
-  std::vector<double> best = reach(start.point);
-  const std::vector<double> rest = reach(goal.point);
+/// As reach(), on along any nodes. \param best  what reach() found
+std::vector<double> VisibilityGraph::by_nodes(std::vector<double> best) const {
   using Open = std::pair<double, int>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   for (std::size_t i = 0; i < best.size(); ++i) {
-    if (std::isfinite(best[i])) open.push({best[i], static_cast<int>(i)});
+    if (best[i] < kNoWay) open.push({best[i], static_cast<int>(i)});
   }
-  double found = std::numeric_limits<double>::infinity();
   while (!open.empty()) {
     const auto [cost, node] = open.top();
     open.pop();
     if (cost > best[static_cast<std::size_t>(node)]) continue;
-    found = std::min(found, cost + rest[static_cast<std::size_t>(node)]);
     for (const auto& [next, away] : nodes_[static_cast<std::size_t>(node)].seen) {
       if (cost + away >= best[static_cast<std::size_t>(next)]) continue;
       best[static_cast<std::size_t>(next)] = cost + away;
       open.push({cost + away, next});
     }
   }
-  if (!std::isfinite(found)) return std::nullopt;
-  return found;
+  return best;
+}
+
+std::vector<std::vector<double>> VisibilityGraph::distances(
+    const std::vector<mesh::Mesh::Place>& places) const {
+  std::vector<std::vector<double>> out, reached;
+  for (const mesh::Mesh::Place& place : places) {
+    const std::vector<double> seen = reach(place.point);
+    const std::vector<double> best = by_nodes(seen);
+    std::vector<double>& row = out.emplace_back();
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      double& found = row.emplace_back(kNoWay);
+      if (mesh_.polygon(place.polygon).component != mesh_.polygon(places[k].polygon).component)
+        continue;
+      if (visible(place.point, places[k].point))
+        found = navvi_nav::distance(place.point, places[k].point);
+      for (std::size_t i = 0; i < best.size(); ++i)
+        found = std::min(found, best[i] + reached[k][i]);
+    }
+    reached.push_back(seen);
+  }
+  return out;
 }
 
 }  // namespace navvi_nav
