@@ -1,4 +1,4 @@
-"""What is installed runs without its sources, and is a package of Debian that lintian takes."""
+"""What is installed runs without its sources, and is a package of Debian that lintian takes; catkin_lint takes the packages of ROS."""
 import os
 import pathlib
 import subprocess
@@ -47,6 +47,14 @@ def test_no_installed_text_names_the_sources(installed):
     texts = [path for path in installed.glob("share/**/*") if path.is_file() and "cmake" not in path.parts]
     assert len(texts) > 50
     assert [path for path in texts if str(ROOT).encode() in path.read_bytes()] == []
+
+
+def test_catkin_lint_finds_nothing():
+    """What it takes for wrong by mistake is named, with the reason, in .catkin_lint."""
+    source = ROOT / "navvi_ws/src"
+    result = subprocess.run(["catkin_lint", "-W2", "--strict", "--offline", str(source)], env=dict(os.environ, ROS_PACKAGE_PATH=str(source)),
+                            text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
+    assert result.returncode == 0, result.stdout
 
 
 def test_the_package_of_debian_is_one_that_lintian_takes(tmp_path):

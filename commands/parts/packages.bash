@@ -14,7 +14,7 @@ packages=(
   "${run_packages[@]}"
   # test and bench
   libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
-  shellcheck xvfb imagemagick sox openbox xdotool lintian
+  shellcheck xvfb imagemagick sox openbox xdotool lintian catkin-lint
   python3-pyatspi dbus-daemon
 )
 

@@ -76,7 +76,7 @@ endfunction()
 # They are parsed once for the rooms of all packages, and once for their tests. The build with
 # sanitizers does without, and so proves that each file includes what it uses.
 if(NOT NAVVI_ODR_CHECK AND NOT TARGET navvi_library_headers
-    AND EXISTS ${CMAKE_CURRENT_LIST_DIR}/precompiled)
+    AND EXISTS "${CMAKE_CURRENT_LIST_DIR}/precompiled")
   add_subdirectory(${CMAKE_CURRENT_LIST_DIR}/precompiled ${CMAKE_BINARY_DIR}/navvi_precompiled)
 endif()
 function(navvi_precompiled_headers target headers)
