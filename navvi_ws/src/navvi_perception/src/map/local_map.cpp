@@ -255,7 +255,7 @@ LocalMap::Prior LocalMap::prior_at(const Column& column) const {
                 static_cast<std::size_t>(x)];
 }
 
-LocalMap::Known LocalMap::at(const Eigen::Vector3d& point) const {
+LocalMap::Known LocalMap::at(const Eigen::Vector3d& point, bool in_plane) const {
   const Prior prior = prior_at(column_of(point.head<2>()));
   octomap::OcTreeKey key;
   if (prior >= kNear) return Known::standing;
@@ -269,7 +269,7 @@ LocalMap::Known LocalMap::at(const Eigen::Vector3d& point) const {
             0)
           return Known::standing;
   const octomap::OcTreeNode* here = trees_->seen.search(key);
-  const bool clear = prior == kClear || (here && here->getLogOdds() < kSurelyClear);
+  const bool clear = (in_plane && prior == kClear) || (here && here->getLogOdds() < kSurelyClear);
   return clear ? Known::clear : Known::nothing;
 }
 

@@ -46,7 +46,8 @@ class LocalMap {
   /// long.
   void insert(const sight::Sight& sight);
   /// Whether something stands at the point, by a voxel or the slack, or the point is clear.
-  [[nodiscard]] Known at(const Eigen::Vector3d& point) const;
+  /// \param in_plane  of the prior map, which shows as clear what holds low or high things
+  [[nodiscard]] Known at(const Eigen::Vector3d& point, bool in_plane = true) const;
   /// True for what is between `low` and `high`, m above the floor.
   [[nodiscard]] bool matters(const Eigen::Vector3d& point) const {
     return point.z() > config_.floor + config_.low && point.z() < config_.floor + config_.high;

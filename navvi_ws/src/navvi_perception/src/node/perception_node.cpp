@@ -134,6 +134,7 @@ class PerceptionNode {
       return;
     const std::optional<Eigen::Isometry3d> pose = in_map(cloud.header.frame_id, cloud.header.stamp);
     if (!pose) return;
+    sight.in_plane = false;
     sight.hits = points_of(cloud, static_cast<std::size_t>(config_.cloud_points));
     for (Eigen::Vector3d& hit : sight.hits) hit = *pose * hit;
     take(sight);

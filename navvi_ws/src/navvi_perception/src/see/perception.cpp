@@ -78,8 +78,9 @@ struct Perception::Parts {
   Parts(const PerceptionConfig::Values& values, const sight::Prior& prior)
       : config(values), map(values.map, prior) {}
 
-  /// The points that the map does not explain.
-  [[nodiscard]] std::vector<Eigen::Vector3d> strange(const std::vector<Eigen::Vector3d>& hits,
+  /// The points that the map does not explain; all others, but for those of movers that a lower
+  /// sensor tells, are added to `rest`.
+  [[nodiscard]] std::vector<Eigen::Vector3d> strange(const sight::Sight& sight,
                                                      std::vector<Eigen::Vector3d>& rest) const;
   void look_up(const navvi_types::Pose2& robot);
   /// Tracks that are told: of a lower sensor where two see the same.
@@ -103,12 +104,26 @@ Perception::Perception(const PerceptionConfig& config, const sight::Prior& prior
     : parts_(std::make_unique<Parts>(*config.values_, prior)) {}
 Perception::~Perception() = default;
 
-std::vector<Eigen::Vector3d> Perception::Parts::strange(const std::vector<Eigen::Vector3d>& hits,
+std::vector<Eigen::Vector3d> Perception::Parts::strange(const sight::Sight& sight,
                                                         std::vector<Eigen::Vector3d>& rest) const {
+  const auto told = [&](const Eigen::Vector2d& hit) {
+    return std::any_of(sensors.begin(), sensors.begin() + static_cast<std::ptrdiff_t>(sight.sensor),
+                       [&](const Sensor& lower) {
+                         return std::any_of(lower.tracker.now().begin(), lower.tracker.now().end(),
+                                            [&](const tracks::Track& track) {
+                                              return track.mover && lower.tracker.sure(track) &&
+                                                     (hit - track.place).norm() <
+                                                         track.radius + config.gap;
+                                            });
+                       });
+  };
   std::vector<Eigen::Vector3d> found;
-  for (const Eigen::Vector3d& hit : hits) {
-    const bool moved_here = map.matters(hit) && map.at(hit) == map::LocalMap::Known::clear;
-    (moved_here ? found : rest).push_back(hit);
+  for (const Eigen::Vector3d& hit : sight.hits) {
+    if ((hit.head<2>() - sight.robot.position).norm() <= config.robot_radius) continue;
+    if (map.matters(hit) && map.at(hit, sight.in_plane) == map::LocalMap::Known::clear)
+      found.push_back(hit);
+    else if (!told(hit.head<2>()))
+      rest.push_back(hit);
   }
   return found;
 }
@@ -122,10 +137,7 @@ void Perception::take(const sight::Sight& sight) {
 
   sight::Sight stands = sight;
   stands.hits.clear();
-  std::vector<Eigen::Vector3d> others;
-  for (const Eigen::Vector3d& hit : sight.hits)
-    if ((hit.head<2>() - sight.robot.position).norm() > config.robot_radius) others.push_back(hit);
-  const std::vector<Eigen::Vector3d> points = parts.strange(others, stands.hits);
+  const std::vector<Eigen::Vector3d> points = parts.strange(sight, stands.hits);
   std::vector<clusters::Cluster> found =
       clusters::clusters_of(points, config.gap, static_cast<std::size_t>(config.points),
                             config.narrowest, sight.origin.head<2>());

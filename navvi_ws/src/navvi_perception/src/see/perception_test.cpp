@@ -222,6 +222,26 @@ TEST_F(PerceptionTest, a_standing_thing_keeps_its_number_while_the_robot_drives_
   EXPECT_EQ(boxes.size(), 1U);
 }
 
+TEST_F(PerceptionTest, a_low_thing_that_only_a_camera_sees_stands_though_the_prior_map_is_clear) {
+  with_prior();
+  // A pedestal of 1 m, 6 cm high; the camera sees its near edge, and then more and more of it.
+  for (int i = 0; i < 20; ++i) {
+    sight::Sight sight;
+    sight.sensor = 1;
+    sight.in_plane = false;
+    time_ += 0.2;
+    sight.stamp = std::llround(time_ * 1e9);
+    sight.origin = {0.0, 0.0, 0.45};
+    for (double x = 1.5; x < 1.5 + 0.05 * (i + 1); x += 0.02)
+      for (double y = -0.5; y < 0.5; y += 0.02) sight.hits.emplace_back(x, y, 0.06);
+    perception_->take(sight);
+    EXPECT_TRUE(obstacles().things.empty()) << time_;
+  }
+  ASSERT_FALSE(proximity().things.empty());
+  EXPECT_NEAR(proximity().things[0].gap, 1.5 - 0.35, 0.06);
+  EXPECT_FALSE(proximity().things[0].moving);
+}
+
 TEST_F(PerceptionTest, the_robot_does_not_see_itself) {
   hall_.own_body = true;
   (void)live(5.0, [&](double time) { hall_.robot.yaw = 0.2 * time; });

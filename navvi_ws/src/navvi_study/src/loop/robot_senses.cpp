@@ -58,6 +58,7 @@ RobotSenses::News RobotSenses::look(const navvi_sim::live::Session& session) {
     navvi_sim::sensors::Reading reading = sensors_.look(mounted_[i], now);
     navvi_perception::sight::Sight sight = sight_of(mounted_[i], reading, robot, floor);
     sight.sensor = i;
+    sight.in_plane = i == 0;
     perception_.take(sight);
     if (i == 0) scan_ = std::move(reading);
     news.obstacles = perception_.obstacles(now.stamp());

@@ -12,6 +12,7 @@ namespace navvi_perception::sight {
 struct Sight {
   std::int64_t stamp = 0;    ///< ns, ROS time
   std::size_t sensor = 0;    ///< which it was; where two see the same thing, the lower one tells it
+  bool in_plane = true;      ///< seen in the plane in which a scanner made the prior map
   navvi_types::Pose2 robot;  ///< base_link
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, of its rays
   std::vector<Eigen::Vector3d> hits;                 ///< m, where rays ended
