@@ -117,10 +117,15 @@ std::vector<Eigen::Vector3d> Perception::Parts::strange(const sight::Sight& sigh
                                             });
                        });
   };
+  const auto clear = [&](const Eigen::Vector3d& place) {
+    return map.at(place, sight.in_plane) == map::LocalMap::Known::clear;
+  };
+  // Rays that graze the top of a low thing clear the voxels that it ends in, but not those below.
+  const Eigen::Vector3d below(0.0, 0.0, 2.0 * map.resolution());
   std::vector<Eigen::Vector3d> found;
   for (const Eigen::Vector3d& hit : sight.hits) {
     if ((hit.head<2>() - sight.robot.position).norm() <= config.robot_radius) continue;
-    if (map.matters(hit) && map.at(hit, sight.in_plane) == map::LocalMap::Known::clear)
+    if (map.matters(hit) && clear(hit) && (sight.in_plane || clear(hit - below)))
       found.push_back(hit);
     else if (!told(hit.head<2>()))
       rest.push_back(hit);

@@ -232,7 +232,9 @@ TEST_F(PerceptionTest, a_low_thing_that_only_a_camera_sees_stands_though_the_pri
     time_ += 0.2;
     sight.stamp = std::llround(time_ * 1e9);
     sight.origin = {0.0, 0.0, 0.45};
-    for (double x = 1.5; x < 1.5 + 0.05 * (i + 1); x += 0.02)
+    for (double y = -0.5; i < 8 && y < 0.5; y += 0.01)  // far away they graze its top
+      sight.clear.emplace_back(1.72, y, 0.04);
+    for (double x = 1.5; x < (i < 8 ? 1.52 : 1.5 + 0.05 * (i - 7)); x += 0.02)
       for (double y = -0.5; y < 0.5; y += 0.02) sight.hits.emplace_back(x, y, 0.06);
     perception_->take(sight);
     EXPECT_TRUE(obstacles().things.empty()) << time_;
