@@ -21,6 +21,7 @@
 #include "medians.hpp"
 #include "octomap_tree.hpp"
 #include "search/search.hpp"
+#include "smooth/turns.hpp"
 #include "visibility_graph.hpp"
 
 namespace {
@@ -33,6 +34,7 @@ using navvi_bench::Medians;
 constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
 const std::vector<int> kSearchedAmong{10, 50};  // discs
+constexpr double kOneTurn = 1.0;  // m, as PathFollowerConfig's
 const std::string kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
                   kOneThread = "bytes to mesh, ours, one thread",
                   kChanged = "bytes to mesh, ours, one box changed",
@@ -227,10 +229,10 @@ void compare(Course& c) {
   }
 }
 
-/// Turns, without bends, and the least clearance of paths.
+/// Turns as they are announced, and the least clearance of paths.
 struct Followed {
   double length = 0.0;  ///< m, of all
-  int turns = 0;
+  std::size_t turns = 0;
   double nearest = 10.0;  ///< m
   void add(const Path& path, const map::Space& space) {
     length += length_of(path);
@@ -238,11 +240,8 @@ struct Followed {
       for (int k = 0; k <= 20; ++k)
         nearest =
             std::min(nearest, space.clearance(path[i - 1] + k / 20.0 * (path[i] - path[i - 1])));
-      if (i + 1 == path.size()) continue;
-      const Point in = path[i] - path[i - 1];
-      const Point out = path[i + 1] - path[i];
-      turns += std::abs(std::atan2(cross(in, out), dot(in, out))) >= smooth::kBend;
     }
+    turns += smooth::turns_of(path, kOneTurn).size() - 1;
   }
 };
 
@@ -290,7 +289,8 @@ void follow(Course& c) {
   const auto print = [&](const std::string& what, std::vector<double> times, const Followed& path) {
     std::sort(times.begin(), times.end());
     row(what, {times[times.size() / 2], times[times.size() * 99 / 100], times.back(),
-               path.length / shortest.length, 10.0 * path.turns / path.length, path.nearest});
+               path.length / shortest.length, 10.0 * static_cast<double>(path.turns) / path.length,
+               path.nearest});
   };
   print("shortest path, the search alone", part, shortest);
   print("guide path, all of plan()", whole, guide);

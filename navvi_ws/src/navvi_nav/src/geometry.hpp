@@ -21,6 +21,8 @@ inline bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
 inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 /// Positive where `b` lies counter-clockwise of `a`.
 inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+/// Clockwise angle in [-pi, pi] by which to turn from direction `from` to direction `to`.
+inline double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
 inline double norm(Point a) { return std::sqrt(dot(a, a)); }
 inline double distance(Point a, Point b) { return norm(b - a); }
 inline bool finite(Point a) { return std::isfinite(a.x) && std::isfinite(a.y); }

@@ -68,10 +68,10 @@ class Lockstep : public testing::Test {
       }
     }
   }
-  /// Moves the robot straight at the next way-point.
+  /// Moves the robot to where guidance steers.
   void drive(double step) {
     const Guidance now = status();
-    robot_.yaw -= now.waypoint_angle;
+    robot_.yaw -= now.steer_angle;
     const double length = std::min(step, now.waypoint_distance);
     robot_.position = robot_.position + length * Point{std::cos(robot_.yaw), std::sin(robot_.yaw)};
     tick();

@@ -1,5 +1,6 @@
 #include "picture/markers.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -80,18 +81,17 @@ std::vector<Eigen::Vector2d> ring(const Eigen::Vector2d& center, double radius) 
   return places;
 }
 
-/// Where the path leads from the way-point on, as a unit vector.
+/// Where the path leads from the way-point on, by the turn that is said, as a unit vector.
 std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& path,
-                                            const Eigen::Vector2d& waypoint) {
+                                            const Guidance& guidance) {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    if ((path[i] - waypoint).norm() < (path[nearest] - waypoint).norm()) nearest = i;
+    if ((path[i] - guidance.waypoint).norm() < (path[nearest] - guidance.waypoint).norm())
+      nearest = i;
   }
-  for (std::size_t i = nearest + 1; i < path.size(); ++i) {
-    const Eigen::Vector2d ahead = path[i] - waypoint;
-    if (ahead.norm() > 0.3) return Eigen::Vector2d(ahead.normalized());
-  }
-  return std::nullopt;
+  if (nearest == 0) return std::nullopt;
+  const Eigen::Vector2d leg = path[nearest] - path[nearest - 1];
+  return Eigen::Rotation2Dd(-guidance.turn_angle) * leg.normalized();
 }
 
 /// What the arrow shows, in words: the hour of the turn as it will be seen from the way-point.
@@ -126,7 +126,7 @@ void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal,
 
 void add_turn(const MarkersConfig& config, const Guidance& guidance,
               const std::vector<Eigen::Vector2d>& path, std::vector<Marker>& markers) {
-  const std::optional<Eigen::Vector2d> course = course_after(path, guidance.waypoint);
+  const std::optional<Eigen::Vector2d> course = course_after(path, guidance);
   if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < config.slight) return;
   Marker arrow = shape("turn", 0, Marker::ARROW, kWhite);
   arrow.points = {at(guidance.waypoint, 0.5), at(guidance.waypoint + 1.4 * *course, 0.5)};

@@ -120,6 +120,16 @@ TEST(Markers, the_turn_shows_hour_and_distance_and_points_along_the_next_leg) {
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
 }
 
+TEST(Markers, the_arrow_shows_two_corners_that_are_said_as_one_turn_as_one) {
+  const std::vector<Eigen::Vector2d> path = {{0.0, 0.0}, {3.5, 0.0}, {4.0, -0.5}, {4.0, -6.0}};
+  Guidance guidance = following();
+  guidance.waypoint = path[1];
+  const Marker arrow = *find(guide_markers({}, guidance, path), "turn", 0);
+  ASSERT_EQ(arrow.points.size(), 2u);
+  EXPECT_NEAR(arrow.points[1].x, 3.5, 1e-9);
+  EXPECT_LT(arrow.points[1].y, -1.0);
+}
+
 TEST(Markers, a_slight_bend_is_no_turn) {
   Guidance guidance = following();
   guidance.turn_angle = 0.17;

@@ -473,10 +473,36 @@ TEST(PathFollower, measures_angles_clockwise_from_the_nose) {
   follower.follow({{0, 0}, {4, 0}, {4, -4}});
   Guidance heading;
   follower.report(heading, {{0, 1}, 0.0}, {});
-  EXPECT_NEAR(heading.turn_angle, M_PI / 2 - std::atan2(1, 4), 1e-12);
+  EXPECT_NEAR(heading.turn_angle, M_PI / 2, 1e-12);  // of the path, wherever the robot is
   EXPECT_NEAR(heading.waypoint_angle, std::atan2(1, 4), 1e-12);
   EXPECT_NEAR(heading.path_offset, 1.0, 1e-12);
   EXPECT_NEAR(heading.goal_distance, std::hypot(4, 1) + 4, 1e-12);
+}
+
+TEST(PathFollower, tells_the_next_turn_beyond_bends_and_close_corners_as_one) {
+  PathFollowerConfig config;
+  const auto at_start_of = [&config](const Path& path) {
+    PathFollower follower(config);
+    follower.follow(path);
+    Guidance heading;
+    follower.report(heading, {{path[0].x, path[0].y}, 0.0}, {});
+    return heading;
+  };
+  const Path bend{{0, 0}, {4, 0}, {8, 1}, {8, 5}};  // by 14 degrees, then by 76
+  Guidance heading = at_start_of(bend);
+  EXPECT_EQ(heading.waypoint, Eigen::Vector2d(8, 1));
+  EXPECT_NEAR(heading.turn_angle, -std::atan2(4, 1), 1e-12);
+  EXPECT_NEAR(heading.steer_angle, 0.0, 1e-12);                   // and is led along the path
+  heading = at_start_of({{0, 0}, {4, 0}, {4.5, 0.5}, {4.5, 5}});  // two by 45 degrees
+  EXPECT_EQ(heading.waypoint, Eigen::Vector2d(4, 0));
+  EXPECT_NEAR(heading.turn_angle, -M_PI / 2, 1e-12);
+  heading = at_start_of({{0, 0}, {4, 0}, {8, 0.5}});
+  EXPECT_TRUE(heading.waypoint_is_goal);
+  EXPECT_EQ(heading.turn_angle, 0.0);
+  config.one_turn = 0.0;
+  heading = at_start_of(bend);
+  EXPECT_EQ(heading.waypoint, Eigen::Vector2d(4, 0));
+  EXPECT_NEAR(heading.turn_angle, -std::atan2(1, 4), 1e-12);
 }
 
 TEST(PathFollower, steers_to_the_path_ahead_so_that_a_drift_shows_early) {

@@ -1,5 +1,7 @@
 #include "guide/path_follower.hpp"
 
+#include "smooth/turns.hpp"
+
 namespace navvi_nav::guide {
 namespace {
 
@@ -32,14 +34,15 @@ void PathFollowerConfig::describe(navvi_config::Visitor& visit) {
   visit(easy_radius, "easy_radius", Range{0.0, 2.0}, "m",
         "the same while the robot is not yet close");
   visit(close, "close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close");
+  visit(one_turn, "one_turn", Range{0.0, 5.0}, "m",
+        "corners nearer than this to the one before are announced as one turn with it, and bends "
+        "below 15 degrees not at all; 0: each corner is");
   visit(
       steer_ahead, "steer_ahead", Range{0.5, 1e6}, "m",
       "directions are to the path so far ahead of the robot, or to the way-point if it is nearer");
   visit(least_ahead, "least_ahead", Range{0.1, 1e6}, "m",
         "or to a nearer point of the path, but not nearer than this, if what stands is in between");
 }
-
-double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
 
 void PathFollower::follow(const Path& path) {
   path_ = path.size() >= 2 ? path : Path{};
@@ -138,13 +141,15 @@ double PathFollower::offset(Point robot) const {
 void PathFollower::report(Guidance& out, const Pose2& robot, const map::Floor& floor) const {
   const Point at = to_point(robot.position);
   const Point ahead{std::cos(robot.yaw), std::sin(robot.yaw)};
-  const Point leg = path_[next_] - at;
-  out.waypoint = {path_[next_].x, path_[next_].y};
-  out.waypoint_is_goal = next_ + 1 == path_.size();
-  out.waypoint_distance = norm(leg);
-  out.waypoint_angle = clockwise(ahead, leg);
+  const Path left(path_.begin() + static_cast<std::ptrdiff_t>(next_) - 1, path_.end());
+  const smooth::Turn turn = smooth::turns_of(left, config_.one_turn).front();
+  const Point place = left[turn.at];
+  out.waypoint = {place.x, place.y};
+  out.waypoint_is_goal = turn.at + 1 == left.size();
+  out.waypoint_distance = distance(at, place);
+  out.waypoint_angle = clockwise(ahead, place - at);
   out.steer_angle = clockwise(ahead, steer_point(at, floor) - at);
-  out.turn_angle = out.waypoint_is_goal ? 0.0 : clockwise(leg, path_[next_ + 1] - path_[next_]);
+  out.turn_angle = turn.angle;
   out.goal_distance = length_of(remaining(at));
   out.path_offset = offset(at);
 }

@@ -18,6 +18,7 @@ struct PathFollowerConfig {
   double sight_radius = 0.4;
   double easy_radius = 0.6;
   double close = 0.4;
+  double one_turn = 1.0;
   double steer_ahead = 3.0;
   double least_ahead = 0.8;
 
@@ -52,7 +53,8 @@ class PathFollower {
   }
   /// m, from the robot to the nearest point of the path. following() must hold.
   [[nodiscard]] double offset(Point robot) const;
-  /// Fills in where the path leads, from the way-point to the path's offset. following() must hold.
+  /// Fills in where the path leads, from the way-point, which is the next turn or the end, to the
+  /// path's offset. following() must hold.
   void report(Guidance& out, const Pose2& robot, const map::Floor& floor) const;
 
  private:
@@ -65,8 +67,5 @@ class PathFollower {
   Path path_;
   std::size_t next_ = 0;
 };
-
-/// Clockwise angle in [-pi, pi] by which to turn from direction `from` to direction `to`.
-[[nodiscard]] double clockwise(Point from, Point to);
 
 }  // namespace navvi_nav::guide

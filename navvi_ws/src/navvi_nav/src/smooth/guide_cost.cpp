@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "smooth/turns.hpp"
+
 namespace navvi_nav::smooth {
 namespace {
 

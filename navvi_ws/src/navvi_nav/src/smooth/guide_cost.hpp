@@ -22,9 +22,6 @@ struct GuideCostConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// The change of course, rad, below which a corner is a bend: it is followed, not announced.
-inline constexpr double kBend = 15.0 / 180.0 * M_PI;
-
 /// The polygon that `b` lies in, if the whole segment lies on the mesh, to 1e-6 m.
 /// \param polygon  that `a` lies in
 [[nodiscard]] std::optional<int> covers(const mesh::Mesh& mesh, int polygon, Point a, Point b);

@@ -147,7 +147,7 @@ std::string svg_of(const PictureOf& what) {
     draw_dot(canvas, cylinder.center, kScale * cylinder.radius,
              "fill=\"#ff9a3c\" stroke=\"#7a3d00\" stroke-width=\"1\"");
   if (!what.path.empty()) draw_path(canvas, what.path);
-  for (const Point point : what.path)
+  for (const Point point : what.turns)
     draw_dot(canvas, point, 0.28 * canvas.line(),
              "fill=\"#ffffff\" stroke=\"#8a00d4\" stroke-width=\"2.5\"");
   if (!what.path.empty()) {

@@ -18,6 +18,7 @@
 
 #include "guide/navigator.hpp"
 #include "map/map_file.hpp"
+#include "smooth/turns.hpp"
 #include "tool/mesh_picture.hpp"
 
 namespace {
@@ -223,6 +224,8 @@ int run(const Options& options) {
     if (plan.status == plan::PlanStatus::found) {
       print_plan(plan, planned);
       picture.path = plan.path;
+      for (const smooth::Turn turn : smooth::turns_of(plan.path, config.path.guidance.one_turn))
+        picture.turns.push_back(plan.path[turn.at]);
     } else {
       refusal = plan.detail.empty() ? "there is no route" : plan.detail;
     }
