@@ -161,8 +161,8 @@ Path pushed(const Path& path, const GuideCost& cost) {
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(enabled, "enabled", navvi_config::Any{}, "", "false: the path is the funnel's");
-  visit(attempts, "attempts", Range{0, 10000}, "",
-        "corners that OMPL tries to leave out, in each of three rounds");
+  visit(attempts, "attempts", Range{0, 100}, "",
+        "how often OMPL tries to leave out each corner, on the mean, in each of three rounds");
   visit(effort, "effort", Range{0.0, 10000.0}, "",
         "metres of legs that may be measured for each metre of the shortest path; a node that a "
         "search expands counts as 1.5 m, those for the shortest path as two thirds of all at most");
@@ -193,7 +193,8 @@ class Smoother::Simplifier : public og::PathSimplifier {
       state->values[1] = point.y;
       states_.append(state.get());
     }
-    const auto most = static_cast<unsigned int>(attempts);
+    const auto most =
+        static_cast<unsigned int>(attempts) * static_cast<unsigned int>(states_.getStateCount());
     if (!reduceVertices(states_, most, most, kRange)) return;
     path.clear();
     for (const ob::State* at : states_.getStates()) path.push_back(point_of(at));

@@ -8,7 +8,7 @@ namespace navvi_nav::smooth {
 
 struct SmoothingConfig {
   bool enabled = true;
-  int attempts = 20;
+  int attempts = 2;
   double effort = 105.0;
   double max_stretch = 1.25;
   double max_detour = 2.0;

@@ -66,11 +66,25 @@ TEST_F(Smoothing, gives_equal_paths_for_equal_input) {
   EXPECT_EQ(smoothed(zigzag_), smoothed(zigzag_));
 }
 
-TEST_F(Smoothing, leaves_the_path_as_it_is_when_nothing_may_be_measured) {
-  config_.effort = 0.0;
+TEST_F(Smoothing, stands_by_the_best_path_so_far_when_its_work_is_spent) {
   const Path hugging{{1, 4.5}, {3.65, 2.65}, {9.35, 2.65}, {12, 8}};
-  GuideCost judge = cost();
-  EXPECT_LE(judge.of(smoothed(hugging)), judge.of(hugging));
+  const Smoother smoother(config_.attempts);
+  for (const Path& path : {zigzag_, hugging}) {
+    const GuideCost judge = cost();
+    double least = judge.of(path);
+    double spent = 0.0;  // m, of work
+    for (double work = 0.0; work < 4000.0; work = 1.5 * work + 1.0) {
+      const GuideCost counts = cost();
+      counts.allow(work);
+      const Path out = smoother.sketch(path, counts);
+      spent = work - counts.left();
+      EXPECT_LE(spent, work + 12.0 * length_of(path)) << "one try is carried through";
+      EXPECT_LE(judge.of(out), least + 1e-9) << work;
+      least = judge.of(out);
+    }
+    EXPECT_LT(spent, 4000.0) << "what is settled needs no more";
+    EXPECT_LT(least, judge.of(path) - 1.0);
+  }
 }
 
 /// Shortest paths of worlds anywhere, and what smoothing makes of them.
