@@ -125,6 +125,6 @@ def test_a_calibration_is_saved_for_the_person_and_the_pad(env, tmp_path):
 def test_a_calibration_by_keys_finds_how_early_a_turn_is_to_end(desktop, tmp_path):
     _, kinds = give(desktop, tmp_path, "calibrate", "lesson.launch", "operator:=keyboard", "feedback_parameters:={listener: topic, person: anna}", "speech:=false",
                     NAVVI_PEOPLE=str(tmp_path))
-    assert "'calibrate_no_motors'" in kinds
+    assert "'calibrate_no_motors'" in kinds and "'tutorial_keys'" in kinds
     saved = yaml.safe_load((tmp_path / "anna.yaml").read_text())
     assert "haptics" not in saved and 0.35 < saved["sounds"]["turn"]["stopping_delay"] < 0.9

@@ -34,7 +34,7 @@ std::string number(double value) {
 }  // namespace
 
 std::vector<std::string> Calibration::texts() {
-  std::vector<std::string> keys;
+  std::vector<std::string> keys = {"tutorial_keys"};
   for (const char* name : {"welcome", "no_motors", "left", "right", "only_felt", "not_felt",
                            "comfort", "halt", "early", "late", "once_more", "done", "end"})
     keys.push_back(key(name));
@@ -72,6 +72,7 @@ Taught Calibration::update(const Seen& seen, double time) {
   if (!begun_) {
     begun_ = true;
     teller_.tell(key("welcome"));
+    if (seen.keyboard) teller_.then("tutorial_keys");
     enter(Stage::left, seen);
   }
   if (pressed(seen, Button::end) && stage_ != Stage::end) {
