@@ -170,7 +170,9 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
 }
 
 CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
-  if (links.pad != Link::alive || links.simulator != Link::alive || !awaited(now).empty()) {
+  // Who has just arrived lets go of the stick anyway.
+  if (links.pad != Link::alive || links.simulator != Link::alive || !awaited(now).empty() ||
+      problem_ == "arrived") {
     held_.forget();
     return {};
   }

@@ -506,6 +506,14 @@ TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says
   EXPECT_EQ(pass(3.0), Texts{"straight ahead, 20 meters"});
 }
 
+TEST_F(CuePolicyTest, asks_nobody_to_release_the_stick_who_has_arrived) {
+  under_way();
+  now_.guidance->state = Guidance::State::arrived;
+  EXPECT_EQ(pass(0.1), Texts{"You have reached your destination"});
+  now_.stick_held_unarmed = true;  // the trial is over
+  EXPECT_EQ(pass(10.0), Texts{});
+}
+
 TEST_F(CuePolicyTest, says_every_thing_that_is_hit_but_the_same_only_once_in_a_while) {
   under_way();
   now_.contacts = {{ThingClass::box, {0.35, 0.0}, 4}, {ThingClass::pedestal, {0.0, -0.35}, 5}};
