@@ -343,6 +343,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     if (event.stage == CueStage::started) {
       phrasing_.heard(event, time_);
       if (event.kind == answered_) answered_.clear();
+      if (event.kind == "obstacle_comes") halt_.repeat(time_);
     }
     if (family_of(event.kind) != Family::halt) continue;
     if (event.stage == CueStage::started) halt_.heard(time_);

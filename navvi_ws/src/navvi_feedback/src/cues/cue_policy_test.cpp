@@ -134,6 +134,49 @@ TEST_F(CuePolicyTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
   EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"});
 }
 
+TEST_F(CuePolicyTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::worker;
+  pass(1.0);
+  const auto heard = [&] { policy_.note({{1, CueStage::started, last_.kind, last_.text}}); };
+  heard();
+  now_.guidance->state = Guidance::State::following;
+  pass(1.0);
+  now_.question = Question::way;
+  EXPECT_EQ(pass(0.1), Texts{"wait, worker in the way"});
+  heard();
+  EXPECT_EQ(pass(1.8), Texts{}) << "what was just called in the way";
+  EXPECT_EQ(pass(0.4), Texts{"go on, straight ahead, 20 meters"});
+
+  now_.guidance->state = Guidance::State::blocked;
+  pass(5.0);
+  now_.guidance->state = Guidance::State::following;
+  heard();
+  for (int i = 0; i < 12 && last_.kind == "blocked"; ++i) {
+    now_.question = Question::way;
+    pass(1.0);
+    heard();
+  }
+  EXPECT_EQ(last_.kind, "straight");
+}
+
+TEST_F(CuePolicyTest, says_not_to_drive_at_what_moves_ahead_where_ticks_lead) {
+  now_.sounds.turn = true;
+  now_.guidance->waypoint_is_goal = false;
+  pass(1.0);
+  now_.commanded.linear = now_.measured->linear = 1.0;
+  now_.guidance->waypoint = {30.0, 0.0};
+  now_.guidance->waypoint_distance = 0.5;
+  pass(1.0);
+  now_.guidance->waypoint = {30.0, 20.0};
+  now_.guidance->waypoint_distance = 20.0;
+  now_.nearby = {{ThingClass::forklift, 5, 2.0, {2.4, 0.0}, true}};
+  EXPECT_EQ(pass(1.0), Texts{});
+  now_.nearby.clear();
+  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+}
+
 TEST_F(CuePolicyTest, says_the_same_once_more_in_other_words) {
   under_way();
   now_.sounds.turn = true;

@@ -28,9 +28,13 @@ bool clear(const Situation& now) {
 
 void Halt::say(const Utterance& words, double time) {
   words_ = words;
-  said_ = time;
+  begin(time);
   heard_ = false;
   clear_since_.reset();
+}
+
+void Halt::repeat(double time) {
+  if (said_ && time - *said_ < kLongest - kObeyed) last_ = time;
 }
 
 bool Halt::update(const Situation& now, bool follows, double time) {
@@ -38,7 +42,7 @@ bool Halt::update(const Situation& now, bool follows, double time) {
   const bool may_go = follows && (clear(now) || time - *said_ > kLongest);
   if (!may_go) clear_since_.reset();
   if (may_go && !clear_since_) clear_since_ = time;
-  if (time - *said_ < kObeyed || !clear_since_ || time - *clear_since_ < kClear) return true;
+  if (time - last_ < kObeyed || !clear_since_ || time - *clear_since_ < kClear) return true;
   said_.reset();
   over_since_ = time;
   return false;

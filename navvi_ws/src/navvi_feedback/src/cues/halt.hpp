@@ -17,9 +17,14 @@ class Halt {
 
   /// A word to stop was said.
   void say(const Utterance& words, double time);
+  /// While it holds, more was said that is not to be contradicted at once.
+  void repeat(double time);
   /// The voice has begun to say it.
   void heard(double time) {
-    if (said_ && !std::exchange(heard_, true)) said_ = time;
+    if (std::exchange(heard_, true))
+      repeat(time);
+    else if (said_)
+      begin(time);
   }
   /// It was dropped.
   void not_heard() {
@@ -45,8 +50,11 @@ class Halt {
   [[nodiscard]] const Utterance& words() const { return words_; }
 
  private:
+  void begin(double time) { said_ = last_ = time; }
+
   Utterance words_;
   std::optional<double> said_;  ///< s
+  double last_ = 0.0;           ///< s, when it was said last
   bool heard_ = false;
   std::optional<double> clear_since_;  ///< s
   std::optional<double> over_since_;   ///< s, until that is said

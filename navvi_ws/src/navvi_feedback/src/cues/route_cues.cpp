@@ -18,6 +18,8 @@ constexpr double kWorthSaying = 7.0 * kDegree;
 constexpr double kWorse = 15.0 * kDegree;
 /// m; what is farther ahead than this need not be passed yet.
 constexpr double kInTheWay = 1.0;
+/// m; what moves about and is nearer than this ahead may soon be to stop for.
+constexpr double kComing = 2.5;
 /// m; a thing so near is steered away from, wherever the path leads.
 constexpr double kTouching = 0.1;
 /// m; what is beside the robot and farther off than this is out of reach.
@@ -272,6 +274,14 @@ bool RouteCues::quiet(const Situation& now, double time) const {
          });
 }
 
+/// Something that moves about is near in the lane ahead.
+bool RouteCues::comes_ahead(const Situation& now) const {
+  const double free = std::min(kComing, now.guidance->waypoint_distance);
+  return std::any_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
+    return thing.moving && thing.gap < free && side_of_lane(thing.nearest) == Side::ahead;
+  });
+}
+
 bool RouteCues::new_goal(const Guidance& guidance) const {
   return !goal_ || (guidance.goal - *goal_).norm() > kSameGoal;
 }
@@ -387,6 +397,8 @@ bool RouteCues::turn_ahead_due(const Guidance& guidance, int turn, double time) 
 
 bool RouteCues::direction_due(const Situation& now, double time) const {
   const Guidance& guidance = *now.guidance;
+  // Ticks lead anyway, and a word to stop may follow.
+  if (by_sound_ && *hour_ == 12 && comes_ahead(now)) return false;
   if (!said_hour_) return true;
   const double since = time - said_time_;
   if (since < config_.pause) return false;

@@ -64,6 +64,7 @@ class RouteCues {
   [[nodiscard]] bool passes_within_reach(const Guidance& guidance) const;
   [[nodiscard]] bool at_hand(const Guidance& guidance, double time) const;
   [[nodiscard]] bool worth_words(int hour) const;
+  [[nodiscard]] bool comes_ahead(const Situation& now) const;
   [[nodiscard]] bool quiet(const Situation& now, double time) const;
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, int turn, double time) const;
   [[nodiscard]] bool direction_due(const Situation& now, double time) const;
