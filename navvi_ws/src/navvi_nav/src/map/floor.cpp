@@ -212,7 +212,7 @@ double Floor::clearance(Point point) const {
   const int window = static_cast<int>(std::ceil(known / cell_size_)) + 3;
   double best = reach_;
   for (int y = at.y - window; y <= at.y + window; ++y) {
-    for (int x = at.x - window; x <= at.x + window; ++x) {
+    for (int x = at.x - window; x <= at.x + window; x += stride({x, y})) {
       if (ground({x, y}) == Ground::floor) continue;
       best = std::min(best, distance_to_box(point, {x * cell_size_, y * cell_size_},
                                             {(x + 1) * cell_size_, (y + 1) * cell_size_}));
@@ -265,7 +265,7 @@ bool Floor::segment_clear(Point a, Point b, double radius) const {
     if (ground(cell) != Ground::floor) return false;
     if (known >= safe2) continue;
     for (int y = cell.y - window; y <= cell.y + window; ++y) {
-      for (int x = cell.x - window; x <= cell.x + window; ++x) {
+      for (int x = cell.x - window; x <= cell.x + window; x += stride({x, y})) {
         if (ground({x, y}) == Ground::floor) continue;
         if (segment_to_box(a, b, {x * cell_size_, y * cell_size_},
                            {(x + 1) * cell_size_, (y + 1) * cell_size_}) < radius - kTolerance)

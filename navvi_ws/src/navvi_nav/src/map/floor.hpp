@@ -93,6 +93,10 @@ class Floor {
            cell.y < origin_.y + rows_;
   }
   [[nodiscard]] int gap2(Cell cell) const { return contains(cell) ? gap2_[index(cell)] : 0; }
+  /// Cells along a row to the next one that may block.
+  [[nodiscard]] int stride(Cell cell) const {
+    return 1 + static_cast<int>(std::sqrt(static_cast<double>(gap2(cell))));
+  }
   void measure(double margin, int threads);
 
   Cell origin_;
