@@ -37,6 +37,9 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   observation.describe(visit);
   visit(carve_period, "carve_period", Range{0.05, 60.0}, "s",
         "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)");
+  visit(carve_within, "carve_within", Range{10.0, 1e6}, "m",
+        "what drives or walks farther from the robot leaves no hole: it moves on before the robot "
+        "comes");
   visit(plan_timeout, "plan_timeout", Range{0.1, 10.0}, "s",
         "a path that must change is hidden when no plan came for so long");
   visit(map_timeout, "map_timeout", Range{0.0, 3600.0}, "s",
@@ -126,7 +129,7 @@ std::optional<plan::PlanRequest> Navigator::update(double time) {
   if ((map_.new_map || map_.new_grid) && !map_.sent) {
     map_.sent = sent_.carved = time;
     plan::PlanRequest request;
-    request.obstacles = observation_.obstacles();
+    request.obstacles = holes();
     request.map = std::exchange(map_.new_map, nullptr);
     request.grid = std::exchange(map_.new_grid, nullptr);
     return request;
@@ -216,8 +219,20 @@ std::optional<Guidance::Replan> Navigator::decide_replan(double time, const Conf
 plan::PlanRequest Navigator::send(double time, Guidance::Replan reason) {
   sent_ = {time, reason, goal_.number, time};
   plan::PlanRequest request;
-  request.obstacles = observation_.obstacles();
+  request.obstacles = holes();
   return request;
+}
+
+/// The obstacles that holes are cut for.
+std::vector<Cylinder> Navigator::holes() const {
+  std::vector<Cylinder> out = observation_.obstacles();
+  const std::optional<Point> robot = position_of(observation_.last_pose());
+  const auto goes_far_off = [&](const Cylinder& one) {
+    return robot && distance(one.center, *robot) > config_.carve_within &&
+           norm(one.velocity) > config_.replan.forecast.standing_speed;
+  };
+  out.erase(std::remove_if(out.begin(), out.end(), goes_far_off), out.end());
+  return out;
 }
 
 void Navigator::ask_for_path(plan::PlanRequest& request, Point robot) {

@@ -31,6 +31,7 @@ struct NavigatorConfig {
   DeadlockConfig deadlock;
   ObservationConfig observation;
   double carve_period = 0.5;
+  double carve_within = 80.0;
   double plan_timeout = 1.0;
   double map_timeout = 0.0;
 
@@ -112,6 +113,7 @@ class Navigator {
   void give_up_late_plan(double time);
   void watch_deadlock(double time, Point robot, const Conflict& now);
   [[nodiscard]] std::optional<Guidance::Replan> decide_replan(double time, const Conflict& now);
+  [[nodiscard]] std::vector<Cylinder> holes() const;
   [[nodiscard]] plan::PlanRequest send(double time, Guidance::Replan reason);
   void ask_for_path(plan::PlanRequest& request, Point robot);
   void take_plan(const plan::Plan& plan, Guidance::Replan reason, double time);

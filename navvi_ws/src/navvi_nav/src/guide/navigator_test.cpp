@@ -311,6 +311,16 @@ TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   for (const Point point : navigator_.path()) EXPECT_LT(point.y, 6.0);
 }
 
+TEST_F(Lockstep, cuts_no_hole_for_what_moves_far_off) {
+  load();
+  obstacles_ = {{1, {14, 5}, 0.4, {1, 0}}, {2, {200, 5}, 0.4, {1, 0}}, {3, {200, 8}, 0.4, {}}};
+  tick(20);
+  const std::vector<Cylinder>& carved = planner_.nav_mesh().carved();
+  ASSERT_EQ(carved.size(), 2U);
+  EXPECT_EQ(carved[0].id, 1U);
+  EXPECT_EQ(carved[1].id, 3U);
+}
+
 TEST_F(Lockstep, survives_time_jumping_back) {
   load();
   navigator_.set_goal({14, 5});
