@@ -431,11 +431,12 @@ void print(const Medians& medians, Course& c) {
 
 }  // namespace
 
-/// Arguments: `--seed=N` for clutter and queries, `--resolution=M` of the maps, `--judge` to check
-/// paths in all halls and nothing else, and Google Benchmark's own.
+/// Arguments: `--seed=N` for clutter and queries, `--resolution=M` of the maps, `--largest=M` hall,
+/// `--judge` to check paths in all halls and nothing else, and Google Benchmark's own.
 int main(int argc, char** argv) {
   std::uint32_t seed = 1;
   double resolution = 0.1;
+  double largest = 300.0;
   bool judges = false;
   int kept = 1;
   for (int i = 1; i < argc; ++i) {
@@ -443,18 +444,19 @@ int main(int argc, char** argv) {
       seed = static_cast<std::uint32_t>(std::strtoul(argv[i] + 7, nullptr, 10));
     else if (std::strncmp(argv[i], "--resolution=", 13) == 0)
       resolution = std::strtod(argv[i] + 13, nullptr);
+    else if (std::strncmp(argv[i], "--largest=", 10) == 0)
+      largest = std::strtod(argv[i] + 10, nullptr);
     else if (std::strcmp(argv[i], "--judge") == 0)
       judges = true;
     else
       argv[kept++] = argv[i];
   }
-  const auto hall = [&](double length, double width, double clutter) {
-    return std::make_unique<Course>(Hall{length, width, clutter, seed, resolution}, seed);
-  };
   std::vector<std::unique_ptr<Course>> courses;
-  for (const double clutter : {0.0, 25.0}) courses.push_back(hall(50, 30, clutter));
-  for (const double clutter : {0.0, 25.0}) courses.push_back(hall(100, 100, clutter));
-  courses.push_back(hall(300, 300, 0));
+  for (const Hall hall :
+       {Hall{50, 30}, Hall{50, 30, 25}, Hall{100, 100}, Hall{100, 100, 25}, Hall{300, 300}})
+    if (hall.length <= largest || courses.empty())
+      courses.push_back(std::make_unique<Course>(
+          Hall{hall.length, hall.width, hall.clutter, seed, resolution}, seed));
   if (judges) {
     for (const auto& course : courses) judge(*course, 125);
     return 0;
