@@ -1,7 +1,12 @@
 navvi_world() {
-  local word words=() csv=""
+  local word words=() csv="" file=""
   for word in "$@"; do
-    if [[ $word == --csv ]]; then csv=yes; else words+=("$word"); fi
+    [[ $word != *.@(sdf|bt|ot) ]] || file=$word
+    case ${1:-}$word in
+      *--csv) csv=yes ;;
+      write-o | map-o) ;;  # as for the pictures, though there is nothing else to name
+      *) words+=("$word") ;;
+    esac
   done
   set -- "${words[@]}"
   [[ -z $csv || ${1:-} == list || ${1:-} == check ]] || fail "--csv is for \"world list\" and \"world check\"." 2
@@ -17,7 +22,7 @@ navvi_world() {
     *)
       build_workspace world_tool
       draw "$(program navvi_sim world_tool)" "$@"
-      [[ ${1:-} != write && ${1:-} != map ]] || say "the world is in $3."
+      [[ ${1:-} != write && ${1:-} != map ]] || say "the world is in $file."
       ;;
   esac
 }

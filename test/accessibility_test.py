@@ -125,6 +125,7 @@ def test_the_tab_key_completes(typed, word):
     ("help", {"TERM": "dumb"}),
     ("man", {"TERM": "dumb"}),
     ("man", {"ACCESSIBLE": "1", "TERM": "xterm"}),
+    ("setup", {"TERM": "dumb"}),
     ("fly", {"TERM": "dumb"}),
 ], ids=str)
 def test_a_terminal_gets_no_control_characters(words, setting):
@@ -132,7 +133,7 @@ def test_a_terminal_gets_no_control_characters(words, setting):
     assert text and controls(text) == []
 
 
-@pytest.mark.parametrize("words", [["help"], ["world", "check", "training"], ["parameters", "sim"], ["man"], ["fly"]], ids=" ".join)
+@pytest.mark.parametrize("words", [["help"], ["world", "check", "training"], ["parameters", "sim"], ["man"], ["setup"], ["fly"]], ids=" ".join)
 def test_without_a_terminal_there_are_no_control_characters(words):
     result = navvi(*words, TERM="xterm-256color")
     assert controls(result.stdout + result.stderr) == []
@@ -144,6 +145,7 @@ def test_without_a_terminal_there_are_no_control_characters(words):
     (["man", "--write", "{}/navvi.1"], "the manual is in"),
     (["world", "show", "training", "-o", "{}/a.svg"], "the picture is in"),
     (["world", "write", "training", "{}/a.sdf"], "the world is in"),
+    (["world", "map", "training", "seed:=2", "-o", "{}/a.bt"], "/a.bt."),
 ], ids=lambda words: " ".join(words[:2]) if isinstance(words, list) else "")
 def test_success_is_told_in_words(words, sentence, tmp_path):
     result = navvi(*[word.format(tmp_path) for word in words])
