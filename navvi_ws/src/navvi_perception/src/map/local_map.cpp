@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <navvi_config/reader.hpp>
 #include <sstream>
 #include <unordered_set>
 
@@ -14,6 +15,7 @@ constexpr double kOccupiedAbove = 65.0;  // per cent, as map_server's occupied_t
 constexpr double kFadeEach = 1.0;        // s
 constexpr double kFollow = 4.0;          // m, that the robot drives before the bound follows
 constexpr float kSurelyClear = -1.0F;    // log-odds; three rays at 0.4
+constexpr double kMostCells = 1e8;       // of a prior map
 constexpr double kOnBorder = 1e-6;       // voxels, against rounding
 
 octomap::point3d to_octomap(const Eigen::Vector3d& point) {
@@ -93,6 +95,53 @@ void MapConfig::describe(navvi_config::Visitor& visit) {
         "in which a sure voxel is forgotten that is not seen again");
 }
 
+sight::Prior prior_of(const std::string& file, const MapConfig& config) {
+  const auto refuse = [&](const std::string& why) {
+    return navvi_config::ConfigError("The prior map " + file + " " + why);
+  };
+  octomap::OcTree binary(config.resolution);
+  std::unique_ptr<octomap::AbstractOcTree> full;
+  const octomap::OcTree* tree = nullptr;
+  if (const std::size_t dot = file.rfind('.');
+      dot != std::string::npos && file.substr(dot) == ".bt")
+    tree = binary.readBinary(file) ? &binary : nullptr;
+  else
+    tree = dynamic_cast<octomap::OcTree*>(
+        (full.reset(octomap::AbstractOcTree::read(file)), full.get()));
+  if (!tree || tree->size() == 0)
+    throw refuse(
+        "cannot be read; allowed are OctoMap's .bt and .ot with an OcTree that is not empty.");
+  Eigen::Vector3d low, high;
+  tree->getMetricMin(low.x(), low.y(), low.z());
+  tree->getMetricMax(high.x(), high.y(), high.z());
+  sight::Prior prior;
+  prior.flat = false;
+  const double side = prior.resolution = tree->getResolution();
+  prior.origin = low.head<2>();
+  const Eigen::Vector2d cells = (high - low).head<2>() / side;
+  if (cells.prod() > kMostCells)
+    throw refuse("has too many cells: at most 100 million are allowed, seen from above.");
+  prior.width = static_cast<int>(std::lround(cells.x()));
+  prior.height = static_cast<int>(std::lround(cells.y()));
+  prior.cells.assign(static_cast<std::size_t>(prior.width) * static_cast<std::size_t>(prior.height),
+                     -1);
+  for (auto leaf = tree->begin_leafs(), end = tree->end_leafs(); leaf != end; ++leaf) {
+    const double half = 0.5 * leaf.getSize();
+    const double bottom = leaf.getZ() - half - config.floor,
+                 top = leaf.getZ() + half - config.floor;
+    if (top < -1.5 * side || bottom > config.high - kOnBorder) continue;
+    const bool stands = tree->isNodeOccupied(*leaf) && top > config.low;
+    const auto number = [&](double at, double origin) { return std::lround((at - origin) / side); };
+    for (long y = number(leaf.getY() - half, low.y()); y < number(leaf.getY() + half, low.y()); ++y)
+      for (long x = number(leaf.getX() - half, low.x()); x < number(leaf.getX() + half, low.x());
+           ++x) {
+        std::int8_t& cell = prior.cells[static_cast<std::size_t>(y * prior.width + x)];
+        cell = std::max(cell, static_cast<std::int8_t>(stands ? 100 : 0));
+      }
+  }
+  return prior;
+}
+
 struct LocalMap::Trees {
   explicit Trees(double resolution) : prior(resolution), seen(resolution) {}
   octomap::OcTree prior;  ///< pruned
@@ -128,6 +177,7 @@ LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
     : config_(config), trees_(std::make_unique<Trees>(config.resolution)) {
   trees_->seen.setProbHit(config.hit);
   trees_->seen.setProbMiss(config.miss);
+  flat_ = prior.flat;
   if (prior.cells.empty()) return;
   const double side = config_.resolution;
   const Eigen::Vector2d end =
@@ -269,7 +319,8 @@ LocalMap::Known LocalMap::at(const Eigen::Vector3d& point, bool in_plane) const 
             0)
           return Known::standing;
   const octomap::OcTreeNode* here = trees_->seen.search(key);
-  const bool clear = (in_plane && prior == kClear) || (here && here->getLogOdds() < kSurelyClear);
+  const bool clear =
+      ((in_plane || !flat_) && prior == kClear) || (here && here->getLogOdds() < kSurelyClear);
   return clear ? Known::clear : Known::nothing;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct MapConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
+/// What an octomap::OcTree shows between `low` and `high`; clear is what it knows and is not
+/// occupied. \param file  .bt or .ot \throws navvi_config::ConfigError with a sentence
+[[nodiscard]] sight::Prior prior_of(const std::string& file, const MapConfig& config);
+
 /// A vertical stack of voxels: x and y in voxels; (0, 0) has its lower corner at the origin of map.
 using Column = std::pair<int, int>;
 
@@ -46,7 +51,7 @@ class LocalMap {
   /// long.
   void insert(const sight::Sight& sight);
   /// Whether something stands at the point, by a voxel or the slack, or the point is clear.
-  /// \param in_plane  of the prior map, which shows as clear what holds low or high things
+  /// \param in_plane  of the prior map, if that is flat
   [[nodiscard]] Known at(const Eigen::Vector3d& point, bool in_plane = true) const;
   /// True for what is between `low` and `high`, m above the floor.
   [[nodiscard]] bool matters(const Eigen::Vector3d& point) const {
@@ -73,6 +78,7 @@ class LocalMap {
 
   MapConfig config_;
   Column low_{0, 0};  ///< of the prior's columns
+  bool flat_ = true;  ///< the prior
   int columns_ = 0;
   int rows_ = 0;
   std::vector<Prior> prior_;

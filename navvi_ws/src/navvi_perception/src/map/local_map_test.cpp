@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
 
+#include <fstream>
+#include <navvi_config/reader.hpp>
 #include <sstream>
 
 namespace navvi_perception::map {
@@ -44,6 +46,33 @@ TEST(LocalMap, what_a_ray_met_stands_and_what_it_passed_often_is_clear) {
   const octomap::OcTree tree = read(map);
   EXPECT_TRUE(tree.isNodeOccupied(tree.search(2.02, 0.02, 0.12)));
   EXPECT_TRUE(tree.isNodeOccupied(tree.search(1.02, 0.01, -0.02))) << "the floor below the ray";
+}
+
+TEST(LocalMap, an_octomap_is_a_prior_map_of_all_heights) {
+  const std::string file = testing::TempDir() + "navvi_prior.bt";
+  octomap::OcTree tree(0.1);
+  for (double x = -0.95; x < 1.0; x += 0.1)
+    for (double y = -0.95; y < 1.0; y += 0.1) tree.updateNode(x, y, -0.05, true);  // the floor
+  tree.updateNode(0.55, 0.55, 0.65, true);    // above a lidar's plane
+  tree.updateNode(-0.55, 0.55, 1.65, true);   // above the robot
+  tree.updateNode(0.55, -0.55, -0.75, true);  // below the floor
+  tree.prune();
+  for (const char* name : {"navvi_prior.bt", "navvi_prior.ot"}) {
+    const std::string path = testing::TempDir() + name;
+    ASSERT_TRUE(path == file ? tree.writeBinary(path) : tree.write(path));
+    const sight::Prior prior = prior_of(path, MapConfig());
+    EXPECT_EQ(prior.width, 20);
+    EXPECT_EQ(prior.height, 20);
+    const LocalMap map(MapConfig(), prior);
+    EXPECT_EQ(map.at({0.55, 0.55, 0.12}), Known::standing);
+    EXPECT_EQ(map.at({-0.55, 0.55, 0.4}, false), Known::clear);
+    EXPECT_EQ(map.at({0.55, -0.55, 0.4}, false), Known::clear);
+    EXPECT_EQ(map.at({1.55, 0.55, 0.4}), Known::nothing);
+    EXPECT_EQ(map.standing({0.0, 0.0}, 5.0).size(), 4U);
+  }
+  EXPECT_THROW((void)prior_of("/no/such.bt", MapConfig()), navvi_config::ConfigError);
+  std::ofstream(file) << "no tree";
+  EXPECT_THROW((void)prior_of(file, MapConfig()), navvi_config::ConfigError);
 }
 
 TEST(LocalMap, a_thing_that_rays_pass_again_is_gone) {

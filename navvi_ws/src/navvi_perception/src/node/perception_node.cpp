@@ -33,6 +33,7 @@ struct NodeConfig {
   see::PerceptionConfig core;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
+  std::string prior;         ///< a file with an OctoMap; empty: the topic map is listened to
   std::string bumper;        ///< empty: none
   double cloud_rate = 10.0;  ///< Hz
   int cloud_points = 20000;
@@ -43,6 +44,9 @@ struct NodeConfig {
     core.describe(visit);
     visit(map_frame, "map_frame", Any{}, "", "frame of the map and of all that is published");
     visit(base_frame, "base_frame", Any{}, "", "frame of the robot");
+    visit(
+        prior, "prior", Any{}, "",
+        "file .bt or .ot with the OctoMap of what stands for good, used in place of the topic map");
     visit(bumper, "bumper", Any{}, "",
           "topic with std_msgs/Bool, true while something is touched; empty: contacts are unknown");
     visit(cloud_rate, "cloud_rate", Range{0.1, 100.0}, "Hz", "clouds that come faster are skipped");
@@ -66,10 +70,13 @@ class PerceptionNode {
     scans_.registerFailureCallback(no_transform);
     clouds_.registerFailureCallback(no_transform);
     subscribers_ = {listen<LaserScan>(node, "scan", scans_),
-                    listen<PointCloud2>(node, "points", clouds_),
-                    navvi_config::subscribe<nav_msgs::OccupancyGrid>(
-                        node, "map", 1, from_msg,
-                        [this](const sight::Prior& prior) { know(prior); }, config.map_frame)};
+                    listen<PointCloud2>(node, "points", clouds_)};
+    if (config.prior.empty())
+      subscribers_.push_back(navvi_config::subscribe<nav_msgs::OccupancyGrid>(
+          node, "map", 1, from_msg, [this](const sight::Prior& prior) { know(prior); },
+          config.map_frame));
+    else
+      know(config.core.prior_of(config.prior));
     if (!config.bumper.empty()) {
       contacts_ = node.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
       subscribers_.push_back(node.subscribe(config.bumper, 10, &PerceptionNode::on_bumper, this));

@@ -68,6 +68,9 @@ PerceptionConfig::~PerceptionConfig() = default;
 
 void PerceptionConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
 double PerceptionConfig::resolution() const { return values_->map.resolution; }
+sight::Prior PerceptionConfig::prior_of(const std::string& file) const {
+  return map::prior_of(file, values_->map);
+}
 
 struct Perception::Parts {
   struct Sensor {

@@ -5,6 +5,7 @@
 #include <navvi_config/field.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "navvi_perception/sight/sight.hpp"
@@ -21,6 +22,8 @@ class PerceptionConfig {
 
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] double resolution() const;  ///< m, of the map
+  /// The OctoMap of a file, .bt or .ot. \throws navvi_config::ConfigError with a sentence
+  [[nodiscard]] sight::Prior prior_of(const std::string& file) const;
 
  private:
   friend class Perception;

@@ -19,13 +19,14 @@ struct Sight {
   std::vector<Eigen::Vector3d> clear = {};           ///< m, as far as rays went that met nothing
 };
 
-/// The part of nav_msgs/OccupancyGrid that is known beforehand: what stands for good.
+/// What is known beforehand, as nav_msgs/OccupancyGrid has it: what stands for good.
 struct Prior {
   double resolution = 0.05;                          ///< m, edge of a cell
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, lower corner of cell (0, 0) in map
   int width = 0;                                     ///< cells along x
   int height = 0;                                    ///< cells along y
   std::vector<std::int8_t> cells;  ///< row by row: -1 unknown, else 0 (free) to 100 (occupied)
+  bool flat = true;  ///< seen in one plane: what is clear there may hold low or high things
 };
 
 }  // namespace navvi_perception::sight
