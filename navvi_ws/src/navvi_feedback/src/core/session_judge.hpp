@@ -137,9 +137,10 @@ class SessionJudge {
         if (id != event.id && !important && other.cue.priority == Priority::important)
           complaints.insert("an important cue waited behind a lesser one");
       const auto said = said_.find(event.text);
-      static const std::set<std::string> news = {"blocked",        "go_on",     "turn_now",
-                                                 "obstacle_comes", "make_room", "new_route",
-                                                 "way_blocked",    "start",     "start_distance"};
+      static const std::set<std::string> news = {
+          "blocked",          "go_on",     "turn_now",      "obstacle_comes",
+          "make_room",        "new_route", "way_blocked",   "rerouted",
+          "rerouted_blocked", "start",     "start_distance"};
       const bool reminds = known.cue.priority <= Priority::text || event.kind == "stuck" ||
                            event.kind == "back_away" || event.kind == "release_stick";
       if (now.motors && !known.cue.asked && reminds && news.count(event.kind) == 0 &&
