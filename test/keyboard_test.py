@@ -27,6 +27,8 @@ class Keys:
         for name, topic in ("commands", "/cmd_vel"), ("cues", "/navvi/cues"):
             self.processes.append(self.start("rostopic", "echo", "-p", topic, output=folder / name))
         self.processes.append(self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false", "_listener:=topic"))
+        for topic in "/cmd_vel", "/navvi/cues":
+            assert eventually(lambda: self.command_line("rostopic", "info", topic).count("(http") == 2, 60), f"nobody listens to {topic}"
 
     def start(self, *words, output="/dev/null"):
         with open(output, "w") as file:
@@ -71,6 +73,7 @@ class Keys:
 
     def run_trial(self):
         self.processes.append(self.start("rostopic", "pub", "-l", "/navvi/trial_state", "navvi_msgs/TrialState", "{state: 4}"))
+        assert eventually(lambda: "Publishers: None" not in self.command_line("rostopic", "info", "/navvi/trial_state"), 60)
 
     def color(self):
         """Red, green and blue in the middle of the keyboard's window."""
