@@ -73,17 +73,18 @@ void FreePlaces::find_quiet() {
 }
 
 FreePlaces::Places FreePlaces::away_from_movers(const Places& all) const {
-  std::vector<Eigen::Vector2d> movers;
-  for (const Thing& thing : world_.things)
-    if (thing.route) movers.emplace_back(thing.pose.translation().head<2>());
-  Places places;
-  for (const std::size_t cell : all) {
-    const Eigen::Vector2d place = grid_.centre(cell);
-    const bool near = std::any_of(movers.begin(), movers.end(), [&](const Eigen::Vector2d& at) {
-      return (at - place).norm() < config_.mover_distance;
+  std::vector<bool> near(grid_.size(), false);
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(config_.mover_distance);
+  for (const Thing& thing : world_.things) {
+    if (!thing.route) continue;
+    const Eigen::Vector2d at = thing.pose.translation().head<2>();
+    grid_.for_each_in({at - reach, at + reach}, [&](std::size_t cell) {
+      if (!near[cell]) near[cell] = (at - grid_.centre(cell)).norm() < config_.mover_distance;
     });
-    if (!near) places.push_back(cell);
   }
+  Places places;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(places),
+               [&](std::size_t cell) { return !near[cell]; });
   return places.empty() ? all : places;
 }
 
