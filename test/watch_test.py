@@ -96,7 +96,8 @@ def navvi_watch(*words, **more):
 
 def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(trial):
     process = navvi_watch(trial, "pace:=0")
-    lines = [line for line in process.communicate(timeout=60)[0].splitlines() if not line.startswith(("navvi: building", "navvi: waiting for another build"))]
+    lines = [line for line in process.communicate(timeout=300)[0].splitlines()
+             if not line.startswith(("navvi: building", "navvi: waiting for another build"))]
     assert process.returncode == 0
     assert lines == [*LINES, "The trial's record ends here."]
     assert all(re.fullmatch(r"[ -~]+", line) for line in lines)
@@ -109,6 +110,11 @@ def test_no_line_comes_before_the_last_one_can_have_been_read(trial):
             times.append((time.monotonic(), line))
     for (before, line), (after, _) in zip(times, times[1:-1]):
         assert after - before > 0.9 * max(0.7, 0.1 * len(line.split())), line
+
+
+def test_who_reads_the_beginning_alone_gets_no_error(trial):
+    result = subprocess.run(["bash", "-c", f"'{ROOT}/navvi' watch '{trial}' pace:=0 | head -n 1"], capture_output=True, text=True, timeout=300)
+    assert result.stdout == LINES[0] + "\n" and "Error" not in result.stderr
 
 
 def test_of_much_at_once_the_newest_state_and_what_weighs_most_is_shown_and_the_rest_counted():
@@ -149,7 +155,7 @@ def spoken(tmp_path):
 
 def test_each_line_is_spoken_and_the_next_waits_until_it_was(trial, spoken):
     process = navvi_watch(trial, "pace:=0", "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{spoken}/socket")
-    text = process.communicate(timeout=90)[0]
+    text = process.communicate(timeout=300)[0]
     assert process.returncode == 0, text
     assert " ".join((spoken / "spoken").read_text().split()) == " ".join(LINES)
     times = [float(line) for line in (spoken / "times").read_text().split()]
@@ -158,7 +164,7 @@ def test_each_line_is_spoken_and_the_next_waits_until_it_was(trial, spoken):
 
 def test_without_speech_dispatcher_that_is_said(trial, tmp_path):
     process = navvi_watch(trial, "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{tmp_path}/none", SPEECHD_CMD="/nonexistent")
-    text = process.communicate(timeout=60)[0]
+    text = process.communicate(timeout=300)[0]
     assert process.returncode == 2 and "speech-dispatcher cannot be used" in text and "speech:=false" in text
 
 
@@ -172,7 +178,7 @@ def test_a_running_session_is_found_and_told_to_its_end(tmp_path):
         for line in session.stdout:
             if "has begun" in line:
                 break
-        text = navvi_watch(TMPDIR=str(tmp_path)).communicate(timeout=90)[0]
+        text = navvi_watch(TMPDIR=str(tmp_path)).communicate(timeout=300)[0]
     finally:
         if session.poll() is None:
             os.killpg(session.pid, signal.SIGINT)
@@ -183,5 +189,5 @@ def test_a_running_session_is_found_and_told_to_its_end(tmp_path):
 
 def test_where_no_session_runs_that_is_said(tmp_path):
     process = navvi_watch(TMPDIR=str(tmp_path))
-    text = process.communicate(timeout=60)[0]
+    text = process.communicate(timeout=300)[0]
     assert process.returncode == 2 and "no session runs on this machine" in text
