@@ -343,6 +343,15 @@ std::vector<Column> LocalMap::standing(const Eigen::Vector2d& place, double radi
   return found;
 }
 
+std::vector<Eigen::Vector3d> LocalMap::seen() const {
+  std::vector<Eigen::Vector3d> middles;
+  for (const std::uint64_t key : trees_->occupied) {
+    const octomap::point3d middle = trees_->seen.keyToCoord(Trees::unpacked(key));
+    middles.emplace_back(middle.x(), middle.y(), middle.z());
+  }
+  return middles;
+}
+
 bool LocalMap::changed() {
   const bool same = !prior_.empty() && trees_->told == trees_->occupied;
   trees_->told = trees_->occupied;

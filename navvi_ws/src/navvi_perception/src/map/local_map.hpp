@@ -59,6 +59,8 @@ class LocalMap {
   }
   /// Columns where something stands, whose middle is within `radius` m of the place along x and y.
   [[nodiscard]] std::vector<Column> standing(const Eigen::Vector2d& place, double radius) const;
+  /// m, middles of the voxels that were seen to stand.
+  [[nodiscard]] std::vector<Eigen::Vector3d> seen() const;
   [[nodiscard]] double resolution() const { return config_.resolution; }  ///< m
   /// All of it as OcTree::writeBinaryData: what stands, and the floor below what is clear, which is
   /// taken to be flat.

@@ -136,4 +136,51 @@ octomap_msgs::Octomap map_msg(const std::vector<std::int8_t>& bytes, double reso
   return msg;
 }
 
+visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& standing,
+                                         double resolution, const navvi_types::Obstacles& obstacles,
+                                         const std::string& frame) {
+  using visualization_msgs::Marker;
+  visualization_msgs::MarkerArray array;
+  const auto add = [&](const char* name, int type, const Eigen::Vector3d& scale) -> Marker& {
+    Marker& marker = array.markers.emplace_back();
+    marker.header.frame_id = frame;
+    marker.header.stamp = navvi_types::from_ns(obstacles.stamp);
+    marker.ns = name;
+    marker.id = static_cast<int>(array.markers.size());
+    marker.type = type;
+    marker.scale.x = scale.x();
+    marker.scale.y = scale.y();
+    marker.scale.z = scale.z();
+    marker.pose.orientation.w = 1.0;
+    marker.color.r = type == Marker::CUBE_LIST ? 0.0F : 1.0F;
+    marker.color.g = type == Marker::CUBE_LIST ? 0.9F : 0.5F;
+    marker.color.b = type == Marker::CUBE_LIST ? 1.0F : 0.0F;
+    marker.color.a = type == Marker::CYLINDER ? 0.6F : 1.0F;
+    return marker;
+  };
+  const auto point = [](const Eigen::Vector3d& at) {
+    geometry_msgs::Point out;
+    out.x = at.x();
+    out.y = at.y();
+    out.z = at.z();
+    return out;
+  };
+  // Of the last message nothing is left.
+  add("", Marker::CYLINDER, Eigen::Vector3d::Zero()).action = Marker::DELETEALL;
+  Marker& cubes = add("stands", Marker::CUBE_LIST, Eigen::Vector3d::Constant(resolution));
+  for (const Eigen::Vector3d& middle : standing) cubes.points.push_back(point(middle));
+  if (standing.empty()) array.markers.pop_back();
+  for (const navvi_types::MovingThing& thing : obstacles.things) {
+    const Eigen::Vector3d foot(thing.pose.position.x(), thing.pose.position.y(), thing.floor);
+    const Eigen::Vector3d middle = foot + Eigen::Vector3d(0.0, 0.0, 0.5 * thing.height);
+    add("obstacles", Marker::CYLINDER, {2.0 * thing.radius, 2.0 * thing.radius, thing.height})
+        .pose.position = point(middle);
+    if (thing.velocity.norm() == 0.0) continue;
+    const Eigen::Vector3d way(thing.velocity.x(), thing.velocity.y(), 0.0);
+    add("velocities", Marker::ARROW, {0.06, 0.15, 0.0}).points = {point(middle),
+                                                                  point(middle + way)};
+  }
+  return array;
+}
+
 }  // namespace navvi_perception::node

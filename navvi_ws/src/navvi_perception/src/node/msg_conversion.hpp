@@ -5,8 +5,10 @@
 #include <octomap_msgs/Octomap.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
+#include <navvi_types/thing.hpp>
 #include <optional>
 #include <vector>
 
@@ -47,5 +49,12 @@ void add_points(const sensor_msgs::LaserScan& scan, const sensor_msgs::PointClou
 [[nodiscard]] octomap_msgs::Octomap map_msg(const std::vector<std::int8_t>& bytes,
                                             double resolution, std::int64_t stamp,
                                             const std::string& frame);
+/// For RViz: what stands as cubes, each obstacle as a cylinder, with an arrow to where it will be
+/// in a second.
+/// \param standing  m, middles of voxels \param resolution  m, their edge
+[[nodiscard]] visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& standing,
+                                                       double resolution,
+                                                       const navvi_types::Obstacles& obstacles,
+                                                       const std::string& frame);
 
 }  // namespace navvi_perception::node

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace navvi_perception::node {
 namespace {
@@ -123,6 +124,31 @@ TEST(MsgConversion, takes_a_prior_map_that_lies_flat_and_is_whole) {
   msg.info.origin.position.x = 0.0;
   msg.info.origin.orientation.z = 0.5;
   EXPECT_FALSE(from_msg(msg));
+}
+
+TEST(MsgConversion, shows_what_stands_and_what_moves_and_nothing_of_before) {
+  using visualization_msgs::Marker;
+  navvi_types::Obstacles obstacles{5, {}};
+  const auto none = seen_msg({}, 0.05, obstacles, "map").markers;
+  ASSERT_EQ(none.size(), 1U);
+  EXPECT_EQ(none[0].action, Marker::DELETEALL);
+  navvi_types::MovingThing thing;
+  thing.pose.position = {1.0, 2.0};
+  thing.radius = 0.3;
+  thing.height = 0.5;
+  obstacles.things.push_back(thing);
+  thing.velocity = {0.0, 1.0};
+  obstacles.things.push_back(thing);
+  const auto all = seen_msg({{1.0, 2.0, 0.1}, {1.0, 2.0, 0.15}}, 0.05, obstacles, "map").markers;
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all[1].type, Marker::CUBE_LIST);
+  EXPECT_EQ(all[1].points.size(), 2U);
+  EXPECT_EQ(all[2].type, Marker::CYLINDER);
+  EXPECT_DOUBLE_EQ(all[2].pose.position.z, 0.25);
+  ASSERT_EQ(all[4].type, Marker::ARROW);
+  EXPECT_DOUBLE_EQ(all[4].points[1].y, 3.0);
+  std::set<std::pair<std::string, int>> names;
+  for (const Marker& marker : all) EXPECT_TRUE(names.emplace(marker.ns, marker.id).second);
 }
 
 }  // namespace

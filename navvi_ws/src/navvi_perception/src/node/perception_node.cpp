@@ -61,6 +61,7 @@ class PerceptionNode {
       : config_(config), perception_(std::make_unique<see::Perception>(config.core)) {
     map_ = node.advertise<octomap_msgs::Octomap>("octomap_binary", 1, true);
     obstacles_ = node.advertise<navvi_msgs::Obstacles>("navvi/obstacles", 2);
+    seen_ = node.advertise<visualization_msgs::MarkerArray>("navvi/seen_markers", 1);
     proximity_ = node.advertise<navvi_msgs::Proximity>("navvi/proximity", 2);
     scans_.registerCallback([this](const LaserScan::ConstPtr& scan) { on_scan(*scan); });
     clouds_.registerCallback([this](const PointCloud2::ConstPtr& cloud) { on_cloud(*cloud); });
@@ -187,11 +188,19 @@ class PerceptionNode {
   void take(const sight::Sight& sight) {
     perception_->take(sight);
     sight_ = sight.stamp;
-    navvi_msgs::Obstacles obstacles = navvi_types::to_msg(perception_->obstacles(sight.stamp));
+    const navvi_types::Obstacles told = perception_->obstacles(sight.stamp);
+    navvi_msgs::Obstacles obstacles = navvi_types::to_msg(told);
     obstacles.header.frame_id = config_.map_frame;
     obstacles_.publish(obstacles);
+    if (sight.sensor == kScan || last_[kScan] == 0) show(told);
     if (const auto bytes = perception_->map(sight.stamp))
       map_.publish(map_msg(*bytes, config_.core.resolution(), sight.stamp, config_.map_frame));
+  }
+
+  void show(const navvi_types::Obstacles& obstacles) {
+    if (seen_.getNumSubscribers() == 0) return;
+    seen_.publish(
+        seen_msg(perception_->standing(), config_.core.resolution(), obstacles, config_.map_frame));
   }
 
   void tell_what_is_near() {
@@ -227,7 +236,7 @@ class PerceptionNode {
   tf2_ros::MessageFilter<LaserScan> scans_{buffer_, config_.map_frame, kWaiting, nullptr};
   tf2_ros::MessageFilter<PointCloud2> clouds_{buffer_, config_.map_frame, kWaiting, nullptr};
   laser_geometry::LaserProjection projector_;
-  ros::Publisher map_, obstacles_, proximity_, contacts_;
+  ros::Publisher map_, obstacles_, proximity_, contacts_, seen_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   std::array<std::int64_t, 2> last_{};  ///< ns, the last stamp of each sensor

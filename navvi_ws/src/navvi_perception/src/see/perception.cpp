@@ -253,6 +253,8 @@ navvi_types::Proximity Perception::proximity(const navvi_types::Pose2& robot, st
   return out;
 }
 
+std::vector<Eigen::Vector3d> Perception::standing() const { return parts_->map.seen(); }
+
 navvi_types::Contact Perception::bump(const navvi_types::Pose2& robot, std::int64_t stamp) {
   navvi_types::Contact contact;
   contact.robot = robot;

@@ -199,6 +199,11 @@ void SimNode::log_world(const std::vector<std::string>& notes,
     ROS_INFO("  %4d %s standing", count, thing_class.c_str());
   for (const auto& [thing_class, count] : moving)
     ROS_INFO("  %4d %s on routes", count, thing_class.c_str());
+  if (robot_sensors_)
+    ROS_INFO(
+        "sensing %s: the guide gets scans, %s and odometry; map -> odom is the simulator's, as "
+        "if a localizer erred nowhere",
+        config_.sensing.c_str(), config_.sensing == "robot" ? "clouds" : "no clouds");
   ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.position.x(),
            scenario.start.position.y(), scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
 }

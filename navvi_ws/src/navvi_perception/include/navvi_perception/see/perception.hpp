@@ -52,6 +52,8 @@ class Perception {
   [[nodiscard]] navvi_types::Contact bump(const navvi_types::Pose2& robot, std::int64_t stamp);
   /// A binary OcTree, if it is to be told again: it has changed, and the last is `period` old.
   [[nodiscard]] std::optional<std::vector<std::int8_t>> map(std::int64_t stamp);
+  /// m, middles of the voxels that were seen to stand, without the prior map.
+  [[nodiscard]] std::vector<Eigen::Vector3d> standing() const;
 
  private:
   struct Parts;
