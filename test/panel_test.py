@@ -102,9 +102,9 @@ def desk(master):
     rospy.init_node("panel_test", disable_signals=True)
     desk = Desk(master, "high_contrast")
     try:
-        desk.asked = []
+        desk.asked, desk.requests = [], []  # two topics: which of them comes first is chance
         subscribers = [rospy.Subscriber("/navvi/ask", String, lambda msg: desk.asked.append(msg.data)),
-                       rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: desk.asked.append(msg.request))]
+                       rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: desk.requests.append(msg.request))]
         desk.cues = rospy.Publisher("/navvi/cues", Cue, queue_size=10)
         desk.state = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
         eventually(lambda: all(link.get_num_connections() for link in [*subscribers, desk.cues, desk.state]), 120)
@@ -174,7 +174,14 @@ def test_keys_ask_begin_and_end(desk):
     from navvi_msgs.msg import TrialRequest
     desk.asked.clear()
     desk.press("r", "g", "a", "F5", "F8")
-    eventually(lambda: desk.asked == ["repeat", "goal", "around", TrialRequest.BEGIN, TrialRequest.END])
+    eventually(lambda: (desk.asked, desk.requests) == (["repeat", "goal", "around"], [TrialRequest.BEGIN, TrialRequest.END]))
+
+
+def test_a_key_that_is_held_asks_once(desk):
+    desk.asked.clear()
+    subprocess.run(["xdotool", "keydown", "r", "sleep", "2", "keyup", "r", "key", "g"], env=desk.env, check=True, timeout=60)
+    eventually(lambda: desk.asked[-1:] == ["goal"])
+    assert desk.asked == ["repeat", "goal"]
 
 
 def test_the_tab_key_goes_through_all_that_can_be_pressed(desk):
@@ -229,6 +236,26 @@ def test_no_plate_lies_over_the_robot(desk, tmp_path):
     assert robot.sum() > 500 and (abs(plated - bare).max(axis=2) > 30).sum() > 2000, "robot and plate are there"
     assert (abs(plated - bare).max(axis=2)[robot] > 30).sum() == 0
     desk.show(THINGS)
+
+
+def test_no_plate_lies_over_the_path_from_above(desk, tmp_path):
+    sight = (10, 40, 1910, 800)
+    set_state(desk, "RUNNING")
+    desk.press("2")
+    desk.show(THINGS)
+    time.sleep(1)
+    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
+    label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(7.4, -0.8, 0))
+    label.text = "in 7 m, 9 o'clock"
+    desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]])
+    time.sleep(1)
+    plated = numpy.asarray(desk.shot(tmp_path / "plated.png", sight), dtype=int)
+    path = abs(bare - [209, 115, 255]).max(axis=2) < 12
+    changed = abs(plated - bare).max(axis=2) > 30
+    assert path.sum() > 5000 and changed.sum() > 2000, "path and plate are there"
+    assert (changed & path).sum() == 0
+    desk.show(THINGS)
+    desk.press("1")
 
 
 # --- how large letters are

@@ -22,6 +22,7 @@ constexpr double kLeastText = 26.0;      // px, of capital letters
 constexpr double kMargin = 3.0;          // m, around what the view from above holds
 constexpr double kRobot = 0.3;           // m, half of what plates leave free of the robot
 constexpr double kGoal = 1.2;            // m, the same of the goal, from above
+constexpr double kPiece = 0.8;           // m, of the path, in which plates leave it free from above
 constexpr double kLargest = 60.0;        // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
 // Of its distance, by which RViz lifts its follower across its axis.
@@ -234,6 +235,11 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   view->subProp("Scale")->setValue(scale);
   if (goal_)
     if (const auto place = place_of(*goal_, kGoal)) taken.push_back(*place);
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+    const Eigen::Vector2d from = path_[i].head<2>(), way = path_[i + 1].head<2>() - from;
+    for (double share = 0.0; share < 1.0; share += kPiece / std::max(kPiece, way.norm()))
+      if (const auto place = place_of(from + share * way, 0.5 * kPiece)) taken.push_back(*place);
+  }
 
   const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
   if (!pixel) return;
