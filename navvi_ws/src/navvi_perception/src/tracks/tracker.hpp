@@ -10,7 +10,7 @@
 namespace navvi_perception::tracks {
 
 struct TrackConfig {
-  double gate = 0.6;     ///< m, farther from where it was expected a thing is another one
+  double gate = 0.9;     ///< m, farther from where it was expected a thing is another one
   double keep = 1.0;     ///< s, a thing is expected that is not seen
   int sightings = 3;     ///< after which it is told
   double noise = 0.08;   ///< m, standard deviation of a measured middle
