@@ -27,6 +27,15 @@ def test_the_record_is_of_the_truth(node):
     assert "navvi/seen" not in arguments_of(node, "sensing:=robot")
 
 
+def test_the_record_names_what_guided_and_whose_place_of_the_robot_it_is():
+    def recorded(*words):
+        found = subprocess.run(["roslaunch", "--dump-params", str(LIVE), "operator:=simulated", "rviz:=false", *words],
+                               capture_output=True, text=True, timeout=60).stdout
+        return re.search(r"^/trial_node/parameters: (.*)$", found, re.M).group(1).strip("'")
+    assert recorded("sensing:=lidar", "parameters:=a/b=1") == "sim/sensing=lidar place=simulator a/b=1"
+    assert recorded() == ""
+
+
 def test_the_truth_is_told_where_nothing_else_is_asked_for():
     assert "navvi/seen" not in arguments_of("nav_node")
     assert "perception_node" not in subprocess.run(
