@@ -23,13 +23,13 @@ navvi_test() {
 tests_percent() { sed -n 's/^ *\([0-9]*\)\/\([0-9]*\) Test .*/\1 \2/p' "$1" | tail -n 1 | awk '{print int(100 * $1 / $2)}'; }
 files_percent() { awk '/ files$/ {files = $1} / has ended$/ {++ended} END {if (files) print int(100 * ended / files)}' "$1"; }
 
-# Each file in a process of its own, for rospy knows one master in its life; two at a time, for they mostly wait.
+# Each file in a process of its own, for rospy knows one master in its life; one at a time, for keys and pictures need the machine.
 system_tests() {  # FILTER RESULTS
   local files=("$tests"/*_test.py)
   mkdir -p "$2"
   echo "${#files[@]} files"
   export -f system_test
-  printf '%s\0' "${files[@]}" | xargs -0 -P 2 -I {} bash -c 'system_test "$@"' bash {} "$1" "$2"
+  printf '%s\0' "${files[@]}" | xargs -0 -P 1 -I {} bash -c 'system_test "$@"' bash {} "$1" "$2"
   cat "$2"/*.log
 }
 system_test() {  # FILE FILTER RESULTS
