@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 
-from live_session_test import Display
+from display import Display
 
 pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent

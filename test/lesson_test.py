@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 import hearing
-from live_session_test import Display
+from display import Display
 
 pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent

@@ -20,6 +20,7 @@ from navvi_msgs.msg import Cue
 from octomap_msgs.msg import Octomap
 
 import hearing
+from display import Display
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
@@ -33,26 +34,6 @@ TOPICS = {
 BAGGED = TOPICS - {"/clock", "/occupied_cells_vis_array", "/navvi/navmesh"}
 MOST_BYTES = 55_000  # of a bag, for each simulated second: 0.2 GB an hour
 PICTURE = ["/navvi/scene", "/navvi/scene_moving", "/navvi/navmesh", "/navvi/markers", "/navvi/path"]
-
-
-class Display:
-    """A virtual screen, so that the picture can be looked at."""
-
-    def __init__(self):
-        read, write = os.pipe()
-        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x900x24", "+extension", "GLX"],
-                                        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(write)
-        with os.fdopen(read) as pipe:
-            self.name = ":" + pipe.readline().strip()
-
-    def shot(self, path):
-        subprocess.run(["import", "-window", "root", str(path)], check=True, timeout=30,
-                       env=dict(os.environ, DISPLAY=self.name))
-
-    def close(self):
-        self.process.terminate()
-        self.process.wait()
 
 
 class Session:

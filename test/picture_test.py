@@ -8,6 +8,8 @@ import numpy
 import pytest
 from PIL import Image, ImageChops, ImageFilter
 
+from display import Display
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 pytestmark = pytest.mark.accessibility
 VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
@@ -56,14 +58,9 @@ class Picture:
         from tf2_msgs.msg import TFMessage
         from visualization_msgs.msg import Marker, MarkerArray
         self.Marker, self.Point, self.Color = Marker, Point, ColorRGBA
-        read, write = os.pipe()
-        # As on a desktop, what one program leaves at the root window stays when it goes.
-        self.screen = subprocess.Popen(["Xvfb", "-noreset", "-displayfd", str(write), "-screen", "0", "1920x1080x24", "+extension", "GLX"],
-                                       pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(write)
-        with os.fdopen(read) as pipe:
-            self.env = dict(env, DISPLAY=":" + pipe.readline().strip(), LIBGL_ALWAYS_SOFTWARE="1")
-        self.processes = [self.screen]
+        self.display = Display("1920x1080")
+        self.env = dict(env, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1")
+        self.processes = []
         self.furnish()
         frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         transforms = []
@@ -150,6 +147,7 @@ class Picture:
         for process in reversed(self.processes):
             process.terminate()
             process.wait()
+        self.display.close()
 
 
 @pytest.fixture(scope="module")
