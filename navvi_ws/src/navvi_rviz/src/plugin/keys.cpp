@@ -89,22 +89,29 @@ void Keys::publish() {
 }
 
 bool Keys::eventFilter(QObject* target, QEvent* event) {
+  if (event->type() == QEvent::WindowDeactivate && target == child_.window()) down_.clear();
   const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease ||
                    event->type() == QEvent::ShortcutOverride;
-  if (key && drive()) {
-    const auto& pressed = *static_cast<const QKeyEvent*>(event);
-    if (ours(pressed)) {
-      // A key that is held is pressed again and again.
-      if (event->type() == QEvent::KeyPress && !pressed.isAutoRepeat()) down_[pressed.key()] = {};
-      // One that is released may have been pressed in another window.
-      const auto held = down_.find(pressed.key());
-      if (event->type() == QEvent::KeyRelease && !pressed.isAutoRepeat() && held != down_.end())
-        held->second.released = true;
-      event->accept();
-      return true;
-    }
+  if (key && take(*static_cast<QKeyEvent*>(event))) {
+    event->accept();
+    return true;
   }
   return QObject::eventFilter(target, event);
+}
+
+bool Keys::take(const QKeyEvent& event) {
+  const int key = event.key();
+  const bool repeated = key == up_.key && event.timestamp() == up_.stamp;
+  if (event.type() == QEvent::KeyRelease) {
+    const auto held = down_.find(key);  // not there if it was pressed elsewhere
+    up_ = {key, event.timestamp(), held != down_.end()};
+    if (up_.held) held->second.released = true;
+  }
+  if (!drive() || !ours(event))  // who cannot let go soon asks once
+    return event.type() == QEvent::ShortcutOverride && repeated &&
+           !takes_keys(QApplication::focusWidget());
+  if (event.type() == QEvent::KeyPress && (!repeated || up_.held)) down_[key] = {};
+  return true;
 }
 
 }  // namespace navvi_rviz::plugin

@@ -2,7 +2,7 @@
 
 #include <ros/ros.h>
 
-#include <QEvent>
+#include <QKeyEvent>
 #include <QTimer>
 #include <QWidget>
 #include <map>
@@ -22,6 +22,8 @@ class Keys : public QObject {
  private:
   /// Whether the keys are ours now.
   [[nodiscard]] bool drive() const;
+  /// Whether nobody else is to have it.
+  bool take(const QKeyEvent& event);
   void publish();
 
   const QWidget& child_;
@@ -34,6 +36,14 @@ class Keys : public QObject {
     bool released = false;
   };
   std::map<int, Press> down_;  ///< by Qt::Key
+  /// The last key that was let go. X lets a key that is held go and presses it at the same
+  /// millisecond, again and again. QKeyEvent::isAutoRepeat() is not to be trusted: it says no where
+  /// Qt did not read both at once, and yes for a press after a release in another window.
+  struct {
+    int key = 0;
+    unsigned long stamp = 0;  ///< ms
+    bool held = false;        ///< and drove until then
+  } up_;
   bool driving_ = false;
 };
 

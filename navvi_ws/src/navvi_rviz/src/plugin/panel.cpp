@@ -98,7 +98,6 @@ QPushButton* Panel::add_button(QHBoxLayout* row, const QString& words, const QKe
   connect(button, &QPushButton::clicked, this, action);
   auto* shortcut = new QShortcut(key, scope);
   shortcut->setContext(Qt::ApplicationShortcut);
-  shortcut->setAutoRepeat(false);  // who cannot let go soon asks once
   connect(shortcut, &QShortcut::activated, this, action);
   row->addWidget(button, words.size());
   return button;
