@@ -23,7 +23,7 @@
 namespace navvi_nav {
 namespace {
 
-constexpr double kPatience = 15.0;  // s
+constexpr double kPatience = 60.0;  // s
 
 class NavNodeTest : public testing::Test {
  protected:

@@ -21,7 +21,7 @@
 namespace navvi_perception {
 namespace {
 
-constexpr double kPatience = 30.0;  // s
+constexpr double kPatience = 60.0;  // s
 constexpr double kRoom = 3.0;       // m, from the robot to each of four walls
 
 /// A robot at (10, 0) in a square room; its lidar sits 0.2 m ahead of its middle.
