@@ -2,8 +2,6 @@
 
 #include <navvi_msgs/TrialRequest.h>
 #include <rviz/render_panel.h>
-#include <rviz/view_controller.h>
-#include <rviz/view_manager.h>
 #include <rviz/visualization_frame.h>
 #include <rviz/visualization_manager.h>
 #include <std_msgs/String.h>
@@ -23,6 +21,7 @@
 
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
+#include "plugin/views.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {
@@ -147,7 +146,8 @@ void Panel::add_views() {
   const char* const views[] = {"Chase", "Top", "Forward"};
   for (int i = 0; i < 3; ++i)
     add_button(
-        view_row_, views[i], QKeySequence(Qt::Key_1 + i), [this, i] { choose_view(i); }, this);
+        view_row_, views[i], QKeySequence(Qt::Key_1 + i),
+        [this, view = views[i]] { choose_view(*vis_manager_, view); }, this);
   add_button(
       view_row_, "RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); }, this);
   settings_ = add_button(
@@ -180,11 +180,6 @@ void Panel::request(std::uint8_t what) {
   msg.header.stamp = ros::Time::now();
   msg.request = what;
   requests_.publish(msg);
-}
-
-void Panel::choose_view(int index) {
-  rviz::ViewManager* views = vis_manager_->getViewManager();
-  if (index < views->getNumViews()) views->setCurrentFrom(views->getViewAt(index));
 }
 
 void Panel::fill_screen() {

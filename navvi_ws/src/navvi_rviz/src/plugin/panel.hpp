@@ -37,7 +37,6 @@ class Panel : public rviz::Panel {
   void show_menu(const QString& words);
   void ask(const std::string& question);
   void request(std::uint8_t what);
-  void choose_view(int index);
   void fill_screen();
   void show_chrome(bool visible);
   void style();
