@@ -8,7 +8,7 @@ import time
 import numpy
 import pytest
 
-from picture_test import THINGS, Picture, luminance
+from picture_test import KINDS, THINGS, Picture, luminance
 
 pytestmark = pytest.mark.accessibility
 
@@ -216,11 +216,15 @@ def test_keys_choose_the_view(desk, tmp_path):
     print(numpy.round(differ, 3))
     assert differ[1][3] < 0.01, "the same key shows the same view"
     assert min(differ[0][1], differ[0][2], differ[1][2]) > 0.05, "each key shows its own"
+    desk.press("1", "1", "2", "3", "2", "2")  # faster than pictures are drawn
+    time.sleep(1)
+    last = numpy.asarray(desk.shot(tmp_path / "view.png", (10, 40, 1910, 800)), dtype=int)
+    assert (abs(last - shots[1]).max(axis=2) > 30).mean() < 0.01, "RViz lives, and shows the last"
     desk.press("1")
 
 
 def test_no_plate_lies_over_the_robot(desk, tmp_path):
-    sight = (10, 40, 1910, 700)
+    sight = (10, 40, 1910, 775)
     set_state(desk, "RUNNING")
     desk.show([thing for thing in THINGS if thing != "robot"])
     label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(-0.2, 0, 0))
@@ -238,10 +242,11 @@ def test_no_plate_lies_over_the_robot(desk, tmp_path):
     desk.show(THINGS)
 
 
-def test_no_plate_lies_over_the_path_from_above(desk, tmp_path):
+@pytest.mark.parametrize("view", ["1", "2"])
+def test_no_plate_lies_over_the_path(desk, tmp_path, view):
     sight = (10, 40, 1910, 800)
     set_state(desk, "RUNNING")
-    desk.press("2")
+    desk.press(view)
     desk.show(THINGS)
     time.sleep(1)
     bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
@@ -254,6 +259,31 @@ def test_no_plate_lies_over_the_path_from_above(desk, tmp_path):
     changed = abs(plated - bare).max(axis=2) > 30
     assert path.sum() > 5000 and changed.sum() > 2000, "path and plate are there"
     assert (changed & path).sum() == 0
+    desk.show(THINGS)
+    desk.press("1")
+
+
+@pytest.mark.parametrize("view", ["1", "2"])
+def test_no_plate_lies_over_the_goal_what_moves_or_is_stumbled_over(desk, tmp_path, view):
+    sight = (10, 40, 1910, 800)
+    set_state(desk, "RUNNING")
+    desk.press(view)
+    desk.show([thing for thing in THINGS if thing not in (*KINDS["movers"], "goal", "pedestal")])
+    time.sleep(1)
+    without = numpy.asarray(desk.shot(tmp_path / "without.png", sight), dtype=int)
+    desk.show(THINGS)
+    time.sleep(1)
+    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
+    things = abs(bare - without).max(axis=2) > 60
+    for place in [(10.5, -2.6, 0), (6.0, -3.2, 0), (5.0, 0.2, 0)]:
+        label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=place)
+        label.text = "in 7 m, 9 o'clock"
+        desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]])
+        time.sleep(1)
+        plated = numpy.asarray(desk.shot(tmp_path / "plated.png", sight), dtype=int)
+        changed = abs(plated - bare).max(axis=2) > 30
+        assert things.sum() > 2000 and changed.sum() > 2000, "things and plate are there"
+        assert (changed & things).sum() == 0, place
     desk.show(THINGS)
     desk.press("1")
 

@@ -3,37 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "look/solids.hpp"
+
 namespace navvi_rviz::look {
 namespace {
-
-using visualization_msgs::Marker;
 
 constexpr double kCell = 0.2;    // m
 constexpr double kLowest = 0.5;  // m; what is lower hides nothing
 
 int cell(double x) { return static_cast<int>(std::floor(x / kCell)); }
 
-Eigen::Vector3d vector(const geometry_msgs::Point& at) { return {at.x, at.y, at.z}; }
-
 }  // namespace
 
 Skyline::Skyline(const visualization_msgs::MarkerArray& scene) {
-  for (const Marker& marker : scene.markers) {
-    if (marker.action != Marker::ADD || marker.ns == "floor") continue;
-    const Eigen::Vector3d origin = vector(marker.pose.position);
-    if (marker.type == Marker::CUBE_LIST) {
-      const Eigen::Vector3d half =
-          0.5 * Eigen::Vector3d(marker.scale.x, marker.scale.y, marker.scale.z);
-      for (const auto& point : marker.points)
-        raise(origin + vector(point) - half, origin + vector(point) + half);
-    }
-    if (marker.type != Marker::TRIANGLE_LIST) continue;
-    for (std::size_t i = 0; i + 3 <= marker.points.size(); i += 3) {
-      const Eigen::Vector3d a = vector(marker.points[i]), b = vector(marker.points[i + 1]),
-                            c = vector(marker.points[i + 2]);
-      raise(origin + a.cwiseMin(b).cwiseMin(c), origin + a.cwiseMax(b).cwiseMax(c));
-    }
-  }
+  for (const visualization_msgs::Marker& marker : scene.markers)
+    if (marker.ns != "floor")
+      for (const Eigen::AlignedBox3d& solid : solids(marker)) raise(solid.min(), solid.max());
 }
 
 void Skyline::raise(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {

@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "look/solids.hpp"
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
+#include "plugin/views.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {
@@ -21,8 +23,7 @@ constexpr double kAhead[] = {2.0, 4.0};  // m along the path, to where the edge 
 constexpr double kLeastText = 26.0;      // px, of capital letters
 constexpr double kMargin = 3.0;          // m, around what the view from above holds
 constexpr double kRobot = 0.3;           // m, half of what plates leave free of the robot
-constexpr double kGoal = 1.2;            // m, the same of the goal, from above
-constexpr double kPiece = 0.8;           // m, of the path, in which plates leave it free from above
+constexpr double kPiece = 0.8;           // m, of the path, in which plates leave it free
 constexpr double kLargest = 60.0;        // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
 // Of its distance, by which RViz lifts its follower across its axis.
@@ -33,15 +34,14 @@ Eigen::Vector2d size_of(const Plate& plate) {
   return {plate.size().width(), plate.size().height()};
 }
 
-/// Makes the saved view of that name the current one.
-void choose_view(rviz::ViewManager& views, const std::string& name) {
-  for (int i = 0; i < views.getNumViews(); ++i)
-    if (views.getViewAt(i)->getName().toLower() == QString::fromStdString(name))
-      views.setCurrentFrom(views.getViewAt(i));
-}
-
 Eigen::Vector3d from(const geometry_msgs::Point& point, const geometry_msgs::Point& origin) {
   return {point.x + origin.x, point.y + origin.y, point.z + origin.z};
+}
+
+Eigen::AlignedBox3d whole(const visualization_msgs::Marker& marker) {
+  Eigen::AlignedBox3d all;
+  for (const Eigen::AlignedBox3d& solid : look::solids(marker)) all.extend(solid);
+  return all;
 }
 
 }  // namespace
@@ -54,9 +54,20 @@ void CaptionsDisplay::onInitialize() {
   using visualization_msgs::MarkerArray;
   markers_ = update_nh_.subscribe<MarkerArray>(
       "navvi/markers", 1, [this](const MarkerArray::ConstPtr& msg) { take(*msg); });
-  scene_ = update_nh_.subscribe<MarkerArray>(
-      "navvi/scene", 1,
-      [this](const MarkerArray::ConstPtr& msg) { skyline_ = look::Skyline(*msg); });
+  scene_ =
+      update_nh_.subscribe<MarkerArray>("navvi/scene", 1, [this](const MarkerArray::ConstPtr& msg) {
+        skyline_ = look::Skyline(*msg);
+        pedestals_.clear();
+        for (const auto& marker : msg->markers)
+          if (marker.ns == "pedestal")
+            for (const auto& solid : look::solids(marker)) pedestals_.push_back(solid);
+      });
+  moving_scene_ = update_nh_.subscribe<MarkerArray>("navvi/scene_moving", 1,
+                                                    [this](const MarkerArray::ConstPtr& msg) {
+                                                      movers_.clear();
+                                                      for (const auto& marker : msg->markers)
+                                                        movers_.push_back(whole(marker));
+                                                    });
 }
 
 void CaptionsDisplay::onDisable() {
@@ -67,10 +78,12 @@ void CaptionsDisplay::take(const visualization_msgs::MarkerArray& markers) {
   using visualization_msgs::Marker;
   labels_.clear();
   path_.clear();
+  goal_parts_.clear();
   for (const Marker& marker : markers.markers) {
     if (marker.action != Marker::ADD) continue;
     if (marker.type == Marker::TEXT_VIEW_FACING)
       labels_[marker.id] = {marker.text, from(marker.pose.position, {})};
+    if (marker.ns == "goal") goal_parts_.push_back(whole(marker));
     if (marker.ns == "path" && marker.id == 1)
       for (const auto& point : marker.points) path_.push_back(from(point, marker.pose.position));
   }
@@ -125,7 +138,8 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
   height_ = static_cast<int>(std::max(
       kLeastText, Chosen::shared().vision().text_height * std::max(1.0, picture.y() / 1080.0)));
   if (std::exchange(first_, false))
-    choose_view(*context_->getViewManager(), ros::param::param<std::string>("~view", "chase"));
+    choose_view(*context_,
+                QString::fromStdString(ros::param::param<std::string>("~view", "chase")));
   onDisable();
   std::vector<screen::Rect> taken;
   show_banner(picture, taken);
@@ -133,7 +147,18 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
     show_from_above(*pose, picture, taken);
     show_from_behind(*pose, static_cast<double>(wall_dt));
     show_way(*pose, picture, taken);
-    if (const auto place = place_of(pose->position, kRobot)) taken.push_back(*place);
+    const Eigen::Vector3d at(pose->position.x(), pose->position.y(), kRobot);
+    keep_free({at.array() - kRobot, at.array() + kRobot}, picture, taken);
+  }
+  for (const auto* things : {&goal_parts_, &pedestals_, &movers_})
+    for (const Eigen::AlignedBox3d& thing : *things) keep_free(thing, picture, taken);
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+    const Eigen::Vector3d way = path_[i + 1] - path_[i];
+    const Eigen::Vector3d half(0.5 * kPiece, 0.5 * kPiece, 0.0);
+    for (double share = 0.0; share < 1.0; share += kPiece / std::max(kPiece, way.norm())) {
+      const Eigen::Vector3d place = path_[i] + share * way;
+      keep_free({place - half, place + half}, picture, taken);
+    }
   }
   show_labels(picture, taken);
 }
@@ -178,35 +203,38 @@ void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vec
 void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture,
                                   const std::vector<screen::Rect>& taken) {
   std::vector<screen::Plate> wanted;
-  std::vector<Plate*> plates;
+  std::vector<Painted*> plates;
   const auto add = [&](const std::string& name, const std::string& text,
                        const Eigen::Vector3d& at) {
     const Seen seen = see(at);
     if (!seen.pixel || (seen.pixel->array() < 0.0).any() ||
         (seen.pixel->array() > picture.array()).any())
       return;
-    plates.push_back(&words(name, text, height_, false));
-    wanted.push_back({*seen.pixel, size_of(*plates.back())});
+    const Plate& plate = words(name, text, height_, false);
+    plates.push_back(&plates_.at(name));
+    wanted.push_back({*seen.pixel, size_of(plate), plates.back()->place});
   };
   for (const auto& [id, label] : labels_)
     add("label" + std::to_string(id), label.first, label.second);
   if (from_above() && start_ && !labels_.empty())
     add("start", "START", {start_->x(), start_->y(), 0.0});
   const std::vector<Eigen::Vector2d> corners = screen::place(wanted, picture, taken);
-  for (std::size_t i = 0; i < plates.size(); ++i) plates[i]->show(corners[i].x(), corners[i].y());
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    plates[i]->plate->show(corners[i].x(), corners[i].y());
+    plates[i]->place = corners[i] - wanted[i].anchor;
+  }
 }
 
-std::optional<screen::Rect> CaptionsDisplay::place_of(const Eigen::Vector2d& thing,
-                                                      double half) const {
+void CaptionsDisplay::keep_free(const Eigen::AlignedBox3d& thing, const Eigen::Vector2d& picture,
+                                std::vector<screen::Rect>& taken) const {
+  if (thing.isEmpty()) return;
   screen::Rect place;
-  for (const double x : {-half, half})
-    for (const double y : {-half, half})
-      for (const double z : {0.0, 2.0 * half}) {
-        const Seen seen = see({thing.x() + x, thing.y() + y, z});
-        if (!seen.pixel) return std::nullopt;
-        place.extend(*seen.pixel);
-      }
-  return place;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Seen seen = see(thing.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    if (!seen.pixel) return;
+    place.extend(*seen.pixel);
+  }
+  if (place.intersects(screen::Rect(Eigen::Vector2d::Zero(), picture))) taken.push_back(place);
 }
 
 bool CaptionsDisplay::from_above() const {
@@ -233,14 +261,6 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   view->subProp("X")->setValue(all.center().x());
   view->subProp("Y")->setValue(all.center().y() + 0.5 * banner / scale);
   view->subProp("Scale")->setValue(scale);
-  if (goal_)
-    if (const auto place = place_of(*goal_, kGoal)) taken.push_back(*place);
-  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
-    const Eigen::Vector2d from = path_[i].head<2>(), way = path_[i + 1].head<2>() - from;
-    for (double share = 0.0; share < 1.0; share += kPiece / std::max(kPiece, way.norm()))
-      if (const auto place = place_of(from + share * way, 0.5 * kPiece)) taken.push_back(*place);
-  }
-
   const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
   if (!pixel) return;
   Plate& plate = arrow("robot", robot.yaw, 3 * height_);

@@ -3,7 +3,7 @@
 #include <rviz/display.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <functional>
 #include <map>
 #include <memory>
@@ -36,6 +36,7 @@ class CaptionsDisplay : public rviz::Display {
   struct Painted {
     std::unique_ptr<Plate> plate;
     std::string key;
+    std::optional<Eigen::Vector2d> place;  ///< px, from what it is beside to its corner
   };
 
   /// Of a place in map: in the camera's frame, and on the screen if it is before the camera.
@@ -56,10 +57,9 @@ class CaptionsDisplay : public rviz::Display {
   /// An arrow's plate. \param angle  rad, counter-clockwise from right
   Plate& arrow(const std::string& name, double angle, int size);
   [[nodiscard]] bool from_above() const;
-  /// Of something on the screen. \param half  m, of its size
-  /// \return nullopt: not before the camera
-  [[nodiscard]] std::optional<screen::Rect> place_of(const Eigen::Vector2d& thing,
-                                                     double half) const;
+  /// Plates leave `thing` free. \param thing  m, in map
+  void keep_free(const Eigen::AlignedBox3d& thing, const Eigen::Vector2d& picture,
+                 std::vector<screen::Rect>& taken) const;
   void show_banner(const Eigen::Vector2d& picture, std::vector<screen::Rect>& taken);
   void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
                 std::vector<screen::Rect>& taken);
@@ -77,10 +77,11 @@ class CaptionsDisplay : public rviz::Display {
   int height_ = 26;    ///< px, of capital letters
   std::optional<Eigen::Vector2d> start_,
       goal_;  ///< m, in map: where the robot was when it got its goal
-  ros::Subscriber markers_, scene_;
+  ros::Subscriber markers_, scene_, moving_scene_;
   look::Skyline skyline_;
-  std::map<int, std::pair<std::string, Eigen::Vector3d>> labels_;  ///< by id, place in map, m
-  std::vector<Eigen::Vector3d> path_;                              ///< m, in map
+  std::vector<Eigen::AlignedBox3d> goal_parts_, pedestals_, movers_;  ///< m, in map
+  std::map<int, std::pair<std::string, Eigen::Vector3d>> labels_;     ///< by id, place in map, m
+  std::vector<Eigen::Vector3d> path_;                                 ///< m, in map
   std::map<std::string, Painted> plates_;
 };
 

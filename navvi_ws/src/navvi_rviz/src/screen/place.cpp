@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kGap = 8.0;  // px, between plates, and from a plate to its place
 constexpr int kSteps = 30;    // of half a plate, to each side
+constexpr double kPatience = 1.5;
 
 Rect rect_at(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) {
   return {corner, corner + size};
@@ -46,6 +47,10 @@ std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates, const Eigen
         best = way.norm();
         corner = trial;
       }
+    if (plate.before && best > 0.0) {
+      const Eigen::Vector2d stay = into(plate.anchor + *plate.before, plate.size, picture);
+      if ((stay - wish).norm() <= kPatience * best && free(stay)) corner = stay;
+    }
     corners.push_back(corner);
     used.push_back(rect_at(corner, plate.size));
   }

@@ -12,10 +12,13 @@ using Rect = Eigen::AlignedBox2d;  ///< px, from the left upper corner of the pi
 struct Plate {
   Eigen::Vector2d anchor;  ///< px, of the place; may be outside
   Eigen::Vector2d size;    ///< px
+  /// px, from the anchor to its left upper corner in the picture before
+  std::optional<Eigen::Vector2d> before;
 };
 
 /// Where plates are drawn: over their places if there is room, inside the picture, and never over
-/// each other or what is taken. The first are placed first.
+/// each other or what is taken. The first are placed first. One that had to go aside stays where it
+/// is until there is room over its place or much nearer to it.
 /// \return the left upper corner of each, px
 [[nodiscard]] std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates,
                                                  const Eigen::Vector2d& picture,

@@ -13,7 +13,8 @@ TEST(Place, plates_lie_inside_and_never_over_each_other_or_what_is_taken) {
   const std::vector<Rect> taken = {{Eigen::Vector2d(600.0, 0.0), Eigen::Vector2d(1300.0, 120.0)}};
   std::vector<Plate> plates;
   for (const double x : {-500.0, 0.0, 900.0, 1000.0, 5000.0})
-    for (const double y : {-50.0, 100.0, 130.0, 2000.0}) plates.push_back({{x, y}, {300.0, 50.0}});
+    for (const double y : {-50.0, 100.0, 130.0, 2000.0})
+      plates.push_back({{x, y}, {300.0, 50.0}, std::nullopt});
   const std::vector<Eigen::Vector2d> corners = place(plates, kPicture, taken);
   std::vector<Rect> rects = taken;
   for (std::size_t i = 0; i < plates.size(); ++i) {
@@ -29,9 +30,9 @@ TEST(Place, large_plates_in_a_low_picture_go_aside) {
   const Eigen::Vector2d low(1920.0, 560.0);
   const std::vector<Rect> taken = {{Eigen::Vector2d(500.0, 10.0), Eigen::Vector2d(1400.0, 260.0)},
                                    {Eigen::Vector2d(850.0, 290.0), Eigen::Vector2d(1060.0, 500.0)}};
-  const std::vector<Plate> plates = {{{950.0, 300.0}, {280.0, 110.0}},
-                                     {{950.0, 280.0}, {740.0, 110.0}},
-                                     {{950.0, 400.0}, {310.0, 110.0}}};
+  const std::vector<Plate> plates = {{{950.0, 300.0}, {280.0, 110.0}, std::nullopt},
+                                     {{950.0, 280.0}, {740.0, 110.0}, std::nullopt},
+                                     {{950.0, 400.0}, {310.0, 110.0}, std::nullopt}};
   std::vector<Rect> rects = taken;
   const auto corners = place(plates, low, taken);
   for (std::size_t i = 0; i < plates.size(); ++i) {
@@ -43,9 +44,27 @@ TEST(Place, large_plates_in_a_low_picture_go_aside) {
 }
 
 TEST(Place, a_plate_alone_is_over_the_middle_of_its_place) {
-  const auto corners = place({{{960.0, 540.0}, {200.0, 40.0}}}, kPicture, {});
+  const auto corners = place({{{960.0, 540.0}, {200.0, 40.0}, std::nullopt}}, kPicture, {});
   EXPECT_DOUBLE_EQ(corners[0].x(), 860.0);
   EXPECT_LT(corners[0].y() + 40.0, 540.0);
+}
+
+TEST(Place, a_plate_that_went_aside_stays_there_while_what_drove_it_off_passes) {
+  Plate plate{{960.0, 540.0}, {200.0, 40.0}, std::nullopt};
+  const auto passing = [](double x) {
+    return Rect(Eigen::Vector2d(x, 450.0), Eigen::Vector2d(x + 150.0, 600.0));
+  };
+  Eigen::Vector2d corner;
+  int moves = 0;
+  for (double x = 500.0; x < 1300.0; x += 5.0) {
+    const Eigen::Vector2d now = place({plate}, kPicture, {passing(x)})[0];
+    moves += x > 500.0 && !now.isApprox(corner) ? 1 : 0;
+    corner = now;
+    plate.before = corner - plate.anchor;
+    EXPECT_FALSE(Rect(corner, corner + plate.size).intersects(passing(x)));
+  }
+  EXPECT_LE(moves, 4);
+  EXPECT_DOUBLE_EQ(corner.x(), 860.0) << "there is room again";
 }
 
 TEST(EdgeArrow, is_there_only_for_what_is_outside) {
