@@ -1,4 +1,5 @@
 """What a person with little sight sees: contrast, measured on pictures of RViz with and without each thing."""
+import itertools
 import os
 import pathlib
 import subprocess
@@ -13,6 +14,8 @@ from display import Display
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 pytestmark = pytest.mark.accessibility
 VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
+# The least share of a thing's outline that stands out. Seen forward, boards and boxes are before some, and end there with edges of their own.
+LEAST = {"chase": 0.97, "forward": 0.93}
 KINDS = {"path": ["path"], "goal": ["goal"], "goods": ["box", "pedestal"], "movers": ["worker", "forklift", "pallet_robot", "robot"]}
 THINGS = sum(KINDS.values(), [])
 NEAR = 12  # px; a thing's own edge is within, or within twice that where all is drawn twice as wide
@@ -51,7 +54,7 @@ class Picture:
     """RViz with a hand-made scene on a virtual screen."""
     filled = True
 
-    def __init__(self, env, vision):
+    def __init__(self, env, vision, view="chase"):
         import rospy
         from geometry_msgs.msg import Point, TransformStamped
         from std_msgs.msg import ColorRGBA
@@ -75,8 +78,8 @@ class Picture:
         self.frames = frames
         if self.filled:
             self.show(THINGS)
-        self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}"], env=self.env,
-                                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True))
+        self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}", f"view:={view}"],
+                                               env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True))
 
     def furnish(self):
         """What else runs on the screen before RViz."""
@@ -130,8 +133,8 @@ class Picture:
                     marker.action = self.Marker.DELETE
             self.topics[topic].publish(markers)
 
-    def shot(self, path, box=(10, 10, 1910, 800)):
-        """The picture once it has come to rest; without the panel, unless `box` (px) says otherwise."""
+    def shot(self, path, box):
+        """What is in `box` (px) of the screen once it has come to rest."""
         last = None
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline:
@@ -158,43 +161,45 @@ def node(master):
     return master
 
 
-@pytest.fixture(scope="module", params=VISIONS)
+@pytest.fixture(scope="module", params=itertools.product(LEAST, VISIONS), ids="-".join)
 def pictures(request, node, tmp_path_factory):
     """A picture with everything, and for each kind of thing one without it."""
-    folder = tmp_path_factory.mktemp(request.param)
-    picture = Picture(node, request.param)
+    view, vision = request.param
+    folder = tmp_path_factory.mktemp(vision)
+    picture = Picture(node, vision, view)
+    above_panel = (10, 10, 1910, 640 if vision == "large" else 770)
     try:
         time.sleep(5)
-        everything = picture.shot(folder / "all.png")
+        everything = picture.shot(folder / "all.png", above_panel)
         without = {}
         for kind, things in KINDS.items():
             picture.show([thing for thing in THINGS if thing not in things])
             time.sleep(1)
-            without[kind] = picture.shot(folder / f"without_{kind}.png")
+            without[kind] = picture.shot(folder / f"without_{kind}.png", above_panel)
     finally:
         picture.close()
-    return everything, without, request.param
+    return everything, without, view, vision
 
 
 def test_each_thing_or_its_edge_stands_out_from_all_that_it_is_before(pictures):
-    everything, without, vision = pictures
+    everything, without, view, vision = pictures
     weak = {}
     for thing in KINDS:
         best, inside = edge_contrast(everything, without[thing], NEAR * (2 if vision == "large" else 1))
         assert inside.sum() > 1000, f"{thing} is not in the picture"
         passed = (best >= 4.5).mean()
-        print(f"{vision} {thing}: {best.min():.1f} least, {numpy.percentile(best, 3):.1f} for 97 %, median {numpy.median(best):.1f}")
-        if passed < 0.97:
+        print(f"{view} {vision} {thing}: {best.min():.1f} least, {numpy.percentile(best, 3):.1f} for 97 %, median {numpy.median(best):.1f}")
+        if passed < LEAST[view]:
             weak[thing] = round(float(passed), 3)
     assert not weak
 
 
 def test_path_goal_and_mover_are_found_in_grey_and_as_by_20_200(pictures):
-    everything, without, vision = pictures
+    everything, without, view, vision = pictures
     # 10 minutes of arc, at 60 cm from a screen of 24 inches with 1080 rows.
     blurred = grey(luminance(everything)).filter(ImageFilter.GaussianBlur(6))
     for thing in ("path", "goal", "movers"):
         other = grey(luminance(without[thing])).filter(ImageFilter.GaussianBlur(6))
         ratio = contrast(numpy.asarray(blurred) / 255, numpy.asarray(other) / 255)
-        print(f"{vision} {thing}: {(ratio >= 3).sum()} px of 3:1 or more")
+        print(f"{view} {vision} {thing}: {(ratio >= 3).sum()} px of 3:1 or more")
         assert (ratio >= 3).sum() > 400, thing

@@ -8,7 +8,7 @@ namespace navvi_rviz::screen {
 namespace {
 
 constexpr double kGap = 8.0;  // px, between plates, and from a plate to its place
-constexpr int kSteps = 30;    // of half a plate, to each side
+constexpr int kSteps = 60;    // of a quarter of a plate, to each side
 constexpr double kPatience = 1.5;
 
 Rect rect_at(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) {
@@ -38,7 +38,7 @@ std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates, const Eigen
     // Aside only where there is no room above or below.
     Eigen::Vector2d corner = into(wish, plate.size, picture);
     double best = free(corner) ? 0.0 : std::numeric_limits<double>::infinity();
-    const Eigen::Vector2d step = 0.5 * plate.size + Eigen::Vector2d(kGap, kGap);
+    const Eigen::Vector2d step = 0.25 * plate.size + Eigen::Vector2d(kGap, kGap);
     for (int across = -kSteps; across <= kSteps && best > 0.0; ++across)
       for (int down = -kSteps; down <= kSteps; ++down) {
         const Eigen::Vector2d way = step.cwiseProduct(Eigen::Vector2d(across, down));
