@@ -251,7 +251,8 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
   const bool leads = follows_ || (problem_ == "blocked" && now.guidance->leads());
   if (leads && steered) {
-    const bool halted = halt_.update(now, follows_, time);
+    // "Go on" is not contradicted while a person obeys it.
+    const bool halted = halt_.update(now, follows_, near_.comes(now, Halt::kObeyed), time);
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halted) return {};
     const Utterances way = route_.update(now, halted, time);

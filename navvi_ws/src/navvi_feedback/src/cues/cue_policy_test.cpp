@@ -161,6 +161,38 @@ TEST_F(CuePolicyTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   EXPECT_EQ(last_.kind, "straight");
 }
 
+TEST_F(CuePolicyTest, says_go_on_to_nobody_whom_something_will_reach_but_not_for_ever) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::worker;
+  pass(1.0);
+  now_.commanded.linear = now_.measured->linear = 0.0;
+  now_.guidance->state = Guidance::State::following;
+  // 0.8 m/s from the left: that it comes is said 3 s before, soon after the wait would be over.
+  const auto comes_for = [&](double seconds) {
+    Texts texts;
+    for (int i = 0; i < std::lround(seconds / 0.1); ++i) {
+      const double gap = now_.nearby.empty() ? 4.0 : now_.nearby[0].gap - 0.08;
+      now_.nearby = {{ThingClass::forklift, 5, gap, {0.0, gap + 0.3}, true}};
+      for (const std::string& text : pass(0.1)) texts.push_back(text);
+    }
+    return texts;
+  };
+  EXPECT_EQ(comes_for(3.5), Texts{"forklift coming, on the left"});
+  now_.nearby.clear();
+  EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"}) << "it has passed";
+
+  now_.guidance->state = Guidance::State::blocked;
+  pass(1.0);
+  now_.guidance->state = Guidance::State::following;
+  Texts told;
+  for (int i = 0; i < 5 && told.empty(); ++i) {
+    now_.nearby.clear();  // one after another
+    told = comes_for(2.0);
+  }
+  EXPECT_EQ(told, Texts{"go on, straight ahead, 20 meters"});
+}
+
 TEST_F(CuePolicyTest, says_not_to_drive_at_what_moves_ahead_where_ticks_lead) {
   now_.sounds.turn = true;
   now_.guidance->waypoint_is_goal = false;

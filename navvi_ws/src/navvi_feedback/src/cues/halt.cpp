@@ -37,9 +37,9 @@ void Halt::repeat(double time) {
   if (said_ && time - *said_ < kLongest - kObeyed) last_ = time;
 }
 
-bool Halt::update(const Situation& now, bool follows, double time) {
+bool Halt::update(const Situation& now, bool follows, bool comes, double time) {
   if (!said_) return false;
-  const bool may_go = follows && (clear(now) || time - *said_ > kLongest);
+  const bool may_go = follows && ((clear(now) && !comes) || time - *said_ > kLongest);
   if (!may_go) clear_since_.reset();
   if (may_go && !clear_since_) clear_since_ = time;
   if (time - last_ < kObeyed || !clear_since_ || time - *clear_since_ < kClear) return true;

@@ -31,8 +31,9 @@ class Halt {
     if (!heard_) said_.reset();
   }
   /// \param follows  there is a path to be followed now
+  /// \param comes  something will soon reach the robot
   /// \return whether the word still holds
-  [[nodiscard]] bool update(const Situation& now, bool follows, double time);
+  [[nodiscard]] bool update(const Situation& now, bool follows, bool comes, double time);
   /// Once the word no longer holds: that the person may go on, with the direction, or alone if
   /// there is none soon, or a sound leads.
   [[nodiscard]] std::vector<Utterance> go_on(std::vector<Utterance> directions, bool sound,

@@ -21,6 +21,8 @@ constexpr double kComes = 10.0;
 constexpr double kOver = 1.0;
 /// s to a collision; who has not kept off by then is to stop.
 constexpr double kTooLate = 0.7;
+/// s; what only turns past a robot that stands does not head for it for so long.
+constexpr double kTurns = 0.4;
 /// m, from a corner to what stands behind it.
 constexpr double kBehindCorner = 0.5;
 
@@ -94,6 +96,12 @@ double NearCues::stop_time(const Situation& now, const NearThing& thing) const {
   return turns_off_before ? std::min(kLastMoment, config_.stop_standing) : config_.stop_standing;
 }
 
+/// \return whether it has headed for the robot for long enough
+bool NearCues::steadily(std::uint32_t thing, bool heads, double time) {
+  if (!heads) headed_.erase(thing);
+  return heads && time - headed_.emplace(thing, time).first->second >= kTurns;
+}
+
 void NearCues::consider_collisions(const Situation& now, double time,
                                    std::optional<Candidate>& best) {
   const NearThing* first = nullptr;
@@ -102,7 +110,9 @@ void NearCues::consider_collisions(const Situation& now, double time,
     if (thing.gap <= 0.0 || (stands(now) && !thing.moving)) continue;
     const double left = forecast_.time_to_collision(thing);
     const double limit = stop_time(now, thing);
+    const bool steady = steadily(thing.id, left < limit + kTurns, time);
     if (limit <= 0.0 || left > limit || left >= soonest) continue;
+    if (stands(now) && !steady) continue;
     soonest = left;
     first = &thing;
   }
@@ -129,6 +139,14 @@ void NearCues::consider_collisions(const Situation& now, double time,
                    first->gap, &things_[first->id], Level::close};
   // A side of which this was said needs no more words, either.
   watches_[{first->thing_class, side}] = {Level::close, time};
+}
+
+bool NearCues::comes(const Situation& now, double time) const {
+  if (config_.stop_moving <= 0.0) return false;
+  return std::any_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
+    return thing.moving && thing.gap > 0.0 &&
+           forecast_.time_to_collision(thing) < config_.stop_moving + time;
+  });
 }
 
 void NearCues::unsaid(const std::string& kind) {

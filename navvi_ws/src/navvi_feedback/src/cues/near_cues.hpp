@@ -36,6 +36,9 @@ class NearCues {
   [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, Hold hold,
                                               double time);
 
+  /// \return whether what moves about will reach the robot within `time` (s) of the word to stop
+  [[nodiscard]] bool comes(const Situation& now, double time) const;
+
   /// Words of this kind were dropped: what they told may be told again at once.
   void unsaid(const std::string& kind);
 
@@ -56,6 +59,7 @@ class NearCues {
 
   void consider_collisions(const Situation& now, double time, std::optional<Candidate>& best);
   [[nodiscard]] double stop_time(const Situation& now, const NearThing& thing) const;
+  [[nodiscard]] bool steadily(std::uint32_t thing, bool heads, double time);
   [[nodiscard]] Level level(double gap, Level said) const;
   void consider_sides(const Situation& now, double time, std::optional<Candidate>& best);
   void consider_things(const Situation& now, double time, std::optional<Candidate>& best);
@@ -66,6 +70,7 @@ class NearCues {
 
   NearConfig config_;
   CollisionForecast forecast_;
+  std::map<std::uint32_t, double> headed_;  ///< s, since when for the robot, by id
   std::optional<std::uint32_t> warned_of_;  ///< what was last to be stopped for, or came, by id
   double warned_ = 0.0;                     ///< s
   double danger_ = 0.0;                     ///< s, when it was last about to be hit

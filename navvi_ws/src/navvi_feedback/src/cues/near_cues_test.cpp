@@ -269,6 +269,16 @@ TEST_F(StopTest, a_robot_that_stands_hears_what_comes_and_from_where) {
       << "it was said";
 }
 
+TEST_F(StopTest, a_robot_that_stands_hears_nothing_of_what_only_turns_past_it) {
+  Eigen::Vector2d at(2.5, 2.0);
+  double heading = -M_PI;
+  for (int i = 0; i < 300; ++i, heading += 1.2 * 0.02) {
+    at += 0.02 * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+    EXPECT_EQ(pass(0.02, {{ThingClass::forklift, 3, at.norm() - 0.35, at, true}}), Sides{})
+        << at.transpose();
+  }
+}
+
 TEST_F(StopTest, what_was_stopped_for_is_told_again_from_the_side_once_it_is_a_danger_anew) {
   now_.measured->linear = 0.3;
   NearThing robot{ThingClass::pallet_robot, 3, 2.0, {2.4, 0.0}, true};
