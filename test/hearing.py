@@ -43,6 +43,7 @@ def grammar(told):
     words = document["words"]
     choices = {
         "direction": " | ".join(" ".join(words_of(words[f"clock_{hour}"])) for hour in range(1, 13)),
+        "way": "<direction> | straight ahead",
         "distance": "<number> meters | one meter | <number> point five meters | zero point five meters",
         "thing": " | ".join(words[key] for key in
                             ("shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other")),
@@ -66,7 +67,7 @@ def grammar(told):
         text = re.sub(r"[.,]", " ", template.lower())
         text = re.sub(r"\d+", lambda digits: " ".join(number_words(digits.group())), text)
         text = re.sub(r"\{(count|all)\}", "<number>", text)
-        text = re.sub(r"\{(?!direction|distance|thing|place|side|where|setting|value|person)(\w+)\}", "<button>", text)
+        text = re.sub(r"\{(?!direction|way|distance|thing|place|side|where|setting|value|person)(\w+)\}", "<button>", text)
         cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
                                "public <cues> = <cue>+;"])  # cues may follow on one another at once

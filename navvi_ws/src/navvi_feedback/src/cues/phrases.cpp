@@ -23,8 +23,8 @@ constexpr double kFar = 9999.0;
 constexpr int kMostPlaces = 999;        // likewise, of one name
 constexpr double kFeet = 1.0 / 0.3048;  // in a metre
 
-const std::set<std::string> kPlaceholders = {"direction", "distance", "thing", "side",  "where",
-                                             "place",     "setting",  "value", "person"};
+const std::set<std::string> kPlaceholders = {"direction", "way",   "distance", "thing", "side",
+                                             "where",     "place", "setting",  "value", "person"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
@@ -160,7 +160,7 @@ std::vector<std::string> possible(const std::string& placeholder,
   };
   if (placeholder == "thing") {
     for (const char* thing : things()) texts.push_back(words.at(thing));
-  } else if (placeholder == "direction") {
+  } else if (placeholder == "direction" || placeholder == "way") {
     for (const char* wording : kDirections) add(std::string(wording) + "_");
   } else {
     add(placeholder + "_");
@@ -309,7 +309,9 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     return fillings.setting == SettingName::rate ? text : text + " " + words_.at("percent");
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
-  return words_.at(wording_.directions + "_" + std::to_string(*fillings.hour));
+  const bool ahead = placeholder == "way" && fillings.hour == 12;
+  return words_.at((ahead ? "left_right" : wording_.directions) + "_" +
+                   std::to_string(*fillings.hour));
 }
 
 std::string Phrases::distance(double metres) const {

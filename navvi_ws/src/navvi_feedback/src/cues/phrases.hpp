@@ -80,7 +80,8 @@ struct Utterance {
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and
 /// words from the same file, put in. No text of any message can reach the voice.
 ///
-/// Placeholders: {direction} an hour as the wording has it, {distance} a distance with its unit,
+/// Placeholders: {direction} an hour as the wording has it, {way} likewise, but "straight
+/// ahead" in all of them, {distance} a distance with its unit,
 /// {thing} a thing's noun, {side} "left", {where} "on the left", {place} "dock 2", {setting} what
 /// can be set, {value} to what, {person} a name.
 class Phrases {

@@ -122,6 +122,19 @@ TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   EXPECT_EQ(phrases.say("arrived"), "You have reached your destination");
 }
 
+TEST(Phrases, call_a_leg_straight_ahead_in_every_wording_but_a_place_by_its_hour) {
+  Fillings ahead = everything();
+  ahead.hour = 12;
+  for (const char* directions : {"clock", "left_right", "degrees"})
+    EXPECT_EQ(Phrases(kEnglish, wording(directions)).say("rerouted", ahead),
+              "new route, straight ahead, 8 meters");
+  const Phrases phrases(kEnglish);
+  EXPECT_EQ(phrases.say("make_room", ahead),
+            "make room for the pallet robot, straight ahead, 8 meters");
+  EXPECT_EQ(phrases.say("goal_info", ahead), "goal 8 meters, 12 o'clock");
+  EXPECT_EQ(phrases.say("rerouted", everything()), "new route, 3 o'clock, 8 meters");
+}
+
 TEST(Phrases, offer_left_and_right_instead_of_the_clock) {
   const Phrases phrases(kEnglish, wording("left_right"));
   EXPECT_EQ(phrases.say("direction", everything()), "right, 8 meters");

@@ -113,8 +113,13 @@ void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
   const auto parts = loop.person().listener().understand(cue.kind, cue.text);
   if (parts.empty()) return;
   const people::Instruction& instruction = parts.back();
+  const double driven = monitor_.tally().path_length;
+  const bool new_way = cue.kind.find("route") != std::string::npos || cue.kind == "make_room";
+  const bool replaced = new_way || cue.kind == "straight_then" || cue.kind == "turn_cancelled";
+  if (replaced || driven > announced_until_) announced_.reset();
   if (cue.kind == "turn_ahead") {
     announced_ = instruction.hour;
+    announced_until_ = driven + instruction.distance.value_or(0.0) + kSamePlace;
     return;
   }
   const bool turn = instruction.kind == people::Instruction::Kind::turn;
@@ -133,8 +138,7 @@ void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
         (now.place - said_->place).norm() < kSamePlace &&
         std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kContrary)
       ++flips_;
-    const bool reason = cue.kind == "turn_now" || cue.kind == "make_room" ||
-                        cue.kind.find("route") != std::string::npos;
+    const bool reason = cue.kind == "turn_now" || new_way;
     if (!reason && now.time - said_->time < kSoon &&
         std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kReversed)
       ++reversed_;

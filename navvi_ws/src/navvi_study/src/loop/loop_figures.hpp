@@ -28,7 +28,8 @@ class LoopFigures {
   /// `churn_mean` and `churn_max` m/min (Guidance.path_churn); `turns` changes of the announced
   /// hour a minute; `flips` how often a direction contradicted the one just before; `reversed` how
   /// often it led 4 hours or more elsewhere than one within 4 s before, no corner and no new route
-  /// being told; `misled` how often the turn that was ordered was not the one announced for it;
+  /// being told; `misled` how often the turn that was
+  /// ordered was not the one announced for that corner;
   /// `warned`: of each contact with what moves, the s before it since when that was felt, and since
   /// when it was told, and `late`, how many of them were felt < 3 s or told < 2 s before;
   /// `speechless` how often a stick was pushed in vain for 3 s without a word or a sound;
@@ -81,6 +82,7 @@ class LoopFigures {
   double asked_ = -1e9;                               ///< s, when the person last asked
   std::optional<Said> said_;
   std::optional<int> announced_;  ///< hour of the turn that comes
+  double announced_until_ = 0.0;  ///< m driven, where its corner is passed
   std::map<std::string, double> states_;
   Guidance::State state_ = Guidance::State::no_goal;
   std::string blocked_by_;

@@ -157,6 +157,7 @@ bool Listener::parse(const std::string& kind, const std::string& phrase, const s
 Listener::Words Listener::possible(const std::string& placeholder) const {
   static const std::map<std::string, std::set<std::string>> prefixes = {
       {"direction", {"clock_", "left_right_", "degrees_"}},
+      {"way", {"clock_", "left_right_", "degrees_"}},
       {"distance", {"meter", "meters", "foot", "feet"}},
       {"side", {"side_"}},
       {"where", {"where_"}},
@@ -187,7 +188,7 @@ void Listener::fill(Instruction& told, const std::string& placeholder, const std
   if (known == words.end()) return;
   const std::string& key = known->second;
   const std::string end = key.substr(key.rfind('_') + 1);
-  if (placeholder == "direction") told.hour = std::stoi(end);
+  if (placeholder == "direction" || placeholder == "way") told.hour = std::stoi(end);
   if (placeholder == "side" || placeholder == "where") told.side = sides.at(end);
   if (placeholder == "distance")
     told.distance = std::stod(number) * (key.front() == 'f' ? kFoot : 1.0);
