@@ -1,7 +1,10 @@
 """The cues tell what can have been heard: by a sound device, or by whoever reads them."""
+import os
 import subprocess
+import time
 
-import pytest
+import rospy
+from navvi_msgs.msg import Cue, TrialState
 
 QUEUED, STARTED, DROPPED = "0", "1", "4"
 
@@ -40,3 +43,29 @@ def test_there_are_no_words_where_sound_is_off(master, tmp_path):
 
 def test_who_reads_them_hears_without_a_device(master, tmp_path):
     assert STARTED in stages(master, tmp_path, "none", "_speech:=false", "_listener:=topic")
+
+
+def test_who_drives_hears_that_the_session_ends(master, tmp_path):
+    config = tmp_path / "alsoft"
+    config.write_text(f"[general]\ndrivers = wave\n[wave]\nfile = {tmp_path}/sound.wav\n")
+    os.environ.update(ROS_MASTER_URI=master["ROS_MASTER_URI"], ROS_IP=master["ROS_IP"])
+    rospy.init_node("heard_test", disable_rostime=True, disable_signals=True)
+    said = []
+    rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and said.append((cue.kind, cue.stage)))
+    trial = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
+    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic"], env=dict(master, ALSOFT_CONF=str(config)))
+
+    def until(kind, stage):
+        deadline = time.monotonic() + 60
+        while (kind, stage) not in said:
+            assert time.monotonic() < deadline, said
+            time.sleep(0.02)
+
+    trial.publish(TrialState(state=TrialState.READY))
+    until("press_start", Cue.QUEUED)
+    trial.publish(TrialState(state=TrialState.RUNNING))
+    until("trial_begins", Cue.QUEUED)
+    node.terminate()
+    node.wait(60)
+    until("trial_over", Cue.ENDED)
+    assert ("trial_over", Cue.STARTED) in said

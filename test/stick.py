@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `pause` or `intrude`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause` or `intrude`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
        stage held the wheels at zero, the time until the robot stood still, and the fastest speed in the 5 s after that.
+halt   likewise, then halts feedback_node for 3 s; prints the kinds of what it says until it tells what became of the wheels.
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the fastest speed from 0.5 s to 3 s after it lives again.
 intrude  a neutral stick while this process itself commands full speed to /cmd_vel, at 1 kHz; prints the fastest speed within 3 s, the
        fastest with the stick pushed while it goes on, and the node that drive_state names.
@@ -18,7 +19,7 @@ import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
-from navvi_msgs.msg import DriveState
+from navvi_msgs.msg import Cue, DriveState
 from sensor_msgs.msg import Joy
 
 
@@ -78,6 +79,15 @@ class Stick:
         flood.shutdown()
         return alone, driven, self.intruder
 
+    def halt(self):
+        pid, said = self.pid("/feedback_node"), []
+        os.kill(pid, signal.SIGSTOP)
+        self.hold(1.0, lambda: False, 3.0)
+        rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and cue.stage == Cue.QUEUED and said.append(cue.kind))
+        os.kill(pid, signal.SIGCONT)
+        self.hold(1.0, lambda: "robot_stopped" in said or "release_stick" in said, 20.0)
+        return tuple(said)
+
     def kill(self):
         pid = self.pid("/feedback_node")
         self.stopped = None
@@ -91,6 +101,6 @@ class Stick:
 if __name__ == "__main__":
     what = sys.argv[1]
     stick = Stick()
-    stick.push(0.8 if what in ("kill", "pause") else 0.3)
+    stick.push(0.8 if what in ("kill", "halt", "pause") else 0.3)
     pushed = stick.speed
-    print(pushed, *{"push": tuple, "kill": stick.kill, "pause": stick.pause, "intrude": stick.intrude}[what]())
+    print(pushed, *{"push": tuple, "kill": stick.kill, "halt": stick.halt, "pause": stick.pause, "intrude": stick.intrude}[what]())

@@ -11,7 +11,8 @@ WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 @pytest.fixture
 def session(master, tmp_path):
     launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=topic", f"world:={WORLD}",
-                               "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "rviz:=false", f"out:={tmp_path}"],
+                               "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "feedback_parameters:={listener: topic}",
+                               "rviz:=false", f"out:={tmp_path}"],
                               env=master, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     yield master
     launch.terminate()
@@ -37,6 +38,13 @@ def test_commands_that_piled_up_while_the_simulator_was_halted_do_not_move_the_r
     pushed, afterwards = map(float, run_stick(session, "pause"))
     assert pushed >= 0.8
     assert afterwards < 1e-3, "the stick was never neutral"
+
+
+def test_a_guide_that_was_halted_calls_nobody_else_lost(session):
+    speed, *said = run_stick(session, "halt")
+    assert float(speed) >= 0.8
+    assert {"robot_stopped", "release_stick"} & set(said), said
+    assert not {"simulator_lost", "guidance_lost", "proximity_lost"} & set(said), said
 
 
 def test_a_killed_feedback_node_stops_the_robot_and_its_successor_does_not_start_it(session):

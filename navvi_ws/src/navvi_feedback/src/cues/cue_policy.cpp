@@ -24,6 +24,8 @@ constexpr double kHeldBack = 2.5;
 constexpr double kSameHit = 1.5;
 /// m/s and rad/s; slower counts as standing.
 constexpr double kMoving = 0.05;
+/// s; what dies with the simulator may be missed by so much before it.
+constexpr double kTogether = 0.3;
 
 /// Why the guidance does not lead anywhere, as a kind of cue; empty if it does.
 std::string problem_of(const Guidance& guidance) {
@@ -116,8 +118,10 @@ Links CuePolicy::judge(const Situation& now, double time) {
   const bool waited = time - *first_update_ > config_.patience;
   const auto judged = [&](Link link) { return link == Link::never && waited ? Link::lost : link; };
   const Links& links = now.links;
-  return {judged(links.pad), judged(links.simulator), judged(links.proximity),
-          judged(links.guidance), links.audio};
+  if (links.proximity != Link::lost) sensed_ = time;
+  const bool just_lost = links.proximity == Link::lost && time - sensed_ < kTogether;
+  const Link near = just_lost ? Link::alive : judged(links.proximity);
+  return {judged(links.pad), judged(links.simulator), near, judged(links.guidance), links.audio};
 }
 
 CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links,

@@ -60,6 +60,7 @@ class CuePolicy {
   Halt halt_;
 
   std::optional<double> first_update_;  ///< s
+  double sensed_ = 0.0;                 ///< s, when proximity was last not lost
   double time_ = 0.0;                   ///< s, of the last update
   Links links_;                         ///< as of the last update
   std::optional<DriveState::State> gate_;

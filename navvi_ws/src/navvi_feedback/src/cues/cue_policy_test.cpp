@@ -356,6 +356,18 @@ TEST_F(CuePolicyTest, names_only_the_simulator_when_all_dies_with_it) {
   EXPECT_EQ(last_.priority, Priority::important);
 }
 
+TEST_F(CuePolicyTest, names_only_the_simulator_whichever_of_its_messages_is_missed_first) {
+  under_way();
+  now_.links.proximity = Link::lost;
+  EXPECT_EQ(pass(0.1), Texts{});
+  now_.links.simulator = now_.links.guidance = Link::lost;
+  EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
+  now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::alive;
+  pass(5.0);
+  now_.links.proximity = Link::lost;
+  EXPECT_EQ(pass(1.0), Texts{"no obstacle sensing"}) << "where that alone is lost";
+}
+
 TEST_F(CuePolicyTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
   under_way();
   now_.gate = DriveState::State::stopped;
@@ -606,7 +618,7 @@ TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
     now_.links.proximity = Link::alive;
     pass(0.1);
     now_.links.proximity = Link::lost;
-    return pass(0.1);
+    return pass(0.4);
   };
   EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
   EXPECT_EQ(lose_and_find(), Texts{});

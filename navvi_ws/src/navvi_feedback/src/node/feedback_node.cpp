@@ -36,8 +36,11 @@ namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
 
-constexpr double kTick = 0.02;    // s
-constexpr double kReport = 0.25;  // s; who waits for it knows within a second that it hangs
+constexpr double kTick = 0.02;      // s
+constexpr double kReport = 0.25;    // s; who waits for it knows within a second that it hangs
+constexpr double kHalted = 0.5;     // s without a tick
+constexpr double kCatchUp = 0.2;    // s
+constexpr double kLastWords = 3.0;  // s, that the end of a session waits for them at most
 
 /// Wall time, so that the person hears of a simulation that has stopped.
 double now() { return ros::SteadyTime::now().toSec(); }
@@ -74,8 +77,14 @@ class FeedbackNode {
   void finish() {
     tick_timer_.stop();
     report(saver_->finish());
+    if (runs_) over("trial_over");
+    if (!news_.empty()) tick();
     cmd_vel_.publish(geometry_msgs::Twist());
     move_motors({}, std::nullopt, now());
+    for (const double end = now() + kLastWords; over_ && !speech_.idle() && now() < end;) {
+      say({}, now());
+      ros::WallDuration(kTick).sleep();
+    }
     publish(as_heard(speech_.finish()));
   }
 
@@ -134,7 +143,7 @@ class FeedbackNode {
     });
     keep<navvi_msgs::DriveState>("navvi/drive_state");
     listen<navvi_msgs::TrialState>("navvi/trial_state", 1, [this](const TrialState& state) {
-      if (state.state == TrialState::State::running) latencies_.clear();
+      if (state.state == TrialState::State::running) begin();
       feedback_.take(state, now());
     });
     keep<navvi_msgs::Scenario>("navvi/scenario");
@@ -149,8 +158,21 @@ class FeedbackNode {
   void hear_of_trials() {
     subscribers_.push_back(node_.subscribe<navvi_msgs::TrialEvent>(
         "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& msg) {
-          if (const auto kind = last_words(*msg)) news_.push_back(*kind);
+          if (msg->type == "TRIAL_END") runs_ = false;
+          if (const auto kind = last_words(*msg)) over(*kind);
         }));
+  }
+
+  void begin() {
+    latencies_.clear();
+    runs_ = true;
+    over_ = false;
+  }
+
+  /// \param kind  of the cue that tells the end of a trial
+  void over(const std::string& kind) {
+    news_.push_back(kind);
+    over_ = true;
   }
 
   template <typename Msg, typename Take>
@@ -169,7 +191,9 @@ class FeedbackNode {
     std::function<void()> called;
     if (caused) called = [this, chain = *caused, begun] { latencies_.add(chain, begun); };
     const double time = now();
-    last_tick_ = time;
+    // Who was halted first takes what came meanwhile, and only then judges what is lost.
+    if (time - std::exchange(last_tick_, time) > kHalted) woke_ = time;
+    if (time - woke_ < kCatchUp) return;
     core::Feedback::Input input;
     input.hands = source_.read(time);
     input.keyboard = source_.kind() == devices::InputSource::Kind::keyboard;
@@ -391,6 +415,9 @@ class FeedbackNode {
 
   std::optional<double> markers_time_;  // s, of now()
   double last_tick_ = 0.0;              // s, of now()
+  double woke_ = 0.0;                   // s, of now(), after it was halted
+  bool runs_ = false;                   ///< a trial
+  bool over_ = false;                   ///< and has ended, which is told
   drive::InputState last_hands_;
   std::uint32_t rumble_id_ = 0;
   std::optional<double> share_;     ///< of the person's speed, last published
