@@ -51,7 +51,10 @@ class FeedbackNode : public testing::Test {
         });
     diagnostics_ = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
         "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& msg) {
-          for (const auto& status : msg->status) statuses_.insert(status.name);
+          for (const auto& status : msg->status) {
+            statuses_.insert(status.name);
+            for (const auto& value : status.values) statuses_.insert(value.key);
+          }
         });
     ASSERT_TRUE(until([this] { return joy_.getNumSubscribers() > 0 && twist_source(); }))
         << "feedback_node does not listen";
@@ -218,6 +221,13 @@ TEST_F(FeedbackNode, reports_its_hardware_once_a_second) {
   EXPECT_TRUE(until([this] {
     return statuses_.count("navvi/pad") && statuses_.count("navvi/audio") &&
            statuses_.count("navvi/speech");
+  }));
+}
+
+TEST_F(FeedbackNode, tells_how_old_near_things_are_when_they_come_and_when_they_are_felt) {
+  EXPECT_TRUE(until([this] {
+    proximity_msg_.header.stamp = ros::Time::now();
+    return statuses_.count("sensed_p99_ms") && statuses_.count("motors_p99_ms");
   }));
 }
 

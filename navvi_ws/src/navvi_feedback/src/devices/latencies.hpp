@@ -10,6 +10,7 @@ namespace navvi_feedback::devices {
 
 /// From a cause to what a person feels or hears of it.
 enum class Chain {
+  sensed,   ///< what is near was sensed, by ROS time, to its message's coming
   motors,   ///< a proximity message came, to the call of the driver
   pattern,  ///< a contact came, to that call
   words,    ///< a cue was decided to begin, to the mix of its first sample
@@ -17,8 +18,8 @@ enum class Chain {
   silence   ///< words were decided to end, to a mix without them
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 5> names(Chain) {
-  return {"motors", "pattern", "words", "answer", "silence"};
+[[nodiscard]] constexpr std::array<const char*, 6> names(Chain) {
+  return {"sensed", "motors", "pattern", "words", "answer", "silence"};
 }
 
 /// How long these took. For any threads.

@@ -129,6 +129,8 @@ class FeedbackNode {
     }
     // What is felt, hit or to be obeyed does not wait for the next beat.
     listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const Proximity& proximity) {
+      const std::chrono::nanoseconds age(navvi_types::to_ns(ros::Time::now()) - proximity.stamp);
+      latencies_.add(devices::Chain::sensed, devices::Latencies::Clock::now() - age);
       feedback_.take(proximity, now());
       tick(devices::Chain::motors);
     });

@@ -194,7 +194,7 @@ Summary summarize(const std::vector<Row>& rows) {
 
 std::vector<std::string> latency_columns() {
   std::vector<std::string> names;
-  for (const char* chain : {"motors", "pattern", "words", "answer", "silence"})
+  for (const char* chain : {"sensed", "motors", "pattern", "words", "answer", "silence"})
     for (const char* figure : {"_p50_ms", "_p99_ms", "_max_ms"})
       names.push_back(std::string(chain) + figure);
   return names;

@@ -20,8 +20,8 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 /// aborted; one without a start has no figures.
 [[nodiscard]] Summary summarize(const std::vector<Row>& rows);
 
-/// ms, how long the person waited: p50, p99 and max of each chain of feedback_node, from a
-/// proximity message to the motors, a contact to its pattern, a cue to its first sample, a button
+/// ms, how long the person waited: p50, p99 and max of each chain of feedback_node, from
+/// sensing to its message, from that to the motors, a contact to its pattern, a cue to its first sample, a button
 /// to the answer, and the end of words to silence.
 [[nodiscard]] std::vector<std::string> latency_columns();
 
