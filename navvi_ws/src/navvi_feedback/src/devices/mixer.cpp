@@ -176,14 +176,16 @@ Mixer::Status Mixer::status() const {
 
 void Mixer::report(Status::Device device, const std::string& detail) {
   std::string name;
+  ALCint hrtf = ALC_FALSE;
   if (handles_->device != nullptr) {
+    alcGetIntegerv(handles_->device, ALC_HRTF_SOFT, 1, &hrtf);
     const bool all = alcIsExtensionPresent(nullptr, "ALC_ENUMERATE_ALL_EXT") == ALC_TRUE;
     const ALCchar* known =
         alcGetString(handles_->device, all ? ALC_ALL_DEVICES_SPECIFIER : ALC_DEVICE_SPECIFIER);
     if (known != nullptr) name = known;
   }
   const std::lock_guard lock(status_mutex_);
-  status_ = {device, name, detail};
+  status_ = {device, name, detail, hrtf == ALC_TRUE};
 }
 
 bool Mixer::speak(const Sound& sound, double gain) {

@@ -40,8 +40,9 @@ class Mixer {
       off       ///< Audio::off
     };
     Device device = Device::off;
-    std::string name;    ///< of the device, as OpenAL calls it; empty if none is open
-    std::string detail;  ///< a sentence on what is wrong; empty if nothing is
+    std::string name;       ///< of the device, as OpenAL calls it; empty if none is open
+    std::string detail;     ///< a sentence on what is wrong; empty if nothing is
+    bool two_ears = false;  ///< sounds by HRTF, as for headphones
   };
 
   Mixer(const MixerConfig& config, Audio audio);

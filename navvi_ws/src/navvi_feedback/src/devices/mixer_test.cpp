@@ -60,6 +60,14 @@ TEST(Mixer, plays_all_as_loud_as_it_is_set) {
   EXPECT_NEAR(loudness_at(0.2), 0.2 * loudness_at(1.0), 0.01);
 }
 
+TEST(Mixer, tells_whether_it_plays_for_two_ears) {
+  MixerConfig config;
+  for (const char* hrtf : {"on", "off"}) {
+    config.hrtf = hrtf;
+    EXPECT_EQ(Mixer(config, Audio::on).status().two_ears, config.hrtf == "on");
+  }
+}
+
 TEST(Mixer, makes_ahead_and_behind_differ_for_two_ears) {
   const double ahead = tone_in(heard_from(kAhead, "on").left, 3000.0);
   const double behind = tone_in(heard_from(kBehind, "on").left, 3000.0);

@@ -85,6 +85,7 @@ DiagnosticStatus audio_status(const devices::Mixer::Status& mixer) {
   if (!mixer.detail.empty()) result.message += " " + mixer.detail;
   add(result, "device", mixer.name);
   add(result, "state", state);
+  add(result, "hrtf", mixer.two_ears ? "on" : "off");
   return result;
 }
 
