@@ -16,7 +16,7 @@ constexpr int kRetreatSearches = 200;
 constexpr double kSlack = 0.02;         // m, of room that a start off the mesh need not keep
 constexpr double kSameGoal = 0.5;       // m, a path that ends so near leads to the same goal
 constexpr double kOnMesh = 1e-3;        // m, from a corner of a path on the mesh to the mesh
-constexpr double kNode = 1.5;           // m, of legs measured in the time that a node takes
+constexpr double kNode = 1.2;           // m, of legs measured in the time that a node takes
 constexpr double kSearched = 0.85;      // of the work that is left, for another search at most
 constexpr double kSearchedTurn = 0.75;  // of a turn by 90 degrees: what searches charge for each
 
@@ -260,7 +260,7 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
                                config_.mesh.robot_radius, config_.mesh.preferred_clearance);
   const double all_work = config.effort * shortest;  // m
   double work =
-      std::max(all_work - kNode * static_cast<double>(route.plan.nodes_expanded), all_work / 3.0);
+      std::max(all_work - kNode * static_cast<double>(route.plan.nodes_expanded), all_work / 5.0);
   const auto with = [&](double part, const auto& run) {  // of the work that is left
     cost.allow(part * work);
     Path out = run();

@@ -133,6 +133,7 @@ void Polyanya::expand(const SearchNode& node) {
   End d{-1, {}, 0, 0};
   for (const mesh::Portal& portal : mesh_->polygon(node.polygon).portals) {
     if (portal.right == node.portal_left && portal.left == node.portal_right) continue;
+    __builtin_prefetch(&mesh_->polygon(portal.to));  // large meshes are slow to read
     const End c = portal.right == d.vertex ? d : end(portal.right);
     d = end(portal.left);
     // If the node is 180 degrees wide, both borders lie on one line.
@@ -313,6 +314,7 @@ bool Polyanya::is_dominated(const SearchNode& node) {
 
 void Polyanya::push(const SearchNode& node, double estimate) {
   if (estimate > price_.most) return;
+  if (node.polygon >= 0) __builtin_prefetch(mesh_->polygon(node.polygon).portals.data());
   std::uint32_t slot;
   if (unused_.empty()) {
     slot = static_cast<std::uint32_t>(nodes_.size());

@@ -163,9 +163,10 @@ void SmoothingConfig::describe(navvi_config::Visitor& visit) {
   visit(enabled, "enabled", navvi_config::Any{}, "", "false: the path is the funnel's");
   visit(attempts, "attempts", Range{0, 100}, "",
         "how often OMPL tries to leave out each corner, on the mean, in each of three rounds");
-  visit(effort, "effort", Range{0.0, 10000.0}, "",
-        "metres of legs that may be measured for each metre of the shortest path; a node that a "
-        "search expands counts as 1.5 m, those for the shortest path as two thirds of all at most");
+  visit(
+      effort, "effort", Range{0.0, 10000.0}, "",
+      "metres of legs that may be measured for each metre of the shortest path; a node that a "
+      "search expands counts as 1.2 m, those for the shortest path as four fifths of all at most");
   visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "", "longest guide path, times the shortest");
   visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
   visit(keep, "keep", Range{0.0, 100.0}, "m",
