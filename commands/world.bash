@@ -15,6 +15,10 @@ navvi_world() {
       build_workspace world_tool navmesh_tool
       if [[ -z $csv ]]; then verdict default "${@:2}"; else verdict default "${@:2}" | world_rows; fi
       ;;
+    show)
+      build_workspace world_tool navmesh_tool
+      picture_of "${@:2}"
+      ;;
     list)
       build_workspace world_tool
       "$(program navvi_sim world_tool)" "$@" | list_rows "$csv"

@@ -123,6 +123,19 @@ def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
         assert sentence in result.stderr and len(sentences(result)) == 1
 
 
+def test_a_world_is_shown_with_the_path_that_a_person_is_led_along(tmp_path):
+    result = navvi("world", "show", "busy", "seed:=7", "-o", str(tmp_path / "a.svg"))
+    assert result.returncode == 0, result.stderr
+    picture = (tmp_path / "a.svg").read_text()
+    assert "guide path, and a turn" in picture
+    assert picture.count('r="5" fill="#ffffff" stroke="#9b00d3"') > 1, "the legend's turn and those of the path"
+    result = navvi("world", "check", "busy", "seed:=7", "-o", str(tmp_path / "a.bt"))
+    where = result.stdout.split("\nstart ")[1].split()
+    result = navvi("navmesh", str(tmp_path / "a.bt"), "--from", where[0].rsplit(",", 1)[0], "--to", where[2], "mesh/climb:=0")
+    turns = next(line for line in result.stdout.splitlines() if line.startswith("turns")).split(":")
+    assert picture.count('r="5" fill="#ffffff" stroke="#9b00d3"') == len(turns[1].split()) + 1
+
+
 def box(name, size, pose):
     return (f'<model name="{name}"><static>1</static><pose>{pose} 0 0 0</pose><link name="l"><collision name="c">'
             f'<geometry><box><size>{size}</size></box></geometry></collision></link></model>')

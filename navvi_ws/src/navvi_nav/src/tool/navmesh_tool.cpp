@@ -169,11 +169,13 @@ void print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
               static_cast<double>(bytes) / area);
 }
 
-void print_plan(const plan::Plan& plan, double milliseconds) {
+void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds) {
   std::printf("query       %.3f ms with smoothing, %zu nodes\n", milliseconds, plan.nodes_expanded);
   std::printf("shortest    %.6f m\n", plan.shortest);
   std::printf("guide path  %.3f m:", length_of(plan.path));
   for (const Point point : plan.path) std::printf(" %.2f,%.2f", point.x, point.y);
+  std::printf("\nturns       %zu:", turns.size());
+  for (const Point point : turns) std::printf(" %.2f,%.2f", point.x, point.y);
   std::puts("");
 }
 
@@ -222,10 +224,11 @@ int run(const Options& options) {
     const plan::Plan plan = planner.plan(*options.from, *options.to);
     const double planned = lap();
     if (plan.status == plan::PlanStatus::found) {
-      print_plan(plan, planned);
       picture.path = plan.path;
       for (const smooth::Turn turn : smooth::turns_of(plan.path, config.path.guidance.one_turn))
         picture.turns.push_back(plan.path[turn.at]);
+      if (!picture.turns.empty()) picture.turns.pop_back();  // the goal
+      print_plan(plan, picture.turns, planned);
     } else {
       refusal = plan.detail.empty() ? "there is no route" : plan.detail;
     }

@@ -123,13 +123,20 @@ void label(MapCanvas& canvas, const Eigen::Vector2d& p, const std::string& text)
                   (fits ? "start\"" : "end\""));
 }
 
-void draw_scenario(MapCanvas& canvas, const scenario::StartAndGoal& scenario) {
-  if (!scenario.route.empty()) {
+void draw_turn(MapCanvas& canvas, const Eigen::Vector2d& page) {
+  canvas.svg() << "<circle cx=\"" << svg_number(page.x()) << "\" cy=\"" << svg_number(page.y())
+               << "\" r=\"5\" fill=\"#ffffff\" stroke=\"#9b00d3\" stroke-width=\"2.5\"/>\n";
+}
+
+void draw_scenario(MapCanvas& canvas, const scenario::StartAndGoal& scenario, const Guide& guide) {
+  const auto& way = guide.path.empty() ? scenario.route : guide.path;
+  if (!way.empty()) {
     canvas.svg()
-        << "<path d=\"" << canvas.path(scenario.route, false)
+        << "<path d=\"" << canvas.path(way, false)
         << "\" fill=\"none\" stroke=\"#9b00d3\" stroke-width=\"3\" stroke-linejoin=\"round\" "
            "opacity=\"0.75\"/>\n";
   }
+  for (const Eigen::Vector2d& turn : guide.turns) draw_turn(canvas, canvas.px(turn));
   canvas.goal(canvas.px(scenario.goal));
   canvas.start(canvas.px(scenario.start.position), scenario.start.yaw,
                std::max(0.35 * canvas.scale(), 7.0));
@@ -216,8 +223,8 @@ void draw_scale(MapCanvas& canvas, double x, double y) {
 }
 
 /// What the symbols and colours mean, with counts.
-void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scenario, double x,
-                 double y) {
+void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scenario, bool guided,
+                 double x, double y) {
   std::map<ThingClass, std::pair<int, int>> counts;  // standing, moving
   for (const Thing& thing : world.things) {
     auto& [standing, moving] = counts[thing.thing_class];
@@ -243,14 +250,15 @@ void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scen
   y += 1.2 * kLegendLine;
   canvas.svg() << "<path d=\"M" << svg_number(x) << ',' << svg_number(y - 5.0)
                << "h32\" stroke=\"#9b00d3\" stroke-width=\"3\"/>\n";
-  canvas.text({x + 42.0, y}, 14.0, "a way with room");
+  if (guided) draw_turn(canvas, {x + 16.0, y - 5.0});
+  canvas.text({x + 42.0, y}, 14.0, guided ? "guide path, and a turn" : "a way with room");
 }
 
 }  // namespace
 
 std::string world_picture(const WorldDescription& world,
                           const std::optional<scenario::StartAndGoal>& scenario,
-                          const std::string& caption) {
+                          const std::string& caption, const Guide& guide) {
   const Outlines outlines = all_outlines(world, scenario);
   const double scale =
       std::clamp(kLongSide / outlines.bounds.sizes().maxCoeff(), kMinScale, kMaxScale);
@@ -278,9 +286,10 @@ std::string world_picture(const WorldDescription& world,
   for (const Thing& thing : world.things)
     if (thing.route) draw_heading(canvas, thing);
   canvas.svg() << "</g>\n";
-  if (scenario) draw_scenario(canvas, *scenario);
+  if (scenario) draw_scenario(canvas, *scenario, guide);
   draw_scale(canvas, kFrame, kHead + map.y() + 30.0);
-  draw_legend(canvas, world, scenario.has_value(), 2.0 * kFrame + map.x(), kHead + kLegendLine);
+  draw_legend(canvas, world, scenario.has_value(), !guide.path.empty(), 2.0 * kFrame + map.x(),
+              kHead + kLegendLine);
   canvas.svg() << "</svg>\n";
   return canvas.str();
 }

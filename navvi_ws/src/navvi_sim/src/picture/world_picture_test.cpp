@@ -30,6 +30,19 @@ TEST(WorldPicture, names_the_world_its_classes_start_goal_and_scale) {
   EXPECT_EQ(count(svg, "<svg"), 1u);
 }
 
+TEST(WorldPicture, draws_the_guide_path_and_its_turns_instead_of_its_own_way) {
+  const WorldDescription world = generate::layout("my hall", generate::LayoutConfig{}, 1);
+  const std::string without = world_picture(world, somewhere(), "");
+  const std::string svg =
+      world_picture(world, somewhere(), "", {{{1.0, 2.0}, {2.0, 3.0}, {4.0, 2.0}}, {{2.0, 3.0}}});
+  const std::string turn = "r=\"5\" fill=\"#ffffff\" stroke=\"#9b00d3\"";
+  EXPECT_EQ(count(without, turn), 0u);
+  EXPECT_EQ(count(svg, turn), 2u);  // on the map and in the legend
+  EXPECT_EQ(svg.find("a way with room"), std::string::npos);
+  EXPECT_NE(svg.find("guide path, and a turn"), std::string::npos);
+  EXPECT_EQ(count(svg, "<path"), count(without, "<path"));
+}
+
 TEST(WorldPicture, draws_every_standing_thing_in_the_colour_of_its_class) {
   WorldDescription world;
   world.name = "two";

@@ -27,7 +27,8 @@ constexpr const char* kUsage =
     "makes\n"
     "      of it; -o saves its OctoMap\n"
     "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
-    "      ./navvi also takes FILE.png\n"
+    "      --path and --turns, each \"X,Y X,Y ...\", m: the guide path. ./navvi adds it, and also "
+    "takes FILE.png\n"
     "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
     "world map NAME|FILE FILE.bt|FILE.ot [--config FILE.yaml] [name:=value ...]   its OctoMap;\n"
     "      octomap/free:=true marks free space, too\n"
@@ -57,7 +58,11 @@ struct ToolConfig {
 struct Words {
   std::vector<std::string> plain;       ///< the sub-command and what it is about
   std::vector<std::string> parameters;  ///< name:=value
-  std::optional<std::string> out, config;
+  std::map<std::string, std::string> options;
+  [[nodiscard]] std::optional<std::string> option(const std::string& name) const {
+    const auto found = options.find(name);
+    return found == options.end() ? std::nullopt : std::optional(found->second);
+  }
 };
 
 struct Request {
@@ -69,9 +74,9 @@ Words sort_out(const std::vector<std::string>& words) {
   Words sorted;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    if (word == "-o" || word == "--config") {
-      if (++i == words.size()) throw UsageError(word + " needs a file after it");
-      (word == "-o" ? sorted.out : sorted.config) = words[i];
+    if (word == "-o" || word == "--config" || word == "--path" || word == "--turns") {
+      if (++i == words.size()) throw UsageError(word + " needs a value after it");
+      sorted.options[word] = words[i];
     } else if (word.find(":=") != std::string::npos) {
       sorted.parameters.push_back(word);
     } else {
@@ -85,8 +90,8 @@ Request load(const Words& words) {
   Request request;
   setup::SimNodeConfig& session = request.config.session;
   const std::string& spec = words.plain[1];
-  if (words.config)
-    navvi_config::read(session, navvi_config::load_yaml(*words.config), *words.config);
+  if (const auto file = words.option("--config"))
+    navvi_config::read(session, navvi_config::load_yaml(*file), *file);
   auto source = read::layout_source(spec);
   if (source) request.config.layout = source->config;
   const YAML::Node given = navvi_config::read_words(words.parameters);
@@ -144,8 +149,8 @@ void write_octomap(const fs::path& path, const occupancy::OccupancyMap& map) {
     tree->write(content);
   } else {
     // The header of OcTree::writeBinary, which would also print " done." to the terminal.
-    content << "# Octomap OcTree binary file\nid " << tree->getTreeType() << "\nsize " << tree->size()
-            << "\nres " << tree->getResolution() << "\ndata\n";
+    content << "# Octomap OcTree binary file\nid " << tree->getTreeType() << "\nsize "
+            << tree->size() << "\nres " << tree->getResolution() << "\ndata\n";
     tree->writeBinaryData(content);
   }
   write_file(path, content.str());
@@ -157,11 +162,12 @@ void check_octomap(const fs::path& path) {
 }
 
 void check(const Words& words) {
-  if (words.out) check_octomap(*words.out);
+  const auto out = words.option("-o");
+  if (out) check_octomap(*out);
   const Request request = load(words);
   const auto map = setup::map_of(request.config.session, request.loaded.world);
   print(request, setup::scenario_of(request.config.session, request.loaded.world, map));
-  if (words.out) write_octomap(*words.out, map);
+  if (out) write_octomap(*out, map);
 }
 
 void write_map(const Words& words) {
@@ -177,8 +183,21 @@ void write_map(const Words& words) {
             << " nodes in " << path.string() << '\n';
 }
 
+/// Points in map, m. \param text  as in "1.5,2 3,-4"
+std::vector<Eigen::Vector2d> points_in(const std::string& text) {
+  std::vector<Eigen::Vector2d> points;
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  char comma = 0;
+  for (double x = 0.0, y = 0.0; stream >> x >> comma >> y && comma == ',';)
+    points.emplace_back(x, y);
+  if (!stream.eof()) throw UsageError("\"" + text + "\" are no points such as \"1.5,2 3,-4\"");
+  return points;
+}
+
 void show(const Words& words) {
-  const fs::path path = words.out.value_or(fs::path(words.plain[1]).stem().string() + ".svg");
+  const auto out = words.option("-o");
+  const fs::path path = out.value_or(fs::path(words.plain[1]).stem().string() + ".svg");
   if (path.extension() != ".svg")
     throw UsageError("'" + path.string() + "' is no picture that can be drawn; allowed is .svg");
   const Request request = load(words);
@@ -187,9 +206,11 @@ void show(const Words& words) {
   const scenario::StartAndGoal scenario =
       setup::scenario_of(session, world, setup::map_of(session, world));
   write_file(path,
-             picture::world_picture(request.loaded.world, scenario, caption_of(request, scenario)));
+             picture::world_picture(request.loaded.world, scenario, caption_of(request, scenario),
+                                    {points_in(words.option("--path").value_or("")),
+                                     points_in(words.option("--turns").value_or(""))}));
   print(request, scenario);
-  if (!words.out) std::cout << path.string() << '\n';
+  if (!out) std::cout << path.string() << '\n';
 }
 
 void write(const Words& words) {
@@ -227,7 +248,7 @@ constexpr Command kCommands[] = {{"list", 1, list},
 
 void run(const Words& words) {
   const std::string name = words.plain.empty() ? "" : words.plain.front();
-  if (words.out && name != "show" && name != "check")
+  if (words.option("-o") && name != "show" && name != "check")
     throw UsageError("-o belongs to world show and world check");
   for (const Command& command : kCommands) {
     if (name != command.name) continue;
