@@ -1,9 +1,13 @@
-// The relay before a real robot's wheels, seen from outside.
+// The relay before a real robot's wheels, seen from outside. All the while, another node wants to
+// drive at 0.4 m/s.
 
 #include <gtest/gtest.h>
+#include <ros/network.h>
 #include <ros/ros.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <cmath>
+#include <csignal>
 #include <functional>
 #include <limits>
 #include <navvi_types/msg_conversion.hpp>
@@ -15,8 +19,10 @@ class Relay : public testing::Test {
   Relay() {
     commands_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
     wheels_ = node_.subscribe<geometry_msgs::Twist>(
-        "robot/cmd_vel", 1,
-        [this](const geometry_msgs::Twist::ConstPtr& msg) { speed_ = msg->linear.x; });
+        "robot/cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) {
+          speed_ = msg->linear.x;
+          EXPECT_NE(speed_, 0.4) << "the wheels obey another node";
+        });
     state_ = node_.subscribe<navvi_msgs::DriveState>(
         "navvi/drive_state", 10,
         [this](const navvi_msgs::DriveState::ConstPtr& msg) { drive_ = *msg; });
@@ -38,6 +44,19 @@ class Relay : public testing::Test {
     const ros::WallTime begin = ros::WallTime::now();
     ASSERT_TRUE(drive_until(0.0, [&] { return (ros::WallTime::now() - begin).toSec() > 0.6; }));
     ASSERT_TRUE(drive_until(0.7, [&] { return speed_ == 0.7; }));
+  }
+
+  static pid_t pid_of_relay() {
+    XmlRpc::XmlRpcValue ask, answer, uri;
+    ask[0] = ros::this_node::getName();
+    ask[1] = "/relay_node";
+    EXPECT_TRUE(ros::master::execute("lookupNode", ask, answer, uri, true));
+    std::string host;
+    std::uint32_t port = 0;
+    EXPECT_TRUE(ros::network::splitURI(uri, host, port));
+    XmlRpc::XmlRpcClient relay(host.c_str(), static_cast<int>(port));
+    EXPECT_TRUE(relay.execute("getPid", ask, answer));
+    return static_cast<int>(answer[2]);
   }
 
   double speed_ = std::numeric_limits<double>::quiet_NaN();
@@ -75,6 +94,28 @@ TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
     return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::COMMAND_INVALID;
   }));
   EXPECT_GT(drive_.rejected, 0u);
+}
+
+TEST_F(Relay, names_the_other_node_that_wants_to_drive_and_goes_on_with_its_driver) {
+  start();
+  EXPECT_TRUE(drive_until(0.7, [&] { return drive_.intruder == "/intruder"; }));
+  EXPECT_TRUE(drive_until(0.6, [&] { return speed_ == 0.6; }));
+}
+
+TEST_F(Relay, drops_commands_that_piled_up_while_it_was_halted) {
+  start();
+  const pid_t relay = pid_of_relay();
+  ASSERT_GT(relay, 0);
+  ASSERT_EQ(kill(relay, SIGSTOP), 0);
+  const ros::WallTime halted = ros::WallTime::now();
+  EXPECT_TRUE(drive_until(0.5, [&] { return (ros::WallTime::now() - halted).toSec() > 1.0; }));
+  ASSERT_EQ(kill(relay, SIGCONT), 0);
+  EXPECT_TRUE(drive_until(0.5, [&] { return drive_.state == navvi_msgs::DriveState::STOPPED; }));
+  const ros::WallTime stopped = ros::WallTime::now();
+  EXPECT_TRUE(drive_until(0.5, [&] {
+    EXPECT_NE(speed_, 0.5) << "the commands were never neutral";
+    return (ros::WallTime::now() - stopped).toSec() > 1.0;
+  }));
 }
 
 }  // namespace
