@@ -72,6 +72,14 @@ def test_the_nodes_on_a_robot_are_those_of_the_picture(robot):
     assert {"/nav_node", "/feedback_node", "/relay_node", "/trial_node"} <= names
 
 
+def test_the_names_of_the_robots_frames_reach_who_reads_them():
+    words = subprocess.run(["roslaunch", "--dump-params", str(ROOT / "launch/robot.launch"), "map_frame:=tb3/map", "odom_frame:=tb3/odom",
+                            "base_frame:=tb3/base_footprint"], capture_output=True, text=True, timeout=60).stdout
+    for name in "nav_node/map_frame: tb3/map", "perception_node/map_frame: tb3/map", "nav_node/base_frame: tb3/base_footprint", \
+            "perception_node/base_frame: tb3/base_footprint", "trial_node/odom_frame: tb3/odom":
+        assert f"/{name}\n" in words
+
+
 def test_a_rehearsal_reaches_no_wheels():
     words = subprocess.run(["roslaunch", "--args", "relay_node", str(ROOT / "launch/robot.launch"), "rehearse:=true",
                             "wheels:=/robot/cmd_vel"], capture_output=True, text=True, timeout=60).stdout

@@ -3,6 +3,7 @@
 #include <nav_msgs/GetPlan.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <navvi_config/ros_parameters.hpp>
@@ -85,10 +86,26 @@ class NavNode {
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(kBeat),
                                   [this](const ros::WallTimerEvent&) { beat(); });
+    name_frames();
     publish_path();
   }
 
  private:
+  /// map and base_link for those who know frames by the names of REP-105 alone.
+  void name_frames() {
+    std::vector<geometry_msgs::TransformStamped> same;
+    const auto add = [&](const std::string& parent, const std::string& child) {
+      if (parent == child) return;
+      geometry_msgs::TransformStamped& transform = same.emplace_back();
+      transform.header.frame_id = parent;
+      transform.child_frame_id = child;
+      transform.transform.rotation.w = 1.0;
+    };
+    add("map", config_.map_frame);
+    add(config_.base_frame, "base_link");
+    if (!same.empty()) frames_.emplace().sendTransform(same);
+  }
+
   void on_map(const octomap_msgs::Octomap::ConstPtr& msg) {
     const std::string error = error_of(*msg, config_.map_frame);
     if (!error.empty())
@@ -253,6 +270,7 @@ class NavNode {
   plan::Worker worker_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};
+  std::optional<tf2_ros::StaticTransformBroadcaster> frames_;
   ros::Publisher path_;
   ros::Publisher guidance_;
   ros::Publisher mesh_;

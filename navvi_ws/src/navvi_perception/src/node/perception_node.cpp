@@ -206,8 +206,9 @@ class PerceptionNode {
   void tell_what_is_near() {
     const double age = (ros::Time::now() - navvi_types::from_ns(sight_)).toSec();
     if (sight_ == 0 || std::abs(age) > kFresh) {
-      ROS_WARN_THROTTLE(10.0, "Nothing is seen: no scan or cloud of the last %.1f s can be used.",
-                        kFresh);
+      // Not while all begins.
+      ROS_WARN_DELAYED_THROTTLE(
+          10.0, "Nothing is seen: no scan or cloud of the last %.1f s can be used.", kFresh);
       return;
     }
     const auto robot = in_map(config_.base_frame, ros::Time(0));

@@ -32,10 +32,11 @@ std::vector<trial::DeviceReport> from_msg(const diagnostic_msgs::DiagnosticArray
   return reports;
 }
 
-std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good) {
+std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good,
+                                        const std::string& odom_frame) {
   std::vector<trial::Correction> corrections;
   for (const auto& entry : msg.transforms) {
-    if (entry.header.frame_id != "map" || entry.child_frame_id != "odom") continue;
+    if (entry.child_frame_id != odom_frame) continue;
     if (const auto odom = from_msg(entry.transform))
       corrections.push_back(
           {for_good ? trial::Correction::kForGood : to_ns(entry.header.stamp), *odom});

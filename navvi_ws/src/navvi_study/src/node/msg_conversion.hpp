@@ -21,10 +21,11 @@ using navvi_types::to_msg;
 /// Only the devices of feedback_node.
 [[nodiscard]] std::vector<trial::DeviceReport> from_msg(
     const diagnostic_msgs::DiagnosticArray& msg);
-/// Only map -> odom; one that is not finite or out of range is left out.
+/// Only the place of odom in its parent, which is map; one that is not finite or out of range is
+/// left out.
 /// \param for_good  the message is one of /tf_static
-[[nodiscard]] std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg,
-                                                      bool for_good);
+[[nodiscard]] std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good,
+                                                      const std::string& odom_frame);
 
 [[nodiscard]] navvi_msgs::TrialEvent to_msg(const record::Row& row);
 /// nullopt if its fields are not in order. mono_ns is not in the message and stays 0.

@@ -35,6 +35,21 @@ TEST(DeviceReports, tell_off_from_missing_and_works) {
   EXPECT_EQ(reports[3].state, DeviceState::missing) << "by its level";
 }
 
+TEST(Corrections, are_of_the_robots_own_odometry_alone) {
+  tf2_msgs::TFMessage msg;
+  for (const char* child : {"odom", "other/odom", "tb3/odom"}) {
+    msg.transforms.emplace_back();
+    msg.transforms.back().header.frame_id = "tb3/map";
+    msg.transforms.back().child_frame_id = child;
+    msg.transforms.back().transform.rotation.w = 1.0;
+    msg.transforms.back().transform.translation.x = static_cast<double>(msg.transforms.size());
+  }
+  const auto corrections = from_msg(msg, true, "tb3/odom");
+  ASSERT_EQ(corrections.size(), 1U);
+  EXPECT_EQ(corrections[0].odom.position.x(), 3.0);
+  EXPECT_EQ(corrections[0].stamp, trial::Correction::kForGood);
+}
+
 }  // namespace
 }  // namespace navvi_study::node
 

@@ -105,7 +105,7 @@ class TrialNode {
         });
     goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     state_ = node_.advertise<navvi_msgs::TrialState>("navvi/trial_state", 1, true);
-    subscribe(config.operator_kind == "simulated");
+    subscribe(config.operator_kind == "simulated", config.odom_frame);
     timer_ = node_.createWallTimer(ros::WallDuration(kStep), [this](auto&) {
       keeper_.step(now());
       if (keeper_.done()) ros::shutdown();
@@ -141,7 +141,7 @@ class TrialNode {
     return out;
   }
 
-  void subscribe(bool simulated) {
+  void subscribe(bool simulated, const std::string& odom_frame) {
     take<nav_msgs::Odometry>("odom");
     take<navvi_msgs::Contact>("navvi/contacts");
     take<navvi_msgs::Proximity>("navvi/proximity");
@@ -152,9 +152,11 @@ class TrialNode {
     take<navvi_msgs::TrialRequest>("navvi/trial_request");
     take<navvi_msgs::StateHash>("navvi/state_hash");
     for (const bool for_good : {false, true}) {
-      listen<tf2_msgs::TFMessage>(for_good ? "/tf_static" : "/tf", [this, for_good](auto& msg) {
-        for (const auto& correction : from_msg(msg, for_good)) keeper_.take(correction, now());
-      });
+      listen<tf2_msgs::TFMessage>(
+          for_good ? "/tf_static" : "/tf", [this, for_good, odom_frame](auto& msg) {
+            for (const auto& correction : from_msg(msg, for_good, odom_frame))
+              keeper_.take(correction, now());
+          });
     }
     listen<diagnostic_msgs::DiagnosticArray>("/diagnostics", [this](auto& msg) {
       for (const auto& report : from_msg(msg)) keeper_.take(report, now());

@@ -69,6 +69,9 @@ class Recount {
     }
     if (start_.type.empty()) throw std::runtime_error("the bag does not hold the trial's start");
     if (end_.type.empty()) throw std::runtime_error("the bag does not hold the trial's end");
+    const std::string settings = start_.fields.get("settings"), name = "trial/odom_frame=";
+    if (const auto at = settings.find(name); at != settings.npos)
+      odom_frame_ = settings.substr(at + name.size(), settings.find(' ', at) - at - name.size());
   }
 
   void replay(const rosbag::Bag& bag) {
@@ -134,11 +137,12 @@ class Recount {
     };
     for (const bool for_good : {false, true}) {
       with<tf2_msgs::TFMessage>(item, for_good ? "/tf_static" : "/tf", [&](const auto& msg) {
-        for (const auto& correction : node::from_msg(msg, for_good))
+        for (const auto& correction : node::from_msg(msg, for_good, odom_frame_))
           observe_all(places_.take(correction));
       });
     }
-    with<nav_msgs::Odometry>(item, "/odom", [&](const auto& msg) {
+    // The only odometry in the bag, whatever the robot's topic is.
+    with<nav_msgs::Odometry>(item, "", [&](const auto& msg) {
       if (const auto report = node::from_msg(msg)) observe_all(places_.take(*report));
     });
     with<diagnostic_msgs::DiagnosticArray>(
@@ -156,6 +160,7 @@ class Recount {
 
   trial::TrialMonitor monitor_{trial::TrialMonitorConfig()};
   trial::OdometryInMap places_;
+  std::string odom_frame_ = "odom";
   record::Row start_;
   record::Row end_;
   ros::Time over_;

@@ -50,6 +50,7 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
         "a trial begins when the person presses the button for it, and the stick drives from then");
   visit(record, "record", Any{}, "", "keep a bag of each trial");
   visit(tail, "tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words");
+  visit(odom_frame, "odom_frame", Any{}, "", "frame of the odometry; its parent is the map's");
   visit.group("monitor", monitor);
 }
 

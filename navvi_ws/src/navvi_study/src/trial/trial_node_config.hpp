@@ -23,6 +23,7 @@ struct TrialNodeConfig {
   bool press_to_start = false;
   bool record = true;
   double tail = 4.0;
+  std::string odom_frame = "odom";
   TrialMonitorConfig monitor;
 
   void describe(navvi_config::Visitor& visit);
