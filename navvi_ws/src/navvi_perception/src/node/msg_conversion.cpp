@@ -177,9 +177,10 @@ visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& sta
         .pose.position = point(middle);
     if (thing.velocity.norm() == 0.0) continue;
     const Eigen::Vector3d way(thing.velocity.x(), thing.velocity.y(), 0.0);
-    // Above the cylinder, which is flat where only a lidar saw the thing.
-    const Eigen::Vector3d top = foot + Eigen::Vector3d(0.0, 0.0, thing.height + 0.1);
-    add("velocities", Marker::ARROW, {0.1, 0.25, 0.0}).points = {point(top), point(top + way)};
+    // Before and above the cylinder, which is flat where only a lidar saw the thing.
+    const Eigen::Vector3d front =
+        foot + thing.radius * way.normalized() + Eigen::Vector3d(0.0, 0.0, thing.height + 0.1);
+    add("velocities", Marker::ARROW, {0.1, 0.25, 0.0}).points = {point(front), point(front + way)};
   }
   return array;
 }

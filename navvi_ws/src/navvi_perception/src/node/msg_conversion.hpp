@@ -49,8 +49,8 @@ void add_points(const sensor_msgs::LaserScan& scan, const sensor_msgs::PointClou
 [[nodiscard]] octomap_msgs::Octomap map_msg(const std::vector<std::int8_t>& bytes,
                                             double resolution, std::int64_t stamp,
                                             const std::string& frame);
-/// For RViz: what stands as cubes, each obstacle as a cylinder, with an arrow to where it will be
-/// in a second.
+/// For RViz: what stands as cubes, each obstacle as a cylinder, with an arrow before it as long as
+/// its way in a second.
 /// \param standing  m, middles of voxels \param resolution  m, their edge
 [[nodiscard]] visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& standing,
                                                        double resolution,

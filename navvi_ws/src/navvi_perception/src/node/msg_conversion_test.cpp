@@ -146,7 +146,8 @@ TEST(MsgConversion, shows_what_stands_and_what_moves_and_nothing_of_before) {
   EXPECT_EQ(all[2].type, Marker::CYLINDER);
   EXPECT_DOUBLE_EQ(all[2].pose.position.z, 0.25);
   ASSERT_EQ(all[4].type, Marker::ARROW);
-  EXPECT_DOUBLE_EQ(all[4].points[1].y, 3.0);
+  EXPECT_DOUBLE_EQ(all[4].points[0].y, 2.3);
+  EXPECT_DOUBLE_EQ(all[4].points[1].y, 3.3);
   std::set<std::pair<std::string, int>> names;
   for (const Marker& marker : all) EXPECT_TRUE(names.emplace(marker.ns, marker.id).second);
 }
