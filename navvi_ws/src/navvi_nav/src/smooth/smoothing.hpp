@@ -9,7 +9,7 @@ namespace navvi_nav::smooth {
 struct SmoothingConfig {
   bool enabled = true;
   int attempts = 2;
-  double effort = 100.0;
+  double effort = 95.0;
   double max_stretch = 1.25;
   double max_detour = 2.0;
   double keep = 6.0;
