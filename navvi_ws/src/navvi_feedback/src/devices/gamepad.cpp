@@ -136,7 +136,7 @@ Gamepad::Status Gamepad::status() const {
 void Gamepad::rumble(const haptics::Rumble& rumble, std::function<void()> called) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!called_) called_ = std::move(called);
+    if (!called_ && status_.connected) called_ = std::move(called);
     wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
     wish_time_ = Clock::now();
   }
@@ -199,6 +199,7 @@ void Gamepad::forget_pad() {
   pad_.reset();
   scanned_ = Clock::now();  // so that the loss is seen before another pad takes over
   const std::lock_guard<std::mutex> lock(mutex_);
+  called_ = {};
   const Status old = status_;
   status_ = Status{};
   status_.rumble_errors = old.rumble_errors;

@@ -115,6 +115,19 @@ TEST_F(GamepadWith, who_wishes_is_told_when_the_driver_was_if_that_is_another_co
   EXPECT_EQ(again, 0);
 }
 
+TEST_F(GamepadWith, a_wish_while_there_is_no_pad_is_not_told_to_be_felt_once_there_is_one) {
+  Gamepad gamepad;
+  std::atomic<int> told{0};
+  gamepad.rumble({0.5, 0.0}, [&] { ++told; });
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  ASSERT_TRUE(eventually([&] {
+    gamepad.rumble({0.5, 0.0});
+    return pad.left() / 65535.0 > 0.49;
+  }));
+  EXPECT_EQ(told, 0);
+}
+
 TEST_F(GamepadWith, a_steady_wish_keeps_the_motors_turning_beyond_the_expiry) {
   Gamepad gamepad;
   VirtualPad pad;
