@@ -40,6 +40,7 @@ constexpr double kTick = 0.02;      // s
 constexpr double kReport = 0.25;    // s; who waits for it knows within a second that it hangs
 constexpr double kHalted = 0.5;     // s without a tick
 constexpr double kCatchUp = 0.2;    // s
+constexpr double kRarely = 2.0;     // s; who is slow all the time speaks nevertheless
 constexpr double kLastWords = 3.0;  // s, that the end of a session waits for them at most
 
 /// Wall time, so that the person hears of a simulation that has stopped.
@@ -194,7 +195,7 @@ class FeedbackNode {
     if (caused) called = [this, chain = *caused, begun] { latencies_.add(chain, begun); };
     const double time = now();
     // Who was halted first takes what came meanwhile, and only then judges what is lost.
-    if (time - std::exchange(last_tick_, time) > kHalted) woke_ = time;
+    if (time - std::exchange(last_tick_, time) > kHalted && time - woke_ > kRarely) woke_ = time;
     if (time - woke_ < kCatchUp) return;
     core::Feedback::Input input;
     input.hands = source_.read(time);

@@ -99,6 +99,11 @@ Journal::~Journal() {
   ::unlink(reserve_in(folder_).c_str());
 }
 
+bool Journal::full(std::uint64_t least) const {
+  std::error_code error;
+  return reserve_used_ || fs::space(folder_, error).available < least;
+}
+
 int Journal::write(std::string_view line) {
   int error = navvi_config::write_all(file_, line, calls_);
   if (error == ENOSPC && !reserve_used_) {

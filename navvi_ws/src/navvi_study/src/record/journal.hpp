@@ -21,6 +21,7 @@ enum class Durability {
 class Journal {
  public:
   static constexpr std::uint64_t kMinFree = 50u << 20;  ///< bytes
+  static constexpr std::uint64_t kPage = 4096;          ///< bytes, that a file grows by
 
   /// Creates `folder`/journal.csv, which must not exist, a reserve of 1 MiB beside it for the day
   /// the disk is full, and locks the journal against recovery by another process. \throws
@@ -43,8 +44,8 @@ class Journal {
   /// A sentence, empty while all is well.
   [[nodiscard]] const std::string& problem() const { return problem_; }
   [[nodiscard]] bool broken() const { return !problem_.empty(); }
-  /// The disk was full and the reserve has been given up: end the trial.
-  [[nodiscard]] bool reserve_used() const { return reserve_used_; }
+  /// The reserve has been given up, or less than `least` bytes are free: end the trial.
+  [[nodiscard]] bool full(std::uint64_t least = kPage) const;
   /// Every row that was written.
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 

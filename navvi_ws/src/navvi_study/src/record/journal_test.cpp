@@ -162,9 +162,15 @@ TEST_F(AJournal, on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
   Journal journal = open(calls);
   full = true;
   EXPECT_TRUE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
-  EXPECT_TRUE(journal.reserve_used());
+  EXPECT_TRUE(journal.full());
   EXPECT_FALSE(journal.broken());
   EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
+}
+
+TEST_F(AJournal, knows_that_the_disk_is_full_before_a_row_does_not_fit) {
+  const Journal journal = open();
+  EXPECT_FALSE(journal.full());
+  EXPECT_TRUE(journal.full(fs::space(path_).capacity + 1));
 }
 
 TEST_F(AJournal, that_may_grow_no_more_says_so_at_the_next_row) {

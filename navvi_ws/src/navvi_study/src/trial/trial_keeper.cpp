@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "record/metrics.hpp"
 #include "record/trial_folder.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr double kSilent = 1.0;                  // s
+constexpr double kHalted = 1.0;                  // s, without a step
+constexpr double kCatchUp = 0.5;                 // s
+constexpr double kRarely = 3.0;                  // s; who is slow all the time judges nevertheless
 constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
@@ -285,11 +289,16 @@ void TrialKeeper::ask_for_goal() {
 }
 
 void TrialKeeper::watch() {
+  // Who was halted first takes what came meanwhile, and only then judges what is silent.
+  const double wall = now_.wall();
+  const double before = std::max(std::exchange(watched_, wall), phase_since_);
+  if (wall - before > kHalted && wall - woke_ > kRarely) woke_ = wall;
+  if (wall - woke_ < kCatchUp) return;
   watch_bag();
   Signs signs;
   signs.now = now_.ros_ns;
   signs.latest = monitor_.latest();
-  signs.disk_full = journal_->reserve_used();
+  signs.disk_full = journal_->full();
   signs.world_restarted = monitor_.world_restarted();
   signs.odometry_silence = readiness_.silence(now_.wall());
   signs.guidance_silence = readiness_.guidance_silence(now_.wall());
@@ -329,7 +338,7 @@ void TrialKeeper::end(const Ending& ending) {
 
 void TrialKeeper::write_end() {
   // The goal may have been reached just before the end that was called first.
-  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), journal_->reserve_used());
+  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), journal_->full());
   record::Fields fields = monitor_.end_fields();
   fields.set("result", ending_.result).set("reason", ending_.reason);
   enter(Phase::closing);

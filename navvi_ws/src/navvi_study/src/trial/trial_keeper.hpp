@@ -127,6 +127,8 @@ class TrialKeeper {
   OdometryInMap places_;
   Phase phase_ = Phase::waiting;
   double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
+  double watched_ = 0.0;      ///< when it last looked for what is silent
+  double woke_ = -1e9;        ///< after it was halted
   double said_ = 0.0;
   std::optional<Scenario> scenario_;
   bool scenario_played_ = false;

@@ -369,6 +369,19 @@ TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
   EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
 }
 
+TEST_F(Trials, go_on_where_their_own_node_was_halted_for_a_while) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(2.0, State::following, kScenario.goal);
+  ASSERT_TRUE(happened("TRIAL_START"));
+  time_ += 20.0;
+  keeper_->step(now());
+  live(2.0, State::following, kScenario.goal);
+  EXPECT_FALSE(happened("TRIAL_END"));
+  wait(12.0);
+  EXPECT_NE(content("summary.csv").find("simulator_lost"), std::string::npos);
+}
+
 TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_reserve) {
   begin();
   keeper_->take(kScenario, now());
