@@ -55,7 +55,7 @@ one_of() {  # NAME...
   done
 }
 number() {  # NAME
-  [[ ! -v arg[$1] || ${arg[$1]} =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "$1:=${arg[$1]} is no number; 0 or more is allowed." 2
+  [[ ! -v arg[$1] || ${arg[$1]} =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "$1:=${arg[$1]} is not allowed; allowed are numbers, 0 or more." 2
 }
 
 # trial_folder WORD...: sets `trial` to the folder that the first word names.
