@@ -108,7 +108,6 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     made_room_ = true;
     way.kind = "make_room";
     way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
-    reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
   if (turning_) {
@@ -148,7 +147,6 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   if (const auto astray = stray(now, time)) return {*astray};
   if (pending_ == Change::reroute && *hour_ != said_hour_) {
     way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
-    reroutes_ = guidance.reroutes;
     return {said(way, *hour_, time)};
   }
   const std::optional<int> turn = turn_within_reach(guidance);
@@ -160,10 +158,8 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     // Who is told "straight ahead" just before a turn drives past it.
     if (turn && *hour_ == 12) return {announce_turn("straight_then", way, *turn, time)};
     // The route changed while the person waited.
-    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind != "slight") {
+    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind != "slight")
       way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
-      reroutes_ = guidance.reroutes;
-    }
     return {said(way, *hour_, time)};
   }
   if (turn && !ahead_told_ && turn_ahead_due(guidance, *turn, time))
@@ -423,6 +419,8 @@ Utterance RouteCues::said(Utterance utterance, int hour, double time) {
   said_hour_ = hour;
   said_time_ = time;
   said_angle_ = last_ ? last_->steer_angle : 0.0;
+  // Whose way has been told is no news later on.
+  if (last_) reroutes_ = last_->reroutes;
   pending_ = Change::none;
   fell_away_ = false;
   reminder_.reset();

@@ -394,6 +394,19 @@ TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
     }
 }
 
+TEST(RouteCues, call_no_route_new_whose_way_was_told) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance = following(0.0, 3.0);
+  drive.now.guidance->reroutes = 1;
+  drive.now.guidance->waypoint = {0.0, -12.0};
+  EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
+  EXPECT_EQ(drive.pass(8.0), Kinds{"straight_then"});
+  drive.cues.unsaid();
+  drive.now.guidance->steer_angle = rad(-30.0);
+  EXPECT_EQ(drive.pass(2.0), Kinds{"direction"});
+}
+
 TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
   Drive drive;
   drive.settle(90.0, 8.0);
