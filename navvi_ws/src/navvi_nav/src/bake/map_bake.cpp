@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bake/fine_parts.hpp"
+#include "bake/merge_convex.hpp"
 #include "map/parallel.hpp"
 
 namespace navvi_nav::bake {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kLeastTile = 8;        // cells
 constexpr int kMaxTileCells = 1024;  // Recast's corners have 16 bits, each cell 16 steps
+constexpr int kLargestPart = 320;    // cells
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
@@ -26,13 +28,6 @@ BakeConfig tile_config(const MapBakeConfig& config, const map::Floor& floor) {
   return out;
 }
 
-/// One tile on its way; no polygons and not baked: nothing there.
-struct Work {
-  TileIndex tile;
-  bool taken_over = false;
-  std::vector<mesh::GridPolygon> polygons;
-};
-
 /// Cells along a tile's side: 8 to 15, and that doubled, so that tiles can be quartered.
 int tile_cells_of(double wanted) {
   double part = std::clamp(wanted, 1.0 * kLeastTile, 1.0 * kMaxTileCells);
@@ -41,30 +36,37 @@ int tile_cells_of(double wanted) {
   return static_cast<int>(std::lround(part)) * times;
 }
 
-TileCells cells_of(const map::Floor& floor, TileIndex tile, int tile_cells,
-                   const MapBakeConfig& config) {
-  TileCells out{{tile.first * tile_cells, tile.second * tile_cells}, tile_cells, {}, {}};
-  const auto side = static_cast<std::size_t>(tile_cells) + 2;
+/// Cells along the side of the parts in which a tile is baked: its quarters, or quarters of these.
+int part_of(int tile_cells) {
+  while (tile_cells > kLargestPart) tile_cells /= 2;
+  return tile_cells;
+}
+
+/// One tile on its way.
+struct Work {
+  TileIndex tile;
+  const TileParts* before;
+  TileParts parts;
+  std::vector<mesh::GridPolygon> polygons;
+};
+
+TileCells cells_of(const map::Floor& floor, map::Cell low, int size, const MapBakeConfig& config) {
+  TileCells out{low, size, {}, {}};
+  const auto side = static_cast<std::size_t>(size) + 2;
   out.open.assign(side * side, 0);
-  const int from = std::max(out.origin.x - 1, floor.origin().x);
-  const int to = std::min(out.origin.x + tile_cells + 1, floor.origin().x + floor.columns());
-  for (std::size_t row = 0; row < side && from < to; ++row) {
-    const int y = out.origin.y - 1 + static_cast<int>(row);
-    if (y < floor.origin().y || y >= floor.origin().y + floor.rows()) continue;
-    std::copy_n(
-        floor.open_row(y) + (from - floor.origin().x), to - from,
-        out.open.begin() + static_cast<std::ptrdiff_t>(row * side) + (from - out.origin.x + 1));
-  }
+  const map::Area known = clipped(map::grown({low, {low.x + size, low.y + size}}, 1), floor.area());
+  for (int y = known.low.y; y < known.high.y && known.columns() > 0; ++y)
+    std::copy_n(floor.open_row(y) + (known.low.x - floor.origin().x), known.columns(),
+                out.open.begin() + static_cast<std::ptrdiff_t>(side) * (y - low.y + 1) +
+                    (known.low.x - low.x + 1));
   if (config.fine_parts) add_fine_parts(out, floor, config.margin);
   return out;
 }
 
-/// Of all that a tile's cells depend on: parts around it, too, eroded.
-bool same_ground_around(const map::Floor& before, const map::Floor& floor, TileIndex tile, int size,
-                        const MapBakeConfig& config) {
-  const int around = 2 * kLeastTile + static_cast<int>(config.margin / floor.cell_size()) + 8;
-  return floor.same_ground(before, {tile.first * size - around, tile.second * size - around},
-                           {(tile.first + 1) * size + around, (tile.second + 1) * size + around});
+/// Of all that a part's cells depend on: what lies around it, too, eroded.
+bool changed_around(const map::Floor& floor, const map::Area& part, const MapBakeConfig& config) {
+  return floor.changed(
+      map::grown(part, 2 * kLeastTile + static_cast<int>(config.margin / floor.cell_size()) + 8));
 }
 
 }  // namespace
@@ -75,6 +77,7 @@ BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config, const Bake
   if (!out.error.empty()) return out;
   const double cell = survey.cell_size;
   const std::string levels = std::move(survey.levels);
+  out.record = std::move(survey.record);
   if (config.margin > (map::Floor::kMaxReach - 2) * cell) {
     out.error = "the robot is too wide for a map with cells of " + std::to_string(cell) +
                 " m: its radius must not be more than " +
@@ -83,51 +86,67 @@ BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config, const Bake
   }
   out.floor = std::make_shared<const map::Floor>(
       survey.low, survey.columns, survey.rows, cell, survey.floor_height, std::move(survey.ground),
-      config.margin + config.reach, config.margin, config.threads);
+      config.margin + config.reach, config.margin, config.threads,
+      before != nullptr ? before->floor.get() : nullptr);
   const map::Floor& floor = *out.floor;
   const int size = tile_cells_of(config.tile_size / cell);
+  const int part = part_of(size);
+  const int aside = size / part, parts = aside * aside;
   out.tile_cells = size;
-  std::vector<Work> works;
-  for (int y = floor_div(floor.origin().y, size); y * size < floor.origin().y + floor.rows(); ++y) {
-    for (int x = floor_div(floor.origin().x, size); x * size < floor.origin().x + floor.columns();
-         ++x)
-      works.push_back({{x, y}, false, {}});
-  }
   const bool comparable = before != nullptr && before->floor && before->tile_cells == size &&
                           before->floor->cell_size() == cell &&
                           before->floor->grow() == floor.grow();
+  static const BakedMap kNone;
+  const BakedMap& last = comparable ? *before : kNone;
+  std::vector<Work> works;
+  for (int y = floor_div(floor.origin().y, size); y * size < floor.area().high.y; ++y) {
+    for (int x = floor_div(floor.origin().x, size); x * size < floor.area().high.x; ++x) {
+      const auto old = last.parts.find({x, y});
+      works.push_back({{x, y},
+                       old != last.parts.end() ? &old->second : nullptr,
+                       TileParts(static_cast<std::size_t>(parts)),
+                       {}});
+    }
+  }
   const BakeConfig how = tile_config(config, floor);
+  map::in_parallel(static_cast<int>(works.size()) * parts, config.threads, [&](int i) {
+    Work& work = works[static_cast<std::size_t>(i / parts)];
+    const auto at = static_cast<std::size_t>(i % parts);
+    const map::Cell low{work.tile.first * size + i % aside * part,
+                        work.tile.second * size + i % parts / aside * part};
+    work.parts[at] = work.before != nullptr ? (*work.before)[at] : nullptr;
+    const bool same = work.before != nullptr &&
+                      !changed_around(floor, {low, {low.x + part, low.y + part}}, config);
+    if (same) return;
+    const TileCells cells = cells_of(floor, low, part, config);
+    if (work.before != nullptr && cells == cells_of(*last.floor, low, part, config)) return;
+    work.parts[at] = std::make_shared<const std::vector<mesh::GridPolygon>>(bake_tile(cells, how));
+  });
   map::in_parallel(static_cast<int>(works.size()), config.threads, [&](int i) {
     Work& work = works[static_cast<std::size_t>(i)];
-    if (comparable && same_ground_around(*before->floor, floor, work.tile, size, config)) {
-      work.taken_over = true;
+    const auto old = last.tiles.find(work.tile);
+    if (work.before != nullptr && work.parts == *work.before) {
+      if (old != last.tiles.end()) work.polygons = old->second;
       return;
     }
-    const TileCells cells = cells_of(floor, work.tile, size, config);
-    work.taken_over = comparable && cells == cells_of(*before->floor, work.tile, size, config);
-    if (!work.taken_over) work.polygons = bake_tile(cells, how);
+    for (const auto& polygons : work.parts)
+      work.polygons.insert(work.polygons.end(), polygons->begin(), polygons->end());
+    if (config.max_corners > 3)
+      work.polygons = merge_convex(std::move(work.polygons), config.max_corners);
   });
   for (Work& work : works) {
-    if (work.taken_over) {
-      const auto old = before->tiles.find(work.tile);
-      if (old != before->tiles.end()) out.tiles.insert(*old);
-      continue;
-    }
-    out.rebuilt.push_back(work.tile);
+    const auto old = last.tiles.find(work.tile);
+    if (old != last.tiles.end() ? work.polygons != old->second : !work.polygons.empty())
+      out.rebuilt.push_back(work.tile);
     if (!work.polygons.empty()) out.tiles.emplace(work.tile, std::move(work.polygons));
+    out.parts.emplace(work.tile, std::move(work.parts));
   }
   if (out.tiles.empty()) {
     out.error = "the map shows no walkable floor";
     if (!levels.empty()) out.error += "; what there is of floor lies at " + levels;
   }
-  if (before != nullptr) {
-    for (const auto& [tile, polygons] : before->tiles) {
-      const bool looked_at =
-          std::any_of(works.begin(), works.end(),
-                      [tile = tile](const Work& work) { return work.tile == tile; });
-      if (!looked_at) out.rebuilt.push_back(tile);
-    }
-  }
+  for (const auto& [tile, polygons] : last.tiles)
+    if (out.parts.count(tile) == 0) out.rebuilt.push_back(tile);
   return out;
 }
 

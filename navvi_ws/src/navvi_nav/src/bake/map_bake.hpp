@@ -26,19 +26,24 @@ struct MapBakeConfig {
   int threads = 2;             ///< that may share the work; the result is the same
 };
 
+/// Polygons of the parts of a tile, row by row, before they are merged across the parts' borders.
+using TileParts = std::vector<std::shared_ptr<const std::vector<mesh::GridPolygon>>>;
+
 /// A map's floor and its mesh without holes.
 struct BakedMap {
   std::string error;  ///< a sentence if the survey shows no floor for the robot
   std::shared_ptr<const map::Floor> floor;
-  int tile_cells = 0;  ///< cells along a tile's side
+  std::shared_ptr<const map::SurveyRecord> record;  ///< of its survey; null: there is none
+  int tile_cells = 0;                               ///< cells along a tile's side
   /// Corners in steps of the floor's cell size / kStepsPerCellSide. Tiles without floor are left
   /// out.
   std::map<TileIndex, std::vector<mesh::GridPolygon>> tiles;
   std::vector<TileIndex> rebuilt;  ///< tiles that are not as in the map before, gone ones included
+  std::map<TileIndex, TileParts> parts;  ///< of all tiles
 };
 
-/// Bakes a survey. Tiles whose open cells (and those beside them) are as in `before` are taken over
-/// from there, not baked again: same cells, same polygons.
+/// Bakes a survey. Parts around which the ground is as in `before` are taken over from there, not
+/// baked again: same cells, same polygons.
 [[nodiscard]] BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config,
                                 const BakedMap* before = nullptr);
 

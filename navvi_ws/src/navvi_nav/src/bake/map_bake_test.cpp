@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
+#include <sstream>
+
 #include "small_world.hpp"
 
 namespace navvi_nav::bake {
@@ -180,6 +184,178 @@ TEST(MapBake, takes_over_tiles_in_which_nothing_changed) {
   const BakedMap wider = bake_map(survey_of(world), config, &changed);
   EXPECT_EQ(wider.tiles, bake_map(survey_of(world), config).tiles);
   EXPECT_LT(wider.rebuilt.size(), wider.tiles.size());
+}
+
+/// A hall in which things come, go and grow: boxes, steps, ramps, ceilings, decks, pits, blocks of
+/// the octree, free space, and floor beyond the walls.
+class ChangingHall {
+ public:
+  /// \param length, width  voxels; things come and go at one end, within 420 x 300
+  ChangingHall(unsigned seed, double resolution, int length = 420, int width = 300)
+      : length_(std::min(length, 420)),
+        width_(std::min(width, 300)),
+        random_(seed),
+        tree_(resolution) {
+    fill(0, 0, -1, length, width, 0);
+    fill(0, 0, -1, length_, width_, 0);
+    fill(0, 0, 0, length_, 2, 10);
+    fill(0, 0, 0, 2, width_, 10);
+    for (int i = 0; i < 12; ++i) change();
+  }
+  void change() {
+    const int x = pick(-10, length_), y = pick(-10, width_), side = pick(1, 30), high = pick(1, 12);
+    const double level = 2.0 * M_PI * pick(0, 15) / 16.0;  // of a ramp's heading
+    switch (pick(0, 12)) {
+      case 0:  // a step
+        return fill(x, y, 0, x + side, y + pick(1, 90), pick(1, 2));
+      case 1:  // a ramp to a deck
+        for (int i = 0; i < 60; ++i)
+          for (int k = 0; k < 40; ++k) {
+            const double along = (i - 30) * std::cos(level) + (k - 20) * std::sin(level);
+            fill(x + i, y + k, 0, x + i + 1, y + k + 1,
+                 static_cast<int>(std::clamp(along * high / 20.0, 0.0, 8.0)));
+          }
+        return;
+      case 2:  // a ceiling
+        return fill(x, y, high, x + 2 * side, y + 2 * side, high + 1);
+      case 3:  // a pit, or a map that ends here
+        return fill(x, y, -1, x + side, y + side, 0, -2.0F);
+      case 4:  // all that stood here is gone
+        return fill(x, y, 0, x + 3 * side, y + 3 * side, 14, -2.0F);
+      case 5:  // free space where nothing was known, which the map tells, too
+        return fill(x, y, 20, x + side, y + side, 20 + high, -2.0F);
+      case 6:  // leaves as large as blocks
+        return fill(x & ~63, y & ~63, 0, (x & ~63) + 64, (y & ~63) + 64, pick(0, 1) * 64);
+      case 7:  // floor beyond
+        return fill(pick(0, 1) * (length_ - 1), y, -1, length_ + pick(0, 20), y + side, 0);
+      case 8:  // a floor above the floor, as large
+        return fill(x, y, 40, pick(0, 9) == 0 ? length_ : x + side, width_, 41);
+      default:  // a box
+        return fill(x, y, 0, x + side, y + side, high);
+    }
+  }
+  std::vector<std::int8_t> bytes(bool binary) {
+    tree_.updateInnerOccupancy();
+    octomap::OcTree pruned(tree_);
+    pruned.prune();
+    std::ostringstream out;
+    if (binary)
+      pruned.writeBinaryData(out);
+    else
+      pruned.writeData(out);
+    const std::string text = out.str();
+    return {text.begin(), text.end()};
+  }
+  int pick(int low, int high) {
+    return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1));
+  }
+
+ private:
+  void fill(int x0, int y0, int z0, int x1, int y1, int z1, float value = 2.0F) {
+    const auto key = [](int at) { return static_cast<octomap::key_type>(map::kMapCenter + at); };
+    for (int x = x0; x < x1; ++x)
+      for (int y = y0; y < y1; ++y)
+        for (int z = z0; z < z1; ++z)
+          tree_.setNodeValue(octomap::OcTreeKey(key(x), key(y), key(z)), value, true);
+  }
+
+  const int length_, width_;
+  std::mt19937 random_;
+  octomap::OcTree tree_;
+};
+
+/// Most changes of so large a hall are surveyed in part.
+TEST(MapBake, surveys_a_large_map_that_changes_over_and_over_as_at_once) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    ChangingHall hall(seed, seed == 2 ? 0.1 : 0.05, 1000, 800);
+    map::SurveyConfig how;
+    how.climb = seed == 1 ? 0.1 : 0.04;
+    map::MapSurvey last;
+    map::Floor floor;
+    for (int round = 0; round < 15; ++round) {
+      hall.change();
+      const std::vector<std::int8_t> data = hall.bytes(true);
+      const map::MapBytes bytes{data.data(), data.size(), true, "OcTree", seed == 2 ? 0.1 : 0.05};
+      map::MapSurvey survey = map::survey_map(bytes, how, last.record.get(), &floor);
+      const map::MapSurvey anew = map::survey_map(map::read_voxels(bytes), how);
+      ASSERT_EQ(survey.error, anew.error);
+      ASSERT_EQ(survey.levels, anew.levels);
+      ASSERT_EQ(survey.columns, anew.columns);
+      ASSERT_TRUE(survey.ground == anew.ground) << seed << ' ' << round;
+      last = std::move(survey);
+      floor =
+          map::Floor(last.low, last.columns, last.rows, last.cell_size, 0.0, last.ground, 0.1, 0.0);
+    }
+  }
+}
+
+TEST(MapBake, takes_back_a_long_deck_whose_ramp_a_box_closes) {
+  SmallWorld world(0.1);
+  world.floor(0, 0, 40, 30);
+  for (int level = 1; level <= 3; ++level) world.box(10 + 0.5 * level, 10, 0, 38, 12, 0.1 * level);
+  map::SurveyConfig how;
+  how.climb = 0.1;
+  const auto survey_of = [&](const BakedMap& last) {
+    std::ostringstream out;
+    octomap::OcTree(world.tree()).writeBinaryData(out);
+    const std::string text = out.str();
+    const std::vector<std::int8_t> data(text.begin(), text.end());
+    const map::MapBytes bytes{data.data(), data.size(), true, "OcTree", 0.1};
+    map::MapSurvey survey = map::survey_map(bytes, how, last.record.get(), last.floor.get());
+    EXPECT_TRUE(survey.ground == map::survey_map(map::read_voxels(bytes), how).ground);
+    return survey;
+  };
+  const BakedMap open = bake_map(survey_of({}), {});
+  world.box(9.5, 9.5, 0, 11.8, 12.5, 0.7);
+  const BakedMap closed = bake_map(survey_of(open), {}, &open);
+  EXPECT_EQ(open.floor->ground(open.floor->cell_at({30, 11})), map::Ground::floor);
+  EXPECT_EQ(closed.floor->ground(closed.floor->cell_at({30, 11})), map::Ground::obstacle);
+}
+
+TEST(MapBake, makes_of_a_map_that_changes_over_and_over_what_it_makes_of_it_at_once) {
+  int in_part = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    ChangingHall hall(seed, seed % 2 == 0 ? 0.1 : 0.05);
+    map::SurveyConfig how;
+    how.climb = std::array{0.04, 0.0, 0.1}[seed % 3];
+    how.robot_height = seed % 4 == 3 ? 0.3 : 0.8;
+    how.cell_size = seed % 5 == 4 ? 0.15 : 0.0;
+    MapBakeConfig config;
+    config.tile_size = 4.0;
+    BakedMap last;
+    for (int round = 0; round < 14; ++round) {
+      const int changes = hall.pick(0, 2);
+      for (int i = 0; i < changes; ++i) hall.change();
+      const std::vector<std::int8_t> data = hall.bytes(seed % 6 != 5);
+      const map::MapBytes bytes{data.data(), data.size(), seed % 6 != 5, "OcTree",
+                                seed % 2 == 0 ? 0.1 : 0.05};
+      map::MapSurvey survey = map::survey_map(bytes, how, last.record.get(), last.floor.get());
+      const map::MapSurvey anew = map::survey_map(map::read_voxels(bytes), how);
+      ASSERT_EQ(survey.error, anew.error);
+      ASSERT_EQ(survey.columns, anew.columns);
+      ASSERT_EQ(survey.rows, anew.rows);
+      ASSERT_EQ(survey.low.x, anew.low.x);
+      ASSERT_EQ(survey.low.y, anew.low.y);
+      ASSERT_EQ(survey.cell_size, anew.cell_size);
+      ASSERT_EQ(survey.floor_height, anew.floor_height);
+      ASSERT_EQ(survey.levels, anew.levels);
+      ASSERT_TRUE(survey.ground == anew.ground) << seed << ' ' << round;
+      BakedMap map = bake_map(std::move(survey), config, &last);
+      const BakedMap fresh = bake_map(anew, config);
+      ASSERT_EQ(map.error, fresh.error);
+      if (!map.error.empty()) continue;
+      for (int y = 0; y < fresh.floor->rows(); ++y) {
+        const int row = fresh.floor->origin().y + y;
+        const auto count = static_cast<std::size_t>(fresh.floor->columns());
+        ASSERT_EQ(std::memcmp(map.floor->gap2_row(row), fresh.floor->gap2_row(row), 2 * count), 0);
+        ASSERT_EQ(std::memcmp(map.floor->open_row(row), fresh.floor->open_row(row), count), 0);
+      }
+      ASSERT_TRUE(map.tiles == fresh.tiles) << seed << ' ' << round;
+      in_part += map.rebuilt.size() < map.tiles.size();
+      last = std::move(map);
+    }
+  }
+  EXPECT_GT(in_part, 30);
 }
 
 TEST(MapBake, refuses_a_map_without_room_and_a_robot_too_wide_for_the_cells) {

@@ -1,7 +1,7 @@
 #include "map/floor.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 #include <limits>
 
 #include "map/parallel.hpp"
@@ -48,43 +48,6 @@ int squared_gap(int cells, int unit, int grow) {
   return between * between;
 }
 
-/// How many cells away, along the column, the nearest one that blocks is; at most `reach` + 1. What
-/// lies beyond the grid blocks.
-std::vector<std::uint8_t> steps_along_columns(const std::vector<Ground>& ground, int columns,
-                                              int rows, int reach, int threads) {
-  std::vector<std::uint8_t> out(ground.size());
-  constexpr int kBand = 256;
-  in_parallel((columns + kBand - 1) / kBand, threads, [&](int band) {
-    const int from = band * kBand;
-    const int count = std::min(kBand, columns - from);
-    const auto at = [&](int y) {
-      return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-             static_cast<std::size_t>(from);
-    };
-    const auto cap = static_cast<std::uint8_t>(reach + 1);
-    std::array<std::uint8_t, kBand> steps{};
-    for (int y = 0; y < rows; ++y) {
-      const Ground* here = ground.data() + at(y);
-      std::uint8_t* to = out.data() + at(y);
-      for (int x = 0; x < count; ++x) {
-        const auto next = static_cast<std::uint8_t>(steps[static_cast<std::size_t>(x)] +
-                                                    (steps[static_cast<std::size_t>(x)] < cap));
-        to[x] = steps[static_cast<std::size_t>(x)] = here[x] == Ground::floor ? next : 0;
-      }
-    }
-    steps.fill(0);
-    for (int y = rows - 1; y >= 0; --y) {
-      std::uint8_t* to = out.data() + at(y);
-      for (int x = 0; x < count; ++x) {
-        const auto next = static_cast<std::uint8_t>(steps[static_cast<std::size_t>(x)] +
-                                                    (steps[static_cast<std::size_t>(x)] < cap));
-        to[x] = steps[static_cast<std::size_t>(x)] = std::min(next, to[x]);
-      }
-    }
-  });
-  return out;
-}
-
 /// For a row of columns' gaps, with `reach` more on either side: the least of gap + gap along the
 /// row, squared, into `row`.
 template <typename Number>
@@ -102,37 +65,38 @@ void least_over_row(const Number* gaps, int count, int reach, const std::vector<
   }
 }
 
-/// Squared gaps of all cells: least over the rows within `reach` cells, in units. `store(row, x0,
+/// Squared gaps of an area's cells: least over the rows within `reach` cells, in units. `store(y,
 /// values)` takes each row.
+/// \param steps  along columns, of the area with `aside` more cells at its left, `stride` in a row
 template <typename Number, typename Store>
-void for_each_row(const std::vector<std::uint8_t>& steps, int columns, int rows, int reach,
-                  int unit, int grow, int threads, const Store& store) {
+void for_each_row(const std::vector<std::uint8_t>& steps, int stride, int aside, const Area& area,
+                  int reach, int unit, int grow, const Store& store) {
   // Nothing nearer than `reach` is as far as anything: one more than any sum that counts.
   const int farthest = squared_gap(reach + 1, unit, grow);
   std::vector<Number> squares(static_cast<std::size_t>(reach) + 2);
   for (int k = 0; k <= reach + 1; ++k)
     squares[static_cast<std::size_t>(k)] = static_cast<Number>(squared_gap(k, unit, grow));
   squares.back() = static_cast<Number>(farthest);
-  constexpr int kBand = 32;
-  in_parallel((rows + kBand - 1) / kBand, threads, [&](int band) {
-    std::vector<Number> gaps(static_cast<std::size_t>(columns + 2 * reach), 0);
-    std::vector<Number> row(static_cast<std::size_t>(columns));
-    for (int y = band * kBand; y < std::min(rows, (band + 1) * kBand); ++y) {
-      const std::uint8_t* from =
-          steps.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns);
-      for (int x = 0; x < columns; ++x)
-        gaps[static_cast<std::size_t>(x + reach)] =
-            squares[std::min<std::size_t>(from[x], squares.size() - 1)];
-      least_over_row(gaps.data(), columns, reach, squares, row.data());
-      store(y, row.data());
-    }
-  });
+  const int count = area.columns();
+  const int first = std::max(0, aside - reach);
+  const int last = std::min(stride, aside + count + reach);
+  std::vector<Number> gaps(static_cast<std::size_t>(count + 2 * reach), 0);
+  std::vector<Number> row(static_cast<std::size_t>(count));
+  for (int y = area.low.y; y < area.high.y; ++y) {
+    const std::uint8_t* from = steps.data() + static_cast<std::ptrdiff_t>(y - area.low.y) * stride;
+    for (int x = first; x < last; ++x)
+      gaps[static_cast<std::size_t>(x - aside + reach)] =
+          squares[std::min<std::size_t>(from[x], squares.size() - 1)];
+    least_over_row(gaps.data(), count, reach, squares, row.data());
+    store(y, row.data());
+  }
 }
 
 }  // namespace
 
 Floor::Floor(Cell origin, int columns, int rows, double cell_size, double height,
-             std::vector<Ground> ground, double reach, double margin, int threads)
+             std::vector<Ground> ground, double reach, double margin, int threads,
+             const Floor* before)
     : origin_(origin),
       columns_(columns),
       rows_(rows),
@@ -140,8 +104,9 @@ Floor::Floor(Cell origin, int columns, int rows, double cell_size, double height
       height_(height),
       reach_(std::min(reach, (kMaxReach - 1) * cell_size)),
       reach_cells_(static_cast<int>(std::ceil(reach_ / cell_size - kRounding)) + 1),
+      margin_(margin),
       ground_(std::move(ground)) {
-  measure(margin, threads);
+  measure(threads, before);
 }
 
 Point Floor::center_of(Cell cell) const {
@@ -152,52 +117,84 @@ Ground Floor::ground(Cell cell) const {
   return contains(cell) ? ground_[index(cell)] : Ground::none;
 }
 
-bool Floor::same_ground(const Floor& other, Cell low, Cell high) const {
-  if (other.origin_.x != origin_.x || other.origin_.y != origin_.y || other.columns_ != columns_ ||
-      other.rows_ != rows_)
-    return false;
-  const int from = std::max(low.x, origin_.x), to = std::min(high.x, origin_.x + columns_);
-  for (int y = std::max(low.y, origin_.y); y < std::min(high.y, origin_.y + rows_); ++y) {
-    const auto row = static_cast<std::ptrdiff_t>(index({from, y}));
-    if (!std::equal(ground_.begin() + row, ground_.begin() + row + std::max(0, to - from),
-                    other.ground_.begin() + row))
-      return false;
-  }
-  return true;
+bool Floor::changed(const Area& wanted) const {
+  if (changed_.empty()) return true;
+  const Area known = clipped(wanted, area());
+  for (int y = (known.low.y - origin_.y) / kNote; y * kNote < known.high.y - origin_.y; ++y)
+    for (int x = (known.low.x - origin_.x) / kNote; x * kNote < known.high.x - origin_.x; ++x)
+      if (changed_[static_cast<std::size_t>(y * notes_across() + x)]) return true;
+  return false;
 }
 
-/// Two passes: how far along each column, then the least sum over each row within reach.
-void Floor::measure(double margin, int threads) {
-  const auto width = static_cast<std::size_t>(columns_);
-  const double margin_cells = margin / cell_size_;
+void Floor::note_changes(const Floor& before) {
+  changed_.resize(static_cast<std::size_t>(notes_across() * ((rows_ + kNote - 1) / kNote)));
+  const auto differ = [&](int x, int y, int count) {
+    const std::size_t at = index({origin_.x + x, origin_.y + y});
+    return std::memcmp(&ground_[at], &before.ground_[at], static_cast<std::size_t>(count)) != 0;
+  };
+  for (int y = 0; y < rows_; ++y) {
+    for (int x = 0; x < columns_ && differ(x, y, columns_ - x); x += kNote)
+      if (differ(x, y, std::min(kNote, columns_ - x)))
+        changed_[static_cast<std::size_t>(y / kNote * notes_across() + x / kNote)] = true;
+  }
+}
+
+/// Square by square. One around which nothing differs is as before.
+void Floor::measure(int threads, const Floor* before) {
+  constexpr int kSquare = 256;  // cells
+  const double margin_cells = margin_ / cell_size_;
   const double spare = std::ceil(margin_cells - kRounding) - margin_cells;
   grow_ = std::min(kStepsPerCellSide / 2,
                    std::max(0, static_cast<int>(spare * kStepsPerCellSide + kRounding)));
-  const std::vector<std::uint8_t> steps =
-      steps_along_columns(ground_, columns_, rows_, reach_cells_, threads);
-  gap2_.resize(ground_.size());
-  open_.resize(ground_.size());
+  if (before != nullptr && (before->cell_size_ != cell_size_ || before->reach_ != reach_ ||
+                            before->margin_ != margin_ || !(before->area() == area())))
+    before = nullptr;
+  if (before != nullptr) {
+    note_changes(*before);
+    gap2_ = before->gap2_;
+    open_ = before->open_;
+  } else {
+    gap2_.resize(ground_.size());
+    open_.resize(ground_.size());
+  }
+  const int across = (columns_ + kSquare - 1) / kSquare;
+  const int along = (rows_ + kSquare - 1) / kSquare;
+  in_parallel(across * along, threads, [&](int i) {
+    const Cell low{origin_.x + i % across * kSquare, origin_.y + i / across * kSquare};
+    const Area square = clipped({low, {low.x + kSquare, low.y + kSquare}}, area());
+    if (changed(grown(square, influence()))) measure(square);
+  });
+}
+
+/// Two passes: how far along each column, then the least sum over each row within reach.
+void Floor::measure(const Area& square) {
+  const Area around = clipped(grown(square, influence()), area());
+  const Area beside{{around.low.x, square.low.y}, {around.high.x, square.high.y}};
+  const std::vector<std::uint8_t> steps = steps_along_columns(beside);
+  const auto each_row = [&](auto number, int reach, int unit, int grow, const auto& store) {
+    for_each_row<decltype(number)>(steps, beside.columns(), square.low.x - beside.low.x, square,
+                                   reach, unit, grow, store);
+  };
+  const double margin_cells = margin_ / cell_size_;
   const auto is_open = [](auto least) { return [least](auto gap2) { return gap2 >= least; }; };
   const auto keep_open = [&](int y, const auto* row, const auto& far_enough) {
-    std::uint8_t* open = open_.data() + static_cast<std::size_t>(y) * width;
-    for (std::size_t x = 0; x < width; ++x) open[x] = far_enough(row[x]);
+    std::uint8_t* open = open_.data() + index({square.low.x, y});
+    for (int x = 0; x < square.columns(); ++x) open[x] = far_enough(row[x]);
   };
   const auto whole = static_cast<std::uint16_t>(std::ceil(margin_cells * margin_cells - kRounding));
-  const bool grown = grow_ > 0;
-  for_each_row<std::uint16_t>(
-      steps, columns_, rows_, reach_cells_, 1, 0, threads, [&](int y, const std::uint16_t* row) {
-        std::copy_n(row, width, gap2_.begin() + static_cast<std::ptrdiff_t>(y) * columns_);
-        if (!grown) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
-      });
-  if (!grown) return;
+  const bool whole_cells = grow_ == 0;
+  each_row(std::uint16_t{0}, reach_cells_, 1, 0, [&](int y, const std::uint16_t* row) {
+    std::copy_n(row, square.columns(), gap2_.data() + index({square.low.x, y}));
+    if (whole_cells) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
+  });
+  if (whole_cells) return;
   const double margin_steps = margin_cells * kStepsPerCellSide;
   const int far = std::max(1, static_cast<int>(std::ceil(margin_steps * margin_steps - kRounding)));
-  const int reach = static_cast<int>(std::ceil(margin_cells)) + 1;
+  const int reach = margin_reach();
   const auto fine = [&](auto number) {
-    using Number = decltype(number);
-    for_each_row<Number>(
-        steps, columns_, rows_, reach, kStepsPerCellSide, grow_, threads,
-        [&](int y, const Number* row) { keep_open(y, row, is_open(static_cast<Number>(far))); });
+    each_row(number, reach, kStepsPerCellSide, grow_, [&](int y, const auto* row) {
+      keep_open(y, row, is_open(static_cast<decltype(number)>(far)));
+    });
   };
   if (2 * squared_gap(reach + 1, kStepsPerCellSide, 0) <= std::numeric_limits<std::uint16_t>::max())
     fine(std::uint16_t{0});
@@ -205,17 +202,56 @@ void Floor::measure(double margin, int threads) {
     fine(std::uint32_t{0});
 }
 
-double Floor::clearance(Point point) const {
+/// How many cells away, along the column, the nearest one that blocks is; at most reach_cells_ + 1.
+/// What lies beyond the grid blocks.
+std::vector<std::uint8_t> Floor::steps_along_columns(const Area& area) const {
+  const auto width = static_cast<std::size_t>(area.columns());
+  const auto cap = static_cast<std::uint8_t>(reach_cells_ + 1);
+  std::vector<std::uint8_t> out(width * static_cast<std::size_t>(area.rows()));
+  std::vector<std::uint8_t> steps(width);
+  const auto pass = [&](int y) {
+    const Ground* here = ground_.data() + index({area.low.x, y});
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto next = static_cast<std::uint8_t>(steps[x] + (steps[x] < cap));
+      steps[x] = here[x] == Ground::floor ? next : std::uint8_t{0};
+    }
+  };
+  const auto row_of = [&](int y) {
+    return out.begin() + static_cast<std::ptrdiff_t>(width) * (y - area.low.y);
+  };
+  // Whatever blocks beyond these rows is too far away to count.
+  const int first = std::max(origin_.y, area.low.y - reach_cells_);
+  const int last = std::min(origin_.y + rows_, area.high.y + reach_cells_) - 1;
+  for (int y = first; y < area.high.y; ++y) {
+    pass(y);
+    if (y >= area.low.y) std::copy(steps.begin(), steps.end(), row_of(y));
+  }
+  std::fill(steps.begin(), steps.end(), std::uint8_t{0});
+  for (int y = last; y >= area.low.y; --y) {
+    pass(y);
+    if (y >= area.high.y) continue;
+    const auto to = row_of(y);
+    std::transform(steps.begin(), steps.end(), to, to,
+                   [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+  }
+  return out;
+}
+
+double Floor::clearance(Point point, double most) const {
   const Cell at = cell_at(point);
   const double known = gap(at);
-  if (known >= reach_) return reach_;
+  double best = std::min(reach_, most);
+  if (known >= reach_ || known > most + kTolerance) return best;
   const int window = static_cast<int>(std::ceil(known / cell_size_)) + 3;
-  double best = reach_;
+  double far = known + 1.5 * cell_size_;  // from any point of the cell one is nearer
   for (int y = at.y - window; y <= at.y + window; ++y) {
+    const double dy = std::max({y * cell_size_ - point.y, 0.0, point.y - (y + 1) * cell_size_});
+    if (dy > far) continue;
     for (int x = at.x - window; x <= at.x + window; x += stride({x, y})) {
-      if (ground({x, y}) == Ground::floor) continue;
-      best = std::min(best, distance_to_box(point, {x * cell_size_, y * cell_size_},
-                                            {(x + 1) * cell_size_, (y + 1) * cell_size_}));
+      const double dx = std::max({x * cell_size_ - point.x, 0.0, point.x - (x + 1) * cell_size_});
+      if (dx > far || ground({x, y}) == Ground::floor) continue;
+      best = std::min(best, std::hypot(dx, dy));
+      far = std::min(far, best);
     }
   }
   return best;
@@ -276,8 +312,8 @@ bool Floor::segment_clear(Point a, Point b, double radius) const {
   return true;
 }
 
-double Space::clearance(Point point) const {
-  double best = floor->clearance(point);
+double Space::clearance(Point point, double most) const {
+  double best = floor->clearance(point, most);
   for (const Cylinder& cylinder : *cylinders)
     best = std::min(best, distance(point, cylinder.center) - cylinder.radius);
   return best;

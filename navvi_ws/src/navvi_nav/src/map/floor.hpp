@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry.hpp"
@@ -16,6 +17,27 @@ struct Cell {
   int y = 0;
 };
 
+/// Cells, or columns of voxels.
+struct Area {
+  Cell low;
+  Cell high;  ///< one beyond
+
+  [[nodiscard]] int columns() const { return high.x - low.x; }
+  [[nodiscard]] int rows() const { return high.y - low.y; }
+  [[nodiscard]] bool operator==(const Area& other) const {
+    return low.x == other.low.x && low.y == other.low.y && high.x == other.high.x &&
+           high.y == other.high.y;
+  }
+};
+[[nodiscard]] inline Area grown(const Area& area, int by) {
+  return {{area.low.x - by, area.low.y - by}, {area.high.x + by, area.high.y + by}};
+}
+/// What lies in both.
+[[nodiscard]] inline Area clipped(const Area& area, const Area& to) {
+  return {{std::max(area.low.x, to.low.x), std::max(area.low.y, to.low.y)},
+          {std::min(area.high.x, to.high.x), std::min(area.high.y, to.high.y)}};
+}
+
 enum class Ground : std::uint8_t {
   none,      ///< the map shows no floor here
   floor,     ///< floor with head room for the robot
@@ -28,27 +50,31 @@ enum class Ground : std::uint8_t {
 class Floor {
  public:
   static constexpr int kMaxReach = 180;  ///< cells: squares of distances fit 16 bits
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
 
   Floor() = default;
   /// \param reach  m, distances are known up to here, but never farther than kMaxReach - 1 cells
   /// \param margin  m, an open cell, grown, is at least so far from everything that blocks; at most
   ///                kMaxReach - 2 cells
   /// \param threads  that may share the work
+  /// \param before  from where distances are taken over as far as the ground around is the same
   Floor(Cell origin, int columns, int rows, double cell_size, double height,
-        std::vector<Ground> ground, double reach, double margin, int threads = 1);
+        std::vector<Ground> ground, double reach, double margin, int threads = 1,
+        const Floor* before = nullptr);
 
   [[nodiscard]] bool empty() const { return ground_.empty(); }
   [[nodiscard]] double cell_size() const { return cell_size_; }  ///< m
   [[nodiscard]] double height() const { return height_; }        ///< m, z of the floor in map
   [[nodiscard]] Cell origin() const { return origin_; }
+  [[nodiscard]] Area area() const { return {origin_, {origin_.x + columns_, origin_.y + rows_}}; }
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] double reach() const { return reach_; }  ///< m
 
   [[nodiscard]] Cell cell_at(Point point) const {
-    static constexpr double kFar = 1e8;
+    static constexpr double kFarthest = 1e8;
     const auto number = [this](double at) {
-      const double cells = std::clamp(at / cell_size_, -kFar, kFar);
+      const double cells = std::clamp(at / cell_size_, -kFarthest, kFarthest);
       const int whole = static_cast<int>(cells);
       return whole - (cells < whole ? 1 : 0);
     };
@@ -69,14 +95,16 @@ class Floor {
   [[nodiscard]] const std::uint16_t* gap2_row(int y) const {
     return gap2_.data() + index({origin_.x, y});
   }
-  /// True if both grids lie alike and the same cells block, of those in [low, high).
-  [[nodiscard]] bool same_ground(const Floor& other, Cell low, Cell high) const;
+  [[nodiscard]] const std::vector<Ground>& all_ground() const { return ground_; }  ///< row by row
+  /// False if the ground of the area is as in the floor before, if there was one that lay alike.
+  [[nodiscard]] bool changed(const Area& area) const;
   /// m, at most the distance from any point of the cell to a blocked cell; capped at reach().
   [[nodiscard]] double gap(Cell cell) const {
     return std::min(reach_, std::sqrt(static_cast<double>(gap2(cell))) * cell_size_);
   }
-  /// m, exact distance from the point to a blocked cell; capped at reach().
-  [[nodiscard]] double clearance(Point point) const;
+  /// m, exact distance from the point to a blocked cell; capped at reach() and `most`, which is
+  /// told the sooner the less it is.
+  [[nodiscard]] double clearance(Point point, double most = kFar) const;
   /// True if every point of the segment is at least `radius` (m, <= reach()) from blocked cells,
   /// to 1e-9 m. Exact.
   [[nodiscard]] bool segment_clear(Point a, Point b, double radius) const;
@@ -97,7 +125,18 @@ class Floor {
   [[nodiscard]] int stride(Cell cell) const {
     return 1 + static_cast<int>(std::sqrt(static_cast<double>(gap2(cell))));
   }
-  void measure(double margin, int threads);
+  /// Cells, from one to what may bring it nearer than the margin; to what may change anything of
+  /// it.
+  [[nodiscard]] int margin_reach() const {
+    return static_cast<int>(std::ceil(margin_ / cell_size_)) + 1;
+  }
+  [[nodiscard]] int influence() const { return std::max(reach_cells_, margin_reach()); }
+  static constexpr int kNote = 16;
+  [[nodiscard]] int notes_across() const { return (columns_ + kNote - 1) / kNote; }
+  void note_changes(const Floor& before);
+  void measure(int threads, const Floor* before);
+  void measure(const Area& square);
+  [[nodiscard]] std::vector<std::uint8_t> steps_along_columns(const Area& area) const;
 
   Cell origin_;
   int columns_ = 0;
@@ -106,10 +145,12 @@ class Floor {
   double height_ = 0.0;
   double reach_ = 0.0;
   int reach_cells_ = 0;
+  double margin_ = 0.0;
   int grow_ = 0;  // steps
   std::vector<Ground> ground_;
   std::vector<std::uint16_t> gap2_;  // cells squared, capped
   std::vector<std::uint8_t> open_;
+  std::vector<bool> changed_;  // squares of kNote cells, row by row; empty: all
 };
 
 /// The floor with the holes that moving things make in it, at one instant.
@@ -118,7 +159,7 @@ struct Space {
   const std::vector<Cylinder>* cylinders = nullptr;
 
   /// m, as Floor::clearance, cylinders included.
-  [[nodiscard]] double clearance(Point point) const;
+  [[nodiscard]] double clearance(Point point, double most = Floor::kFar) const;
   /// As Floor::segment_clear, cylinders included.
   [[nodiscard]] bool segment_clear(Point a, Point b, double radius) const;
 };

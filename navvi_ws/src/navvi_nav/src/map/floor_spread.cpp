@@ -43,11 +43,11 @@ class Spread {
       : ground_(ground),
         field_(field),
         climbing_(climbing),
-        window_(std::max(3, climbing.step)),
+        window_(climbing.steep_reach()),
         height_(ground.size(), kUnknown) {}
 
-  /// \return whether it spread at all
-  bool flood() {
+  /// \returns the columns that it spread to
+  std::vector<int> flood() {
     std::vector<int> waiting;
     for (int at = 0; at < static_cast<int>(ground_.size()); ++at) {
       if (ground(at) != Ground::floor) continue;
@@ -56,7 +56,7 @@ class Spread {
       for_neighbours(at, [&](int to) { ends = ends || ground(to) != Ground::floor; });
       if (ends) waiting.push_back(at);
     }
-    const std::size_t seeds = waiting.size();
+    const auto seeds = static_cast<std::ptrdiff_t>(waiting.size());
     for (std::size_t done = 0; done < waiting.size(); ++done) {
       const int from = waiting[done];
       for_neighbours(from, [&](int to) {
@@ -72,7 +72,7 @@ class Spread {
         waiting.push_back(to);
       });
     }
-    return waiting.size() > seeds;
+    return {waiting.begin() + seeds, waiting.end()};
   }
 
   /// What is judged is the floor as it spread, so that the order of the cells does not matter.
@@ -214,9 +214,12 @@ class Spread {
 
 }  // namespace
 
-void spread_floor(std::vector<Ground>& ground, const HeightField& field, const Climbing& climbing) {
+std::vector<int> spread_floor(std::vector<Ground>& ground, const HeightField& field,
+                              const Climbing& climbing) {
   Spread spread(ground, field, climbing);
-  if (spread.flood()) spread.take_back();
+  std::vector<int> reached = spread.flood();
+  if (!reached.empty()) spread.take_back();
+  return reached;
 }
 
 }  // namespace navvi_nav::map

@@ -1,6 +1,9 @@
 #include "map/height_field.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
 
 #include "map/parallel.hpp"
 #include "map/resample.hpp"
@@ -14,8 +17,8 @@ constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // 
 
 }  // namespace
 
-HeightField::HeightField(const Voxels& voxels, int threads) {
-  measure(voxels);
+HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<Area>& wanted) {
+  measure(voxels, wanted);
   if (!error_.empty()) return;
   const auto width = static_cast<std::size_t>(size_[0]);
   highest_.resize(width * static_cast<std::size_t>(size_[1]));
@@ -47,7 +50,7 @@ const HeightField::Lower* HeightField::below(std::size_t column) const {
   });
 }
 
-void HeightField::measure(const Voxels& voxels) {
+void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wanted) {
   int low[3] = {kMapSide, kMapSide, kMapSide};
   int high[3] = {0, 0, 0};
   double runs = 0.0;
@@ -63,13 +66,14 @@ void HeightField::measure(const Voxels& voxels) {
       high[k] = std::max(high[k], at[k] + (in_high ? 2 * side : side));
     }
   }
-  if (voxels.octets.empty()) {
+  if (voxels.octets.empty() && !wanted) {
     error_ = "the map has no occupied voxel";
     return;
   }
   for (int k = 0; k < 3; ++k) {
-    low_[k] = low[k] - kMapCenter;
-    size_[k] = high[k] - low[k];
+    extent_.low[k] = low_[k] = low[k] - kMapCenter;
+    extent_.high[k] = high[k] - kMapCenter;
+    size_[k] = std::max(0, high[k] - low[k]);
   }
   if (size_[2] > kMaxLevels)
     error_ = "the map is " + std::to_string(size_[2]) + " voxels tall; " +
@@ -86,6 +90,9 @@ void HeightField::measure(const Voxels& voxels) {
     error_ = "the map stacks " + millions(runs - columns_of_large_leaves(voxels)) +
              " runs of voxels in its columns; with " + std::to_string(voxels.octets.size()) +
              " nodes that hold leaves, " + millions(stacked) + " are allowed";
+  if (!wanted) return;
+  low_[0] = wanted->low.x, low_[1] = wanted->low.y;
+  size_[0] = wanted->columns(), size_[1] = wanted->rows();
 }
 
 /// Columns that a leaf of kSquare voxels or more covers: one run of each stands in the grid.
@@ -126,11 +133,10 @@ void HeightField::add(const Octet& octet, int first_row, int last_row, std::vect
     const int y = octet.y - kMapCenter - low_[1] + ((quarter & 2) != 0 ? side : 0);
     const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
                       static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
+    const int from = std::max(x, 0), to = std::min(x + side, size_[0]);
     for (int row = std::max(y, first_row); row < std::min(y + side, last_row); ++row) {
-      const auto first = static_cast<std::uint32_t>(row * size_[0] + x);
-      for (std::uint32_t column = first; column < first + static_cast<std::uint32_t>(side);
-           ++column)
-        add(column, span, lower);
+      for (int column = from; column < to; ++column)
+        add(static_cast<std::uint32_t>(row * size_[0] + column), span, lower);
     }
   }
 }
@@ -154,21 +160,35 @@ void HeightField::add(std::uint32_t column, Packed span, std::vector<Lower>& low
   }
 }
 
+/// Sorts by column, by so many bits at a time (LSD radix sort).
+void HeightField::sort_by_column(std::vector<Lower>& lower) const {
+  constexpr unsigned kBitsEach = 11;
+  constexpr std::uint32_t kDigit = (1U << kBitsEach) - 1;
+  std::vector<Lower> sorted(lower.size());
+  for (unsigned shift = 0; highest_.size() >> shift > 0; shift += kBitsEach) {
+    std::array<std::uint32_t, kDigit + 2> next{};  // where the next one of each digit goes
+    for (const Lower& one : lower) ++next[(one.column >> shift & kDigit) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const Lower& one : lower) sorted[next[one.column >> shift & kDigit]++] = one;
+    lower.swap(sorted);
+  }
+}
+
 /// Sorts the spans below the highest ones and joins spans that touch.
 void HeightField::settle(std::vector<Lower>& lower) {
-  const auto key = [](const Lower& one) {
-    return std::uint64_t{one.column} << 32 |
-           (0xffffffffU - (std::uint32_t{one.span.top} << 16 | one.span.bottom));
-  };
-  std::sort(lower.begin(), lower.end(),
-            [&](const Lower& a, const Lower& b) { return key(a) < key(b); });
+  sort_by_column(lower);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < lower.size();) {
     const std::uint32_t column = lower[i].column;
     Packed* above = &highest_[column];
     above->bottom &= static_cast<std::uint16_t>(~kMore);
     const std::size_t first = kept;
-    for (; i < lower.size() && lower[i].column == column; ++i) {
+    std::size_t end = i + 1;
+    while (end < lower.size() && lower[end].column == column) ++end;
+    std::sort(&lower[i], lower.data() + end, [](const Lower& a, const Lower& b) {
+      return std::tie(b.span.top, b.span.bottom) < std::tie(a.span.top, a.span.bottom);
+    });
+    for (; i < end; ++i) {
       const Packed span = lower[i].span;
       if (span.top >= above->bottom) {
         above->bottom = std::min(above->bottom, span.bottom);

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "map/floor.hpp"
 #include "map/octomap_reader.hpp"
 
 namespace navvi_nav::map {
@@ -32,13 +34,23 @@ class HeightField {
   static constexpr double kRunsANode = 32.0;
 
   /// \param threads  that may share the work
-  explicit HeightField(const Voxels& voxels, int threads = 1);
+  /// \param wanted  columns, in voxels from the map's origin; by default all that voxels take up
+  explicit HeightField(const Voxels& voxels, int threads = 1,
+                       const std::optional<Area>& wanted = std::nullopt);
   HeightField(const HeightField&) = delete;
   HeightField& operator=(const HeightField&) = delete;
 
   [[nodiscard]] const std::string& error() const { return error_; }  ///< a sentence, or empty
-  [[nodiscard]] int low_x() const { return low_[0]; }    ///< voxels from the map's origin
-  [[nodiscard]] int low_y() const { return low_[1]; }    ///< voxels from the map's origin
+  /// What occupied voxels take up along x, y and z, whichever columns were taken: voxels from the
+  /// map's origin.
+  struct Extent {
+    int low[3] = {0, 0, 0};
+    int high[3] = {0, 0, 0};  ///< one beyond
+  };
+  [[nodiscard]] const Extent& extent() const { return extent_; }
+  [[nodiscard]] Area columns() const {  ///< voxels from the map's origin
+    return {{low_[0], low_[1]}, {low_[0] + size_[0], low_[1] + size_[1]}};
+  }
   [[nodiscard]] int low_z() const { return low_[2]; }    ///< voxels from the map's origin: level 0
   [[nodiscard]] int width() const { return size_[0]; }   ///< columns along x
   [[nodiscard]] int height() const { return size_[1]; }  ///< columns along y
@@ -69,13 +81,15 @@ class HeightField {
 
   static Span unpacked(Packed span) { return {span.bottom & ~kMore, span.top}; }
   [[nodiscard]] const Lower* below(std::size_t column) const;
-  void measure(const Voxels& voxels);
+  void measure(const Voxels& voxels, const std::optional<Area>& wanted);
   [[nodiscard]] double columns_of_large_leaves(const Voxels& voxels) const;
   void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
   void add(std::uint32_t column, Packed span, std::vector<Lower>& lower);
+  void sort_by_column(std::vector<Lower>& lower) const;
   void settle(std::vector<Lower>& lower);
 
   std::string error_;
+  Extent extent_;
   int low_[3] = {0, 0, 0};
   int size_[3] = {0, 0, 0};
   std::vector<Packed> highest_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct SurveyConfig {
   double margin = 0.35;             ///< m, that the floor will be eroded by
 };
 
+struct SurveyRecord;
+
 /// What a map shows, seen from above: which squares are floor, row by row.
 struct MapSurvey {
   std::string error;          ///< a sentence if the map cannot be surveyed
@@ -31,6 +34,7 @@ struct MapSurvey {
   std::vector<Ground> ground;
   std::string source = {};  ///< what a file says of itself; may be empty
   std::string levels;       ///< where the map shows floor, for a sentence; may be empty
+  std::shared_ptr<const SurveyRecord> record = {};  ///< by which the next map can be compared
 };
 
 /// Chooses the floor and classifies each cell (R-NAV-12).
@@ -56,6 +60,14 @@ struct MapSurvey {
 /// and an obstacle if a part is. With `cell_size` 0 they are parts of voxels where else erosion by
 /// `margin` would close a way that is 6 cm wider than the robot.
 [[nodiscard]] MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config);
+
+/// Likewise, of a map as it comes. Only what differs from a map before is read and surveyed, with
+/// what is around it: as far as a ramp could be seen, and wherever floor that was climbed to is
+/// joined to it. All is surveyed if the map's size or the floor's level changes.
+/// \param record, floor  of the map before, with the same config; may be null
+[[nodiscard]] MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config,
+                                   const SurveyRecord* record = nullptr,
+                                   const Floor* floor = nullptr);
 
 /// nav_msgs/OccupancyGrid without ROS: a map for a robot that has no OctoMap.
 struct OccupancyGrid {

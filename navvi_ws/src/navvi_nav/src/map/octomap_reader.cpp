@@ -15,6 +15,7 @@ struct Node {
 };
 
 constexpr Node kRoot{0, 0, 0, 0};
+constexpr int kBlockDepth = kMapDepth - kBlockLevel;
 constexpr const char* kColoured = "ColorOcTree";
 
 Node child_of(const Node& node, int child) {
@@ -48,6 +49,7 @@ class Stream {
   explicit Stream(const MapBytes& bytes) : bytes_(bytes) {}
 
   [[nodiscard]] bool has(std::size_t count) const { return bytes_.size - at_ >= count; }
+  [[nodiscard]] std::size_t at() const { return at_; }
   void skip(std::size_t count) { at_ += count; }
   [[nodiscard]] std::uint8_t byte() { return static_cast<std::uint8_t>(bytes_.data[at_++]); }
   [[nodiscard]] float value() {
@@ -69,22 +71,54 @@ class Stream {
   std::size_t at_ = 0;
 };
 
+/// Notes where the blocks of a stream lie, and skips those that are not wanted.
+class BlockNotes {
+ public:
+  BlockNotes(const SkipBlock& skip, std::vector<Block>& blocks) : skip_(skip), blocks_(blocks) {}
+
+  /// A node begins, or the stream ends: no block that is open goes on.
+  void end(const Node& node, const Stream& stream) {
+    if (!open_ || node.depth > kBlockDepth) return;
+    blocks_.back().size = static_cast<std::uint32_t>(stream.at()) - blocks_.back().begin;
+    open_ = false;
+  }
+  /// The bytes of a node with children, from `begin` on, were read. \returns whether all within it
+  /// was skipped
+  bool skips(const Node& node, std::size_t begin, Stream& stream) {
+    if (node.depth != kBlockDepth) return false;
+    blocks_.push_back({{node.x, node.y, node.z}, static_cast<std::uint32_t>(begin), 0});
+    open_ = true;
+    const std::size_t size = skip_ ? skip_(blocks_.back()) : 0;
+    if (size > 0) stream.skip(begin + size - stream.at());
+    return size > 0;
+  }
+
+ private:
+  const SkipBlock& skip_;
+  std::vector<Block>& blocks_;
+  bool open_ = false;
+};
+
 std::string too_deep() { return "the map nests deeper than 16 levels"; }
 std::string no_nodes() { return "the map is one node that says nothing of any place"; }
 
 /// Two bits a child: 01 free leaf (as written), 10 occupied leaf, 11 inner node, 00 unknown.
-std::string walk_binary(const MapBytes& bytes, Voxels& out) {
+std::string walk_binary(const MapBytes& bytes, const SkipBlock& skip, Voxels& out) {
   Stream stream(bytes);
+  BlockNotes blocks(skip, out.blocks);
   std::vector<Node> waiting{kRoot};
-  out.octets.reserve(bytes.size / 2);
+  if (!skip) out.octets.reserve(bytes.size / 2);
   while (!waiting.empty()) {
     const Node node = waiting.back();
     waiting.pop_back();
+    blocks.end(node, stream);
     if (node.depth >= kMapDepth) return too_deep();
     if (!stream.has(2)) return stream.too_short();
+    const std::size_t begin = stream.at();
     const unsigned low = stream.byte();
     const unsigned bits = low | static_cast<unsigned>(stream.byte()) << 8;
     if (node.depth == 0 && bits == 0) return no_nodes();
+    if (blocks.skips(node, begin, stream)) continue;
     const unsigned inner = bits & (bits >> 1) & 0x5555U;
     unsigned leaves = (bits >> 1) & ~bits & 0x5555U;  // each child's answer in an even bit
     leaves = (leaves | leaves >> 1) & 0x3333U;        // ... gathered in the low eight
@@ -99,19 +133,23 @@ std::string walk_binary(const MapBytes& bytes, Voxels& out) {
       if (((inner >> (2 * child)) & 1U) != 0) waiting.push_back(child_of(node, child));
     }
   }
+  blocks.end(kRoot, stream);
   return stream.rest();
 }
 
 /// A float (the log-odds), in a ColorOcTree three bytes of colour, and one bit a child.
-std::string walk_full(const MapBytes& bytes, Voxels& out) {
+std::string walk_full(const MapBytes& bytes, const SkipBlock& skip, Voxels& out) {
   Stream stream(bytes);
+  BlockNotes blocks(skip, out.blocks);
   const std::size_t colours = bytes.id == kColoured ? 3 : 0;
   std::vector<Node> waiting{kRoot};
   while (!waiting.empty()) {
     const Node node = waiting.back();
     waiting.pop_back();
+    blocks.end(node, stream);
     if (node.depth > kMapDepth) return too_deep();
     if (!stream.has(5 + colours)) return stream.too_short();
+    const std::size_t begin = stream.at();
     const float value = stream.value();
     stream.skip(colours);
     const unsigned children = stream.byte();
@@ -122,10 +160,12 @@ std::string walk_full(const MapBytes& bytes, Voxels& out) {
       continue;
     }
     if (node.depth >= kMapDepth) return too_deep();
+    if (blocks.skips(node, begin, stream)) continue;
     for (int child = 7; child >= 0; --child) {
       if (((children >> child) & 1U) != 0) waiting.push_back(child_of(node, child));
     }
   }
+  blocks.end(kRoot, stream);
   return stream.rest();
 }
 
@@ -150,13 +190,23 @@ std::string printable(std::string text) {
   return text;
 }
 
-Voxels read_voxels(const MapBytes& bytes) {
+Voxels read_voxels(const MapBytes& bytes, const SkipBlock& skip) {
   Voxels out;
   out.resolution = bytes.resolution;
   out.error = refusal_of(bytes);
-  if (out.error.empty()) out.error = bytes.binary ? walk_binary(bytes, out) : walk_full(bytes, out);
+  if (out.error.empty())
+    out.error = bytes.binary ? walk_binary(bytes, skip, out) : walk_full(bytes, skip, out);
   if (!out.error.empty()) out.octets.clear();
+  std::sort(out.blocks.begin(), out.blocks.end(),
+            [](const Block& a, const Block& b) { return a.low < b.low; });
   return out;
+}
+
+const Block* find_block(const std::vector<Block>& blocks, const std::array<std::uint16_t, 3>& low) {
+  const auto found =
+      std::lower_bound(blocks.begin(), blocks.end(), low,
+                       [](const Block& block, const auto& wanted) { return block.low < wanted; });
+  return found != blocks.end() && found->low == low ? &*found : nullptr;
 }
 
 }  // namespace navvi_nav::map

@@ -69,8 +69,8 @@ class NavMesh {
   /// carves and plans; only one at a time, and take() must follow before the next.
   [[nodiscard]] bake::BakedMap bake(map::MapSurvey survey) const;
   [[nodiscard]] bake::BakedMap bake(const map::MapBytes& bytes) const {
-    map::MapSurvey survey = map::survey_map(map::read_voxels(bytes), survey_config(config_));
-    return bake(std::move(survey));  // when the voxels are gone: they are many
+    return bake(
+        map::survey_map(bytes, survey_config(config_), baked_.record.get(), baked_.floor.get()));
   }
   [[nodiscard]] bake::BakedMap bake(const map::Voxels& voxels) const {
     return bake(map::survey_map(voxels, survey_config(config_)));
