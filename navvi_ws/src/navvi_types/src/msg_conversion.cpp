@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
 
 #include "navvi_types/limits.hpp"
 
@@ -181,13 +180,15 @@ std::optional<Obstacles> from_msg(const navvi_msgs::Obstacles& msg) {
   if (msg.obstacles.size() > kMostThings) return std::nullopt;
   Obstacles obstacles{to_ns(msg.header.stamp), {}};
   obstacles.things.reserve(msg.obstacles.size());
-  std::set<std::uint32_t> ids;
+  std::vector<std::uint32_t> ids;
+  ids.reserve(msg.obstacles.size());
   for (const navvi_msgs::Obstacle& entry : msg.obstacles) {
     const geometry_msgs::Vector3& velocity = entry.velocity;
     if (!valid(entry.pose) || !within({velocity.x, velocity.y, velocity.z}, kFastest) ||
         !within({entry.radius, entry.height}, 0.0, kLargest) || entry.radius == 0.0 ||
-        entry.height == 0.0 || !ids.insert(entry.id).second)
+        entry.height == 0.0)
       return std::nullopt;
+    ids.push_back(entry.id);
     const MovingThing thing{entry.id,
                             class_of(entry.thing_class),
                             pose_of(entry.pose),
@@ -200,6 +201,8 @@ std::optional<Obstacles> from_msg(const navvi_msgs::Obstacles& msg) {
     if (!thing.sound()) return std::nullopt;
     obstacles.things.push_back(thing);
   }
+  std::sort(ids.begin(), ids.end());
+  if (std::adjacent_find(ids.begin(), ids.end()) != ids.end()) return std::nullopt;
   return obstacles;
 }
 

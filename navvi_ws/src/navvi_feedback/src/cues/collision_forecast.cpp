@@ -15,14 +15,14 @@ constexpr double kBrush = 0.05;  // m; a thing that is missed by less is touched
 }  // namespace
 
 void CollisionForecast::update(const std::vector<NearThing>& nearby, double time) {
-  std::map<std::uint32_t, std::deque<Seen>> seen;
+  std::map<std::uint32_t, std::vector<Seen>> seen;
   for (const NearThing& thing : nearby) {
-    std::deque<Seen> track = std::move(seen_[thing.id]);
+    std::vector<Seen> track = std::move(seen_[thing.id]);
     if (!track.empty() && (track.back().second - thing.nearest).norm() > kJump) track.clear();
     // The same message may be looked at twice.
     if (track.empty() || track.back().second != thing.nearest)
       track.emplace_back(time, thing.nearest);
-    while (time - track.front().first > kMemory && track.size() > 1) track.pop_front();
+    while (time - track.front().first > kMemory && track.size() > 1) track.erase(track.begin());
     seen[thing.id] = std::move(track);
   }
   seen_ = std::move(seen);

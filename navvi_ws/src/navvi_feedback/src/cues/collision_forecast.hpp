@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <navvi_types/thing.hpp>
 #include <utility>
@@ -27,7 +26,7 @@ class CollisionForecast {
  private:
   using Seen = std::pair<double, Eigen::Vector2d>;  ///< s; m, in base_link
 
-  std::map<std::uint32_t, std::deque<Seen>> seen_;  ///< of late, by id
+  std::map<std::uint32_t, std::vector<Seen>> seen_;  ///< of late, by id
 };
 
 }  // namespace navvi_feedback::cues

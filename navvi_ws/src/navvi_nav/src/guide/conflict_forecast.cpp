@@ -152,6 +152,10 @@ bool ConflictForecast::taken(Point place, const std::vector<Cylinder>& obstacles
 ConflictForecast::Encounter ConflictForecast::encounter(const Path& path, const Thing& thing,
                                                         double pace) const {
   Encounter out;
+  // Most things are too far off to come near the robot or what is looked at of its path.
+  const double far = config_.look_ahead + config_.foresight * norm(thing.velocity()) +
+                     config_.robot_radius + config_.stop_room + kRounding;
+  if (thing.gap(path.front(), 0.0) > far) return out;
   const std::optional<double> now = cut_at(path, thing, 0.0);
   out.cut = now;
   if (norm(thing.velocity()) <= config_.standing_speed) {

@@ -314,6 +314,7 @@ TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
 TEST_F(Lockstep, cuts_no_hole_for_what_moves_far_off) {
   load();
   obstacles_ = {{1, {14, 5}, 0.4, {1, 0}}, {2, {200, 5}, 0.4, {1, 0}}, {3, {200, 8}, 0.4, {}}};
+  navigator_.set_goal({3, 8});
   tick(20);
   const std::vector<Cylinder>& carved = planner_.nav_mesh().carved();
   ASSERT_EQ(carved.size(), 2U);

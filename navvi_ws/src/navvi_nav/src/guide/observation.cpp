@@ -1,5 +1,7 @@
 #include "guide/observation.hpp"
 
+#include <algorithm>
+
 namespace navvi_nav::guide {
 namespace {
 
@@ -18,20 +20,22 @@ void ObservationConfig::describe(navvi_config::Visitor& visit) {
 }
 
 void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
-  std::map<std::uint32_t, double> moved;
+  std::vector<Moved> moved;
+  moved.reserve(things.size());
   obstacles_.clear();
   for (const MovingThing& thing : things) {
-    const auto before = moved_.find(thing.id);
-    if (norm(to_point(thing.velocity)) > config_.standing_speed)
-      moved[thing.id] = time;
-    else if (before != moved_.end())
-      moved.insert(*before);
-    const auto last = moved.find(thing.id);
+    const Moved now{thing.id, time};
+    const auto before = std::lower_bound(moved_.begin(), moved_.end(), now, by_id);
+    const bool moves = norm(to_point(thing.velocity)) > config_.standing_speed;
+    const bool moved_before = before != moved_.end() && before->id == thing.id;
+    if (moves || moved_before) moved.push_back(moves ? now : *before);
     for (Cylinder part : cylinders_of(thing, config_.most_cylinders)) {
-      if (last != moved.end()) part.stood = time - last->second;
+      if (moves || moved_before) part.stood = time - moved.back().time;
       obstacles_.push_back(part);
     }
   }
+  if (!std::is_sorted(moved.begin(), moved.end(), by_id))
+    std::sort(moved.begin(), moved.end(), by_id);
   things_ = std::move(things);
   moved_ = std::move(moved);
   obstacles_time_ = time;

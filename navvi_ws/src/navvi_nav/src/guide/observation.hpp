@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <navvi_config/field.hpp>
 #include <optional>
 #include <vector>
@@ -43,11 +42,17 @@ class Observation {
   [[nodiscard]] bool obstacles_lost() const { return obstacles_lost_; }
 
  private:
+  struct Moved {
+    std::uint32_t id;
+    double time;  ///< s, when it was last seen to move
+  };
+  static bool by_id(const Moved& a, const Moved& b) { return a.id < b.id; }
+
   ObservationConfig config_;
   std::vector<MovingThing> things_;
-  std::map<std::uint32_t, double> moved_;  ///< s, when each was last seen to move
-  std::vector<Cylinder> obstacles_;        ///< the things, as navigation sees them
-  std::optional<double> obstacles_time_;   ///< nullopt: none came yet
+  std::vector<Moved> moved_;              ///< that ever did, by id
+  std::vector<Cylinder> obstacles_;       ///< the things, as navigation sees them
+  std::optional<double> obstacles_time_;  ///< nullopt: none came yet
   bool obstacles_lost_ = false;
   std::optional<Pose2> pose_;
   double pose_time_ = 0.0;

@@ -12,12 +12,12 @@ constexpr double kSample = 0.1;    // m
 constexpr double kShorter = 0.8;   // of the way to steer for, at each try
 constexpr double kOnPath = 0.5;    // m, a robot nearer to a later leg has passed its start
 
-/// m, from the segment to the nearest thing, sampled.
-double least_room(Point a, Point b, const map::Space& space) {
+/// m, from the segment to the nearest thing, sampled; `most` at most.
+double least_room(Point a, Point b, const map::Space& space, double most = map::Floor::kFar) {
   const int samples = std::max(1, static_cast<int>(std::ceil(distance(a, b) / kSample)));
-  double least = space.clearance(a);
+  double least = space.clearance(a, most);
   for (int i = 1; i <= samples; ++i)
-    least = std::min(least, space.clearance(a + (1.0 * i / samples) * (b - a)));
+    least = space.clearance(a + (1.0 * i / samples) * (b - a), least);
   return least;
 }
 
@@ -120,9 +120,9 @@ Point PathFollower::steer_point(Point robot, const map::Floor& floor) const {
   };
   const std::vector<Cylinder> none;
   const map::Space still{&floor, &none};
-  const double own = still.clearance(robot);
+  const double own = still.clearance(robot, config_.sight_radius + 2.0 * kSlack);
   const auto free = [&](Point target) {
-    const double room = std::min(own, least_room(nearest, target, still)) - kSlack;
+    const double room = least_room(nearest, target, still, own) - kSlack;
     return still.segment_clear(robot, target, std::clamp(room, 0.0, config_.sight_radius));
   };
   double by = std::min(left, config_.steer_ahead);

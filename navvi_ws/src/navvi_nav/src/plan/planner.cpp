@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <limits>
+#include <utility>
 
 #include "plan/escape.hpp"
 
@@ -90,7 +91,10 @@ PlanAnswer Planner::answer(const PlanRequest& request, bake::BakedMap baked) {
     if (request.brings_map()) out.mesh = nav_mesh_.take(std::move(baked));
     out.map_error = out.mesh.error;
     out.map_taken = request.brings_map() && out.map_error.empty();
-    carve(joined(request.obstacles, request.predicted));
+    uncarved_ = joined(request.obstacles, request.predicted);
+    // Holes that wait until things have moved enough must see each move; others, the last.
+    const bool waits = config_.mesh.carve_changed > 0.0 || config_.mesh.carve_moved > 0.0;
+    if (request.goal || request.show_mesh || waits) carve_latest();
     if (request.goal) {
       out.plan = plan(request);
       if (may_be_closed(*out.plan)) out.plan = plan_without_obstacles(request, *out.plan);
@@ -121,6 +125,10 @@ bake::BakedMap Planner::bake(const PlanRequest& request) const {
     failed.error = error.what();
   }
   return failed;
+}
+
+void Planner::carve_latest() {
+  if (const auto latest = std::exchange(uncarved_, std::nullopt)) carve(*latest);
 }
 
 /// Clear of where the obstacles will be, or else of where they are: these are carved then.
@@ -306,7 +314,8 @@ Path Planner::guide_path(const Route& route, const Path& followed) const {
   return best;
 }
 
-Plan Planner::plan_near(Point start, Point goal, double tolerance) const {
+Plan Planner::plan_near(Point start, Point goal, double tolerance) {
+  carve_latest();
   Plan exact = plan(start, goal);
   const bool about_the_goal =
       exact.status == PlanStatus::no_route || (exact.status == PlanStatus::refused && finite(goal));

@@ -28,7 +28,8 @@ class Planner {
 
   /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
   /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
-  /// there is room outside of it. No exception leaves it.
+  /// there is room outside of it. Obstacles of a request without a goal, that shows nothing either,
+  /// are carved when the mesh is needed. No exception leaves it.
   [[nodiscard]] PlanAnswer answer(const PlanRequest& request) {
     return answer(request, bake(request));
   }
@@ -60,7 +61,7 @@ class Planner {
   /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
   /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
   /// 10 steps of that grid) along x and y. For callers that accept such a place.
-  [[nodiscard]] Plan plan_near(Point start, Point goal, double tolerance) const;
+  [[nodiscard]] Plan plan_near(Point start, Point goal, double tolerance);
   [[nodiscard]] const NavMesh& nav_mesh() const { return nav_mesh_; }
 
  private:
@@ -74,6 +75,7 @@ class Planner {
     std::optional<Point> goal = {};   ///< and one to here after it
     bool leaves_hole = false;         ///< the leg from the start
   };
+  void carve_latest();
   [[nodiscard]] Plan plan(const PlanRequest& request);
   [[nodiscard]] Plan plan_without_obstacles(const PlanRequest& request, const Plan& blocked);
   [[nodiscard]] Route search(Point start, Point goal) const;
@@ -90,7 +92,8 @@ class Planner {
 
   PlannerConfig config_;
   NavMesh nav_mesh_;
-  mutable search::Search search_;  ///< its memory
+  std::optional<std::vector<Cylinder>> uncarved_;  ///< the latest, until something needs the mesh
+  mutable search::Search search_;                  ///< its memory
   smooth::Smoother smoother_;
 };
 

@@ -73,6 +73,24 @@ TEST(Planner, says_off_mesh_where_no_path_can_begin) {
   expect_clear(snapped.path, world, {});
 }
 
+TEST(Planner, cuts_no_holes_before_something_needs_them_and_then_those_of_the_latest) {
+  SmallWorld world;
+  world.room(12, 4).box(6, 0, 0, 6.2, 1.5, 1).box(6, 2.5, 0, 6.2, 4, 1);
+  Planner planner = planner_on(world);
+  PlanRequest request;
+  for (const Point place : {Point{3, 2}, Point{6.1, 2}}) {
+    request.obstacles = {{1, place, 0.5, {}}};
+    EXPECT_FALSE(planner.answer(request).plan);
+    EXPECT_TRUE(planner.nav_mesh().carved().empty());
+  }
+  EXPECT_EQ(planner.plan_near({2, 2}, {10, 2}, 0.0).status, PlanStatus::no_route);
+  ASSERT_EQ(planner.nav_mesh().carved().size(), 1U);
+  request.obstacles.clear();
+  request.show_mesh = true;
+  EXPECT_TRUE(planner.answer(request).navmesh);
+  EXPECT_TRUE(planner.nav_mesh().carved().empty());
+}
+
 TEST(Planner, calls_a_route_closed_by_a_cylinder_no_route_not_unreachable) {
   SmallWorld world;
   world.room(12, 4).box(6, 0, 0, 6.2, 1.5, 1).box(6, 2.5, 0, 6.2, 4, 1);
