@@ -294,11 +294,9 @@ TEST(Layouts, of_every_preset_cut_no_place_off_where_the_robot_has_room) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       const occupancy::OccupancyMap map = occupancy::occupancy_of(
           layout(known.name, known.config, seed), occupancy::OccupancyConfig{0.1});
-      const scenario::FloorGrid grid(map, 0.0, 1.2);
       constexpr double kRoom = 0.5;  // m: the robot's radius and a margin
-      std::vector<std::size_t> free;
-      for (std::size_t cell = 0; cell < grid.size(); ++cell)
-        if (grid.clearance(cell) >= kRoom) free.push_back(cell);
+      const scenario::FloorGrid grid(map, 0.0, 1.2, kRoom);
+      const scenario::FloorGrid::Cells free = grid.cells_clear_by(kRoom);
       ASSERT_FALSE(free.empty());
       const scenario::FloorGrid::Ways ways = grid.ways_from(free.front(), kRoom);
       for (const std::size_t cell : free)
@@ -517,7 +515,7 @@ TEST(Layouts, of_every_preset_name_their_places_and_a_robot_can_stand_in_each) {
     const WorldDescription world = layout(known.name, known.config, 3);
     const occupancy::OccupancyMap map =
         occupancy::occupancy_of(world, occupancy::OccupancyConfig{0.1});
-    const scenario::FloorGrid grid(map, 0.0, 1.2);
+    const scenario::FloorGrid grid(map, 0.0, 1.2, 0.5);
     const std::vector<Place> places = scenario::free_places_of(world, map, {});
     std::map<Place::Kind, int> count;
     for (const Place& place : places) {

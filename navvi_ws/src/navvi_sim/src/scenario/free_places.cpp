@@ -1,7 +1,7 @@
 #include "scenario/free_places.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <functional>
 
 #include "description/sentence.hpp"
 #include "traffic/lanes.hpp"
@@ -14,24 +14,43 @@ constexpr int kWallsOfRoom =
     7;  // of 8 directions, in which something stands around a place in a room
 constexpr std::size_t kFew = 10;  // one in so many places: too few to be rooms
 
+/// Keeps only those that meet the condition, if they are more than `few`.
+template <typename Condition>
+void keep(FreePlaces::Places& places, std::size_t few, const Condition& condition) {
+  const auto count = std::count_if(places.begin(), places.end(), condition);
+  if (static_cast<std::size_t>(count) > few)
+    places.erase(std::remove_if(places.begin(), places.end(), std::not_fn(condition)),
+                 places.end());
+}
+
+/// Sets `marks` where the polygon, grown by `gap` m, holds the cell's centre.
+void mark(const FloorGrid& grid, const Polygon& polygon, double gap,
+          std::vector<std::uint8_t>& marks) {
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::Vector2d& corner : polygon) bounds.extend(corner);
+  const Ground ground(polygon);
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(gap);
+  grid.for_each_row_in({bounds.min() - reach, bounds.max() + reach}, [&](std::size_t begin,
+                                                                         std::size_t end) {
+    // It is convex: what it holds of a row hangs together.
+    const auto holds = [&](std::size_t cell) { return ground.holds(grid.centre(cell), gap); };
+    while (begin < end && !holds(begin)) ++begin;
+    while (begin < end && !holds(end - 1)) --end;
+    std::fill_n(marks.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, std::uint8_t{1});
+  });
+}
+
 }  // namespace
 
 FreePlaces::FreePlaces(const WorldDescription& world, const FloorGrid& grid,
                        const ScenarioConfig& config)
-    : world_(world), grid_(grid), config_(config) {
-  const double clear = config.robot_radius + config.clearance;
-  for (std::size_t cell = 0; cell < grid.size(); ++cell)
-    if (grid.clearance(cell) >= clear) all_.push_back(cell);
-  Places inside;
-  const Ground hull(hull_of_what_stands(world));
-  std::copy_if(all_.begin(), all_.end(), std::back_inserter(inside),
-               [&](std::size_t cell) { return hull.holds(grid.centre(cell), 0.0); });
-  if (!inside.empty()) all_ = std::move(inside);
-  Places enclosed;
+    : world_(world), grid_(grid), config_(config), hull_(hull_of_what_stands(world)) {
+  all_ = grid.cells_clear_by(config.robot_radius + config.clearance);
+  std::vector<std::uint8_t> in_hull(grid.size(), 0);
+  if (hull_.size() > 2) mark(grid, hull_, 0.0, in_hull);
+  keep(all_, 0, [&](std::size_t cell) { return in_hull[cell] != 0; });
   const std::vector<std::uint8_t> walls = grid.walls_around();
-  std::copy_if(all_.begin(), all_.end(), std::back_inserter(enclosed),
-               [&](std::size_t cell) { return walls[cell] >= kWallsOfRoom; });
-  if (enclosed.size() > all_.size() / kFew) all_ = std::move(enclosed);
+  keep(all_, all_.size() / kFew, [&](std::size_t cell) { return walls[cell] >= kWallsOfRoom; });
   if (all_.empty())
     throw WorldError("world '" + world.name + "' has no place where a robot of radius " +
                      text(config.robot_radius) + " m stands " + text(config.clearance) +
@@ -57,34 +76,24 @@ Polygon hull_of_what_stands(const WorldDescription& world) {
 }
 
 void FreePlaces::find_quiet() {
-  const double gap = config_.robot_radius + config_.off_lanes;
-  std::vector<bool> swept(grid_.size(), false);
-  for (const Polygon& ground : traffic::swept_ground(world_, config_.movers)) {
-    Eigen::AlignedBox2d bounds;
-    for (const Eigen::Vector2d& corner : ground) bounds.extend(corner);
-    const Ground edges(ground);
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(gap);
-    grid_.for_each_in({bounds.min() - reach, bounds.max() + reach}, [&](std::size_t cell) {
-      if (!swept[cell]) swept[cell] = edges.holds(grid_.centre(cell), gap);
-    });
-  }
-  std::copy_if(all_.begin(), all_.end(), std::back_inserter(quiet_),
-               [&](std::size_t cell) { return !swept[cell]; });
+  std::vector<std::uint8_t> swept(grid_.size(), 0);
+  for (const Polygon& ground : traffic::swept_ground(world_, config_.movers))
+    mark(grid_, ground, config_.robot_radius + config_.off_lanes, swept);
+  quiet_ = those(all_, [&](std::size_t cell) { return swept[cell] == 0; });
 }
 
 FreePlaces::Places FreePlaces::away_from_movers(const Places& all) const {
-  std::vector<bool> near(grid_.size(), false);
+  std::vector<std::uint8_t> near(grid_.size(), 0);
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(config_.mover_distance);
   for (const Thing& thing : world_.things) {
     if (!thing.route) continue;
     const Eigen::Vector2d at = thing.pose.translation().head<2>();
-    grid_.for_each_in({at - reach, at + reach}, [&](std::size_t cell) {
-      if (!near[cell]) near[cell] = (at - grid_.centre(cell)).norm() < config_.mover_distance;
+    grid_.for_each_row_in({at - reach, at + reach}, [&](std::size_t cell, std::size_t end) {
+      for (; cell < end; ++cell)
+        if ((at - grid_.centre(cell)).norm() < config_.mover_distance) near[cell] = 1;
     });
   }
-  Places places;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(places),
-               [&](std::size_t cell) { return !near[cell]; });
+  Places places = those(all, [&](std::size_t cell) { return near[cell] == 0; });
   return places.empty() ? all : places;
 }
 

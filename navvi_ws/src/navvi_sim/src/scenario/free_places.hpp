@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "description/footprint.hpp"
@@ -18,7 +20,7 @@ namespace navvi_sim::scenario {
 /// Where on a floor a route may start or end, as cells of a grid of the floor.
 class FreePlaces {
  public:
-  using Places = std::vector<std::size_t>;  ///< cells
+  using Places = FloorGrid::Cells;
 
   /// \throws WorldError if there is no place as clear as `config` says, or as swept_ground
   FreePlaces(const WorldDescription& world, const FloorGrid& grid, const ScenarioConfig& config);
@@ -28,6 +30,8 @@ class FreePlaces {
   [[nodiscard]] const Places& all() const { return all_; }
   /// Those of them off the ground that movers sweep.
   [[nodiscard]] const Places& quiet() const { return quiet_; }
+  /// Around everything that stands, as hull_of_what_stands().
+  [[nodiscard]] const Polygon& hull() const { return hull_; }
   /// Those of `places` that keep their distance from where movers begin; all of them if none does.
   [[nodiscard]] Places away_from_movers(const Places& places) const;
 
@@ -37,7 +41,17 @@ class FreePlaces {
   const WorldDescription& world_;
   const FloorGrid& grid_;
   const ScenarioConfig& config_;
+  Polygon hull_;
   Places all_, quiet_;
 };
+
+/// Those of the places that meet the condition.
+template <typename Condition>
+FreePlaces::Places those(const FreePlaces::Places& places, const Condition& condition) {
+  FreePlaces::Places out;
+  out.reserve(places.size());
+  std::copy_if(places.begin(), places.end(), std::back_inserter(out), condition);
+  return out;
+}
 
 }  // namespace navvi_sim::scenario

@@ -62,7 +62,7 @@ class ScenarioSampler {
                   const ScenarioConfig& config, std::uint64_t seed)
       : world_(world),
         config_(config),
-        grid_(map, world.floor_height, config.robot_height),
+        grid_(map, world.floor_height, config.robot_height, clear()),
         places_(world, grid_, config),
         random_(seed) {}
 
@@ -70,6 +70,7 @@ class ScenarioSampler {
                                         const std::optional<Eigen::Vector2d>& goal);
   [[nodiscard]] StartAndGoal with_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] StartAndGoal with_nothing();
+  [[nodiscard]] const FreePlaces& places() const { return places_; }
 
  private:
   using Places = FreePlaces::Places;
@@ -209,12 +210,10 @@ ScenarioSampler::Places ScenarioSampler::ends_of(const FloorGrid::Ways& ways,
   longest_ = std::max(longest_, longest);
   const double least = asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
   const double most = config_.max_route > 0.0 ? config_.max_route : longest;
-  Places ends;
-  for (const std::size_t place : places)
-    if (std::isfinite(ways.length[place]) && length(ways, place) >= least &&
-        length(ways, place) <= most)
-      ends.push_back(place);
-  return ends;
+  return those(places, [&](std::size_t place) {
+    return std::isfinite(ways.length[place]) && length(ways, place) >= least &&
+           length(ways, place) <= most;
+  });
 }
 
 std::size_t ScenarioSampler::try_draw(const FloorGrid::Ways& ways, const Places& places,
@@ -303,7 +302,7 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
   StartAndGoal drawn = start  ? sampler.with_start(*start, goal)
                        : goal ? sampler.with_goal(*goal)
                               : sampler.with_nothing();
-  drawn.note = note_on(drawn, hull_of_what_stands(world));
+  drawn.note = note_on(drawn, sampler.places().hull());
   return drawn;
 }
 
@@ -311,16 +310,18 @@ std::vector<Place> free_places_of(const WorldDescription& world, const occupancy
                                   const ScenarioConfig& config) {
   std::vector<Place> places;
   if (world.places.empty()) return places;
-  const FloorGrid grid(map, world.floor_height, config.robot_height);
+  const double clear = config.robot_radius + config.clearance;
+  const FloorGrid grid(map, world.floor_height, config.robot_height, clear);
   for (Place place : world.places) {
     const Eigen::Vector2d middle = place.area.center();
     double nearest = std::numeric_limits<double>::infinity();
-    grid.for_each_in(place.area, [&](std::size_t cell) {
-      const double distance = (grid.centre(cell) - middle).norm();
-      if (grid.clearance(cell) < config.robot_radius + config.clearance || distance >= nearest)
-        return;
-      nearest = distance;
-      place.at = grid.centre(cell);
+    grid.for_each_row_in(place.area, [&](std::size_t cell, std::size_t end) {
+      for (; cell < end; ++cell) {
+        const double distance = (grid.centre(cell) - middle).norm();
+        if (grid.clearance(cell) < clear || distance >= nearest) continue;
+        nearest = distance;
+        place.at = grid.centre(cell);
+      }
     });
     if (std::isfinite(nearest)) places.push_back(place);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -105,8 +106,9 @@ class LaneBuilder {
     std::vector<double> radii;
   };
   void group_by_route();
-  void lay();
+  [[nodiscard]] static Lane lay(const Plan& plan);
   void avoid_what_stands();
+  [[nodiscard]] std::vector<Polygon> all_ground();
   [[nodiscard]] std::vector<std::size_t> rounded_corners(std::size_t lane, int block) const;
   void place_users();
 
@@ -114,7 +116,7 @@ class LaneBuilder {
   const MoversConfig& config_;
   std::vector<Plan> plans_;  ///< one a lane
   Lanes lanes_;
-  std::vector<Polygon> ground_;  ///< of all blocks, lane by lane
+  std::vector<std::vector<Polygon>> ground_;  ///< of the blocks of each lane
 };
 
 Lanes LaneBuilder::build() {
@@ -122,14 +124,21 @@ Lanes LaneBuilder::build() {
   if (plans_.empty()) return {};
   avoid_what_stands();
   place_users();
-  find_waiting_zones(world_, std::move(ground_), lanes_);
+  find_waiting_zones(world_, all_ground(), lanes_);
   return std::move(lanes_);
 }
 
 std::vector<Polygon> LaneBuilder::ground() {
   group_by_route();
-  if (!plans_.empty()) avoid_what_stands();
-  return std::move(ground_);
+  avoid_what_stands();
+  return all_ground();
+}
+
+std::vector<Polygon> LaneBuilder::all_ground() {
+  std::vector<Polygon> all;
+  for (std::vector<Polygon>& blocks : ground_)
+    std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
+  return all;
 }
 
 void LaneBuilder::group_by_route() {
@@ -156,16 +165,11 @@ void LaneBuilder::group_by_route() {
   }
 }
 
-void LaneBuilder::lay() {
-  lanes_.lanes.clear();
-  ground_.clear();
-  for (const Plan& plan : plans_) {
-    Track track(plan.route, plan.limits, plan.radii);
-    const int blocks = std::max(3, static_cast<int>(std::ceil(track.length() / kBlock)));
-    const double length = track.length() / blocks;
-    lanes_.lanes.push_back({std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}, {}});
-    for (Polygon& polygon : ground_of(lanes_.lanes.back())) ground_.push_back(std::move(polygon));
-  }
+Lane LaneBuilder::lay(const Plan& plan) {
+  Track track(plan.route, plan.limits, plan.radii);
+  const int blocks = std::max(3, static_cast<int>(std::ceil(track.length() / kBlock)));
+  const double length = track.length() / blocks;
+  return {std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}, {}};
 }
 
 /// The way-points whose rounded corners lie in a block.
@@ -183,13 +187,23 @@ std::vector<std::size_t> LaneBuilder::rounded_corners(std::size_t lane, int bloc
 /// Halves the radius of a rounded corner that touches what stands, and in the end turns it on the
 /// spot. \throws WorldError for what still touches then
 void LaneBuilder::avoid_what_stands() {
-  for (int halving = 0;; ++halving) {
-    lay();
-    std::vector<std::pair<std::size_t, int>> blocks;  // lane and block, as in ground_
-    for (std::size_t lane = 0; lane < lanes_.lanes.size(); ++lane)
+  std::vector<std::size_t> changed;  // lanes
+  for (std::size_t lane = 0; lane < plans_.size(); ++lane) {
+    changed.push_back(lane);
+    lanes_.lanes.push_back(lay(plans_[lane]));
+  }
+  ground_.resize(plans_.size());
+  for (int halving = 0; !changed.empty(); ++halving) {
+    std::vector<std::pair<std::size_t, int>> blocks;  // lane and block
+    std::vector<Polygon> ground;                      // of each
+    for (const std::size_t lane : changed) {
+      if (halving > 0) lanes_.lanes[lane] = lay(plans_[lane]);
+      ground_[lane] = ground_of(lanes_.lanes[lane]);
+      ground.insert(ground.end(), ground_[lane].begin(), ground_[lane].end());
       for (int i = 0; i < lanes_.lanes[lane].blocks; ++i) blocks.emplace_back(lane, i);
+    }
     std::set<std::pair<std::size_t, std::size_t>> tight;  // lane, way-point
-    const PolygonIndex index(ground_, 0.0);
+    const PolygonIndex index(ground, 0.0);
     for_each_standing(world_, kDrivenOver, [&](const Standing& standing) {
       for (const std::size_t number : index.touching(standing.polygon)) {
         const auto [lane, block] = blocks[number];
@@ -209,9 +223,11 @@ void LaneBuilder::avoid_what_stands() {
                            "; allowed is a route that keeps its whole body clear of what stands");
       }
     });
-    if (tight.empty()) return;
-    for (const auto& [lane, waypoint] : tight)
+    changed.clear();
+    for (const auto& [lane, waypoint] : tight) {
       plans_[lane].radii[waypoint] *= halving < kHalvings ? 0.5 : 0.0;
+      if (changed.empty() || changed.back() != lane) changed.push_back(lane);
+    }
   }
 }
 
