@@ -16,6 +16,8 @@ using mesh::Polygon;
 
 namespace {
 
+constexpr double kBox = 0.4;  // m, how high
+
 std::vector<std::int8_t> bytes_of(const octomap::OcTree& tree) {
   std::ostringstream stream;
   tree.writeBinaryData(stream);
@@ -64,9 +66,11 @@ Course::Course(Hall hall, std::uint32_t seed)
   }
   choose_tile();
   octomap::OcTree with_box(tree);
-  for (double x = -0.5; x < 0.5; x += tree.getResolution())
-    for (double y = -0.5; y < 0.5; y += tree.getResolution())
-      with_box.updateNode(queries[0].start.x + x, queries[0].start.y + y, 0.05, true);
+  const double step = tree.getResolution();
+  for (double x = -0.5; x < 0.5; x += step)
+    for (double y = -0.5; y < 0.5; y += step)
+      for (double z = 0.5 * step; z < kBox; z += step)
+        with_box.updateNode(queries[0].start.x + x, queries[0].start.y + y, z, true);
   changed_bytes = bytes_of(with_box);
 }
 

@@ -6,6 +6,8 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,13 +16,16 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "contestant.hpp"
 #include "map/octomap_reader.hpp"
 #include "medians.hpp"
 #include "octomap_tree.hpp"
+#include "plan/worker.hpp"
 #include "search/search.hpp"
+#include "smooth/guide_cost.hpp"
 #include "smooth/turns.hpp"
 #include "visibility_graph.hpp"
 
@@ -34,7 +39,7 @@ using navvi_bench::Medians;
 constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
 const std::vector<int> kSearchedAmong{10, 50};  // discs
-constexpr double kOneTurn = 1.0;  // m, as PathFollowerConfig's
+constexpr double kOneTurn = 1.0;                // m, as PathFollowerConfig's
 const std::string kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
                   kOneThread = "bytes to mesh, ours, one thread",
                   kChanged = "bytes to mesh, ours, one box changed",
@@ -122,6 +127,7 @@ void declare_bakes(Course& c) {
   alone.mesh.threads = 1;
   add(kOneThread, [alone, bytes] { plan::Planner(alone).set_map(bytes()); });
   const auto planner = std::make_shared<plan::Planner>(c.config);
+  planner->set_map(bytes());
   const auto turn = std::make_shared<int>(0);
   add(kChanged, [planner, turn, &c] {
     const std::vector<std::int8_t>& data = ++*turn % 2 == 0 ? c.bytes : c.changed_bytes;
@@ -234,7 +240,17 @@ struct Followed {
   double length = 0.0;  ///< m, of all
   std::size_t turns = 0;
   double nearest = 10.0;  ///< m
-  void add(const Path& path, const map::Space& space) {
+  double cost = 0.0;      ///< m, GuideCost of those that begin and end on the mesh
+  std::size_t costed = 0;
+  void add(const Path& path, const Course& c) {
+    const map::Space space = c.carved.nav_mesh().space();
+    const smooth::GuideCost guide_cost(c.config.smoothing.cost, c.carved.nav_mesh().mesh(), space,
+                                       c.config.mesh.robot_radius,
+                                       c.config.mesh.preferred_clearance);
+    if (const double price = guide_cost.of(path); std::isfinite(price)) {
+      cost += price;
+      ++costed;
+    }
     length += length_of(path);
     for (std::size_t i = 1; i < path.size(); ++i) {
       for (int k = 0; k <= 20; ++k)
@@ -279,18 +295,20 @@ void follow(Course& c) {
     if (plan.status != plan::PlanStatus::found || !found.found) continue;
     plan::Plan next;
     again.push_back(timed([&] { next = c.carved.plan(query.start, query.goal, plan.path); }));
-    kept.add(next.path, c.carved.nav_mesh().space());
-    guide.add(plan.path, c.carved.nav_mesh().space());
-    shortest.add(found.path, c.carved.nav_mesh().space());
+    kept.add(next.path, c);
+    guide.add(plan.path, c);
+    shortest.add(found.path, c);
   }
   c.carved.carve({});
-  heading("plan(), 0 to 50 discs moved",
-          {"p50, us", "p99, us", "max, us", "length", "turns/10m", "nearest"});
+  heading("plan(), 0 to 50 discs moved", {"p50, us", "p99, us", "max, us", "p99 / p50", "length",
+                                          "turns/10m", "nearest", "cost, m"});
   const auto print = [&](const std::string& what, std::vector<double> times, const Followed& path) {
     std::sort(times.begin(), times.end());
-    row(what, {times[times.size() / 2], times[times.size() * 99 / 100], times.back(),
-               path.length / shortest.length, 10.0 * static_cast<double>(path.turns) / path.length,
-               path.nearest});
+    const double p50 = times[times.size() / 2];
+    const double p99 = times[times.size() * 99 / 100];
+    row(what, {p50, p99, times.back(), p99 / p50, path.length / shortest.length,
+               10.0 * static_cast<double>(path.turns) / path.length, path.nearest,
+               path.cost / static_cast<double>(path.costed)});
   };
   print("shortest path, the search alone", part, shortest);
   print("guide path, all of plan()", whole, guide);
@@ -387,7 +405,50 @@ void judge(Course& c, std::size_t places) {
   c.carved.carve({});
 }
 
-void print(const Medians& medians, Course& c) {
+/// What a mapper costs that sends a map every half second, with one box more or less each time:
+/// ms of the processor a map, of all threads, from the message on.
+double map_at_2_hz(const Course& c) {
+  constexpr int kMaps = 20;
+  constexpr auto kBeat = std::chrono::milliseconds(500);
+  plan::Worker worker(c.config, [] {});
+  const auto send = [&](int turn) {
+    plan::PlanRequest request;
+    request.map = std::make_shared<const plan::MapMessage>(plan::MapMessage{
+        turn % 2 == 0 ? c.bytes : c.changed_bytes, true, "OcTree", c.tree.getResolution()});
+    worker.start(std::move(request));
+  };
+  const auto taken = [&worker] {
+    while (!worker.take()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  };
+  send(0);
+  taken();
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  };
+  const double begin = now();
+  for (int turn = 1; turn <= kMaps; ++turn) {
+    send(turn);
+    std::this_thread::sleep_for(kBeat);
+    taken();
+  }
+  return (now() - begin) / kMaps;
+}
+
+void print_maps(const Medians& medians, const Course& c) {
+  heading("map, ms on the wall", {"", "/ TileCache"});
+  for (const std::string& what :
+       {kToFloor, kToMesh, kOneThread, kChanged, kToTree, kWatershed, kTileCache}) {
+    const double took = medians.get(what + c.name, "real_ms");
+    row(what, {took, took / medians.get(kTileCache + c.name, "real_ms")});
+  }
+  heading("one box changed every 0.5 s, processor", {"ms a map", "% of a core"});
+  const double took = map_at_2_hz(c);
+  row("message to mesh, ours, in the worker", {took, took / 5.0});
+}
+
+void print(const Medians& medians, Course& c, bool maps_alone) {
   const std::string& name = c.name;
   std::printf("\n== %s, %g m voxels, seed %u: %zu polygons ours, %zu Detour's\n", name.c_str(),
               c.tree.getResolution(), c.seed, c.ours.nav_mesh().mesh().polygons.size(),
@@ -395,12 +456,8 @@ void print(const Medians& medians, Course& c) {
   std::printf("TileCache with tiles of %d cells: 50 discs moved and a path, ms:", c.tile);
   for (const auto& [tile, took] : c.tiles_tried) std::printf(" %.2f (%d)", took, tile);
   std::puts("");
-  heading("map, ms on the wall", {"", "/ TileCache"});
-  for (const std::string& what :
-       {kToFloor, kToMesh, kOneThread, kChanged, kToTree, kWatershed, kTileCache}) {
-    const double took = medians.get(what + name, "real_ms");
-    row(what, {took, took / medians.get(kTileCache + name, "real_ms")});
-  }
+  print_maps(medians, c);
+  if (maps_alone) return;
   const auto searches = [&](const std::string& what, const std::string& prefix,
                             const std::vector<Contestant>& all) {
     heading(what, {"p50", "p99", "max", "/ Detour", "p99 /", "/ own p50"});
@@ -432,12 +489,13 @@ void print(const Medians& medians, Course& c) {
 }  // namespace
 
 /// Arguments: `--seed=N` for clutter and queries, `--resolution=M` of the maps, `--largest=M` hall,
-/// `--judge` to check paths in all halls and nothing else, and Google Benchmark's own.
+/// `--maps` to time nothing but maps, `--judge` to check paths in all halls and nothing else, and
+/// Google Benchmark's own.
 int main(int argc, char** argv) {
   std::uint32_t seed = 1;
   double resolution = 0.1;
   double largest = 300.0;
-  bool judges = false;
+  bool judges = false, maps = false;
   int kept = 1;
   for (int i = 1; i < argc; ++i) {
     if (std::strncmp(argv[i], "--seed=", 7) == 0)
@@ -448,6 +506,8 @@ int main(int argc, char** argv) {
       largest = std::strtod(argv[i] + 10, nullptr);
     else if (std::strcmp(argv[i], "--judge") == 0)
       judges = true;
+    else if (std::strcmp(argv[i], "--maps") == 0)
+      maps = true;
     else
       argv[kept++] = argv[i];
   }
@@ -461,9 +521,9 @@ int main(int argc, char** argv) {
     for (const auto& course : courses) judge(*course, 125);
     return 0;
   }
-  for (const auto& course : courses) declare(*course);
+  for (const auto& course : courses) maps ? declare_bakes(*course) : declare(*course);
   const Medians medians(kept, argv, Medians::Print::nothing);
-  for (const auto& course : courses) print(medians, *course);
-  judge(*courses[0], 30);
+  for (const auto& course : courses) print(medians, *course, maps);
+  if (!maps) judge(*courses[0], 30);
   return 0;
 }

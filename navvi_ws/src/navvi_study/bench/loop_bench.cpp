@@ -38,7 +38,7 @@ struct Cost {
 };
 
 /// One trial. The mesh is made while the loop waits for its goal.
-void run(const std::string& world, int seed, Cost& cost) {
+void run(const std::string& world, int seed, const std::string& phrases, Cost& cost) {
   loop::ClosedLoopConfig config;
   config.sim.world = world;
   config.sim.seed = seed;
@@ -47,8 +47,7 @@ void run(const std::string& world, int seed, Cost& cost) {
   (void)timed(cost.ends, [&] { return setup::scenario_of(config.sim, loaded.world, map); });
 
   const double since = now();
-  loop::ClosedLoop trial(config,
-                         ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml");
+  loop::ClosedLoop trial(config, phrases);
   loop::LoopFigures figures(static_cast<int>(kLimit));
   const double set_up = now();
   double begun = set_up;
@@ -64,12 +63,13 @@ void run(const std::string& world, int seed, Cost& cost) {
 
 int main(int argc, char** argv) try {
   std::vector<std::string> worlds(argv + 1, argv + argc);
+  const std::string phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
   if (worlds.empty()) worlds = {"easy", "busy"};
   std::printf("%-16s %8s | share of: %6s (%5s %7s %10s) %5s %8s | %9s\n", "world", "x life",
               "set-up", "world", "octomap", "start,goal", "mesh", "driving", "set-up, s");
   for (const std::string& world : worlds) {
     Cost cost;
-    for (int seed = 1; seed <= kSeeds; ++seed) run(world, seed, cost);
+    for (int seed = 1; seed <= kSeeds; ++seed) run(world, seed, phrases, cost);
     const double all = cost.setup + cost.map + cost.driving;
     const auto percent = [all](double part) { return 100.0 * part / all; };
     std::printf("%-16s %8.0f | %14.0f%% (%4.0f%% %6.0f%% %9.0f%%) %4.0f%% %7.0f%% | %9.3f\n",

@@ -158,10 +158,11 @@ struct Task {
   int seed = 1;
 };
 
-record::Fields run_trial(const Options& options, loop::ClosedLoopConfig config, const Task& task) {
+record::Fields run_trial(const Options& options, loop::ClosedLoopConfig config,
+                         const std::string& phrases, const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
-  loop::ClosedLoop loop(config, share("navvi_feedback") + "/config/phrases/en.yaml");
+  loop::ClosedLoop loop(config, phrases);
   loop::LoopFigures figures(options.limit);
   std::optional<loop::LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
@@ -287,6 +288,7 @@ class Total {
 
 int run(const Options& options) {
   const loop::ClosedLoopConfig config = configured(options);
+  const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;
   const auto task_of = [&](std::size_t index) {
     return Task{options.worlds[index / seeds],
@@ -302,7 +304,7 @@ int run(const Options& options) {
   record::run_in_children(
       options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
       [&](std::size_t index) {
-        const std::string text = run_trial(options, config, task_of(index)).format();
+        const std::string text = run_trial(options, config, phrases, task_of(index)).format();
         std::cout.flush();
         return text;
       },
