@@ -333,8 +333,8 @@ void CuePolicy::forget(const CueEvent& event) {
   const Family family = family_of(event.kind);
   phrasing_.forget(event);
   near_.unsaid(event.kind);
-  if (family == Family::way || family == Family::route) route_.unsaid();
-  if (new_route(event.kind)) route_.route_unsaid();
+  if (family == Family::way || family == Family::route) route_.unheard();
+  if (new_route(event.kind)) route_.route_unheard();
   if (event.kind == answered_) question_ = asked_;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvi_feedback::cues {
 namespace {
@@ -89,7 +90,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
   }
   if (new_goal(guidance)) {
     goal_ = guidance.goal;
-    reroutes_ = guidance.reroutes;
+    reroutes_ = reroutes_before_ = guidance.reroutes;
     pending_ = Change::none;
     said_hour_.reset();
     Utterance start = goal("start", now);
@@ -140,7 +141,7 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     pending_ = Change::none;
     if (guidance.reroutes == reroutes_) return {};
     way.kind = closed_way(guidance) ? "way_blocked" : "new_route";
-    reroutes_ = guidance.reroutes;
+    reroutes_before_ = std::exchange(reroutes_, guidance.reroutes);
     return {way};
   }
   if (now.voice_busy) return {};
@@ -254,8 +255,13 @@ void RouteCues::unsaid() {
   made_room_ = ahead_told_ = false;
 }
 
-void RouteCues::route_unsaid() {
-  --reroutes_;
+void RouteCues::unheard() {
+  unsaid();
+  reroutes_ = reroutes_before_;
+}
+
+void RouteCues::route_unheard() {
+  reroutes_ = reroutes_before_;
   pending_ = Change::reroute;
   if (!by_sound_) said_hour_.reset();
 }
@@ -420,7 +426,7 @@ Utterance RouteCues::said(Utterance utterance, int hour, double time) {
   said_time_ = time;
   said_angle_ = last_ ? last_->steer_angle : 0.0;
   // Whose way has been told is no news later on.
-  if (last_) reroutes_ = last_->reroutes;
+  if (last_) reroutes_before_ = std::exchange(reroutes_, last_->reroutes);
   pending_ = Change::none;
   fell_away_ = false;
   reminder_.reset();

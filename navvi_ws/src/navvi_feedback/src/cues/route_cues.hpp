@@ -40,10 +40,12 @@ class RouteCues {
   void pause();
   /// The goal is gone too: the next one is introduced.
   void forget();
-  /// What was said of the way was dropped: it is said anew, as it is then.
+  /// The way is said anew, as it is then.
   void unsaid();
-  /// Likewise that the route is new.
-  void route_unsaid();
+  /// Likewise, for what was said of it last was not heard.
+  void unheard();
+  /// That the route is new was not heard.
+  void route_unheard();
 
   /// Straight ahead would lead into something near, or along it.
   [[nodiscard]] bool leads_off() const { return leads_off_; }
@@ -83,7 +85,8 @@ class RouteCues {
   bool leads_off_ = false;               ///< it is no 12 only for what is near
   std::optional<int> said_hour_;         ///< what the person last heard
   Change pending_ = Change::none;        ///< not said yet
-  std::uint32_t reroutes_ = 0;           ///< of this goal, said or skipped
+  std::uint32_t reroutes_ = 0;           ///< of this goal, whose way was told
+  std::uint32_t reroutes_before_ = 0;    ///< the last words of the way
   bool made_room_ = false;               ///< the thing to make room for was named
   bool ahead_told_ = false;              ///< this corner's turn_ahead was said
   bool turn_announced_ = false;          ///< that of the corner that was reached last

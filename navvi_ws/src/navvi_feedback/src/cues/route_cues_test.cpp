@@ -402,9 +402,13 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance->waypoint = {0.0, -12.0};
   EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
   EXPECT_EQ(drive.pass(8.0), Kinds{"straight_then"});
+  RouteCues unheard = drive.cues;
   drive.cues.unsaid();
   drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{"direction"});
+  drive.cues = unheard;
+  drive.cues.unheard();
+  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
 }
 
 TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
