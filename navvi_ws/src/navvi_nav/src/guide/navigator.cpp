@@ -36,7 +36,7 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   visit.group("stand_off", deadlock);
   observation.describe(visit);
   visit(carve_period, "carve_period", Range{0.05, 60.0}, "s",
-        "least time between two updates of the holes while nothing asks for a plan (R-NAV-5)");
+        "least time between two times the planner is told what moves while nothing asks for a plan (R-NAV-5)");
   visit(carve_within, "carve_within", Range{10.0, 1e6}, "m",
         "what drives or walks farther from the robot leaves no hole: it moves on before the robot "
         "comes");
@@ -215,7 +215,7 @@ std::optional<Guidance::Replan> Navigator::decide_replan(double time, const Conf
   return trigger_.update(input);
 }
 
-/// A request that at least brings the holes up to date.
+/// A request that at least tells the planner what moves.
 plan::PlanRequest Navigator::send(double time, Guidance::Replan reason) {
   sent_ = {time, reason, goal_.number, time};
   plan::PlanRequest request;

@@ -95,14 +95,14 @@ class Navigator {
     std::optional<double> sent;       ///< s, when the one that is being baked was
     bool changed = false;             ///< since the last plan
     std::optional<double> time;       ///< s, when the map in use came
-    std::optional<double> mesh_time;  ///< s, of the moving things in the mesh
+    std::optional<double> mesh_time;  ///< s, of the moving things that the planner knows
   };
   /// The last request: its reason, and whether it is answered.
   struct Sent {
     std::optional<double> since;  ///< s; nullopt: answered
     Guidance::Replan reason = Guidance::Replan::none;
     unsigned goal = 0;             ///< its number
-    std::optional<double> carved;  ///< s, when the holes were last brought up to date
+    std::optional<double> carved;  ///< s, when the planner was last told what moves
   };
 
   [[nodiscard]] map::Space space() const { return {map_.floor.get(), &observation_.obstacles()}; }

@@ -102,8 +102,8 @@ class Floor {
   [[nodiscard]] double gap(Cell cell) const {
     return std::min(reach_, std::sqrt(static_cast<double>(gap2(cell))) * cell_size_);
   }
-  /// m, exact distance from the point to a blocked cell; capped at reach() and `most`, which is
-  /// told the sooner the less it is.
+  /// m, exact distance from the point to a blocked cell; capped at reach() and `most`: the smaller
+  /// that is, the faster.
   [[nodiscard]] double clearance(Point point, double most = kFar) const;
   /// True if every point of the segment is at least `radius` (m, <= reach()) from blocked cells,
   /// to 1e-9 m. Exact.
@@ -125,11 +125,11 @@ class Floor {
   [[nodiscard]] int stride(Cell cell) const {
     return 1 + static_cast<int>(std::sqrt(static_cast<double>(gap2(cell))));
   }
-  /// Cells, from one to what may bring it nearer than the margin; to what may change anything of
-  /// it.
+  /// Cells, from one to what may bring it nearer than the margin.
   [[nodiscard]] int margin_reach() const {
     return static_cast<int>(std::ceil(margin_ / cell_size_)) + 1;
   }
+  /// Cells, from one to what may change anything that is kept of it.
   [[nodiscard]] int influence() const { return std::max(reach_cells_, margin_reach()); }
   static constexpr int kNote = 16;
   [[nodiscard]] int notes_across() const { return (columns_ + kNote - 1) / kNote; }

@@ -63,8 +63,8 @@ std::vector<Leaf> large_leaves(const Voxels& voxels) {
 
 /// What is kept of a map until the next one was surveyed.
 struct SurveyRecord {
-  std::vector<std::int8_t> data;
-  MapBytes bytes;  // in `data`
+  std::vector<std::int8_t> data;  // the map's own, to which `bytes` points
+  MapBytes bytes;
   std::vector<Block> blocks;
   std::vector<Leaf> leaves;
   HeightField::Extent extent;
@@ -154,15 +154,9 @@ void put(const MapSurvey& part, const Area& columns, double voxel, MapSurvey& ou
     std::copy(at(part, from, y), at(part, to, y), at(out, from, y));
 }
 
-MapBytes bytes_of(const SurveyRecord& record) {
-  MapBytes out = record.bytes;
-  out.data = record.data.data();
-  return out;
-}
-
 /// The voxels of some columns, and of leaves that are larger than a block.
 Voxels voxels_in(const Area& columns, const SurveyRecord& record) {
-  return read_voxels(bytes_of(record), [&](const Block& block) {
+  return read_voxels(record.bytes, [&](const Block& block) {
     return overlap(columns_of(block), columns) ? 0 : find_block(record.blocks, block.low)->size;
   });
 }
@@ -199,6 +193,7 @@ std::optional<MapSurvey> survey_part(const Area& changed, const FloorRules& rule
   const auto bit = [&all](std::vector<bool>& columns, Cell at) {
     return columns.begin() + std::ptrdiff_t{at.y - all.low.y} * all.columns() + at.x - all.low.x;
   };
+  // No climbed floor lies within `edge` of the part's sides, before or now: none spreads across.
   Area part = widened(clipped(grown(inside, ahead), all), all, before.climbed, edge);
   while (2.0 * size_of(part) <= size_of(all)) {
     const Area around = clipped(grown(part, ahead), all);
@@ -225,6 +220,7 @@ std::optional<MapSurvey> survey_part(const Area& changed, const FloorRules& rule
     SurveyConfig same_cells = rules.config();
     same_cells.cell_size = floor.cell_size();
     MapSurvey out;
+    out.in_part = true;
     out.cell_size = floor.cell_size();
     out.low = floor.origin();
     out.columns = floor.columns();
@@ -247,6 +243,7 @@ MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
 
 MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const SurveyRecord* before,
                      const Floor* floor) {
+  if (floor == nullptr) before = nullptr;
   if (before != nullptr && (before->bytes.resolution != bytes.resolution ||
                             before->bytes.binary != bytes.binary || before->bytes.id != bytes.id))
     before = nullptr;
@@ -267,6 +264,7 @@ MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const Su
   auto record = std::make_shared<SurveyRecord>();
   record->data.assign(bytes.data, bytes.data + bytes.size);
   record->bytes = bytes;
+  record->bytes.data = record->data.data();
   record->blocks = voxels.blocks;
   record->leaves = large_leaves(voxels);
   std::optional<MapSurvey> out;

@@ -35,6 +35,7 @@ struct MapSurvey {
   std::string source = {};  ///< what a file says of itself; may be empty
   std::string levels;       ///< where the map shows floor, for a sentence; may be empty
   std::shared_ptr<const SurveyRecord> record = {};  ///< by which the next map can be compared
+  bool in_part = false;  ///< the rest was taken over from the map before
 };
 
 /// Chooses the floor and classifies each cell (R-NAV-12).
@@ -61,10 +62,11 @@ struct MapSurvey {
 /// `margin` would close a way that is 6 cm wider than the robot.
 [[nodiscard]] MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config);
 
-/// Likewise, of a map as it comes. Only what differs from a map before is read and surveyed, with
-/// what is around it: as far as a ramp could be seen, and wherever floor that was climbed to is
-/// joined to it. All is surveyed if the map's size or the floor's level changes.
-/// \param record, floor  of the map before, with the same config; may be null
+/// Likewise, of a map as it comes. Only the least rectangle round all that differs from a map
+/// before is read and surveyed, with what is around it: as far as a ramp could be seen, and wherever
+/// floor that was climbed to is joined to it. All is surveyed if that is more than half of the map,
+/// or if the map's size or the floor's level changes.
+/// \param record, floor  of the map before, with the same config; may both be null
 [[nodiscard]] MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config,
                                    const SurveyRecord* record = nullptr,
                                    const Floor* floor = nullptr);

@@ -88,9 +88,10 @@ class BlockNotes {
     if (node.depth != kBlockDepth) return false;
     blocks_.push_back({{node.x, node.y, node.z}, static_cast<std::uint32_t>(begin), 0});
     open_ = true;
-    const std::size_t size = skip_ ? skip_(blocks_.back()) : 0;
-    if (size > 0) stream.skip(begin + size - stream.at());
-    return size > 0;
+    const std::size_t size = skip_ ? skip_(blocks_.back()) : 0, read = stream.at() - begin;
+    if (size <= read || !stream.has(size - read)) return false;
+    stream.skip(size - read);
+    return true;
   }
 
  private:

@@ -56,8 +56,8 @@ struct Voxels {
 /// The beginning of a word of a map, fit for a terminal.
 [[nodiscard]] std::string printable(std::string text);
 
-/// Asked at each block, whose size is not known yet, for that size if the block is not to be read,
-/// or 0.
+/// Told where a block begins, returns its size in bytes if it is not to be read, or 0. A size beyond
+/// the end of the stream is as 0.
 using SkipBlock = std::function<std::size_t(const Block& block)>;
 
 /// Walks the stream once, without recursion and without building a tree, and takes the occupied

@@ -27,7 +27,7 @@ struct PlanRequest {
   std::vector<Cylinder> obstacles;
   std::vector<Cylinder> predicted;   ///< where obstacles will be: avoided if there is a path
   std::vector<Cylinder> swept_area;  ///< to leave free if obstacles close the path; may be empty
-  std::optional<Point> goal;         ///< nullopt: only the mesh is brought up to date
+  std::optional<Point> goal;         ///< nullopt: only map and obstacles are taken
   Point start;
   Path followed;  ///< the rest of the path to the goal so far, from the robot; may be empty
   bool show_mesh = false;  ///< return a copy of the mesh, too

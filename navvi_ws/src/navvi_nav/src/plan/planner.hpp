@@ -29,7 +29,8 @@ class Planner {
   /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
   /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
   /// there is room outside of it. Obstacles of a request without a goal, that shows nothing either,
-  /// are carved when the mesh is needed. No exception leaves it.
+  /// are carved when a later one needs the mesh, unless small moves are let pass (`carve_moved`,
+  /// `carve_changed`). No exception leaves it.
   [[nodiscard]] PlanAnswer answer(const PlanRequest& request) {
     return answer(request, bake(request));
   }
@@ -44,8 +45,11 @@ class Planner {
   MeshUpdate set_map(const Map& map) {
     return nav_mesh_.set_map(map);
   }
-  MeshUpdate carve(const std::vector<Cylinder>& cylinders) { return nav_mesh_.carve(cylinders); }
-  /// A path for the robot at `start` to exactly `goal`. Nothing is moved in silence: only a start
+  MeshUpdate carve(const std::vector<Cylinder>& cylinders) {
+    uncarved_.reset();
+    return nav_mesh_.carve(cylinders);
+  }
+  /// A path for the robot at `start` to exactly `goal`, on the mesh as it was carved last. Nothing is moved in silence: only a start
   /// off the mesh is taken to the nearest point of it, at most `start_snap` away, and from within
   /// an obstacle's hole the path begins with a straight leg out of it: see escape().
   /// \param followed  a path to the goal whose corners are known: as many as lead there are kept,
