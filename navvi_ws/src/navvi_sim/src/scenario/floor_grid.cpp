@@ -11,6 +11,7 @@ namespace navvi_sim::scenario {
 namespace {
 
 constexpr std::size_t kMaxCells = 200'000'000;
+constexpr double kMaxReach = 180.0;  // cells; gap2_ has 16 bits
 
 }  // namespace
 
@@ -88,6 +89,11 @@ std::vector<std::uint8_t> FloorGrid::mark(const occupancy::OccupancyMap& map, in
 
 /// Two passes: how far along each column, then the least sum over each row within reach.
 void FloorGrid::measure_clearance(const std::vector<std::uint8_t>& open, double reach) {
+  if (reach > kMaxReach * cell_size_)
+    throw WorldError("a clearance of " + std::to_string(reach) + " m is more than " +
+                     std::to_string(kMaxReach * cell_size_) +
+                     " m, the most that is measured over cells of " + std::to_string(cell_size_) +
+                     " m; allowed is a narrower robot or a coarser resolution");
   const auto most = static_cast<std::uint8_t>(std::ceil(reach / cell_size_ + std::sqrt(0.5)));
   std::vector<std::uint8_t> steps(open.size(), 0);
   const auto one_more = [most](std::uint8_t step) {

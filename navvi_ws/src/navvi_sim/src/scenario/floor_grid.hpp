@@ -103,7 +103,7 @@ class FloorGrid {
   [[nodiscard]] int gap2_of(double least) const;
 
   double cell_size_;
-  Eigen::Vector2d corner_;  ///< m, lower left, without the rim
+  Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  ///< m, lower left, without the rim
   // Around the grid is a rim of one cell that is closed and not blocked: there is no floor.
   std::size_t width_ = 2;              ///< cells along x
   std::size_t height_ = 2;             ///< cells along y

@@ -108,7 +108,7 @@ class LaneBuilder {
   void group_by_route();
   [[nodiscard]] static Lane lay(const Plan& plan);
   void avoid_what_stands();
-  [[nodiscard]] std::vector<Polygon> all_ground();
+  [[nodiscard]] std::vector<Polygon> take_ground();
   [[nodiscard]] std::vector<std::size_t> rounded_corners(std::size_t lane, int block) const;
   void place_users();
 
@@ -124,17 +124,17 @@ Lanes LaneBuilder::build() {
   if (plans_.empty()) return {};
   avoid_what_stands();
   place_users();
-  find_waiting_zones(world_, all_ground(), lanes_);
+  find_waiting_zones(world_, take_ground(), lanes_);
   return std::move(lanes_);
 }
 
 std::vector<Polygon> LaneBuilder::ground() {
   group_by_route();
   avoid_what_stands();
-  return all_ground();
+  return take_ground();
 }
 
-std::vector<Polygon> LaneBuilder::all_ground() {
+std::vector<Polygon> LaneBuilder::take_ground() {
   std::vector<Polygon> all;
   for (std::vector<Polygon>& blocks : ground_)
     std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
