@@ -11,7 +11,7 @@ navvi_replay() {
   arg[mesh]=${arg[mesh]:-$(mesh_of "$trial/journal.csv")}
   resolve_rviz
   resolve_view
-  build_workspace
+  build_session scene_player summary_from_bag cue_player
   loopback_network
   "$(program navvi_study summary_from_bag)" "$trial" || status=$?
   ((status <= 1)) || fail "this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off."

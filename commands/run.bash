@@ -4,7 +4,7 @@ navvi_run() {
   resolve_rviz
   resolve_view
   check_words
-  build_workspace
+  build_session
   check_parameters
   check_world
   loopback_network

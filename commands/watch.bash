@@ -5,7 +5,7 @@ navvi_watch() {
     shift
   fi
   watch_words "$@"
-  build_workspace
+  build_workspace navvi_msgs_generate_messages_py
   [[ -n $trial ]] || running_session
   exec "$(script navvi_study watch_session)" "${arg[pace]}" "${arg[speech]}" ${trial:+"$trial"}
 }

@@ -17,7 +17,7 @@ def rooms_of(package):
         words = body.split()
         used, mode = [], None
         for word in words[1:]:
-            if word.isupper() or word == "TEST_LINK":
+            if word.isupper():
                 mode = word
             elif mode == "USES":
                 used.append(word)
@@ -99,3 +99,10 @@ def test_a_room_has_a_namespace_of_its_own(package):
         if names and not own <= names <= own | {package}:
             strangers.append(f"{room}/{path.name}: {sorted(names)}")
     assert strangers == []
+
+
+def test_each_file_of_tests_is_in_one_tier():
+    text = (SOURCES / "navvi" / "CMakeLists.txt").read_text()
+    named = [name for names in re.findall(r"navvi_system_tests\(\w+ ([^)$]*)\)", text) for name in names.split()]
+    there = [path.name.removesuffix("_test.py") for path in Path(__file__).parent.glob("*_test.py")]
+    assert sorted(named) == sorted(there)

@@ -8,7 +8,7 @@ give_lesson() {  # NAME WORD...
   allowed[speech]="true false"
   arg[speech]=${arg[speech]:-true} arg[profile]=${arg[profile]:-default}
   one_of speech profile
-  build_workspace
+  build_workspace feedback_node navvi_loopback
   check_parameters
   loopback_network
   log=$(mktemp)

@@ -1,4 +1,4 @@
-# What NavVI needs of Debian 12, and how it gets there.
+# What NavVI needs of Debian 12 or 13, and how it gets there.
 
 run_packages=(
   rviz rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
@@ -7,33 +7,43 @@ run_packages=(
   python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
   at-spi2-core dbus-bin x11-utils
 )
-packages=(
-  # build
-  build-essential ccache cmake catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev liboctomap-dev libbullet-dev
-  libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libsdformat-dev libtinyxml2-dev libassimp-dev libeigen3-dev zlib1g-dev libpng-dev pkg-config
+session_packages=(
+  build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev qtbase5-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
+  liboctomap-dev libbullet-dev libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libtinyxml2-dev libassimp-dev libeigen3-dev
+  zlib1g-dev libpng-dev pkg-config libgtest-dev librostest-dev
   "${run_packages[@]}"
-  # test and bench
-  libbenchmark-dev libgtest-dev librostest-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
+)
+test_packages=(
+  libbenchmark-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
   shellcheck xvfb imagemagick sox openbox xdotool lintian catkin-lint
   python3-pyatspi dbus-daemon
 )
+# Tests that need one of these are skipped, and counted, where the release of Debian lacks it.
+optional_packages=(libsdformat-dev)
 
-missing_packages() {
+missing_packages() {  # PACKAGE...
   local installed
-  installed=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "${packages[@]}" 2>/dev/null | awk '$1 == "ii" {print $2}' || true)
-  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) <(sort -u <<<"$installed")
+  installed=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "$@" 2>/dev/null | awk '$1 == "ii" {print $2}' || true)
+  comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<<"$installed")
+}
+available() {  # PACKAGE...: those that apt can install
+  apt-cache policy "$@" 2>/dev/null | awk '/^[^ ]/ {name = $1} /Candidate: [^(]/ {sub(":$", "", name); print name}'
 }
 
-# Half the way is the download, half the installation; apt-get says how far it is in each.
+# Half the way is the download, half the installation; apt-get reports how far it is in each.
 installed_percent() {
   awk -F: '/^dlstatus:/ {done = $3 / 2} /^pmstatus:/ {done = 50 + $3 / 2} END {print int(done)}' "$1"
 }
 
+elsewhere="NavVI needs Debian 12 or 13, where ROS is part of the system; run it there, or in a container: \"podman build -t navvi $root\", then \"podman run -it --rm navvi\"."
+# install_packages [all]: what a session needs, or what the tests need as well.
 install_packages() {
   [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
-  command -v dpkg-query >/dev/null || fail "this is no Debian; NavVI's parts are packages of Debian 12, so run it there or in a container of it."
-  local missing as_root=() log=$root/.setup.log
-  missing=$(missing_packages)
+  local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=()
+  [[ ${1:-} != all ]] || needed+=("${test_packages[@]}") optional=("${optional_packages[@]}")
+  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || fail "$elsewhere"
+  missing=$(missing_packages "${needed[@]}")
+  [[ -n $missing ]] || missing=$(available $(missing_packages "${optional[@]}"))
   [[ -n $missing ]] || return 0
   if ((EUID != 0)); then
     command -v sudo >/dev/null ||
@@ -45,12 +55,18 @@ install_packages() {
   aside "installing $(wc -l <<<"$missing") packages of Debian (all together 1.5 GB); this takes some minutes."
   # shellcheck disable=SC2086  # one word a package
   with_progress "installing" "$log" installed_percent apt_get $missing ||
-    { tail -n 20 "$log" >&2; fail "apt-get could not install the packages; the whole log is in $log. Mend what it says and run \"./navvi setup\" again."; }
+    {
+      [[ -n $(available ros-core-dev) ]] || fail "$elsewhere"
+      tail -n 20 "$log" >&2
+      fail "apt-get could not install the packages; the whole log is in $log. Mend what it says and run \"./navvi setup\" again."
+    }
   rm -f "$log"
   aside "the packages are installed."
 }
-apt_get() {
+apt_get() {  # PACKAGE...
   "${as_root[@]}" dpkg --configure -a &&  # what Ctrl-C may have left behind
     "${as_root[@]}" apt-get update -q &&
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@"
+    # shellcheck disable=SC2046  # one word a package
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@" \
+      $(((${#optional[@]} == 0)) || available "${optional[@]}")
 }

@@ -15,6 +15,14 @@ resolve_view() {
   for name in vision view; do [[ ! -v arg[$name] ]] || one_of "$name"; done
 }
 
+# build_session [TARGET ...]: what a session starts, and the targets.
+build_session() {
+  local targets=(session "$@")
+  [[ ${arg[rviz]} == false ]] || targets+=(navvi_rviz)
+  [[ ${arg[sensing]:-truth} == truth ]] || targets+=(perception_node)
+  build_workspace "${targets[@]}"
+}
+
 # A master of its own on the loopback interface. Nodes would also open a port on every interface, which the preloaded
 # library prevents.
 loopback_network() {

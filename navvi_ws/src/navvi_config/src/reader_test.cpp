@@ -169,8 +169,3 @@ TEST(Words, without_a_name_or_with_one_twice_are_refused) {
 
 }  // namespace
 }  // namespace navvi_config
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -56,8 +56,3 @@ TEST(Writer, empty_lists_and_texts_stay_empty) {
 
 }  // namespace
 }  // namespace navvi_config
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -140,8 +140,3 @@ TEST(CommandGate, admits_the_one_driver_and_names_any_other) {
 
 }  // namespace
 }  // namespace navvi_safety
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -45,8 +45,3 @@ TEST(MovingThing, IsSoundWithoutARectangleOrWithOneInItsCylinder) {
 
 }  // namespace
 }  // namespace navvi_types
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

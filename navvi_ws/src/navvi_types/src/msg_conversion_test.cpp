@@ -539,8 +539,3 @@ TEST(MsgConversion, AHashIsSixteenHexadecimalDigits) {
 
 }  // namespace
 }  // namespace navvi_types
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

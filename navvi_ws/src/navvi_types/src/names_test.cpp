@@ -28,8 +28,3 @@ TEST(Names, AnotherWordOrNumberIsNothing) {
 
 }  // namespace
 }  // namespace navvi_types
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -536,8 +536,3 @@ TEST(Lesson, lets_a_newcomer_drive_before_the_trial_and_the_guide_says_what_is_u
 
 }  // namespace
 }  // namespace navvi_feedback::core
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -326,8 +326,3 @@ TEST(Situations, the_judge_sees_a_broken_rule) {
 
 }  // namespace
 }  // namespace navvi_feedback::core
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

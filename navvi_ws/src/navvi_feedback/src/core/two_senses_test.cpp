@@ -188,8 +188,3 @@ TEST(TwoSenses, motors_that_cannot_be_felt_are_told) {
 
 }  // namespace
 }  // namespace navvi_feedback::core
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -74,8 +74,3 @@ TEST(SteadyHour, floors_without_hysteresis_exactly_as_printed) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

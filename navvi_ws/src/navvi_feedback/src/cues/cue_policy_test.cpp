@@ -693,8 +693,3 @@ TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

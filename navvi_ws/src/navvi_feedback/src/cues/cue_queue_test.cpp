@@ -224,8 +224,3 @@ TEST(CueQueue, loses_no_cue_in_any_sequence) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -41,8 +41,3 @@ TEST(HeardWordsTest, leave_out_what_began_without_a_device) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -64,8 +64,3 @@ TEST_F(HeldStickTest, does_not_add_to_a_cue_that_asked_for_the_same) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

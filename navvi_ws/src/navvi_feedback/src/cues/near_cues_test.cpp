@@ -347,8 +347,3 @@ TEST(InsteadOf, sounds_stand_for_what_is_near_and_for_no_other_words) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -310,8 +310,3 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

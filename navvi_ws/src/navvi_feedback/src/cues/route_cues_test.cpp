@@ -600,8 +600,3 @@ TEST(RouteCues, name_once_the_thing_to_make_room_for_and_then_the_way) {
 
 }  // namespace
 }  // namespace navvi_feedback::cues
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -93,5 +93,3 @@ TEST(EarconPlayer, tells_what_was_heard) {
 
 }  // namespace
 }  // namespace navvi_feedback::devices
-
-int main(int argc, char** argv) { return navvi_feedback::devices::run_recorded_tests(argc, argv); }

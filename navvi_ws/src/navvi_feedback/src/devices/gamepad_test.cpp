@@ -292,8 +292,3 @@ TEST(InputSource, a_topic_is_lost_after_250_ms_of_silence) {
 
 }  // namespace
 }  // namespace navvi_feedback::devices
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -39,18 +39,20 @@ inline const std::filesystem::path& recording_folder() {
   return folder;
 }
 
-/// main() of a test that listens.
-inline int run_recorded_tests(int argc, char** argv) {
-  const std::filesystem::path config = recording_folder() / "alsoft.conf";
-  std::ofstream(config) << "[general]\ndrivers=wave\nchannels=stereo\nsample-type=int16\n"
-                        << "frequency=44100\n[wave]\nfile="
-                        << (recording_folder() / "heard.wav").string() << "\n";
-  setenv("ALSOFT_CONF", config.c_str(), 1);
-  testing::InitGoogleTest(&argc, argv);
-  const int result = RUN_ALL_TESTS();
-  std::filesystem::remove_all(recording_folder());
-  return result;
-}
+/// Has OpenAL Soft write what it plays into a file, in a program whose tests listen.
+class Recording : public testing::Environment {
+ public:
+  void SetUp() override {
+    const std::filesystem::path config = recording_folder() / "alsoft.conf";
+    std::ofstream(config) << "[general]\ndrivers=wave\nchannels=stereo\nsample-type=int16\n"
+                          << "frequency=44100\n[wave]\nfile="
+                          << (recording_folder() / "heard.wav").string() << "\n";
+    setenv("ALSOFT_CONF", config.c_str(), 1);
+  }
+  void TearDown() override { std::filesystem::remove_all(recording_folder()); }
+};
+inline testing::Environment* const recording =
+    testing::AddGlobalTestEnvironment(new Recording);  // gtest deletes it
 
 /// What was recorded since the device was opened last.
 inline Heard heard() {

@@ -34,8 +34,3 @@ TEST(Latencies, tell_the_middle_the_late_and_the_latest_of_each_chain) {
 
 }  // namespace
 }  // namespace navvi_feedback::devices
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

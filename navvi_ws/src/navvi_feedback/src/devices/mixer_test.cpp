@@ -135,5 +135,3 @@ TEST(Mixer, notices_the_loss_of_its_device_and_plays_again_once_there_is_one) {
 
 }  // namespace
 }  // namespace navvi_feedback::devices
-
-int main(int argc, char** argv) { return navvi_feedback::devices::run_recorded_tests(argc, argv); }

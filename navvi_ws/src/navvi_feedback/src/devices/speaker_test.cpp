@@ -257,5 +257,3 @@ TEST(SpeechChannel, times_words_answers_and_silence) {
 
 }  // namespace
 }  // namespace navvi_feedback::devices
-
-int main(int argc, char** argv) { return navvi_feedback::devices::run_recorded_tests(argc, argv); }

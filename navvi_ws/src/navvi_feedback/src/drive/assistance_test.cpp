@@ -57,8 +57,3 @@ TEST(Assistance, brings_a_robot_to_rest_before_a_shelf_from_any_speed) {
 
 }  // namespace
 }  // namespace navvi_feedback::drive
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -52,8 +52,3 @@ TEST(Buttons, are_those_that_the_person_wants) {
 
 }  // namespace
 }  // namespace navvi_feedback::drive
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -112,8 +112,3 @@ TEST_F(DriveOf, a_released_stick_comes_to_a_full_stop) {
 
 }  // namespace
 }  // namespace navvi_feedback::drive
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

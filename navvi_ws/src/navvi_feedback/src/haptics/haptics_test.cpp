@@ -267,8 +267,3 @@ TEST(Haptics, attracts_to_the_side_to_steer_to_whatever_is_near) {
 
 }  // namespace
 }  // namespace navvi_feedback::haptics
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -71,8 +71,3 @@ TEST(Pattern, the_more_urgent_one_is_felt) {
 
 }  // namespace
 }  // namespace navvi_feedback::haptics
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -146,8 +146,3 @@ TEST(Staircase, finds_what_is_felt_wherever_it_lies) {
 
 }  // namespace
 }  // namespace navvi_feedback::lessons
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

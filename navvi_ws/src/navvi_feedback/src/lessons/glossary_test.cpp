@@ -135,8 +135,3 @@ TEST(Lessons, refuse_a_phrase_file_that_lacks_a_signal) {
 
 }  // namespace
 }  // namespace navvi_feedback::lessons
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -225,8 +225,3 @@ TEST_F(TutorialTest, is_silent_while_the_trial_to_the_goal_runs) {
 
 }  // namespace
 }  // namespace navvi_feedback::lessons
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

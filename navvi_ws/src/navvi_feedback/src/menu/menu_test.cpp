@@ -145,8 +145,3 @@ TEST_F(MenuTest, changes_a_setting_step_by_step) {
 
 }  // namespace
 }  // namespace navvi_feedback::menu
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

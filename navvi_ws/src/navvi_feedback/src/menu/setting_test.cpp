@@ -44,8 +44,3 @@ TEST(Setting, each_value_can_be_said) {
 
 }  // namespace
 }  // namespace navvi_feedback::menu
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

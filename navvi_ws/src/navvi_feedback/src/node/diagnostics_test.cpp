@@ -61,8 +61,3 @@ TEST(Diagnostics, tell_sound_that_is_off_from_sound_that_is_missing) {
 
 }  // namespace
 }  // namespace navvi_feedback::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

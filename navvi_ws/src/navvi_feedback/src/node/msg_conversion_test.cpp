@@ -87,8 +87,3 @@ TEST(LastWords, tell_the_end_of_a_trial_unless_the_arrival_does) {
 
 }  // namespace
 }  // namespace navvi_feedback::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -66,8 +66,3 @@ TEST(OthersRumble, is_dropped_whole_if_a_force_is_out_of_range) {
 
 }  // namespace
 }  // namespace navvi_feedback::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

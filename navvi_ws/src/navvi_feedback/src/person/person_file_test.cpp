@@ -152,8 +152,3 @@ TEST_F(PersonFileTest, only_names_that_are_safe_are_taken) {
 
 }  // namespace
 }  // namespace navvi_feedback::person
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -66,8 +66,3 @@ TEST_F(SettingsSaverTest, tells_what_cannot_be_written) {
 
 }  // namespace
 }  // namespace navvi_feedback::person
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

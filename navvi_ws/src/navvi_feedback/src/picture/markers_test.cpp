@@ -159,8 +159,3 @@ TEST(Markers, before_the_goal_there_is_no_turn) {
 
 }  // namespace
 }  // namespace navvi_feedback::picture
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -54,8 +54,3 @@ TEST(Soundscape, has_a_sonar_that_quickens_towards_the_nearest_thing) {
 
 }  // namespace
 }  // namespace navvi_feedback::sounds
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

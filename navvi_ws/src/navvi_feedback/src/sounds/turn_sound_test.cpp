@@ -139,8 +139,3 @@ TEST(TurnSound, ends_without_a_word_where_there_is_no_way_any_more) {
 
 }  // namespace
 }  // namespace navvi_feedback::sounds
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -376,8 +376,3 @@ TEST(MapBake, refuses_a_map_without_room_and_a_robot_too_wide_for_the_cells) {
 
 }  // namespace
 }  // namespace navvi_nav::bake
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -212,8 +212,3 @@ TEST(TileBake, smooths_a_slanted_wall_at_the_cost_of_its_notches) {
 
 }  // namespace
 }  // namespace navvi_nav::bake
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -105,8 +105,3 @@ TEST_F(Following, tells_a_robot_that_strayed) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

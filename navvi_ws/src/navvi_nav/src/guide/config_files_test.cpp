@@ -70,8 +70,3 @@ TEST(ConfigFiles, paper_leads_along_the_corners_of_the_funnel_alone) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -186,8 +186,3 @@ TEST_F(Forecast, does_not_look_beyond_its_range) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -76,8 +76,3 @@ TEST(Cylinders, are_no_more_than_wanted) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

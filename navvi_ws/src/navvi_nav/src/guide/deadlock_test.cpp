@@ -94,8 +94,3 @@ TEST(Deadlock, sweeps_the_area_in_front_of_the_thing) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -601,8 +601,3 @@ TEST(PathFollower, does_not_arrive_through_a_wall) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

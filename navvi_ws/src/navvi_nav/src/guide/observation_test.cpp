@@ -55,8 +55,3 @@ TEST(Observation, gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -299,8 +299,3 @@ TEST_F(Keeping, keeps_a_retreat_until_it_is_cut_or_not_needed) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

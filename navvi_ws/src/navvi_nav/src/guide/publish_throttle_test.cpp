@@ -52,8 +52,3 @@ TEST(MeshThrottle, publishes_a_large_mesh_less_often) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -224,8 +224,3 @@ TEST(ReplanTrigger, takes_the_word_of_others_on_what_cuts_the_path) {
 
 }  // namespace
 }  // namespace navvi_nav::guide
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

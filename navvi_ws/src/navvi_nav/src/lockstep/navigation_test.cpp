@@ -68,8 +68,3 @@ TEST(NavigationConfig, is_copied_with_its_values) {
 
 }  // namespace
 }  // namespace navvi_nav::lockstep
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

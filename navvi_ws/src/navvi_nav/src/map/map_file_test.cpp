@@ -164,8 +164,3 @@ TEST_F(MapFile, refuses_a_map_server_map_in_a_sentence) {
 
 }  // namespace
 }  // namespace navvi_nav::map
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

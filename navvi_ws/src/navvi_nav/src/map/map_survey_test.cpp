@@ -319,8 +319,3 @@ TEST(OccupancyGrid, is_refused_in_a_sentence_if_anything_is_wrong_with_it) {
 
 }  // namespace
 }  // namespace navvi_nav::map
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

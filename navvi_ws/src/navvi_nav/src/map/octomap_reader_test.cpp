@@ -228,8 +228,3 @@ TEST(OctomapReader, refuses_or_reads_whatever_a_damaged_stream_has_become) {
 
 }  // namespace
 }  // namespace navvi_nav::map
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

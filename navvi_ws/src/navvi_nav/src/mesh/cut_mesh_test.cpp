@@ -457,8 +457,3 @@ TEST(CutMesh, stands_a_crowd_in_one_place_and_heals) {
 
 }  // namespace
 }  // namespace navvi_nav::mesh
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -288,8 +288,3 @@ TEST(Cutter, cuts_anything_out_of_anything) {
 
 }  // namespace
 }  // namespace navvi_nav::mesh
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

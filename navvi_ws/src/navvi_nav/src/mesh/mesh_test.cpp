@@ -33,8 +33,3 @@ TEST(Mesh, locates_points_on_an_edge_of_several_parts_where_they_are) {
 
 }  // namespace
 }  // namespace navvi_nav::mesh
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

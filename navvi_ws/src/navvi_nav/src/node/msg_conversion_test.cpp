@@ -49,8 +49,3 @@ TEST(MsgConversion, says_why_a_map_cannot_be_used) {
 
 }  // namespace
 }  // namespace navvi_nav::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -90,8 +90,3 @@ TEST_F(Escape, is_none_between_a_thing_and_a_wall) {
 
 }  // namespace
 }  // namespace navvi_nav::plan
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

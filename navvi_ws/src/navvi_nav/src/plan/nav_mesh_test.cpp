@@ -277,8 +277,3 @@ TEST(NavMesh, erodes_by_whole_cells_in_the_papers_profile) {
 
 }  // namespace
 }  // namespace navvi_nav::plan
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -519,8 +519,3 @@ TEST(Planner, keeps_its_radius_and_its_bounds_on_ten_thousand_paths) {
 
 }  // namespace
 }  // namespace navvi_nav::plan
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

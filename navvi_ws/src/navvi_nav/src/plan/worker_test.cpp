@@ -47,8 +47,3 @@ TEST(Worker, finds_paths_on_the_old_mesh_while_a_large_map_is_baked) {
 
 }  // namespace
 }  // namespace navvi_nav::plan
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -36,8 +36,3 @@ TEST(OpenList, is_empty_when_cleared) {
 
 }  // namespace
 }  // namespace navvi_nav::search
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

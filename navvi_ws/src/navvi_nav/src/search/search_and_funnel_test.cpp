@@ -172,8 +172,3 @@ TEST(Funnel, winds_through_a_slalom) {
 
 }  // namespace
 }  // namespace navvi_nav::search
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -337,8 +337,3 @@ TEST(Search, allocates_nothing_in_a_query_that_it_has_answered_before) {
 
 }  // namespace
 }  // namespace navvi_nav::search
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -141,8 +141,3 @@ TEST(Covers, agrees_with_points_along_the_segment_in_any_world) {
 
 }  // namespace
 }  // namespace navvi_nav::smooth
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -140,8 +140,3 @@ TEST(SmoothingSeeds, are_cheaper_on_the_mesh_and_dearer_without_ompl) {
 
 }  // namespace
 }  // namespace navvi_nav::smooth
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

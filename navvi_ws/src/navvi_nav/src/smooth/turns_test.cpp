@@ -41,8 +41,3 @@ TEST(Turns, make_a_swerve_that_comes_back_at_once_none_and_end_at_half_a_turn) {
 
 }  // namespace
 }  // namespace navvi_nav::smooth
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -34,7 +34,7 @@ class NavmeshTool : public testing::Test {
   [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
   static Answer ask(const std::string& words) {
     Answer out;
-    FILE* pipe = popen((std::string(NAVVI_NAVMESH_TOOL) + " " + words + " 2>&1").c_str(), "r");
+    FILE* pipe = popen((std::string(NAVMESH_TOOL) + " " + words + " 2>&1").c_str(), "r");
     std::array<char, 256> part{};
     while (fgets(part.data(), static_cast<int>(part.size()), pipe) != nullptr)
       out.text += part.data();
@@ -100,8 +100,3 @@ TEST_F(NavmeshTool, leads_along_the_corridor_of_a_building_that_was_scanned) {
 
 }  // namespace
 }  // namespace navvi_nav::tool
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -55,8 +55,3 @@ TEST(StandingThings, of_one_that_parts_the_larger_keeps_the_number) {
 
 }  // namespace
 }  // namespace navvi_perception::clusters
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -124,8 +124,3 @@ TEST(LocalMap, a_prior_map_of_another_resolution_is_kept_whatever_is_seen) {
 
 }  // namespace
 }  // namespace navvi_perception::map
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

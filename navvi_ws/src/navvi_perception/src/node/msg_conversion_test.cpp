@@ -154,8 +154,3 @@ TEST(MsgConversion, shows_what_stands_and_what_moves_and_nothing_of_before) {
 
 }  // namespace
 }  // namespace navvi_perception::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

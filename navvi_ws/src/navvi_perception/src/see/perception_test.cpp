@@ -289,8 +289,3 @@ TEST_F(PerceptionTest, tells_a_map_that_octomap_reads_and_only_when_it_changed) 
 
 }  // namespace
 }  // namespace navvi_perception::see
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -68,8 +68,3 @@ TEST_F(TrackerTest, what_never_moved_settles_and_what_moved_stays_a_mover_when_i
 
 }  // namespace
 }  // namespace navvi_perception::tracks
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

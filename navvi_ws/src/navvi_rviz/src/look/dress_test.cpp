@@ -116,8 +116,3 @@ TEST(Dress, the_large_vision_draws_a_wider_path) {
 
 }  // namespace
 }  // namespace navvi_rviz::look
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -65,8 +65,3 @@ TEST(Ribbon, keeps_the_ends_and_drops_what_repeats) {
 
 }  // namespace
 }  // namespace navvi_rviz::look
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -59,8 +59,3 @@ TEST(Skyline, triangles_stand_where_cubes_do) {
 
 }  // namespace
 }  // namespace navvi_rviz::look
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -60,8 +60,3 @@ TEST(Solids, words_and_what_is_gone_fill_nothing) {
 
 }  // namespace
 }  // namespace navvi_rviz::look
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -94,8 +94,3 @@ TEST(WayAhead, is_counted_from_the_robot_on_a_leg_however_long_it_is) {
 
 }  // namespace
 }  // namespace navvi_rviz::screen
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

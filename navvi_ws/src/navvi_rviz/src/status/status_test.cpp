@@ -145,8 +145,3 @@ TEST(Status, the_clock_runs_from_the_trials_start_to_its_end) {
 
 }  // namespace
 }  // namespace navvi_rviz::status
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -39,8 +39,3 @@ TEST(SteadyBanner, shows_what_comes_after_calm_at_once_and_the_rest_as_it_is) {
 
 }  // namespace
 }  // namespace navvi_rviz::status
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

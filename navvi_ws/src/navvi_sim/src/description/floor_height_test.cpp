@@ -33,8 +33,3 @@ TEST(FloorHeight, is_not_the_top_of_a_platform_in_a_hall) {
 
 }  // namespace
 }  // namespace navvi_sim
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

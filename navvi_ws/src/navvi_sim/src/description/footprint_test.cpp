@@ -24,8 +24,3 @@ TEST(Ground, holds_a_point_exactly_where_the_two_overlap) {
 
 }  // namespace
 }  // namespace navvi_sim
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -132,8 +132,3 @@ TEST(WorldHash, changes_with_any_number_and_only_then) {
 
 }  // namespace
 }  // namespace navvi_sim
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

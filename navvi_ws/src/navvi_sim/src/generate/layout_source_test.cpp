@@ -165,8 +165,3 @@ TEST(LayoutSources, are_presets_and_layout_files_only) {
 
 }  // namespace
 }  // namespace navvi_sim::generate
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

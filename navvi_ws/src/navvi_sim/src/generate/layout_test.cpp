@@ -532,8 +532,3 @@ TEST(Layouts, of_every_preset_name_their_places_and_a_robot_can_stand_in_each) {
 
 }  // namespace
 }  // namespace navvi_sim::generate
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

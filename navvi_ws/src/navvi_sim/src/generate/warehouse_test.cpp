@@ -170,8 +170,3 @@ TEST(Warehouse, shows_a_pedestal_in_the_map_above_the_floor) {
 
 }  // namespace
 }  // namespace navvi_sim::generate
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

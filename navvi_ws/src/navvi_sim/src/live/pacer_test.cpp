@@ -30,8 +30,3 @@ TEST(Pacer, lets_go_of_what_it_cannot_catch_up) {
 
 }  // namespace
 }  // namespace navvi_sim::live
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

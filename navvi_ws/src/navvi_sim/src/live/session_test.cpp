@@ -145,8 +145,3 @@ TEST(Recipe, gives_start_and_goal_back_bit_for_bit) {
 
 }  // namespace
 }  // namespace navvi_sim::live
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -386,8 +386,3 @@ TEST(World, a_state_that_is_no_number_stops_the_world_for_good) {
 
 }  // namespace
 }  // namespace navvi_sim::live
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -66,8 +66,3 @@ TEST_F(AwsWarehouse, tells_what_each_thing_is_and_why) {
 
 }  // namespace
 }  // namespace navvi_sim::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -151,8 +151,3 @@ TEST(AppliedCommands, out_of_order_or_not_finite_are_refused_whole) {
 
 }  // namespace
 }  // namespace navvi_sim::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -217,8 +217,3 @@ TEST(OccupancyAgrees, with_the_meshes_of_a_world_that_others_made) {
 
 }  // namespace
 }  // namespace navvi_sim::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

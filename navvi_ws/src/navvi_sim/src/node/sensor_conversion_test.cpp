@@ -55,8 +55,3 @@ TEST(SensorConversion, the_frame_of_a_camera_that_looks_down_turns_its_x_axis_do
 
 }  // namespace
 }  // namespace navvi_sim::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

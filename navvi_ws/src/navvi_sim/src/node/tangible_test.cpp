@@ -138,8 +138,3 @@ TEST(Tangible, is_a_thing_that_someone_calls_a_floor) {
 
 }  // namespace
 }  // namespace navvi_sim::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -141,8 +141,3 @@ TEST(WarehouseLife, a_robot_that_drives_blindly_among_meshes_enters_none) {
 
 }  // namespace
 }  // namespace navvi_sim::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

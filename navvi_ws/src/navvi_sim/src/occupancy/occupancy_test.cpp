@@ -278,8 +278,3 @@ TEST(Occupancy, refuses_what_does_not_fit_into_a_tree) {
 
 }  // namespace
 }  // namespace navvi_sim::occupancy
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

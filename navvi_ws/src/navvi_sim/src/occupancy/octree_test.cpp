@@ -71,8 +71,3 @@ TEST(Octree, keeps_what_is_occupied_where_free_space_is_marked) {
 
 }  // namespace
 }  // namespace navvi_sim::occupancy
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

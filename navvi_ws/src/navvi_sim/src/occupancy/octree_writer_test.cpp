@@ -252,8 +252,3 @@ TEST(OctreeWriter, writes_nothing_of_a_world_without_things) {
 
 }  // namespace
 }  // namespace navvi_sim::occupancy
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

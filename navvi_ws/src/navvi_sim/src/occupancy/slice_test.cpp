@@ -40,8 +40,3 @@ TEST(Slice, of_nothing_is_nothing) { EXPECT_TRUE(slice_of({0.05, {}}, 0.0, 0.1).
 
 }  // namespace
 }  // namespace navvi_sim::occupancy
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -54,8 +54,3 @@ TEST_F(Contacts, are_counted_by_class_and_numbered_without_gaps) {
 
 }  // namespace
 }  // namespace navvi_sim::physics
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

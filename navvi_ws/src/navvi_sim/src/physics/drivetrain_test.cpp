@@ -180,8 +180,3 @@ TEST(Drivetrain, odometry_noise_grows_with_the_root_of_the_way) {
 
 }  // namespace
 }  // namespace navvi_sim::physics
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -246,8 +246,3 @@ TEST(Proximity, of_what_moves_follows_it) {
 
 }  // namespace
 }  // namespace navvi_sim::physics
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

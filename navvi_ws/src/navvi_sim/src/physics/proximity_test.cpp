@@ -115,8 +115,3 @@ TEST(Proximity, gives_each_thing_once_nearest_first) {
 
 }  // namespace
 }  // namespace navvi_sim::physics
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

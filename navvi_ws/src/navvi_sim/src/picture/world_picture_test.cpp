@@ -165,8 +165,3 @@ TEST(WorldPicture, shows_meshes_and_things_that_lie_askew) {
 
 }  // namespace
 }  // namespace navvi_sim::picture
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

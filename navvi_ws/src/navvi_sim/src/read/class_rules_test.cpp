@@ -115,8 +115,3 @@ TEST_F(ClassRulesFile, is_refused_with_line_and_what_is_allowed) {
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <sstream>
 
-#include "libsdformat.hpp"
 #include "sdf_folder.hpp"
+#if __has_include(<sdf/sdf.hh>)
+#include "libsdformat.hpp"
+#endif
 
 namespace navvi_sim::read {
 namespace {
@@ -88,6 +91,7 @@ class RandomWorld {
 
 class SdfFrames : public SdfFolder {};
 
+#if __has_include(<sdf/sdf.hh>)
 TEST_F(SdfFrames, are_those_of_libsdformat) {
   std::size_t compared = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
@@ -125,6 +129,9 @@ TEST_F(SdfFrames, are_those_of_libsdformat) {
   }
   EXPECT_GT(compared, 400U);
 }
+#else
+TEST_F(SdfFrames, are_those_of_libsdformat) { GTEST_SKIP() << "libsdformat is not installed"; }
+#endif
 
 TEST_F(SdfFrames, follow_quaternions_and_the_old_word_for_relative_to) {
   const std::string box = "<box><size>1 1 1</size></box>";
@@ -188,8 +195,3 @@ TEST_F(SdfFrames, that_are_not_there_or_go_in_circles_are_refused) {
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

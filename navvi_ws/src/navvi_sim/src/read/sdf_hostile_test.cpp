@@ -214,8 +214,3 @@ TEST_F(HostileWorld, with_a_mangled_mesh_is_read_or_refused_with_a_sentence) {
 
 /// assimp loses memory over some broken files; the leak sanitizer asks here what is not ours.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -131,8 +131,3 @@ TEST_F(MissingPiece, is_said_once_for_all_notes_of_a_kind) {
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -175,8 +175,3 @@ TEST_F(SdfMotionTest, with_odd_numbers_is_refused) {
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -89,8 +89,3 @@ TEST_F(SavedWorld, whose_state_is_out_of_range_is_refused_or_read_without_that_m
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -163,8 +163,3 @@ TEST_F(SdfShapesTest, that_are_too_odd_are_refused_with_line_and_what_is_allowed
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

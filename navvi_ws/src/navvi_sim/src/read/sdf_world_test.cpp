@@ -362,8 +362,3 @@ TEST_F(SdfWorld, refuses_numbers_that_make_no_world) {
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -166,8 +166,3 @@ TEST_F(SdfWriter, is_read_with_care_for_its_own_elements) {
 
 }  // namespace
 }  // namespace navvi_sim::read
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

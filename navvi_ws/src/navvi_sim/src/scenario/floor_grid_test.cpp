@@ -165,8 +165,3 @@ TEST(FloorGrid, of_nothing_has_no_cell) {
 
 }  // namespace
 }  // namespace navvi_sim::scenario
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

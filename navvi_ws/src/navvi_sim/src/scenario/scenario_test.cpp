@@ -268,8 +268,3 @@ TEST(Turns, are_changes_of_direction_between_legs_and_not_wiggles) {
 
 }  // namespace
 }  // namespace navvi_sim::scenario
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

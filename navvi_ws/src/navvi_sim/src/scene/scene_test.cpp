@@ -327,8 +327,3 @@ TEST(MovingScene, of_nothing_is_the_robot_alone) {
 
 }  // namespace
 }  // namespace navvi_sim::scene
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -147,8 +147,3 @@ TEST(Sensors, a_camera_sees_the_floor_and_a_pedestal_on_it) {
 
 }  // namespace
 }  // namespace navvi_sim::sensors
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -61,8 +61,3 @@ TEST(SimNodeConfig, draws_the_same_trial_from_a_seed_in_every_profile) {
 
 }  // namespace
 }  // namespace navvi_sim::setup
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -154,8 +154,3 @@ TEST_F(WorldTool, refuses_what_is_wrong_in_a_sentence_and_writes_nothing) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

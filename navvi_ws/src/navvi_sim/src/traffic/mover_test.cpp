@@ -341,8 +341,3 @@ TEST(Mover, stops_dead_where_it_would_crush_the_robot) {
 
 }  // namespace
 }  // namespace navvi_sim::traffic
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -484,8 +484,3 @@ TEST(Lanes, can_be_laid_in_the_warehouse_of_any_seed) {
 
 }  // namespace
 }  // namespace navvi_sim::traffic
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

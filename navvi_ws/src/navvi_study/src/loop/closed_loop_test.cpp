@@ -298,8 +298,3 @@ TEST(ClosedLoopConfig, namesEachPartAndRefusesAnUnknownOne) {
 
 }  // namespace
 }  // namespace navvi_study::loop
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

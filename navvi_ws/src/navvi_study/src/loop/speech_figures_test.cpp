@@ -67,8 +67,3 @@ TEST(SpeechFigures, count_straight_ahead_said_beside_what_is_ahead) {
 
 }  // namespace
 }  // namespace navvi_study::loop
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -52,8 +52,3 @@ TEST(Corrections, are_of_the_robots_own_odometry_alone) {
 
 }  // namespace
 }  // namespace navvi_study::node
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

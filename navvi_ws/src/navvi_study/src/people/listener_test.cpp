@@ -96,8 +96,3 @@ TEST(Listener, lets_go_at_the_first_word_of_what_startles) {
 
 }  // namespace
 }  // namespace navvi_study::people
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

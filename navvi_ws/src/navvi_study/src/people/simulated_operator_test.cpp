@@ -326,8 +326,3 @@ TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
 
 }  // namespace
 }  // namespace navvi_study::people
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -81,8 +81,3 @@ TEST(Children, of_no_work_are_none) { EXPECT_TRUE(answers(0, 4, nullptr).empty()
 
 }  // namespace
 }  // namespace navvi_study::record
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

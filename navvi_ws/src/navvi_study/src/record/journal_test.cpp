@@ -291,8 +291,3 @@ TEST_F(Folder, two_trials_of_one_second_get_two_folders) {
 
 }  // namespace
 }  // namespace navvi_study::record
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -156,8 +156,3 @@ TEST(Summary, wheels_that_were_held_before_they_turned_are_no_safe_stop) {
 
 }  // namespace
 }  // namespace navvi_study::record
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

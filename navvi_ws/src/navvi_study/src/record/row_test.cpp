@@ -55,8 +55,3 @@ TEST(Fields, writes_a_number_that_is_none_as_such) {
 
 }  // namespace
 }  // namespace navvi_study::record
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

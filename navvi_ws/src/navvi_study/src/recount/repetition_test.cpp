@@ -60,8 +60,3 @@ TEST_F(Repetition, tellsWhereTheStateDiffers) {
 
 }  // namespace
 }  // namespace navvi_study::recount
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

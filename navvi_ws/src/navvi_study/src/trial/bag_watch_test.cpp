@@ -96,8 +96,3 @@ TEST_F(Bag, of_a_recorder_that_died_is_bad) {
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

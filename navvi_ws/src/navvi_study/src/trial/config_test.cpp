@@ -39,8 +39,3 @@ TEST(Config, every_default_lies_in_its_own_range) {
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

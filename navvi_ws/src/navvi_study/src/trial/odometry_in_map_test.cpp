@@ -69,8 +69,3 @@ TEST(OdometryInMap, goes_on_with_the_last_correction_when_no_more_come) {
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -58,8 +58,3 @@ TEST(Readiness, needs_the_devices_of_the_condition) {
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -95,8 +95,3 @@ TEST(GoalTries, a_goal_that_a_person_set_is_sent_again_only_if_it_is_not_taken) 
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

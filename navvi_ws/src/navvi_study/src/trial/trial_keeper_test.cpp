@@ -423,8 +423,3 @@ TEST_F(Trials, with_a_text_that_would_break_the_record_are_refused) {
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

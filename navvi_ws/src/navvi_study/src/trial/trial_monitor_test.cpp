@@ -333,8 +333,3 @@ TEST_F(Monitor, counts_sounds_and_felt_patterns_and_keeps_how_long_the_person_wa
 
 }  // namespace
 }  // namespace navvi_study::trial
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}
