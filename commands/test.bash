@@ -10,11 +10,15 @@ navvi_test() {
     -*) fail "\"$1\" is no option of test; --asan and --slowest are allowed." 2 ;;
     ?*) tier=release ;;
   esac
-  filter=${1:-}
+  filter=${1:-.}
   shift || true
   (($# == 0)) || fail "unexpected argument \"$1\"; test takes a tier or a part of a test's name." 2
   install_packages all
-  build_workspace all tests benchmarks
+  case $tier in
+    quick) build_workspace all core_tests ;;
+    whole) build_workspace all tests ;;
+    release) build_workspace all tests benchmarks ;;
+  esac
   rm -rf "$results"
   mkdir -p "$results"
   export ROS_IP=127.0.0.1
@@ -26,7 +30,7 @@ navvi_test() {
   cd "$workspace/build"
   [[ -n $(ctest -N -L "^($labels)\$" -R "$filter" | grep 'Test *#') ]] || fail "no test's name contains \"$filter\"; \"ctest -N\" in $PWD lists them." 2
   with_progress "testing" "$log" tests_percent ctest -j"$(nproc)" -L "^($labels)\$" -R "$filter" --output-on-failure --output-junit "$results.xml" || true
-  if [[ $tier == release && -z $filter ]]; then
+  if [[ $tier == release && $filter == . ]]; then
     sanitized_tests || status=$?
   fi
   echo "The output of the tests is in $log."
@@ -43,7 +47,7 @@ slowest() {
 
 # The tests of the cores with sanitizers; without a filter also the comparison of types between the libraries.
 sanitized_tests() {
-  local filter=${1:-} results=$workspace/build_asan/test_results log=$workspace/test_asan.log targets=(tests)
+  local filter=${1:-} results=$workspace/build_asan/test_results log=$workspace/test_asan.log targets=(core_tests)
   install_packages all
   [[ -n $filter ]] || targets+=(odr_check)
   build_workspace --asan "${targets[@]}"

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -462,6 +463,7 @@ int main(int argc, char** argv) {
                                          : PersonFile::of<PersonConfig>(config.person).load();
           }))
     return *code;
+  navvi_config::ask_for_priority(-10);
   // roscpp's own handler would close the topics before the last zero is out.
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})

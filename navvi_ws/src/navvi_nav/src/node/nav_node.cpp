@@ -6,6 +6,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -292,6 +293,7 @@ class NavNode {
 int main(int argc, char** argv) {
   using navvi_nav::node::NodeConfig;
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
+  navvi_config::ask_for_priority(-5);
   ros::init(argc, argv, "nav_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;

@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <map>
+#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -306,6 +307,7 @@ int run(const setup::SimNodeConfig& config) try {
 int main(int argc, char** argv) {
   using navvi_sim::setup::SimNodeConfig;
   if (const auto code = navvi_config::print_parameters<SimNodeConfig>(argc, argv)) return *code;
+  navvi_config::ask_for_priority(-10);
   ros::init(argc, argv, "sim_node");
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   return navvi_config::run_node<SimNodeConfig>(navvi_sim::node::run);
