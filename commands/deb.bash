@@ -68,8 +68,11 @@ T
 
 # What every package of Debian has, the manual, and who may read a pad.
 documents() {  # TREE VERSION
-  local doc=$1/usr/share/doc/navvi man=$1/usr/share/man/man1 rules=$1/usr/lib/udev/rules.d
-  mkdir -p "$doc" "$man" "$rules"
+  local doc=$1/usr/share/doc/navvi man=$1/usr/share/man/man1 rules=$1/usr/lib/udev/rules.d limits=$1/etc/security/limits.d
+  mkdir -p "$doc" "$man" "$rules" "$limits"
+  # The nodes that a person waits for may run before other programs.
+  echo "@audio - nice -10" >"$limits/navvi.conf"
+  echo /etc/security/limits.d/navvi.conf >"$1/DEBIAN/conffiles"
   { echo "NavVI"; echo; cat "$root/LICENSE"; } >"$doc/copyright"
   printf 'navvi (%s) unstable; urgency=medium\n\n  * CHANGELOG.md in the sources tells the changes.\n\n -- NavVI developers <navvi@example.org>  %s\n' "$2" "$(date -R)" |
     gzip -9n >"$doc/changelog.gz"

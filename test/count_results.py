@@ -20,7 +20,9 @@ def cases(path):
         yield path.stem, "failed", str(problem), 0.0
         return
     for case in root.iter("testcase"):
-        name = ".".join(word for word in (case.get("classname"), case.get("name")) if word)
+        name = case.get("name")
+        if case.get("classname") not in (None, "", name):  # ctest gives its name twice
+            name = f"{case.get('classname')}.{name}"
         seconds = float(case.get("time") or 0)
         wrong = [mark for mark in case if mark.tag in ("failure", "error")]
         if wrong:

@@ -6,8 +6,8 @@ import sys
 import pytest
 
 SCRIPT = pathlib.Path(__file__).with_name("count_results.py")
-PASSED = '<testsuite><testcase name="navvi_sim/live/world" status="run"/></testsuite>'
-FAILED = '<testsuite><testcase name="navvi_sim/live/world"><failure/><system-out>signal 11</system-out></testcase></testsuite>'
+PASSED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world" status="run"/></testsuite>'
+FAILED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world"><failure/><system-out>signal 11</system-out></testcase></testsuite>'
 
 
 @pytest.fixture

@@ -41,9 +41,12 @@ install_packages() {
   [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
   local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=()
   [[ ${1:-} != all ]] || needed+=("${test_packages[@]}") optional=("${optional_packages[@]}")
-  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || fail "$elsewhere"
+  command -v apt-get >/dev/null || fail "$elsewhere"
   missing=$(missing_packages "${needed[@]}")
-  [[ -n $missing ]] || missing=$(available $(missing_packages "${optional[@]}"))
+  if [[ -z $missing && -n ${optional[*]} ]]; then
+    readarray -t optional < <(missing_packages "${optional[@]}")
+    missing=$(available "${optional[@]}")
+  fi
   [[ -n $missing ]] || return 0
   if ((EUID != 0)); then
     command -v sudo >/dev/null ||
@@ -64,9 +67,9 @@ install_packages() {
   aside "the packages are installed."
 }
 apt_get() {  # PACKAGE...
-  "${as_root[@]}" dpkg --configure -a &&  # what Ctrl-C may have left behind
-    "${as_root[@]}" apt-get update -q &&
-    # shellcheck disable=SC2046  # one word a package
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@" \
-      $(((${#optional[@]} == 0)) || available "${optional[@]}")
+  local more=()
+  "${as_root[@]}" dpkg --configure -a || return  # what Ctrl-C may have left behind
+  "${as_root[@]}" apt-get update -q || return
+  ((${#optional[@]} == 0)) || readarray -t more < <(available "${optional[@]}")
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@" "${more[@]}"
 }
