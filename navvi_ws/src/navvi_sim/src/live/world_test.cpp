@@ -134,6 +134,61 @@ TEST(World, slides_along_a_wall_but_never_through_it) {
   }
 }
 
+/// Stands with its near side at x = 0 m, where the robot's hull touches it.
+Thing obstacle_at_origin(const Geometry& geometry, double depth, double height) {
+  Thing thing;
+  thing.name = "obstacle";
+  thing.thing_class = ThingClass::other;
+  thing.pose.translation() = Eigen::Vector3d(0.5 * depth, 0.0, 0.5 * height);
+  thing.shapes.push_back({geometry, Eigen::Isometry3d::Identity()});
+  return thing;
+}
+
+TEST(World, F3_a_robot_at_a_wall_turns_as_without_contact) {
+  auto sheet = std::make_shared<Mesh>();
+  sheet->vertices = {{0, -5, -1}, {0, 5, -1}, {0, 5, 1}, {0, -5, 1}};
+  sheet->triangles = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<Thing> obstacles{
+      obstacle_at_origin(Box{{0.1, 10.0, 2.0}}, 0.1, 2.0),
+      obstacle_at_origin(std::shared_ptr<const Mesh>(sheet), 0.0, 2.0),
+      obstacle_at_origin(Box{{0.5, 10.0, 0.1}}, 0.5, 0.1),
+      obstacle_at_origin(Cylinder{0.06, 1.5}, 0.12, 1.5)};
+  // Drives against the obstacle, stops, and turns: the angle, and how far the middle of the robot
+  // then comes.
+  const auto turned = [](const WorldDescription& description, double heading,
+                         const navvi_types::Velocity& command) {
+    const Eigen::Vector2d back = -0.15 * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+    World world = make(description, {Eigen::Vector2d(-0.35, 0.0) + back, heading});
+    const bool touched = !drive(world, 1.0, {0.5, 0.0}).empty();
+    drive(world, 0.5, {});
+    EXPECT_EQ(touched, description.things.size() > 1) << heading;
+    const Eigen::Vector2d before = world.now().robot.position;
+    double angle = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      const double yaw = world.now().robot.yaw;
+      EXPECT_EQ(world.step(command), World::Status::running);
+      angle += std::remainder(world.now().robot.yaw - yaw, 2.0 * kPi);
+    }
+    return std::pair{angle, (world.now().robot.position - before).norm()};
+  };
+  for (const double side : {1.0, -1.0})
+    for (const double forward : {0.0, 0.5}) {
+      const navvi_types::Velocity command{forward, 1.2 * side};
+      const double free = turned(floor_only(), 0.0, command).first;
+      for (const Thing& obstacle : obstacles) {
+        WorldDescription description = floor_only();
+        description.things.push_back(obstacle);
+        for (int degrees = -80; degrees <= 80; degrees += 2) {
+          const auto [angle, moved] = turned(description, degrees * kPi / 180.0, command);
+          EXPECT_NEAR(angle, free, 0.1 * std::abs(free)) << degrees << " degrees, " << forward;
+          if (forward == 0.0) {
+            EXPECT_LT(moved, 0.005) << degrees << " degrees";
+          }
+        }
+      }
+    }
+}
+
 TEST(World, low_pedestals_block_and_lower_plates_do_not) {
   for (const double height : {0.06, 0.08, 0.10}) {
     WorldDescription description = floor_only();

@@ -32,6 +32,9 @@ struct Presence {
   std::size_t mover = 0;          ///< its index among the movers
 };
 
+/// rad, in (-pi, pi]
+double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
+
 btDefaultCollisionConstructionInfo pools() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = 256;
@@ -56,13 +59,17 @@ struct Physics::Impl {
   std::unique_ptr<btCylinderShapeZ> hull;
   std::unique_ptr<btRigidBody> robot;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  // The hull is round and without friction, so no contact can turn it, and Bullet's body, whose
+  // contact points would turn with it into what it touches, never does: the wheels alone turn it.
+  double yaw = 0.0;                                         ///< rad, in (-pi, pi]
+  double turn_rate = 0.0;                                   ///< rad/s
   Eigen::AlignedBox3d around;                               ///< the hull's bounds about its centre
   std::vector<std::pair<std::size_t, std::size_t>> wanted;  ///< thing, mover
   std::vector<Touch> touches;
   std::uint64_t steps = 0;
 
   void add_robot(const RobotConfig& config, double floor, const Eigen::Vector2d& position,
-                 double yaw);
+                 double start_yaw);
   void enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover);
   void gather(const std::vector<MoverState>& movers);
   void find_touches();
@@ -74,24 +81,22 @@ Physics::Impl::~Impl() {
 }
 
 void Physics::Impl::add_robot(const RobotConfig& config, double floor,
-                              const Eigen::Vector2d& position, double yaw) {
+                              const Eigen::Vector2d& position, double start_yaw) {
+  yaw = wrapped(start_yaw);
   const double half = 0.5 * (config.height - config.clearance);
   const Eigen::Vector3d extents(config.radius, config.radius, half);
   around = {-extents, extents};
   hull = std::make_unique<btCylinderShapeZ>(to_bt(extents));
   hull->setMargin(static_cast<btScalar>(kRobotMargin));
-  btVector3 inertia;
-  const auto mass = static_cast<btScalar>(config.mass);
-  hull->calculateLocalInertia(mass, inertia);
-  robot = std::make_unique<btRigidBody>(
-      btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, hull.get(), inertia));
+  robot = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
+      static_cast<btScalar>(config.mass), nullptr, hull.get()));
   const btTransform pose(
-      btQuaternion(btVector3(0, 0, 1), static_cast<btScalar>(yaw)),
+      btQuaternion::getIdentity(),
       to_bt(Eigen::Vector3d(position.x(), position.y(), floor + config.clearance + half)));
   robot->setWorldTransform(pose);
   robot->setInterpolationWorldTransform(pose);
   robot->setLinearFactor(btVector3(1, 1, 0));
-  robot->setAngularFactor(btVector3(0, 0, 1));
+  robot->setAngularFactor(btVector3(0, 0, 0));
   robot->setActivationState(DISABLE_DEACTIVATION);
   robot->setFriction(0);
   robot->setRestitution(0);
@@ -205,7 +210,7 @@ Physics::~Physics() = default;
 
 void Physics::set_robot_velocity(const Eigen::Vector2d& velocity, double turn_rate) {
   impl_->robot->setLinearVelocity(to_bt(Eigen::Vector3d(velocity.x(), velocity.y(), 0.0)));
-  impl_->robot->setAngularVelocity(to_bt(Eigen::Vector3d(0.0, 0.0, turn_rate)));
+  impl_->turn_rate = turn_rate;
 }
 
 void Physics::advance(double dt, const std::vector<MoverState>& movers) {
@@ -214,30 +219,27 @@ void Physics::advance(double dt, const std::vector<MoverState>& movers) {
     if (entry.second.moving)
       entry.second.moving->setWorldTransform(to_bt(movers[entry.second.mover].pose));
   impl_->world.stepSimulation(static_cast<btScalar>(dt), 0);
+  impl_->yaw = wrapped(impl_->yaw + impl_->turn_rate * dt);
   impl_->find_touches();
 }
 
 const std::vector<Touch>& Physics::touches() const { return impl_->touches; }
 
 RobotState Physics::robot() const {
-  const btTransform& pose = impl_->robot->getWorldTransform();
-  const btMatrix3x3& basis = pose.getBasis();
   RobotState state;
-  state.position = from_bt(pose.getOrigin()).head<2>();
-  state.yaw = std::atan2(basis[1][0], basis[0][0]);
+  state.position = from_bt(impl_->robot->getWorldTransform().getOrigin()).head<2>();
+  state.yaw = impl_->yaw;
   state.velocity = from_bt(impl_->robot->getLinearVelocity()).head<2>();
-  state.turn_rate = impl_->robot->getAngularVelocity().z();
+  state.turn_rate = impl_->turn_rate;
   return state;
 }
 
 std::uint64_t Physics::hash(std::uint64_t hash) const {
-  const btTransform& pose = impl_->robot->getWorldTransform();
-  std::vector<btVector3> vectors{pose.getOrigin(), impl_->robot->getLinearVelocity(),
-                                 impl_->robot->getAngularVelocity()};
-  for (int row = 0; row < 3; ++row) vectors.push_back(pose.getBasis()[row]);
-  for (const btVector3& vector : vectors)
+  for (const btVector3& vector :
+       {impl_->robot->getWorldTransform().getOrigin(), impl_->robot->getLinearVelocity()})
     for (const btScalar value : {vector.x(), vector.y(), vector.z()})
       hash = mix_bytes(hash, &value, sizeof value);
+  for (const double value : {impl_->yaw, impl_->turn_rate}) hash = mix(hash, value);
   return hash;
 }
 

@@ -13,9 +13,9 @@
 namespace navvi_sim::physics {
 
 /// The robot among the bodies near it in Bullet, which nothing else in this project touches. The
-/// robot is a dynamic cylinder held to the plane; things stand still, or are moved from outside.
-/// What is too far to be touched soon is not in Bullet's world, so that a step costs what is near.
-/// Frame: map.
+/// robot is a dynamic cylinder held to the plane; it is round and without friction, so that contact
+/// shoves it but never turns it. Things stand still, or are moved from outside. What is too far to
+/// be touched soon is not in Bullet's world, so that a step costs what is near. Frame: map.
 class Physics {
  public:
   /// \param bodies  of the world; outlives this
