@@ -6,6 +6,15 @@
 namespace navvi_sim::occupancy {
 namespace {
 
+// A surface that lies on the border of two cells belongs to both: a cell is grown by more than the
+// places of corners and cells within WorldLimits are rounded by, and the products of the separating
+// axes are allowed their own rounding, a share of the lengths that are multiplied.
+constexpr double kGrown = 1e-9;  // m
+constexpr double kRounding = 1e-14;
+
+/// At least the length of `v`, and no more than 1.8 times as much.
+double length_of(const Eigen::Vector3d& v) { return v.cwiseAbs().sum(); }
+
 /// Distances from a point to the nearest and the farthest point of a square or cube around
 /// `centre`, along one axis.
 double nearest(double centre, double half) { return std::max(0.0, std::abs(centre) - half); }
@@ -45,25 +54,29 @@ Overlap TurnedBox::overlap(const Cell& cell) const {
 }
 
 Overlap Triangle::overlap(const Cell& cell) const {
+  const double half = cell.half + kGrown;
   std::array<Eigen::Vector3d, 3> v;
   for (std::size_t i = 0; i < 3; ++i) v[i] = corners[i] - cell.centre;
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::min({v[0][axis], v[1][axis], v[2][axis]}) > cell.half) return Overlap::none;
-    if (std::max({v[0][axis], v[1][axis], v[2][axis]}) < -cell.half) return Overlap::none;
+    if (std::min({v[0][axis], v[1][axis], v[2][axis]}) > half) return Overlap::none;
+    if (std::max({v[0][axis], v[1][axis], v[2][axis]}) < -half) return Overlap::none;
   }
   const std::array<Eigen::Vector3d, 3> edges{v[1] - v[0], v[2] - v[1], v[0] - v[2]};
-  // Apart along `axis`? An axis of length 0 separates nothing.
-  const auto apart = [&](const Eigen::Vector3d& axis) {
+  const double away = std::max({length_of(v[0]), length_of(v[1]), length_of(v[2])});
+  // Apart along `axis`, which is the product of edges of that length? An axis of length 0 separates
+  // nothing.
+  const auto apart = [&](const Eigen::Vector3d& axis, double length) {
     const double a = axis.dot(v[0]);
     const double b = axis.dot(v[1]);
     const double c = axis.dot(v[2]);
-    const double reach = axis.cwiseAbs().sum() * cell.half;
+    const double reach = axis.cwiseAbs().sum() * half + kRounding * length * away;
     return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
   };
-  if (apart(edges[0].cross(edges[1]))) return Overlap::none;
+  if (apart(edges[0].cross(edges[1]), length_of(edges[0]) * length_of(edges[1])))
+    return Overlap::none;
   for (const Eigen::Vector3d& edge : edges)
     for (int axis = 0; axis < 3; ++axis)
-      if (apart(Eigen::Vector3d::Unit(axis).cross(edge))) return Overlap::none;
+      if (apart(Eigen::Vector3d::Unit(axis).cross(edge), length_of(edge))) return Overlap::none;
   return Overlap::partial;
 }
 

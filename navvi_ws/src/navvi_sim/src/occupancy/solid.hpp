@@ -83,7 +83,8 @@ class SolidSphere {
   Eigen::Vector3d centre_;
 };
 
-/// A triangle in space, by its separating axes (Akenine-Moller, 2001): exact, and never full.
+/// A triangle in space, by its separating axes (Akenine-Moller, 2001): exact but for rounding, and
+/// that makes it touch more cells, never fewer. Never full.
 struct Triangle {
   std::array<Eigen::Vector3d, 3> corners;  ///< m, in map
 
