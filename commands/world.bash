@@ -44,5 +44,6 @@ list_rows() {
 world_rows() {
   echo "what,value"
   sed 's/^\([0-9][0-9]*\) \(.*\)/"\2",\1/; s/^\(.*\), seed \([^,]*\), world \(.*\)/"world","\1"\n"seed",\2\n"world hash","\3"/
+       s/^floor at z = \(.*\) m$/"floor z m",\1/
        s/^start \(.*\) goal \(.*\)/"start x m, y m, yaw rad","\1"\n"goal x m, y m","\2"/; s/^\(shortest way\|guide path\) \(.*\) m$/"\1 m",\2/'
 }

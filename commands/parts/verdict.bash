@@ -4,7 +4,7 @@ nav_words=()
 # plan_in PROFILE WORLD [-o FILE.bt] [OPTION|name:=value ...]: sets what is said of the world, from, to, and what of the
 # way between them; status is 0 if there is one. -o keeps the OctoMap.
 plan_in() {
-  local map kept="" nav_config last="" word
+  local map kept="" nav_config last="" word floor
   nav_config=$(config_of navvi_nav "$1")
   shift
   for word in "$@"; do
@@ -16,7 +16,9 @@ plan_in() {
   [[ -n $kept ]] || trap "rm -f '$map'" EXIT
   said=$("$(program navvi_sim world_tool)" check "$@" -o "$map") || exit 2
   read -r from to <<<"$(tail -n 1 <<<"$said" | sed 's/^start \([^,]*,[^,]*\),.* goal /\1 /')"
+  floor=$(sed -n 's/^floor at z = \([-0-9.]*\) m$/\1/p' <<<"$said" | tail -n 1)
   [[ " ${nav_words[*]}" == *" mesh/climb:="* ]] || nav_words+=(mesh/climb:=0)
+  [[ " ${nav_words[*]}" == *" mesh/floor_height:="* ]] || nav_words+=("mesh/floor_height:=$floor")
   status=0
   way=$("$(program navvi_nav navmesh_tool)" "$map" --config "$nav_config" "${nav_words[@]}" \
     --from "$from" --to "$to" 2>&1) || status=$?

@@ -55,7 +55,7 @@ class Lockstep : public testing::Test {
     for (int i = 0; i < times; ++i) {
       time_ += kTick;
       if (has_pose_)
-        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, time_);
+        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_);
       navigator_.set_speed(speed_);
       if (has_obstacles_) {
         std::vector<MovingThing> things = things_;
@@ -89,6 +89,7 @@ class Lockstep : public testing::Test {
     Point position{2, 5};
     double yaw = 0.0;
   } robot_;
+  double height_ = 0.0;  // of the robot
   bool has_pose_ = true;
   bool has_obstacles_ = true;
   double speed_ = 0.5;

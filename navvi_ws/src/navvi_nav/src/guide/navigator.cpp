@@ -126,9 +126,11 @@ bool Navigator::undecided(double time) const {
 std::optional<plan::PlanRequest> Navigator::update(double time) {
   observation_.update(time);
   const Conflict now = follow_progress(time);
-  if ((map_.new_map || map_.new_grid) && !map_.sent) {
+  if (map_.new_map && !map_.stands_at && pose(time)) map_.stands_at = height_;
+  if (((map_.new_map && map_.stands_at) || map_.new_grid) && !map_.sent) {
     map_.sent = sent_.carved = time;
     plan::PlanRequest request;
+    request.stands_at = map_.stands_at;
     request.obstacles = holes();
     request.map = std::exchange(map_.new_map, nullptr);
     request.grid = std::exchange(map_.new_grid, nullptr);
@@ -339,7 +341,10 @@ Guidance Navigator::guidance(double time) const {
   out.floor = floor_height();
   if (!map_.floor) {
     out.state = Guidance::State::no_map;
-    out.detail = "no usable map came yet";
+    out.detail = map_.new_map && !map_.stands_at
+                     ? "no fresh pose of the robot, whose height tells which level of the map is "
+                       "the floor"
+                     : "no usable map came yet";
   } else if (map_stale(time)) {
     out.state = Guidance::State::map_stale;
     out.detail = "no fresh map came";

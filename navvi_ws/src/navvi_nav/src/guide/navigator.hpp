@@ -53,7 +53,12 @@ class Navigator {
   void set_obstacles(std::vector<MovingThing> things, double time) {
     observation_.set_obstacles(std::move(things), time);
   }
-  void set_pose(const Pose2& pose, double time) { observation_.set_pose(pose, time); }
+  /// \param height  m, z of base_link, which is on the floor. An OctoMap is taken only when it is
+  ///                known: the first one tells which of its levels is the floor.
+  void set_pose(const Pose2& pose, double height, double time) {
+    observation_.set_pose(pose, time);
+    height_ = height;
+  }
   void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(const Eigen::Vector2d& goal);
@@ -92,6 +97,7 @@ class Navigator {
     std::shared_ptr<const plan::MapMessage> new_map;
     std::shared_ptr<const map::OccupancyGrid> new_grid;
     bool octomap_came = false;
+    std::optional<double> stands_at;  ///< m, z of base_link when the first one was taken
     std::optional<double> sent;       ///< s, when the one that is being baked was
     bool changed = false;             ///< since the last plan
     std::optional<double> time;       ///< s, when the map in use came
@@ -125,6 +131,7 @@ class Navigator {
 
   NavigatorConfig config_;
   Observation observation_;
+  double height_ = 0.0;  ///< m, z of base_link
   ConflictForecast forecast_;
   ReplanTrigger trigger_;
   PathKeeper keeper_;

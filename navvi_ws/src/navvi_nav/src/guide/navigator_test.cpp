@@ -295,7 +295,7 @@ TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   navigator_.set_map(message_of(world_));
   const auto next = [&] {
     time_ += kTick;
-    navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, time_);
+    navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_);
     return navigator_.update(time_);
   };
   const auto map = next();
@@ -309,6 +309,30 @@ TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   tick(2);
   EXPECT_EQ(status().replan_reason, Guidance::Replan::map_changed);
   for (const Point point : navigator_.path()) EXPECT_LT(point.y, 6.0);
+}
+
+TEST_F(Lockstep, takes_the_level_on_which_the_robot_stands_and_waits_for_it) {
+  SmallWorld slab;
+  slab.floor(-6, -6, 6, 6).box(-4, -4, 0, 4, 4, 0.05);
+  robot_.position = {-3, 0};
+  has_pose_ = false;
+  navigator_.set_map(message_of(slab));
+  tick(10);
+  EXPECT_FALSE(navigator_.has_map());
+  EXPECT_EQ(status().state, Guidance::State::no_map);
+  EXPECT_EQ(status().detail,
+            "no fresh pose of the robot, whose height tells which level of the map is the floor");
+  has_pose_ = true;
+  height_ = 0.05;
+  navigator_.set_goal({3, 0});
+  tick(3);
+  EXPECT_EQ(status().state, Guidance::State::following) << status().detail;
+  EXPECT_NEAR(status().floor, 0.05, 1e-9);
+  height_ = 0.0;  // as on a ramp: the floor stays
+  slab.box(1, 1, 0.05, 2, 2, 1.0);
+  navigator_.set_map(message_of(slab));
+  tick(3);
+  EXPECT_NEAR(status().floor, 0.05, 1e-9);
 }
 
 TEST_F(Lockstep, cuts_no_hole_for_what_moves_far_off) {
@@ -350,7 +374,7 @@ class Guided : public Lockstep {
     const double end = time_ + seconds - 1e-9;
     while (time_ < end) {
       time_ += kTick;
-      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, time_);
+      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_);
       std::vector<MovingThing> things = things_;
       for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
       navigator_.set_obstacles(things, time_);

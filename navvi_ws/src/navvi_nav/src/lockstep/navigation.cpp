@@ -45,8 +45,8 @@ void Navigation::set_obstacles(const navvi_types::Obstacles& obstacles, double t
   parts_->navigator.set_obstacles(obstacles.things, time);
 }
 
-void Navigation::set_pose(const navvi_types::Pose2& pose, double time) {
-  parts_->navigator.set_pose(pose, time);
+void Navigation::set_pose(const navvi_types::Pose2& pose, double height, double time) {
+  parts_->navigator.set_pose(pose, height, time);
 }
 
 void Navigation::set_speed(double forward) { parts_->navigator.set_speed(forward); }

@@ -27,7 +27,7 @@ class InARoom : public testing::Test {
   /// One beat. \returns the state that is published, if any
   std::optional<Guidance::State> beat() {
     time_ += 0.05;
-    navigation_.set_pose({{1.5, 3}, 0.0}, time_);
+    navigation_.set_pose({{1.5, 3}, 0.0}, 0.0, time_);
     navigation_.set_obstacles({}, time_);
     const std::optional<Guidance> guidance = navigation_.update(time_);
     if (!guidance) return std::nullopt;

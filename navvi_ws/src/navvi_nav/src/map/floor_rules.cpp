@@ -11,7 +11,8 @@
 namespace navvi_nav::map {
 namespace {
 
-constexpr double kFloorTolerance = 0.25;  // m, around SurveyConfig::floor_height
+constexpr double kFloorTolerance = 0.25;  // m, around where the robot stands
+constexpr double kFloorShare = 0.25;      // of the places of the largest level there
 constexpr double kRounding = 1e-6;        // levels
 constexpr double kLongestTread = 1.2;     // m, between two steps of a ramp
 constexpr double kObstacle = 0.05;        // m, that an obstacle rises at least (R-NAV-12)
@@ -57,13 +58,18 @@ std::optional<int> lowest_large_level(const Places& places) {
   return std::nullopt;
 }
 
+/// Of the levels within the tolerance, the nearest that is not small beside the largest.
 /// \param wanted  levels, not whole
-std::optional<int> largest_level_near(const Places& places, double wanted, double tolerance) {
+std::optional<int> level_near(const Places& places, double wanted, double tolerance) {
+  const auto off = [&](int level) { return std::abs(static_cast<double>(level) - wanted); };
+  int largest = 0;
+  for (const auto& [level, count] : places)
+    if (off(level) <= tolerance) largest = std::max(largest, count);
   std::optional<int> best;
-  for (const auto& [level, count] : places) {
-    if (std::abs(static_cast<double>(level) - wanted) > tolerance) continue;
-    if (!best || count > places.at(*best)) best = level;
-  }
+  for (const auto& [level, count] : places)
+    if (off(level) <= tolerance && count >= kFloorShare * largest &&
+        (!best || off(level) < off(*best) - kRounding))
+      best = level;
   return best;
 }
 
@@ -126,9 +132,12 @@ void FloorRules::count(const HeightField& field, int sign, Places& places) const
 }
 
 std::optional<int> FloorRules::floor_level(const Places& places) const {
-  if (config_.floor_height == kAnyFloor) return lowest_large_level(places);
-  return largest_level_near(places, config_.floor_height / voxel_,
-                            kFloorTolerance / voxel_ + kRounding);
+  const auto near = [&](double height) {
+    return level_near(places, height / voxel_, kFloorTolerance / voxel_ + kRounding);
+  };
+  if (config_.floor_height != kAnyFloor) return near(config_.floor_height);
+  const std::optional<int> here = config_.stands_at ? near(*config_.stands_at) : std::nullopt;
+  return here ? here : lowest_large_level(places);
 }
 
 std::string FloorRules::no_floor(const Places& places) const {

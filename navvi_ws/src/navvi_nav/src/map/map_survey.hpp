@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct SurveyConfig {
   double floor_height = kAnyFloor;  ///< m, z of the floor to take
   int threads = 2;                  ///< that may share the work; the result is the same
   double margin = 0.35;             ///< m, that the floor will be eroded by
+  std::optional<double> stands_at;  ///< m, z of the robot's base_link, which is on the floor
 };
 
 struct SurveyRecord;
@@ -40,10 +42,12 @@ struct MapSurvey {
 
 /// Chooses the floor and classifies each cell (R-NAV-12).
 ///
-/// A voxel's top is a place to stand if `robot_height` above it is free. The floor is the lowest
-/// level that shows at least half as many such places as the largest does, or the largest level
-/// within 0.25 m of `floor_height`. From there the floor spreads to neighbours over steps and
-/// ramps, one height a cell, the floor's own level first:
+/// A voxel's top is a place to stand if `robot_height` above it is free. The floor is the level on
+/// which the robot stands: of those within 0.25 m of `stands_at` that show at least a quarter as
+/// many such places as the largest of them does, the nearest. `floor_height` has precedence, and
+/// must have such a level. Where there is neither, the floor is the lowest level that shows at
+/// least half as many places as the largest does. From there the floor spreads to neighbours over
+/// steps and ramps, one height a cell, the floor's own level first:
 ///
 /// - A step is climbed if it is at most `climb` high. Voxels of 0.05 m or less show what rises by
 ///   5 cm, so a pedestal or a kerb of 5 cm is an obstacle (R-NAV-12). Coarser ones cannot: a step

@@ -170,6 +170,21 @@ TEST(MapSurvey, takes_the_lowest_large_floor_or_the_one_it_is_told) {
             "(16.0 m^2), z = 0.00 m (16.0 m^2), z = -0.90 m (0.0 m^2)");
 }
 
+TEST(MapSurvey, takes_the_level_on_which_the_robot_stands) {
+  SmallWorld slab;  // of 8 x 8 m on a plane that shows more around it, with a pallet
+  slab.floor(-6, -6, 6, 6).box(-4, -4, 0, 4, 4, 0.05).box(1, 1, 0.05, 2, 2, 0.15);
+  EXPECT_NEAR(survey_of(slab).floor_height, 0.0, 1e-9) << "by area alone";
+  SurveyConfig config;
+  for (const auto& [stands_at, floor] :
+       {std::pair{0.05, 0.05}, {0.04, 0.05}, {0.0, 0.0}, {-0.02, 0.0}, {0.15, 0.05}, {3.0, 0.0}}) {
+    config.stands_at = stands_at;
+    EXPECT_NEAR(survey_of(slab, config).floor_height, floor, 1e-9) << stands_at;
+  }
+  config.stands_at = 0.0;
+  config.floor_height = 0.05;
+  EXPECT_NEAR(survey_of(slab, config).floor_height, 0.05, 1e-9) << "a given height comes first";
+}
+
 TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
   EXPECT_EQ(survey_map(Voxels{"", 0.05, {}}, {}).error, "the map has no occupied voxel");
   Voxels wide{"", 0.05, {{0, 0, 32768, 0, 1}, {65000, 65000, 32768, 0, 1}}};

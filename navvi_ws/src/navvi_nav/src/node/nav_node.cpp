@@ -199,7 +199,8 @@ class NavNode {
       const geometry_msgs::TransformStamped transform =
           buffer_.lookupTransform(config_.map_frame, config_.base_frame, ros::Time(0));
       if (const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform))
-        navigator_.set_pose(*pose, transform.header.stamp.toSec());
+        navigator_.set_pose(*pose, transform.transform.translation.z,
+                            transform.header.stamp.toSec());
     } catch (const tf2::TransformException&) {
       // The age of the pose shows it.
     }

@@ -23,7 +23,8 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
         "highest step that is driven over, and a voxel of more than 0.05 m at least (R-NAV-12); "
         "with it come ramps of less than 45 degrees (R-NAV-1); 0: none of them");
   visit(floor_height, "floor_height", Range{map::kAnyFloor, 1000.0}, "m",
-        "z of the floor in map; -1000: the lowest that is at least half as large as the largest");
+        "z of the floor in map; -1000: the level on which the robot stands when the first OctoMap "
+        "comes");
   visit(whole_cell_erosion, "whole_cell_erosion", navvi_config::Any{}, "",
         "round the eroded width up to whole cells (R-NAV-2)");
   visit(contour_error, "contour_error", Range{0.0, 2.0}, "cells",
@@ -48,9 +49,9 @@ double NavMesh::margin(double cell) const {
                                     : config_.robot_radius;
 }
 
-map::SurveyConfig survey_config(const NavMeshConfig& config) {
-  return {config.cell_size,    config.robot_height, config.climb,
-          config.floor_height, config.threads,      config.robot_radius};
+map::SurveyConfig survey_config(const NavMeshConfig& config, std::optional<double> stands_at) {
+  return {config.cell_size, config.robot_height, config.climb, config.floor_height,
+          config.threads,   config.robot_radius, stands_at};
 }
 
 bake::BakedMap NavMesh::bake(map::MapSurvey survey) const {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ struct NavMeshConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// How a map is surveyed for this mesh.
-[[nodiscard]] map::SurveyConfig survey_config(const NavMeshConfig& config);
+/// How a map is surveyed for this mesh. \param stands_at  as SurveyConfig's
+[[nodiscard]] map::SurveyConfig survey_config(const NavMeshConfig& config,
+                                              std::optional<double> stands_at = std::nullopt);
 
 /// What one change of the mesh did.
 struct MeshUpdate {
@@ -68,9 +70,11 @@ class NavMesh {
   /// The first part of set_map(), nearly all of its time. Another thread may do it while this one
   /// carves and plans; only one at a time, and take() must follow before the next.
   [[nodiscard]] bake::BakedMap bake(map::MapSurvey survey) const;
-  [[nodiscard]] bake::BakedMap bake(const map::MapBytes& bytes) const {
-    return bake(
-        map::survey_map(bytes, survey_config(config_), baked_.record.get(), baked_.floor.get()));
+  /// \param stands_at  m, z of base_link, by which the floor is told from other levels
+  [[nodiscard]] bake::BakedMap bake(const map::MapBytes& bytes,
+                                    std::optional<double> stands_at = std::nullopt) const {
+    return bake(map::survey_map(bytes, survey_config(config_, stands_at), baked_.record.get(),
+                                baked_.floor.get()));
   }
   [[nodiscard]] bake::BakedMap bake(const map::Voxels& voxels) const {
     return bake(map::survey_map(voxels, survey_config(config_)));

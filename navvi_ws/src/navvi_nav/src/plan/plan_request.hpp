@@ -24,6 +24,7 @@ struct MapMessage {
 struct PlanRequest {
   std::shared_ptr<const MapMessage> map;           ///< null: keep the map
   std::shared_ptr<const map::OccupancyGrid> grid;  ///< likewise; not both
+  std::optional<double> stands_at;                 ///< m, z of base_link, for the map's survey
   std::vector<Cylinder> obstacles;
   std::vector<Cylinder> predicted;   ///< where obstacles will be: avoided if there is a path
   std::vector<Cylinder> swept_area;  ///< to leave free if obstacles close the path; may be empty

@@ -120,7 +120,8 @@ bake::BakedMap Planner::bake(const PlanRequest& request) const {
     if (!request.map) return {};
     const MapMessage& map = *request.map;
     return nav_mesh_.bake(
-        map::MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution});
+        map::MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution},
+        request.stands_at);
   } catch (const std::exception& error) {
     failed.error = error.what();
   }

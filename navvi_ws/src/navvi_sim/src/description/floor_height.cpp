@@ -17,6 +17,7 @@ constexpr double kSlabShare = 0.5;     // of the largest level below it, that a 
 constexpr double kLeastFloor = 4.0;    // m^2: what is level and smaller stands on a floor
 constexpr double kStands = 0.3;        // m, from a storey's level to the foot of what stands on it
 constexpr double kSlab = 0.25;         // of a storey's area, that a slab on it covers at least
+constexpr double kMost = 0.5;          // likewise, that makes it the floor whatever stands on it
 
 /// Area of the level surfaces by height.
 class Surfaces {
@@ -98,9 +99,9 @@ void add_level(Surfaces& surfaces, const Thing& thing) {
   }
 }
 
-/// m, in map: the top of the slab that covers much of a storey and bears half of the things on it
-/// or more, such as asphalt on a ground plane; of several the highest, and `floor` if there is
-/// none.
+/// m, in map: the top of the slab that covers most of a storey, or much of it and bears half of the
+/// things on it or more, such as asphalt on a ground plane; of several the highest, and `floor` if
+/// there is none.
 double top_of_slab(const std::vector<Thing>& things, double floor, double area) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Thing& thing : things) boxes.push_back(bounds_of({thing}));
@@ -108,7 +109,8 @@ double top_of_slab(const std::vector<Thing>& things, double floor, double area) 
   for (std::size_t i = 0; i < things.size(); ++i) {
     const double top = boxes[i].max().z();
     if (things[i].route || top <= height || top > floor + kStands) continue;
-    if (level_area(things[i], top - kBin, top) < kSlab * area) continue;
+    const double slab = level_area(things[i], top - kBin, top);
+    if (slab < kSlab * area) continue;
     int on_slab = 0, others = 0;
     for (const Eigen::AlignedBox3d& box : boxes) {
       if (box.max().z() <= top || box.min().z() > top + kStands) continue;
@@ -118,7 +120,7 @@ double top_of_slab(const std::vector<Thing>& things, double floor, double area) 
           (boxes[i].max() - centre).head<2>().minCoeff() >= 0.0)
         ++on_slab;
     }
-    if (on_slab > 0 && 2 * on_slab >= others) height = top;
+    if (slab >= kMost * area || (on_slab > 0 && 2 * on_slab >= others)) height = top;
   }
   return height;
 }

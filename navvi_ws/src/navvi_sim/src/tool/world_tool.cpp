@@ -134,7 +134,8 @@ void print(const Request& request, const scenario::StartAndGoal& scenario) {
   for (const Thing& thing : world.things)
     ++counts[std::string(to_string(thing.thing_class)) + (thing.route ? " on routes" : "")];
   for (const auto& [what, number] : counts) std::cout << number << ' ' << what << '\n';
-  std::cout << world.name << ", " << caption_of(request, scenario) << "\nstart "
+  std::cout << world.name << ", " << caption_of(request, scenario)
+            << "\nfloor at z = " << rounded(world.floor_height, 3) << " m\nstart "
             << rounded(scenario.start.position.x(), 3) << ","
             << rounded(scenario.start.position.y(), 3) << "," << rounded(scenario.start.yaw, 3)
             << " goal " << rounded(scenario.goal.x(), 3) << "," << rounded(scenario.goal.y(), 3)

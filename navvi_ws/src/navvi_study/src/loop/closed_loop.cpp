@@ -129,7 +129,8 @@ void ClosedLoop::navigate() {
     begun_ = true;
     navigation_.set_goal(setting_.scenario.goal);
   }
-  if (const auto at = node::from_msg(pose())) navigation_.set_pose(*at, time());
+  const geometry_msgs::Transform at = pose();
+  if (const auto robot = node::from_msg(at)) navigation_.set_pose(*robot, at.translation.z, time());
   std::optional<navvi_types::Guidance> guidance = navigation_.update(time());
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());

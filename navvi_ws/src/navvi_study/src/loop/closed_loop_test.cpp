@@ -61,8 +61,9 @@ class ClosedLoopIn : public testing::Test {
   ~ClosedLoopIn() override { fs::remove_all(folder_); }
 
   /// The row of a trial of at most `limit` s.
-  record::Fields play(const std::string& world, double limit) {
-    config_.sim.world = (folder_ / "world.yaml").string();
+  record::Fields play(const std::string& world, double limit,
+                      const std::string& name = "world.yaml") {
+    config_.sim.world = (folder_ / name).string();
     std::ofstream(config_.sim.world) << world;
     ClosedLoop loop(config_, phrases_);
     LoopFigures figures(limit);
@@ -92,6 +93,28 @@ TEST_F(ClosedLoopIn, anEmptyRoomReachesItsGoalWithoutDetourOrContact) {
   EXPECT_LT(row.number("driven").value(), 1.2 * 8.06);
   EXPECT_GT(row.number("driven").value(), 8.06 - 1.2);
   EXPECT_NE(trace_.str().find("says \"Ready. Goal 8 meters"), std::string::npos);
+}
+
+TEST_F(ClosedLoopIn, aWorldWithASlabOnItsPlaneIsDrivenOnTheSlab) {
+  const auto box = [](const std::string& name, const std::string& size, const std::string& pose) {
+    return "<model name='" + name + "'><static>1</static><pose>" + pose +
+           " 0 0 0</pose><link name='l'><collision name='c'><geometry><box><size>" + size +
+           "</size></box></geometry></collision></link></model>";
+  };
+  const std::string begin = "<sdf version='1.6'><world name='w'>", end = "</world></sdf>";
+  const std::string plane =
+      "<model name='ground_plane'><static>1</static><link name='l'><collision name='c'><geometry>"
+      "<plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
+      "</model>";
+  const std::string boxes = box("b", "0.5 0.5 1", "2 2 0.55") + box("c", "0.5 0.5 1", "-2 2 0.55");
+  config_.sim.start = "-3,-1,0";
+  config_.sim.goal = "3,-1";
+  for (const std::string& things : {box("asphalt_plane", "8 8 0.1", "0 0 0") + boxes,
+                                    box("asphalt_plane", "20 20 0.1", "0 0 0")}) {
+    const record::Fields row = play(begin + plane + things + end, 60.0, "slab.world");
+    EXPECT_EQ(row.get("result"), "reached") << trace_.str();
+    EXPECT_EQ(row.get("hits"), "-");
+  }
 }
 
 TEST_F(ClosedLoopIn, everyLanguageAndWordingLeadsToTheGoalByWordsAlone) {
@@ -255,7 +278,7 @@ TEST(BuiltInWorlds, areLedThroughAtTheRobotsRadiusFromAllOnTenThousandPaths) {
                                     0.3,
                                     1.0});
       const Eigen::Vector2d start = somewhere();
-      navigation.set_pose({start, 0.0}, time);
+      navigation.set_pose({start, 0.0}, 0.0, time);
       navigation.set_obstacles(obstacles, time);
       navigation.set_goal(somewhere());
       std::optional<navvi_types::Guidance> guidance = navigation.update(time);

@@ -37,7 +37,9 @@ class Navigation {
   /// \param data  of a binary OctoMap message, as are `id` and `resolution`, m
   void set_map(std::vector<std::int8_t> data, const std::string& id, double resolution);
   void set_obstacles(const navvi_types::Obstacles& obstacles, double time);
-  void set_pose(const navvi_types::Pose2& pose, double time);
+  /// \param height  m, z of base_link, which is on the floor. The map is taken only when it is
+  ///                known: it tells which of the map's levels is the floor.
+  void set_pose(const navvi_types::Pose2& pose, double height, double time);
   void set_speed(double forward);  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(const Eigen::Vector2d& goal);
