@@ -1,5 +1,6 @@
 #include "read/mesh_file.hpp"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -14,6 +15,7 @@
 
 #include "description/sentence.hpp"
 #include "description/validate.hpp"
+#include "read/collada_check.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -30,7 +32,25 @@ constexpr std::uintmax_t kStlTriangle = 50;  // bytes
   throw WorldError("the mesh '" + file.string() + "' " + what);
 }
 
-void check_file(const std::filesystem::path& file) {
+/// Opens the mesh alone: the materials and pictures that it names may be any file, and a pipe among
+/// them would never end.
+class MeshAlone : public Assimp::DefaultIOSystem {
+ public:
+  explicit MeshAlone(std::string file) : file_(std::move(file)) {}
+  bool Exists(const char* file) const override { return file == file_; }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return file == file_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string file_;
+};
+
+/// \returns its extension in lower case
+std::string check_file(const std::filesystem::path& file) {
+  std::string extension = lower_case(file.extension().string());
+  if (extension != ".dae" && extension != ".stl" && extension != ".obj")
+    refuse(file, "is of a kind that is not read; allowed are .dae, .stl and .obj files");
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     refuse(file, "does not exist or is no file; allowed are .dae, .stl and .obj files");
@@ -41,6 +61,7 @@ void check_file(const std::filesystem::path& file) {
   std::ifstream(file).read(first.data(), static_cast<std::streamsize>(first.size()));
   if (first == pointer)
     refuse(file, "is a pointer of Git LFS and not the file itself; git lfs pull fetches it");
+  return extension;
 }
 
 [[noreturn]] void refuse_size(const std::filesystem::path& file) {
@@ -188,21 +209,25 @@ class MeshBuilder {
 Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
   if (!part.scale.allFinite() || (part.scale.array() == 0.0).any())
     refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
-  check_file(file);
-  check_stl(file);
+  const std::string extension = check_file(file);
+  if (extension == ".stl") check_stl(file);
   Assimp::Importer importer;
+  importer.SetIOHandler(new MeshAlone(file.string()));  // the importer's from now on
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does
   const aiScene* scene = nullptr;
   std::string reason;
   constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
   try {
-    if (lower_case(file.extension().string()) == ".dae") {
+    if (extension == ".dae") {
       const std::string plain = plain_collada(file);
+      check_collada(file, plain);
       scene = importer.ReadFileFromMemory(plain.data(), plain.size(), kSteps, "dae");
     } else {
       scene = importer.ReadFile(file.string(), kSteps);
     }
     reason = importer.GetErrorString();
+  } catch (const WorldError&) {
+    throw;
   } catch (const std::exception& error) {
     reason = error.what();
   }

@@ -1,0 +1,149 @@
+#include "read/mesh_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "sdf_folder.hpp"
+
+namespace navvi_sim::read {
+namespace {
+
+/// Collada with one triangle, geometry g.
+std::string collada(const std::string& library, const std::string& scene) {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset><unit meter='1'/><up_axis>Z_UP</up_axis></asset>"
+         "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='9'>"
+         "0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source='#a' count='3' "
+         "stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param name='Z' "
+         "type='float'/></accessor></technique_common></source><vertices id='v'><input "
+         "semantic='POSITION' source='#p'/></vertices><triangles count='1'><input offset='0' "
+         "semantic='VERTEX' source='#v'/><p>0 1 2</p></triangles></mesh></geometry>"
+         "</library_geometries>" +
+         library + "<library_visual_scenes><visual_scene id='s'>" + scene +
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+         "</COLLADA>";
+}
+const std::string kPiece = "<instance_geometry url='#g'/>";
+
+std::string repeated(const std::string& text, int count) {
+  std::string result;
+  for (int i = 0; i < count; ++i) result += text;
+  return result;
+}
+
+class MeshFile : public SdfFolder {
+ protected:
+  /// What a mesh is refused with; empty if it is read.
+  std::string refusal(const std::string& name, const std::string& text) const {
+    try {
+      triangles_ = read_mesh(write(name, text), {}).triangles.size();
+    } catch (const WorldError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  mutable std::size_t triangles_ = 0;  ///< of the last one that was read
+};
+
+TEST_F(MeshFile, takes_collada_apart_node_by_node) {
+  EXPECT_EQ(refusal("a.dae", collada("", "<node id='n'>" + kPiece + "</node>")), "");
+  EXPECT_EQ(triangles_, 1U);
+  // A node of the scene may have the name of the one that it instances.
+  const std::string library = "<library_nodes><node id='wheel'>" + kPiece +
+                              "</node>"
+                              "<node id='two'><instance_node url='#wheel'/><node>" +
+                              kPiece + "</node></node></library_nodes>";
+  EXPECT_EQ(refusal("b.dae", collada(library,
+                                     "<node name='wheel'><instance_node url='#wheel'/>"
+                                     "<instance_node url='#two'/></node>")),
+            "");
+  EXPECT_EQ(triangles_, 3U);
+  EXPECT_EQ(refusal("c.DAE", collada("", repeated("<node>" + kPiece + "</node>", 5000))), "");
+  EXPECT_EQ(triangles_, 5000U);
+}
+
+TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
+  for (const auto& [library, scene] : std::vector<std::pair<std::string, std::string>>{
+           {"", "<node id='n'>" + kPiece + "<instance_node url='#n'/></node>"},
+           {"", "<node name='n'>" + kPiece + "<instance_node url='#n'/></node>"},
+           {"", "<node id='n'>" + kPiece + "<node><instance_node url='#n'/></node></node>"},
+           {"", "<node id='n'>" + kPiece + "<instance_node url='#s'/></node>"},
+           {"", "<node id='n' name='a></node>'>" + kPiece + "<instance_node url='#n'/></node>"},
+           {"", "<node id='n'>" + kPiece +
+                    "<x><![CDATA[</node>]]></x><?x </node>?>"
+                    "<instance_node url='#n'/></node>"},
+           {"<library_nodes><node id='a'>" + kPiece +
+                "<instance_node url='#b'/></node>"
+                "<node id='b'><instance_node url='#a'/></node></library_nodes>",
+            "<node id='n'><instance_node url='#a'/></node>"}}) {
+    const std::string sentence = refusal("round.dae", collada(library, scene));
+    EXPECT_NE(sentence.find("round.dae' has a node '"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("instances itself"), std::string::npos) << sentence;
+  }
+  EXPECT_NE(refusal("hidden.dae",
+                    collada("", "<node id='n'>" + kPiece + "<instance_node url='#&#110;'/></node>"))
+                .find("entity"),
+            std::string::npos);
+}
+
+TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
+  std::string levels = "<library_nodes><node id='n0'>" + kPiece + "</node>";
+  for (int i = 1; i <= 10; ++i)
+    levels += "<node id='n" + std::to_string(i) + "'>" +
+              repeated("<instance_node url='#n" + std::to_string(i - 1) + "'/>", 10) + "</node>";
+  levels += "</library_nodes>";
+  EXPECT_NE(refusal("bomb.dae", collada(levels, "<node><instance_node url='#n10'/></node>"))
+                .find("bomb.dae' unfolds to more than 100000 nodes"),
+            std::string::npos);
+  EXPECT_EQ(refusal("few.dae", collada(levels, "<node><instance_node url='#n3'/></node>")), "");
+  EXPECT_EQ(triangles_, 1000U);
+  EXPECT_NE(refusal("many.dae", collada("", repeated("<node/>", 100'001))).find("unfolds"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal("deep.dae", collada("", repeated("<node>", 300) + kPiece + repeated("</node>", 300)))
+          .find("nested more than 200 deep"),
+      std::string::npos);
+  std::string chain = "<library_nodes><node id='n0'>" + kPiece + "</node>";
+  for (int i = 1; i <= 1000; ++i)
+    chain += "<node id='n" + std::to_string(i) + "'><instance_node url='#n" +
+             std::to_string(i - 1) + "'/></node>";
+  EXPECT_NE(refusal("chain.dae", collada(chain + "</library_nodes>",
+                                         "<node><instance_node url='#n1000'/></node>"))
+                .find("nested more than 200 deep"),
+            std::string::npos);
+  EXPECT_NE(refusal("text.dae", collada(repeated("<a>", 200'000) + repeated("</a>", 200'000), ""))
+                .find("nested more than 1000 deep"),
+            std::string::npos);
+  EXPECT_NE(refusal("type.dae", "<!DOCTYPE x [<!ENTITY n 'n'>]>" + collada("", "<node/>"))
+                .find("document type"),
+            std::string::npos);
+}
+
+TEST_F(MeshFile, opens_the_mesh_alone_and_no_file_that_it_names) {
+  ASSERT_EQ(mkfifo((folder_ / "x.mtl").c_str(), 0600), 0);
+  EXPECT_EQ(refusal("a.obj", "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"), "");
+  EXPECT_EQ(triangles_, 1U);
+  EXPECT_EQ(refusal("b.obj", "mtllib ../../../../etc/passwd\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            "");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.stl").c_str(), 0600), 0);
+  EXPECT_THROW(static_cast<void>(read_mesh(folder_ / "pipe.stl", {})), WorldError);
+}
+
+TEST_F(MeshFile, refuses_what_is_neither_dae_nor_stl_nor_obj) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+      "3 0 1 2\n";
+  for (const char* name : {"a.ply", "a.gltf", "a.fbx", "a", "a.dae.ply"}) {
+    const std::string sentence = refusal(name, ply);
+    EXPECT_NE(sentence.find("allowed are .dae, .stl and .obj files"), std::string::npos) << name;
+  }
+  for (const char* name : {"a.dae", "a.stl", "a.obj"}) EXPECT_NE(refusal(name, ply), "") << name;
+  EXPECT_EQ(refusal("A.STL",
+                    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                    "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n"),
+            "");
+}
+
+}  // namespace
+}  // namespace navvi_sim::read
