@@ -77,6 +77,7 @@ std::string world_hash(const WorldDescription& world) {
       std::visit([&hash](const auto& geometry) { hash(geometry); }, shape.geometry);
       hash.add(shape.pose);
       hash.add(std::string(to_string(look_of(thing, shape))));
+      if (shape.solid) hash.add(std::string("solid"));
     }
     hash.add(static_cast<std::uint64_t>(thing.route.has_value()));
     if (thing.route) add(hash, *thing.route);

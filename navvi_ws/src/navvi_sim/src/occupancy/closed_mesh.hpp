@@ -13,6 +13,7 @@ class ClosedMesh {
   explicit ClosedMesh(std::vector<Triangle> triangles);
 
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
   /// Exact, however the triangles are wound: an eighth is touched where the surface passes or where
   /// it lies inside, and full where it lies inside and no surface passes.
   [[nodiscard]] Octants octants(const Cell& cell) const;

@@ -38,13 +38,15 @@ struct Ground {
 class ShapeInserter {
  public:
   /// \param enclosing  the inside of a closed mesh is where one drives
+  /// \param solid      it is not, whatever the thing
   ShapeInserter(OccupiedShapes& shapes, const Eigen::Isometry3d& pose, double resolution,
-                const Ground& ground, bool enclosing)
+                const Ground& ground, bool enclosing, bool solid)
       : shapes_(shapes),
         pose_(pose),
         resolution_(resolution),
         ground_(ground),
-        enclosing_(enclosing) {}
+        enclosing_(enclosing),
+        solid_(solid) {}
 
   void operator()(const Box& box) const {
     const double reach = reach_of(box.size.minCoeff());
@@ -72,9 +74,9 @@ class ShapeInserter {
         triangle.corners[i] = pose_ * mesh->vertices[indices[i]].cast<double>() + down;
       triangles.push_back(triangle);
     }
-    if (!enclosing_ && triangles.size() <= kMostFilled)
+    if (solid_ || (!enclosing_ && triangles.size() <= kMostFilled))
       for (ClosedMesh& part : closed_parts(triangles))
-        if (part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled &&
+        if ((solid_ || part.bounds().sizes().head<2>().minCoeff() <= kWidestFilled) &&
             rise_of(part.bounds().max().z()) == 0.0)
           shapes_.closed.push_back(std::move(part));
     for (Triangle& triangle : triangles) {
@@ -114,6 +116,7 @@ class ShapeInserter {
   double resolution_;
   Ground ground_;
   bool enclosing_;
+  bool solid_;
 };
 
 void check_reach(const Thing& thing, const Eigen::AlignedBox3d& bounds, double resolution) {
@@ -149,8 +152,9 @@ OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& 
       check_reach(thing, bounds, config.resolution);
       const double shift = border - world.floor_height;
       const Eigen::Translation3d lift(0.0, 0.0, shift + ground.rise(bounds.max().z() + shift));
-      std::visit(ShapeInserter(shapes, lift * pose, config.resolution, ground, enclosing),
-                 shape.geometry);
+      std::visit(
+          ShapeInserter(shapes, lift * pose, config.resolution, ground, enclosing, shape.solid),
+          shape.geometry);
     }
   }
   return {config.resolution, write_octree(shapes, config.resolution, kMaxBytes)};

@@ -156,6 +156,20 @@ TEST(Occupancy, fills_a_closed_mesh_and_no_open_one_and_no_wall) {
   EXPECT_FALSE(at(map_of({standing(ThingClass::wall, crate(false), frame)}), inside));
 }
 
+TEST(Occupancy, fills_a_solid_mesh_however_wide_and_whatever_its_class) {
+  for (const ThingClass thing_class : {ThingClass::wall, ThingClass::other}) {
+    Thing block = standing(thing_class, crate(false), pose(0, 0, 0.01));
+    auto wide =
+        std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(block.shapes[0].geometry));
+    for (Eigen::Vector3f& vertex : wide->vertices) vertex.head<2>() *= 6.0F;
+    block.shapes[0].geometry = std::shared_ptr<const Mesh>(wide);
+    EXPECT_FALSE(occupied(map_of({block}), 3.0, 3.0, 0.5));
+    block.shapes[0].solid = true;
+    EXPECT_TRUE(occupied(map_of({block}), 3.0, 3.0, 0.5));
+    EXPECT_FALSE(occupied(map_of({block}), 3.0, 3.0, 1.1));
+  }
+}
+
 TEST(Occupancy, does_not_let_the_floor_creep_up) {
   const auto slab = standing(ThingClass::floor, Box{{4.0, 4.0, 0.1}}, pose(0, 0, -0.05));
   auto plane = std::make_shared<Mesh>();

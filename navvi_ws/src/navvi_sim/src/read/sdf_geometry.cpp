@@ -69,7 +69,7 @@ SdfGeometry SdfShapes::read(const XmlElement& geometry, const Eigen::Isometry3d&
         refuse(kind,
                "<polyline> is no outline with an inside; allowed are 3 to 300 points, not "
                "all on one line, whose sides do not cross");
-      result.shapes.push_back({std::make_shared<const Mesh>(*prism), pose});
+      result.shapes.push_back({std::make_shared<const Mesh>(*prism), pose, std::nullopt, true});
     } else if (kind.name == "mesh") {
       result.shapes.push_back({mesh(kind, scale), pose});
     } else if (kind.name == "plane") {

@@ -44,8 +44,13 @@ void mark(const FloorGrid& grid, const Polygon& polygon, double gap,
 
 FreePlaces::FreePlaces(const WorldDescription& world, const FloorGrid& grid,
                        const ScenarioConfig& config)
-    : world_(world), grid_(grid), config_(config), hull_(hull_of_what_stands(world)) {
+    : world_(world),
+      grid_(grid),
+      config_(config),
+      hull_(hull_of_what_stands(world)),
+      blocks_(world, grid, config.robot_radius + config.clearance) {
   all_ = grid.cells_clear_by(config.robot_radius + config.clearance);
+  keep(all_, 0, [&](std::size_t cell) { return !blocks_.holds(cell); });
   std::vector<std::uint8_t> in_hull(grid.size(), 0);
   if (hull_.size() > 2) mark(grid, hull_, 0.0, in_hull);
   keep(all_, 0, [&](std::size_t cell) { return in_hull[cell] != 0; });

@@ -7,6 +7,7 @@
 
 #include "description/footprint.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
+#include "scenario/closed_blocks.hpp"
 #include "scenario/floor_grid.hpp"
 
 namespace navvi_sim::scenario {
@@ -25,13 +26,14 @@ class FreePlaces {
   /// \throws WorldError if there is no place as clear as `config` says, or as swept_ground
   FreePlaces(const WorldDescription& world, const FloorGrid& grid, const ScenarioConfig& config);
 
-  /// Clear of everything that stands still, inside the hull of that, and in rooms, each where there
-  /// are such; at least one.
+  /// Clear of everything that stands still, in no closed block, inside the hull of what stands, and
+  /// in rooms, each where there are such; at least one.
   [[nodiscard]] const Places& all() const { return all_; }
   /// Those of them off the ground that movers sweep.
   [[nodiscard]] const Places& quiet() const { return quiet_; }
   /// Around everything that stands, as hull_of_what_stands().
   [[nodiscard]] const Polygon& hull() const { return hull_; }
+  [[nodiscard]] const ClosedBlocks& blocks() const { return blocks_; }
   /// Those of `places` that keep their distance from where movers begin; all of them if none does.
   [[nodiscard]] Places away_from_movers(const Places& places) const;
 
@@ -42,6 +44,7 @@ class FreePlaces {
   const FloorGrid& grid_;
   const ScenarioConfig& config_;
   Polygon hull_;
+  ClosedBlocks blocks_;
   Places all_, quiet_;
 };
 

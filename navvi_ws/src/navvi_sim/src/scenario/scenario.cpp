@@ -70,7 +70,8 @@ class ScenarioSampler {
                                         const std::optional<Eigen::Vector2d>& goal);
   [[nodiscard]] StartAndGoal with_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] StartAndGoal with_nothing();
-  [[nodiscard]] const FreePlaces& places() const { return places_; }
+  /// Where the ends of a route lie, if that is odd; else empty.
+  [[nodiscard]] std::string note_on(const StartAndGoal& drawn) const;
 
  private:
   using Places = FreePlaces::Places;
@@ -252,7 +253,19 @@ Pose2 ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cel
   return {place, std::atan2(view.y(), view.x())};
 }
 
-std::string note_on(const StartAndGoal& drawn, const Polygon& hull) {
+std::string ScenarioSampler::note_on(const StartAndGoal& drawn) const {
+  const auto block_at = [&](const Eigen::Vector2d& place) {
+    const std::size_t cell = place.allFinite() ? grid_.cell_at(place) : FloorGrid::kNone;
+    return cell == FloorGrid::kNone ? "" : places_.blocks().name_at(cell);
+  };
+  const std::string around_start = block_at(drawn.start.position);
+  const std::string around_goal = block_at(drawn.goal);
+  if (!around_start.empty() && around_start == around_goal)
+    return "start and goal lie inside of '" + around_start + "', a closed mesh";
+  if (!around_start.empty())
+    return "the start lies inside of '" + around_start + "', a closed mesh";
+  if (!around_goal.empty()) return "the goal lies inside of '" + around_goal + "', a closed mesh";
+  const Polygon& hull = places_.hull();
   if (hull.empty()) return {};
   std::string who;
   if (!lies_in(hull, drawn.start.position)) who = "the start lies";
@@ -302,7 +315,7 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
   StartAndGoal drawn = start  ? sampler.with_start(*start, goal)
                        : goal ? sampler.with_goal(*goal)
                               : sampler.with_nothing();
-  drawn.note = note_on(drawn, sampler.places().hull());
+  drawn.note = sampler.note_on(drawn);
   return drawn;
 }
 

@@ -106,6 +106,74 @@ TEST_F(ScenarioIn, is_drawn_inside_a_house_and_not_in_the_ring_of_floor_around) 
             "the start lies outside of everything that stands in this world");
 }
 
+/// A box from (-x, -y) to (x, y) as a closed mesh of 2 m.
+void add_shell(Mesh& mesh, float x, float y) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const float z : {0.0F, 2.0F})
+    for (const float north : {-y, y})
+      for (const float east : {-x, x}) mesh.vertices.emplace_back(east, north, z);
+  for (const auto& side : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 3},
+                                                                    {0, 3, 2},
+                                                                    {0, 1, 5},
+                                                                    {0, 5, 4},
+                                                                    {1, 3, 7},
+                                                                    {1, 7, 5},
+                                                                    {3, 2, 6},
+                                                                    {3, 6, 7},
+                                                                    {2, 0, 4},
+                                                                    {2, 4, 6},
+                                                                    {4, 5, 7},
+                                                                    {4, 7, 6}})
+    mesh.triangles.push_back({first + side[0], first + side[1], first + side[2]});
+}
+
+WorldDescription ground_with(std::shared_ptr<const Mesh> mesh, double yaw) {
+  WorldDescription world;
+  world.name = "block";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {14.0, 14.0, 0.1}));
+  Thing block = thing("block", ThingClass::other, {0, 0, 0}, {1, 1, 1});
+  block.pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+  block.shapes[0].geometry = std::move(mesh);
+  world.things.push_back(block);
+  return world;
+}
+
+TEST_F(ScenarioIn, is_not_drawn_inside_of_a_closed_block) {
+  const auto inside = [](const Eigen::Vector2d& place, double yaw) {
+    return (Eigen::Rotation2Dd(-yaw) * place).cwiseAbs().maxCoeff() < 4.0;
+  };
+  for (const double yaw : {0.0, 0.3}) {
+    auto shell = std::make_shared<Mesh>();
+    add_shell(*shell, 4.0F, 4.0F);
+    enter(ground_with(shell, yaw));
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      const StartAndGoal scenario = draw(seed);
+      EXPECT_FALSE(inside(scenario.start.position, yaw)) << seed << " " << yaw;
+      EXPECT_FALSE(inside(scenario.goal, yaw)) << seed << " " << yaw;
+    }
+    EXPECT_EQ(draw(1, Pose2{{0.0, 0.0}, 0.0}, Eigen::Vector2d(1.0, 0.0)).note,
+              "start and goal lie inside of 'block', a closed mesh");
+  }
+}
+
+TEST_F(ScenarioIn, is_drawn_in_a_closed_mesh_that_is_a_room) {
+  auto shell = std::make_shared<Mesh>();
+  add_shell(*shell, 4.0F, 4.0F);
+  WorldDescription furnished = ground_with(shell, 0.0);
+  furnished.things.push_back(thing("table", ThingClass::other, {1.0, 1.0, 0.4}, {1.0, 1.0, 0.8}));
+  add_shell(*shell, 5.0F, 5.0F);  // thick walls
+  WorldDescription all_inside = ground_with(shell, 0.0);
+  all_inside.things[0] = thing("ground", ThingClass::floor, {0, 0, -0.05}, {7.0, 7.0, 0.1});
+  for (const WorldDescription& world : {furnished, ground_with(shell, 0.0), all_inside}) {
+    enter(world);
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      const StartAndGoal scenario = draw(seed);
+      EXPECT_LT(scenario.start.position.cwiseAbs().maxCoeff(), 4.0) << seed;
+      EXPECT_EQ(scenario.note, "") << seed;
+    }
+  }
+}
+
 TEST_F(ScenarioIn, is_drawn_in_the_rooms_of_a_house_and_not_in_its_yard) {
   WorldDescription world;  // three wings around a yard that is open to the south
   world.name = "house";

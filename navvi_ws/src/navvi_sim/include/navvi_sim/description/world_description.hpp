@@ -38,7 +38,8 @@ struct Shape {
   Geometry geometry;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the thing's frame
   std::optional<ThingClass> look =
-      std::nullopt;  ///< shown as this class where not as its thing: a shelf's boxes
+      std::nullopt;    ///< shown as this class where not as its thing: a shelf's boxes
+  bool solid = false;  ///< a mesh without a hollow, such as a polyline: filled whatever its size
 };
 
 /// A place on a route.

@@ -21,8 +21,9 @@ struct OccupancyConfig {
 /// along each axis, so that a top that lies on a border of voxels does not occupy the voxel above
 /// it. Boxes, cylinders and spheres are filled, and so is the inside of a mesh's closed parts,
 /// except in floors and walls, in meshes of more than 2000 triangles, and in parts more than 4 m
-/// long and wide, which may be buildings; other meshes are surfaces, which occupy the voxels on
-/// both sides where they stand on a border. Free space is not marked.
+/// long and wide, which may be buildings (polylines have no hollow and are always filled); other
+/// meshes are surfaces, which occupy the voxels on both sides where they stand on a border. Free
+/// space is not marked.
 ///
 /// The whole world is moved along z, by half a voxel at most, so that `floor_height` falls on a
 /// border of voxels: a thing on the floor then shows above it wherever the floor lies (R-NAV-12).

@@ -39,14 +39,16 @@ struct StartAndGoal {
                               ///< be reached
   std::vector<Eigen::Vector2d>
       route;              ///< m, from start to goal, pulled taut; empty if there is none
-  std::string note = {};  ///< a sentence if one of them lies outside of all that stands; else empty
+  std::string note = {};  ///< a sentence if one of them lies outside of all that stands, or in a
+                          ///< closed block; else empty
 };
 
 /// How often a polyline turns: by 30 degrees or more from one leg of 1 m or more to the next.
 [[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
 
 /// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
-/// connected over the floor, inside the hull of what stands and in its rooms, where there are such,
+/// connected over the floor, in no closed block, inside the hull of what stands and in its rooms,
+/// where there are such,
 /// and, where the world has such places, off the ground that movers sweep: a robot that stood there
 /// would keep them from going on. A goal that is given is passed on as it is, free or not: refusing
 /// it is navigation's task. A drawn start looks along its route. Length and turns that are asked
