@@ -82,6 +82,13 @@ void override_with(XmlElement& model, const XmlElement& include) {
                    children.end());
     children.push_back(*pose);
   }
+  if (const XmlElement* fixed = include.child("static")) {
+    auto& children = model.children;
+    children.erase(std::remove_if(children.begin(), children.end(),
+                                  [](const XmlElement& child) { return child.name == "static"; }),
+                   children.end());
+    children.push_back(*fixed);
+  }
   const std::string placement = include.text_of("placement_frame");
   if (!placement.empty()) model.attributes["placement_frame"] = placement;
   for (const XmlElement* plugin : include.children_named("plugin"))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "description/aabb_tree.hpp"
 #include "description/floor_height.hpp"
 #include "description/sentence.hpp"
 
@@ -19,6 +20,20 @@ constexpr double kFloorExcess = 3.0;     // or of what is level above, as the to
 constexpr double kFloorDepth = 0.5;      // m, of a building below its own floor
 constexpr double kHeadroom = 2.0;        // m, below another storey
 constexpr double kSlab = 0.35;           // m, between a storey's surface and the foot of its slab
+constexpr double kCarried = 0.05;        // m, between a thing and what it stands on
+
+/// Whether a box meets a shape, a mesh by the boxes of its triangles.
+bool meets(const Thing& thing, const Shape& shape, const Eigen::AlignedBox3d& box) {
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.geometry);
+  if (mesh == nullptr) return true;
+  const Eigen::Isometry3d pose = thing.pose * shape.pose;
+  return std::any_of((*mesh)->triangles.begin(), (*mesh)->triangles.end(), [&](const auto& side) {
+    Eigen::AlignedBox3d bounds;
+    for (const std::uint32_t index : side)
+      bounds.extend(pose * (*mesh)->vertices[index].template cast<double>());
+    return box.intersects(bounds);
+  });
+}
 
 }  // namespace
 
@@ -82,6 +97,7 @@ void SdfThings::find_floor(const std::filesystem::path& file) {
     loaded.world.things[thing].pose.translation().z() = *height;
   leave_out_what_is_under(*height, file);
   if (storey) leave_out_storey(*storey);
+  name_what_hangs();
 }
 
 /// A building of one piece has its own floor, which no rule knows by name.
@@ -166,6 +182,44 @@ void SdfThings::leave_out_storey(double storey) {
                                 "since the robot drives at " + text(loaded.world.floor_height) +
                                 " m: " + std::to_string(lost.size()) + " things, " + names +
                                 (lost.size() > kNamed ? ", ..." : ""));
+}
+
+/// Things stay where their file puts them, also what falls in Gazebo. Boxes along the axes tell
+/// what is near, so that what is carried somehow is not named.
+void SdfThings::name_what_hangs() {
+  struct Piece {
+    std::size_t thing;
+    const Shape* shape;
+  };
+  std::vector<Piece> pieces;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  const std::vector<Thing>& things = loaded.world.things;
+  for (std::size_t i = 0; i < things.size() && !loose_.empty(); ++i)
+    for (const Shape& shape : things[i].shapes) {
+      pieces.push_back({i, &shape});
+      boxes.push_back(bounds_of(shape.geometry, things[i].pose * shape.pose));
+    }
+  const AabbTree tree(boxes);
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const Thing& thing = things[i];
+    Eigen::AlignedBox3d reach = bounds_of({thing});
+    reach.min().z() -= kCarried;
+    if (loose_.count(thing.name) == 0 || thing.route || thing.thing_class == ThingClass::floor ||
+        reach.min().z() <= loaded.world.floor_height)
+      continue;
+    bool carried = false;
+    tree.search([&](const Eigen::AlignedBox3d& box) { return reach.squaredExteriorDistance(box); },
+                [&] { return carried ? -1.0 : 0.0; },
+                [&](std::uint32_t index) {
+                  const Piece& piece = pieces[index];
+                  carried = carried || (piece.thing != i && reach.intersects(boxes[index]) &&
+                                        meets(things[piece.thing], *piece.shape, reach));
+                });
+    if (!carried)
+      notes_.add(places_[i], "'" + thing.name +
+                                 "' is not static and nothing carries it: in Gazebo it falls, and "
+                                 "here it stays in the air");
+  }
 }
 
 }  // namespace navvi_sim::read

@@ -26,6 +26,9 @@ class SdfThings {
 
   /// \param place  where it stands in its file
   void add(Thing thing, const std::string& place);
+  /// Notes that a thing is neither static nor held by a joint: gravity moves it if nothing carries
+  /// it.
+  void set_loose(const std::string& thing) { loose_.insert(thing); }
   /// What is put on the floor, wherever that is.
   void add_on_floor(Thing thing, const std::string& place);
   /// A level plane: it becomes a floor under all things.
@@ -39,8 +42,9 @@ class SdfThings {
   }
 
   /// Adds the planes, finds the floor's height, gives another class to what a rule calls a floor
-  /// and is none, and leaves out what lies under the floor and on storeys above. \throws WorldError
-  /// that begins with `file` if no thing is a floor, or too much lies under it
+  /// and is none, leaves out what lies under the floor and on storeys above, and names what hangs
+  /// in the air. \throws WorldError that begins with `file` if no thing is a floor, or too much
+  /// lies under it
   void find_floor(const std::filesystem::path& file);
 
   LoadedWorld loaded;
@@ -67,10 +71,12 @@ class SdfThings {
   void leave_out_what_is_under(double height, const std::filesystem::path& file);
   /// With all that is above it.
   void leave_out_storey(double storey);
+  void name_what_hangs();
 
   SdfNotes& notes_;
   std::vector<std::string> places_;
   std::set<std::string> names_;
+  std::set<std::string> loose_;  ///< things
   std::vector<Plane> planes_;
   std::map<std::string, ClassRules::Match> if_no_floor_;  ///< by thing
   std::vector<std::size_t> on_floor_;                     ///< things

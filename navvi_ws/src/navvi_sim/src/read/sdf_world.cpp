@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "description/sentence.hpp"
 #include "description/validate.hpp"
 #include "generate/furniture.hpp"
 #include "read/sdf_files.hpp"
@@ -28,6 +29,22 @@ Eigen::Isometry3d upright(const Eigen::Isometry3d& pose) {
   return generate::at(at.x(), at.y(), at.z(), std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)));
 }
 
+/// Whether a child says so, in any spelling: what is misspelt here moves nothing.
+bool says(const XmlElement& element, const char* child, const char* word, const char* digit) {
+  const std::string text = lower_case(element.text_of(child));
+  return text == word || text == digit;
+}
+
+/// Whether a model stays where it is put, whatever carries it.
+bool is_held(const XmlElement& model) {
+  if (says(model, "static", "true", "1") || model.child("joint") != nullptr) return true;
+  for (const XmlElement* link : model.children_named("link"))
+    if (says(*link, "gravity", "false", "0") || says(*link, "kinematic", "true", "1")) return true;
+  const auto inner = model.children_named("model");
+  return std::any_of(inner.begin(), inner.end(),
+                     [](const XmlElement* one) { return is_held(*one); });
+}
+
 bool has_collision(const XmlElement& model) {
   const auto links = model.children_named("link");
   return std::any_of(links.begin(), links.end(),
@@ -50,6 +67,8 @@ class WorldReader {
     const XmlElement world = files_.world(notes_);
     LoadedWorld& loaded = things_.loaded;
     loaded.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
+    const std::string gravity = world.text_of("gravity");
+    weightless_ = !gravity.empty() && gravity.find_first_of("123456789") == std::string::npos;
     for (const XmlElement* state : world.children_named("state")) keep_state(*state, world);
     notes_.add_leftovers(world);
     for (const XmlElement* model : world.children_named("model"))
@@ -126,14 +145,17 @@ class WorldReader {
   // -- Models and actors
 
   /// \param pose  in map
-  void read_model(const XmlElement& model, const std::string& name, const Eigen::Isometry3d& pose) {
+  /// \param held  by a model around it
+  void read_model(const XmlElement& model, const std::string& name, const Eigen::Isometry3d& pose,
+                  bool held = false) {
+    held = held || weightless_ || is_held(model);
     const auto inner = model.children_named("model");
     if (inner.size() > 1 && !has_collision(model)) {
       notes_.add_leftovers(model);
       for (const XmlElement* one : inner)
         notes_.piece(name + "::" + name_of(*one), [&] {
           read_model(*one, name + "::" + name_of(*one),
-                     pose * pose_of(model, *one, pose, Eigen::Isometry3d::Identity()));
+                     pose * pose_of(model, *one, pose, Eigen::Isometry3d::Identity()), held);
         });
       return;
     }
@@ -146,6 +168,7 @@ class WorldReader {
     thing.route = own_route(model);
     if (!thing.shapes.empty()) {
       check(thing, model);
+      if (!held) things_.set_loose(thing.name);
       things_.add(std::move(thing), model.place());
       return;
     }
@@ -277,6 +300,7 @@ class WorldReader {
   SdfShapes shapes_;
   SdfThings things_;
   bool has_foreign_routes_ = false;                       ///< given by an actor
+  bool weightless_ = false;                               ///< there is no gravity
   std::map<const XmlElement*, const XmlElement*> saved_;  ///< states, by what they are of
   int moved_ = 0;
   int scaled_ = 0;

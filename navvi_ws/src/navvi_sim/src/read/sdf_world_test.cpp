@@ -165,6 +165,41 @@ TEST_F(SdfWorld, is_read_without_storeys_and_ceilings_above_its_floor) {
   EXPECT_TRUE(has_note(loaded, {"STOREY OR CEILING at 3 m", "3 things", "'floor_02'", "'bed'"}));
 }
 
+TEST_F(SdfWorld, names_what_is_not_static_and_hangs_in_the_air) {
+  write("table.obj",
+        "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\nf 1 3 4\n"
+        "f 1 2 6\nf 1 6 5\n");
+  const std::string link =
+      "<link name='l'><collision name='c'><geometry><box><size>1 1 1</size></box></geometry>"
+      "</collision></link>";
+  const auto at = [&](const std::string& name, const std::string& pose, const std::string& more) {
+    return "<model name='" + name + "'>" + more + "<pose>" + pose + " 0 0 0</pose>" + link +
+           "</model>\n";
+  };
+  write_model("loose", link);
+  const std::string include = "<include><uri>model://loose</uri>";
+  const LoadedWorld loaded = load(
+      ground_ + "\n" + at("on_floor", "-5 0 0.5", "") + at("hangs", "2 0 3", "") +
+      at("fixed", "2 3 3", "<static>true</static>") + at("upper", "-5 0 1.52", "") +
+      model("table", "<mesh><uri>table.obj</uri></mesh>", "5 5 0 0 0 0") +
+      at("on_table", "5 5 1.5", "") + at("over_table", "5 5 3.5", "") +
+      at("hinged", "-3 5 3",
+         "<joint name='j' type='revolute'><parent>world</parent><child>l"
+         "</child></joint>") +
+      "<model name='light'><pose>-3 -5 3 0 0 0</pose><link name='l'><gravity>0</gravity><collision "
+      "name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model>" +
+      include + "<name>put</name><static>1</static><pose>0 5 3 0 0 0</pose></include>" + include +
+      "<name>dropped</name><pose>0 -5 3 0 0 0</pose></include>");
+  EXPECT_TRUE(has_note(loaded, {"'hangs' is not static", "here it stays in the air", "2 more",
+                                "'over_table'", "'dropped'"}));
+  for (const char* carried :
+       {"'on_floor'", "'fixed'", "'upper'", "'on_table'", "'hinged'", "'light'", "'put'"})
+    EXPECT_FALSE(has_note(loaded, {carried})) << carried;
+  EXPECT_NEAR(bounds(*thing_named(loaded.world, "hangs")).min().z(), 2.5, 1e-9);
+  EXPECT_FALSE(
+      has_note(load("<gravity>0 0 0</gravity>" + ground_ + at("hangs", "2 0 3", "")), {"hangs"}));
+}
+
 TEST_F(SdfWorld, has_the_floor_of_its_building_where_nothing_is_named_one) {
   write("house.obj",
         "v -5 -5 0\nv 5 -5 0\nv 5 5 0\nv -5 5 0\nv -5 -5 3\nv 5 -5 3\n"
