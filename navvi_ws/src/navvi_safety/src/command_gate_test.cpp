@@ -68,6 +68,30 @@ TEST_F(Gate, stops_when_either_clock_says_the_command_is_old) {
   }
 }
 
+TEST_F(Gate, S7_a_pause_of_ten_minutes_of_simulated_time_stops_nobody_who_is_heard) {
+  start();
+  for (double end = now_.wall + 600.0; now_.wall < end; now_.wall += kStep) {
+    gate_.receive(Velocity{1.0, 0.5}, now_);
+    wheels_ = gate_.update(now_);
+    ASSERT_EQ(gate_.state(), CommandGate::State::running) << now_.wall;
+  }
+  hold(0.1, Velocity{1.0, 0.5});
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
+TEST_F(Gate, S7_after_a_halt_of_ten_minutes_it_moves_only_once_the_stick_was_neutral) {
+  start();
+  silence(600.0, 0.0);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  for (int i = 0; i < 250; ++i) {
+    hold(kStep, Velocity{1.0, 0.0});
+    ASSERT_EQ(wheels_.linear, 0.0);
+  }
+  hold(0.4, Velocity{});
+  hold(0.1, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
 TEST_F(Gate, stops_when_time_runs_backwards) {
   start();
   silence(0.02, -97.0);

@@ -107,6 +107,22 @@ TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
 }
 
+TEST_F(FeedbackTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
+  const auto live = [&](double seconds) {
+    for (const double end = time_ + seconds; time_ < end - 1e-9; pass(0.06)) lead(0.5);
+  };
+  live(10.0);
+  const std::size_t at_first = kinds_.size();
+  kinds_.clear();
+  pass(600.0);
+  EXPECT_TRUE(said("simulator_lost"));
+  EXPECT_LE(kinds_.size(), 4U) << "each loss is said once";
+  kinds_.clear();
+  live(10.0);
+  EXPECT_TRUE(said("direction"));
+  EXPECT_LE(kinds_.size(), at_first + 1) << "as at the begin";
+}
+
 class Driven : public FeedbackTest {
  protected:
   /// m/s, with the stick `axes` and the buttons held for 2 s after it was neutral.

@@ -28,5 +28,15 @@ TEST(Pacer, lets_go_of_what_it_cannot_catch_up) {
   EXPECT_EQ(pacer.due(1.01), 1);
 }
 
+TEST(Pacer, S7_a_pause_of_ten_minutes_is_not_made_up_for) {
+  Pacer pacer(0.01, 1.0, 10);
+  EXPECT_EQ(pacer.due(0.0), 0);
+  EXPECT_EQ(pacer.due(600.0), 10);
+  EXPECT_EQ(pacer.dropped(), 59990);
+  int steps = 0;
+  for (int i = 1; i <= 100; ++i) steps += pacer.due(600.0 + 0.01 * i);
+  EXPECT_EQ(steps, 100);
+}
+
 }  // namespace
 }  // namespace navvi_sim::live
