@@ -55,7 +55,7 @@ class Lockstep : public testing::Test {
     for (int i = 0; i < times; ++i) {
       time_ += kTick;
       if (has_pose_)
-        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_);
+        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_, time_);
       navigator_.set_speed(speed_);
       if (has_obstacles_) {
         std::vector<MovingThing> things = things_;

@@ -47,20 +47,25 @@ class NavNodeTest : public testing::Test {
   }
 
   void play_robot() {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = "map";
-    transform.child_frame_id = "base_link";
-    transform.transform.translation.x = 2.0;
-    transform.transform.translation.y = 5.0;
-    transform.transform.rotation.w = 1.0;
-    broadcaster_.sendTransform(transform);
+    const geometry_msgs::TransformStamped transform = robot_at(2.0, ros::Time::now());
+    if (poses_) broadcaster_.sendTransform(transform);
     nav_msgs::Odometry odometry;
     odometry.header = transform.header;
     odometry.twist.twist.linear.x = 0.5;
     odometry_.publish(odometry);
     if (moves_) moves_();
     obstacles_.publish(played_);
+  }
+
+  static geometry_msgs::TransformStamped robot_at(double x, const ros::Time& stamp) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = stamp;
+    transform.header.frame_id = "map";
+    transform.child_frame_id = "base_link";
+    transform.transform.translation.x = x;
+    transform.transform.translation.y = 5.0;
+    transform.transform.rotation.w = 1.0;
+    return transform;
   }
 
   /// \param full  as octomap_server's octomap_full, with a shelf more
@@ -111,6 +116,7 @@ class NavNodeTest : public testing::Test {
   tf2_ros::TransformBroadcaster broadcaster_;
   navvi_msgs::Obstacles played_;
   std::function<void()> moves_;  ///< brings played_ up to date
+  bool poses_ = true;            ///< the robot tells its place
   navvi_msgs::Guidance guidance_;
   nav_msgs::Path path_;
   visualization_msgs::MarkerArray mesh_;
@@ -307,6 +313,48 @@ TEST_F(NavNodeTest, takes_a_full_map_on_the_same_topic) {
            std::all_of(path_.poses.begin(), path_.poses.end(),
                        [](const auto& pose) { return pose.pose.position.y < 6.5; });
   }));
+}
+
+TEST_F(NavNodeTest, T4_one_transform_from_the_future_is_no_pose_and_keeps_out_none_that_follow) {
+  played_.header.frame_id = "map";
+  send_map();
+  send_goal(14, 5);
+  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  // At the goal, it says, by a clock that is days ahead.
+  broadcaster_.sendTransform(robot_at(14.0, ros::Time::now() + ros::Duration(1e6)));
+  const ros::WallTime sent = ros::WallTime::now();
+  EXPECT_TRUE(until([&] {
+    EXPECT_NE(guidance_.state, navvi_msgs::Guidance::ARRIVED);
+    return (ros::WallTime::now() - sent).toSec() > 3.0;
+  }));
+  EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
+  EXPECT_GT(guidance_.goal_distance, 12.0) << "from where the robot is";
+  // Where nothing else tells the place, it is lost, and that is told.
+  poses_ = false;
+  broadcaster_.sendTransform(robot_at(14.0, ros::Time::now() + ros::Duration(1e6)));
+  EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::POSE_STALE; }));
+  poses_ = true;
+  EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+}
+
+TEST_F(NavNodeTest, T4_transforms_that_are_no_numbers_or_no_rotation_end_nothing) {
+  played_.header.frame_id = "map";
+  send_map();
+  send_goal(14, 5);
+  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  geometry_msgs::TransformStamped bad = robot_at(2.0, ros::Time::now());
+  bad.transform.rotation.w = std::numeric_limits<double>::quiet_NaN();
+  broadcaster_.sendTransform(bad);
+  bad.transform.rotation.w = 0.0;
+  broadcaster_.sendTransform(bad);
+  bad = robot_at(std::numeric_limits<double>::infinity(), ros::Time::now());
+  broadcaster_.sendTransform(bad);
+  bad = robot_at(2.0, ros::Time::now());
+  bad.child_frame_id = bad.header.frame_id;
+  broadcaster_.sendTransform(bad);
+  const unsigned before = guidance_.seq;
+  EXPECT_TRUE(until([&] { return guidance_.seq > before + 10; }));
+  EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
 }
 
 TEST_F(NavNodeTest, lives_on_after_garbage) {

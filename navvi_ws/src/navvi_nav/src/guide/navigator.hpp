@@ -55,9 +55,11 @@ class Navigator {
   }
   /// \param height  m, z of base_link, which is on the floor. An OctoMap is taken only when it is
   ///                known: the first one tells which of its levels is the floor.
-  void set_pose(const Pose2& pose, double height, double time) {
-    observation_.set_pose(pose, time);
+  /// \return false for a pose from the future, which is not taken
+  bool set_pose(const Pose2& pose, double height, double stamp, double now) {
+    if (!observation_.set_pose(pose, stamp, now)) return false;
     height_ = height;
+    return true;
   }
   void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
   /// A new goal replaces the old one. It is judged by the next plan.

@@ -295,7 +295,7 @@ TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   navigator_.set_map(message_of(world_));
   const auto next = [&] {
     time_ += kTick;
-    navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_);
+    navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_, time_);
     return navigator_.update(time_);
   };
   const auto map = next();
@@ -374,7 +374,7 @@ class Guided : public Lockstep {
     const double end = time_ + seconds - 1e-9;
     while (time_ < end) {
       time_ += kTick;
-      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_);
+      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_, time_);
       std::vector<MovingThing> things = things_;
       for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
       navigator_.set_obstacles(things, time_);

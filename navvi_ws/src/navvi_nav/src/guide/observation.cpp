@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kMoving = 0.1;   // m/s
 constexpr double kMemory = 10.0;  // s, time constant of the pace
+constexpr double kMostAhead = 0.3;  // s, of a pose; clocks and messages differ by less
 
 }  // namespace
 
@@ -42,9 +43,11 @@ void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
   obstacles_lost_ = false;
 }
 
-void Observation::set_pose(const Pose2& pose, double time) {
+bool Observation::set_pose(const Pose2& pose, double stamp, double now) {
+  if (stamp - now > kMostAhead) return false;
   pose_ = pose;
-  pose_time_ = time;
+  pose_time_ = stamp;
+  return true;
 }
 
 void Observation::update(double time) {

@@ -23,7 +23,10 @@ class Observation {
   explicit Observation(const ObservationConfig& config) : config_(config) {}
 
   void set_obstacles(std::vector<MovingThing> things, double time);
-  void set_pose(const Pose2& pose, double time);
+  /// \param stamp  of the pose
+  /// \return false for a pose from the future, which is not taken: a clock that is ahead, here or on
+  /// the robot, would make it look fresh for as long as it is ahead
+  bool set_pose(const Pose2& pose, double stamp, double now);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// Drops obstacles that are too old, and measures the pace.
   void update(double time);

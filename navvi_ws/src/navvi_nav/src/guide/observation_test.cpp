@@ -44,13 +44,27 @@ TEST(Observation, drops_obstacles_that_are_too_old) {
 TEST(Observation, gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps) {
   Observation observation{ObservationConfig{}};
   EXPECT_FALSE(observation.pose(0.0));
-  observation.set_pose({{1, 2}, 0.0}, 10.0);
+  observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0);
   EXPECT_TRUE(observation.pose(11.0));
   EXPECT_FALSE(observation.pose(11.1));
   EXPECT_TRUE(observation.last_pose());
   observation.reset_times();
   EXPECT_FALSE(observation.last_pose());
   EXPECT_FALSE(observation.pose(10.0));
+}
+
+TEST(Observation, T4_a_pose_from_the_future_is_no_pose) {
+  Observation observation{ObservationConfig{}};
+  EXPECT_TRUE(observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0));
+  EXPECT_TRUE(observation.set_pose({{1, 2}, 0.0}, 10.35, 10.1)) << "clocks differ by a little";
+  EXPECT_FALSE(observation.set_pose({{9, 9}, 0.0}, 10.6, 10.2));
+  EXPECT_FALSE(observation.set_pose({{9, 9}, 0.0}, 1e6, 10.2));
+  ASSERT_TRUE(observation.pose(11.0));
+  EXPECT_EQ(observation.pose(11.0)->position.x(), 1.0) << "the last true one, while it is fresh";
+  EXPECT_FALSE(observation.pose(11.4));
+  EXPECT_EQ(observation.last_pose()->position.x(), 1.0);
+  EXPECT_TRUE(observation.set_pose({{3, 2}, 0.0}, 11.5, 11.5));
+  EXPECT_EQ(observation.pose(11.5)->position.x(), 3.0);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void Navigation::set_obstacles(const navvi_types::Obstacles& obstacles, double t
 }
 
 void Navigation::set_pose(const navvi_types::Pose2& pose, double height, double time) {
-  parts_->navigator.set_pose(pose, height, time);
+  parts_->navigator.set_pose(pose, height, time, time);
 }
 
 void Navigation::set_speed(double forward) { parts_->navigator.set_speed(forward); }

@@ -24,6 +24,7 @@ using navvi_types::Pose2;
 
 constexpr double kServicePatience = 1.0;  // s
 constexpr double kBeat = 0.05;            // s, where nothing wakes the node sooner
+constexpr double kForget = 1.0;           // s, between two fresh starts of the transforms
 
 /// Work for the node's own thread, from any other.
 class Wake : public ros::CallbackInterface {
@@ -194,16 +195,29 @@ class NavNode {
     }
   }
 
-  void read_pose() {
+  void read_pose(double now) {
     try {
       const geometry_msgs::TransformStamped transform =
           buffer_.lookupTransform(config_.map_frame, config_.base_frame, ros::Time(0));
-      if (const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform))
-        navigator_.set_pose(*pose, transform.transform.translation.z,
-                            transform.header.stamp.toSec());
+      const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform);
+      if (pose && !navigator_.set_pose(*pose, transform.transform.translation.z,
+                                          transform.header.stamp.toSec(), now))
+        forget_transforms("the robot's pose is stamped ahead of this clock", now);
+    } catch (const tf2::ExtrapolationException&) {
+      // One transform of the chain is so far ahead that none of the others is as late.
+      if (!navigator_.pose(now) && now - forgot_ > kForget)
+        forget_transforms("its transforms have no time in common", now);
     } catch (const tf2::TransformException&) {
       // The age of the pose shows it.
     }
+  }
+
+  /// tf2 drops what is older than the latest by 10 s or more: one stamp from the future would keep
+  /// out all that come after it.
+  void forget_transforms(const char* why, double now) {
+    ROS_WARN_THROTTLE(5.0, "The robot's place is not known: %s. The transforms start afresh.", why);
+    buffer_.clear();
+    forgot_ = now;
   }
 
   /// At least at 20 Hz; at once when obstacles or a finished plan come.
@@ -212,10 +226,11 @@ class NavNode {
     if (now < last_time_) {
       ROS_WARN("Time jumped back; poses and obstacles start afresh.");
       buffer_.clear();
+      forgot_ = 0.0;
       navigator_.reset_times();
     }
     last_time_ = now;
-    read_pose();
+    if (ros::Time::isValid()) read_pose(now);
     if (const std::optional<plan::PlanAnswer> answer = worker_.take()) {
       report(*answer);
       navigator_.deliver(*answer, now);
@@ -284,6 +299,7 @@ class NavNode {
   guide::PublishThrottle throttle_;
   guide::MeshThrottle mesh_throttle_;
   double last_time_ = 0.0;
+  double forgot_ = 0.0;  ///< s, when the transforms last started afresh
   std::uint32_t seq_ = 0;
   unsigned bad_goals_ = 0;
 };

@@ -38,6 +38,8 @@ trial::TrialMonitorConfig config_of(const record::Row& row) {
   config.leave_margin = row.fields.number("leave_margin").value_or(config.leave_margin);
   config.leave_time = row.fields.number("leave_time").value_or(config.leave_time);
   config.center_range = row.fields.number("center_range").value_or(config.center_range);
+  // Older records took the guide's word for it.
+  config.arrival_range = row.fields.number("arrival_range").value_or(1e9);
   return config;
 }
 

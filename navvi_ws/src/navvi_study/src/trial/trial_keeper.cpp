@@ -272,7 +272,7 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   const TrialMonitorConfig& monitor = config_.monitor;
   fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
   fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);
-  fields.set("center_range", monitor.center_range);
+  fields.set("center_range", monitor.center_range).set("arrival_range", monitor.arrival_range);
   return fields;
 }
 

@@ -160,6 +160,8 @@ void TrialKeeper::observe(const Report& report) {
   if (phase_ != Phase::running) return;
   if (monitor_.reached()) {
     end({"reached", "goal_reached", monitor_.latest()});
+  } else if (monitor_.arrived_elsewhere()) {
+    end({"invalid", "arrived_elsewhere", monitor_.latest()});
   } else if (const auto why = monitor_.refused()) {
     if (!goal_before_) return end({"refused", *why, monitor_.latest()});
     return change_goal(*std::exchange(goal_before_, std::nullopt));

@@ -72,7 +72,8 @@ class Trials : public testing::Test {
             const Eigen::Vector2d& goal = Eigen::Vector2d::Zero()) {
     for (const double end = time_ + seconds; time_ < end && !keeper_->done();) {
       time_ += 0.05;
-      keeper_->take(Odometry{now().ros_ns, {{time_, 0.0}}}, now());
+      const bool there = state == State::arrived && !elsewhere_;
+      keeper_->take(Odometry{now().ros_ns, {there ? goal : Eigen::Vector2d(time_, 0.0)}}, now());
       guide(state, goal);
       keeper_->step(now());
     }
@@ -109,6 +110,7 @@ class Trials : public testing::Test {
   std::vector<Eigen::Vector2d> goals_;
   std::string said_;
   std::vector<TrialState::State> shown_;
+  bool elsewhere_ = false;  ///< the robot, where the guide says that it has arrived
   int failures_ = 0;  ///< writes of the journal that are still to fail
   int error_ = 0;     ///< with this errno
 };
@@ -148,6 +150,20 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_NE(said_.find("result: reached"), std::string::npos) << said_;
 }
 
+TEST_F(Trials, T4_are_invalid_where_the_guide_arrives_and_the_robot_does_not) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(20.0, State::following, kScenario.goal);
+  elsewhere_ = true;
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_TRUE(happened("ARRIVED_ELSEWHERE"));
+  EXPECT_FALSE(happened("GOAL_REACHED"));
+  EXPECT_NE(content("summary.csv").find(",invalid,arrived_elsewhere,"), std::string::npos)
+      << content("summary.csv");
+}
+
 TEST_F(Trials, begin_when_the_person_says_so_and_count_from_then) {
   using Wants = TrialState::State;
   config_.press_to_start = true;
@@ -168,7 +184,8 @@ TEST_F(Trials, begin_when_the_person_says_so_and_count_from_then) {
   live(0.1, State::arrived, kScenario.goal);
   EXPECT_EQ(shown_.back(), Wants::preparing) << "the stick rests at once";
   live(9.0, State::arrived, kScenario.goal);
-  EXPECT_NE(content("summary.csv").find(",6.0"), std::string::npos) << content("summary.csv");
+  EXPECT_NE(content("summary.csv").find(",goal_reached,6.1"), std::string::npos)
+      << content("summary.csv");
 }
 
 TEST_F(Trials, are_separated_by_a_pause_in_which_a_goal_can_be_chosen_again_and_again) {

@@ -56,6 +56,9 @@ void TrialMonitorConfig::describe(navvi_config::Visitor& visit) {
         "up to this far aside, a thing is in the centre");
   visit(progress_period, "progress_period", Range{0.1, 60.0}, "s",
         "between rows that only say how far one got");
+  visit(arrival_range, "arrival_range", Range{0.5, 100.0}, "m",
+        "an arrival farther from the goal by odometry is not recorded as reached: goal_reached of "
+        "nav_node and 1 m");
 }
 
 bool TrialMonitor::counts(std::int64_t stamp) {
@@ -87,6 +90,7 @@ void TrialMonitor::start(const TrialStart& start) {
   goal_taken_ = false;
   state_.reset();
   reached_.reset();
+  arrived_elsewhere_ = false;
   refused_.reset();
   world_restarted_ = false;
 }
@@ -96,6 +100,7 @@ Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp)
   guidance_before_ = guidance_ ? guidance_ : guidance_before_;
   goal_taken_ = false;
   reached_.reset();
+  arrived_elsewhere_ = false;
   refused_.reset();
   return {"GOAL_SET", place().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp, true};
 }
@@ -279,17 +284,28 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
     }
   }
   count_plans(guidance, events);
-  if (guidance.state == State::arrived && !reached_) {
-    reached_ = guidance.stamp;
-    record::Fields fields = place();
-    fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
-    events.push_back({"GOAL_REACHED", fields, guidance.stamp});
-  }
+  if (guidance.state == State::arrived && !reached_ && !arrived_elsewhere_)
+    arrive(guidance, events);
   if (guidance.state == State::goal_refused && !refused_) {
     refused_ = to_string(guidance.refusal);
     events.push_back({"GOAL_REFUSED", place().set("reason", *refused_), guidance.stamp});
   }
   return events;
+}
+
+/// The guide's word alone is not enough: it may follow a false pose.
+void TrialMonitor::arrive(const Guidance& guidance, std::vector<Event>& events) {
+  record::Fields fields = place();
+  const auto& robot = odometry_ ? odometry_ : seen_;
+  const double away = robot ? (robot->pose.position - start_->goal).norm() : 0.0;
+  if (away > config_.arrival_range) {
+    arrived_elsewhere_ = true;
+    events.push_back({"ARRIVED_ELSEWHERE", fields.set("distance", away), guidance.stamp});
+    return;
+  }
+  reached_ = guidance.stamp;
+  fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
+  events.push_back({"GOAL_REACHED", fields, guidance.stamp});
 }
 
 void TrialMonitor::count_plans(const Guidance& guidance, std::vector<Event>& events) {

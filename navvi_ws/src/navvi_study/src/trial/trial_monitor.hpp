@@ -62,6 +62,7 @@ struct TrialMonitorConfig {
   double leave_time = 0.5;
   double center_range = 1.0;
   double progress_period = 1.0;
+  double arrival_range = 2.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -130,6 +131,8 @@ class TrialMonitor {
   [[nodiscard]] bool goal_taken() const { return goal_taken_; }
   /// ns, when the goal was reached
   [[nodiscard]] std::optional<std::int64_t> reached() const { return reached_; }
+  /// The guide said that the goal is reached, and by the odometry the robot is elsewhere.
+  [[nodiscard]] bool arrived_elsewhere() const { return arrived_elsewhere_; }
   /// why the goal was refused
   [[nodiscard]] std::optional<std::string> refused() const { return refused_; }
   /// The simulator began anew in mid trial.
@@ -148,6 +151,7 @@ class TrialMonitor {
   [[nodiscard]] const char* zone(double lateral) const;
   void collision(const Contact* contact, bool shelf, std::int64_t stamp,
                  std::vector<Event>& events);
+  void arrive(const Guidance& guidance, std::vector<Event>& events);
   void count_plans(const Guidance& guidance, std::vector<Event>& events);
   /// The row for a cue that begins to be spoken, played or felt, or that ends.
   [[nodiscard]] std::optional<Event> row_of(const CueEvent& cue);
@@ -180,6 +184,7 @@ class TrialMonitor {
   bool goal_taken_ = false;
   std::optional<Guidance::State> state_;
   std::optional<std::int64_t> reached_;
+  bool arrived_elsewhere_ = false;
   std::optional<std::string> refused_;
   bool world_restarted_ = false;
 };

@@ -144,6 +144,25 @@ TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
   EXPECT_TRUE(monitor_.observe(contact(17.3, 2, "shelf", 2, 0)).empty()) << "the trial is over";
 }
 
+TEST_F(Monitor, T4_an_arrival_that_the_odometry_contradicts_is_not_recorded_as_reached) {
+  (void)monitor_.observe(Odometry{11 * kSecond, {{-3.2, 0.4}}});
+  (void)monitor_.observe(guidance(11.5, State::following));
+  const auto events = monitor_.observe(guidance(12.0, State::arrived, 2));
+  ASSERT_EQ(types(events), (Names{"GUIDANCE", "ARRIVED_ELSEWHERE"}));
+  EXPECT_EQ(events[1].fields.get("distance"), "8.210");
+  EXPECT_FALSE(monitor_.reached());
+  EXPECT_TRUE(monitor_.arrived_elsewhere());
+  EXPECT_TRUE(monitor_.observe(guidance(12.1, State::arrived, 3)).empty()) << "told once";
+}
+
+TEST_F(Monitor, records_an_arrival_within_the_range_as_reached) {
+  (void)monitor_.observe(Odometry{11 * kSecond, {{3.1, 0.0}}});
+  (void)monitor_.observe(guidance(11.5, State::following));
+  EXPECT_EQ(types(monitor_.observe(guidance(12.0, State::arrived, 2))),
+            (Names{"GUIDANCE", "GOAL_REACHED"}));
+  EXPECT_FALSE(monitor_.arrived_elsewhere());
+}
+
 TEST_F(Monitor, wants_its_goal_set_again_where_guidance_was_started_anew) {
   EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
             (Names{"GUIDANCE", "ROUTE"}));
