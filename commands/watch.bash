@@ -25,12 +25,21 @@ watch_words() {
   number port
 }
 
-# The session whose master has the lock of a port (loopback_network).
+# One that cannot be opened is nothing that could be watched.
+lock_is_free() { (exec <"$1" && flock -n 0) 2>/dev/null || [[ ! -r $1 ]]; }  # FILE
+# Nobody listens while a session begins; ss names no user where that is root.
+ours() {  # PORT
+  local listener user=0
+  listener=$(listeners "$1") || exit 2
+  [[ ! $listener =~ uid:([0-9]+) ]] || user=${BASH_REMATCH[1]}
+  [[ -z $listener ]] || ((user == UID))
+}
+# The session of this user that has the lock of a port (loopback_network).
 running_session() {
   local file port ports=()
-  for file in "${TMPDIR:-/tmp}"/navvi-port-*.lock; do
+  for file in "$port_locks"-*.lock; do
     port=${file##*-} port=${port%.lock}
-    [[ ! -f $file ]] || flock -n "$file" true || ports+=("$port")
+    [[ ! -f $file ]] || lock_is_free "$file" || ! ours "$port" || ports+=("$port")
   done
   [[ -z ${arg[port]:-} ]] || ports=("${arg[port]}")
   ((${#ports[@]})) || fail "no session runs on this machine; start one with \"./navvi run\", or name a trial's folder, such as trials/trial-20260101T120000Z." 2

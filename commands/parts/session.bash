@@ -24,19 +24,31 @@ build_session() {
 }
 
 # A master of its own on the loopback interface. Nodes would also open a port on every interface, which the preloaded
-# library prevents.
+# library prevents; it also lets rosmaster, rosout and RViz end with roslaunch.
 loopback_network() {
-  local port=11311 lock
-  # The lock keeps a second session that starts now from the same port until this one's master has it; `watch` finds
-  # running sessions by it.
-  while exec {lock}>"${TMPDIR:-/tmp}/navvi-port-$port.lock" &&
-    { ! flock -n "$lock" || ss -ltn "sport = :$port" | grep -q LISTEN; }; do
-    exec {lock}>&-
-    port=$((port + 1))
+  local port=11311
+  until claim_port "$port"; do
+    ((++port < 11411)) || fail "no port from 11311 to 11410 is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them."
   done
   export ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:$port
   unset ROS_HOSTNAME
   export LD_PRELOAD=$devel/lib/libnavvi_loopback.so
+}
+# The lock of a port keeps a second session that starts now from it until this one's master listens there, and `watch`
+# finds running sessions by it. It is one file for all users of the machine, locked through a descriptor that only reads: the
+# file may be another user's. A port whose lock cannot be opened, or on which anything listens, is not ours.
+port_locks=${TMPDIR:-/tmp}/navvi-port  # -PORT.lock
+listeners() { ss -ltnHe "sport = :$1" || fail "ss of iproute2 cannot say whether port $1 is free, and without that no session starts." 2; }  # PORT
+claim_port() {  # PORT
+  local file=$port_locks-$1.lock lock taken
+  [[ -e $file ]] || (umask 022 && : >>"$file") 2>/dev/null || true
+  { exec {lock}<"$file"; } 2>/dev/null || return 1
+  if flock -n "$lock"; then
+    taken=$(listeners "$1") || exit 2
+    [[ -n $taken ]] || return 0
+  fi
+  exec {lock}<&-
+  return 1
 }
 second_terminal() { echo "$([[ ! -f $devel/setup.bash ]] || echo "source ${devel#"$PWD"/}/setup.bash; ")export ROS_MASTER_URI=$ROS_MASTER_URI ROS_IP=127.0.0.1"; }
 
@@ -62,7 +74,8 @@ launch() {
   interrupted=""
   trap 'rm -f "$fatal"' EXIT
   trap 'interrupted=yes' INT
-  roslaunch "$1" "${args[@]}" 2>&1 | {
+  # Programs end with the roslaunch that has this number, however it ends (launcher.hpp).
+  (export NAVVI_LAUNCHER=$BASHPID && exec roslaunch "$1" "${args[@]}") 2>&1 | {
     trap 'say "stopped by Ctrl-C; what was recorded is kept."' INT
     sed -u -n -e "$no_controls" -e "w $2" -e "/FATAL\|RLException/w $fatal" -e "$for_the_screen" <&0 &
     while kill -0 $! 2>/dev/null; do wait $! || true; done

@@ -1,12 +1,19 @@
 // Preloaded into every process of a session that must not be reached from outside: a socket that
 // would listen on all interfaces listens on the loopback interface alone. roscpp offers no setting
-// for its XML-RPC port.
+// for its XML-RPC port. And each ends with roslaunch, ROS's own programs too.
 
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <cstring>
+#include <navvi_config/launcher.hpp>
+
+namespace {
+
+[[gnu::constructor]] void begin() { navvi_config::end_with_launcher(); }
+
+}  // namespace
 
 extern "C" int bind(int socket, const sockaddr* address, socklen_t length) noexcept {
   using Bind = int (*)(int, const sockaddr*, socklen_t);

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 
+#include "navvi_config/launcher.hpp"
 #include "navvi_config/reader.hpp"
 
 namespace navvi_config {
@@ -19,12 +20,13 @@ template <typename Config>
   return config;
 }
 
-/// The rest of a node's main() after ros::init: runs `body` with the parameters. An exception is
-/// logged as a fatal error.
+/// The rest of a node's main() after ros::init: runs `body` with the parameters, and ends with the
+/// roslaunch that started it. An exception is logged as a fatal error.
 /// \param body  takes a Config, returns the exit code
 /// \return the exit code: 2 if a parameter is rejected, 3 after any other exception
 template <typename Config, typename Body>
 [[nodiscard]] int run_node(const Body& body) {
+  end_with_launcher();
   const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is logged
   try {
     return body(load<Config>(ros::NodeHandle("~")));

@@ -468,6 +468,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { navvi_feedback::node::g_stop = 1; });
+  navvi_config::end_with_launcher();
   if (!navvi_feedback::node::await_master()) return 0;
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     navvi_feedback::node::FeedbackNode node(config);
