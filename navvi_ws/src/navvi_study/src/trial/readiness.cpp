@@ -23,6 +23,7 @@ std::vector<std::string> Readiness::missing(double time, bool clock_runs) const 
   } else if (!has_map_) {
     words.push_back("a map and a pose in guidance");
   }
+  if (feedback_ <= kNever) words.push_back("a report of feedback_node");
   for (const auto& modality : modalities_) {
     const std::vector<std::string> needed = modality == "rumble"
                                                 ? std::vector<std::string>{"pad"}

@@ -14,12 +14,22 @@ Guidance guidance(Guidance::State state) {
 }
 
 TEST(Readiness, of_nothing_misses_everything) {
-  EXPECT_EQ(Readiness({}).missing(0.0, false), (Words{"the clock", "odometry", "guidance"}));
+  EXPECT_EQ(Readiness({}).missing(0.0, false), (Words{"the clock", "odometry", "guidance", "a report of feedback_node"}));
+}
+
+TEST(Readiness, A1_waits_for_a_guide_that_never_starts) {
+  Readiness ready({});
+  ready.saw_odometry(10.0);
+  ready.saw(guidance(Guidance::State::no_goal), 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{"a report of feedback_node"});
+  ready.saw({0, "audio", DeviceState::missing}, 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{});
 }
 
 TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
   Readiness ready({});
   ready.saw_odometry(10.0);
+  ready.saw({0, "audio", DeviceState::works}, 10.0);
   ready.saw(guidance(Guidance::State::no_map), 10.0);
   EXPECT_EQ(ready.missing(10.5, true), Words{"a map and a pose in guidance"});
   ready.saw(guidance(Guidance::State::no_goal), 10.0);
