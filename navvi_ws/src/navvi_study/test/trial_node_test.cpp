@@ -1,5 +1,6 @@
 // trial_node as a process, beside a scripted world. Needs a master: run by rostest.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -81,6 +82,7 @@ class World {
     proximity_ = node_.advertise<navvi_msgs::Proximity>("navvi/proximity", 100);
     contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
     cues_ = node_.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+    devices_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
     drive_ = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
     state_ = node_.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
     scenario_ = node_.advertise<navvi_msgs::Scenario>("navvi/scenario", 1, true);
@@ -119,6 +121,11 @@ class World {
     odom.pose.pose.orientation.w = 1.0;
     odom_.publish(odom);
     publish_guidance();
+    diagnostic_msgs::DiagnosticArray devices;
+    devices.header.stamp = stamp();
+    devices.status.resize(1);
+    devices.status[0].name = "navvi/audio";
+    devices_.publish(devices);
     navvi_msgs::Proximity proximity;
     proximity.header.stamp = stamp();
     proximity.detection_radius = 5.0;
@@ -193,7 +200,8 @@ class World {
   }
 
   ros::NodeHandle node_;
-  ros::Publisher clock_, odom_, guidance_, proximity_, contacts_, cues_, drive_, scenario_, state_;
+  ros::Publisher clock_, odom_, guidance_, proximity_, contacts_, cues_, drive_, scenario_, state_,
+      devices_;
   ros::Subscriber goal_, events_;
   int tick_ = 0;
   std::uint32_t seq_ = 0;

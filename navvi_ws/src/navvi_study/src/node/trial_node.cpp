@@ -9,6 +9,7 @@
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 
+#include "node/crashed_part.hpp"
 #include "node/msg_conversion.hpp"
 #include "trial/trial_keeper.hpp"
 
@@ -114,7 +115,7 @@ class TrialNode {
 
   /// Ends a running trial as aborted and closes everything. Takes two seconds at most.
   void shut_down() {
-    for (keeper_.stop(now()); !keeper_.done(); keeper_.step(now()))
+    for (keeper_.stop(now(), crashed_part()); !keeper_.done(); keeper_.step(now()))
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
     ros::shutdown();
   }

@@ -7,6 +7,7 @@ constexpr double kSimulatorLost = 5.0;             // s, without odometry
 constexpr double kGuidanceLost = 10.0;             // s
 constexpr double kFeedbackLost = 5.0;              // s; it reports four times a second
 constexpr double kOperatorLost = 10.0;             // s
+constexpr double kSilent = 1.0;                    // s, of a part that a signal did not end
 constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
 constexpr double kGoalAgain = 2.0;                 // s, before a goal is sent again
 constexpr int kGoalTries = 3;
@@ -50,6 +51,13 @@ std::optional<Ending> TrialFlow::watch(const Signs& signs) const {
   const auto end = deadline();
   if (end && signs.now >= *end) return Ending{"timeout", "limit", *end};
   return std::nullopt;
+}
+
+std::string TrialFlow::reason_of_stop(const Signs& signs) {
+  if (signs.odometry_silence > kSilent) return "simulator_lost";
+  if (signs.guidance_silence > kSilent) return "guidance_lost";
+  if (signs.feedback_silence > kSilent) return "feedback_lost";
+  return "stopped_by_signal";
 }
 
 Ending TrialFlow::last_word(Ending ending, bool reached, bool disk_full) {

@@ -55,6 +55,9 @@ class TrialFlow {
   /// ns of ROS time, when time is up
   [[nodiscard]] std::optional<std::int64_t> deadline() const;
   [[nodiscard]] std::optional<Ending> watch(const Signs& signs) const;
+  /// The reason of a trial that is ended by a signal: a part that had been silent before, else the
+  /// signal. roslaunch ends a session whose simulator has crashed just as one that a hand stops.
+  [[nodiscard]] static std::string reason_of_stop(const Signs& signs);
   /// What counts in the end: a goal that was reached just before, but never a record with holes.
   [[nodiscard]] static Ending last_word(Ending ending, bool reached, bool disk_full);
 

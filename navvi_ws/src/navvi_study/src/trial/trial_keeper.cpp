@@ -295,6 +295,13 @@ void TrialKeeper::watch() {
   if (wall - before > kHalted && wall - woke_ > kRarely) woke_ = wall;
   if (wall - woke_ < kCatchUp) return;
   watch_bag();
+  const Signs seen = signs();
+  watch_feedback(seen.feedback_silence);
+  if (const auto ending = flow_.watch(seen)) return end(*ending);
+  ask_for_goal();
+}
+
+Signs TrialKeeper::signs() const {
   Signs signs;
   signs.now = now_.ros_ns;
   signs.latest = monitor_.latest();
@@ -303,10 +310,8 @@ void TrialKeeper::watch() {
   signs.odometry_silence = readiness_.silence(now_.wall());
   signs.guidance_silence = readiness_.guidance_silence(now_.wall());
   signs.feedback_silence = readiness_.feedback_silence(now_.wall());
-  watch_feedback(signs.feedback_silence);
   if (simulated()) signs.operator_silence = now_.wall() - operator_seen_;
-  if (const auto ending = flow_.watch(signs)) return end(*ending);
-  ask_for_goal();
+  return signs;
 }
 
 /// A guide that is silent for a second is told and recorded, by who still lives; it may come back,
@@ -416,12 +421,14 @@ void TrialKeeper::abandon(int exit_code) {
   leave(exit_code);
 }
 
-void TrialKeeper::stop(const Moment& now) {
+void TrialKeeper::stop(const Moment& now, const std::string& crashed) {
   now_ = now;
   if (!stopped_) stopped_ = now.wall();
   if (phase_ == Phase::waiting) return leave(exit_code_);
   if (phase_ == Phase::armed) return abandon(0);
-  if (phase_ == Phase::running) end({"aborted", "stopped_by_signal", monitor_.latest()});
+  if (phase_ != Phase::running) return;
+  const std::string reason = crashed.empty() ? TrialFlow::reason_of_stop(signs()) : crashed;
+  end({"aborted", reason, monitor_.latest()});
 }
 
 }  // namespace navvi_study::trial

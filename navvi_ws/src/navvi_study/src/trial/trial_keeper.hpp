@@ -74,7 +74,8 @@ class TrialKeeper {
   void step(const Moment& now);
   /// Ends a running trial as aborted and closes everything: done() two seconds later at the most,
   /// if step() is still called.
-  void stop(const Moment& now);
+  /// \param crashed  why, where a crash has ended the session, such as simulator_lost
+  void stop(const Moment& now, const std::string& crashed = {});
   /// There will be no other trial.
   [[nodiscard]] bool done() const { return phase_ == Phase::done; }
   /// What the process is to return once all is done.
@@ -94,6 +95,7 @@ class TrialKeeper {
   void start(const Eigen::Vector2d& goal);
   void change_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] record::Fields conditions(const TrialStart& beginning);
+  [[nodiscard]] Signs signs() const;
   void watch();
   void watch_bag();
   void watch_feedback(double silence);

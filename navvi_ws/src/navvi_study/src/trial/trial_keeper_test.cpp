@@ -75,6 +75,7 @@ class Trials : public testing::Test {
       const bool there = state == State::arrived && !elsewhere_;
       keeper_->take(Odometry{now().ros_ns, {there ? goal : Eigen::Vector2d(time_, 0.0)}}, now());
       guide(state, goal);
+      if (feedback_) keeper_->take(DeviceReport{now().ros_ns, "latency", DeviceState::works}, now());
       keeper_->step(now());
     }
   }
@@ -110,6 +111,7 @@ class Trials : public testing::Test {
   std::vector<Eigen::Vector2d> goals_;
   std::string said_;
   std::vector<TrialState::State> shown_;
+  bool feedback_ = true;    ///< feedback_node reports
   bool elsewhere_ = false;  ///< the robot, where the guide says that it has arrived
   int failures_ = 0;  ///< writes of the journal that are still to fail
   int error_ = 0;     ///< with this errno
@@ -341,7 +343,42 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   EXPECT_TRUE(happened("TRIAL_START"));
 }
 
+TEST_F(Trials, A1_do_not_begin_before_the_guide_has_reported) {
+  feedback_ = false;
+  begin();
+  keeper_->take(kScenario, now());
+  live(6.0);
+  EXPECT_TRUE(events_.empty());
+  EXPECT_NE(said_.find("waiting for a report of feedback_node"), std::string::npos) << said_;
+  feedback_ = true;
+  live(1.0);
+  EXPECT_TRUE(happened("TRIAL_START"));
+}
+
+TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  keeper_->stop(now(), "simulator_lost");
+  wait(2.0);
+  EXPECT_NE(content("summary.csv").find(",aborted,simulator_lost,"), std::string::npos);
+}
+
+TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  feedback_ = false;
+  live(1.5, State::following, kScenario.goal);
+  keeper_->stop(now());
+  wait(2.0);
+  EXPECT_NE(content("summary.csv").find(",aborted,feedback_lost,"), std::string::npos);
+}
+
 TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
+  feedback_ = false;
   begin();
   keeper_->take(kScenario, now());
   keeper_->take(DeviceReport{now().ros_ns, "audio", DeviceState::works}, now());

@@ -16,6 +16,7 @@ using navvi_types::ThingClass;
 constexpr std::size_t kReports = 20;         // of latencies; some seconds
 constexpr double kSameGoal = 0.05;           // m
 constexpr double kMoved = 0.05;              // m, driven
+constexpr double kTurned = 0.1;              // rad
 constexpr const char* kNearness = "rumble";  // the kind of what is felt of near things all the time
 constexpr std::int64_t kOldNews =
     2'000'000'000;  // ns in which an arrival may still be the last goal's
@@ -149,6 +150,10 @@ std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   if (odometry_) {
     const Eigen::Vector2d moved = odometry.pose.position - odometry_->pose.position;
     tally_.path_length += std::hypot(moved.x(), moved.y());
+    const double turned = std::remainder(odometry.pose.yaw - first_yaw_, 2.0 * M_PI);
+    tally_.turned = std::max(tally_.turned, std::abs(turned));
+  } else {
+    first_yaw_ = odometry.pose.yaw;
   }
   odometry_ = odometry;
   if (odometry.stamp < next_progress_) return {};
@@ -371,7 +376,7 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   if (drive.reason == DriveState::Reason::none || !stopped || stopped_before) return events;
   record::Fields fields = place();
   fields.set("reason", to_string(drive.reason))
-      .set("moved", tally_.path_length > kMoved ? "yes" : "no");
+      .set("moved", tally_.path_length > kMoved || tally_.turned > kTurned ? "yes" : "no");
   events.push_back({"SAFE_STOP", fields, drive.stamp, true});
   return events;
 }

@@ -79,6 +79,7 @@ struct TrialStart {
 /// Running figures of a trial.
 struct Tally {
   double path_length = 0.0;                 ///< m, driven
+  double turned = 0.0;                      ///< rad, >= 0: farthest from how the robot stood first
   std::optional<double> first_path_length;  ///< m, of the first path
   std::uint64_t shelf_collisions = 0;
   std::uint64_t obstacle_collisions = 0;
@@ -163,6 +164,7 @@ class TrialMonitor {
   std::int64_t latest_ = 0;
   Tally tally_;
   std::optional<Odometry> odometry_;  ///< of the trial
+  double first_yaw_ = 0.0;            ///< rad, of its first odometry
   std::optional<Odometry> seen_;      ///< the last one at all
   std::int64_t next_progress_ = 0;
   std::uint32_t contact_seq_ = 0;

@@ -298,6 +298,14 @@ TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) 
   EXPECT_EQ(monitor_.observe(stopped(14))[0].fields.get("moved"), "yes");
 }
 
+TEST_F(Monitor, C2_a_stop_while_the_robot_turns_on_the_spot_is_a_stop) {
+  (void)monitor_.observe(Odometry{11 * kSecond, {{}, 3.1}});
+  EXPECT_EQ(monitor_.observe(stopped(12))[0].fields.get("moved"), "no");
+  (void)monitor_.observe(DriveState{DriveState::State::running, {}, 0, 13 * kSecond});
+  (void)monitor_.observe(Odometry{13 * kSecond, {{}, -3.0}});
+  EXPECT_EQ(monitor_.observe(stopped(14))[0].fields.get("moved"), "yes") << "0.18 rad, over pi";
+}
+
 TEST_F(Monitor, names_each_node_that_wants_to_drive_besides_the_guide) {
   DriveState drive{DriveState::State::running, {}, 0, 11 * kSecond, "/teleop"};
   const auto events = monitor_.observe(drive);
