@@ -41,8 +41,8 @@ check_words() {
   number limit
   [[ ${arg[participant]:-n/a} =~ ^([A-Za-z0-9_-]{1,32}|n/a)$ ]] ||
     fail "participant:=${arg[participant]} is not allowed; allowed are up to 32 letters, digits, - and _, such as sub-01." 2
-  arg[out]=$(readlink -m "${arg[out]:-$trials}")
-  mkdir -p "${arg[out]}" 2>/dev/null || fail "the folder ${arg[out]} cannot be made; out:=FOLDER names another." 2
+  arg[out]=$(readlink -m -- "${arg[out]:-$trials}")
+  mkdir -p -- "${arg[out]}" 2>/dev/null || fail "the folder ${arg[out]} cannot be made; out:=FOLDER names another." 2
   local folders=()
   IFS=: read -ra folders <<<"${arg[models]:-}"
   for folder in "${folders[@]}"; do
@@ -55,12 +55,12 @@ check_world() {
   local name folder folders words=()
   arg[world]=${arg[world]:-warehouse}
   for name in world classes; do
-    [[ ! -f ${arg[$name]:-} ]] || arg[$name]=$(readlink -f "${arg[$name]}")
+    [[ ! -f ${arg[$name]:-} ]] || arg[$name]=$(readlink -f -- "${arg[$name]}")
   done
   if [[ -n ${arg[models]:-} ]]; then
     IFS=: read -ra folders <<<"${arg[models]}"
     arg[models]=""
-    for folder in "${folders[@]}"; do arg[models]+=${arg[models]:+:}$(readlink -m "$folder"); done
+    for folder in "${folders[@]}"; do arg[models]+=${arg[models]:+:}$(readlink -m -- "$folder"); done
   fi
   for name in models classes seed start goal; do
     [[ ! -v arg[$name] ]] || words+=("$name:=${arg[$name]}")

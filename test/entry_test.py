@@ -53,6 +53,11 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "person:=a", "person:=b"], "given twice"),
     (["run", *SIMULATED, "seed:=1", "seed:=2"], "given twice"),
     (["run", *SIMULATED, "sim_parameters:={}"], "is unknown"),
+    (["run", *SIMULATED, "see[d]:=1"], "\"see[d]\" is unknown"),
+    (["run", *SIMULATED, "sim/seed:=7"], "\"sim/seed\" would have no effect; allowed is seed:=7."),
+    (["run", *SIMULATED, "trial/limit:=3"], "\"trial/limit\" would have no effect; allowed is limit:=3."),
+    (["run", *SIMULATED, "trial/version:=2"], "\"trial/version\" cannot be given: the session itself sets it."),
+    (["run", *SIMULATED, "out:=$(anon x)"], "holds \"$(\""),
     (["run", *SIMULATED, "models:=/nonexistent"], "models:=/nonexistent is no folder"),
     (["run", *SIMULATED, "out:=/proc/none"], "cannot be made"),
     (["check"], "which trial?"),
@@ -66,6 +71,8 @@ def test_shell_scripts_are_clean():
     (["tutorial", "lesson:=none"], "given twice"),
     (["tutorial"], "the tutorial needs a person"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
+    (["check", "-x"], "holds no trial.bag"),
+    (["check", "none/at/all"], "holds no trial.bag"),
 ])
 def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     result = navvi(*words)
@@ -196,6 +203,17 @@ def test_only_the_simulated_robot_is_held_to_one_level():
     assert climb("live.launch", "profile:=paper", "rviz:=false") == ["/nav_node/mesh/climb: 0.0"]
     assert climb("live.launch", "rviz:=false", "nav_parameters:={mesh: {climb: 0.1}}") == ["/nav_node/mesh/climb: 0.1"]
     assert climb("robot.launch", "rviz:=false") == []
+
+
+def test_a_parameter_that_is_taken_is_in_force():
+    """Of those that the session sets, such as sim/seed, ./navvi refuses what a <param> would win over."""
+    given = {"sim": "wait_for_robot: false", "trial": "press_to_start: false, patience: 5.0, contacts: unknown, require: [speech]"}
+    dump = subprocess.run(["roslaunch", "--dump-params", str(ROOT / "launch/live.launch"), "rviz:=false",
+                           *(f"{part}_parameters:={{{words}}}" for part, words in given.items())], capture_output=True, text=True, timeout=60)
+    values = yaml.safe_load(dump.stdout)
+    for part, words in given.items():
+        for name, value in yaml.safe_load(f"{{{words}}}").items():
+            assert values[f"/{part}_node/{name}"] == value, name
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "rviz").glob("*.rviz")), ids=lambda path: path.name)
