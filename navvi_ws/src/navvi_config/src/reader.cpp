@@ -1,6 +1,7 @@
 #include "navvi_config/reader.hpp"
 
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,40 @@ std::string allowed_text(const Field& field) {
     return "one of " + join(one_of->words);
   return "";
 }
+
+/// Where a document begins: at its mark, and with its first content.
+class Beginning : public YAML::EventHandler {
+ public:
+  [[nodiscard]] const YAML::Mark& mark() const { return mark_; }
+  [[nodiscard]] int content_line() const { return 1 + (content_ ? *content_ : mark_.line); }
+
+  void OnDocumentStart(const YAML::Mark& mark) override { mark_ = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { at(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { at(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    at(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    at(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    at(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void at(const YAML::Mark& mark) {
+    if (!content_) content_ = mark.line;
+  }
+
+  YAML::Mark mark_ = YAML::Mark::null_mark();
+  std::optional<int> content_;
+};
 
 /// Takes the value of each described field from the map at the present depth, and remembers the
 /// keys that fields have, so that it can refuse all others.
@@ -222,11 +257,19 @@ YAML::Node load_yaml(const std::filesystem::path& path) {
                        ": this is not YAML: " + why + ".");
   };
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(file);
-    if (documents.size() > 1)
-      throw ConfigError(path.string() + ", line " + std::to_string(documents[1].Mark().line + 1) +
+    // LoadAll() would make documents without end of a file whose first sign opens none.
+    YAML::Parser parser(file);
+    Beginning first, second;
+    if (!parser.HandleNextDocument(first)) return YAML::Node();
+    if (parser.HandleNextDocument(second)) {
+      if (second.mark().pos == first.mark().pos)
+        throw YAML::ParserException(first.mark(), "nothing can begin with this sign");
+      throw ConfigError(path.string() + ", line " + std::to_string(second.content_line()) +
                         ": a second document begins; allowed is one in a file.");
-    return documents.empty() ? YAML::Node() : documents.front();
+    }
+    file.clear();
+    file.seekg(0);
+    return YAML::Load(file);
   } catch (const YAML::DeepRecursion& problem) {
     throw not_yaml(problem, "it is nested too deep");
   } catch (const YAML::Exception& problem) {

@@ -111,6 +111,16 @@ TEST(Reader, what_stands_behind_the_first_document_of_a_file_is_not_passed_over)
   EXPECT_EQ(refusal_of_file("---\na: 1\n...\n"), "");
 }
 
+TEST(Reader, P1_a_file_that_begins_with_a_sign_of_lists_is_refused_and_not_read_without_end) {
+  EXPECT_EQ(refusal_of_file(", a\n"),
+            "line 1: this is not YAML: nothing can begin with this sign.");
+  for (const char sign : std::string(",]}:?-!&*|>%@`\"'#"))
+    for (const char* rest : {"", " a\n", "\n,\n", ",a", " ,"})
+      (void)refusal_of_file(sign + std::string(rest));
+  EXPECT_NE(refusal_of_file("a: 1\n, b\n"), "");
+  EXPECT_NE(refusal_of_file("--- , a\n"), "");
+}
+
 TEST(Reader, an_empty_file_is_an_empty_document) {
   EXPECT_EQ(refusal_of_file(""), "");
   EXPECT_EQ(refusal_of_file("# nothing\n"), "");
