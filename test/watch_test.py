@@ -103,6 +103,18 @@ def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(tria
     assert all(re.fullmatch(r"[ -~]+", line) for line in lines)
 
 
+@pytest.mark.parametrize("damage", [
+    lambda data: data[:len(data) // 2], lambda data: data[:-10], lambda data: data[:100], lambda data: b"",
+    lambda data: data[:-300] + bytes(300), lambda data: data[:4117] + bytes(200) + data[4317:],
+], ids=["half", "tail", "head", "empty", "zeros_at_the_end", "zeros_within"])
+def test_R2_a_damaged_bag_ends_in_a_sentence(damage, trial):
+    bag = trial / "trial.bag"
+    bag.write_bytes(damage(bag.read_bytes()))
+    result = subprocess.run([str(SCRIPT), "0", "false", str(trial)], capture_output=True, text=True, timeout=60)
+    assert result.returncode == 2, result.stdout + result.stderr
+    assert len(result.stderr.splitlines()) == 1 and f"{bag} is damaged and cannot be read" in result.stderr, result.stderr
+
+
 def test_no_line_comes_before_the_last_one_can_have_been_read(trial):
     process, times = navvi_watch(trial, "pace:=600"), []
     for line in process.stdout:
