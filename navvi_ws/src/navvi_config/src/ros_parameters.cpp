@@ -1,9 +1,14 @@
 #include "navvi_config/ros_parameters.hpp"
 
 #include <XmlRpcValue.h>
+#include <sys/resource.h>
+
+#include <algorithm>
 
 namespace navvi_config {
 namespace {
+
+constexpr rlim_t kFiles = 256;
 
 YAML::Node to_yaml(XmlRpc::XmlRpcValue& value) {
   YAML::Node node;
@@ -30,6 +35,16 @@ YAML::Node to_yaml(XmlRpc::XmlRpcValue& value) {
 }
 
 }  // namespace
+
+void allow_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= kFiles) return;
+  const rlim_t allowed = limit.rlim_cur;
+  limit.rlim_cur = std::min(limit.rlim_max, kFiles);
+  if (limit.rlim_max >= kFiles && ::setrlimit(RLIMIT_NOFILE, &limit) == 0) return;
+  throw ConfigError("Only " + std::to_string(allowed) + " files may be open at once; allowed is " +
+                    std::to_string(kFiles) + " or more, such as by \"ulimit -n 1024\".");
+}
 
 YAML::Node parameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue value;

@@ -357,6 +357,26 @@ TEST_F(NavNodeTest, T4_transforms_that_are_no_numbers_or_no_rotation_end_nothing
   EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
 }
 
+TEST_F(NavNodeTest, N6_more_obstacles_than_a_message_may_hold_are_announced) {
+  played_.header.frame_id = "map";
+  send_map();
+  send_goal(14, 5);
+  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  navvi_msgs::Obstacle one;
+  one.thing_class = "box";
+  one.pose.orientation.w = 1.0;
+  one.radius = 0.1;
+  one.height = 1.0;
+  played_.obstacles.assign(10001, one);
+  EXPECT_TRUE(until([this] {
+    return guidance_.detail.find("the obstacles are rejected") != std::string::npos;
+  }));
+  played_.obstacles.clear();
+  EXPECT_TRUE(until([this] {
+    return guidance_.detail.find("the obstacles are rejected") == std::string::npos;
+  }));
+}
+
 TEST_F(NavNodeTest, lives_on_after_garbage) {
   octomap_msgs::Octomap map;
   map.header.frame_id = "map";

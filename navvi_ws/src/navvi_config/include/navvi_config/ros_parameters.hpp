@@ -20,6 +20,11 @@ template <typename Config>
   return config;
 }
 
+/// Lets this process open as many files at once as a node may need, of which each link to another
+/// node is one. \throws ConfigError if the system does not allow that: a node that runs out of them
+/// hangs without a word
+void allow_files();
+
 /// The rest of a node's main() after ros::init: runs `body` with the parameters, and ends with the
 /// roslaunch that started it. An exception is logged as a fatal error.
 /// \param body  takes a Config, returns the exit code
@@ -27,8 +32,11 @@ template <typename Config>
 template <typename Config, typename Body>
 [[nodiscard]] int run_node(const Body& body) {
   end_with_launcher();
-  const ros::NodeHandle alive;  // without one, roscpp shuts down before the error is logged
+  // Without one, roscpp shuts down before an error is logged.
+  std::optional<ros::NodeHandle> alive;
   try {
+    allow_files();
+    alive.emplace();
     return body(load<Config>(ros::NodeHandle("~")));
   } catch (const ConfigError& error) {
     ROS_FATAL("%s", error.what());

@@ -27,6 +27,8 @@ std::optional<navvi_types::Place> place_at(const std::optional<Scenario>& scenar
   return found;
 }
 
+constexpr double kRecordLost = 2.0;  // s; a slow disk holds trial_node up for less
+
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
 }  // namespace
@@ -178,7 +180,9 @@ SoundsNow Feedback::sounds_now(const Input& input, double time) const {
   return {input.sounds, input.voice_busy, contacts_, taught, now};
 }
 
-void Feedback::take(const TrialState& state, double /*time*/) {
+void Feedback::take(const TrialState& state, double time) {
+  trial_repeats_ = trial_time_ && state.state == trial_.state;
+  trial_time_ = time;
   trial_ = state;
   deciders_->menu.take(state);
 }
@@ -253,6 +257,9 @@ cues::Situation Feedback::situation(const Input& input, const std::vector<drive:
   now.touch = input.motors && config_.haptics.enabled && config_.haptics.patterns;
   now.notices = input.notices;
   if (intruder_) now.notices.push_back("intruder");
+  if (trial_.state == TrialState::State::running && trial_repeats_ &&
+      time - *trial_time_ > kRecordLost)
+    now.notices.push_back("record_lost");
   now.person = input.person;
   const sounds::SoundsConfig& sounds = config_.sounds;
   if (sounds.enabled && input.sounds)

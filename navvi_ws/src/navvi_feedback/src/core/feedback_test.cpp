@@ -205,6 +205,30 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
 }
 
+TEST_F(FeedbackTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
+  const TrialState running{TrialState::State::running};
+  const auto beat = [&](double seconds) {
+    for (const double end = time_ + seconds; time_ < end;) {
+      feedback_.take(running, time_);
+      pass(0.25);
+    }
+  };
+  feedback_.take(running, time_);
+  pass(5.0);
+  EXPECT_FALSE(said("record_lost")) << "one that tells its state once is not missed";
+  beat(5.0);
+  EXPECT_FALSE(said("record_lost"));
+  pass(2.2);
+  EXPECT_TRUE(said("record_lost"));
+  kinds_.clear();
+  beat(6.0);
+  EXPECT_FALSE(said("record_lost"));
+  feedback_.take(TrialState{TrialState::State::preparing}, time_);
+  feedback_.take(TrialState{TrialState::State::preparing}, time_);
+  pass(5.0);
+  EXPECT_FALSE(said("record_lost")) << "nothing is recorded between trials";
+}
+
 TEST_F(FeedbackTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) {
   using navvi_types::Place;
   Scenario scenario;
@@ -293,7 +317,7 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
 TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
-  EXPECT_GT(pass(0.9).rumble.left, 0.5);
+  EXPECT_GT(pass(0.7).rumble.left, 0.5);
   const haptics::Rumble stale = pass(0.3).rumble;
   EXPECT_EQ(stale.left, 0.0);
   EXPECT_EQ(stale.right, 0.0);
@@ -414,7 +438,7 @@ TEST_F(FeedbackTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_aft
   const auto felt = [&] {
     feedback_.take(Odometry{}, time_);
     feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
-    return pass(0.9).rumble.left;
+    return pass(0.7).rumble.left;
   };
   const double full = felt();
   EXPECT_GT(full, 0.5);
@@ -453,8 +477,8 @@ TEST_F(FeedbackTest, guidance_is_kept_but_not_fresh_for_ever) {
   Guidance guidance;
   guidance.seq = 5;
   feedback_.take(guidance, time_);
-  EXPECT_TRUE(feedback_.guidance_fresh(time_ + 0.9));
-  EXPECT_FALSE(feedback_.guidance_fresh(time_ + 1.1));
+  EXPECT_TRUE(feedback_.guidance_fresh(time_ + 0.7));
+  EXPECT_FALSE(feedback_.guidance_fresh(time_ + 0.9));
   EXPECT_EQ(feedback_.guidance().value().seq, 5U);
 }
 

@@ -19,12 +19,14 @@ const std::vector<CueKind>& cue_kinds() {
       {"robot_stopped", P::important, 2.0, 4.0},
       {"simulator_lost", P::important, 5.0, 10.0},
       {"proximity_lost", P::important, 5.0, 10.0},
+      {"guidance_lost", P::important, 5.0, 5.0},
+      {"record_lost", P::important, 5.0, 10.0},
+      {"trial_disk_full", P::important, 5.0, 10.0},
       // What the person must act on now.
       {"stuck", P::message, 2.0, 1.0},
       {"stuck_unknown", P::message, 2.0, 2.0},
       {"arrived", P::message, 1.0, 10.0},
       {"turn_now", P::message, 1.0, 1.0, F::route},
-      {"guidance_lost", P::message, 5.0, 5.0},
       {"no_route", P::message, 5.0, 5.0},
       {"off_mesh", P::message, 5.0, 5.0},
       {"no_map", P::message, 5.0, 5.0},
@@ -69,7 +71,6 @@ const std::vector<CueKind>& cue_kinds() {
       {"settings_not_kept", P::message, 1.0, 10.0},
       {"settings_not_saved", P::message, 1.0, 10.0},
       {"trial_time_up", P::message, 5.0, 10.0},
-      {"trial_disk_full", P::message, 5.0, 10.0},
       {"trial_over", P::message, 5.0, 10.0},
       {"pad_firmware", P::message, 5.0, 10.0},
       // The way.

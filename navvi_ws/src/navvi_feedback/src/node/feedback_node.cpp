@@ -147,7 +147,9 @@ class FeedbackNode {
     });
     keep<navvi_msgs::DriveState>("navvi/drive_state");
     listen<navvi_msgs::TrialState>("navvi/trial_state", 1, [this](const TrialState& state) {
-      if (state.state == TrialState::State::running) begin();
+      const bool runs = state.state == TrialState::State::running;
+      if (runs && !std::exchange(told_to_run_, runs)) begin();
+      told_to_run_ = runs;
       feedback_.take(state, now());
     });
     keep<navvi_msgs::Scenario>("navvi/scenario");
@@ -420,6 +422,7 @@ class FeedbackNode {
   std::optional<double> markers_time_;  // s, of now()
   double last_tick_ = 0.0;              // s, of now()
   double woke_ = 0.0;                   // s, of now(), after it was halted
+  bool told_to_run_ = false;            ///< by the last state of the trial, which is repeated
   bool runs_ = false;                   ///< a trial
   bool over_ = false;                   ///< and has ended, which is told
   drive::InputState last_hands_;

@@ -354,9 +354,13 @@ Guidance Navigator::guidance(double time) const {
   } else if (out.state == Guidance::State::following) {
     report_path(out);
   }
-  if (map_.floor && goal_.place && !observation_.obstacles_fresh(time)) {
+  const bool fresh = observation_.obstacles_fresh(time);
+  const bool rejected = observation_.obstacles_rejected();
+  if (map_.floor && goal_.place && (!fresh || rejected)) {
     if (!out.detail.empty()) out.detail += "; ";
-    out.detail += "no fresh obstacles: moving things are not in the path";
+    out.detail += rejected ? "the obstacles are rejected, as malformed or too many"
+                           : "no fresh obstacles";
+    out.detail += fresh ? "" : ": moving things are not in the path";
   }
   return out;
 }

@@ -53,6 +53,8 @@ class Navigator {
   void set_obstacles(std::vector<MovingThing> things, double time) {
     observation_.set_obstacles(std::move(things), time);
   }
+  /// Obstacles came that cannot be taken: malformed, or too many.
+  void reject_obstacles() { observation_.reject_obstacles(); }
   /// \param height  m, z of base_link, which is on the floor. An OctoMap is taken only when it is
   ///                known: the first one tells which of its levels is the floor.
   /// \return false for a pose from the future, which is not taken

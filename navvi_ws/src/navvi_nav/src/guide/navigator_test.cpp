@@ -68,6 +68,21 @@ TEST_F(Lockstep, keeps_a_standing_goal_when_a_goal_that_cannot_be_read_comes) {
   EXPECT_EQ(navigator_.path(), before);
 }
 
+TEST_F(Lockstep, N6_says_at_once_that_obstacles_are_rejected) {
+  const std::string said = "the obstacles are rejected, as malformed or too many";
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  navigator_.reject_obstacles();
+  EXPECT_EQ(status().detail, said);
+  has_obstacles_ = false;
+  tick(40);
+  EXPECT_EQ(status().detail, said + ": moving things are not in the path");
+  has_obstacles_ = true;
+  tick();
+  EXPECT_EQ(status().detail, "");
+}
+
 TEST_F(Lockstep, says_while_no_fresh_obstacles_come) {
   const std::string said = "no fresh obstacles: moving things are not in the path";
   has_obstacles_ = false;

@@ -41,6 +41,7 @@ void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
   moved_ = std::move(moved);
   obstacles_time_ = time;
   obstacles_lost_ = false;
+  obstacles_rejected_ = false;
 }
 
 bool Observation::set_pose(const Pose2& pose, double stamp, double now) {
@@ -68,6 +69,7 @@ void Observation::reset_times() {
   obstacles_.clear();
   obstacles_time_.reset();
   obstacles_lost_ = false;
+  obstacles_rejected_ = false;
 }
 
 std::optional<Pose2> Observation::pose(double time) const {

@@ -23,9 +23,10 @@ class Observation {
   explicit Observation(const ObservationConfig& config) : config_(config) {}
 
   void set_obstacles(std::vector<MovingThing> things, double time);
+  void reject_obstacles() { obstacles_rejected_ = true; }
   /// \param stamp  of the pose
-  /// \return false for a pose from the future, which is not taken: a clock that is ahead, here or on
-  /// the robot, would make it look fresh for as long as it is ahead
+  /// \return false for a pose from the future, which is not taken: by a clock that is ahead it would
+  /// look fresh for as long as that clock is ahead
   bool set_pose(const Pose2& pose, double stamp, double now);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// Drops obstacles that are too old, and measures the pace.
@@ -43,6 +44,8 @@ class Observation {
   [[nodiscard]] bool obstacles_fresh(double time) const;
   /// True if the obstacles were dropped as too old; cleared by the next ones.
   [[nodiscard]] bool obstacles_lost() const { return obstacles_lost_; }
+  /// The latest could not be taken.
+  [[nodiscard]] bool obstacles_rejected() const { return obstacles_rejected_; }
 
  private:
   struct Moved {
@@ -57,6 +60,7 @@ class Observation {
   std::vector<Cylinder> obstacles_;       ///< the things, as navigation sees them
   std::optional<double> obstacles_time_;  ///< nullopt: none came yet
   bool obstacles_lost_ = false;
+  bool obstacles_rejected_ = false;
   std::optional<Pose2> pose_;
   double pose_time_ = 0.0;
   double speed_ = 0.0;

@@ -78,7 +78,7 @@ class NavNode {
                           navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
                           beat();
                         },
-                        config.map_frame),
+                        config.map_frame, [this] { navigator_.reject_obstacles(); }),
                     navvi_config::subscribe<nav_msgs::Odometry>(
                         node, "odom", 1, navvi_types::from_msg,
                         [this](const navvi_types::Odometry& odometry) {

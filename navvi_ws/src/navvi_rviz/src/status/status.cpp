@@ -22,7 +22,8 @@ const std::set<std::string> kWarnings = {"collision_shelf", "collision_wall", "c
                                          "off_mesh",        "stuck",          "stuck_unknown",
                                          "make_room",       "release_stick",  "trial_time_up",
                                          "trial_disk_full", "trial_over",     "proximity_lost",
-                                         "simulator_lost",  "guidance_lost",  "no_route"};
+                                         "simulator_lost",  "guidance_lost",  "no_route",
+                                         "record_lost"};
 /// Cues that say that the way goes on.
 const std::set<std::string> kReleasing = {"go_on",    "direction",       "straight",
                                           "slight",   "straight_then",   "turn_now",

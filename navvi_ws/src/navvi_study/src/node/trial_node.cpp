@@ -19,6 +19,7 @@ namespace {
 volatile sig_atomic_t g_stop = 0;
 
 constexpr double kStep = 0.05;  // s, of the wall timer
+constexpr double kBeat = 0.25;  // s, between two messages of the same state
 constexpr std::uint32_t kQueue = 1000;
 
 // All but what a replay makes anew of these: what moves in the picture, and the mesh.
@@ -111,6 +112,7 @@ class TrialNode {
       keeper_.step(now());
       if (keeper_.done()) ros::shutdown();
     });
+    beat_ = node_.createWallTimer(ros::WallDuration(kBeat), [this](auto&) { show(); });
   }
 
   /// Ends a running trial as aborted and closes everything. Takes two seconds at most.
@@ -131,7 +133,8 @@ class TrialNode {
     };
     out.tell = tell;
     out.show = [this](TrialState::State state) {
-      state_.publish(navvi_types::to_msg(TrialState{state, navvi_types::to_ns(ros::Time::now())}));
+      shown_ = state;
+      show();
     };
     out.settings = settings_of_nodes;
     out.start_recorder = [this](const std::filesystem::path& bag) {
@@ -140,6 +143,12 @@ class TrialNode {
       return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
     };
     return out;
+  }
+
+  /// Again and again: who listens knows by it that trials are watched over.
+  void show() {
+    if (!shown_) return;
+    state_.publish(navvi_types::to_msg(TrialState{*shown_, navvi_types::to_ns(ros::Time::now())}));
   }
 
   void subscribe(bool simulated, const std::string& odom_frame) {
@@ -197,7 +206,8 @@ class TrialNode {
   ros::Publisher state_;
   trial::TrialKeeper keeper_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::WallTimer timer_;
+  ros::WallTimer timer_, beat_;
+  std::optional<TrialState::State> shown_;
 };
 
 }  // namespace

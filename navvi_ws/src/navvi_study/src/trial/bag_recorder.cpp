@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 namespace navvi_study::trial {
@@ -65,6 +66,14 @@ bool BagRecorder::running() {
   if (ended == 0) return true;
   child_ = -1;
   return false;
+}
+
+bool BagRecorder::halted() const {
+  std::ifstream file("/proc/" + std::to_string(child_) + "/stat");
+  std::string words;
+  std::getline(file, words);
+  const auto name = words.rfind(')');  // the program's; the state's letter follows
+  return child_ > 0 && name != words.npos && words.compare(name, 3, ") T") == 0;
 }
 
 std::uintmax_t BagRecorder::size() const {

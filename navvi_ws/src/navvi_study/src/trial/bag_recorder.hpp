@@ -24,6 +24,8 @@ class BagRecorder {
 
   /// Whether the process lives.
   [[nodiscard]] bool running();
+  /// Whether it is stopped by a signal: what comes meanwhile is not recorded for sure.
+  [[nodiscard]] bool halted() const;
   /// bytes written so far; 0 while there is no file
   [[nodiscard]] std::uintmax_t size() const;
   /// Asks it to close the bag; running() turns false when it has.

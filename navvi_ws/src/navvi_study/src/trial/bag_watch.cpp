@@ -6,6 +6,7 @@ namespace {
 constexpr double kStart = 6.0;   // s, for the recorder to listen
 constexpr double kSettle = 0.5;  // s, for links to come up before the first event
 constexpr double kStill = 10.0;  // s, without growth; a compressed bag grows by whole chunks
+constexpr double kHalted = 2.0;  // s, in which a recorder may be stopped by a signal
 constexpr double kClose = 8.0;   // s, for the recorder to close the bag
 
 }  // namespace
@@ -33,7 +34,8 @@ bool BagWatch::growing(double time) {
     size_ = size;
     grew_ = time;
   }
-  bad_ = !recorder_->running() || time - grew_ >= kStill;
+  if (!recorder_->halted()) went_on_ = time;
+  bad_ = !recorder_->running() || time - grew_ >= kStill || time - went_on_ >= kHalted;
   return !bad_;
 }
 

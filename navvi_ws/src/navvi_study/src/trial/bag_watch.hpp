@@ -16,7 +16,7 @@ class BagWatch {
   BagWatch() = default;
   /// \param recorder  none where no bag is wanted
   BagWatch(std::unique_ptr<BagRecorder> recorder, double time)
-      : recorder_(std::move(recorder)), begun_(time), grew_(time) {}
+      : recorder_(std::move(recorder)), begun_(time), grew_(time), went_on_(time) {}
 
   /// The recorder has opened its links.
   void hears(double time);
@@ -26,7 +26,7 @@ class BagWatch {
   /// False from the moment on that the bag is lost. Nothing depends on it but the record's word.
   [[nodiscard]] bool growing(double time);
   /// What growth is measured from.
-  void expect_growth(double time) { grew_ = time; }
+  void expect_growth(double time) { grew_ = went_on_ = time; }
   /// Stops the recorder once `tail` s have passed, kills it if it takes too long.
   /// \param age  s since the end of the trial \return whether it has gone
   [[nodiscard]] bool close(double age, double tail);
@@ -41,6 +41,7 @@ class BagWatch {
   bool bad_ = false;
   std::uintmax_t size_ = 0;
   double grew_ = 0.0;
+  double went_on_ = 0.0;  ///< when the recorder was last seen not to be halted
 };
 
 }  // namespace navvi_study::trial

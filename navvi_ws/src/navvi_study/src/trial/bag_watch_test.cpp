@@ -74,6 +74,17 @@ TEST_F(Bag, is_lost_when_it_stops_to_grow) {
   bag.kill();
 }
 
+TEST_F(Bag, R1_of_a_recorder_that_is_halted_is_lost_within_three_seconds) {
+  auto halted = recorder("kill -STOP $$");
+  EXPECT_TRUE(becomes([&] { return halted->halted(); }));
+  BagWatch bag(std::move(halted), 10.0);
+  bag.hears(10.0);
+  bag.expect_growth(20.0);
+  EXPECT_TRUE(bag.growing(21.0));
+  EXPECT_FALSE(bag.growing(22.9));
+  bag.kill();
+}
+
 TEST_F(Bag, is_well_only_if_the_recorder_stopped_when_asked_and_left_something) {
   BagWatch bag(recorder("trap 'head -c 5000 /dev/zero >\"$3\"; exit 0' INT; touch \"$3.ready\"\n"
                         "while :; do sleep 0.01; done"),

@@ -231,6 +231,7 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
   monitor_.start(beginning);
   flow_.start(beginning.stamp);
   if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
+  began_ = now_;
   ending_ = Ending();
   goal_tries_ = GoalTries();
   enter(Phase::running);
@@ -354,7 +355,8 @@ void TrialKeeper::write_end() {
 bool TrialKeeper::record(const Event& event) {
   if (journal_->broken()) return false;
   record::Fields fields = event.fields;
-  fields.set("utc", record::calendar(now_.utc_ns));
+  // By the monotonic clock from the start on: a clock that is set meanwhile changes no order.
+  fields.set("utc", record::calendar(began_.utc_ns + now_.mono_ns - began_.mono_ns));
   const auto row = journal_->append(
       event.type, fields, event.sim_ns, now_.mono_ns,
       event.essential ? record::Durability::essential : record::Durability::relaxed);

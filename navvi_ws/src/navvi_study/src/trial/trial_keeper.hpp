@@ -123,6 +123,7 @@ class TrialKeeper {
   Outlets outlets_;
   navvi_config::SystemCalls calls_;
   Moment now_;
+  Moment began_;  ///< the trial
 
   Readiness readiness_;
   TrialMonitor monitor_;

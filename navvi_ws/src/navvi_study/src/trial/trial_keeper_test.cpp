@@ -56,7 +56,7 @@ class Trials : public testing::Test {
   }
   [[nodiscard]] Moment now() const {
     const auto ns = static_cast<std::int64_t>(1e9 * time_);
-    return {1'000'000'000'000 + ns, ns, 1'700'000'000'000'000'000 + ns};
+    return {1'000'000'000'000 + ns, ns, 1'700'000'000'000'000'000 + set_ + ns};
   }
   void guide(State state, const Eigen::Vector2d& goal) {
     Guidance report;
@@ -75,7 +75,8 @@ class Trials : public testing::Test {
       const bool there = state == State::arrived && !elsewhere_;
       keeper_->take(Odometry{now().ros_ns, {there ? goal : Eigen::Vector2d(time_, 0.0)}}, now());
       guide(state, goal);
-      if (feedback_) keeper_->take(DeviceReport{now().ros_ns, "latency", DeviceState::works}, now());
+      const DeviceReport report{now().ros_ns, "latency", DeviceState::works};
+      if (feedback_) keeper_->take(report, now());
       keeper_->step(now());
     }
   }
@@ -106,6 +107,7 @@ class Trials : public testing::Test {
   TrialNodeConfig config_;
   std::unique_ptr<TrialKeeper> keeper_;
   double time_ = 1.0;  // s, of ROS
+  std::int64_t set_ = 0;  // ns, by which the calendar was set
   std::uint32_t guidance_ = 0;
   std::vector<std::string> events_;
   std::vector<Eigen::Vector2d> goals_;
@@ -270,6 +272,23 @@ TEST_F(Trials, name_what_was_set_and_every_device_and_the_hour_of_each_row) {
   live(1.0, State::following, kScenario.goal);
   live(9.0, State::arrived, kScenario.goal);
   EXPECT_NE(content("summary.csv").find(",started_utc,"), std::string::npos);
+}
+
+TEST_F(Trials, S5_keep_the_order_of_their_hours_when_the_clock_is_set) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  set_ = -3600'000'000'000;
+  live(2.0, State::following, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  std::istringstream events(content("events.csv"));
+  std::vector<std::string> hours;
+  for (std::string line; std::getline(events, line);) {
+    const auto at = line.find("2023-");
+    if (at != line.npos) hours.push_back(line.substr(at, 24));
+  }
+  EXPECT_GT(hours.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(hours.begin(), hours.end())) << content("events.csv");
 }
 
 TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {

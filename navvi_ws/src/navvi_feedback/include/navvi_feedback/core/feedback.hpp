@@ -39,7 +39,7 @@ struct NearNow;
 struct SoundsNow;
 
 struct FeedbackConfig {
-  double stale = 1.0;  ///< s
+  double stale = 0.8;  ///< s
   std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
@@ -100,6 +100,7 @@ class Feedback {
     gate_ = state.state;
     intruder_ = !state.intruder.empty();
   }
+  /// A trial_node that repeats its state, and then is silent while a trial runs, records no more.
   void take(const TrialState& state, double time);
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
   void take(const Scenario& scenario, double time);
@@ -166,6 +167,8 @@ class Feedback {
   std::optional<DriveState::State> gate_;
   bool intruder_ = false;  ///< that gate ignores another node's commands
   TrialState trial_;
+  std::optional<double> trial_time_;  ///< when it came
+  bool trial_repeats_ = false;        ///< the same state has come again
   std::optional<Scenario> scenario_;
   Latest<Velocity> motion_;
   double turned_ = 0.0;            ///< rad, counter-clockwise, since that guidance
