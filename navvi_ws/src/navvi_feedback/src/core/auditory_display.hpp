@@ -31,6 +31,10 @@ class AuditoryDisplay {
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::vector<sounds::Play> update(std::vector<cues::Cue>& cues, const SoundsNow& now,
                                                  double time);
+  /// As Soundscape::stopping_delay().
+  [[nodiscard]] std::optional<double> stopping_delay() const {
+    return soundscape_.stopping_delay();
+  }
   /// One of the chosen loudness, from ahead.
   [[nodiscard]] sounds::Play sample(sounds::Earcon earcon) const;
 

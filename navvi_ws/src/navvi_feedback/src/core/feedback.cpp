@@ -180,6 +180,10 @@ SoundsNow Feedback::sounds_now(const Input& input, double time) const {
   return {input.sounds, input.voice_busy, contacts_, taught, now};
 }
 
+std::optional<double> Feedback::stopping_delay() const {
+  return deciders_->sounds.stopping_delay();
+}
+
 void Feedback::take(const TrialState& state, double time) {
   trial_repeats_ = trial_time_ && state.state == trial_.state;
   trial_time_ = time;

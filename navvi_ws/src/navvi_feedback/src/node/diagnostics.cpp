@@ -101,7 +101,8 @@ DiagnosticStatus speech_status(const devices::Speaker::Status& speaker, const st
   return result;
 }
 
-DiagnosticStatus latency_status(const devices::Latencies& latencies) {
+DiagnosticStatus latency_status(const devices::Latencies& latencies,
+                                std::optional<double> stopping_delay) {
   DiagnosticStatus result = status("navvi/latency", DiagnosticStatus::OK, "In ms.");
   for (std::size_t i = 0; i < names(devices::Chain{}).size(); ++i) {
     const auto chain = static_cast<devices::Chain>(i);
@@ -117,6 +118,11 @@ DiagnosticStatus latency_status(const devices::Latencies& latencies) {
     put("max_ms", figures.longest);
     add(result, navvi_types::to_string(chain) + std::string("_count"),
         std::to_string(figures.count));
+  }
+  if (stopping_delay) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3f", *stopping_delay);
+    add(result, "stopping_delay_s", text.data());
   }
   return result;
 }

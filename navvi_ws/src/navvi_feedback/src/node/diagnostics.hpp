@@ -26,7 +26,9 @@ namespace navvi_feedback::node {
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus speech_status(
     const devices::Speaker::Status& speaker, const std::string& voice);
 /// What a person waited for: "motors p50_ms" and so on; a chain that was never seen has no values.
-[[nodiscard]] diagnostic_msgs::DiagnosticStatus latency_status(const devices::Latencies& latencies);
+/// \param stopping_delay  s, of the person, as learnt so far
+[[nodiscard]] diagnostic_msgs::DiagnosticStatus latency_status(
+    const devices::Latencies& latencies, std::optional<double> stopping_delay);
 
 /// What the person is to be told of the pad, as kinds of cues.
 [[nodiscard]] std::vector<std::string> notices_of(const devices::Gamepad::Status& pad);

@@ -390,7 +390,7 @@ class FeedbackNode {
                                config_.feedback.haptics.enabled),
                     audio_status(mixer_.status()),
                     speech_status(speech_.status(), config_.speaker.voice),
-                    latency_status(latencies_)};
+                    latency_status(latencies_, feedback_.stopping_delay())};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }

@@ -22,13 +22,14 @@ constexpr double kStep = 0.05;  // s, of the wall timer
 constexpr double kBeat = 0.25;  // s, between two messages of the same state
 constexpr std::uint32_t kQueue = 1000;
 
-// All but what a replay makes anew of these: what moves in the picture, and the mesh.
+// All but what a replay makes anew of these: the mesh, and most of what moves in the picture.
 constexpr const char* kRecorded[] = {"/clock",
                                      "/tf",
                                      "/tf_static",
                                      "odom",
                                      "octomap_binary",
                                      "navvi/scene",
+                                     "navvi/scene_moving",
                                      "navvi/obstacles",
                                      "navvi/proximity",
                                      "navvi/contacts",
@@ -140,6 +141,9 @@ class TrialNode {
     out.start_recorder = [this](const std::filesystem::path& bag) {
       std::vector<std::string> topics;
       for (const char* topic : kRecorded) topics.push_back(node_.resolveName(topic));
+      // As an argument that renames: the bag has what comes seldom under the name that RViz knows.
+      topics.push_back(node_.resolveName("navvi/scene_moving") +
+                       ":=" + node_.resolveName("navvi/scene_recorded"));
       return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
     };
     return out;

@@ -181,9 +181,12 @@ Summary summarize(const std::vector<Row>& rows) {
         return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes";
       })));
   add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
-  for (const char* name : {"sounds_played", "patterns_felt"})
-    add(name, tally ? tally->fields.get(name) : nothing);
-  for (const std::string& name : latency_columns())
+  // A simulated person knows of sounds by message, also where no device plays them.
+  const bool unheard = start && start->fields.get("pad") == "simulated" &&
+                       start->fields.get("audio") != "works";
+  add("sounds_played", tally && !unheard ? tally->fields.get("sounds_played") : nothing);
+  add("patterns_felt", tally ? tally->fields.get("patterns_felt") : nothing);
+  for (const std::string& name : reported_columns())
     add(name.c_str(), tally ? tally->fields.get(name) : nothing);
   add("missed_messages", tally ? tally->fields.get("missed_messages") : nothing);
   for (const char* name : {"state_step", "state_hash"})
@@ -197,6 +200,12 @@ std::vector<std::string> latency_columns() {
   for (const char* chain : {"sensed", "motors", "pattern", "words", "answer", "silence"})
     for (const char* figure : {"_p50_ms", "_p99_ms", "_max_ms"})
       names.push_back(std::string(chain) + figure);
+  return names;
+}
+
+std::vector<std::string> reported_columns() {
+  std::vector<std::string> names = latency_columns();
+  names.push_back("stopping_delay_s");
   return names;
 }
 
@@ -229,7 +238,7 @@ std::optional<Summary> parse_summary(const std::string& text) {
 std::vector<std::string> differences(const Summary& summary, const Summary& recount) {
   const std::map<std::string, std::string> before(summary.begin(), summary.end());
   std::map<std::string, std::string> again(recount.begin(), recount.end());
-  std::vector<std::string> newer = latency_columns();
+  std::vector<std::string> newer = reported_columns();
   newer.insert(newer.end(), std::begin(kNewer), std::end(kNewer));
   for (const std::string& name : newer)
     if (before.count(name) == 0) again.erase(name);

@@ -25,6 +25,10 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 /// to the answer, and the end of words to silence.
 [[nodiscard]] std::vector<std::string> latency_columns();
 
+/// These, and what else feedback_node reports with them and the record keeps of the end of a trial:
+/// stopping_delay_s, s, that the person was last found to take to stop a turn.
+[[nodiscard]] std::vector<std::string> reported_columns();
+
 /// A header and one row.
 [[nodiscard]] std::string summary_csv(const Summary& summary);
 /// nullopt for a text that summary_csv() does not write.

@@ -142,6 +142,18 @@ TEST(Events, of_nothing_are_a_header) {
   EXPECT_EQ(text.find('\n'), text.size() - 1);
 }
 
+TEST(Summary, F1_sounds_that_no_device_played_to_a_simulated_person_were_not_played) {
+  auto rows = example().rows;
+  rows.back().fields.set("sounds_played", std::uint64_t{20}).set("path_length", 3.0);
+  rows.front().fields.set("pad", "simulated").set("audio", "works");
+  EXPECT_EQ(columns(rows)["sounds_played"], "20");
+  auto silent = example().rows;
+  silent.back().fields.set("sounds_played", std::uint64_t{20}).set("path_length", 3.0);
+  silent.front().fields.set("pad", "simulated").set("audio", "missing");
+  EXPECT_EQ(columns(silent)["sounds_played"], "n/a");
+  EXPECT_EQ(columns(silent)["pad"], "simulated");
+}
+
 TEST(Summary, wheels_that_were_held_before_they_turned_are_no_safe_stop) {
   auto rows = example().rows;
   const auto before = std::stoi(columns(rows)["safe_stop_count"]);

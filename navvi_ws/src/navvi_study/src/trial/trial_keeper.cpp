@@ -257,7 +257,8 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("profile", config_.profile).set("version", config_.version);
   fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
   fields.set("settings", outlets_.settings());
-  for (const char* device : {"audio", "pad"}) fields.set(device, readiness_.state_of(device));
+  fields.set("audio", readiness_.state_of("audio"));
+  fields.set("pad", simulated() ? "simulated" : readiness_.state_of("pad"));
   // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
   if (const auto pressed = std::exchange(pressed_, std::nullopt))
     fields.set("pressed", 1e-9 * static_cast<double>(*pressed), 3);
@@ -274,6 +275,7 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
   fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);
   fields.set("center_range", monitor.center_range).set("arrival_range", monitor.arrival_range);
+  fields.set("stuck_cues", list_of(beginning.stuck));
   return fields;
 }
 

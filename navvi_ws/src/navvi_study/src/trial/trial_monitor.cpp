@@ -135,7 +135,7 @@ record::Fields TrialMonitor::end_fields() const {
   record::Fields fields = tally_fields();
   for (auto report = latencies_.rbegin(); report != latencies_.rend(); ++report) {
     if (end_ && report->stamp > *end_) continue;
-    for (const std::string& name : record::latency_columns())
+    for (const std::string& name : record::reported_columns())
       if (const auto known = report->traits.find(name); known != report->traits.end())
         fields.set(name, known->second);
     break;
@@ -359,7 +359,9 @@ std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
   if (cue.modality != Modality::speech) return events;
   if (cue.stage == CueStage::started) ++tally_.cues_spoken;
   // However its speech fares, a cue that says stuck is the fact of being stuck.
-  if (cue.kind == "stuck" && stuck_cues_.insert(cue.id).second)
+  const std::vector<std::string>& stuck = start_->stuck;
+  const bool says_stuck = std::find(stuck.begin(), stuck.end(), cue.kind) != stuck.end();
+  if (says_stuck && stuck_cues_.insert(cue.id).second)
     events.push_back({"STUCK", place(), cue.stamp, true});
   return events;
 }

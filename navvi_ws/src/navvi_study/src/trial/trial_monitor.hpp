@@ -74,6 +74,8 @@ struct TrialStart {
   std::uint32_t contact_seq = 0;  ///< of the last contact before the trial
   std::uint64_t shelf_count = 0;  ///< contacts before the trial
   std::uint64_t obstacle_count = 0;
+  /// Kinds of cues that say that the robot is stuck; records of 0.1.0 count the first alone.
+  std::vector<std::string> stuck = {"stuck", "stuck_unknown", "back_away"};
 };
 
 /// Running figures of a trial.

@@ -288,6 +288,21 @@ TEST_F(Monitor, counts_being_stuck_once_a_cue) {
   EXPECT_EQ(monitor_.tally().cues_spoken, 1u);
 }
 
+TEST_F(Monitor, counts_every_way_of_being_told_that_the_robot_is_stuck) {
+  std::uint32_t id = 0;
+  for (const char* kind : {"stuck", "stuck_unknown", "back_away", "blocked"}) {
+    CueEvent cue{++id, navvi_types::CueStage::queued, kind};
+    cue.stamp = 11 * kSecond;
+    EXPECT_EQ(types(monitor_.observe(cue)), id < 4 ? Names{"STUCK"} : Names{}) << kind;
+  }
+  TrialStart older{20 * kSecond, {5.0, 0.0}};
+  older.stuck = {"stuck"};
+  monitor_.start(older);
+  CueEvent cue{9, navvi_types::CueStage::queued, "back_away"};
+  cue.stamp = 21 * kSecond;
+  EXPECT_TRUE(monitor_.observe(cue).empty());
+}
+
 TEST_F(Monitor, tells_whether_the_robot_had_moved_when_its_wheels_were_stopped) {
   const auto early = monitor_.observe(stopped(11));
   ASSERT_EQ(early.size(), 1u);

@@ -119,6 +119,9 @@ class Feedback {
   /// As CuePolicy::note().
   void note(const std::vector<CueEvent>& events);
 
+  /// s, that this person and robot take to stop a turn, as learnt so far; nullopt where turns have
+  /// no sound
+  [[nodiscard]] std::optional<double> stopping_delay() const;
   /// The latest guidance, however old.
   [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
   [[nodiscard]] bool guidance_fresh(double time) const {
