@@ -134,6 +134,84 @@ def release(process):
     process.communicate("\n")
 
 
+NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback", "feedback_node"), ("navvi_study", "trial_node"),
+         ("navvi_perception", "perception_node"), ("navvi_safety", "relay_node")]
+
+
+def node(package, name, env, *words, before=""):
+    program = subprocess.check_output(["catkin_find", "--first-only", "--libexec", package, name], text=True, env=env).strip()
+    return subprocess.Popen(["bash", "-c", f"{before} exec {program} \"$@\"", "bash", *words], env=env, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
+
+
+@pytest.mark.parametrize("files", [8, 16, 40, 200])
+@pytest.mark.parametrize("package, name", NODES, ids=lambda word: word)
+def test_A3_a_node_that_may_open_few_files_ends_with_a_sentence(package, name, files, master):
+    process = node(package, name, master, before=f"ulimit -n {files};")
+    said = process.communicate(timeout=30)[0]
+    assert process.returncode == 2, said
+    assert f"Only {files} files may be open at once; allowed is 256 or more" in said
+
+
+def test_A3_a_node_raises_a_limit_that_it_may_raise(master):
+    process = node("navvi_nav", "nav_node", master, before="ulimit -Sn 16;")
+    time.sleep(3)
+    limits = pathlib.Path(f"/proc/{process.pid}/limits").read_text()
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=30)[0]
+    assert re.search(r"Max open files +256 ", limits), said
+
+
+def too_much(name):
+    """A topic of a node, and the largest message on it that says nothing wrong: some 20 MB and more in memory."""
+    from geometry_msgs.msg import PoseStamped, TransformStamped
+    from nav_msgs.msg import OccupancyGrid, Path
+    from tf2_msgs.msg import TFMessage
+    if name == "nav_node":
+        grid = OccupancyGrid(data=[0] * 16_000_000)
+        grid.header.frame_id, grid.info.width, grid.info.height, grid.info.resolution, grid.info.origin.orientation.w = "map", 4000, 4000, 0.05, 1.0
+        return "/map", grid
+    if name == "feedback_node":
+        pose = PoseStamped()
+        pose.pose.orientation.w = 1.0
+        return "/navvi/path", Path(poses=[pose] * 100_000)
+    transform = TransformStamped(child_frame_id="a_frame_that_nobody_has_ever_heard_of_before")
+    transform.header.frame_id, transform.transform.rotation.w = "another_frame_that_nobody_has_ever_heard_of", 1.0
+    return "/tf", TFMessage(transforms=[transform] * 150_000)
+
+
+@pytest.mark.parametrize("megabytes", [12, 40])
+@pytest.mark.parametrize("package, name", NODES[1:4], ids=lambda word: word)
+def test_A2_a_node_without_memory_for_a_message_ends_with_a_sentence_or_goes_on(package, name, megabytes, master, tmp_path):
+    """It is started anew then; what must not be is an end by a signal, in which nothing is said or kept."""
+    import rospy
+    process = node(package, name, master, *{"feedback_node": ["_input:=topic", "_speech:=false"], "trial_node": [f"_out:={tmp_path}"]}.get(name, []))
+    try:
+        os.environ.update(ROS_MASTER_URI=master["ROS_MASTER_URI"], ROS_IP="127.0.0.1")
+        rospy.init_node("too_much", anonymous=True, disable_signals=True, disable_rostime=True)
+        topic, message = too_much(name)
+        publisher = rospy.Publisher(topic, type(message), queue_size=1, latch=True)
+        deadline = time.monotonic() + 20
+        while publisher.get_num_connections() == 0:
+            assert time.monotonic() < deadline and process.poll() is None
+            time.sleep(0.1)
+        time.sleep(1.0)
+        used = int(re.search(r"VmSize:\s+(\d+)", pathlib.Path(f"/proc/{process.pid}/status").read_text()).group(1))
+        subprocess.run(["prlimit", f"--pid={process.pid}", f"--as={(used << 10) + (megabytes << 20)}"], check=True)
+        publisher.publish(message)
+        time.sleep(5.0)
+        ended = process.poll()
+        if ended is None:
+            process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=30)[0]
+        assert ended in (None, 3), said
+        assert megabytes > 12 or "std::bad_alloc" in said, "it did not run out of memory"
+        assert ended is None or "There is not enough memory for what came; this node ends." in said
+    finally:
+        if process.poll() is None:
+            process.kill()
+
+
 @pytest.fixture
 def everybodys_folder():
     folder = pathlib.Path(tempfile.mkdtemp())

@@ -48,3 +48,11 @@ def test_links_of_the_documents_lead_to_files():
             if not (page.parent / target).exists():
                 lost.append(f"{page.relative_to(ROOT)}: {target}")
     assert lost == []
+
+
+def test_each_test_of_the_fault_matrix_exists():
+    tests = "\n".join(path.read_text() for path in [*SOURCES.rglob("*_test.cpp"), *(ROOT / "test").glob("*_test.py")])
+    cells = [line.rsplit("|", 2)[1] for line in (ROOT / "doc/faults.md").read_text().splitlines() if line.startswith("| ")]
+    names = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
+    assert len(names) > 60
+    assert sorted(name for name in names if name not in tests) == []

@@ -3,6 +3,9 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 
+#include <new>
+#include <optional>
+
 #include "navvi_config/launcher.hpp"
 #include "navvi_config/reader.hpp"
 
@@ -41,6 +44,9 @@ template <typename Config, typename Body>
   } catch (const ConfigError& error) {
     ROS_FATAL("%s", error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    ROS_FATAL("There is not enough memory for what came; this node ends.");
+    return 3;
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 3;
