@@ -73,7 +73,7 @@ cmake_build() {
     ln -sfn "$(catkin_toplevel)" "$workspace/src/CMakeLists.txt"
     cmake -S "$workspace/src" -B "$build" -G Ninja "${flags[@]}" && echo "${flags[*]}" >"$build/configured" || return
   fi
-  cmake --build "$build" --target "$@"
+  cmake --build "$build" -j "$(nproc)" --target "$@"
 }
 # Catkin's CMakeLists.txt of a whole workspace.
 catkin_toplevel() {

@@ -44,6 +44,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"goal_refused_unreachable", P::message, 1.0, 10.0},
       {"release_stick", P::message, 2.0, 2.0},
       {"intruder", P::message, 5.0, 10.0},
+      {"machine_slow", P::message, 5.0, 10.0},
       {"pad_back", P::message, 2.0, 5.0},
       {"keyboard_back", P::message, 2.0, 5.0},
       {"audio_back", P::message, 2.0, 5.0},

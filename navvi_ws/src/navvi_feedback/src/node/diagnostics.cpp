@@ -1,6 +1,7 @@
 #include "node/diagnostics.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace navvi_feedback::node {
@@ -98,6 +99,15 @@ DiagnosticStatus speech_status(const devices::Speaker::Status& speaker, const st
   add(result, "voice", voice);
   add(result, "spoken", std::to_string(speaker.spoken));
   add(result, "failed", std::to_string(speaker.failed));
+  return result;
+}
+
+DiagnosticStatus beat_status(const Beat& beat) {
+  DiagnosticStatus result =
+      beat.was_late()
+          ? status("navvi/beat", DiagnosticStatus::WARN, "The computer is too busy: signals come late.")
+          : status("navvi/beat", DiagnosticStatus::OK, "In time.");
+  add(result, "longest_ms", std::to_string(std::lround(1e3 * beat.longest())));
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "devices/gamepad.hpp"
 #include "devices/latencies.hpp"
 #include "devices/speaker.hpp"
+#include "node/beat.hpp"
 
 namespace navvi_feedback::node {
 
@@ -29,6 +30,9 @@ namespace navvi_feedback::node {
 /// \param stopping_delay  s, of the person, as learnt so far
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus latency_status(
     const devices::Latencies& latencies, std::optional<double> stopping_delay);
+
+/// Whether this node is woken in time: "longest_ms" between two beats.
+[[nodiscard]] diagnostic_msgs::DiagnosticStatus beat_status(const Beat& beat);
 
 /// What the person is to be told of the pad, as kinds of cues.
 [[nodiscard]] std::vector<std::string> notices_of(const devices::Gamepad::Status& pad);

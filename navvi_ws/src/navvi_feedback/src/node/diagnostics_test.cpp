@@ -61,5 +61,12 @@ TEST(Diagnostics, tell_sound_that_is_off_from_sound_that_is_missing) {
   EXPECT_EQ(state(Device::lost), "missing");
 }
 
+TEST(Diagnostics, a_beat_that_is_late_is_a_warning) {
+  Beat beat(0.1);
+  EXPECT_EQ(beat_status(beat).level, diagnostic_msgs::DiagnosticStatus::OK);
+  for (double time = 0.0; time < 2.0; time += 0.2) (void)beat.becomes_late(time);
+  EXPECT_EQ(beat_status(beat).level, diagnostic_msgs::DiagnosticStatus::WARN);
+}
+
 }  // namespace
 }  // namespace navvi_feedback::node

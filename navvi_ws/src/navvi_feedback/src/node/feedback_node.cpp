@@ -22,6 +22,7 @@
 #include "navvi_feedback/core/feedback.hpp"
 #include "navvi_feedback/haptics/rumble_output.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
+#include "node/beat.hpp"
 #include "node/diagnostics.hpp"
 #include "node/node_config.hpp"
 #include "person/settings_saver.hpp"
@@ -42,6 +43,7 @@ constexpr double kReport = 0.25;    // s; who waits for it knows within a second
 constexpr double kHalted = 0.5;     // s without a tick
 constexpr double kCatchUp = 0.2;    // s
 constexpr double kRarely = 2.0;     // s; who is slow all the time speaks nevertheless
+constexpr double kLate = 0.1;       // s between two ticks; below it hands and ears notice nothing
 constexpr double kLastWords = 3.0;  // s, that the end of a session waits for them at most
 
 /// Wall time, so that the person hears of a simulation that has stopped.
@@ -200,6 +202,11 @@ class FeedbackNode {
     // Who was halted first takes what came meanwhile, and only then judges what is lost.
     if (time - std::exchange(last_tick_, time) > kHalted && time - woke_ > kRarely) woke_ = time;
     if (time - woke_ < kCatchUp) return;
+    if (!caused && beat_.becomes_late(time)) {
+      ROS_WARN("The computer is too busy: touch and words come late. Close other programs; doc/driving.md says how "
+               "NavVI goes before them.");
+      news_.push_back("machine_slow");
+    }
     core::Feedback::Input input;
     input.hands = source_.read(time);
     input.keyboard = source_.kind() == devices::InputSource::Kind::keyboard;
@@ -390,13 +397,14 @@ class FeedbackNode {
                                config_.feedback.haptics.enabled),
                     audio_status(mixer_.status()),
                     speech_status(speech_.status(), config_.speaker.voice),
-                    latency_status(latencies_, feedback_.stopping_delay())};
+                    latency_status(latencies_, feedback_.stopping_delay()), beat_status(beat_)};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }
 
   NodeConfig config_;
   core::Feedback feedback_;
+  Beat beat_{kLate};
   devices::Latencies latencies_;  ///< of this trial; before all that times for it
   devices::Mixer mixer_;
   devices::SpeechChannel speech_;
