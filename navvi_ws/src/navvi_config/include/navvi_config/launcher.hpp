@@ -22,7 +22,7 @@ namespace navvi_config {
 }
 
 /// Lets this process end with the roslaunch that started it, also where that is killed and can end
-/// none itself: nothing would supervise what it leaves, and the port of its master would stay taken.
+/// none itself: nothing would supervise what it leaves, and its master's port would stay taken.
 /// The environment variable NAVVI_LAUNCHER names that roslaunch where its end may come first.
 inline void end_with_launcher() {
   const pid_t parent = ::getppid();

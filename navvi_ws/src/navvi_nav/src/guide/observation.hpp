@@ -25,8 +25,8 @@ class Observation {
   void set_obstacles(std::vector<MovingThing> things, double time);
   void reject_obstacles() { obstacles_rejected_ = true; }
   /// \param stamp  of the pose
-  /// \return false for a pose from the future, which is not taken: by a clock that is ahead it would
-  /// look fresh for as long as that clock is ahead
+  /// \return false for a pose from the future, which is not taken: by a clock that is ahead it looks
+  /// fresh for as long as that clock is ahead
   bool set_pose(const Pose2& pose, double stamp, double now);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// Drops obstacles that are too old, and measures the pace.

@@ -14,7 +14,8 @@ Guidance guidance(Guidance::State state) {
 }
 
 TEST(Readiness, of_nothing_misses_everything) {
-  EXPECT_EQ(Readiness({}).missing(0.0, false), (Words{"the clock", "odometry", "guidance", "a report of feedback_node"}));
+  EXPECT_EQ(Readiness({}).missing(0.0, false),
+            (Words{"the clock", "odometry", "guidance", "a report of feedback_node"}));
 }
 
 TEST(Readiness, A1_waits_for_a_guide_that_never_starts) {
