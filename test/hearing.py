@@ -47,6 +47,10 @@ def grammar(told):
         "distance": "<number> meters | one meter | <number> point five meters | zero point five meters",
         "thing": " | ".join(words[key] for key in
                             ("shelf", "wall", "box", "pedestal", "worker", "forklift", "pallet_robot", "other")),
+        "a_thing": " | ".join(value for key, value in words.items() if key.startswith("a_")),
+        "stick": "the stick | the keys",
+        "more": "up | page up",
+        "less": "down | page down",
         "place": " | ".join(value + " [<number>]" for key, value in words.items() if key.startswith("place_")),
         "setting": " | ".join(value for key, value in words.items() if key.startswith("setting_")),
         "value": "<ones> hundred [and] [<number>] | <number> | <number> percent | one hundred percent | "
@@ -67,7 +71,7 @@ def grammar(told):
         text = re.sub(r"[.,]", " ", template.lower())
         text = re.sub(r"\d+", lambda digits: " ".join(number_words(digits.group())), text)
         text = re.sub(r"\{(count|all)\}", "<number>", text)
-        text = re.sub(r"\{(?!direction|way|distance|thing|place|side|where|setting|value|person)(\w+)\}", "<button>", text)
+        text = re.sub(r"\{(?!direction|way|distance|thing|a_thing|stick|more|less|place|side|where|setting|value|person)(\w+)\}", "<button>", text)
         cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
                                "public <cues> = <cue>+;"])  # cues may follow on one another at once

@@ -140,9 +140,30 @@ def test_a_screen_reader_reads_what_was_said_and_what_the_trial_waits_for(desk):
     set_state(desk, "READY")
     say(desk, "2 o'clock, 5 meters")
     eventually(lambda: desk.widget("instruction").name == "2 o'clock, 5 meters")
-    eventually(lambda: desk.widget("state").name == "press start")
+    eventually(lambda: desk.widget("state").name == "press start to begin")
     set_state(desk, "RUNNING")
     eventually(lambda: desk.widget("state").name == "drive")
+
+
+def test_the_panel_speaks_the_language_of_the_session_and_names_its_keys(desk):
+    import rospkg
+    import rospy
+    from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+    diagnostics = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1, latch=True)
+
+    def sit_at(language, source):
+        rospy.set_param("/navvi/phrases", rospkg.RosPack().get_path("navvi_feedback") + f"/config/phrases/{language}.yaml")
+        diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name="navvi/pad", values=[KeyValue("input", source)])]))
+    button = desk.widget("Start")
+    try:
+        sit_at("es", "keyboard")
+        eventually(lambda: (button.name, button.description) == ("Empezar", "Tecla intro"))
+        set_state(desk, "READY")
+        eventually(lambda: desk.widget("state").name == "pulse intro para empezar")
+    finally:
+        set_state(desk, "RUNNING")
+        sit_at("en", "pad")
+        eventually(lambda: (button.name, button.description) == ("Start", "Key F5"))
 
 
 def test_a_screen_reader_presses_a_button(desk):

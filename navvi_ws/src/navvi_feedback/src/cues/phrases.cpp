@@ -23,8 +23,11 @@ constexpr double kFar = 9999.0;
 constexpr int kMostPlaces = 999;        // likewise, of one name
 constexpr double kFeet = 1.0 / 0.3048;  // in a metre
 
-const std::set<std::string> kPlaceholders = {"direction", "way",   "distance", "thing", "side",
-                                             "where",     "place", "setting",  "value", "person"};
+const std::set<std::string> kPlaceholders = {"direction", "way",   "distance", "thing",   "a_thing",
+                                             "side",      "where", "place",    "setting", "value",
+                                             "person",    "stick", "more",     "less"};
+/// Words for the hands: one for those on a pad, one for those on the keys.
+const std::set<std::string> kHands = {"stick", "more", "less"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
@@ -37,7 +40,8 @@ std::vector<const char*> things() {
 
 std::set<std::string> word_keys() {
   std::set<std::string> keys = {"meter", "meters", "foot", "feet", "percent"};
-  for (const char* thing : things()) keys.insert(thing);
+  for (const char* thing : things()) keys.insert({thing, std::string("a_") + thing});
+  for (const std::string& hands : kHands) keys.insert({"pad_" + hands, "key_" + hands});
   for (const char* side : kSides) {
     keys.insert(std::string("side_") + side);
     keys.insert(std::string("where_") + side);
@@ -50,6 +54,39 @@ std::set<std::string> word_keys() {
       keys.insert(std::string(wording) + "_" + std::to_string(hour));
   return keys;
 }
+
+/// What the picture shows; navvi_rviz reads it, too.
+const std::set<std::string> kPicture = {"drive",
+                                        "drive_no_sound",
+                                        "no_sound",
+                                        "wait",
+                                        "make_room",
+                                        "arrived",
+                                        "goal_refused",
+                                        "to_go",
+                                        "begin",
+                                        "end",
+                                        "repeat",
+                                        "goal",
+                                        "around",
+                                        "chase",
+                                        "top",
+                                        "forward",
+                                        "rviz",
+                                        "settings",
+                                        "vision",
+                                        "down",
+                                        "up",
+                                        "choose",
+                                        "back",
+                                        "key",
+                                        "plate_goal",
+                                        "plate_start",
+                                        "vision_high_contrast",
+                                        "vision_yellow_on_black",
+                                        "vision_large",
+                                        "vision_color_blind",
+                                        "vision_paper"};
 
 std::set<std::string> kind_keys() {
   std::set<std::string> keys;
@@ -158,8 +195,11 @@ std::vector<std::string> possible(const std::string& placeholder,
     for (const auto& [key, word] : words)
       if (key.rfind(prefix, 0) == 0) texts.push_back(word);
   };
-  if (placeholder == "thing") {
-    for (const char* thing : things()) texts.push_back(words.at(thing));
+  if (placeholder == "thing" || placeholder == "a_thing") {
+    const std::string article = placeholder == "thing" ? "" : "a_";
+    for (const char* thing : things()) texts.push_back(words.at(article + thing));
+  } else if (kHands.count(placeholder) > 0) {
+    texts = {words.at("pad_" + placeholder), words.at("key_" + placeholder)};
   } else if (placeholder == "direction" || placeholder == "way") {
     for (const char* wording : kDirections) add(std::string(wording) + "_");
   } else {
@@ -226,12 +266,12 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   const std::vector<std::string> instead = {"again", "clock", "brief", "full"};
   for (const auto& item : root)
     if (const std::string key = item.first.Scalar();
-        key != "voice" && key != "phrases" && key != "words" && key != "lessons" &&
-        std::find(instead.begin(), instead.end(), key) == instead.end())
+        key != "voice" && key != "phrases" && key != "words" && key != "picture" &&
+        key != "lessons" && std::find(instead.begin(), instead.end(), key) == instead.end())
       throw ConfigError(
           name + ", line " + std::to_string(item.first.Mark().line + 1) +
           ": there is no section \"" + key +
-          "\"; there are voice, phrases, again, clock, brief, full, words and lessons.");
+          "\"; there are voice, phrases, again, clock, brief, full, words, picture and lessons.");
   if (!root["voice"] || !root["voice"].IsScalar())
     throw ConfigError(name + ": \"voice\" is missing or no text; it names a voice of espeak-ng.");
   voice_ = root["voice"].Scalar();
@@ -242,6 +282,11 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
     if (words_.count(key) == 0) words.fail(key, "is missing");
     if (!speakable(words_[key])) words.fail(key, "cannot be spoken. " + limits());
   }
+
+  Section picture(name, root, "picture");
+  picture_ = picture.read(kPicture);
+  for (const std::string& key : kPicture)
+    if (picture_.count(key) == 0) picture.fail(key, "is missing");
 
   if (root["lessons"]) lessons_ = Section(name, root, "lessons").read(std::nullopt);
 
@@ -256,6 +301,14 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
     phrases_[which] = section.read(kind_keys());
     for (const auto& [kind, text] : phrases_[which]) check_phrase(section, kind, text, words_);
   }
+
+  // Whatever leads on may have to end a wait.
+  for (const auto& [which, texts] : phrases_)
+    for (const auto& [kind, text] : texts)
+      for (const auto& ends : phrases_)
+        if (const auto go_on = ends.second.find("go_on");
+            is_way(family_of(kind)) && go_on != ends.second.end())
+          check_phrase(Section(name, root, which), kind, go_on->second + ", " + text, words_);
 }
 
 std::string Phrases::say(const std::string& kind, const Fillings& fillings, bool again) const {
@@ -279,10 +332,13 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     if (!fillings.distance) throw missing();
     return distance(*fillings.distance);
   }
-  if (placeholder == "thing") {
+  if (placeholder == "thing" || placeholder == "a_thing") {
     if (!fillings.thing) throw missing();
-    return words_.at(to_string(*fillings.thing));
+    return words_.at((placeholder == "thing" ? "" : "a_") +
+                     std::string(to_string(*fillings.thing)));
   }
+  if (kHands.count(placeholder) > 0)
+    return words_.at((fillings.keys ? "key_" : "pad_") + placeholder);
   if (placeholder == "side" || placeholder == "where") {
     if (!fillings.side) throw missing();
     return words_.at(placeholder + "_" + kSides.at(static_cast<std::size_t>(*fillings.side)));

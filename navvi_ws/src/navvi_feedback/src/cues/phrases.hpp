@@ -64,6 +64,7 @@ struct Fillings {
   std::optional<SettingName> setting = {};
   std::optional<SettingValue> value = {};  ///< of the setting, where that is no number
   std::string person = {};                 ///< letters, digits, - and _, at most 24
+  bool keys = false;                       ///< the hands are on the keyboard
 };
 
 /// A cue that is not worded yet.
@@ -73,7 +74,7 @@ struct Utterance {
   std::optional<Priority> priority = {};     ///< instead of the kind's own
   bool asked = false;                        ///< by the person: said however often
   std::vector<Utterance> also = {};          ///< in the same sentence, as far as there is room
-  bool goes_on = false;                      ///< begins with the phrase go_on
+  bool goes_on = false;                      ///< begins with the phrase go_on; of the way alone
   std::optional<Eigen::Vector2d> from = {};  ///< m, in base_link: its sound comes first, from there
 };
 
@@ -82,16 +83,17 @@ struct Utterance {
 ///
 /// Placeholders: {direction} an hour as the wording has it, {way} likewise, but "straight
 /// ahead" in all of them, {distance} a distance with its unit,
-/// {thing} a thing's noun, {side} "left", {where} "on the left", {place} "dock 2", {setting} what
-/// can be set, {value} to what, {person} a name.
+/// {thing} a thing's noun, {a_thing} with its article, {side} "left", {where} "on the left",
+/// {place} "dock 2", {setting} what can be set, {value} to what, {person} a name; {stick} what the
+/// hand is on, {more} and {less} what it presses for that: of the pad, or of the keyboard.
 class Phrases {
  public:
-  /// \param file  with the sections voice, phrases, words; in clock, brief and full stand phrases
-  /// that are said instead where that wording is wanted, brief and full before clock, and in again
-  /// what is said instead of the same words once more
-  /// \throws navvi_config::ConfigError with file, line and key if the file is missing or no YAML,
-  /// if a kind of cue_kinds() has no phrase or a word is missing, if a key or placeholder is
-  /// unknown, or if a text, filled in any way, would not be speakable().
+  /// \param file  with the sections voice, phrases, words, picture; in clock, brief and full stand
+  /// phrases that are said instead where that wording is wanted, brief and full before clock, and
+  /// in again what is said instead of the same words once more \throws navvi_config::ConfigError
+  /// with file, line and key if the file is missing or no YAML, if a kind of cue_kinds() has no
+  /// phrase or a word is missing, if a key or placeholder is unknown, or if a text, filled in any
+  /// way, and after the phrase go_on if it is of the way, would not be speakable().
   explicit Phrases(const std::filesystem::path& file, const WordingConfig& wording = {});
 
   /// \throws std::logic_error for an unknown kind, a filling that the phrase needs and that is
@@ -110,6 +112,8 @@ class Phrases {
 
   /// The voice of espeak-ng that speaks this language.
   [[nodiscard]] const std::string& voice() const { return voice_; }
+  /// What the picture shows, by key.
+  [[nodiscard]] const std::map<std::string, std::string>& picture() const { return picture_; }
   /// What is told in lessons, by key; whoever tells it checks it. Empty where the file has none.
   [[nodiscard]] const std::map<std::string, std::string>& lessons() const { return lessons_; }
 
@@ -120,6 +124,7 @@ class Phrases {
   std::string voice_;
   std::map<std::string, std::map<std::string, std::string>> phrases_;  ///< by section
   std::map<std::string, std::string> words_;
+  std::map<std::string, std::string> picture_;
   std::map<std::string, std::string> lessons_;
 };
 

@@ -130,7 +130,7 @@ TEST(Phrases, call_a_leg_straight_ahead_in_every_wording_but_a_place_by_its_hour
               "new route, straight ahead, 8 meters");
   const Phrases phrases(kEnglish);
   EXPECT_EQ(phrases.say("make_room", ahead),
-            "make room for the pallet robot, straight ahead, 8 meters");
+            "make room for a pallet robot, straight ahead, 8 meters");
   EXPECT_EQ(phrases.say("goal_info", ahead), "goal 8 meters, 12 o'clock");
   EXPECT_EQ(phrases.say("rerouted", everything()), "new route, 3 o'clock, 8 meters");
 }
@@ -175,9 +175,59 @@ TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
   Fillings one = everything();
   one.hour = 1;
   one.distance = 1.0;
-  EXPECT_EQ(phrases.say("direction", one), "a la 1, 1 metro");
-  EXPECT_EQ(phrases.say("direction", everything()), "a las 3, 8 metros");
+  EXPECT_EQ(phrases.say("direction", one), "hacia la 1, 1 metro");
+  EXPECT_EQ(phrases.say("direction", everything()), "hacia las 3, 8 metros");
   EXPECT_EQ(phrases.say("shelf_near", everything()), "estanter\u00eda a la izquierda");
+}
+
+TEST(Phrases, name_what_the_hands_are_on) {
+  Fillings keys = everything();
+  keys.keys = true;
+  const Phrases english(kEnglish);
+  EXPECT_EQ(english.say("robot_stopped"), "robot stopped, release the stick");
+  EXPECT_EQ(english.say("robot_stopped", keys), "robot stopped, release the keys");
+  EXPECT_EQ(english.say("setting_open", keys),
+            "volume, 2 percent, page up for more, page down for less");
+  EXPECT_EQ(Phrases(kSpanish).say("release_stick", keys), "suelte las teclas");
+}
+
+TEST(Phrases, call_what_has_no_name_something) {
+  Fillings fillings = everything();
+  fillings.thing = ThingClass::other;
+  const Phrases english(kEnglish);
+  EXPECT_EQ(english.say("collision_obstacle", fillings), "hit something on the left");
+  EXPECT_EQ(english.say("obstacle_comes", fillings), "something coming, on the left");
+  EXPECT_EQ(english.say("make_room", fillings), "make room for something, 3 o'clock, 8 meters");
+  EXPECT_EQ(Phrases(kSpanish).say("collision_obstacle", fillings), "choque, algo a la izquierda");
+}
+
+TEST(Phrases, of_the_end_of_a_wait_and_of_straight_ahead_begin_with_other_words) {
+  for (const fs::path& language : {kEnglish, kSpanish})
+    for (const WordingConfig& worded : all_wordings()) {
+      const Phrases phrases(language, worded);
+      const auto first = [&](const char* kind) {
+        const std::string text = phrases.say(kind, everything());
+        return text.substr(0, text.find_first_of(" ,"));
+      };
+      const std::set<std::string> words = {first("go_on"), first("straight"),
+                                           first("obstacle_stop"), first("blocked")};
+      EXPECT_EQ(words.size(), 4U) << language;
+    }
+}
+
+TEST(Phrases, of_the_way_must_leave_room_for_the_end_of_a_wait) {
+  const std::string sentence = refusal(
+      replaced("slight: \"a little {side}, {distance}\"",
+               "slight: \"a little bit farther there to the {side} hand, {distance}, {way}\""));
+  EXPECT_TRUE(names(sentence, "phrases/slight")) << sentence;
+}
+
+TEST(Phrases, teach_the_word_to_stop_that_is_said) {
+  for (const fs::path& language : {kEnglish, kSpanish}) {
+    const Phrases phrases(language);
+    const std::string stop = phrases.say("obstacle_stop", everything());
+    EXPECT_EQ(phrases.lessons().at("tutorial_stop"), stop.substr(0, stop.find(',')));
+  }
 }
 
 TEST(Phrases, refuse_letters_that_no_voice_reads_and_broken_utf8) {
@@ -246,8 +296,8 @@ TEST(Phrases, refuse_an_unknown_key_or_placeholder_with_its_line) {
   EXPECT_TRUE(names(key, "phrases/typo") && names(key, "line ")) << key;
   const std::string placeholder = refusal(replaced("{direction}, {distance}", "{name} there"));
   EXPECT_TRUE(names(placeholder, "{name}") && names(placeholder, "line ")) << placeholder;
-  EXPECT_NE(refusal(replaced("hit a {thing} {where}", "hit a {thing {where}")), "");
-  EXPECT_NE(refusal(replaced("hit a {thing} {where}", "hit a {thing")), "");
+  EXPECT_NE(refusal(replaced("hit {a_thing} {where}", "hit {a_thing {where}")), "");
+  EXPECT_NE(refusal(replaced("hit {a_thing} {where}", "hit {a_thing")), "");
   EXPECT_NE(refusal(replaced("  no_goal:", "  arrived: \"again\"\n  no_goal:")), "");
   EXPECT_NE(refusal(english() + "\nmore: {}\n"), "");
   EXPECT_TRUE(names(refusal(replaced("voice: en\n", "")), "voice"));
@@ -278,7 +328,7 @@ TEST(Phrases, refuse_text_that_could_harm_the_voice) {
 
 TEST(Phrases, refuse_a_phrase_that_is_too_long_only_when_filled) {
   const std::string sentence = refusal(
-      replaced("\"hit a {thing} {where}\"",
+      replaced("\"hit {a_thing} {where}\"",
                "\"hit a {thing} {where} and that is quite a long sentence for so small a thing\""));
   EXPECT_TRUE(names(sentence, "filled")) << sentence;
 }

@@ -46,7 +46,8 @@ Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const 
       told.scan.push_back({earcon_of(part.fillings.thing.value_or(ThingClass::other)), *part.from});
   };
   sounds_from(utterance);
-  if (utterance.goes_on) longer(phrases_.say("go_on") + ", " + told.text);
+  // Phrases has seen to it that there is room.
+  if (utterance.goes_on) told.text = phrases_.say("go_on") + ", " + told.text;
   for (const Utterance& more : utterance.also)
     if (longer(told.text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
   return told;
@@ -55,11 +56,13 @@ Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const 
 std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, const Situation& now,
                                    double time) {
   std::vector<Cue> cues;
-  for (const Utterance& utterance : utterances) {
+  for (Utterance utterance : utterances) {
+    utterance.fillings.keys = now.keyboard;
     const CueKind& kind = cue_kind(utterance.kind);
-    if (!utterance.asked && muted(kind, phrases_.wording()) && !instead_of(utterance, now.sounds))
-      continue;
-    if (!utterance.asked && too_soon(kind, time)) continue;
+    // An answer, and the end of a wait, are always said.
+    const bool always = utterance.asked || utterance.goes_on;
+    if (!always && muted(kind, phrases_.wording()) && !instead_of(utterance, now.sounds)) continue;
+    if (!always && too_soon(kind, time)) continue;
     const auto age = [&](const std::string& text) {
       const auto same = last_text_.find(text);
       return same == last_text_.end() ? std::numeric_limits<double>::infinity()
@@ -73,6 +76,8 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
       if (Sentence other = word(utterance, true); age(other.text) > age(told.text)) told = other;
     Cue cue{kind.kind,    told.text, utterance.priority.value_or(kind.priority),
             kind.max_age, sound,     utterance.asked};
+    cue.goes_on = utterance.goes_on;
+    if (cue.goes_on) cue.max_age = cue_kind("go_on").max_age;
     cue.felt = felt;
     cue.scan = told.scan;
     if (!sound && !felt) {

@@ -103,8 +103,13 @@ TEST(Lessons, have_each_text_in_every_language_and_no_other) {
     for (const auto& keys : {Glossary::texts(), Tutorial::texts(), Calibration::texts()})
       known.insert(keys.begin(), keys.end());
     const cues::Phrases spoken = phrases(language);
+    const auto on_keys = [&](const std::string& key) {
+      const std::size_t end = key.rfind("_keys");
+      return end != std::string::npos && known.count(key.substr(0, end)) > 0;
+    };
     for (const auto& [key, text] : spoken.lessons())
-      EXPECT_TRUE(known.count(key) > 0 || key.rfind("pad_", 0) == 0 || key.rfind("key_", 0) == 0)
+      EXPECT_TRUE(known.count(key) > 0 || on_keys(key) || key.rfind("pad_", 0) == 0 ||
+                  key.rfind("key_", 0) == 0)
           << language << ": " << key;
     EXPECT_NO_THROW((Teller{spoken, {}, {known.begin(), known.end()}})) << language;
     for (int button = 0; button < 15; ++button) {

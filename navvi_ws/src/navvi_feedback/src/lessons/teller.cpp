@@ -34,7 +34,9 @@ Teller::Teller(cues::Phrases phrases, const drive::ButtonsConfig& buttons,
 }
 
 std::vector<std::string> Teller::sentences(const std::string& key, const Fillings& fillings) const {
-  std::string text = phrases_.lessons().at(key);
+  const auto by_keys = phrases_.lessons().find(key + "_keys");
+  std::string text = keyboard_ && by_keys != phrases_.lessons().end() ? by_keys->second
+                                                                      : phrases_.lessons().at(key);
   for (std::size_t i = 0; i < drive::kButtons; ++i) {
     const auto name = phrases_.lessons().find((keyboard_ ? "key_" : "pad_") +
                                               std::to_string(buttons_.index.at(i)));

@@ -54,11 +54,14 @@ class FeedbackNode {
   explicit FeedbackNode(const NodeConfig& config)
       : config_(config),
         feedback_(config.feedback, config.phrases_file()),
+        plates_(config.phrases_file(), config.plates()),
         mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
         speech_(config.voice(), mixer_, latencies_),
         earcons_(mixer_),
         source_(config.input) {
     config_.speaker = config.voice();  // for the record
+    // The picture speaks the language of the session.
+    ros::param::set("navvi/phrases", config.phrases_file().string());
     offer_settings();
     ROS_INFO("The stick comes from the %s.", devices::to_string(source_.kind()));
     advertise();
@@ -288,6 +291,7 @@ class FeedbackNode {
     const YAML::Node values = navvi_config::read_words({word});
     navvi_config::read(config_, values, "the menu");
     feedback_.use(config_.feedback);
+    plates_.use(config_.plates());
     speech_.set_rate(config_.speaker.rate);
     mixer_.set_volume(config_.mixer.volume);
     const std::size_t end = word.find(":=");
@@ -372,7 +376,7 @@ class FeedbackNode {
     markers_time_ = time;
     visualization_msgs::MarkerArray markers = picture::guide_markers(
         config_.markers, feedback_.guidance_fresh(time) ? feedback_.guidance() : std::nullopt,
-        path_);
+        path_, plates_);
     if (markers.markers == shown_.markers) return;
     shown_ = markers;
     picture::stamp(markers, ros::Time::now());
@@ -404,6 +408,7 @@ class FeedbackNode {
 
   NodeConfig config_;
   core::Feedback feedback_;
+  cues::Phrases plates_;          ///< what is written in the picture
   Beat beat_{kLate};
   devices::Latencies latencies_;  ///< of this trial; before all that times for it
   devices::Mixer mixer_;

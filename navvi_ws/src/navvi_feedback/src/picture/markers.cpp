@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "cues/clock_face.hpp"
@@ -95,13 +94,11 @@ std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& 
 }
 
 /// What the arrow shows, in words: the hour of the turn as it will be seen from the way-point.
-std::string turn_text(const Guidance& guidance) {
-  const int hour = cues::clock_hour(guidance.turn_angle, cues::Rounding::nearest).value_or(12);
-  char text[64];
-  const int decimals = guidance.waypoint_distance < 2.0 ? 1 : 0;
-  std::snprintf(text, sizeof text, "in %.*f m, %d o'clock", decimals, guidance.waypoint_distance,
-                hour);
-  return text;
+std::string turn_text(const Guidance& guidance, const cues::Phrases& words) {
+  cues::Fillings turn;
+  turn.hour = cues::clock_hour(guidance.turn_angle, cues::Rounding::nearest).value_or(12);
+  turn.distance = std::max(0.0, guidance.waypoint_distance);
+  return words.say("turn_ahead", turn);
 }
 
 void add_path(const MarkersConfig& config, const std::vector<Eigen::Vector2d>& path,
@@ -112,7 +109,7 @@ void add_path(const MarkersConfig& config, const std::vector<Eigen::Vector2d>& p
   markers[1] = strip("path", 1, path, config.path_width, config.path_height + kAbove, kPurple);
 }
 
-void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal,
+void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal, const cues::Phrases& words,
               std::vector<Marker>& markers) {
   Marker pole = shape("goal", 0, Marker::CYLINDER, kRed);
   pole.pose.position = at(goal, config.goal_height / 2.0);
@@ -120,21 +117,25 @@ void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal,
   pole.scale.z = config.goal_height;
   markers[2] = pole;
   markers[3] = strip("goal", 1, ring(goal, config.goal_radius), 0.15, config.path_height, kWhite);
-  markers[4] =
-      label(0, "GOAL", goal, config.goal_height + config.label_height, config.label_height * 1.3);
+  markers[4] = label(0, words.picture().at("plate_goal"), goal,
+                     config.goal_height + config.label_height, config.label_height * 1.3);
 }
 
 void add_turn(const MarkersConfig& config, const Guidance& guidance,
-              const std::vector<Eigen::Vector2d>& path, std::vector<Marker>& markers) {
+              const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words,
+              std::vector<Marker>& markers) {
   const std::optional<Eigen::Vector2d> course = course_after(path, guidance);
-  if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < config.slight) return;
+  if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < config.slight ||
+      !std::isfinite(guidance.waypoint_distance))
+    return;
   Marker arrow = shape("turn", 0, Marker::ARROW, kWhite);
   arrow.points = {at(guidance.waypoint, 0.5), at(guidance.waypoint + 1.4 * *course, 0.5)};
   arrow.scale.x = 0.25;
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;
   markers[5] = arrow;
-  markers[6] = label(1, turn_text(guidance), guidance.waypoint, 1.8, 0.6 * config.label_height);
+  markers[6] =
+      label(1, turn_text(guidance, words), guidance.waypoint, 1.8, 0.6 * config.label_height);
 }
 
 }  // namespace
@@ -153,15 +154,16 @@ void MarkersConfig::describe(navvi_config::Visitor& visit) {
 
 visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
                                               const std::optional<Guidance>& guidance,
-                                              const std::vector<Eigen::Vector2d>& path) {
+                                              const std::vector<Eigen::Vector2d>& path,
+                                              const cues::Phrases& words) {
   visualization_msgs::MarkerArray array;
   std::vector<Marker>& markers = array.markers;
   markers = {absent("path", 0),  absent("path", 1), absent("goal", 0), absent("goal", 1),
              absent("label", 0), absent("turn", 0), absent("label", 1)};
   if (!guidance || !guidance->leads()) return array;
   add_path(config, path, markers);
-  add_goal(config, guidance->goal, markers);
-  add_turn(config, *guidance, path, markers);
+  add_goal(config, guidance->goal, words, markers);
+  add_turn(config, *guidance, path, words, markers);
   for (Marker& marker : markers) marker.pose.position.z += guidance->floor;
   return array;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "cues/phrases.hpp"
 #include "navvi_config/field.hpp"
 
 namespace navvi_feedback {
@@ -28,16 +29,17 @@ struct MarkersConfig {
 };
 
 /// What is drawn of the guidance (R-VIS-1, 2): the path as a purple strip on a wider white one, the
-/// goal as a red pole in a white ring with the word GOAL, and the next turn as an arrow with the
+/// goal as a red pole in a white ring with its word, and the next turn as an arrow with the
 /// hour and the distance. No two things differ by colour alone. Namespaces path, goal, turn, and
 /// label for the words.
 ///
 /// Every call names every marker, with DELETE for what is not there: without guidance that follows
 /// a path, nothing is.
 /// \param path  m, in map
+/// \param words  of the language of the session, as few as it has
 [[nodiscard]] visualization_msgs::MarkerArray guide_markers(
     const MarkersConfig& config, const std::optional<Guidance>& guidance,
-    const std::vector<Eigen::Vector2d>& path);
+    const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words);
 
 /// Gives every marker the time.
 void stamp(visualization_msgs::MarkerArray& markers, const ros::Time& time);

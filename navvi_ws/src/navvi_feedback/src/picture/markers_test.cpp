@@ -14,6 +14,15 @@ using visualization_msgs::MarkerArray;
 
 const std::vector<Eigen::Vector2d> kPath = {{0.0, 0.0}, {4.0, 0.0}, {4.0, -6.0}};
 
+const std::string kPhrases = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/";
+
+MarkerArray markers_of(const std::optional<Guidance>& guidance,
+                       const std::vector<Eigen::Vector2d>& path,
+                       const std::string& language = "en") {
+  static const cues::WordingConfig brief{"clock", "meters", "brief"};
+  return guide_markers({}, guidance, path, cues::Phrases(kPhrases + language + ".yaml", brief));
+}
+
 Guidance following() {
   Guidance guidance;
   guidance.state = Guidance::State::following;
@@ -55,8 +64,8 @@ double contrast(double one, double other) {
 
 TEST(Markers, without_guidance_everything_is_deleted) {
   for (const auto& guidance : {std::optional<Guidance>{}, std::optional<Guidance>{Guidance{}}}) {
-    const MarkerArray array = guide_markers({}, guidance, kPath);
-    EXPECT_EQ(names(array), names(guide_markers({}, following(), kPath)));
+    const MarkerArray array = markers_of(guidance, kPath);
+    EXPECT_EQ(names(array), names(markers_of(following(), kPath)));
     for (const Marker& marker : array.markers) EXPECT_EQ(marker.action, Marker::DELETE);
   }
 }
@@ -64,19 +73,19 @@ TEST(Markers, without_guidance_everything_is_deleted) {
 TEST(Markers, at_the_goal_the_line_is_cleared) {
   Guidance guidance = following();
   guidance.state = Guidance::State::arrived;
-  for (const Marker& marker : guide_markers({}, guidance, kPath).markers)
+  for (const Marker& marker : markers_of(guidance, kPath).markers)
     EXPECT_EQ(marker.action, Marker::DELETE);
 }
 
 TEST(Markers, an_empty_path_leaves_only_the_goal) {
-  const MarkerArray array = guide_markers({}, following(), {});
+  const MarkerArray array = markers_of(following(), {});
   EXPECT_EQ(find(array, "path", 1)->action, Marker::DELETE);
   EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
   EXPECT_EQ(find(array, "goal", 0)->action, Marker::ADD);
 }
 
 TEST(Markers, every_marker_is_finite_and_drawable) {
-  for (const Marker& marker : guide_markers({}, following(), kPath).markers) {
+  for (const Marker& marker : markers_of(following(), kPath).markers) {
     EXPECT_EQ(marker.header.frame_id, "map");
     EXPECT_EQ(marker.action, Marker::ADD) << marker.ns << marker.id;
     EXPECT_TRUE(finite(marker.pose.position));
@@ -88,7 +97,7 @@ TEST(Markers, every_marker_is_finite_and_drawable) {
 }
 
 TEST(Markers, the_line_is_the_path_with_a_wider_edge_below) {
-  const MarkerArray array = guide_markers({}, following(), kPath);
+  const MarkerArray array = markers_of(following(), kPath);
   const Marker& edge = *find(array, "path", 0);
   const Marker& line = *find(array, "path", 1);
   ASSERT_EQ(line.points.size(), kPath.size());
@@ -98,7 +107,7 @@ TEST(Markers, the_line_is_the_path_with_a_wider_edge_below) {
 }
 
 TEST(Markers, the_line_and_the_goal_pass_three_to_one_on_rviz_grey_and_the_line_on_its_edge) {
-  const MarkerArray array = guide_markers({}, following(), kPath);
+  const MarkerArray array = markers_of(following(), kPath);
   std_msgs::ColorRGBA grey;
   grey.r = grey.g = grey.b = 48.0F / 255.0F;
   const double line = luminance(find(array, "path", 1)->color);
@@ -108,23 +117,29 @@ TEST(Markers, the_line_and_the_goal_pass_three_to_one_on_rviz_grey_and_the_line_
 }
 
 TEST(Markers, the_turn_shows_hour_and_distance_and_points_along_the_next_leg) {
-  const MarkerArray array = guide_markers({}, following(), kPath);
-  EXPECT_EQ(find(array, "label", 1)->text, "in 4 m, 3 o'clock");
+  const MarkerArray array = markers_of(following(), kPath);
+  EXPECT_EQ(find(array, "label", 1)->text, "in 4 meters, 3 o'clock");
   const Marker& arrow = *find(array, "turn", 0);
   Guidance aside = following();
   aside.steer_angle = 0.0;
-  EXPECT_EQ(find(guide_markers({}, aside, kPath), "label", 1)->text, "in 4 m, 3 o'clock")
+  EXPECT_EQ(find(markers_of(aside, kPath), "label", 1)->text, "in 4 meters, 3 o'clock")
       << "where the robot looks does not change what the arrow shows";
   ASSERT_EQ(arrow.points.size(), 2u);
   EXPECT_NEAR(arrow.points[1].x, arrow.points[0].x, 1e-9);
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
 }
 
+TEST(Markers, speak_the_language_of_the_session) {
+  const MarkerArray array = markers_of(following(), kPath, "es");
+  EXPECT_EQ(find(array, "label", 0)->text, "META");
+  EXPECT_EQ(find(array, "label", 1)->text, "en 4 metros, hacia las 3");
+}
+
 TEST(Markers, the_arrow_shows_two_corners_that_are_said_as_one_turn_as_one) {
   const std::vector<Eigen::Vector2d> path = {{0.0, 0.0}, {3.5, 0.0}, {4.0, -0.5}, {4.0, -6.0}};
   Guidance guidance = following();
   guidance.waypoint = path[1];
-  const Marker arrow = *find(guide_markers({}, guidance, path), "turn", 0);
+  const Marker arrow = *find(markers_of(guidance, path), "turn", 0);
   ASSERT_EQ(arrow.points.size(), 2u);
   EXPECT_NEAR(arrow.points[1].x, 3.5, 1e-9);
   EXPECT_LT(arrow.points[1].y, -1.0);
@@ -133,16 +148,16 @@ TEST(Markers, the_arrow_shows_two_corners_that_are_said_as_one_turn_as_one) {
 TEST(Markers, a_slight_bend_is_no_turn) {
   Guidance guidance = following();
   guidance.turn_angle = 0.17;
-  const MarkerArray array = guide_markers({}, guidance, kPath);
+  const MarkerArray array = markers_of(guidance, kPath);
   EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
   EXPECT_EQ(find(array, "label", 1)->action, Marker::DELETE);
 }
 
 TEST(Markers, everything_stands_on_the_floor_of_the_map) {
   Guidance guidance = following();
-  const MarkerArray flat = guide_markers({}, guidance, kPath);
+  const MarkerArray flat = markers_of(guidance, kPath);
   guidance.floor = -5.0;
-  const MarkerArray sunk = guide_markers({}, guidance, kPath);
+  const MarkerArray sunk = markers_of(guidance, kPath);
   for (std::size_t i = 0; i < flat.markers.size(); ++i) {
     if (flat.markers[i].action != Marker::ADD) continue;
     EXPECT_DOUBLE_EQ(sunk.markers[i].pose.position.z, flat.markers[i].pose.position.z - 5.0);
@@ -153,8 +168,8 @@ TEST(Markers, before_the_goal_there_is_no_turn) {
   Guidance guidance = following();
   guidance.waypoint = guidance.goal;
   guidance.waypoint_is_goal = true;
-  EXPECT_EQ(find(guide_markers({}, guidance, kPath), "turn", 0)->action, Marker::DELETE);
-  EXPECT_EQ(find(guide_markers({}, guidance, kPath), "label", 0)->text, "GOAL");
+  EXPECT_EQ(find(markers_of(guidance, kPath), "turn", 0)->action, Marker::DELETE);
+  EXPECT_EQ(find(markers_of(guidance, kPath), "label", 0)->text, "GOAL");
 }
 
 }  // namespace

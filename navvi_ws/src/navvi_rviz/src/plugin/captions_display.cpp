@@ -217,7 +217,7 @@ void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture,
   for (const auto& [id, label] : labels_)
     add("label" + std::to_string(id), label.first, label.second);
   if (from_above() && start_ && !labels_.empty())
-    add("start", "START", {start_->x(), start_->y(), 0.0});
+    add("start", reader_->words().of("picture/plate_start"), {start_->x(), start_->y(), 0.0});
   const std::vector<Eigen::Vector2d> corners = screen::place(wanted, picture, taken);
   for (std::size_t i = 0; i < plates.size(); ++i) {
     plates[i]->plate->show(corners[i].x(), corners[i].y());

@@ -30,7 +30,7 @@ constexpr int kRefresh = 100;  // ms
 constexpr int kPadding = 4;    // px, around words
 
 QString number(double value, int decimals, const char* unit) {
-  return QString::number(value, 'f', decimals) + " " + unit;
+  return QString::number(value, 'f', decimals) + " " + QString::fromUtf8(unit);
 }
 
 /// A screen reader says what changed by itself.
@@ -88,18 +88,42 @@ QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
   return label;
 }
 
-QPushButton* Panel::add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
+QPushButton* Panel::add_button(QHBoxLayout* row, const Named& named,
                                const std::function<void()>& action, QWidget* scope) {
-  auto* button = new QPushButton(words + " (" + key.toString() + ")");
-  button->setAccessibleName(words);
+  auto* button = new QPushButton;
   button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to who drives
-  button->setAccessibleDescription("Key " + key.toString());
   connect(button, &QPushButton::clicked, this, action);
-  auto* shortcut = new QShortcut(key, scope);
+  auto* shortcut = new QShortcut(named.key, scope);
   shortcut->setContext(Qt::ApplicationShortcut);
   connect(shortcut, &QShortcut::activated, this, action);
-  row->addWidget(button, words.size());
+  row->addWidget(button, static_cast<int>(named.words.size()));
+  named_.push_back(named);
+  named_.back().button = button;
   return button;
+}
+
+/// Buttons name the keys as the voice does to who drives by keys.
+void Panel::name_all() {
+  const status::Words& words = reader_->words();
+  const auto of = [&](const std::string& key) { return QString::fromStdString(words.of(key)); };
+  for (const Named& named : named_) {
+    const bool spoken = reader_->keyboard() && !named.spoken.empty();
+    const QString key = spoken ? of("lessons/" + named.spoken) : named.key.toString();
+    const QString name = of("picture/" + named.words);
+    if (const QString text = name + " (" + key + ")"; named.button->text() != text) {
+      named.button->setText(text);
+      named.button->setAccessibleName(name);
+      named.button->setAccessibleDescription(of("picture/key") + " " + key);
+    }
+  }
+  const QString vision = of("picture/vision");
+  if (vision_->text() == "&" + vision) return;
+  vision_->setText("&" + vision);
+  visions_->setAccessibleName(vision);
+  visions_->setAccessibleDescription(vision);
+  for (int i = 0; i < visions_->count(); ++i)
+    visions_->setItemText(i,
+                          of("picture/vision_" + visions_->itemData(i).toString().toStdString()));
 }
 
 void Panel::onInitialize() {
@@ -109,6 +133,7 @@ void Panel::onInitialize() {
   add_questions();
   add_views();
   add_menu();
+  name_all();
   Chosen::shared().on_change([this] { style(); });
   style();
   connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
@@ -118,55 +143,54 @@ void Panel::onInitialize() {
 
 void Panel::add_questions() {
   using Request = navvi_msgs::TrialRequest;
-  add_button(
-      questions_row_, "Start", Qt::Key_F5, [this] { request(Request::BEGIN); }, this);
-  add_button(
-      questions_row_, "End trial", Qt::Key_F8, [this] { request(Request::END); }, this);
-  add_button(
-      questions_row_, "Repeat", Qt::Key_R, [this] { ask("repeat"); }, this);
-  add_button(
-      questions_row_, "Goal", Qt::Key_G, [this] { ask("goal"); }, this);
-  add_button(
-      questions_row_, "Around", Qt::Key_A, [this] { ask("around"); }, this);
+  const auto add = [&](const Named& named, const std::function<void()>& action) {
+    add_button(questions_row_, named, action, this);
+  };
+  add({nullptr, "begin", Qt::Key_F5, "key_6"}, [this] { request(Request::BEGIN); });
+  add({nullptr, "end", Qt::Key_F8, ""}, [this] { request(Request::END); });
+  add({nullptr, "repeat", Qt::Key_R, "key_0"}, [this] { ask("repeat"); });
+  add({nullptr, "goal", Qt::Key_G, ""}, [this] { ask("goal"); });
+  add({nullptr, "around", Qt::Key_A, ""}, [this] { ask("around"); });
 }
 
 void Panel::add_menu() {
   QWidget* const page = pages_->widget(1);
-  const auto add = [&](const char* words, const QKeySequence& key, const char* question) {
+  const auto add = [&](const char* words, const QKeySequence& key, const char* spoken,
+                       const char* question) {
     return add_button(
-        menu_row_, words, key, [this, question] { ask(question); }, page);
+        menu_row_, {nullptr, words, key, spoken}, [this, question] { ask(question); }, page);
   };
-  down_ = add("Down", Qt::Key_PageDown, "next");
-  add("Up", Qt::Key_PageUp, "previous");
-  add("Choose", Qt::Key_Return, "choose");
-  add("Back", Qt::Key_Backspace, "back");
+  down_ = add("down", Qt::Key_PageDown, "key_12", "next");
+  add("up", Qt::Key_PageUp, "key_11", "previous");
+  add("choose", Qt::Key_Return, "key_14", "choose");
+  add("back", Qt::Key_Backspace, "key_13", "back");
 }
 
 void Panel::add_views() {
-  const char* const views[] = {"Chase", "Top", "Forward"};
+  const std::pair<const char*, const char*> views[] = {
+      {"chase", "Chase"}, {"top", "Top"}, {"forward", "Forward"}};
   for (int i = 0; i < 3; ++i)
     add_button(
-        view_row_, views[i], QKeySequence(Qt::Key_1 + i),
-        [this, view = views[i]] { choose_view(*vis_manager_, view); }, this);
+        view_row_, {nullptr, views[i].first, QKeySequence(Qt::Key_1 + i), ""},
+        [this, view = views[i].second] { choose_view(*vis_manager_, view); }, this);
   add_button(
-      view_row_, "RViz", Qt::Key_F2, [this] { show_chrome(!chrome_); }, this);
+      view_row_, {nullptr, "rviz", Qt::Key_F2, ""}, [this] { show_chrome(!chrome_); }, this);
   settings_ = add_button(
-      view_row_, "Settings", Qt::Key_F3, [this] { ask("settings"); }, this);
+      view_row_, {nullptr, "settings", Qt::Key_F3, ""}, [this] { ask("settings"); }, this);
 
-  auto* visions = new QComboBox;
-  visions->setAccessibleName("Vision");
-  visions->setAccessibleDescription("Vision");
-  visions->setFocusPolicy(Qt::TabFocus);
+  visions_ = new QComboBox;
+  visions_->setFocusPolicy(Qt::TabFocus);
   for (const std::string& name : look::vision_names())
-    visions->addItem(QString::fromStdString(name));
-  visions->setCurrentText(QString::fromStdString(Chosen::shared().name()));
-  connect(visions, &QComboBox::currentTextChanged, this,
-          [](const QString& name) { Chosen::shared().choose(name.toStdString()); });
-  auto* label = new QLabel("&Vision");
-  label->setBuddy(visions);
-  label->setObjectName("vision");
-  view_row_->addWidget(label);
-  view_row_->addWidget(visions);
+    visions_->addItem(QString::fromStdString(name), QString::fromStdString(name));
+  visions_->setCurrentIndex(visions_->findData(QString::fromStdString(Chosen::shared().name())));
+  connect(visions_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, [this](int chosen) {
+    Chosen::shared().choose(visions_->itemData(chosen).toString().toStdString());
+  });
+  vision_ = new QLabel;
+  vision_->setBuddy(visions_);
+  vision_->setObjectName("vision");
+  view_row_->addWidget(vision_);
+  view_row_->addWidget(visions_);
 }
 
 void Panel::ask(const std::string& question) {
@@ -250,17 +274,20 @@ void Panel::show_menu(const QString& words) {
 
 void Panel::refresh() {
   const status::Shown shown = reader_->shown();
+  const status::Words& words = reader_->words();
+  name_all();
   show_menu(QString::fromStdString(shown.menu));
   const bool alarm = shown.tone == status::Shown::Tone::alarm && !shown.banner.empty();
   if (state_->property("alarm").toBool() != alarm) {
     state_->setProperty("alarm", alarm);
     style();
   }
-  const std::string calm = shown.sound ? "drive" : "drive, no sound";
+  const std::string calm = words.of(shown.sound ? "picture/drive" : "picture/drive_no_sound");
   set_words(state_, QString::fromStdString(shown.banner.empty() ? calm : shown.banner),
             QAccessible::Alert);
   set_words(instruction_, QString::fromStdString(shown.instruction), QAccessible::NameChanged);
-  set_words(distance_, shown.distance ? number(*shown.distance, 0, "m to go") : "",
+  const std::string to_go = words.of("picture/to_go");
+  set_words(distance_, shown.distance ? number(*shown.distance, 0, to_go.c_str()) : "",
             QAccessible::NameChanged);
   set_words(speed_, number(shown.speed, 1, "m/s"), QAccessible::NameChanged);
   const int seconds = static_cast<int>(shown.clock.value_or(0.0));

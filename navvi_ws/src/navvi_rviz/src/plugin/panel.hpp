@@ -2,6 +2,7 @@
 
 #include <rviz/panel.h>
 
+#include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -9,6 +10,8 @@
 #include <QTimer>
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "plugin/keys.hpp"
 #include "plugin/reader.hpp"
@@ -28,9 +31,18 @@ class Panel : public rviz::Panel {
 
  private:
   QLabel* add_label(QHBoxLayout* row, const char* name, int stretch);
+  /// A button with its key, named in the language of the session.
+  struct Named {
+    QPushButton* button;
+    std::string words;  ///< key of the picture's words
+    QKeySequence key;
+    std::string spoken;  ///< what the voice calls the key that does the same on the keyboard, as
+                         ///< key of the lessons' words; empty: `key` itself
+  };
   /// \param scope  the key works while this is visible
-  QPushButton* add_button(QHBoxLayout* row, const QString& words, const QKeySequence& key,
-                          const std::function<void()>& action, QWidget* scope);
+  QPushButton* add_button(QHBoxLayout* row, const Named& named, const std::function<void()>& action,
+                          QWidget* scope);
+  void name_all();
   void add_questions();
   void add_views();
   void add_menu();
@@ -50,6 +62,9 @@ class Panel : public rviz::Panel {
   QLabel *state_, *instruction_, *distance_, *speed_, *clock_, *menu_;
   QStackedWidget* pages_;  ///< the buttons; in their place the spoken menu's while it is open
   QPushButton *settings_ = nullptr, *down_ = nullptr;
+  QComboBox* visions_ = nullptr;
+  QLabel* vision_ = nullptr;
+  std::vector<Named> named_;
   QTimer timer_;
   bool chrome_ = false;
 };

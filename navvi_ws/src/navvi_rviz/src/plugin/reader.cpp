@@ -2,9 +2,12 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <navvi_msgs/TrialEvent.h>
+#include <ros/package.h>
 
+#include <navvi_config/reader.hpp>
 #include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <utility>
 
 namespace navvi_rviz::plugin {
 
@@ -44,11 +47,27 @@ Reader::Reader() {
       "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
         for (const auto& device : array->status)
           for (const auto& pair : device.values)
-            if (pair.key == "state") status_.take_device(device.name, pair.value, now());
+            if (pair.key == "state")
+              status_.take_device(device.name, pair.value, now());
+            else if (pair.key == "input")
+              status_.take_input(pair.value);
       }));
+  read_words();
+}
+
+void Reader::read_words() {
+  std::string file = ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
+  ros::param::getCached("navvi/phrases", file);
+  if (std::exchange(phrases_, file) == file) return;
+  try {
+    status_.use(status::Words(file));
+  } catch (const navvi_config::ConfigError& error) {
+    ROS_WARN("The picture keeps its words: %s", error.what());
+  }
 }
 
 status::Shown Reader::shown() {
+  read_words();
   return banner_.hold(status_.shown(now(), ros::Time::now().toSec()), now());
 }
 

@@ -14,10 +14,16 @@ class Reader {
   Reader();
   [[nodiscard]] status::Shown shown();
   [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
+  /// In the language of the session, once that is known; before in English.
+  [[nodiscard]] const status::Words& words() const { return status_.words(); }
+  [[nodiscard]] bool keyboard() const { return status_.keyboard(); }
   [[nodiscard]] bool trial_runs() const { return status_.trial_runs(); }
 
  private:
+  void read_words();
+
   ros::NodeHandle node_;
+  std::string phrases_;  ///< the file whose words are used
   status::Status status_;
   status::SteadyBanner banner_;
   std::optional<navvi_types::Guidance> guidance_;

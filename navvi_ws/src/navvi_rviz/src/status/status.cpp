@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace navvi_rviz::status {
@@ -25,9 +24,8 @@ const std::set<std::string> kWarnings = {"collision_shelf", "collision_wall", "c
                                          "simulator_lost",  "guidance_lost",  "no_route",
                                          "record_lost"};
 /// Cues that say that the way goes on.
-const std::set<std::string> kReleasing = {"go_on",    "direction",       "straight",
-                                          "slight",   "straight_then",   "turn_now",
-                                          "rerouted", "rerouted_blocked"};
+const std::set<std::string> kReleasing = {
+    "direction", "straight", "slight", "straight_then", "turn_now", "rerouted", "rerouted_blocked"};
 
 /// What the spoken menu says while it is open, and what closes it.
 bool offers(const std::string& kind) {
@@ -38,16 +36,11 @@ bool closes(const std::string& kind) {
   return kind == "menu_closed" || kind == "goal_chosen" || kind.rfind("glossary", 0) == 0;
 }
 
-std::string sentence_of(Guidance::State state) {
-  static const std::map<Guidance::State, std::string> sentences = {
-      {Guidance::State::goal_refused, "goal refused"},
-      {Guidance::State::no_route, "no route to the goal"},
-      {Guidance::State::off_mesh, "no path from here, back away"},
-      {Guidance::State::no_map, "no map yet"},
-      {Guidance::State::pose_stale, "position lost"},
-      {Guidance::State::map_stale, "map out of date"}};
-  const auto found = sentences.find(state);
-  return found == sentences.end() ? "" : found->second;
+/// States that are said in words of their own.
+bool said_as_state(Guidance::State state) {
+  return state == Guidance::State::no_route || state == Guidance::State::off_mesh ||
+         state == Guidance::State::no_map || state == Guidance::State::pose_stale ||
+         state == Guidance::State::map_stale;
 }
 
 }  // namespace
@@ -64,8 +57,7 @@ void Status::take(const navvi_types::CueEvent& cue, double time) {
   if (kWarnings.count(cue.kind) > 0) warning_ = last_;
   if (kReleasing.count(cue.kind) > 0 && warning_ && kHolding.count(warning_->kind) > 0)
     warning_.reset();
-  if (cue.kind == "pad_lost") lost_ = "controller lost";
-  if (cue.kind == "keyboard_lost") lost_ = cue.text;
+  if (cue.kind == "pad_lost" || cue.kind == "keyboard_lost") lost_ = cue.text;
   if (cue.kind == "pad_back" || cue.kind == "keyboard_back") lost_.clear();
 }
 
@@ -115,20 +107,23 @@ void Status::choose_banner(double time, Shown& shown) const {
     shown.tone = tone;
   };
   if (gate_ == navvi_types::DriveState::State::stopped)
-    show("robot stopped, let go of the stick", Tone::alarm);
+    show(words_.said("robot_stopped", keyboard_), Tone::alarm);
   show(lost_, Tone::alarm);
   if (const auto said = warning(time))
     show(said->text,
          said->kind == "blocked" || said->kind == "make_room" ? Tone::wait : Tone::alarm);
   using Trial = navvi_types::TrialState::State;
-  if (trial_ == Trial::ready) show("press start", Tone::wait);
-  if (trial_ == Trial::choose_goal) show("choose a goal", Tone::wait);
+  if (trial_ == Trial::ready)
+    show(words_.said(keyboard_ ? "press_enter" : "press_start", keyboard_), Tone::wait);
+  if (trial_ == Trial::choose_goal) show(words_.said("choose_goal", keyboard_), Tone::wait);
   if (!guidance_) return;
-  if (guidance_->state == Guidance::State::blocked) show("wait", Tone::wait);
-  if (guidance_->state == Guidance::State::make_room) show("make room", Tone::wait);
-  if (guidance_->state == Guidance::State::arrived) show("arrived", Tone::good);
-  show(sentence_of(guidance_->state), Tone::alarm);
-  if (silent_ && time - *silent_ < kHeld) show("no sound", Tone::wait);
+  const auto state = guidance_->state;
+  if (state == Guidance::State::blocked) show(words_.of("picture/wait"), Tone::wait);
+  if (state == Guidance::State::make_room) show(words_.of("picture/make_room"), Tone::wait);
+  if (state == Guidance::State::arrived) show(words_.of("picture/arrived"), Tone::good);
+  if (state == Guidance::State::goal_refused) show(words_.of("picture/goal_refused"), Tone::alarm);
+  if (said_as_state(state)) show(words_.said(to_string(state), keyboard_), Tone::alarm);
+  if (silent_ && time - *silent_ < kHeld) show(words_.of("picture/no_sound"), Tone::wait);
 }
 
 Shown Status::shown(double time, double ros_time) const {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "status/words.hpp"
+
 namespace navvi_rviz::status {
 
 /// What a person reads at a glance.
@@ -24,9 +26,13 @@ struct Shown {
   bool sound = true;                    ///< false: nothing can be heard
 };
 
-/// Turns what the nodes tell into words. Times are s of one clock that does not run backwards.
+/// Turns what the nodes tell into words, in the language of the session. Times are s of one clock
+/// that does not run backwards.
 class Status {
  public:
+  /// From now on.
+  void use(const Words& words) { words_ = words; }
+  [[nodiscard]] const Words& words() const { return words_; }
   void take(const navvi_types::CueEvent& cue, double time);
   void take(const navvi_types::Guidance& guidance);
   void take(const navvi_types::DriveState& state) { gate_ = state.state; }
@@ -40,6 +46,11 @@ class Status {
   /// \param state  as in /diagnostics: works, missing, off
   void take_device(const std::string& name, const std::string& state, double time);
 
+  /// \param input  where the stick comes from, as in /diagnostics
+  void take_input(const std::string& input) { keyboard_ = input == "keyboard"; }
+  /// The hands are on the arrow keys.
+  [[nodiscard]] bool keyboard() const { return keyboard_; }
+
   /// \param ros_time  s, of the same clock as the events
   [[nodiscard]] Shown shown(double time, double ros_time) const;
 
@@ -52,6 +63,8 @@ class Status {
   [[nodiscard]] std::optional<Said> warning(double time) const;
   void choose_banner(double time, Shown& shown) const;
 
+  Words words_;
+  bool keyboard_ = false;
   std::optional<navvi_types::Guidance> guidance_;
   std::optional<navvi_types::DriveState::State> gate_;
   std::optional<navvi_types::TrialState::State> trial_;

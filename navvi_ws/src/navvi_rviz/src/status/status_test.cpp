@@ -30,57 +30,87 @@ DriveState gate(DriveState::State state) {
   return drive;
 }
 
+/// In a session of this language.
+Status speaking(const std::string& language = "en") {
+  Status status;
+  status.use(Words(std::string(NAVVI_PHRASES) + "/" + language + ".yaml"));
+  return status;
+}
+
 TEST(Status, of_nothing_is_empty) {
-  const Shown shown = Status().shown(0.0, 0.0);
+  const Shown shown = speaking().shown(0.0, 0.0);
   EXPECT_EQ(shown.banner, "");
   EXPECT_EQ(shown.instruction, "");
   EXPECT_FALSE(shown.distance || shown.clock);
 }
 
 TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
-  Status status;
+  Status status = speaking();
   status.take(in(Guidance::State::blocked));
   EXPECT_EQ(status.shown(1.0, 0.0).banner, "wait");
   status.take(said("collision_shelf", "hit a shelf on the left"), 1.0);
   EXPECT_EQ(status.shown(1.1, 0.0).banner, "hit a shelf on the left");
   status.take(gate(DriveState::State::stopped));
-  EXPECT_EQ(status.shown(1.2, 0.0).banner, "robot stopped, let go of the stick");
+  EXPECT_EQ(status.shown(1.2, 0.0).banner, "robot stopped, release the stick");
   status.take(gate(DriveState::State::running));
   EXPECT_EQ(status.shown(6.0, 0.0).banner, "wait") << "the hit is over";
 }
 
 TEST(Status, stop_holds_until_go_on_or_until_it_is_old) {
-  Status status;
+  Status status = speaking();
   status.take(said("obstacle_stop", "stop, worker ahead"), 0.0);
   EXPECT_EQ(status.shown(8.0, 0.0).banner, "stop, worker ahead");
   EXPECT_EQ(status.shown(11.0, 0.0).banner, "");
   status.take(said("obstacle_stop", "stop, worker ahead"), 20.0);
-  status.take(said("go_on", "go on"), 21.0);
+  status.take(said("straight", "go on, straight ahead, 5 meters"), 21.0);
   EXPECT_EQ(status.shown(21.1, 0.0).banner, "");
-  EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on");
+  EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on, straight ahead, 5 meters");
 }
 
 TEST(Status, a_lost_controller_is_shown_until_it_is_back) {
-  Status status;
+  Status status = speaking();
   status.take(said("pad_lost", "controller disconnected"), 0.0);
-  EXPECT_EQ(status.shown(100.0, 0.0).banner, "controller lost");
+  EXPECT_EQ(status.shown(100.0, 0.0).banner, "controller disconnected");
   status.take(said("pad_back", "controller connected, release the stick"), 101.0);
   EXPECT_EQ(status.shown(101.0, 0.0).banner, "");
 }
 
 TEST(Status, a_trial_that_waits_says_for_what) {
-  Status status;
+  Status status = speaking();
   navvi_types::TrialState trial;
   trial.state = navvi_types::TrialState::State::ready;
   status.take(trial);
-  EXPECT_EQ(status.shown(0.0, 0.0).banner, "press start");
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "press start to begin");
   trial.state = navvi_types::TrialState::State::running;
   status.take(trial);
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "");
 }
 
+TEST(Status, speaks_the_language_of_the_session_and_names_its_keys) {
+  Status status = speaking("es");
+  status.take_input("keyboard");
+  navvi_types::TrialState trial;
+  trial.state = navvi_types::TrialState::State::ready;
+  status.take(trial);
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "pulse intro para empezar");
+  status.take(gate(DriveState::State::stopped));
+  EXPECT_EQ(status.shown(0.0, 0.0).banner, "robot detenido, suelte las teclas");
+  EXPECT_EQ(status.words().of("lessons/key_6"), "intro") << "so does the button";
+}
+
+TEST(Status, has_words_for_every_state_in_each_language) {
+  for (const char* language : {"en", "es"})
+    for (std::size_t i = 0; i < names(Guidance::State{}).size(); ++i) {
+      Status status = speaking(language);
+      const auto state = static_cast<Guidance::State>(i);
+      status.take(in(state));
+      const bool calm = state == Guidance::State::no_goal || state == Guidance::State::following;
+      EXPECT_EQ(status.shown(0.0, 0.0).banner.empty(), calm) << to_string(state);
+    }
+}
+
 TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
-  Status status;
+  Status status = speaking();
   status.take(in(Guidance::State::following));
   status.take_device("navvi/audio", "missing", 0.0);
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "no sound");
@@ -103,7 +133,7 @@ TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
 }
 
 TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
-  Status status;
+  Status status = speaking();
   status.take_device("navvi/audio", "missing", 0.0);
   CueEvent cue = said("direction", "2 o'clock, 5 meters");
   cue.stage = CueStage::dropped;
@@ -112,7 +142,7 @@ TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
 }
 
 TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
-  Status status;
+  Status status = speaking();
   const auto queued = [](const std::string& kind, const std::string& text) {
     CueEvent cue = said(kind, text);
     cue.stage = CueStage::queued;
@@ -130,13 +160,13 @@ TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
 }
 
 TEST(Status, the_clock_is_right_for_a_picture_that_comes_later) {
-  Status status;
+  Status status = speaking();
   status.take(navvi_types::TrialState{navvi_types::TrialState::State::running, 10'000'000'000});
   EXPECT_EQ(status.shown(0.0, 70.0).clock, 60.0);
 }
 
 TEST(Status, the_clock_runs_from_the_trials_start_to_its_end) {
-  Status status;
+  Status status = speaking();
   status.take_event("TRIAL_START", 10.0);
   EXPECT_EQ(status.shown(0.0, 12.5).clock, 2.5);
   status.take_event("TRIAL_END", 14.0);

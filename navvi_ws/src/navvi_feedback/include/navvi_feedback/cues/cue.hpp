@@ -26,6 +26,7 @@ struct Cue {
   double max_age = 2.0;                    ///< s after which it is dropped if it has not begun
   std::optional<sounds::Play> sound = {};  ///< played instead of the words
   bool asked = false;                      ///< the answer to a button
+  bool goes_on = false;                    ///< it ends a wait: "go on", and where to
   bool felt = false;                       ///< only: its words were said just now
   /// Each sounds before one of the parts of the words, which commas separate.
   std::vector<sounds::Play> scan = {};
@@ -40,6 +41,11 @@ enum class Family {
   route,  ///< where to steer, as they may not
   near,   ///< what is near, where nothing need be done
 };
+
+/// It tells where to steer.
+[[nodiscard]] constexpr bool is_way(Family family) {
+  return family == Family::way || family == Family::route;
+}
 
 /// How a kind of cue is treated.
 struct CueKind {

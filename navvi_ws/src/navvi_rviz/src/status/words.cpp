@@ -1,0 +1,29 @@
+#include "status/words.hpp"
+
+#include <navvi_config/reader.hpp>
+
+namespace navvi_rviz::status {
+
+Words::Words(const std::filesystem::path& phrases) {
+  const YAML::Node root = navvi_config::load_yaml(phrases);
+  for (const char* section : {"phrases", "words", "picture", "lessons"})
+    if (const YAML::Node texts = root[section]; texts && texts.IsMap())
+      for (const auto& text : texts)
+        if (text.second.IsScalar())
+          texts_[std::string(section) + "/" + text.first.Scalar()] = text.second.Scalar();
+}
+
+std::string Words::of(const std::string& key) const {
+  const auto found = texts_.find(key);
+  return found == texts_.end() ? "" : found->second;
+}
+
+std::string Words::said(const std::string& kind, bool keyboard) const {
+  const std::string place = "{stick}";
+  std::string text = of("phrases/" + kind);
+  if (const std::size_t at = text.find(place); at != std::string::npos)
+    text.replace(at, place.size(), of(keyboard ? "words/key_stick" : "words/pad_stick"));
+  return text;
+}
+
+}  // namespace navvi_rviz::status
