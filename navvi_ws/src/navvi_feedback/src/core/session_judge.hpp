@@ -70,6 +70,9 @@ class SessionJudge {
   std::set<std::string> felt;        ///< patterns
   std::set<std::string> played;      ///< earcons
   std::set<std::string> complaints;  ///< rules that were broken
+  int waits = 0;                     ///< that were ended by "go on"
+  double longest_wait = 0.0;         ///< s, for "go on" after the cause had gone
+  double longest_wait_alone = 0.0;   ///< s, of these, with nothing that moves near
 
  private:
   using Events = std::vector<CueEvent>;
@@ -106,6 +109,7 @@ class SessionJudge {
     feedback_.note(step.events);
     judge(out.cues, step.events);
     expect_what_matters();
+    expect_release();
     now.contacts.clear();
     now.asked.reset();
     last_ = now;
@@ -124,6 +128,10 @@ class SessionJudge {
       const Known known = known_.at(event.id);
       const bool important = known.cue.priority == Priority::important;
       if (event.stage == CueStage::cut && important) complaints.insert("an important cue was cut");
+      if (event.stage != CueStage::started && event.id == released_) {
+        if (event.stage == CueStage::ended && std::exchange(waits_, false)) ++waits;
+        released_ = 0;
+      }
       if (event.stage != CueStage::started) {
         known_.erase(event.id);
         if (event.id == running_) running_ = 0;
@@ -133,6 +141,7 @@ class SessionJudge {
       running_ = event.id;
       words.push_back(event.text);
       if (time - known.queued > known.cue.max_age + kTick) complaints.insert("a stale cue");
+      judge_wait(event, known.cue.asked);
       for (const auto& [id, other] : known_)
         if (id != event.id && !important && other.cue.priority == Priority::important)
           complaints.insert("an important cue waited behind a lesser one");
@@ -148,6 +157,36 @@ class SessionJudge {
         complaints.insert("the same again: " + event.kind);
       said_[event.text] = time;
     }
+  }
+
+  /// The rule that is taught: after "stop" or "wait" nothing but "go on", with the direction.
+  void judge_wait(const CueEvent& begun, bool asked) {
+    const std::string& text = begun.text;
+    const auto begins = [&](const std::string& words) { return text.rfind(words, 0) == 0; };
+    // Where the next turn is may be asked for at any time.
+    const bool way =
+        cues::is_way(cues::family_of(begun.kind)) && !(asked && begun.kind == "turn_ahead");
+    if (begins("go on") && !(way && begins("go on, ")))
+      complaints.insert("go on without a direction: " + text);
+    if (waits_ && way && !begins("go on, "))
+      complaints.insert("a way without go on: " + begun.kind);
+    if (begins("stop") || begins("wait")) {
+      waits_ = true;
+      released_ = 0;
+    } else if (begins("go on, ")) {
+      released_ = begun.id;
+    }
+  }
+
+  /// Once the cause has gone, a person who waits hears "go on" within some seconds.
+  void expect_release() {
+    const bool over = now.guidance.is_followed() && alive_ > 0.0;
+    const bool moves = std::any_of(now.nearby.begin(), now.nearby.end(),
+                                   [](const NearThing& thing) { return thing.moving; });
+    waits_over_ = waits_ && over && released_ == 0 ? waits_over_ + kTick : 0.0;
+    waits_alone_ = moves ? 0.0 : std::min(waits_alone_ + kTick, waits_over_);
+    longest_wait = std::max(longest_wait, waits_over_);
+    longest_wait_alone = std::max(longest_wait_alone, waits_alone_);
   }
 
   [[nodiscard]] bool decided(const std::string& kind, double within) const {
@@ -214,6 +253,10 @@ class SessionJudge {
   double in_vain_ = 0.0;  ///< s
   bool touched_ = false;
   bool arrived_ = false;
+  bool waits_ = false;          ///< was told to, and has not heard "go on" to its end
+  std::uint32_t released_ = 0;  ///< the cue that says it
+  double waits_over_ = 0.0;     ///< s, though there is no cause any more
+  double waits_alone_ = 0.0;    ///< s, of these, with nothing that moves near
 };
 
 }  // namespace navvi_feedback::core

@@ -57,12 +57,6 @@ bool said_once(const std::string& problem) {
   return problem == "arrived" || problem == "welcome" || refused(problem);
 }
 
-bool moves(const Utterance& told) {
-  const ThingClass thing = told.fillings.thing.value_or(ThingClass::other);
-  return thing == ThingClass::worker || thing == ThingClass::forklift ||
-         thing == ThingClass::pallet_robot;
-}
-
 /// That there is another route, which explains the next direction.
 bool new_route(const std::string& kind) {
   return kind == "rerouted" || kind == "rerouted_blocked" || kind == "new_route" ||
@@ -101,16 +95,35 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   awaited_ = !awaited(now).empty();
   add(guidance_state(now, links, time));
   add(near(now, time));
-  const Utterances answer = answers(now, time);
-  for (const Utterance& utterance : utterances)
-    if (family_of(utterance.kind) == Family::halt) halt_.say(utterance, time);
+  Utterances answer = answers(now, time);
+  halt(utterances, answer, time);
+  const Utterances way = route(now, links, time);
+  // That the wait is over is a better answer than why it was.
+  const bool on = !way.empty() && way.front().goes_on;
+  if (on && !answer.empty() && family_of(answer.front().kind) == Family::halt) {
+    answer.clear();
+    answered_.clear();
+  }
   add(answer);
-  add(route(now, links, time));
+  add(way);
+  const std::vector<Cue> cues = phrasing_.cues_of(utterances, now, time);
+  for (const Cue& cue : cues)
+    if (cue.goes_on) halt_.release(cue.text);
   leads_ = follows_ && links.pad == Link::alive && !halt_.halted() && !trial_over_;
   links_ = links;
   gate_ = now.gate;
   time_ = time;
-  return phrasing_.cues_of(utterances, now, time);
+  return cues;
+}
+
+/// Whoever hears a word to stop waits for "go on", be it an answer.
+void CuePolicy::halt(const Utterances& told, const Utterances& answer, double time) {
+  for (const Utterance& utterance : told)
+    if (const CueKind& kind = cue_kind(utterance.kind);
+        kind.family == Family::halt && !phrasing_.too_soon(kind, time))
+      halt_.say(utterance, time);
+  for (const Utterance& utterance : answer)
+    if (family_of(utterance.kind) == Family::halt && !halt_.halted()) halt_.say(utterance, time);
 }
 
 Links CuePolicy::judge(const Situation& now, double time) {
@@ -250,22 +263,22 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
 }
 
 CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
-  if (trial_over_ && time - *trial_over_ < kLastWords) return {};
   // Without a stick no path can be followed. Its return is said first, then the direction.
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
+  const bool just_over = trial_over_ && time - *trial_over_ < kLastWords;
+  // "Go on" is not contradicted while a person obeys it.
+  const bool may_go =
+      halt_.over(now, follows_ && steered && !just_over, near_.comes(now, Halt::kObeyed), time);
+  if (just_over) return {};
   const bool leads = follows_ || (problem_ == "blocked" && now.guidance->leads());
   if (leads && steered) {
-    // "Go on" is not contradicted while a person obeys it.
-    const bool halted = halt_.update(now, follows_, near_.comes(now, Halt::kObeyed), time);
     // A wait that is not worth saying is no reason to say the direction again.
-    if (!follows_ && !halted) return {};
-    const Utterances way = route_.update(now, halted, time);
-    // What stands there still does: "go on" comes with the way past it.
-    if (halted && halt_.words().kind == "obstacle_stop" && !moves(halt_.words())) route_.unsaid();
-    if (way.empty() && now.voice_busy && now.sounds.turn) return {};
-    return halt_.go_on(way, now.sounds.turn, time);
+    if (!follows_ && !halt_.halted()) return {};
+    const Utterances way = route_.update(now, halt_.halted(), time);
+    if (!may_go) return way;
+    const auto on = route_.go_on(now, time);
+    return on ? Utterances{*on} : Utterances{};
   }
-  halt_.forget();
   const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
   if (goal_gone)
     route_.forget();
@@ -316,6 +329,7 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
     answer = halt_.words();
   } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
     answer = *way;
+    answer.goes_on = halt_.owes();
   } else {
     answer = tell_problem(now);
     if (problem_.empty() || problem_ == "welcome") answer.kind = "no_goal";
@@ -333,7 +347,7 @@ void CuePolicy::forget(const CueEvent& event) {
   const Family family = family_of(event.kind);
   phrasing_.forget(event);
   near_.unsaid(event.kind);
-  if (family == Family::way || family == Family::route) route_.unheard();
+  if (is_way(family)) route_.unheard();
   if (new_route(event.kind)) route_.route_unheard();
   if (event.kind == answered_) question_ = asked_;
 }
@@ -350,9 +364,10 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       if (event.kind == answered_) answered_.clear();
       if (event.kind == "obstacle_comes") halt_.repeat(time_);
     }
-    if (family_of(event.kind) != Family::halt) continue;
-    if (event.stage == CueStage::started) halt_.heard(time_);
-    if (event.stage == CueStage::dropped && !replaced(event.kind)) halt_.not_heard();
+    const bool owed = halt_.owes() && !halt_.halted();
+    halt_.note(event, replaced(event.kind), time_);
+    // "Go on" was not heard to its end.
+    if (owed && halt_.halted()) forget(event);
   }
   for (const CueEvent& event : events) {
     const bool cut = event.stage == CueStage::cut && new_route(event.kind);

@@ -45,6 +45,7 @@ class CuePolicy {
   [[nodiscard]] Utterances release(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterance tell_problem(const Situation& now) const;
+  void halt(const Utterances& told, const Utterances& answer, double time);
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterance where_am_i(const Situation& now) const;

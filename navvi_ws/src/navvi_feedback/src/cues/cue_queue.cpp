@@ -43,6 +43,7 @@ CueQueue::Step CueQueue::clear() {
 void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const Entry entry{++last_id_, time, cue};
   step.events.push_back(event(entry.id, CueStage::queued, cue));
+  if (family_of(cue.kind) == Family::halt) drop_ways(step);
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     // Two things that were hit are two messages of one kind.
     if (cue.asked && other.cue.asked) return true;
@@ -54,9 +55,21 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
     waiting_.erase(same);
   }
   const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
-    return other.cue.priority < cue.priority || (cue.asked && other.cue.priority == cue.priority);
+    return other.cue.priority < cue.priority ||
+           ((cue.asked || cue.goes_on) && other.cue.priority == cue.priority);
   });
   waiting_.insert(place, entry);
+}
+
+void CueQueue::drop_ways(Step& step) {
+  for (auto entry = waiting_.begin(); entry != waiting_.end();) {
+    if (!is_way(family_of(entry->cue.kind))) {
+      ++entry;
+      continue;
+    }
+    step.events.push_back(event(entry->id, CueStage::dropped, entry->cue));
+    entry = waiting_.erase(entry);
+  }
 }
 
 void CueQueue::drop_stale(double time, Step& step) {
@@ -79,9 +92,13 @@ void CueQueue::drop_surplus(Step& step) {
                                             waiting_.front().cue.priority > running_->cue.priority);
   const bool lesser_begins = begins && lesser == waiting_.begin();
   const auto room = static_cast<std::ptrdiff_t>(kMaxWaiting + (lesser_begins ? 1 : 0));
-  while (waiting_.end() - lesser > room) {
-    step.events.push_back(event(waiting_.back().id, CueStage::dropped, waiting_.back().cue));
-    waiting_.pop_back();
+  for (auto surplus = waiting_.end() - lesser - room; surplus > 0; --surplus) {
+    const auto last = std::find_if(waiting_.rbegin(), waiting_.rend(), [](const Entry& entry) {
+      return entry.cue.priority < Priority::important && !entry.cue.goes_on;
+    });
+    if (last == waiting_.rend()) return;
+    step.events.push_back(event(last->id, CueStage::dropped, last->cue));
+    waiting_.erase(std::next(last).base());
   }
 }
 

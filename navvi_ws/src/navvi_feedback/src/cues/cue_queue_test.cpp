@@ -51,6 +51,24 @@ TEST(CueQueue, lets_a_higher_priority_cut_a_lower_one) {
   EXPECT_EQ(step.start, "text of b");
 }
 
+TEST(CueQueue, drops_the_ways_that_wait_for_a_word_to_stop) {
+  CueQueue queue;
+  (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
+  (void)queue.update({cue("direction", Priority::text), cue("welcome", Priority::text)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({cue("obstacle_stop", Priority::important)}, true, 0.2)),
+            (Words{"queued obstacle_stop", "dropped direction"}));
+}
+
+TEST(CueQueue, keeps_what_ends_a_wait_and_says_it_before_its_equals) {
+  CueQueue queue;
+  Cue on = cue("straight", Priority::message);
+  on.goes_on = true;
+  (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
+  (void)queue.update({cue("a", Priority::message), cue("b", Priority::message)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({on}, true, 0.2)), (Words{"queued straight", "dropped b"}));
+  EXPECT_EQ(told(queue.update({}, false, 0.3)), (Words{"ended hit", "started straight"}));
+}
+
 TEST(CueQueue, answers_at_once_whatever_but_safety_is_spoken_and_only_the_last_question) {
   const auto answer = [](const std::string& kind) {
     Cue asked = cue(kind, Priority::message);

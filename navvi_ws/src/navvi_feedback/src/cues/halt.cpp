@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvi_feedback::cues {
 namespace {
 
 /// s, for which the way must be clear.
 constexpr double kClear = 0.8;
-/// s; what is still there then must be driven round.
+/// s, that a path leads; what is still there then must be driven round.
 constexpr double kLongest = 8.0;
-/// s, that "go on" waits for a direction.
-constexpr double kDirection = 1.0;
 /// m, gap
 constexpr double kAhead = 1.0;
 /// rad; who turns by so much does not drive at what is ahead.
@@ -27,38 +26,54 @@ bool clear(const Situation& now) {
 }  // namespace
 
 void Halt::say(const Utterance& words, double time) {
+  if (state_ == State::free) heard_ = false;
+  state_ = State::waiting;
   words_ = words;
-  begin(time);
-  heard_ = false;
+  begun_ = false;
+  said_ = last_ = time;
   clear_since_.reset();
 }
 
 void Halt::repeat(double time) {
-  if (said_ && time - *said_ < kLongest - kObeyed) last_ = time;
+  if (halted() && time - said_ < kLongest - kObeyed) last_ = time;
 }
 
-bool Halt::update(const Situation& now, bool follows, bool comes, double time) {
-  if (!said_) return false;
-  const bool may_go = follows && ((clear(now) && !comes) || time - *said_ > kLongest);
+void Halt::release(const std::string& text) {
+  state_ = State::released;
+  release_ = text;
+  release_id_.reset();
+}
+
+void Halt::note(const CueEvent& event, bool replaced, double time) {
+  if (state_ == State::released && event.text == release_) {
+    if (event.stage == CueStage::queued) release_id_ = event.id;
+    if (event.id != release_id_) return;
+    if (event.stage == CueStage::ended) state_ = State::free;
+    if (event.stage == CueStage::cut || event.stage == CueStage::dropped) {
+      state_ = State::waiting;
+      clear_since_.reset();
+    }
+    return;
+  }
+  if (!halted() || family_of(event.kind) != Family::halt) return;
+  if (event.stage == CueStage::started) {
+    heard_ = true;
+    if (std::exchange(begun_, true))
+      repeat(time);
+    else
+      said_ = last_ = time;
+  }
+  if (event.stage == CueStage::dropped && !replaced && !heard_) state_ = State::free;
+}
+
+bool Halt::over(const Situation& now, bool follows, bool comes, double time) {
+  if (!halted() || !follows) led_since_.reset();
+  if (halted() && follows && !led_since_) led_since_ = time;
+  const bool long_led = led_since_ && time - std::max(said_, *led_since_) > kLongest;
+  const bool may_go = led_since_ && ((clear(now) && !comes) || long_led);
   if (!may_go) clear_since_.reset();
   if (may_go && !clear_since_) clear_since_ = time;
-  if (time - last_ < kObeyed || !clear_since_ || time - *clear_since_ < kClear) return true;
-  said_.reset();
-  over_since_ = time;
-  return false;
-}
-
-std::vector<Utterance> Halt::go_on(std::vector<Utterance> directions, bool sound, double time) {
-  if (!over_since_ || said_) return directions;
-  if (directions.empty() && !sound && time - *over_since_ < kDirection) return {};
-  over_since_.reset();
-  if (directions.empty()) return {{"go_on"}};
-  Utterance& first = directions.front();
-  // A new route, or to make room, is the end of a wait in words of its own.
-  first.goes_on = first.kind != "make_room" && first.kind.find("route") == std::string::npos &&
-                  first.kind != "way_blocked";
-  first.priority = Priority::message;
-  return directions;
+  return may_go && time - last_ >= kObeyed && time - *clear_since_ >= kClear;
 }
 
 }  // namespace navvi_feedback::cues

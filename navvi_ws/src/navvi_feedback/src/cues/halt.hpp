@@ -1,64 +1,61 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
+#include <string>
 
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
 
 namespace navvi_feedback::cues {
 
-/// A word to stop holds until a person can have obeyed it and the way is clear again; then they are
-/// told to go on. So no word to stop is left without its end.
+/// The rule that is taught: after "stop" or "wait" a person stays until "go on". One state,
+/// waiting, and one way out of it: a sentence that says "go on" with the direction, heard to its
+/// end. A new route, a new goal or a lost link changes nothing.
 class Halt {
  public:
   static constexpr double kObeyed = 2.0;  ///< s; a person hears the word, and lets go of the stick
 
-  /// A word to stop was said.
+  /// A word to stop is about to be said.
   void say(const Utterance& words, double time);
-  /// While it holds, more was said that is not to be contradicted at once.
+  /// More was said that is not to be contradicted at once.
   void repeat(double time);
-  /// The voice has begun to say it.
-  void heard(double time) {
-    if (std::exchange(heard_, true))
-      repeat(time);
-    else if (said_)
-      begin(time);
-  }
-  /// It was dropped.
-  void not_heard() {
-    if (!heard_) said_.reset();
-  }
-  /// \param follows  there is a path to be followed now
-  /// \param comes  something will soon reach the robot
-  /// \return whether the word still holds
-  [[nodiscard]] bool update(const Situation& now, bool follows, bool comes, double time);
-  /// Once the word no longer holds: that the person may go on, with the direction, or alone if
-  /// there is none soon, or a sound leads.
-  [[nodiscard]] std::vector<Utterance> go_on(std::vector<Utterance> directions, bool sound,
-                                             double time);
-  /// There is no path on which to go on.
-  void forget() {
-    said_.reset();
-    over_since_.reset();
-  }
+  /// The sentence that says "go on" is about to be said.
+  void release(const std::string& text);
+  /// Takes note of what became of these words.
+  /// \param replaced  another word of the kind is said instead
+  void note(const CueEvent& event, bool replaced, double time);
 
-  [[nodiscard]] bool halted() const { return said_.has_value(); }
+  /// Call it at each update. \param follows  there is a path to be followed now
+  /// \param comes  something would soon reach the robot
+  /// \return whether "go on" is due
+  [[nodiscard]] bool over(const Situation& now, bool follows, bool comes, double time);
+
+  [[nodiscard]] bool halted() const { return state_ == State::waiting; }
+  /// The person has not heard "go on" to its end.
+  [[nodiscard]] bool owes() const { return state_ != State::free; }
   /// A person has not obeyed it yet.
-  [[nodiscard]] bool fresh(double time) const { return said_ && time - *said_ < kObeyed; }
-  /// What was said, while halted.
+  [[nodiscard]] bool fresh(double time) const { return halted() && time - said_ < kObeyed; }
+  /// The last word to stop.
   [[nodiscard]] const Utterance& words() const { return words_; }
 
  private:
-  void begin(double time) { said_ = last_ = time; }
+  enum class State {
+    free,
+    waiting,   ///< for "go on"
+    released,  ///< that is being said
+  };
 
+  State state_ = State::free;
   Utterance words_;
-  std::optional<double> said_;  ///< s
-  double last_ = 0.0;           ///< s, when it was said last
-  bool heard_ = false;
-  std::optional<double> clear_since_;  ///< s
-  std::optional<double> over_since_;   ///< s, until that is said
+  bool heard_ = false;   ///< the voice has begun a word to stop since the person was free
+  bool begun_ = false;   ///< and the last of them
+  double said_ = 0.0;    ///< s, when that was said
+  double last_ = 0.0;    ///< s, when it was said last
+  std::string release_;  ///< the sentence that says "go on"
+  std::optional<std::uint32_t> release_id_;  ///< its cue, once it is queued
+  std::optional<double> led_since_;          ///< s, there is a path to be followed
+  std::optional<double> clear_since_;        ///< s, and nothing that speaks against it
 };
 
 }  // namespace navvi_feedback::cues

@@ -23,11 +23,19 @@ constexpr double kOver = 1.0;
 constexpr double kTooLate = 0.7;
 /// s; what only turns past a robot that stands does not head for it for so long.
 constexpr double kTurns = 0.4;
+/// m/s, as a person begins to drive who was told to go on.
+constexpr double kGoesOn = 0.6;
 /// m, from a corner to what stands behind it.
 constexpr double kBehindCorner = 0.5;
 
 bool stands(const Situation& now) {
   return now.measured && std::abs(now.measured->linear) <= kMoving;
+}
+
+/// What the robot does, or is about to do.
+Velocity drives(const Situation& now) {
+  const Velocity measured = now.measured.value_or(Velocity{});
+  return std::abs(now.commanded.linear) > std::abs(measured.linear) ? now.commanded : measured;
 }
 
 bool approaches(const Situation& now, Side side) {
@@ -75,7 +83,7 @@ bool NearCues::too_soon(const std::string& kind, double time) const {
 
 std::vector<Utterance> NearCues::update(const Situation& now, bool all, Hold hold, double time) {
   hold_ = hold;
-  forecast_.update(now.nearby, time);
+  forecast_.update(now.nearby, now.measured ? now.measured->linear : 0.0, time);
   std::optional<Candidate> best;
   consider_collisions(now, time, best);
   if (!best && all) {
@@ -108,7 +116,7 @@ void NearCues::consider_collisions(const Situation& now, double time,
   double soonest = std::numeric_limits<double>::infinity();
   for (const NearThing& thing : now.nearby) {
     if (thing.gap <= 0.0 || (stands(now) && !thing.moving)) continue;
-    const double left = forecast_.time_to_collision(thing);
+    const double left = forecast_.time_to_collision(thing, drives(now));
     const double limit = stop_time(now, thing);
     const bool steady = steadily(thing.id, left < limit + kTurns, time);
     if (limit <= 0.0 || left > limit || left >= soonest) continue;
@@ -143,9 +151,14 @@ void NearCues::consider_collisions(const Situation& now, double time,
 
 bool NearCues::comes(const Situation& now, double time) const {
   if (config_.stop_moving <= 0.0) return false;
+  const double steer = now.guidance ? now.guidance->steer_angle : 0.0;
+  const Eigen::Vector2d led = kGoesOn * Eigen::Vector2d(std::cos(steer), -std::sin(steer));
   return std::any_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
-    return thing.moving && thing.gap > 0.0 &&
-           forecast_.time_to_collision(thing) < config_.stop_moving + time;
+    if (thing.gap <= 0.0) return false;
+    double left = forecast_.time_to_collision(thing, drives(now));
+    if (!thing.moving) return !stands(now) && left < config_.stop_standing + time;
+    if (stands(now)) left = std::min(left, forecast_.time_once_driven(thing, led));
+    return left < config_.stop_moving + time;
   });
 }
 

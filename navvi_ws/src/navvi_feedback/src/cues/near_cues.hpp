@@ -36,7 +36,8 @@ class NearCues {
   [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool all, Hold hold,
                                               double time);
 
-  /// \return whether what moves about will reach the robot within `time` (s) of the word to stop
+  /// \return whether anything would be to stop for within `time` (s), be it that the robot goes on
+  /// as it does, or, of what moves about, that it drives where it is led
   [[nodiscard]] bool comes(const Situation& now, double time) const;
 
   /// Words of this kind were dropped: what they told may be told again at once.

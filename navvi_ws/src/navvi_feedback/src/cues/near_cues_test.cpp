@@ -237,6 +237,32 @@ TEST_F(StopTest,
   EXPECT_EQ(near(0.2), "obstacle_stop") << "where there are no sounds";
 }
 
+TEST_F(StopTest, a_shelf_is_stopped_for_1_5_s_before_it_at_the_speed_driven_however_that_began) {
+  std::uint32_t id = 100;
+  for (const double first : {0.15, 0.3, 0.6, 1.0, 2.0})
+    for (const double fastest : {0.3, 0.6, 0.9})
+      for (const double degrees : {0.0, 25.0, 50.0}) {
+        pass(12.0, {});
+        ++id;
+        last_ = {};
+        // Along the nose, towards a face that is turned.
+        const Eigen::Vector2d normal(std::cos(degrees * M_PI / 180.0),
+                                     std::sin(degrees * M_PI / 180.0));
+        double gap = first;
+        double speed = 0.0;
+        while (last_.kind != "obstacle_stop" && gap > 0.0) {
+          now_.commanded.linear = now_.measured->linear = speed;
+          pass(0.02, {{ThingClass::shelf, id, gap, (gap + 0.35) * normal, false}});
+          if (last_.kind == "obstacle_stop") break;
+          speed = std::min(fastest, speed + 1.2 * 0.02);
+          gap -= 0.02 * speed * normal.x();
+        }
+        EXPECT_GE(gap / (speed * normal.x()), 1.5)
+            << first << " m, " << fastest << " m/s, " << degrees << " degrees";
+        now_.commanded.linear = now_.measured->linear = 0.0;
+      }
+}
+
 TEST_F(StopTest, what_is_passed_is_not_stopped_for) {
   now_.measured->linear = 0.9;
   for (double x = 3.0; x > -3.0; x -= 0.018) {

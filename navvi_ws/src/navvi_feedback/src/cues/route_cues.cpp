@@ -65,7 +65,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
       last_ && (guidance.waypoint - last_->waypoint).norm() > config_.same_corner;
   // What was held was the direction to another place.
   if (other_corner) steady_.reset();
-  observe(now, time);
+  observe(now, halted, time);
   if (!hour_ || !std::isfinite(guidance.waypoint_distance)) return {};
   if (guidance.state != Guidance::State::make_room) made_room_ = false;
   const Change change = last_ ? compare(guidance) : Change::none;
@@ -80,12 +80,6 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
   if (halted) {
     // The corner of a robot that stands has not been reached: another plan has replaced it.
     pending_ = Change::none;
-    // After it, ticks lead, but not at once where one must not drive ahead.
-    if (!by_sound_ || leads_off_ || worth_words(*hour_))
-      said_hour_.reset();
-    else
-      said_hour_ = hour_;
-    reminder_.reset();
     return {};
   }
   if (new_goal(guidance)) {
@@ -100,6 +94,28 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
     return {said(start, *hour_, time)};
   }
   return tell(now, time);
+}
+
+std::optional<Utterance> RouteCues::go_on(const Situation& now, double time) {
+  const Guidance& guidance = *now.guidance;
+  std::optional<Utterance> way = direction(guidance);
+  if (!way) return std::nullopt;
+  if (guidance.state == Guidance::State::make_room) {
+    made_room_ = true;
+    way->kind = "make_room";
+    way->fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
+  } else if (new_goal(guidance)) {
+    way->also = {goal("goal_info", now)};
+    goal_ = guidance.goal;
+    reroutes_ = reroutes_before_ = guidance.reroutes;
+  } else if (guidance.reroutes != reroutes_ && way->kind != "slight") {
+    way->kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+  } else if (const auto turn = turn_within_reach(guidance); turn && *hour_ == 12) {
+    way = announce_turn("straight_then", *way, *turn, time);
+  }
+  way->goes_on = true;
+  way->priority = cue_kind("go_on").priority;
+  return said(*way, *hour_, time);
 }
 
 std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
@@ -304,10 +320,11 @@ RouteCues::Change RouteCues::compare(const Guidance& guidance) const {
   return std::abs(moved) > kHalfHour ? Change::reroute : Change::none;
 }
 
-void RouteCues::observe(const Situation& now, double time) {
+void RouteCues::observe(const Situation& now, bool halted, double time) {
   hour_ = steady_.update(now.guidance->steer_angle);
   const bool ahead = hour_ == 12 && rounding_ == Rounding::nearest;
-  if (ahead) hour_ = clear_of_things(now, leads_off_);
+  // Who is about to be told to go on is led off sooner.
+  if (ahead) hour_ = clear_of_things(now, leads_off_ || halted);
   leads_off_ = ahead && hour_ != 12;
   const auto beyond = [](double value, double limit) { return std::abs(value) > limit; };
   if (beyond(now.commanded.linear, 0.02) || beyond(now.commanded.angular, 0.05))

@@ -21,10 +21,13 @@ class RouteCues {
   explicit RouteCues(const RouteConfig& config);
 
   /// Call it while the guidance is fresh and leads along a path.
-  /// \param halted  the person was told to stop: nothing is said until they may go on, and then
-  /// the direction
+  /// \param halted  the person was told to stop: nothing is said until they may go on
   /// \param time  s, monotonic
   [[nodiscard]] std::vector<Utterance> update(const Situation& now, bool halted, double time);
+
+  /// The way as of now, with what has changed meanwhile, for a person who was told to stop and may
+  /// go on. Call it after update(). \return nullopt: no direction is known
+  [[nodiscard]] std::optional<Utterance> go_on(const Situation& now, double time);
 
   /// The direction as of now, for a person who asks.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
@@ -58,7 +61,7 @@ class RouteCues {
   [[nodiscard]] bool new_goal(const Guidance& guidance) const;
   [[nodiscard]] bool closed_way(const Guidance& guidance) const;
   [[nodiscard]] Change compare(const Guidance& guidance) const;
-  void observe(const Situation& now, double time);
+  void observe(const Situation& now, bool halted, double time);
   [[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance) const;
   [[nodiscard]] std::optional<int> turn_within_reach(const Guidance& guidance) const;
   [[nodiscard]] int clear_of_things(const Situation& now, bool held) const;

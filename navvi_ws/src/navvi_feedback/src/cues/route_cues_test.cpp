@@ -51,6 +51,12 @@ class Drive {
     pass(3.0);
   }
 
+  /// Of a person who was told to stop.
+  std::optional<Utterance> go_on() {
+    EXPECT_TRUE(cues.update(now, true, time += kTick).empty());
+    return cues.go_on(now, time);
+  }
+
   RouteCues cues;
   Situation now;
   Utterance last;
@@ -329,7 +335,8 @@ TEST(RouteCues, are_silent_while_the_person_is_to_stop_and_then_say_the_directio
   drive.settle(0.0, 30.0);
   for (double end = drive.time + 10.0; drive.time < end; drive.time += kTick)
     EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time).empty());
-  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  EXPECT_EQ(drive.go_on().value().kind, "straight");
+  EXPECT_EQ(drive.pass(5.0), Kinds{}) << "it was just said";
 }
 
 TEST(RouteCues, keep_quiet_about_a_turn_at_the_goal) {
@@ -384,13 +391,11 @@ TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
       drive.now.guidance->reroutes = 1;
       drive.now.guidance->waypoint = {0.0, -12.0};
       drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(angle);
-      EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
-      // Straight ahead needs no words where the turn sounds.
-      const bool told = !sound || hour != 12;
-      EXPECT_EQ(drive.pass(2.0), told ? Kinds{"rerouted"} : Kinds{});
-      if (told) {
-        EXPECT_EQ(drive.last.fillings.hour, hour);
-      }
+      const auto on = drive.go_on();
+      ASSERT_TRUE(on);
+      EXPECT_EQ(on->kind, "rerouted");
+      EXPECT_EQ(on->fillings.hour, hour);
+      EXPECT_EQ(drive.pass(2.0), Kinds{});
     }
 }
 
@@ -400,8 +405,7 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance = following(0.0, 3.0);
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->waypoint = {0.0, -12.0};
-  EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time += kTick).empty());
-  EXPECT_EQ(drive.pass(8.0), Kinds{"straight_then"});
+  EXPECT_EQ(drive.go_on().value().kind, "rerouted");
   RouteCues unheard = drive.cues;
   drive.cues.unsaid();
   drive.now.guidance->steer_angle = rad(-30.0);

@@ -26,6 +26,7 @@ struct Instruction {
   Side side = Side::none;
   bool very_close = false;  ///< of what is near
   bool slight = false;      ///< a turn of less than half an hour
+  bool goes_on = false;     ///< after "go on"
 };
 
 }  // namespace navvi_study::people

@@ -104,10 +104,13 @@ bool Listener::startles(const std::string& kind, const std::string& text, double
 bool Listener::parse(const std::string& kind, const std::string& text,
                      std::vector<Instruction>& heard) const {
   const std::string go_on = go_on_ + ", ";
-  const std::string told = text.rfind(go_on, 0) == 0 ? text.substr(go_on.size()) : text;
+  const bool goes_on = text.rfind(go_on, 0) == 0;
+  const std::string told = goes_on ? text.substr(go_on.size()) : text;
   const auto [begin, end] = phrases_.equal_range(kind);
-  return std::any_of(begin, end,
-                     [&](const auto& known) { return parse(kind, known.second, told, heard); });
+  const bool known = std::any_of(
+      begin, end, [&](const auto& phrase) { return parse(kind, phrase.second, told, heard); });
+  if (known && goes_on) heard.front().goes_on = true;
+  return known;
 }
 
 bool Listener::parse(const std::string& kind, const std::string& phrase, const std::string& text,
@@ -146,7 +149,8 @@ bool Listener::parse(const std::string& kind, const std::string& phrase, const s
   if (told.kind == Kind::straight) told.hour = 12;
   std::vector<Instruction> parts = {told};
   const std::string rest = match[match.size() - 1];
-  const auto way = {"direction", "slight", "straight", "turn_ahead", "around"};
+  const auto way = {"direction", "slight",    "straight",          "turn_ahead",
+                    "around",    "goal_info", "goal_info_distance"};
   const bool known = rest.empty() || std::any_of(way.begin(), way.end(), [&](const char* more) {
                        return parse(more, rest, parts);
                      });

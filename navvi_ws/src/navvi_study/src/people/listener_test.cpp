@@ -19,11 +19,15 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"straight ahead, 4 meters, then 2 o'clock", Kind::straight},
       {"no turn, straight ahead, 9 meters", Kind::straight},
       {"half right, 3 meters", Kind::turn},
-      {"make room for the forklift, half right, 2 meters", Kind::turn},
+      {"make room for a forklift, half right, 2 meters", Kind::turn},
       {"in 4 meters, turn right", Kind::turn_ahead},
       {"back away, shelf ahead", Kind::bump},
       {"forklift coming, behind", Kind::near},
-      {"go on", Kind::straight},
+      {"go on, straight ahead, 19 meters", Kind::straight},
+      {"go on, make room for something, half right, 2 meters", Kind::turn},
+      {"go on, straight ahead, 3 meters, goal 18 meters, 10 o'clock", Kind::straight},
+      {"robot stopped, release the keys", Kind::halt},
+      {"hit something ahead", Kind::bump},
       {"go on, a little left, 3 meters", Kind::turn},
       {"straight ahead, 1 meter", Kind::straight},
       {"turn to 9 o'clock now", Kind::turn},
@@ -84,7 +88,10 @@ TEST(Listener, speaks_spanish) {
   const Listener listener(std::filesystem::path(NAVVI_PHRASES).replace_filename("es.yaml"));
   const auto stop = listener.understand("obstacle_stop", "pare, estantería delante");
   EXPECT_EQ(stop.size(), 1U);
-  EXPECT_EQ(listener.understand("go_on", "siga").front().kind, Instruction::Kind::straight);
+  const auto go_on = listener.understand("straight", "libre, recto, 7 metros");
+  ASSERT_EQ(go_on.size(), 1U);
+  EXPECT_EQ(go_on[0].kind, Instruction::Kind::straight);
+  EXPECT_TRUE(go_on[0].goes_on);
 }
 
 TEST(Listener, lets_go_at_the_first_word_of_what_startles) {

@@ -64,6 +64,8 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit(missed_sounds, "missed_sounds", Range{0.0, 1.0}, "", "share of short sounds; assumed");
   visit(trust, "trust", Range{1.0, 100.0}, "m",
         "driven on without a word after a turn that a sound has ended; assumed");
+  visit(obeys, "obeys", navvi_config::Any{}, "",
+        "true: after \"stop\" and \"wait\" nothing but \"go on\" moves the hand, as is taught");
 }
 
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed,
@@ -234,15 +236,30 @@ void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
 void SimulatedOperator::be_startled(double time) {
   for (const auto& [id, sentence] : hearing_) {
     const double heard = (time - sentence.time - config_.min_reaction) * kCharactersPerSecond;
-    if (mode_ != Mode::arrived && heard > 0.0 &&
-        listener_.startles(sentence.kind, sentence.text, heard))
-      mode_ = Mode::waiting;
+    if (mode_ == Mode::arrived || heard <= 0.0 ||
+        !listener_.startles(sentence.kind, sentence.text, heard))
+      continue;
+    mode_ = Mode::waiting;
+    wait_for_go_on(sentence);
   }
 }
 
+void SimulatedOperator::wait_for_go_on(const Sentence& sentence) {
+  const bool stops = sentence.kind == "obstacle_stop" || sentence.kind == "blocked";
+  if (!config_.obeys || !stops) return;
+  waits_ = std::max(waits_.value_or(sentence.begun), sentence.begun);
+  told_to_halt_ = true;
+}
+
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
-  for (const Instruction& part : listener_.understand(sentence.kind, sentence.text))
-    follow(sentence, part, time);
+  using Kind = Instruction::Kind;
+  wait_for_go_on(sentence);
+  const auto parts = listener_.understand(sentence.kind, sentence.text);
+  if (!parts.empty() && parts.front().goes_on && waits_ && sentence.begun > *waits_) waits_.reset();
+  for (const Instruction& part : parts) {
+    const bool leads = part.kind == Kind::turn || part.kind == Kind::straight;
+    if (!(leads && waits_)) follow(sentence, part, time);
+  }
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, const Instruction& instruction,
@@ -329,6 +346,10 @@ StickAndButtons SimulatedOperator::drive(double time) const {
 StickAndButtons SimulatedOperator::act(double time, double dt) {
   StickAndButtons hand;
   if (ticks_ && time - ticks_->last > kTicksOver) ticks_.reset();
+  if (waits_ && mode_ != Mode::backing && mode_ != Mode::arrived) {
+    mode_ = Mode::waiting;
+    return hand;
+  }
   if (ticks_ && (mode_ == Mode::turning || mode_ == Mode::driving)) {
     mode_ = Mode::driving;
     target_ = heading_;

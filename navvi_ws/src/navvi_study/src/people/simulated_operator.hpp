@@ -38,6 +38,7 @@ struct SimulatedOperatorConfig {
   double max_sound_reaction = 0.4;
   double missed_sounds = 0.02;
   double trust = 10.0;
+  bool obeys = false;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -54,7 +55,8 @@ struct StickAndButtons {
 /// heard to their end, the sounds and their sides (ahead and behind sound alike), the motors it
 /// feels, and, roughly, how its own stick turns and drives the robot. It reacts late, misses some
 /// sounds, and turns too far or too little, all drawn from the seed. How soon it answers sounds is
-/// assumed, not measured.
+/// assumed, not measured. One that `obeys` does exactly what is taught: after "stop" and "wait" it
+/// stays until "go on".
 class SimulatedOperator {
  public:
   /// \param phrases  file of the phrases in the language that the person speaks
@@ -114,6 +116,7 @@ class SimulatedOperator {
   [[nodiscard]] double shaped(double stick) const;
   void shy_away(const Instruction& instruction, double time);
   void be_startled(double time);
+  void wait_for_go_on(const Sentence& sentence);
   void back_off(Instruction::Side side, double time);
   void ask_soon(double time);
   void ask_when_lost(double time);
@@ -127,8 +130,9 @@ class SimulatedOperator {
   std::optional<Ticks> ticks_;
   double turned_by_ear_ = -1e9;  ///< s
   bool told_to_halt_ = true;
-  double turn_gain_;   ///< turns asked for are made this much too far
-  double speed_gain_;  ///< distances are believed this much too long
+  std::optional<double> waits_;  ///< s, since when for "go on"
+  double turn_gain_;             ///< turns asked for are made this much too far
+  double speed_gain_;            ///< distances are believed this much too long
   std::map<std::uint32_t, Sentence> hearing_;
   std::vector<Sentence> understood_;
   Mode mode_ = Mode::waiting;

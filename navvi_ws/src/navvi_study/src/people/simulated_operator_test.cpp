@@ -196,7 +196,7 @@ TEST(SimulatedOperator, does_not_turn_back_what_a_sound_led_while_it_was_told_to
   Loop loop(1, {{100.0, 0.0}});
   loop.say("straight ahead, 9 meters");
   for (int i = 0; i < 200; ++i) loop.step();
-  loop.say("go on");
+  loop.say("go on, straight ahead, 9 meters");
   for (int i = 0; i < 40; ++i) {
     if (i % 10 == 0) loop.person.hear(sound("turn", 0.6, 0.0), loop.time);
     loop.step();

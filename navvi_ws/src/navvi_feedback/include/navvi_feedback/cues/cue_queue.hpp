@@ -12,9 +12,10 @@ namespace navvi_feedback::cues {
 /// Decides when each cue is spoken (R-AUD-6). A higher priority cuts a lower one; an equal or lower
 /// one waits; nothing cuts an important one, and what was asked for cuts all others and takes the
 /// place of what was asked for before. Below `important` at most two wait; the least
-/// important is dropped first. A newer cue of a kind replaces the waiting one, but an important one
-/// only if the text is the same. A cue that has waited beyond max_age is dropped. Every cue that
-/// enters reaches exactly one of ended, cut, dropped.
+/// important is dropped first, but not what ends a wait. A newer cue of a kind replaces the waiting
+/// one, but an important one only if the text is the same. A word to stop drops all that waits to
+/// say where to steer. A cue that has waited beyond max_age is dropped. Every cue that enters
+/// reaches exactly one of ended, cut, dropped.
 class CueQueue {
  public:
   /// Orders for the speaker, and the events of the cues in order.
@@ -44,6 +45,7 @@ class CueQueue {
   };
 
   void enter(const Cue& cue, double time, Step& step);
+  void drop_ways(Step& step);
   void drop_stale(double time, Step& step);
   void drop_surplus(Step& step);
   void begin_next(Step& step);
