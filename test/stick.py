@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause` or `intrude`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause`, `intrude`, `forge`, `twin`, or
+`clock`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
@@ -8,9 +9,16 @@ halt   likewise, then halts feedback_node for 3 s; prints the kinds of what it s
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the fastest speed from 0.5 s to 3 s after it lives again.
 intrude  a neutral stick while this process itself commands full speed to /cmd_vel, at 1 kHz; prints the fastest speed within 3 s, the
        fastest with the stick pushed while it goes on, and the node that drive_state names.
+forge  this process commands a turn to /cmd_vel under the name of feedback_node while the stick is pushed; prints the fastest motion, in m/s or
+       rad/s, from 0.6 s after its first command for 3 s, the node that drive_state names, and the fastest speed once it is over and the stick
+       was neutral.
+twin   a second node of the name /feedback_node commands full speed; prints the fastest speed from 0.6 s after its first command for 3 s.
+clock  publishes another time to /clock in a trial, with the stick pushed; prints the time in s until the wheels were held, and the fastest
+       speed in the 3 s after that.
 """
 import os
 import signal
+import subprocess
 import sys
 import time
 import xmlrpc.client
@@ -19,17 +27,22 @@ import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
-from navvi_msgs.msg import Cue, DriveState
+from rosgraph_msgs.msg import Clock
+from navvi_msgs.msg import Cue, DriveState, TrialState
 from sensor_msgs.msg import Joy
 
 
 class Stick:
     def __init__(self):
         rospy.init_node("stick", disable_rostime=True)
-        self.speed, self.stopped, self.intruder = 0.0, None, ""
-        rospy.Subscriber("/odom", Odometry, lambda msg: setattr(self, "speed", msg.twist.twist.linear.x), tcp_nodelay=True)
+        self.speed, self.turn, self.stopped, self.intruder, self.wanted = 0.0, 0.0, None, "", 0.0
+        rospy.Subscriber("/odom", Odometry, self.note_motion, tcp_nodelay=True)
+        rospy.Subscriber("/cmd_vel", Twist, lambda msg: setattr(self, "wanted", msg.linear.x), tcp_nodelay=True)
         rospy.Subscriber("/navvi/drive_state", DriveState, self.note_stop, tcp_nodelay=True)
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
+
+    def note_motion(self, msg):
+        self.speed, self.turn = msg.twist.twist.linear.x, msg.twist.twist.angular.z
 
     def note_stop(self, msg):
         self.intruder = msg.intruder
@@ -58,7 +71,7 @@ class Stick:
 
     def fastest(self, forward, seconds):
         speeds = [0.0]
-        self.hold(forward, lambda: speeds.append(abs(self.speed)), seconds)
+        self.hold(forward, lambda: speeds.append(max(abs(self.speed), abs(self.turn))), seconds)
         return max(speeds)
 
     def pause(self):
@@ -79,6 +92,41 @@ class Stick:
         flood.shutdown()
         return alone, driven, self.intruder
 
+    def forge(self):
+        commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1, headers={"callerid": "/feedback_node"})
+        self.hold(1.0, lambda: commands.get_num_connections() > 0, 10.0)
+        command = Twist(angular=Vector3(z=1.0))
+        forging = rospy.Timer(rospy.Duration(0.02), lambda _: commands.publish(command))
+        self.hold(1.0, lambda: False, 0.6)
+        forged = self.fastest(1.0, 3.0)
+        forging.shutdown()
+        commands.unregister()
+        self.hold(0.0, lambda: False, 1.0)
+        return forged, self.intruder, self.fastest(1.0, 3.0)
+
+    def twin(self):
+        twin = subprocess.Popen([sys.executable, "-c", TWIN], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.hold(1.0, lambda: self.wanted == 1.0, 20.0)
+        begun = self.wanted == 1.0  # feedback_node itself asks for 0.9 m/s at most
+        self.hold(1.0, lambda: False, 0.6)
+        fastest = self.fastest(1.0, 3.0)
+        twin.kill()
+        return (fastest if begun else "the twin did not begin",)
+
+    def clock(self):
+        trial = []
+        rospy.Subscriber("/navvi/trial_state", TrialState, lambda msg: trial.append(msg.state))
+        self.hold(0.0, lambda: trial[-1:] == [TrialState.RUNNING], 60.0)
+        self.push(0.3)
+        clock = rospy.Publisher("/clock", Clock, queue_size=1)
+        self.hold(1.0, lambda: clock.get_num_connections() > 3, 10.0)
+        self.stopped = None
+        jumped = time.monotonic()
+        clock.publish(Clock(clock=rospy.Time(1)))
+        self.hold(1.0, lambda: self.stopped is not None, 5.0)
+        self.hold(1.0, lambda: False, 0.5)
+        return self.stopped - jumped, self.fastest(1.0, 3.0)
+
     def halt(self):
         pid, said = self.pid("/feedback_node"), []
         os.kill(pid, signal.SIGSTOP)
@@ -98,9 +146,21 @@ class Stick:
         return self.stopped - killed, still - killed, self.fastest(1.0, 5.0)
 
 
+TWIN = """
+import rospy
+from geometry_msgs.msg import Twist
+rospy.init_node("feedback_node", disable_rostime=True)
+commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
+command = Twist()
+command.linear.x = 1.0
+while not rospy.is_shutdown():
+    commands.publish(command)
+    rospy.sleep(0.02)
+"""
+
 if __name__ == "__main__":
     what = sys.argv[1]
     stick = Stick()
     stick.push(0.8 if what in ("kill", "halt", "pause") else 0.3)
     pushed = stick.speed
-    print(pushed, *{"push": tuple, "kill": stick.kill, "halt": stick.halt, "pause": stick.pause, "intrude": stick.intrude}[what]())
+    print(pushed, *(tuple() if what == "push" else getattr(stick, what)()))

@@ -21,7 +21,7 @@ def session(master, tmp_path):
 
 def run_stick(session, what):
     stick = subprocess.run(["/usr/bin/python3", str(ROOT / "test/stick.py"), what], env=session, capture_output=True,
-                           text=True, timeout=60)
+                           text=True, timeout=120)
     assert stick.returncode == 0, stick.stderr
     return stick.stdout.split()
 
@@ -32,6 +32,28 @@ def test_only_the_guide_drives(session):
     assert float(alone) < 1e-3, "another node has moved the robot"
     assert float(driven) >= 0.3, "another node has taken the robot away from the person"
     assert intruder == "/stick"
+
+
+def test_C5_a_publisher_under_the_drivers_name_keeps_the_wheels_still_and_is_named(session):
+    pushed, forged, intruder, driven = run_stick(session, "forge")
+    assert float(pushed) >= 0.3
+    assert float(forged) < 1e-3, "a forged name has moved the robot"
+    assert intruder == "/feedback_node"
+    assert float(driven) >= 0.3, "the person drives again once the other is gone"
+
+
+def test_M2_a_second_node_of_the_drivers_name_does_not_take_the_wheels(session):
+    pushed, *taken = run_stick(session, "twin")
+    assert float(pushed) >= 0.3
+    assert float(" ".join(taken)) < 1e-3, "its commands were never neutral"
+
+
+def test_T1_a_jump_of_the_clock_by_another_publisher_stops_the_wheels_and_is_recorded(session, tmp_path):
+    pushed, held, afterwards = map(float, run_stick(session, "clock"))
+    assert pushed >= 0.3
+    assert held < 0.5, "the bound is 250 ms on an idle machine, and twice that on a loaded one"
+    assert afterwards < 1e-3, "the stick was never neutral"
+    assert any("reason=clock_jumped" in journal.read_text() for journal in tmp_path.rglob("journal.csv"))
 
 
 def test_commands_that_piled_up_while_the_simulator_was_halted_do_not_move_the_robot(session):

@@ -5,6 +5,7 @@
 #include <nav_msgs/Path.h>
 #include <navvi_msgs/Contact.h>
 #include <navvi_msgs/Cue.h>
+#include <navvi_msgs/DriveState.h>
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/TrialEvent.h>
@@ -152,6 +153,18 @@ TEST_F(FeedbackNode, drives_only_after_neutral_and_falls_silent_after_a_stop) {
   stick_ = 1.0F;
   pass(1.0);
   EXPECT_EQ(twist_.linear.x, 0.0) << "held forward when it came back";
+}
+
+TEST_F(FeedbackNode, M2_says_that_another_node_drives_under_its_name) {
+  ros::Publisher gate = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1);
+  ASSERT_TRUE(until([&] { return gate.getNumSubscribers() > 0; }));
+  navvi_msgs::DriveState state;
+  state.state = navvi_msgs::DriveState::STOPPED;
+  state.reason = navvi_msgs::DriveState::DRIVER_CHANGED;
+  state.intruder = "/feedback_node";
+  gate.publish(state);
+  EXPECT_TRUE(until([this] { return heard("two_drivers"); }));
+  EXPECT_FALSE(heard("intruder")) << "it is not ignored";
 }
 
 TEST_F(FeedbackNode, makes_a_thing_on_the_left_felt_on_the_left_and_stops_when_sensing_dies) {

@@ -34,13 +34,22 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
         "commands beyond this many times a limit are rejected");
   visit(driver, "driver", navvi_config::Any{}, "",
         "the node whose commands are taken, such as /feedback_node; those of any other are ignored "
-        "and announced; empty: any node may drive");
+        "and announced; empty: any node may drive, one at a time");
 }
 
-bool CommandGate::admit(const std::string& node) {
-  if (config_.driver.empty() || node == config_.driver) return true;
-  intruder_ = node;
-  return false;
+bool CommandGate::admit(const std::string& node, unsigned link, const Instant& now) {
+  if (!config_.driver.empty() && node != config_.driver) {
+    intruder_ = node;
+    return false;
+  }
+  expire(now);
+  if (link_ && link != *link_) {
+    stop(Reason::driver_changed);
+    if (link < latest_link_) intruder_ = node;  // the later link has not replaced this one
+  }
+  link_ = link;
+  latest_link_ = std::max(latest_link_, link);
+  return true;
 }
 
 void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, const Instant& now) {
@@ -66,6 +75,14 @@ void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, c
   bad_since_valid_ = false;
 }
 
+void CommandGate::stop(Reason reason) {
+  last_valid_.reset();
+  neutral_since_.reset();
+  if (state_ == State::waiting) return;
+  state_ = State::stopped;
+  reason_ = reason;
+}
+
 navvi_types::Velocity CommandGate::update(const Instant& now) {
   expire(now);
   if (!last_valid_) return {};
@@ -81,11 +98,13 @@ navvi_types::Velocity CommandGate::update(const Instant& now) {
 
 void CommandGate::expire(const Instant& now) {
   if (last_valid_ && younger_than(config_.timeout, *last_valid_, now)) return;
+  const bool back = last_valid_ && now.sim < last_valid_->sim;
   last_valid_.reset();
   neutral_since_.reset();
-  if (state_ != State::running) return;
-  state_ = State::stopped;
-  reason_ = bad_since_valid_ ? Reason::command_invalid : Reason::command_lost;
+  if (state_ == State::running)
+    stop(back               ? Reason::clock_jumped
+         : bad_since_valid_ ? Reason::command_invalid
+                            : Reason::command_lost);
 }
 
 }  // namespace navvi_safety

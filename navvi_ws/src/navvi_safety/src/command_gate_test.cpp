@@ -24,6 +24,17 @@ class Gate : public testing::Test {
       wheels_ = gate_.update(now_);
     }
   }
+  /// As hold(), by a connection of the driver.
+  void send(unsigned link, const Velocity& command, double seconds = kStep) {
+    const int steps = static_cast<int>(std::lround(seconds / kStep));
+    for (int i = 0; i < steps; ++i) {
+      now_.wall += kStep;
+      now_.sim += kStep;
+      ASSERT_TRUE(gate_.admit("/feedback_node", link, now_));
+      gate_.receive(command, now_);
+      wheels_ = gate_.update(now_);
+    }
+  }
   void silence(double wall, double sim) {
     now_.wall += wall;
     now_.sim += sim;
@@ -92,10 +103,58 @@ TEST_F(Gate, S7_after_a_halt_of_ten_minutes_it_moves_only_once_the_stick_was_neu
   EXPECT_EQ(wheels_.linear, 1.0);
 }
 
-TEST_F(Gate, stops_when_time_runs_backwards) {
+TEST_F(Gate, T1_stops_when_time_runs_backwards) {
   start();
   silence(0.02, -97.0);
   EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::clock_jumped);
+}
+
+TEST_F(Gate, stops_when_it_is_asked_to_until_the_stick_was_neutral) {
+  start();
+  gate_.stop(CommandGate::Reason::clock_jumped);
+  hold(1.0, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.drive_state(0).reason, CommandGate::Reason::clock_jumped);
+  start();
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
+TEST_F(Gate, that_never_ran_waits_whatever_it_is_asked) {
+  gate_.stop(CommandGate::Reason::clock_jumped);
+  EXPECT_EQ(gate_.state(), CommandGate::State::waiting);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::none);
+}
+
+TEST_F(Gate, M2_a_driver_by_another_connection_has_to_be_neutral_first) {
+  send(1, {}, 0.4);
+  send(1, {1.0, 0.0}, 0.1);
+  ASSERT_EQ(wheels_.linear, 1.0);
+  send(2, {1.0, 0.0}, 1.0);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::driver_changed);
+  EXPECT_EQ(gate_.drive_state(0).intruder, "") << "the one before it is gone";
+  send(2, {}, 0.4);
+  send(2, {1.0, 0.0}, 0.1);
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
+TEST_F(Gate, C5_two_live_connections_of_the_drivers_name_keep_the_wheels_still) {
+  send(1, {}, 0.4);
+  send(1, {1.0, 0.0}, 0.1);
+  for (int i = 0; i < 100; ++i) {
+    send(2, {});
+    EXPECT_EQ(wheels_.linear, 0.0);
+    send(1, {1.0, 0.0});
+    EXPECT_EQ(wheels_.linear, 0.0);
+  }
+  EXPECT_EQ(gate_.drive_state(0).intruder, "/feedback_node");
+  // The second goes.
+  send(1, {1.0, 0.0}, 1.0);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  send(1, {}, 0.4);
+  send(1, {1.0, 0.0}, 0.1);
+  EXPECT_EQ(wheels_.linear, 1.0);
 }
 
 TEST_F(Gate, is_stopped_for_a_command_that_comes_too_late_without_an_update_before_it) {
@@ -155,11 +214,13 @@ TEST(CommandGate, admits_the_one_driver_and_names_any_other) {
   CommandGateConfig config;
   config.driver = "/feedback_node";
   CommandGate gate{config};
-  EXPECT_TRUE(gate.admit("/feedback_node"));
+  EXPECT_TRUE(gate.admit("/feedback_node", 1, {}));
   EXPECT_EQ(gate.drive_state(0).intruder, "");
-  EXPECT_FALSE(gate.admit("/teleop"));
+  EXPECT_FALSE(gate.admit("/teleop", 2, {}));
   EXPECT_EQ(gate.drive_state(0).intruder, "/teleop");
-  EXPECT_TRUE(CommandGate(CommandGateConfig{}).admit("/teleop")) << "no driver is named";
+  EXPECT_TRUE(gate.admit("/feedback_node", 1, {}));
+  EXPECT_EQ(gate.reason(), CommandGate::Reason::none) << "an ignored node stops nothing";
+  EXPECT_TRUE(CommandGate(CommandGateConfig{}).admit("/teleop", 1, {})) << "no driver is named";
 }
 
 }  // namespace

@@ -2,25 +2,41 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_safety {
 
-void receive(CommandGate& gate, const ros::MessageEvent<const geometry_msgs::Twist>& event,
-             const Instant& now) {
+unsigned CommandInput::link_of(const Header& header) {
+  links_.erase(std::remove_if(links_.begin(), links_.end(),
+                              [](const auto& link) { return link.first.expired(); }),
+               links_.end());
+  for (const auto& [known, number] : links_)
+    if (known.lock() == header) return number;
+  links_.emplace_back(header, ++last_link_);
+  return last_link_;
+}
+
+void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::Twist>& event,
+                           const Instant& now) {
   const std::string& node = event.getPublisherName();
-  if (!gate.admit(node)) {
+  if (!gate_.admit(node, link_of(event.getConnectionHeaderPtr()), now)) {
     ROS_WARN_THROTTLE(5.0,
                       "cmd_vel: commands of %s are ignored; the parameter driver names the "
                       "node that may drive",
                       node.c_str());
     return;
   }
-  const unsigned before = gate.rejected();
-  gate.receive(navvi_types::from_msg(*event.getConstMessage()), now);
-  if (gate.rejected() != before)
+  if (gate_.reason() == CommandGate::Reason::driver_changed)
+    ROS_WARN_THROTTLE(5.0,
+                      "cmd_vel: commands of %s come by another connection than before; the wheels "
+                      "stand until one connection alone has sent zero for a while",
+                      node.c_str());
+  const unsigned before = gate_.rejected();
+  gate_.receive(navvi_types::from_msg(*event.getConstMessage()), now);
+  if (gate_.rejected() != before)
     ROS_WARN_THROTTLE(1.0, "cmd_vel: %u commands rejected, not finite or absurdly large",
-                      gate.rejected());
+                      gate_.rejected());
 }
 
 }  // namespace navvi_safety

@@ -15,18 +15,21 @@ int main(int argc, char** argv) {
   return navvi_config::run_node<CommandGateConfig>([](const CommandGateConfig& config) {
     ros::NodeHandle node;
     navvi_safety::CommandGate gate(config);
+    navvi_safety::CommandInput input(gate);
     ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("robot/cmd_vel", 1);
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
     using Command = ros::MessageEvent<const geometry_msgs::Twist>;
     const boost::function<void(const Command&)> receive = [&](const Command& command) {
-      navvi_safety::receive(gate, command, navvi_safety::now());
+      input.receive(command, navvi_safety::now());
     };
     ros::Subscriber commands = node.subscribe<geometry_msgs::Twist, const Command&>(
         "cmd_vel", navvi_safety::kCommandQueue, receive);
     std::optional<navvi_types::DriveState> published;
     const auto publish_state = [&] {
       const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));
-      if (published && published->state == now.state && published->intruder == now.intruder) return;
+      if (published && published->state == now.state && published->reason == now.reason &&
+          published->intruder == now.intruder)
+        return;
       state.publish(navvi_types::to_msg(now));
       published = now;
     };

@@ -17,7 +17,7 @@ namespace {
 class Relay : public testing::Test {
  protected:
   Relay() {
-    commands_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    connect();
     wheels_ = node_.subscribe<geometry_msgs::Twist>(
         "robot/cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) {
           speed_ = msg->linear.x;
@@ -28,6 +28,11 @@ class Relay : public testing::Test {
         [this](const navvi_msgs::DriveState::ConstPtr& msg) { drive_ = *msg; });
   }
 
+  /// By another connection than before.
+  void connect() {
+    commands_.shutdown();
+    commands_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  }
   /// Sends `speed` at 50 Hz until `done`, for at most 10 s. A speed that is not finite goes out as
   /// it is.
   bool drive_until(double speed, const std::function<bool()>& done) {
@@ -103,6 +108,21 @@ TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
 TEST_F(Relay, names_the_other_node_that_wants_to_drive_and_goes_on_with_its_driver) {
   start();
   EXPECT_TRUE(drive_until(0.7, [&] { return drive_.intruder == "/intruder"; }));
+  start(0.6);
+}
+
+TEST_F(Relay, M2_wants_a_driver_that_has_connected_anew_to_be_neutral_first) {
+  start();
+  connect();
+  EXPECT_TRUE(drive_until(0.5, [&] { return drive_.state == navvi_msgs::DriveState::STOPPED; }));
+  const ros::WallTime stopped = ros::WallTime::now();
+  EXPECT_TRUE(drive_until(0.5, [&] {
+    EXPECT_NE(speed_, 0.5) << "the commands were never neutral";
+    return (ros::WallTime::now() - stopped).toSec() > 1.0;
+  }));
+  // Where connecting took longer than the timeout, the commands had been lost before.
+  EXPECT_TRUE(
+      drive_until(0.5, [&] { return drive_.reason == navvi_msgs::DriveState::DRIVER_CHANGED; }));
   start(0.6);
 }
 

@@ -157,6 +157,30 @@ TEST_F(SimNode, counts_commands_that_are_no_numbers_and_does_not_move_for_them) 
   EXPECT_EQ(speed(), 0.0);
 }
 
+TEST_F(SimNode, T1_a_jump_of_the_clock_by_another_publisher_stops_the_wheels_within_250_ms) {
+  for (const double jump : {-97.0, 1e6}) {
+    ASSERT_TRUE(start_moving());
+    const ros::Time sim = odom_.last().header.stamp;
+    ros::Publisher rogue = ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 1);
+    ASSERT_TRUE(command_until(0.4, [&] { return rogue.getNumSubscribers() > 1; }))
+        << "the simulator does not listen to clocks";
+    ASSERT_GT(speed(), 0.15);
+    rosgraph_msgs::Clock clock;
+    clock.clock.fromSec(std::max(0.0, sim.toSec() + jump));
+    rogue.publish(clock);
+    const ros::WallTime jumped = ros::WallTime::now();
+    EXPECT_TRUE(command_until(0.4, [&] { return drive_.last().state == 2; }));
+    // The bound is 250 ms on an idle machine, and twice that on a loaded one.
+    EXPECT_LT((ros::WallTime::now() - jumped).toSec(), 0.5);
+    EXPECT_EQ(drive_.last().reason, navvi_msgs::DriveState::CLOCK_JUMPED);
+    EXPECT_TRUE(command_until(0.4, [&] { return speed() == 0.0; }));
+    const int before = odom_.count();
+    EXPECT_TRUE(command_until(0.4, [&] { return odom_.count() > before + 100; }));
+    EXPECT_EQ(speed(), 0.0) << "the stick was never neutral";
+  }
+  EXPECT_TRUE(start_moving());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {

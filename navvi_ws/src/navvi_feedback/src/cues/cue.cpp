@@ -45,6 +45,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"release_stick", P::message, 2.0, 2.0},
       {"intruder", P::message, 5.0, 10.0},
       {"machine_slow", P::message, 5.0, 10.0},
+      {"two_drivers", P::message, 5.0, 10.0},
       {"pad_back", P::message, 2.0, 5.0},
       {"keyboard_back", P::message, 2.0, 5.0},
       {"audio_back", P::message, 2.0, 5.0},

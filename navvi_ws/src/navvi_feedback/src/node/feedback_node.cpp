@@ -150,7 +150,11 @@ class FeedbackNode {
       feedback_.take(guidance, now());
       if (news) tick();
     });
-    keep<navvi_msgs::DriveState>("navvi/drive_state");
+    listen<navvi_msgs::DriveState>("navvi/drive_state", 1, [this](DriveState state) {
+      twin_ = state.intruder == ros::this_node::getName();
+      if (twin_) state.intruder.clear();
+      feedback_.take(state, now());
+    });
     listen<navvi_msgs::TrialState>("navvi/trial_state", 1, [this](const TrialState& state) {
       const bool runs = state.state == TrialState::State::running;
       if (runs && !std::exchange(told_to_run_, runs)) begin();
@@ -359,7 +363,10 @@ class FeedbackNode {
   }
 
   [[nodiscard]] std::vector<std::string> notices() const {
-    return source_.pad() ? notices_of(source_.pad()->status()) : std::vector<std::string>{};
+    std::vector<std::string> kinds;
+    if (source_.pad()) kinds = notices_of(source_.pad()->status());
+    if (twin_) kinds.push_back("two_drivers");
+    return kinds;
   }
 
   /// base_link in map
@@ -430,6 +437,7 @@ class FeedbackNode {
   std::vector<std::string> news_;      ///< kinds of cues, not said yet
   std::optional<person::PersonFile> person_;
   std::optional<person::SettingsSaver> saver_;
+  bool twin_ = false;      ///< another node drives under the name of this one
   bool welcomes_ = false;  ///< the person's settings were loaded, and that is to be said
 
   std::optional<double> markers_time_;  // s, of now()

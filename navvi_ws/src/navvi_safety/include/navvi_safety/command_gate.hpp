@@ -25,14 +25,14 @@ struct CommandGateConfig {
   double max_linear = 1.5;
   double max_angular = 2.5;
   double absurd_factor = 10.0;
-  std::string driver;  ///< the node that may drive; empty: any
+  std::string driver;  ///< the node that may drive; empty: any, one at a time
 
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Stops the wheels when no valid command came for `timeout`, and releases them only after the
-/// command was neutral for `neutral_hold`. It begins stopped, so motion always starts from a
-/// neutral stick.
+/// Stops the wheels when no valid command came for `timeout`, when commands come by another link
+/// than before, and when it is asked to; releases them only after the command was neutral for
+/// `neutral_hold`. It begins stopped, so motion always starts from a neutral stick.
 class CommandGate {
  public:
   using State = navvi_types::DriveState::State;
@@ -41,13 +41,18 @@ class CommandGate {
   explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
 
   /// True if the node may drive: its commands may be received. One that may not is named by
-  /// drive_state() from then on.
-  [[nodiscard]] bool admit(const std::string& node);
+  /// drive_state() from then on. \param link  number of the connection that its command came by,
+  /// higher for a later one. Another link than that of the command before stops the wheels; while
+  /// two links of one name send commands they stand still, and the name is an intruder's, too.
+  [[nodiscard]] bool admit(const std::string& node, unsigned link, const Instant& now);
 
   /// Takes a command as received. \param command  nullopt for a malformed message. A command that
   /// is not finite or `absurd_factor` beyond the limits is rejected whole and extends nothing; one
   /// beyond the limits is clamped. A command later than `timeout` finds the wheels stopped.
   void receive(const std::optional<navvi_types::Velocity>& command, const Instant& now);
+
+  /// Stops the wheels, for a reason beside the commands.
+  void stop(Reason reason);
 
   /// The velocity for the wheels at `now`. Call it at every control step.
   [[nodiscard]] navvi_types::Velocity update(const Instant& now);
@@ -69,6 +74,8 @@ class CommandGate {
   navvi_types::Velocity command_;
   std::optional<Instant> last_valid_;
   std::optional<Instant> neutral_since_;
+  std::optional<unsigned> link_;  ///< of the last command
+  unsigned latest_link_ = 0;
   bool bad_since_valid_ = false;
   State state_ = State::waiting;
   Reason reason_ = Reason::none;

@@ -3,6 +3,10 @@
 #include <geometry_msgs/Twist.h>
 #include <ros/message_event.h>
 
+#include <boost/weak_ptr.hpp>
+#include <utility>
+#include <vector>
+
 #include "navvi_safety/command_gate.hpp"
 
 namespace navvi_safety {
@@ -11,8 +15,24 @@ namespace navvi_safety {
 /// would push those of the driver out.
 constexpr int kCommandQueue = 100;
 
-/// Passes a command on to the gate if its publisher may drive; warns of what is rejected.
-void receive(CommandGate& gate, const ros::MessageEvent<const geometry_msgs::Twist>& event,
-             const Instant& now);
+/// Passes commands on to the gate if their publisher may drive; warns of what is rejected.
+class CommandInput {
+ public:
+  /// \param gate  outlives this
+  explicit CommandInput(CommandGate& gate) : gate_(gate) {}
+
+  void receive(const ros::MessageEvent<const geometry_msgs::Twist>& event, const Instant& now);
+
+ private:
+  using Header = boost::shared_ptr<ros::M_string>;
+
+  /// The number of the connection that a message came by. A connection keeps one header as long as
+  /// it lives, and no two share one; names in it may be forged.
+  [[nodiscard]] unsigned link_of(const Header& header);
+
+  CommandGate& gate_;
+  std::vector<std::pair<boost::weak_ptr<ros::M_string>, unsigned>> links_;  ///< that still live
+  unsigned last_link_ = 0;
+};
 
 }  // namespace navvi_safety

@@ -8,6 +8,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <map>
 #include <navvi_config/priority.hpp>
@@ -31,6 +32,7 @@ constexpr double kTick = 0.005;  // s, wall clock; shorter than a step, for an e
 // What moves in the picture, for a bag that RViz shows without us: seldom, that it stays small.
 constexpr double kRecordedPeriod = 0.5;     // s
 constexpr double kRecordedMarkers = 400.0;  // a second, at most
+constexpr double kJump = 0.25;   // s, of ROS time; longer than any step
 constexpr const char* kLidarFrame = "laser";
 constexpr const char* kCameraFrame = "camera_link";
 
@@ -94,6 +96,7 @@ class SimNode {
   void log_world(const std::vector<std::string>& notes,
                  const scenario::StartAndGoal& scenario) const;
   void receive(const ros::MessageEvent<const geometry_msgs::Twist>& command);
+  void hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock);
   void tick(const ros::WallTimerEvent& event);
   [[nodiscard]] bool step();
   void publish_state();
@@ -115,6 +118,7 @@ class SimNode {
   std::optional<RobotSensors> robot_sensors_;
   scene::Scene looks_;
   navvi_safety::CommandGate gate_;
+  navvi_safety::CommandInput input_{gate_};
   live::Pacer pacer_;
   std::size_t commands_published_ = 0;
   std::size_t hashes_published_ = 0;
@@ -127,7 +131,7 @@ class SimNode {
       proximity_, contacts_, scenario_, drive_, applied_, hash_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
-  ros::Subscriber commands_;
+  ros::Subscriber commands_, clocks_;
   ros::WallTimer timer_;
 };
 
@@ -153,6 +157,8 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
   commands_node.setCallbackQueue(&commands_queue_);
   commands_ = commands_node.subscribe("cmd_vel", navvi_safety::kCommandQueue, &SimNode::receive,
                                       this, ros::TransportHints().tcpNoDelay());
+  clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
+                                    ros::TransportHints().tcpNoDelay());
   timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
 }
 
@@ -217,7 +223,17 @@ void SimNode::log_world(const std::vector<std::string>& notes,
 }
 
 void SimNode::receive(const ros::MessageEvent<const geometry_msgs::Twist>& command) {
-  navvi_safety::receive(gate_, command, instant());
+  input_.receive(command, instant());
+}
+
+/// The world has one clock, its own. With another one, nothing that the guide says can be relied
+/// on.
+void SimNode::hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock) {
+  const double jump = clock.getConstMessage()->clock.toSec() - world().now().time;
+  if (std::abs(jump) <= kJump) return;
+  gate_.stop(navvi_safety::CommandGate::Reason::clock_jumped);
+  ROS_WARN_THROTTLE(5.0, "clock: %s publishes another time, by %.1f s; the wheels stand",
+                    clock.getPublisherName().c_str(), jump);
 }
 
 void SimNode::tick(const ros::WallTimerEvent&) {

@@ -15,20 +15,27 @@ struct DriveState {
     running,
     stopped,  ///< wheels held at zero until the command was neutral for a while
   };
-  enum class Reason : std::uint8_t { none, command_lost, command_invalid };
+  enum class Reason : std::uint8_t {
+    none,
+    command_lost,
+    command_invalid,
+    driver_changed,  ///< commands came by another connection than before
+    clock_jumped,    ///< ROS time jumped
+  };
 
   State state = State::waiting;
   Reason reason = Reason::none;
   std::uint32_t rejected = 0;  ///< bad commands so far
   std::int64_t stamp = 0;      ///< ns, ROS time
-  std::string intruder = {};   ///< the node that sent commands last though it may not drive
+  /// The node that sent commands last though it may not drive, or beside another of its name.
+  std::string intruder = {};
 };
 
 [[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::State) {
   return {"waiting", "running", "stopped"};
 }
-[[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::Reason) {
-  return {"none", "command_lost", "command_invalid"};
+[[nodiscard]] constexpr std::array<const char*, 5> names(DriveState::Reason) {
+  return {"none", "command_lost", "command_invalid", "driver_changed", "clock_jumped"};
 }
 
 }  // namespace navvi_types
