@@ -3,6 +3,7 @@
 #include <SDL.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -19,6 +20,7 @@ constexpr auto kPeriod = 8ms;
 constexpr auto kScanPeriod = 100ms;
 constexpr auto kExpiry = 300ms;
 constexpr auto kResend = 100ms;
+constexpr auto kSilence = 400ms;  // so that the robot is stopped within 500 ms
 // The first command wakes the motors and, on some pads, jolts: a soft pulse takes that jolt.
 constexpr auto kPrime = 400ms;
 constexpr double kPrimeForce = 0.06;
@@ -68,12 +70,22 @@ class Gamepad::Pad {
       : pad_(pad),
         instance_(SDL_JoystickInstanceID(SDL_GameControllerGetJoystick(pad))),
         has_rumble_(SDL_GameControllerHasRumble(pad) == SDL_TRUE),
-        opened_(Clock::now()) {}
+        opened_(Clock::now()) {
+    for (const SDL_SensorType sensor : {SDL_SENSOR_GYRO, SDL_SENSOR_ACCEL})
+      if (SDL_GameControllerHasSensor(pad, sensor) == SDL_TRUE &&
+          SDL_GameControllerSetSensorEnabled(pad, sensor, SDL_TRUE) == 0)
+        break;
+  }
 
   [[nodiscard]] bool attached() const {
     return SDL_GameControllerGetAttached(pad_.get()) == SDL_TRUE;
   }
   [[nodiscard]] drive::InputState input() const { return input_of(pad_.get()); }
+  void beat(Clock::time_point now) { beat_ = now; }
+  [[nodiscard]] bool beats() const { return beat_.has_value(); }
+  [[nodiscard]] bool silent(Clock::time_point now) const {
+    return beat_ && now - *beat_ > kSilence;
+  }
   [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
 
   void describe(Gamepad::Status& status) const {
@@ -122,6 +134,7 @@ class Gamepad::Pad {
   Clock::time_point opened_;
   MotorValues sent_;
   Clock::time_point sent_time_;
+  std::optional<Clock::time_point> beat_;  ///< the last of its sensor
 };
 
 Gamepad::Gamepad() : thread_(*this, kPeriod) {}
@@ -153,18 +166,16 @@ void Gamepad::open() {
 
 std::optional<drive::InputState> Gamepad::read() {
   SDL_GameControllerUpdate();
-  // State is polled; nothing reads the queue of events.
-  SDL_FlushEvents(SDL_JOYAXISMOTION, SDL_CONTROLLERSENSORUPDATE);
   const Clock::time_point now = Clock::now();
   if (pad_ && !pad_->attached()) forget_pad();
+  hear_pad(now);
   if (now - scanned_ >= kScanPeriod) {
     scanned_ = now;
     scan();
   }
   move_motors(now);
-  drive::InputState input = pad_ ? pad_->input() : drive::InputState{};
-  const std::lock_guard<std::mutex> lock(mutex_);
-  input.session = status_.connections;
+  drive::InputState input = pad_ && !pad_->silent(now) ? pad_->input() : drive::InputState{};
+  input.session = session_;
   return input;
 }
 
@@ -185,10 +196,29 @@ void Gamepad::scan() {
   status_.others = others;
 }
 
+/// State is polled; of the queue of events only the heartbeat is of interest.
+void Gamepad::hear_pad(Clock::time_point now) {
+  std::array<SDL_Event, 64> events;
+  for (int count = 1; count > 0;) {
+    count = SDL_PeepEvents(events.data(), static_cast<int>(events.size()), SDL_GETEVENT,
+                           SDL_JOYAXISMOTION, SDL_CONTROLLERSENSORUPDATE);
+    for (int i = 0; i < count; ++i)
+      if (const SDL_Event& event = events[static_cast<std::size_t>(i)];
+          event.type == SDL_CONTROLLERSENSORUPDATE && pad_ &&
+          event.csensor.which == pad_->instance())
+        pad_->beat(now);
+  }
+  if (!pad_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.heartbeat = pad_->beats();
+  if (std::exchange(status_.silent, pad_->silent(now)) && !status_.silent) ++session_;
+}
+
 void Gamepad::take_pad(int index) {
   SDL_GameController* controller = SDL_GameControllerOpen(index);
   if (!controller) return;
   pad_ = std::make_unique<Pad>(controller);
+  ++session_;
   const std::lock_guard<std::mutex> lock(mutex_);
   pad_->describe(status_);
   status_.connected = true;

@@ -16,6 +16,9 @@ namespace navvi_feedback::devices {
 /// The first game controller that is there, or comes (R-HAP-5). It keeps control until it is
 /// detached; others are counted and ignored. A thread of its own opens, reads and updates it: SDL
 /// stops a motor at its expiry only while it is updated.
+/// A stick that is held still sends nothing, and a radio link may freeze long before the system
+/// names the pad detached. A pad with a motion sensor is asked to stream it, as a heartbeat: once
+/// the stream has begun, its end is the loss of the pad.
 class Gamepad final : private ThreadedDevice {
  public:
   struct Status {
@@ -24,6 +27,8 @@ class Gamepad final : private ThreadedDevice {
     std::string guid;   ///< SDL's, of this model, in hexadecimal digits; likewise
     int instance = -1;  ///< SDL's instance id; another pad, another id
     bool has_rumble = false;
+    bool heartbeat = false;         ///< the stream of its motion sensor has begun
+    bool silent = false;            ///< and has ceased, though the pad is attached
     unsigned firmware = 0;          ///< 0 if unknown
     bool jolting_firmware = false;  ///< a DualSense whose firmware is known to start with a jolt
     unsigned others = 0;            ///< further pads that are ignored
@@ -41,7 +46,7 @@ class Gamepad final : private ThreadedDevice {
 
   /// axes: left stick x, y, right stick x, y (left and forward positive), left and right trigger
   /// [0, 1]. buttons: SDL's order: south, east, west, north, back, guide, start, sticks,
-  /// shoulders, directions. Not live while no pad is connected.
+  /// shoulders, directions. Not live while no pad is connected, or while it is silent.
   [[nodiscard]] drive::InputState input() const;
   [[nodiscard]] Status status() const;
 
@@ -59,11 +64,13 @@ class Gamepad final : private ThreadedDevice {
   void close() override;
   void scan();
   void take_pad(int index);
+  void hear_pad(std::chrono::steady_clock::time_point now);
   void forget_pad();
   void move_motors(std::chrono::steady_clock::time_point now);
 
   std::unique_ptr<Pad> pad_;                         ///< the thread's own
   std::chrono::steady_clock::time_point scanned_{};  ///< the thread's own
+  unsigned session_ = 0;                             ///< the thread's own
 
   mutable std::mutex mutex_;
   Status status_;

@@ -15,6 +15,15 @@
 
 // A device is its own clock: these tests wait, each for an event with a deadline.
 
+// SDL's virtual pads have no sensors. Here some do.
+static std::atomic<bool> g_sensors{false};
+extern "C" SDL_bool SDL_GameControllerHasSensor(SDL_GameController*, SDL_SensorType sensor) {
+  return g_sensors && sensor == SDL_SENSOR_GYRO ? SDL_TRUE : SDL_FALSE;
+}
+extern "C" int SDL_GameControllerSetSensorEnabled(SDL_GameController*, SDL_SensorType, SDL_bool) {
+  return 0;
+}
+
 namespace navvi_feedback::devices {
 namespace {
 
@@ -270,6 +279,75 @@ TEST_F(GamepadWith, a_pad_without_rumble_says_so) {
   std::this_thread::sleep_for(50ms);
   EXPECT_TRUE(gamepad.input().live);
   EXPECT_EQ(gamepad.status().rumble_errors, 0u);
+}
+
+/// A virtual pad with a sensor that streams at 100 Hz until it is frozen.
+class StreamingPad {
+ public:
+  StreamingPad() {
+    g_sensors = true;
+    stream_ = std::thread([this] {
+      while (!quit_) {
+        SDL_Event event = {};
+        event.csensor.type = SDL_CONTROLLERSENSORUPDATE;
+        event.csensor.which = pad.instance();
+        event.csensor.sensor = SDL_SENSOR_GYRO;
+        if (!frozen) SDL_PushEvent(&event);
+        std::this_thread::sleep_for(10ms);
+      }
+    });
+  }
+  ~StreamingPad() {
+    quit_ = true;
+    stream_.join();
+    g_sensors = false;
+  }
+  StreamingPad(const StreamingPad&) = delete;
+  StreamingPad& operator=(const StreamingPad&) = delete;
+
+  VirtualPad pad;
+  std::atomic<bool> frozen{false};
+
+ private:
+  std::atomic<bool> quit_{false};
+  std::thread stream_;
+};
+
+TEST_F(GamepadWith, J2_a_frozen_link_with_the_stick_held_is_lost_within_500_ms) {
+  StreamingPad streaming;
+  Gamepad gamepad;
+  ASSERT_TRUE(connects(gamepad));
+  streaming.pad.stick(0.0, -1.0);
+  ASSERT_TRUE(eventually([&] { return gamepad.input().stick().y > 0.9; }));
+  ASSERT_TRUE(eventually([&] { return gamepad.status().heartbeat; }));
+  // A held stick says nothing itself.
+  EXPECT_FALSE(eventually([&] { return !gamepad.input().live; }, 1500ms));
+  streaming.frozen = true;
+  EXPECT_TRUE(eventually([&] { return !gamepad.input().live; }, 500ms));
+  EXPECT_EQ(gamepad.input().stick().y, 0.0);
+  EXPECT_TRUE(gamepad.status().connected);
+  EXPECT_TRUE(gamepad.status().silent);
+
+  const unsigned session = gamepad.input().session;
+  streaming.frozen = false;
+  EXPECT_TRUE(eventually([&] { return gamepad.input().live; }));
+  EXPECT_NE(gamepad.input().session, session) << "the stick has to be neutral once more";
+  EXPECT_FALSE(gamepad.status().silent);
+}
+
+TEST_F(GamepadWith, J2_a_pad_whose_sensor_never_streams_is_live_while_it_is_attached) {
+  for (const bool sensors : {false, true}) {
+    g_sensors = sensors;
+    Gamepad gamepad;
+    VirtualPad pad;
+    ASSERT_TRUE(connects(gamepad));
+    pad.stick(0.0, -1.0);
+    ASSERT_TRUE(eventually([&] { return gamepad.input().stick().y > 0.9; }));
+    EXPECT_FALSE(eventually([&] { return !gamepad.input().live; }, 1000ms));
+    EXPECT_FALSE(gamepad.status().heartbeat) << "nothing guards it, and that is said";
+    EXPECT_EQ(gamepad.input().stick().y, 1.0);
+  }
+  g_sensors = false;
 }
 
 TEST_F(GamepadWith, auto_takes_the_pad_that_is_there) {

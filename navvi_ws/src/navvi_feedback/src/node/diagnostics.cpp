@@ -27,6 +27,9 @@ void add(DiagnosticStatus& to, const std::string& key, const std::string& value)
 DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
   if (!pad.connected)
     return status("navvi/pad", DiagnosticStatus::ERROR, "No game controller is connected.");
+  if (pad.silent)
+    return status("navvi/pad", DiagnosticStatus::ERROR,
+                  "The game controller is connected, but its link is silent.");
   if (!pad.has_rumble)
     return status("navvi/pad", DiagnosticStatus::WARN, "This game controller has no rumble.");
   if (pad.jolting_firmware) {
@@ -47,9 +50,10 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
   std::string state = input == "keyboard" ? "off" : live ? "works" : "missing";
   if (pad) {
     result = own_pad(*pad);
-    state = pad->connected && pad->has_rumble ? "works" : "missing";
+    state = pad->connected && pad->has_rumble && !pad->silent ? "works" : "missing";
     add(result, "name", pad->connected ? pad->name : "none");
     add(result, "firmware", pad->firmware == 0 ? "unknown" : std::to_string(pad->firmware));
+    add(result, "heartbeat", pad->heartbeat ? "motion sensor" : "none");
     add(result, "other pads, ignored", std::to_string(pad->others));
     add(result, "rumble errors", std::to_string(pad->rumble_errors));
   } else if (live) {

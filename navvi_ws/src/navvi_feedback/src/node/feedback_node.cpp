@@ -44,6 +44,7 @@ constexpr double kHalted = 0.5;     // s without a tick
 constexpr double kCatchUp = 0.2;    // s
 constexpr double kRarely = 2.0;     // s; who is slow all the time speaks nevertheless
 constexpr double kLate = 0.1;       // s between two ticks; below it hands and ears notice nothing
+constexpr double kFirstBeat = 2.0;  // s
 constexpr double kLastWords = 3.0;  // s, that the end of a session waits for them at most
 
 /// Wall time, so that the person hears of a simulation that has stopped.
@@ -404,6 +405,7 @@ class FeedbackNode {
     array.header.stamp = ros::Time::now();
     std::optional<devices::Gamepad::Status> pad;
     if (source_.pad()) pad = source_.pad()->status();
+    if (pad) explain_heartbeat(*pad);
     array.status = {pad_status(pad, devices::to_string(source_.kind()), last_hands_.live,
                                config_.feedback.haptics.enabled),
                     audio_status(mixer_.status()),
@@ -411,6 +413,21 @@ class FeedbackNode {
                     latency_status(latencies_, feedback_.stopping_delay()), beat_status(beat_)};
     diagnostics_.publish(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
+  }
+
+  /// Once for each pad, when its sensor has had time to begin.
+  void explain_heartbeat(const devices::Gamepad::Status& pad) {
+    if (pad.connections != pad_) {
+      pad_ = pad.connections;
+      pad_time_ = now();
+    }
+    if (!pad_time_ || !pad.connected || now() - *pad_time_ < kFirstBeat) return;
+    pad_time_.reset();
+    if (!pad.heartbeat)
+      ROS_WARN(
+          "%s streams no motion sensor. If its radio link freezes while the stick is held, the "
+          "robot drives on until the system names the pad disconnected; by cable that is at once.",
+          pad.name.c_str());
   }
 
   NodeConfig config_;
@@ -440,6 +457,8 @@ class FeedbackNode {
   bool twin_ = false;      ///< another node drives under the name of this one
   bool welcomes_ = false;  ///< the person's settings were loaded, and that is to be said
 
+  unsigned pad_ = 0;                    ///< of the status: number of connections
+  std::optional<double> pad_time_;      // s, of now(), since when; until its heartbeat is explained
   std::optional<double> markers_time_;  // s, of now()
   double last_tick_ = 0.0;              // s, of now()
   double woke_ = 0.0;                   // s, of now(), after it was halted

@@ -10,7 +10,7 @@ namespace navvi_feedback::drive {
 /// The input of the person's hands, from any device, as in sensor_msgs/Joy.
 struct InputState {
   bool live = false;          ///< the device is there and was read within the last 250 ms
-  unsigned session = 0;       ///< another number whenever the device was opened anew
+  unsigned session = 0;       ///< another number whenever the device was opened anew or came back
   std::vector<double> axes;   ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
   std::vector<bool> buttons;  ///< what each does: ButtonsConfig
 
