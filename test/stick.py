@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause`, `intrude`, `forge`, `twin`, or
-`clock`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause`, `intrude`, `forge`, `twin`, `clock` or
+`garbage`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
@@ -15,9 +15,14 @@ forge  this process commands a turn to /cmd_vel under the name of feedback_node 
 twin   a second node of the name /feedback_node commands full speed; prints the fastest speed from 0.6 s after its first command for 3 s.
 clock  publishes another time to /clock in a trial, with the stick pushed; prints the time in s until the wheels were held, and the fastest
        speed in the 3 s after that.
+garbage  sends what is no message to each port of each node, with the stick pushed half way; prints how many times, the slowest speed meanwhile,
+       and by how many MB any node has grown.
 """
 import os
+import pathlib
 import signal
+import socket
+import struct
 import subprocess
 import sys
 import time
@@ -127,6 +132,31 @@ class Stick:
         self.hold(1.0, lambda: False, 0.5)
         return self.stopped - jumped, self.fastest(1.0, 3.0)
 
+    def garbage(self):
+        nodes = {node: xmlrpc.client.ServerProxy(rosgraph.Master("/stick").lookupNode(node)) for node in NODES}
+        pids = {node: proxy.getPid("/stick")[2] for node, proxy in nodes.items()}
+        before = {node: memory(pid) for node, pid in pids.items()}
+        slowest, grown = [], []
+
+        def watch():
+            slowest.append(self.speed)
+            grown.append(max(memory(pid) - before[node] for node, pid in pids.items()))
+        open_ones = []
+        for pid in pids.values():
+            for port in ports(pid):
+                for payload in GARBAGE:
+                    link = socket.create_connection(("127.0.0.1", port), timeout=2)
+                    link.settimeout(0.1)
+                    open_ones.append(link)
+                    try:
+                        link.sendall(payload)
+                    except OSError:
+                        pass  # dropped already
+                    self.hold(0.55, lambda: False, 0.02)
+                    watch()
+        self.hold(0.55, watch, 3.0)
+        return len(open_ones), min(slowest), max(grown)
+
     def halt(self):
         pid, said = self.pid("/feedback_node"), []
         os.kill(pid, signal.SIGSTOP)
@@ -146,6 +176,7 @@ class Stick:
         return self.stopped - killed, still - killed, self.fastest(1.0, 5.0)
 
 
+NODES = ("/sim_node", "/nav_node", "/feedback_node", "/trial_node")
 TWIN = """
 import rospy
 from geometry_msgs.msg import Twist
@@ -157,6 +188,37 @@ while not rospy.is_shutdown():
     commands.publish(command)
     rospy.sleep(0.02)
 """
+FIELD = b"callerid=/garbage"
+GARBAGE = (
+    struct.pack("<I", 10**9),                                               # a header of 1 GB that never comes
+    struct.pack("<I", 10**9) + b"x" * 100000,
+    struct.pack("<I", 0xffffffff) + b"x" * 1000,
+    struct.pack("<I", 200) + struct.pack("<I", len(FIELD)) + FIELD,         # half a header
+    struct.pack("<I", 4 + 10) + struct.pack("<I", 10**9) + b"callerid=/",   # a field of 1 GB in a header of 14 bytes
+    struct.pack("<I", 4 + len(FIELD)) + struct.pack("<I", len(FIELD)) + FIELD,
+    struct.pack("<I", 8) + struct.pack("<I", 4) + b"\x00\xff=\n",
+    b"POST / HTTP/1.1\r\nContent-Length: 2000000000\r\n\r\n<methodCall>",
+    bytes(range(256)) * 40,
+)
+
+
+def memory(pid):
+    """MB"""
+    status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    return int(status.split("VmRSS:")[1].split()[0]) / 1024
+
+
+def ports(pid):
+    """Those that the process listens on."""
+    sockets = set()
+    for link in pathlib.Path(f"/proc/{pid}/fd").iterdir():
+        try:
+            sockets.add(os.readlink(link))
+        except OSError:
+            pass  # closed meanwhile
+    rows = [row.split() for row in pathlib.Path("/proc/net/tcp").read_text().splitlines()[1:]]
+    return [int(row[1].split(":")[1], 16) for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in sockets]
+
 
 if __name__ == "__main__":
     what = sys.argv[1]

@@ -56,6 +56,14 @@ def test_T1_a_jump_of_the_clock_by_another_publisher_stops_the_wheels_and_is_rec
     assert any("reason=clock_jumped" in journal.read_text() for journal in tmp_path.rglob("journal.csv"))
 
 
+def test_M4_what_is_no_message_takes_no_memory_and_does_not_hold_the_robot_up(session):
+    pushed, links, slowest, grown = map(float, run_stick(session, "garbage"))
+    print(f"{links:.0f} connections, slowest {slowest:.2f} m/s, grown by {grown:.1f} MB")
+    assert links >= 60
+    assert slowest >= 0.25, "the robot was held up"
+    assert grown < 50
+
+
 def test_commands_that_piled_up_while_the_simulator_was_halted_do_not_move_the_robot(session):
     pushed, afterwards = map(float, run_stick(session, "pause"))
     assert pushed >= 0.8

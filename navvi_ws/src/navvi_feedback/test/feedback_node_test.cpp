@@ -81,6 +81,7 @@ class FeedbackNode : public testing::Test {
   void send() {
     if (stick_) {
       sensor_msgs::Joy joy;
+      joy.header.stamp = joy_stamp_;
       joy.axes = {0.0F, *stick_};
       joy.buttons = {0, 0};
       joy_.publish(joy);
@@ -114,6 +115,7 @@ class FeedbackNode : public testing::Test {
   ros::Subscriber cmd_vel_, feedback_, cues_, markers_, diagnostics_;
 
   std::optional<float> stick_ = 0.0F;
+  ros::Time joy_stamp_;
   bool sensing_ = true;
   bool guidance_on_ = false;
   navvi_msgs::Proximity proximity_msg_;
@@ -155,6 +157,32 @@ TEST_F(FeedbackNode, drives_only_after_neutral_and_falls_silent_after_a_stop) {
   EXPECT_EQ(twist_.linear.x, 0.0) << "held forward when it came back";
 }
 
+TEST_F(FeedbackNode, C6_a_stick_is_as_old_as_its_arrival_whatever_its_stamp_says) {
+  const ros::Time now = ros::Time::now();
+  for (const ros::Time& stamp :
+       {ros::Time(), ros::Time(1), now + ros::Duration(3600.0), ros::TIME_MAX}) {
+    joy_stamp_ = stamp;
+    stick_ = 0.0F;
+    pass(0.5);
+    stick_ = 1.0F;
+    EXPECT_TRUE(until([this] { return twist_.linear.x > 0.5; })) << stamp;
+    stick_.reset();
+    EXPECT_TRUE(until([this] { return twist_.linear.x == 0.0; }, 0.6)) << stamp;
+  }
+}
+
+TEST_F(FeedbackNode, P3_obeys_no_parameter_that_is_set_while_it_runs) {
+  const ros::NodeHandle node("feedback_node");
+  node.setParam("drive/max_forward", 1.5);
+  node.setParam("drive/arm_hold", 0.0);
+  node.setParam("input", "pad");
+  pass(0.5);
+  stick_ = 1.0F;
+  EXPECT_TRUE(until([this] { return twist_.linear.x > 0.89; }));
+  pass(1.0);
+  EXPECT_LT(twist_.linear.x, 0.91);
+}
+
 TEST_F(FeedbackNode, M2_says_that_another_node_drives_under_its_name) {
   ros::Publisher gate = node_.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1);
   ASSERT_TRUE(until([&] { return gate.getNumSubscribers() > 0; }));
@@ -165,6 +193,9 @@ TEST_F(FeedbackNode, M2_says_that_another_node_drives_under_its_name) {
   gate.publish(state);
   EXPECT_TRUE(until([this] { return heard("two_drivers"); }));
   EXPECT_FALSE(heard("intruder")) << "it is not ignored";
+  state.state = navvi_msgs::DriveState::RUNNING;
+  gate.publish(state);
+  pass(0.1);
 }
 
 TEST_F(FeedbackNode, makes_a_thing_on_the_left_felt_on_the_left_and_stops_when_sensing_dies) {

@@ -126,6 +126,22 @@ TEST_F(Relay, M2_wants_a_driver_that_has_connected_anew_to_be_neutral_first) {
   start(0.6);
 }
 
+TEST_F(Relay, P3_obeys_no_parameter_that_is_set_while_it_runs) {
+  start();
+  const ros::NodeHandle relay("relay_node");
+  for (const auto& [name, value] :
+       {std::pair{"max_linear", 0.1}, {"timeout", 100.0}, {"neutral_hold", 0.0}})
+    relay.setParam(name, value);
+  relay.setParam("driver", "/intruder");
+  const ros::WallTime set = ros::WallTime::now();
+  EXPECT_TRUE(drive_until(0.7, [&] {
+    EXPECT_EQ(speed_, 0.7);
+    return (ros::WallTime::now() - set).toSec() > 1.0;
+  }));
+  EXPECT_TRUE(wait_until([&] { return speed_ == 0.0; })) << "within the timeout of its start";
+  start(0.6);
+}
+
 TEST_F(Relay, drops_commands_that_piled_up_while_it_was_halted) {
   start();
   const pid_t relay = pid_of_relay();

@@ -181,6 +181,20 @@ TEST_F(SimNode, T1_a_jump_of_the_clock_by_another_publisher_stops_the_wheels_wit
   EXPECT_TRUE(start_moving());
 }
 
+TEST_F(SimNode, P3_obeys_no_parameter_that_is_set_while_it_runs) {
+  const ros::NodeHandle sim("sim_node");
+  sim.setParam("gate/driver", "/nobody");
+  sim.setParam("gate/timeout", 100.0);
+  sim.setParam("gate/max_linear", 0.1);
+  sim.setParam("robot/max_speed", 0.1);
+  ros::param::set("/use_sim_time", false);
+  ASSERT_TRUE(start_moving());
+  ASSERT_TRUE(command_until(0.4, [&] { return speed() > 0.35; }));
+  ASSERT_TRUE(wait_until([&] { return drive_.last().state == 2; }));
+  EXPECT_EQ(drive_.last().reason, 1) << "COMMAND_LOST, after the timeout of its start";
+  ros::param::set("/use_sim_time", true);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {

@@ -2,10 +2,14 @@
 
 #include <SDL.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -348,6 +352,53 @@ TEST_F(GamepadWith, J2_a_pad_whose_sensor_never_streams_is_live_while_it_is_atta
     EXPECT_EQ(gamepad.input().stick().y, 1.0);
   }
   g_sensors = false;
+}
+
+/// What this process holds.
+struct Held {
+  std::size_t descriptors = 0, threads = 0;
+  double memory = 0.0;  ///< MB
+  double cpu = 0.0;     ///< s
+};
+
+Held held() {
+  const auto entries = [](const char* folder) {
+    const std::filesystem::directory_iterator first(folder);
+    return static_cast<std::size_t>(std::distance(begin(first), end(first)));
+  };
+  std::ifstream file("/proc/self/statm");
+  double size = 0.0, resident = 0.0;
+  file >> size >> resident;
+  return {entries("/proc/self/fd"), entries("/proc/self/task"),
+          resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6,
+          static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+}
+
+TEST_F(GamepadWith, J8_three_hundred_attachments_and_detachments_leave_nothing_behind) {
+  Gamepad gamepad;
+  const auto churn = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      VirtualPad pad;
+      pad.stick(0.0, -1.0);
+      gamepad.rumble({0.5, 0.5});
+      std::this_thread::sleep_for(5ms);
+      pad.detach();
+      std::this_thread::sleep_for(5ms);
+    }
+  };
+  churn(50);  // what SDL keeps for good
+  const Held before = held();
+  const Clock::time_point begun = Clock::now();
+  churn(300);
+  const double wall = std::chrono::duration<double>(Clock::now() - begun).count();
+  const Held after = held();
+  EXPECT_EQ(after.descriptors, before.descriptors);
+  EXPECT_EQ(after.threads, before.threads);
+  EXPECT_LT(after.memory - before.memory, 2.0);
+  EXPECT_LT((after.cpu - before.cpu) / wall, 0.5) << "of a core";
+  EXPECT_FALSE(gamepad.input().live);
+  VirtualPad pad;
+  EXPECT_TRUE(connects(gamepad));
 }
 
 TEST_F(GamepadWith, auto_takes_the_pad_that_is_there) {

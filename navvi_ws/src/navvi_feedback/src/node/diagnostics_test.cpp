@@ -19,6 +19,8 @@ TEST(Diagnostics, tell_a_pad_that_can_be_felt_from_one_that_cannot) {
   pad.has_rumble = true;
   EXPECT_EQ(state_of(pad_status(pad, "pad", true, true)), "works");
   EXPECT_EQ(state_of(pad_status(pad, "pad", true, false)), "off") << "by intent";
+  pad.silent = true;
+  EXPECT_EQ(state_of(pad_status(pad, "pad", false, true)), "missing") << "its link is frozen";
   EXPECT_EQ(state_of(pad_status(std::nullopt, "keyboard", true, true)), "off");
   EXPECT_EQ(state_of(pad_status(std::nullopt, "topic", true, true)), "works");
   EXPECT_EQ(state_of(pad_status(std::nullopt, "topic", false, true)), "missing");
