@@ -1,5 +1,8 @@
 """The keyboard as a stick, under a window manager, with keys pressed as a person presses them."""
+import contextlib
 import csv
+import ctypes
+import os
 import pathlib
 import subprocess
 import time
@@ -38,7 +41,7 @@ class Keys:
             return subprocess.Popen(words, env=self.env, stdout=file, stderr=subprocess.DEVNULL)
 
     def command_line(self, *words):
-        return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=60).stdout.strip()
+        return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=120).stdout.strip()
 
     def xdotool(self, *words):
         return self.command_line("xdotool", *words)
@@ -54,6 +57,15 @@ class Keys:
 
     def has_focus(self, window):
         return window[2] in self.xdotool("getwindowfocus", "getwindowname")
+
+    def visible(self, window):
+        return bool(self.xdotool("search", "--onlyvisible", *window[:2]).split())
+
+    def tap(self, *keys):
+        """Each for some 6 ms, as software types."""
+        for key in keys:
+            self.xdotool("key", key)
+            time.sleep(0.1)
 
     def select(self, window, seconds=15):
         """As often as it takes: a window that is busy with its start may miss one."""
@@ -80,13 +92,17 @@ class Keys:
     def said(self, kind):
         return any(row["field.kind"] == kind for row in self.rows("cues"))
 
+    def menu_steps(self):
+        """What the menu has answered so far."""
+        return sum(row["field.kind"].startswith("menu_") and row["field.stage"] == "0" for row in self.rows("cues"))
+
     def run_trial(self):
         self.processes.append(self.start("rostopic", "pub", "-l", "/navvi/trial_state", "navvi_msgs/TrialState", "{state: 4}"))
         assert eventually(lambda: "Publishers: None" not in self.command_line("rostopic", "info", "/navvi/trial_state"), 60)
 
     def color(self):
         """Red, green and blue in the middle of the keyboard's window."""
-        picture = subprocess.run(["import", "-window", self.window(KEYS), "-crop", "1x1+300+40", "-depth", "8", "rgb:-"],
+        picture = subprocess.run(["import", "-window", self.window(KEYS), "-crop", "1x1+150+20", "-depth", "8", "rgb:-"],
                                  env=self.env, capture_output=True, timeout=20)
         return tuple(picture.stdout[:3])
 
@@ -104,6 +120,21 @@ def eventually(condition, seconds=15):
             return True
         time.sleep(0.05)
     return False
+
+
+@contextlib.contextmanager
+def frozen_window(process):
+    """Its first thread, which draws, stands still meanwhile, and only that."""
+    trace = ctypes.CDLL(None, use_errno=True).ptrace
+    trace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
+    seize, interrupt, detach, all_threads = 0x4206, 0x4207, 17, 0x40000000
+    assert trace(seize, process.pid, None, None) == 0, os.strerror(ctypes.get_errno())
+    trace(interrupt, process.pid, None, None)
+    os.waitpid(process.pid, all_threads)
+    try:
+        yield
+    finally:
+        trace(detach, process.pid, None, None)
 
 
 @pytest.fixture
@@ -156,17 +187,16 @@ def test_keys_drive_only_where_they_are_meant(keys):
 def test_keys_typed_into_the_picture_drive_too(keys):
     keys.window(KEYS)
     keys.env["LIBGL_ALWAYS_SOFTWARE"] = "1"
-    keys.processes.append(keys.start("/usr/bin/rviz", "-d", str(ROOT / "rviz/navvi.rviz")))
+    rviz = keys.start("/usr/bin/rviz", "-d", str(ROOT / "rviz/navvi.rviz"))
+    keys.processes.append(rviz)
     keys.processes.append(keys.start("xev"))
     keys.window(OTHER)
-    assert eventually(lambda: keys.xdotool("search", "--onlyvisible", *PICTURE[:2]), 120)
+    assert eventually(lambda: keys.visible(PICTURE), 120)
     # Until its panel knows who listens, the small window asks for the focus again and again.
-    assert eventually(lambda: keys.command_line("rostopic", "info", "/navvi/keys").count("(http") == 2, 120)
-    def keeps_focus():
-        keys.select(PICTURE, 120)
-        time.sleep(3)  # neutral
-        return keys.has_focus(PICTURE)
-    assert eventually(keeps_focus, 120), "the small window takes the focus from the picture"
+    assert eventually(lambda: not keys.visible(KEYS), 120), "the small window goes"
+    assert eventually(lambda: keys.has_focus(PICTURE), 120), "the picture takes its place"
+    time.sleep(3)  # neutral
+    assert keys.has_focus(PICTURE)
     keys.xdotool("keydown", "Up")
     assert eventually(lambda: keys.command() > 0.8)
     keys.xdotool("keyup", "Up")
@@ -179,15 +209,23 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     keys.xdotool("key", "a")
     assert eventually(lambda: keys.said("around_nothing"))
 
-    # From the picture to the small window with a key held: neutral is asked for.
+    # However long a frame takes.
     keys.xdotool("keydown", "Up")
     assert eventually(lambda: keys.command() > 0.8)
-    keys.select(KEYS)
-    assert eventually(lambda: keys.command() == 0.0)
-    assert keys.stands(2)
-    keys.xdotool("keyup", "Up")
-    keys.select(PICTURE)
-    time.sleep(2)
+    cues = len(keys.rows("cues"))
+    with frozen_window(rviz):
+        before = len(keys.rows("commands"))
+        time.sleep(2)
+        assert min(float(row["field.linear.x"]) for row in keys.rows("commands")[before:]) > 0.8
+        keys.xdotool("keyup", "Up")
+        assert eventually(lambda: keys.command() == 0.0, 2)
+        steps = keys.menu_steps()
+        keys.tap(*["Next"] * 10)
+        assert eventually(lambda: keys.menu_steps() == steps + 10, 2)
+        keys.tap("Escape")
+        assert eventually(lambda: keys.said("menu_closed"), 2)
+    assert all(row["field.kind"] != "keyboard_lost" for row in keys.rows("cues")[cues:])
+    time.sleep(1)
 
     # The focus is lost, and returns, with a key held.
     keys.xdotool("keydown", "Up")
@@ -195,6 +233,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     keys.select(OTHER)
     assert eventually(lambda: keys.command() == 0.0)
     assert eventually(lambda: keys.said("keyboard_lost"))
+    assert not keys.visible(KEYS)
     keys.select(PICTURE)
     assert keys.stands(2)
     keys.xdotool("keyup", "Up")
@@ -209,6 +248,54 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     keys.xdotool("key", "alt+F4")
     assert eventually(lambda: keys.said("menu_end_sure"))
     assert keys.has_focus(PICTURE)
+
+    # Without the picture the small window is back, and takes the focus.
+    rviz.kill()
+    assert eventually(lambda: keys.visible(KEYS) and keys.has_focus(KEYS))
+
+
+def test_short_taps_count_and_a_key_that_was_down_before_does_not(keys):
+    assert eventually(lambda: keys.has_focus(KEYS))
+    keys.processes.append(keys.start("xev"))
+    keys.window(OTHER)
+    time.sleep(1)
+    keys.tap(*["Next"] * 20)
+    assert eventually(lambda: keys.menu_steps() == 20, 3), keys.menu_steps()
+
+    # It is down, and repeats, when the focus comes back.
+    keys.select(OTHER)
+    keys.xdotool("keydown", "Next")
+    time.sleep(1)
+    keys.select(KEYS)
+    time.sleep(2)
+    assert keys.menu_steps() == 20
+    keys.xdotool("keyup", "Next")
+    keys.tap("Next")
+    assert eventually(lambda: keys.menu_steps() == 21, 3)
+
+
+def test_escape_leaves_the_menu_and_only_f8_ends_the_trial(keys):
+    keys.processes.append(keys.start("rostopic", "echo", "-p", "/navvi/trial_request", output=keys.folder / "requests"))
+    assert eventually(lambda: keys.has_focus(KEYS))
+    keys.run_trial()
+    time.sleep(2)
+    keys.tap("Next", "Escape", "Escape", "Escape")
+    assert eventually(lambda: keys.said("menu_closed"))
+    time.sleep(1)
+    assert not keys.said("menu_end_sure")
+    keys.tap("F8")
+    assert eventually(lambda: keys.said("menu_end_sure"))
+    time.sleep(0.3)
+    assert not keys.rows("requests")
+    keys.tap("F8")
+    assert eventually(lambda: keys.rows("requests"))
+
+
+def test_the_small_window_stays_in_a_corner(keys):
+    found = dict(line.split("=") for line in keys.xdotool("getwindowgeometry", "--shell", keys.window(KEYS)).splitlines())
+    left, top = int(found["X"]), int(found["Y"])
+    right, bottom = left + int(found["WIDTH"]), top + int(found["HEIGHT"])
+    assert left > 1280 / 2 and right <= 1280 and top >= 0 and bottom < 0.15 * 900, found
 
 
 def test_closing_the_small_window_asks_whether_the_trial_is_to_end(keys):

@@ -102,7 +102,7 @@ WAY = ("trial_begins", "start", "start_distance", "direction", "straight", "stra
 
 
 class AtThePanel(Person):
-    """Begins, asks and ends by the panel's keys, and drives by the others."""
+    """Begins, asks and ends by the panel's keys, and drives by the others, all in RViz's window."""
 
     def window(self, *how):
         """Selects it, as often as it takes."""
@@ -116,13 +116,11 @@ class AtThePanel(Person):
         self.until(selected, 60, f"{how} is selected")
 
     def panel(self, key, kinds):
-        """Presses it in RViz, waits for the answer, and returns to the driving keys."""
+        """Presses it, and waits for the answer."""
         print(f"{time.monotonic() - self.begun:6.1f}  [{key}]", flush=True)
         before = len(self.heard)
-        self.window("--name", "RViz$")
         subprocess.run(["xdotool", "keydown", key, "sleep", "0.15", "keyup", key], check=True, timeout=10)
         self.until(lambda: any(kind in kinds for kind, _ in self.heard[before:]), 60, f"{key} is answered")
-        self.window("--class", "feedback_node")
 
     def change_a_setting(self):
         """The first one, which the panel's key opens, to its next value; then the menu is closed."""
@@ -136,8 +134,7 @@ class AtThePanel(Person):
         asked = rospy.Subscriber("/navvi/ask", String)
         self.until(asked.get_num_connections, 120, "the panel is there")
         self.wait_for(("press_start", "press_enter"), 60)
-        # Until a key was used, the window of the driving keys keeps the focus.
-        subprocess.run(["xdotool", "key", "shift"], check=True, timeout=10)
+        self.window("--name", "RViz$")
         time.sleep(1)
         self.panel("F5", WAY)
         self.panel("g", ("goal_info", "goal_info_distance"))
@@ -148,6 +145,7 @@ class AtThePanel(Person):
         self.choose("cross aisle 1")
         self.wait_for(("press_start", "press_enter"), 30)
         self.panel("F5", WAY)
+        self.panel("F8", ("menu_end_sure",))
         self.panel("F8", ("trial_over",))
 
 

@@ -10,7 +10,7 @@ import rospy
 from navvi_msgs.msg import Cue
 from sensor_msgs.msg import Joy, JoyFeedbackArray
 
-KEYS = {"repeat": "space", "around": "a", "where": "w", "end": "Escape", "help": "h", "start": "Return", "previous": "Prior", "next": "Next"}
+KEYS = {"repeat": "space", "around": "a", "where": "w", "end": "F8", "help": "h", "start": "Return", "previous": "Prior", "next": "Next"}
 BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "help": 5, "start": 6, "previous": 11, "next": 12}
 
 

@@ -9,7 +9,7 @@ run_packages=(
 )
 session_packages=(
   build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev qtbase5-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
-  liboctomap-dev libbullet-dev libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libtinyxml2-dev libassimp-dev libeigen3-dev
+  liboctomap-dev libbullet-dev libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libx11-dev libtinyxml2-dev libassimp-dev libeigen3-dev
   zlib1g-dev libpng-dev pkg-config libgtest-dev librostest-dev
   "${run_packages[@]}"
 )

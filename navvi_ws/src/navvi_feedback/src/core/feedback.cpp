@@ -95,7 +95,9 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   pressed.insert(pressed.end(), input.asked.begin(), input.asked.end());
   teach(input, pressed, time);
   const std::optional<cues::Utterance> answer = obey(pressed, input.pad, out);
-  out.cues = cues.update(situation(input, pressed, answer, time), time);
+  cues::Situation now = situation(input, pressed, answer, time);
+  if (menu.pass(dt)) now.notices.push_back("menu_closed");
+  out.cues = cues.update(now, time);
   teacher.join(out.cues);
   touch.begin(out.cues, contacts_, teacher.taught());
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),

@@ -262,6 +262,7 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
     return output;
   };
   constexpr std::size_t kDown = 12, kRight = 14;
+  pass(0.1);
   EXPECT_EQ(press(kDown).cues.at(0).text, "goals");
   EXPECT_EQ(press(kRight).cues.at(0).text, "the goal of the task");
   EXPECT_EQ(press(kDown).cues.at(0).text, "dock 1");
@@ -277,6 +278,19 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
 }
 
+TEST_F(FeedbackTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_said) {
+  feedback_.take_settings({{"haptics/strength", "0.7"}});
+  pass(0.1);
+  input_.asked = {drive::Button::next};
+  pass(0.02);
+  input_.asked.clear();
+  pass(19.5);
+  EXPECT_TRUE(said("menu_settings"));
+  EXPECT_FALSE(said("menu_closed"));
+  pass(1.0);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "menu_closed"), 1);
+}
+
 TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_once) {
   FeedbackConfig config;
   feedback_.take_settings({{"haptics/strength", "0.7"}, {"sounds/hit/on", "false"}});
@@ -288,6 +302,7 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
     return output;
   };
   constexpr std::size_t kUp = 11, kDown = 12, kLeft = 13, kRight = 14;
+  pass(0.1);
   EXPECT_EQ(press(kDown).cues.at(0).text, "settings");
   pass(0.1);
   EXPECT_EQ(press(kRight).cues.at(0).text, "strength of the motors, 70 percent");

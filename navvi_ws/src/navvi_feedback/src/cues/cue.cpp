@@ -56,6 +56,7 @@ const std::vector<CueKind>& cue_kinds() {
       {"choose_goal", P::message, 2.0, 5.0},
       {"trial_begins", P::message, 1.0, 2.0},
       {"goal_chosen", P::message, 0.0, 4.0},
+      {"goal_sure", P::message, 0.0, 4.0},
       {"menu_begin", P::message, 0.0, 4.0},
       {"menu_goals", P::message, 0.0, 4.0},
       {"menu_place", P::message, 0.0, 4.0},

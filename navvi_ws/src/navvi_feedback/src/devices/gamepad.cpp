@@ -176,7 +176,7 @@ std::optional<drive::InputState> Gamepad::read() {
   move_motors(now);
   drive::InputState input = pad_ && !pad_->silent(now) ? pad_->input() : drive::InputState{};
   input.session = session_;
-  return input;
+  return counter_.count(std::move(input));
 }
 
 void Gamepad::close() {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "devices/device_thread.hpp"
+#include "drive/press_counter.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/haptics.hpp"
 
@@ -71,6 +72,7 @@ class Gamepad final : private ThreadedDevice {
   std::unique_ptr<Pad> pad_;                         ///< the thread's own
   std::chrono::steady_clock::time_point scanned_{};  ///< the thread's own
   unsigned session_ = 0;                             ///< the thread's own
+  drive::PressCounter counter_;                      ///< the thread's own
 
   mutable std::mutex mutex_;
   Status status_;

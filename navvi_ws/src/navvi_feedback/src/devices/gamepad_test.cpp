@@ -419,5 +419,30 @@ TEST(InputSource, a_topic_is_lost_after_250_ms_of_silence) {
   EXPECT_FALSE(source.read(10.26).live);
 }
 
+TEST(InputSource, counts_a_press_whose_messages_come_between_two_reads) {
+  InputSource source("topic");
+  drive::InputState input;
+  input.live = true;
+  input.axes = {0.0, 0.0};
+  for (const bool down : {false, true, false, true, false}) {
+    input.buttons = {down};
+    source.receive(input, 10.0);
+  }
+  EXPECT_EQ(source.read(10.0).presses.at(0), 2u);
+}
+
+TEST(InputSource, does_not_count_a_key_that_is_down_when_the_keys_come_back) {
+  InputSource source("topic");
+  drive::InputState input;
+  input.live = true;
+  input.axes = {0.0, 0.0};
+  input.buttons = {true};
+  source.receive(input, 10.0);
+  const unsigned session = source.read(10.0).session;
+  source.receive(input, 11.0);
+  EXPECT_EQ(source.read(11.0).presses.at(0), 0u);
+  EXPECT_NE(source.read(11.0).session, session) << "and the stick has to be neutral";
+}
+
 }  // namespace
 }  // namespace navvi_feedback::devices

@@ -56,19 +56,24 @@ InputSource::InputSource(const std::string& wanted) {
 }
 
 void InputSource::receive(const drive::InputState& input, double time) {
-  received_ = input;
+  const bool went_on = received_.live && received_at_ && time - *received_at_ <= kTimeout;
+  if (input.live && !went_on) ++session_;
+  drive::InputState next = input;
+  next.session = session_;
+  received_ = counter_.count(next);
   received_at_ = time;
-  if (keyboard_ && input.live) keyboard_->leave_focus();
+  if (keyboard_) keyboard_->give_way();
 }
 
 drive::InputState InputSource::read(double time) const {
   if (pad_) return pad_->input();
   const bool fresh = received_at_ && time - *received_at_ <= kTimeout && received_.live;
-  if (keyboard_) {
-    const drive::InputState own = keyboard_->input();
-    if (own.live || !fresh) return own;
-  }
-  return fresh ? received_ : drive::InputState{};
+  drive::InputState now = fresh ? received_ : drive::InputState{};
+  now.session = 2 * now.session;
+  if (!keyboard_) return now;
+  drive::InputState own = keyboard_->input();
+  own.session = 2 * own.session + 1;
+  return own.live || !fresh ? own : now;
 }
 
 }  // namespace navvi_feedback::devices

@@ -6,6 +6,7 @@
 
 #include "devices/gamepad.hpp"
 #include "devices/keyboard.hpp"
+#include "drive/press_counter.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 
 namespace navvi_feedback::devices {
@@ -22,10 +23,12 @@ class InputSource {
   /// later
   explicit InputSource(const std::string& wanted);
 
-  /// A message of another driver, or of another window. Without effect if kind() is pad.
-  /// \param time  s, of the clock that read() is given
+  /// A message of another driver, or of another window, which says that it has lost the keys by one
+  /// that is not live. Without effect if kind() is pad. \param time  s, of the clock that read() is
+  /// given
   void receive(const drive::InputState& input, double time);
-  /// Not live if the device is gone, or if the last message is older than 250 ms.
+  /// Not live if the device is gone, or if the last message is older than 250 ms. A change from one
+  /// window to another is another session.
   [[nodiscard]] drive::InputState read(double time) const;
 
   [[nodiscard]] Kind kind() const { return kind_; }
@@ -36,7 +39,9 @@ class InputSource {
   Kind kind_ = Kind::topic;
   std::unique_ptr<Gamepad> pad_;
   std::unique_ptr<Keyboard> keyboard_;
+  drive::PressCounter counter_;
   drive::InputState received_;
+  unsigned session_ = 0;               ///< of what is received
   std::optional<double> received_at_;  ///< s
 };
 

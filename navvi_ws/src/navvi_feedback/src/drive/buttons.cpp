@@ -12,6 +12,19 @@ bool arrow(const InputState& input, int button) {
   return (button % 2 == 1 ? axis : -axis) > 0.5;
 }
 
+/// How often the button went down from one state to the next.
+unsigned presses(const InputState& last, const InputState& now, int button) {
+  const auto index = static_cast<std::size_t>(button);
+  const bool counted = index < now.presses.size();
+  const auto down = [&](const InputState& input) {
+    return input.live && (arrow(input, button) || (!counted && input.button(index)));
+  };
+  const unsigned count = !counted                      ? 0
+                         : index < last.presses.size() ? now.presses[index] - last.presses[index]
+                                                       : now.presses[index];
+  return count + (last.live && down(now) && !down(last) ? 1 : 0);
+}
+
 }  // namespace
 
 void ButtonsConfig::describe(navvi_config::Visitor& visit) {
@@ -23,14 +36,11 @@ void ButtonsConfig::describe(navvi_config::Visitor& visit) {
 
 std::vector<Button> Buttons::update(const InputState& input) {
   std::vector<Button> pressed;
-  std::vector<bool> down;
-  for (std::size_t i = 0; i < config_.index.size(); ++i) {
-    const int button = config_.index[i];
-    down.push_back(button >= 0 &&
-                   (input.button(static_cast<std::size_t>(button)) || arrow(input, button)));
-    if (down[i] && !(i < last_.size() && last_[i])) pressed.push_back(static_cast<Button>(i));
-  }
-  last_ = down;
+  if (last_ && last_->session == input.session)
+    for (std::size_t i = 0; i < config_.index.size(); ++i)
+      if (const int button = config_.index[i]; button >= 0)
+        pressed.insert(pressed.end(), presses(*last_, input, button), static_cast<Button>(i));
+  last_ = input;
   return pressed;
 }
 

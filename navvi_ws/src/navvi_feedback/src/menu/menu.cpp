@@ -7,6 +7,7 @@ namespace navvi_feedback::menu {
 namespace {
 
 constexpr double kSameGoal = 0.05;  // m
+constexpr double kPatience = 20.0;  // s
 
 }  // namespace
 
@@ -52,6 +53,9 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
       for (const Destination& place : destinations())
         entries.push_back({place.say("menu_place"), {}, place});
       break;
+    case List::goal:
+      entries.push_back({level.goal->say("goal_sure"), {}, level.goal});
+      break;
     case List::settings:
       for (const Setting& setting : settings())
         if (const auto value = values_.find(setting.key); value != values_.end())
@@ -81,6 +85,11 @@ Menu::Step Menu::choose(const Entry& entry) {
     path_.push_back({*entry.opens, 0, entry.setting});
     return tell();
   }
+  const bool sure = path_.back().list == List::goal;
+  if (entry.goal && trial_ == TrialState::State::running && !sure) {
+    path_.push_back({List::goal, 0, nullptr, entry.goal});
+    return tell();
+  }
   Step step;
   step.request = entry.request;
   step.glossary = entry.glossary;
@@ -105,8 +114,25 @@ Menu::Step Menu::change(const Setting& setting, bool up) {
   return step;
 }
 
+bool Menu::pass(double dt) {
+  idle_ += dt;
+  if (path_.empty() || idle_ < kPatience) return false;
+  path_.clear();
+  return true;
+}
+
 Menu::Step Menu::press(drive::Button button) {
+  idle_ = 0.0;
+  return obey(button);
+}
+
+Menu::Step Menu::obey(drive::Button button) {
   using drive::Button;
+  if (button == Button::leave) {
+    if (path_.empty()) return {};
+    path_.clear();
+    return tell();
+  }
   const bool ending = !path_.empty() && path_.back().list == List::end;
   if (button == Button::start && trial_ == TrialState::State::ready && path_.empty()) {
     Step step;

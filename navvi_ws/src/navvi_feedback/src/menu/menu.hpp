@@ -21,9 +21,9 @@ using navvi_types::TrialState;
 namespace navvi_feedback::menu {
 
 /// A spoken menu for one hand and no eyes: next, previous, choose, back, each a short press. The
-/// first press of next, previous, choose or start opens it. Nothing has to be held, and nothing
-/// runs out. It offers to begin and end the trial, goals by name, settings, and
-/// the glossary while no trial runs.
+/// first press of next, previous, choose or start opens it. Nothing has to be held. It closes when
+/// none of its buttons was pressed for 20 s. It offers to begin and end the trial, goals by name,
+/// which are asked for twice while a trial runs, settings, and the glossary while no trial runs.
 class Menu {
  public:
   struct Step {
@@ -45,6 +45,8 @@ class Menu {
 
   /// Other buttons than its own are ignored.
   [[nodiscard]] Step press(drive::Button button);
+  /// \param dt  s since the last call \return true if the menu has closed by itself
+  [[nodiscard]] bool pass(double dt);
   [[nodiscard]] bool open() const { return !path_.empty(); }
 
  private:
@@ -56,7 +58,7 @@ class Menu {
 
     [[nodiscard]] cues::Utterance say(const char* kind) const;
   };
-  enum class List { top, goals, settings, setting, end };
+  enum class List { top, goals, goal, settings, setting, end };
   struct Entry {
     cues::Utterance label;
     std::optional<List> opens = std::nullopt;
@@ -69,12 +71,14 @@ class Menu {
   struct Level {
     List list = List::top;
     std::size_t at = 0;
-    const Setting* setting = nullptr;  ///< that is being changed
+    const Setting* setting = nullptr;                ///< that is being changed
+    std::optional<Destination> goal = std::nullopt;  ///< that is asked for once more
   };
 
   [[nodiscard]] std::vector<Destination> destinations() const;
   [[nodiscard]] std::vector<Entry> entries(const Level& level) const;
   [[nodiscard]] Step choose(const Entry& entry);
+  [[nodiscard]] Step obey(drive::Button button);
   [[nodiscard]] Step change(const Setting& setting, bool up);
   [[nodiscard]] Step tell() const;
 
@@ -83,6 +87,7 @@ class Menu {
   TrialState::State trial_ = TrialState::State::free;
   std::map<std::string, std::string> values_;
   std::vector<Level> path_;  ///< from the top; empty while closed
+  double idle_ = 0.0;        ///< s, since the last press
 };
 
 }  // namespace navvi_feedback::menu

@@ -59,6 +59,51 @@ TEST_F(MenuTest, goes_back_level_by_level_and_says_that_it_is_closed) {
   EXPECT_EQ(heard({Button::repeat}), "");
 }
 
+TEST_F(MenuTest, changes_the_goal_of_a_running_trial_only_when_asked_twice) {
+  trial(State::running);
+  press({Button::next, Button::choose, Button::next});
+  Menu::Step step = press({Button::choose});
+  EXPECT_FALSE(step.goal);
+  EXPECT_EQ(step.told.value().kind, "goal_sure");
+  EXPECT_EQ(step.told.value().fillings.number, 1);
+  EXPECT_EQ(heard({Button::back}), "menu_place 1") << "not this one";
+  EXPECT_EQ(heard({Button::choose, Button::next}), "goal_sure 1");
+  step = press({Button::choose});
+  ASSERT_TRUE(step.goal);
+  EXPECT_EQ(step.goal->x(), 3.0);
+  EXPECT_EQ(step.told.value().kind, "goal_chosen");
+}
+
+TEST_F(MenuTest, asks_for_no_goal_twice_once_the_trial_is_over) {
+  trial(State::running);
+  press({Button::next, Button::choose, Button::choose});
+  trial(State::choose_goal);
+  EXPECT_TRUE(press({Button::choose}).goal);
+  EXPECT_TRUE(press({Button::next, Button::choose, Button::choose}).goal);
+}
+
+TEST_F(MenuTest, closes_20_s_after_the_last_press) {
+  EXPECT_FALSE(menu_.pass(100.0)) << "it is closed";
+  press({Button::next});
+  EXPECT_FALSE(menu_.pass(19.0));
+  press({Button::choose});
+  EXPECT_FALSE(menu_.pass(19.0));
+  EXPECT_TRUE(menu_.pass(2.0));
+  EXPECT_FALSE(menu_.open());
+  EXPECT_FALSE(menu_.pass(30.0)) << "once";
+}
+
+TEST_F(MenuTest, is_left_at_once_from_wherever_it_is_and_nothing_else_is) {
+  trial(State::running);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(heard({Button::leave}), "");
+  EXPECT_FALSE(press({Button::leave, Button::leave}).request);
+  EXPECT_EQ(heard({Button::next, Button::choose, Button::leave}), "menu_closed");
+  EXPECT_FALSE(menu_.open());
+  EXPECT_EQ(heard({Button::end}), "menu_end_sure");
+  EXPECT_EQ(heard({Button::leave}), "menu_closed");
+  EXPECT_FALSE(press({Button::leave}).request);
+}
+
 TEST_F(MenuTest, begins_a_trial_and_ends_it_only_when_asked_twice) {
   trial(State::ready);
   EXPECT_EQ(press({Button::start}).request, TrialRequest::Kind::begin) << "at once";

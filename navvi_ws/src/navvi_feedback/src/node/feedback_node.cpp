@@ -129,11 +129,13 @@ class FeedbackNode {
           "joy/set_feedback", 10, feel, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
     }
     if (source_.kind() == devices::InputSource::Kind::keyboard) {
-      // Without a stick in it, the keys are lost.
-      subscribers_.push_back(node_.subscribe<sensor_msgs::Joy>(
-          "navvi/keys", 1, [this](const sensor_msgs::Joy::ConstPtr& msg) {
+      // Without a stick in it, the keys are lost. Each message counts: a short press is two.
+      const boost::function<void(const sensor_msgs::Joy::ConstPtr&)> type =
+          [this](const sensor_msgs::Joy::ConstPtr& msg) {
             source_.receive(from_msg(*msg).value_or(drive::InputState{}), now());
-          }));
+          };
+      subscribers_.push_back(node_.subscribe<sensor_msgs::Joy>(
+          "navvi/keys", 100, type, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
     }
     // What is felt, hit or to be obeyed does not wait for the next beat.
     listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const Proximity& proximity) {

@@ -147,7 +147,7 @@ void Panel::add_questions() {
     add_button(questions_row_, named, action, this);
   };
   add({nullptr, "begin", Qt::Key_F5, "key_6"}, [this] { request(Request::BEGIN); });
-  add({nullptr, "end", Qt::Key_F8, ""}, [this] { request(Request::END); });
+  add({nullptr, "end", Qt::Key_F8, ""}, [this] { ask("end"); });
   add({nullptr, "repeat", Qt::Key_R, "key_0"}, [this] { ask("repeat"); });
   add({nullptr, "goal", Qt::Key_G, ""}, [this] { ask("goal"); });
   add({nullptr, "around", Qt::Key_A, ""}, [this] { ask("around"); });
@@ -164,6 +164,9 @@ void Panel::add_menu() {
   add("up", Qt::Key_PageUp, "key_11", "previous");
   add("choose", Qt::Key_Return, "key_14", "choose");
   add("back", Qt::Key_Backspace, "key_13", "back");
+  auto* leave = new QShortcut(Qt::Key_Escape, page);
+  leave->setContext(Qt::ApplicationShortcut);
+  connect(leave, &QShortcut::activated, this, [this] { ask("leave"); });
 }
 
 void Panel::add_views() {

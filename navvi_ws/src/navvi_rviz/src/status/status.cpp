@@ -29,8 +29,9 @@ const std::set<std::string> kReleasing = {
 
 /// What the spoken menu says while it is open, and what closes it.
 bool offers(const std::string& kind) {
-  static const std::set<std::string> settings = {"setting", "setting_open", "setting_changed"};
-  return (kind.rfind("menu_", 0) == 0 && kind != "menu_closed") || settings.count(kind) > 0;
+  static const std::set<std::string> others = {"goal_sure", "setting", "setting_open",
+                                               "setting_changed"};
+  return (kind.rfind("menu_", 0) == 0 && kind != "menu_closed") || others.count(kind) > 0;
 }
 bool closes(const std::string& kind) {
   return kind == "menu_closed" || kind == "goal_chosen" || kind.rfind("glossary", 0) == 0;

@@ -13,6 +13,9 @@ struct InputState {
   unsigned session = 0;       ///< another number whenever the device was opened anew or came back
   std::vector<double> axes;   ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
   std::vector<bool> buttons;  ///< what each does: ButtonsConfig
+  /// How often each button went down so far, where that is counted: a short press may begin and end
+  /// between two reads.
+  std::vector<unsigned> presses;
 
   /// The left stick, or the right one. Neutral where there is none.
   [[nodiscard]] Stick stick(bool right = false) const {
