@@ -198,8 +198,8 @@ def bash(script, **more):
 
 
 def test_progress_comes_in_whole_lines_with_percent_and_time_left(tmp_path):
-    """A stand-in for make that takes 24 s, watched by the clock."""
-    work = 'slow() { for i in 1 2 3 4; do sleep 6; echo "[ $((25 * i))%] Building"; done; }\n'
+    """A stand-in for ninja that takes 24 s, watched by the clock."""
+    work = 'slow() { for i in 1 2 3 4; do sleep 6; echo "[$i/4] Building"; done; }\n'
     process = bash(f'root=/ workspace=/\n{work} with_progress building "{tmp_path}/log" built_percent slow; say "the build is done."')
     begin, seen = time.monotonic(), []
     for line in process.stdout:
@@ -284,18 +284,18 @@ def test_nothing_asks_where_there_is_no_terminal():
 # --- what is said, felt and heard, and how it is asked for
 
 CORES = [
-    ("navvi_rviz", "steady_banner", "SteadyBanner.does_not_flash_whatever_trembles"),
-    ("navvi_feedback", "buttons", "Buttons.act_once_however_long_they_are_held"),
-    ("navvi_feedback", "buttons", "Buttons.are_those_that_the_person_wants"),
-    ("navvi_feedback", "menu", "MenuTest.leads_to_a_goal_by_short_presses_of_one_hand"),
-    ("navvi_feedback", "feedback", "Driven.by_the_hand_that_is_wanted"),
-    ("navvi_feedback", "feedback", "FeedbackTest.a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt"),
+    ("navvi_rviz", "SteadyBanner.does_not_flash_whatever_trembles"),
+    ("navvi_feedback", "Buttons.act_once_however_long_they_are_held"),
+    ("navvi_feedback", "Buttons.are_those_that_the_person_wants"),
+    ("navvi_feedback", "MenuTest.leads_to_a_goal_by_short_presses_of_one_hand"),
+    ("navvi_feedback", "Driven.by_the_hand_that_is_wanted"),
+    ("navvi_feedback", "FeedbackTest.a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt"),
 ]
 
 
-@pytest.mark.parametrize("package, file, name", CORES, ids=[name for _, _, name in CORES])
-def test_of_the_cores(package, file, name):
-    program = ROOT / "navvi_ws/devel/lib" / package / f"{package}_{file}_test"
+@pytest.mark.parametrize("package, name", CORES, ids=[name for _, name in CORES])
+def test_of_the_cores(package, name):
+    program = ROOT / "navvi_ws/build" / package / f"{package}_tests"
     result = subprocess.run([str(program), f"--gtest_filter={name}"], capture_output=True, text=True, timeout=60)
     assert result.returncode == 0 and "[  PASSED  ] 1 test." in result.stdout, result.stdout[-2000:]
 

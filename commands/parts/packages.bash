@@ -30,18 +30,21 @@ available() {  # PACKAGE...: those that apt can install
   apt-cache policy "$@" 2>/dev/null | awk '/^[^ ]/ {name = $1} /Candidate: [^(]/ {sub(":$", "", name); print name}'
 }
 
+elsewhere() {
+  fail "NavVI needs Debian 12 or 13, where ROS is part of the system; run it there, or in a container: \"podman build -t navvi $root\", then \"podman run -it --rm navvi\"."
+}
+
 # Half the way is the download, half the installation; apt-get reports how far it is in each.
 installed_percent() {
   awk -F: '/^dlstatus:/ {done = $3 / 2} /^pmstatus:/ {done = 50 + $3 / 2} END {print int(done)}' "$1"
 }
 
-elsewhere="NavVI needs Debian 12 or 13, where ROS is part of the system; run it there, or in a container: \"podman build -t navvi $root\", then \"podman run -it --rm navvi\"."
 # install_packages [all]: what a session needs, or what the tests need as well.
 install_packages() {
   [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
   local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=()
   [[ ${1:-} != all ]] || needed+=("${test_packages[@]}") optional=("${optional_packages[@]}")
-  command -v apt-get >/dev/null || fail "$elsewhere"
+  command -v apt-get >/dev/null || elsewhere
   missing=$(missing_packages "${needed[@]}")
   if [[ -z $missing && -n ${optional[*]} ]]; then
     readarray -t optional < <(missing_packages "${optional[@]}")
@@ -59,7 +62,7 @@ install_packages() {
   # shellcheck disable=SC2086  # one word a package
   with_progress "installing" "$log" installed_percent apt_get $missing ||
     {
-      [[ -n $(available ros-core-dev) ]] || fail "$elsewhere"
+      [[ -n $(available ros-core-dev) ]] || elsewhere
       tail -n 20 "$log" >&2
       fail "apt-get could not install the packages; the whole log is in $log. Mend what it says and run \"./navvi setup\" again."
     }

@@ -339,12 +339,12 @@ Guidance Navigator::guidance(double time) const {
   out.mesh_age = age_of(map_.mesh_time, time);
   out.map_age = age_of(map_.time, time);
   out.floor = floor_height();
-  if (!map_.floor) {
+  if (!map_.floor && map_.new_map && !map_.stands_at) {
+    out.state = Guidance::State::pose_stale;
+    out.detail = "no fresh pose of the robot, whose height tells which level of the map is the floor";
+  } else if (!map_.floor) {
     out.state = Guidance::State::no_map;
-    out.detail = map_.new_map && !map_.stands_at
-                     ? "no fresh pose of the robot, whose height tells which level of the map is "
-                       "the floor"
-                     : "no usable map came yet";
+    out.detail = "no usable map came yet";
   } else if (map_stale(time)) {
     out.state = Guidance::State::map_stale;
     out.detail = "no fresh map came";

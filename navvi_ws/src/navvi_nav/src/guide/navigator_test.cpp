@@ -334,7 +334,7 @@ TEST_F(Lockstep, takes_the_level_on_which_the_robot_stands_and_waits_for_it) {
   navigator_.set_map(message_of(slab));
   tick(10);
   EXPECT_FALSE(navigator_.has_map());
-  EXPECT_EQ(status().state, Guidance::State::no_map);
+  EXPECT_EQ(status().state, Guidance::State::pose_stale);
   EXPECT_EQ(status().detail,
             "no fresh pose of the robot, whose height tells which level of the map is the floor");
   has_pose_ = true;

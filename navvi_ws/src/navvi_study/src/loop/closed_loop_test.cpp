@@ -168,7 +168,8 @@ TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHa
   EXPECT_EQ(row.get("hits"), "-");
   EXPECT_EQ(row.get("reroutes"), "0");
   EXPECT_GT(row.number("make_room").value(), 10.0);
-  EXPECT_NE(trace_.str().find("says \"make room for a pallet robot, 6 o'clock"), std::string::npos);
+  EXPECT_NE(trace_.str().find("make room for a pallet robot, 6 o'clock"), std::string::npos)
+      << trace_.str();
 }
 
 /// A worker who crosses the room, and a pedestal too low for the lidar's plane on the straight way.
