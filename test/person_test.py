@@ -17,17 +17,20 @@ class Session:
     """feedback_node, the pad of another driver with its arrow pad, and what is heard and felt."""
 
     def __init__(self, env, *words):
-        self.said, self.felt, self.down, self.over = [], [], None, False
+        self.said, self.answers, self.felt, self.down, self.over = [], [], [], None, False
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
         self.cues = rospy.Subscriber("/navvi/cues", Cue, self.hear)
         self.node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic", "_speech:=false", "_listener:=topic", *words], env=env)
         self.hand = threading.Thread(target=self.hold)
         self.hand.start()
         self.until(lambda: self.joy.get_num_connections() > 0 and self.cues.get_num_connections() > 0)
+        time.sleep(0.5)  # hands off, as it sees them first: what is down from the beginning was not pressed
 
     def hear(self, cue):
         if cue.stage == Cue.STARTED:
             (self.said if cue.modality == Cue.SPEECH else self.felt).append(cue.text or cue.kind)
+            if cue.kind.startswith("menu_") or cue.kind in ("setting", "setting_open", "setting_changed"):
+                self.answers.append(cue.text)
 
     def hold(self):
         while not self.over:
@@ -41,15 +44,15 @@ class Session:
             time.sleep(0.02)
 
     def press(self, *buttons):
-        """Short presses. Returns what is said to the last."""
+        """Short presses. Returns what the menu says to the last, whatever else is said."""
         for button in buttons:
-            before = len(self.said)
+            before = len(self.answers)
             self.down = button
             time.sleep(0.1)
             self.down = None
-            self.until(lambda: len(self.said) > before)
+            self.until(lambda: len(self.answers) > before)
             time.sleep(0.1)
-        return self.said[before]
+        return self.answers[before]
 
     def close(self):
         self.over = True

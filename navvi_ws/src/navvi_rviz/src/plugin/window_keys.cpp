@@ -110,9 +110,13 @@ class WindowKeys::Reader {
   }
 
  private:
-  /// A key goes to the window below the pointer if that wants any, so to children, too.
+  /// A key goes to the window below the pointer or, of those around it, to the first that any program listens at. So this
+  /// listens where Qt does, and at no other: a window of OGRE's would keep the keys from Qt.
   void select(Window window) {
-    XSelectInput(display_, window, KeyPressMask | KeyReleaseMask | FocusChangeMask);
+    XWindowAttributes known;
+    if (XGetWindowAttributes(display_, window, &known) == 0) return;
+    if (((known.all_event_masks | known.your_event_mask) & KeyPressMask) != 0)
+      XSelectInput(display_, window, KeyPressMask | KeyReleaseMask | FocusChangeMask);
     Window root = 0, parent = 0, *children = nullptr;
     unsigned count = 0;
     if (XQueryTree(display_, window, &root, &parent, &children, &count) == 0) return;
