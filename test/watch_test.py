@@ -77,7 +77,7 @@ def test_nothing_that_the_guide_knows_is_told_in_the_picture_alone():
         names = [name for name in vars(message) if name.isupper()]
         return {getattr(message, name) for name in names[names.index(first):names.index(last) + 1]}
     assert set(watch.STATES) == constants(Guidance, "NO_GOAL", "MAKE_ROOM")
-    assert set(watch.STOPS) == constants(DriveState, "COMMAND_LOST", "COMMAND_INVALID", "DRIVER_CHANGED", "CLOCK_JUMPED")
+    assert set(watch.STOPS) == {DriveState.COMMAND_LOST, DriveState.COMMAND_INVALID, DriveState.DRIVER_CHANGED, DriveState.CLOCK_JUMPED}
     assert set(watch.WAITING) == constants(TrialState, "PREPARING", "READY")
 
 
