@@ -112,6 +112,7 @@ def test_A1_a_guide_that_does_not_stay_alive_ends_the_session_before_any_trial(m
     launch = subprocess.run(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=topic", f"world:={WORLD}", "rviz:=false",
                              "feedback_parameters:={nope: 1}", f"out:={tmp_path}"],
                             env=master, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+    subprocess.run(["rosparam", "delete", "/feedback_node"], env=master, check=True)  # later tests have the same master
     assert time.monotonic() - begun < 60
     assert "feedback_node has ended 5 times within 60 s, so the session ends." in launch.stdout
     assert "No trial yet: waiting for a report of feedback_node" in launch.stdout
