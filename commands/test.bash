@@ -14,11 +14,13 @@ navvi_test() {
   shift || true
   (($# == 0)) || fail "unexpected argument \"$1\"; test takes a tier or a part of a test's name." 2
   install_packages all
-  case $tier in
-    quick) build_workspace all core_tests ;;
-    whole) build_workspace all tests ;;
-    release) build_workspace all tests benchmarks ;;
-  esac
+  if [[ $tier == quick ]]; then
+    build_workspace all core_tests
+  elif [[ $tier == release && $filter == . ]]; then
+    build_workspace all tests benchmarks
+  else
+    build_workspace all tests
+  fi
   rm -rf "$results"
   mkdir -p "$results"
   export ROS_IP=127.0.0.1

@@ -9,6 +9,16 @@
 
 namespace navvi_bench {
 
+/// Why a run has no result, or nothing: Google Benchmark 1.8 has another name for it than 1.7.
+template <typename Run>
+auto failure(const Run& run, int) -> decltype(std::string(run.skip_message)) {
+  return run.skip_message;
+}
+template <typename Run>
+std::string failure(const Run& run, long) {
+  return run.error_occurred ? run.error_message : "";
+}
+
 /// Runs all benchmarks several times in mixed order, so that what else the machine does falls on
 /// all of them alike, and keeps the median of every time and counter.
 class Medians : public benchmark::ConsoleReporter {
@@ -33,8 +43,8 @@ class Medians : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     std::vector<Run> shown;
     for (const Run& run : runs) {
-      if (run.error_occurred)
-        std::fprintf(stderr, "%s: %s\n", run.benchmark_name().c_str(), run.error_message.c_str());
+      if (const std::string why = failure(run, 0); !why.empty())
+        std::fprintf(stderr, "%s: %s\n", run.benchmark_name().c_str(), why.c_str());
       if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       auto& values = values_[run.run_name.function_name];
       values["ms"] = 1e3 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
