@@ -1,7 +1,7 @@
 # What NavVI needs of Debian 12 or 13, and how it gets there.
 
 run_packages=(
-  rviz rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
+  rviz libqt5svg5 rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
   python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
