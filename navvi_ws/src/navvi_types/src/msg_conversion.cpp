@@ -237,12 +237,13 @@ std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg) {
       !is_constant<Priority>(msg.priority) ||
       !within({msg.left, msg.right}, -kRounding, 1.0 + kRounding))
     return std::nullopt;
+  const auto what = signal_of(static_cast<Modality>(msg.modality), msg.kind);
+  if (!what) return std::nullopt;
   return CueEvent{msg.id,
                   static_cast<CueStage>(msg.stage),
-                  msg.kind,
+                  *what,
                   msg.text,
                   static_cast<Priority>(msg.priority),
-                  static_cast<Modality>(msg.modality),
                   static_cast<double>(msg.left),
                   static_cast<double>(msg.right),
                   to_ns(msg.header.stamp)};
@@ -376,9 +377,9 @@ navvi_msgs::Cue to_msg(const CueEvent& event) {
   msg.header.stamp = from_ns(event.stamp);
   msg.id = event.id;
   msg.stage = static_cast<std::uint8_t>(event.stage);
-  msg.modality = static_cast<std::uint8_t>(event.modality);
+  msg.modality = static_cast<std::uint8_t>(event.modality());
   msg.priority = static_cast<std::uint8_t>(event.priority);
-  msg.kind = event.kind;
+  msg.kind = event.word();
   msg.text = event.text;
   msg.left = static_cast<float>(event.left);
   msg.right = static_cast<float>(event.right);

@@ -453,6 +453,20 @@ TEST(MsgConversion, AMotorOfACueIsBetweenStillAndFull) {
   }
 }
 
+TEST(MsgConversion, APatternOrASoundThatIsNoneDropsItsMessage) {
+  navvi_msgs::Cue msg = cue();
+  for (const std::uint8_t modality : {navvi_msgs::Cue::RUMBLE, navvi_msgs::Cue::SOUND}) {
+    msg.modality = modality;
+    msg.kind = "whistle";
+    EXPECT_FALSE(from_msg(msg).has_value());
+  }
+  msg.modality = navvi_msgs::Cue::SPEECH;
+  msg.kind = "tutorial_stop";
+  ASSERT_TRUE(from_msg(msg).has_value());
+  EXPECT_EQ(from_msg(msg)->kind(), CueKind::lesson);
+  EXPECT_EQ(from_msg(msg)->word(), "tutorial_stop") << "the key of a lesson's text";
+}
+
 TEST(MsgConversion, AConstantThatIsNoneDropsItsMessage) {
   using G = navvi_msgs::Guidance;
   using C = navvi_msgs::Cue;
@@ -468,7 +482,9 @@ TEST(MsgConversion, AConstantThatIsNoneDropsItsMessage) {
   expect_dropped(guidance(), &G::replan_reason, Guidance::Replan{});
   expect_dropped(guidance(), &G::reroute_reason, Guidance::Replan{});
   expect_dropped(cue(), &C::stage, CueStage{});
-  expect_dropped(cue(), &C::modality, Modality{});
+  navvi_msgs::Cue sound = cue();
+  sound.kind = "turn";  // a word of the last modality
+  expect_dropped(sound, &C::modality, Modality{});
   expect_dropped(cue(), &C::priority, Priority{});
   expect_dropped(drive_state(), &D::state, DriveState::State{});
   expect_dropped(drive_state(), &D::reason, DriveState::Reason{});

@@ -73,7 +73,8 @@ Feedback::~Feedback() = default;
 void Feedback::note(const std::vector<CueEvent>& events) {
   deciders_->cues.note(events);
   for (const CueEvent& event : events) {
-    if (event.stage == CueStage::started) begun_.push_back(event.kind);
+    const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+    if (event.stage == CueStage::started && spoken) begun_.push_back(spoken->lesson);
     if (event.stage == CueStage::started && event.priority == Priority::important)
       important_ = event.id;
     else if (event.id == important_ && event.stage != CueStage::queued)
@@ -96,7 +97,7 @@ Feedback::Output Feedback::update(const Input& input, double time) {
   teach(input, pressed, time);
   const std::optional<cues::Utterance> answer = obey(pressed, input.pad, out);
   cues::Situation now = situation(input, pressed, answer, time);
-  if (menu.pass(dt)) now.notices.push_back("menu_closed");
+  if (menu.pass(dt)) now.notices.push_back(CueKind::menu_closed);
   out.cues = cues.update(now, time);
   teacher.join(out.cues);
   touch.begin(out.cues, contacts_, teacher.taught());
@@ -262,10 +263,10 @@ cues::Situation Feedback::situation(const Input& input, const std::vector<drive:
   now.voice_busy = input.voice_busy;
   now.touch = input.motors && config_.haptics.enabled && config_.haptics.patterns;
   now.notices = input.notices;
-  if (intruder_) now.notices.push_back("intruder");
+  if (intruder_) now.notices.push_back(CueKind::intruder);
   if (trial_.state == TrialState::State::running && trial_repeats_ &&
       time - *trial_time_ > kRecordLost)
-    now.notices.push_back("record_lost");
+    now.notices.push_back(CueKind::record_lost);
   now.person = input.person;
   const sounds::SoundsConfig& sounds = config_.sounds;
   if (sounds.enabled && input.sounds)

@@ -65,14 +65,14 @@ class FeedbackTest : public testing::Test {
     feedback_.take(Proximity{0, {{ThingClass::shelf, 1, 0.5, {0.0, y}}}}, time_);
   }
 
-  [[nodiscard]] bool said(const std::string& kind) const {
+  [[nodiscard]] bool said(CueKind kind) const {
     return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
   }
 
   Feedback feedback_{FeedbackConfig{}, kEnglish};
   Feedback::Input input_;
   double time_ = 10.0;
-  std::vector<std::string> kinds_;
+  std::vector<CueKind> kinds_;
   std::vector<sounds::Play> plays_;
   int alarms_ = 0;
 };
@@ -84,7 +84,7 @@ TEST_F(FeedbackTest, says_once_that_another_node_wants_to_drive) {
   drive.intruder = "/teleop";
   feedback_.take(drive, time_);
   pass(5.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "intruder"), 1);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::intruder), 1);
 }
 
 TEST_F(FeedbackTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
@@ -96,7 +96,7 @@ TEST_F(FeedbackTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last
   ASSERT_TRUE(lost.command);
   EXPECT_EQ(lost.command->linear, 0.0);
   EXPECT_FALSE(pass(0.02).command);
-  EXPECT_TRUE(said("pad_lost"));
+  EXPECT_TRUE(said(CueKind::pad_lost));
 }
 
 TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
@@ -115,11 +115,11 @@ TEST_F(FeedbackTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
   const std::size_t at_first = kinds_.size();
   kinds_.clear();
   pass(600.0);
-  EXPECT_TRUE(said("simulator_lost"));
+  EXPECT_TRUE(said(CueKind::simulator_lost));
   EXPECT_LE(kinds_.size(), 4U) << "each loss is said once";
   kinds_.clear();
   live(10.0);
-  EXPECT_TRUE(said("direction"));
+  EXPECT_TRUE(said(CueKind::direction));
   EXPECT_LE(kinds_.size(), at_first + 1) << "as at the begin";
 }
 
@@ -177,7 +177,7 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(TrialState{TrialState::State::ready}, time_);
   pass(0.6);
-  EXPECT_TRUE(said("press_start"));
+  EXPECT_TRUE(said(CueKind::press_start));
   kinds_.clear();
   hold(0.0, 1.0);
   bool felt = false;
@@ -188,7 +188,7 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
     felt = felt || out.pattern == haptics::Pattern::ready;
   }
   EXPECT_TRUE(felt) << "the reason, to a stick that is pushed; its words were said just now";
-  EXPECT_FALSE(said("release_stick"));
+  EXPECT_FALSE(said(CueKind::release_stick));
 
   hold(0.0, 0.0);
   hold_start(true);
@@ -197,7 +197,7 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   hold_start(false);
   feedback_.take(TrialState{TrialState::State::running}, time_);
   EXPECT_EQ(pass(0.02).pattern, haptics::Pattern::begun);
-  EXPECT_TRUE(said("trial_begins"));
+  EXPECT_TRUE(said(CueKind::trial_begins));
   pass(0.5);
   hold_start(true);
   EXPECT_FALSE(pass(0.02).request) << "it has begun";
@@ -215,18 +215,18 @@ TEST_F(FeedbackTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs
   };
   feedback_.take(running, time_);
   pass(5.0);
-  EXPECT_FALSE(said("record_lost")) << "one that tells its state once is not missed";
+  EXPECT_FALSE(said(CueKind::record_lost)) << "one that tells its state once is not missed";
   beat(5.0);
-  EXPECT_FALSE(said("record_lost"));
+  EXPECT_FALSE(said(CueKind::record_lost));
   pass(2.2);
-  EXPECT_TRUE(said("record_lost"));
+  EXPECT_TRUE(said(CueKind::record_lost));
   kinds_.clear();
   beat(6.0);
-  EXPECT_FALSE(said("record_lost"));
+  EXPECT_FALSE(said(CueKind::record_lost));
   feedback_.take(TrialState{TrialState::State::preparing}, time_);
   feedback_.take(TrialState{TrialState::State::preparing}, time_);
   pass(5.0);
-  EXPECT_FALSE(said("record_lost")) << "nothing is recorded between trials";
+  EXPECT_FALSE(said(CueKind::record_lost)) << "nothing is recorded between trials";
 }
 
 TEST_F(FeedbackTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) {
@@ -285,10 +285,10 @@ TEST_F(FeedbackTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_sa
   pass(0.02);
   input_.asked.clear();
   pass(19.5);
-  EXPECT_TRUE(said("menu_settings"));
-  EXPECT_FALSE(said("menu_closed"));
+  EXPECT_TRUE(said(CueKind::menu_settings));
+  EXPECT_FALSE(said(CueKind::menu_closed));
   pass(1.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "menu_closed"), 1);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::menu_closed), 1);
 }
 
 TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_once) {
@@ -369,7 +369,7 @@ TEST_F(FeedbackTest, a_contact_is_said_once) {
   feedback_.take(Odometry{}, time_);
   feedback_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7});
   pass(3.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "collision_shelf"), 1);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::collision_shelf), 1);
 }
 
 TEST_F(FeedbackTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
@@ -390,7 +390,7 @@ TEST_F(FeedbackTest, a_hit_sounds_once_from_its_side) {
   ASSERT_EQ(plays_.size(), 1U);
   EXPECT_EQ(plays_[0].earcon, sounds::Earcon::hit_shelf);
   EXPECT_GT(plays_[0].from.y(), 0.0);
-  EXPECT_TRUE(said("collision_shelf"));
+  EXPECT_TRUE(said(CueKind::collision_shelf));
 }
 
 TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
@@ -401,7 +401,7 @@ TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
   }
   EXPECT_GT(played(Earcon::turn), 5);
   EXPECT_EQ(played(Earcon::shelf_near), 1);
-  EXPECT_FALSE(said("shelf_near"));
+  EXPECT_FALSE(said(CueKind::shelf_near));
   input_.sounds = false;
   plays_.clear();
   for (int i = 0; i < 10; ++i) {
@@ -409,7 +409,7 @@ TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
     pass(0.5);
   }
   EXPECT_TRUE(plays_.empty());
-  EXPECT_TRUE(said("shelf_near"));
+  EXPECT_TRUE(said(CueKind::shelf_near));
 }
 
 TEST_F(FeedbackTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_still_counted) {
@@ -457,9 +457,9 @@ TEST_F(FeedbackTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_aft
   };
   const double full = felt();
   EXPECT_GT(full, 0.5);
-  feedback_.note({{4, CueStage::started, "obstacle_stop", "stop", Priority::important}});
+  feedback_.note({{4, CueStage::started, CueKind::obstacle_stop, "stop", Priority::important}});
   EXPECT_NEAR(felt(), 0.3 * full, 1e-9);
-  feedback_.note({{4, CueStage::ended, "obstacle_stop", "stop", Priority::important}});
+  feedback_.note({{4, CueStage::ended, CueKind::obstacle_stop, "stop", Priority::important}});
   EXPECT_NEAR(felt(), full, 1e-9);
   Guidance guidance;
   guidance.state = Guidance::State::arrived;
@@ -474,7 +474,7 @@ TEST_F(FeedbackTest, a_button_that_is_held_asks_once) {
   kinds_.clear();
   input_.hands.buttons = {true, false};
   pass(2.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "no_goal"), 1);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::no_goal), 1);
 }
 
 TEST_F(FeedbackTest, what_is_asked_elsewhere_is_answered_like_a_button) {
@@ -484,7 +484,7 @@ TEST_F(FeedbackTest, what_is_asked_elsewhere_is_answered_like_a_button) {
   pass(0.02);
   input_.asked.clear();
   pass(2.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), "no_goal"), 1);
+  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::no_goal), 1);
 }
 
 TEST_F(FeedbackTest, guidance_is_kept_but_not_fresh_for_ever) {
@@ -556,7 +556,7 @@ TEST(Lesson, is_given_by_the_motors_and_sounds_of_a_session_and_drives_no_robot)
   learner.input_.hands.axes = {0.0, 1.0};
   learner.learn(400.0, [&](const Feedback::Output& output) {
     EXPECT_FALSE(output.command);
-    for (const cues::Cue& cue : output.cues) said.insert(cue.kind);
+    for (const cues::Cue& cue : output.cues) said.insert(cue.word());
     for (const sounds::Play& play : output.plays) heard.insert(play.earcon);
     if (output.pattern) felt.insert(*output.pattern);
     if (output.rumble.right == 0.0) left_alone = std::max(left_alone, output.rumble.left);
@@ -581,7 +581,7 @@ TEST(Lesson, lets_a_newcomer_drive_before_the_trial_and_the_guide_says_what_is_u
     learner.feedback_.take(Proximity{}, learner.time_);
     learner.input_.hands.axes = {0.0, learner.time_ > 15.0 ? 1.0 : 0.0};
     if (output.command) fastest = std::max(fastest, output.command->linear);
-    for (const cues::Cue& cue : output.cues) said.insert(cue.kind);
+    for (const cues::Cue& cue : output.cues) said.insert(cue.word());
   });
   EXPECT_GT(fastest, 0.8);
   EXPECT_EQ(said.count("press_start"), 0U);

@@ -1,7 +1,6 @@
 #include "core/haptic_display.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "cues/side.hpp"
@@ -27,26 +26,10 @@ haptics::Zone zone_of(const Contact& contact) {
 /// nothing can be heard.
 std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
   using haptics::Pattern;
-  static const std::map<std::string, Pattern> patterns = {{"obstacle_stop", Pattern::halt},
-                                                          {"blocked", Pattern::halt},
-                                                          {"robot_stopped", Pattern::stopped},
-                                                          {"release_stick", Pattern::stopped},
-                                                          {"stuck", Pattern::stuck},
-                                                          {"stuck_unknown", Pattern::stuck},
-                                                          {"press_start", Pattern::ready},
-                                                          {"press_enter", Pattern::ready},
-                                                          {"trial_begins", Pattern::begun},
-                                                          {"back_away", Pattern::stuck},
-                                                          {"arrived", Pattern::arrived},
-                                                          {"rerouted", Pattern::rerouted},
-                                                          {"rerouted_blocked", Pattern::rerouted},
-                                                          {"new_route", Pattern::rerouted},
-                                                          {"way_blocked", Pattern::rerouted}};
-  const auto found = patterns.find(cue.kind);
-  if (found != patterns.end()) return found->second;
+  if (const auto pattern = traits(cue.kind).felt) return pattern;
   const bool alarm =
-      cue.kind == "guidance_lost" ||
-      (cue.priority == Priority::important && cues::family_of(cue.kind) != cues::Family::hit);
+      cue.kind == CueKind::guidance_lost ||
+      (cue.priority == Priority::important && family_of(cue.kind) != cues::Family::hit);
   return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
 }
 

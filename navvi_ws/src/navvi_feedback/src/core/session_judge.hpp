@@ -32,7 +32,7 @@ class SessionJudge {
     bool sounds = true;
     bool motors = true;
     std::optional<drive::Button> asked;
-    std::vector<std::string> notices;
+    std::vector<CueKind> notices;
   };
 
   explicit SessionJudge(const FeedbackConfig& config = {})
@@ -122,7 +122,7 @@ class SessionJudge {
     for (const CueEvent& event : events) {
       if (event.stage == CueStage::queued) {
         known_[event.id] = {time, *next++};
-        decided_[event.kind] = time;
+        decided_[*event.kind()] = time;
         continue;
       }
       const Known known = known_.at(event.id);
@@ -146,15 +146,17 @@ class SessionJudge {
         if (id != event.id && !important && other.cue.priority == Priority::important)
           complaints.insert("an important cue waited behind a lesser one");
       const auto said = said_.find(event.text);
-      static const std::set<std::string> news = {
-          "blocked",          "go_on",     "turn_now",      "obstacle_comes",
-          "make_room",        "new_route", "way_blocked",   "rerouted",
-          "rerouted_blocked", "start",     "start_distance"};
-      const bool reminds = known.cue.priority <= Priority::text || event.kind == "stuck" ||
-                           event.kind == "back_away" || event.kind == "release_stick";
-      if (now.motors && !known.cue.asked && reminds && news.count(event.kind) == 0 &&
+      static const std::set<CueKind> news = {
+          CueKind::blocked,        CueKind::go_on,         CueKind::turn_now,
+          CueKind::obstacle_comes, CueKind::make_room,     CueKind::new_route,
+          CueKind::way_blocked,    CueKind::rerouted,      CueKind::rerouted_blocked,
+          CueKind::start,          CueKind::start_distance};
+      const bool reminds = known.cue.priority <= Priority::text || event.kind() == CueKind::stuck ||
+                           event.kind() == CueKind::back_away ||
+                           event.kind() == CueKind::release_stick;
+      if (now.motors && !known.cue.asked && reminds && news.count(*event.kind()) == 0 &&
           said != said_.end() && time - said->second < 10.0 - kTick)
-        complaints.insert("the same again: " + event.kind);
+        complaints.insert("the same again: " + event.word());
       said_[event.text] = time;
     }
   }
@@ -165,11 +167,11 @@ class SessionJudge {
     const auto begins = [&](const std::string& words) { return text.rfind(words, 0) == 0; };
     // Where the next turn is may be asked for at any time.
     const bool way =
-        cues::is_way(cues::family_of(begun.kind)) && !(asked && begun.kind == "turn_ahead");
+        is_way(family_of(*begun.kind())) && !(asked && begun.kind() == CueKind::turn_ahead);
     if (begins("go on") && !(way && begins("go on, ")))
       complaints.insert("go on without a direction: " + text);
     if (waits_ && way && !begins("go on, "))
-      complaints.insert("a way without go on: " + begun.kind);
+      complaints.insert("a way without go on: " + begun.word());
     if (begins("stop") || begins("wait")) {
       waits_ = true;
       released_ = 0;
@@ -189,46 +191,53 @@ class SessionJudge {
     longest_wait_alone = std::max(longest_wait_alone, waits_alone_);
   }
 
-  [[nodiscard]] bool decided(const std::string& kind, double within) const {
+  [[nodiscard]] bool decided(CueKind kind, double within) const {
     const auto found = decided_.find(kind);
     return found != decided_.end() && time - found->second <= within;
   }
 
   /// Whatever matters is decided within its time, by rules that are written without the policy.
   void expect_what_matters() {
-    const auto demand = [&](const std::string& kind, double within) {
-      if (!decided(kind, within)) complaints.insert("unsaid: " + kind);
+    const auto demand = [&](CueKind kind, double within) {
+      if (!decided(kind, within)) complaints.insert(std::string("unsaid: ") + to_string(kind));
     };
     for (const Contact& contact : now.contacts) {
       const double before = hits_.count(contact.id) > 0 ? hits_[contact.id] : -1e9;
       if (time - before < 1.5) continue;
       hits_[contact.id] = time;
-      const std::string name = navvi_types::to_string(contact.thing_class);
-      demand(name == "shelf" || name == "wall" ? "collision_" + name : "collision_obstacle", kTick);
+      demand(contact.thing_class == navvi_types::ThingClass::shelf  ? CueKind::collision_shelf
+             : contact.thing_class == navvi_types::ThingClass::wall ? CueKind::collision_wall
+                                                                    : CueKind::collision_obstacle,
+             kTick);
     }
     const bool simulated = now.velocity && last_.velocity;
     alive_ = simulated && now.guided && now.stick && now.trial == TrialState::State::free
                  ? alive_ + kTick
                  : 0.0;
-    if (last_.stick && !now.stick) demand("pad_lost", 2.0 + kTick);
+    if (last_.stick && !now.stick) demand(CueKind::pad_lost, 2.0 + kTick);
     if (alive_ > 2.0 && last_.gate.state == DriveState::State::running &&
         now.gate.state == DriveState::State::stopped)
-      demand("robot_stopped", 2.0 + kTick);
+      demand(CueKind::robot_stopped, 2.0 + kTick);
     const bool same = now.guidance.state == last_.guidance.state;
     steady_ = same && alive_ > 0.0 ? steady_ + kTick : 0.0;
-    static const std::map<Guidance::State, std::string> told = {
-        {Guidance::State::arrived, "arrived"},     {Guidance::State::no_route, "no_route"},
-        {Guidance::State::off_mesh, "off_mesh"},   {Guidance::State::no_map, "no_map"},
-        {Guidance::State::map_stale, "map_stale"}, {Guidance::State::pose_stale, "pose_stale"},
-        {Guidance::State::blocked, "blocked"},     {Guidance::State::make_room, "make_room"}};
+    static const std::map<Guidance::State, CueKind> told = {
+        {Guidance::State::arrived, CueKind::arrived},
+        {Guidance::State::no_route, CueKind::no_route},
+        {Guidance::State::off_mesh, CueKind::off_mesh},
+        {Guidance::State::no_map, CueKind::no_map},
+        {Guidance::State::map_stale, CueKind::map_stale},
+        {Guidance::State::pose_stale, CueKind::pose_stale},
+        {Guidance::State::blocked, CueKind::blocked},
+        {Guidance::State::make_room, CueKind::make_room}};
     const auto kind = told.find(now.guidance.state);
     // A word to stop holds first, and one arrival is told once.
-    const bool halted =
-        decided("obstacle_stop", 9.0) ||
-        (kind != told.end() && kind->second == "make_room" && decided("blocked", 9.0));
-    const bool excused = kind == told.end() || halted || (kind->second == "arrived" && arrived_);
+    const bool halted = decided(CueKind::obstacle_stop, 9.0) ||
+                        (kind != told.end() && kind->second == CueKind::make_room &&
+                         decided(CueKind::blocked, 9.0));
+    const bool excused =
+        kind == told.end() || halted || (kind->second == CueKind::arrived && arrived_);
     if (now.guidance.is_followed()) arrived_ = false;
-    if (decided("arrived", kTick)) arrived_ = true;
+    if (decided(CueKind::arrived, kTick)) arrived_ = true;
     if (!excused && alive_ > 3.0 && steady_ > 1.0 && steady_ < 1.0 + 1.5 * kTick)
       demand(kind->second, 5.0 + 1.0);
     const bool pushes = now.forward > 0.5 && now.velocity && now.velocity->linear == 0.0 &&
@@ -244,9 +253,9 @@ class SessionJudge {
   double speaks_until_ = 0.0;
   std::map<std::uint32_t, Known> known_;
   std::uint32_t running_ = 0;
-  std::map<std::string, double> decided_;  ///< s, by kind
-  std::map<std::string, double> said_;     ///< s, by text
-  std::map<std::uint32_t, double> hits_;   ///< s, by thing
+  std::map<CueKind, double> decided_;     ///< s
+  std::map<std::string, double> said_;    ///< s, by text
+  std::map<std::uint32_t, double> hits_;  ///< s, by thing
   Scene last_;
   double alive_ = 0.0;    ///< s, since when all links have lived
   double steady_ = 0.0;   ///< s, of the guidance's state

@@ -161,7 +161,7 @@ const std::vector<Row> kTable = {
        now.trial = TrialState::State::ready;
      },
      "press start to begin", "ready", ""},
-    {"the time is up", [](Scene& now) { now.notices = {"trial_time_up"}; },
+    {"the time is up", [](Scene& now) { now.notices = {CueKind::trial_time_up}; },
      "time is up, the trial is over", "", ""},
     // Questions.
     {"asks for the goal", [](Scene& now) { now.asked = drive::Button::goal; }, "goal 20 meters", "",

@@ -132,7 +132,7 @@ Signals signals(const Family& family, Lost lost) {
     family.happens(feedback, input, time);
     const Feedback::Output out = feedback.update(input, time);
     if (lost != Lost::sound) {
-      for (const cues::Cue& cue : out.cues) result.said.insert(cue.kind);
+      for (const cues::Cue& cue : out.cues) result.said.insert(to_string(cue.kind));
       for (const sounds::Play& play : out.plays)
         result.played.insert(navvi_types::to_string(play.earcon));
     }
@@ -180,10 +180,10 @@ TEST(TwoSenses, motors_that_cannot_be_felt_are_told) {
   Feedback::Input input;
   input.hands.live = true;
   input.hands.axes = {0.0, 0.0};
-  input.notices = {"no_rumble"};
+  input.notices = {CueKind::no_rumble};
   const std::vector<cues::Cue> cues = feedback.update(input, 10.0).cues;
   ASSERT_FALSE(cues.empty());
-  EXPECT_EQ(cues[0].kind, "no_rumble");
+  EXPECT_EQ(cues[0].kind, CueKind::no_rumble);
 }
 
 }  // namespace

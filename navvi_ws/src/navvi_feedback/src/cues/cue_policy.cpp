@@ -27,40 +27,70 @@ constexpr double kMoving = 0.05;
 /// s; what dies with the simulator may be missed by so much before it.
 constexpr double kTogether = 0.3;
 
-/// Why the guidance does not lead anywhere, as a kind of cue; empty if it does.
-std::string problem_of(const Guidance& guidance) {
-  const bool unexplained = guidance.refusal == Guidance::Refusal::none;
-  const auto refusal = unexplained ? Guidance::Refusal::not_finite : guidance.refusal;
+CueKind refusal_of(Guidance::Refusal refusal) {
+  switch (refusal) {
+    case Guidance::Refusal::none:  // unexplained
+    case Guidance::Refusal::not_finite:
+      return CueKind::goal_refused_not_finite;
+    case Guidance::Refusal::unknown_frame:
+      return CueKind::goal_refused_unknown_frame;
+    case Guidance::Refusal::inside_obstacle:
+      return CueKind::goal_refused_inside_obstacle;
+    case Guidance::Refusal::off_the_map:
+      return CueKind::goal_refused_off_the_map;
+    case Guidance::Refusal::unreachable:
+      return CueKind::goal_refused_unreachable;
+  }
+  return CueKind::goal_refused_not_finite;
+}
+
+/// Why the guidance does not lead anywhere; nullopt if it does.
+std::optional<CueKind> problem_of(const Guidance& guidance) {
   switch (guidance.state) {
     case Guidance::State::no_goal:
-      return "welcome";
+      return CueKind::welcome;
     case Guidance::State::following:
     case Guidance::State::make_room:
-      return "";
+      return std::nullopt;
     case Guidance::State::goal_refused:
-      return std::string("goal_refused_") + to_string(refusal);
-    default:  // the kind has the name of the state
-      return to_string(guidance.state);
+      return refusal_of(guidance.refusal);
+    case Guidance::State::arrived:
+      return CueKind::arrived;
+    case Guidance::State::blocked:
+      return CueKind::blocked;
+    case Guidance::State::no_route:
+      return CueKind::no_route;
+    case Guidance::State::off_mesh:
+      return CueKind::off_mesh;
+    case Guidance::State::no_map:
+      return CueKind::no_map;
+    case Guidance::State::map_stale:
+      return CueKind::map_stale;
+    case Guidance::State::pose_stale:
+      return CueKind::pose_stale;
   }
+  return std::nullopt;
 }
 
-/// What is awaited before a trial begins, as a kind of cue; empty if nothing is.
-std::string awaited(const Situation& now) {
-  if (now.trial == TrialState::State::choose_goal) return "choose_goal";
-  if (now.trial != TrialState::State::ready) return "";
-  return now.keyboard ? "press_enter" : "press_start";
+/// The act that a trial awaits before it begins; nullopt if none.
+std::optional<CueKind> awaited(const Situation& now) {
+  if (now.trial == TrialState::State::choose_goal) return CueKind::choose_goal;
+  if (now.trial != TrialState::State::ready) return std::nullopt;
+  return now.keyboard ? CueKind::press_enter : CueKind::press_start;
 }
 
-bool refused(const std::string& problem) { return problem.rfind("goal_refused", 0) == 0; }
+bool refused(std::optional<CueKind> problem) {
+  return problem && family_of(*problem) == Family::refusal;
+}
 
-bool said_once(const std::string& problem) {
-  return problem == "arrived" || problem == "welcome" || refused(problem);
+bool said_once(CueKind problem) {
+  return problem == CueKind::arrived || problem == CueKind::welcome || refused(problem);
 }
 
 /// That there is another route, which explains the next direction.
-bool new_route(const std::string& kind) {
-  return kind == "rerouted" || kind == "rerouted_blocked" || kind == "new_route" ||
-         kind == "way_blocked";
+bool new_route(CueKind kind) {
+  return kind == CueKind::rerouted || kind == CueKind::rerouted_blocked ||
+         kind == CueKind::new_route || kind == CueKind::way_blocked;
 }
 
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
@@ -79,7 +109,7 @@ CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
 std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const Links links = judge(now, time);
   follows_ = now.guidance && now.guidance->is_followed() && links.guidance == Link::alive &&
-             links.simulator != Link::lost && awaited(now).empty();
+             links.simulator != Link::lost && !awaited(now);
   Utterances utterances;
   const auto add = [&](Utterances more) {
     utterances.insert(utterances.end(), more.begin(), more.end());
@@ -91,8 +121,8 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
     route_.remind(time + kRecover);
     add({*held});
   }
-  if (awaited_ && now.trial == TrialState::State::running) add({{"trial_begins"}});
-  awaited_ = !awaited(now).empty();
+  if (awaited_ && now.trial == TrialState::State::running) add({{CueKind::trial_begins}});
+  awaited_ = awaited(now).has_value();
   add(guidance_state(now, links, time));
   add(near(now, time));
   Utterances answer = answers(now, time);
@@ -102,7 +132,7 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   const bool on = !way.empty() && way.front().goes_on;
   if (on && !answer.empty() && family_of(answer.front().kind) == Family::halt) {
     answer.clear();
-    answered_.clear();
+    answered_.reset();
   }
   add(answer);
   add(way);
@@ -119,8 +149,7 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
 /// Whoever hears a word to stop waits for "go on", be it an answer.
 void CuePolicy::halt(const Utterances& told, const Utterances& answer, double time) {
   for (const Utterance& utterance : told)
-    if (const CueKind& kind = cue_kind(utterance.kind);
-        kind.family == Family::halt && !phrasing_.too_soon(kind, time))
+    if (family_of(utterance.kind) == Family::halt && !phrasing_.too_soon(utterance.kind, time))
       halt_.say(utterance, time);
   for (const Utterance& utterance : answer)
     if (family_of(utterance.kind) == Family::halt && !halt_.halted()) halt_.say(utterance, time);
@@ -140,32 +169,32 @@ Links CuePolicy::judge(const Situation& now, double time) {
 CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links,
                                                 double time) {
   Utterances told;
-  const auto say = [&](const std::string& kind) { told.push_back({kind}); };
+  const auto say = [&](CueKind kind) { told.push_back({kind}); };
   const auto lost = [&](Link Links::*link) {
     return links_.*link != Link::lost && links.*link == Link::lost;
   };
   const auto back = [&](Link Links::*link) {
     return links_.*link == Link::lost && links.*link == Link::alive;
   };
-  const std::string stick = now.keyboard ? "keyboard" : "pad";
-  if (lost(&Links::pad)) say(stick + "_lost");
-  if (back(&Links::pad)) say(stick + "_back");
-  if (lost(&Links::simulator)) say("simulator_lost");
-  if (back(&Links::audio)) say("audio_back");
+  const CueKind stick_back = now.keyboard ? CueKind::keyboard_back : CueKind::pad_back;
+  if (lost(&Links::pad)) say(now.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
+  if (back(&Links::pad)) say(stick_back);
+  if (lost(&Links::simulator)) say(CueKind::simulator_lost);
+  if (back(&Links::audio)) say(CueKind::audio_back);
   // A loss that follows from that of the simulator or the pad has no cue of its own.
   const bool simulated = links.simulator != Link::lost;
-  if (simulated && lost(&Links::proximity)) say("proximity_lost");
+  if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
   const bool stopped =
       gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
-  if (simulated && stopped && links.pad != Link::lost) say("robot_stopped");
+  if (simulated && stopped && links.pad != Link::lost) say(CueKind::robot_stopped);
   for (const Utterance& utterance : told)
-    if (utterance.kind == stick + "_back" || utterance.kind == "robot_stopped") held_.said(time);
-  const std::set<std::string> notices(now.notices.begin(), now.notices.end());
-  for (const std::string& notice : notices) {
+    if (utterance.kind == stick_back || utterance.kind == CueKind::robot_stopped) held_.said(time);
+  const std::set<CueKind> notices(now.notices.begin(), now.notices.end());
+  for (const CueKind notice : notices) {
     if (noticed_.count(notice) > 0) continue;
     say(notice);
     told.back().fillings.person = now.person;
-    if (notice.rfind("trial_", 0) == 0) trial_over_ = time;
+    if (family_of(notice) == Family::trial_end) trial_over_ = time;
   }
   noticed_ = notices;
   return told;
@@ -178,9 +207,9 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
   for (const Contact& contact : now.contacts) {
     route_.remind(time + kRecover);
     if (!hit_.emplace(contact.id, time).second) continue;
-    const std::string kind = contact.thing_class == ThingClass::shelf  ? "collision_shelf"
-                             : contact.thing_class == ThingClass::wall ? "collision_wall"
-                                                                       : "collision_obstacle";
+    const CueKind kind = contact.thing_class == ThingClass::shelf  ? CueKind::collision_shelf
+                         : contact.thing_class == ThingClass::wall ? CueKind::collision_wall
+                                                                   : CueKind::collision_obstacle;
     told.push_back({kind, where(contact.thing_class, contact.seen_from_robot())});
   }
   return told;
@@ -188,8 +217,8 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
 
 CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
   // Who has just arrived lets go of the stick anyway.
-  if (links.pad != Link::alive || links.simulator != Link::alive || !awaited(now).empty() ||
-      problem_ == "arrived") {
+  if (links.pad != Link::alive || links.simulator != Link::alive || awaited(now) ||
+      problem_ == CueKind::arrived) {
     held_.forget();
     return {};
   }
@@ -202,15 +231,15 @@ CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& link
 CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,
                                                 double time) {
   if (links.simulator == Link::lost) return {};
-  std::string problem;
+  std::optional<CueKind> problem;
   if (links.guidance == Link::lost)
-    problem = "guidance_lost";
+    problem = CueKind::guidance_lost;
   else if (now.guidance)
     problem = problem_of(*now.guidance);
   if (follows_) arrival_said_ = false;
   led_ = led_ || follows_;
-  const bool idle = problem.empty() || problem == "welcome" || problem == "arrived";
-  if (const std::string wanted = awaited(now); idle && !wanted.empty()) problem = wanted;
+  const bool idle = !problem || problem == CueKind::welcome || problem == CueKind::arrived;
+  if (const auto wanted = awaited(now); idle && wanted) problem = wanted;
 
   const bool other_goal =
       refused(problem) && now.guidance && (now.guidance->goal - problem_goal_).norm() > 0.0;
@@ -220,14 +249,15 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
     problem_said_.reset();
     if (now.guidance) problem_goal_ = now.guidance->goal;
   }
-  if (problem_.empty()) return {};
-  const bool at_once = problem_ == "arrived" || problem_ == "guidance_lost" || refused(problem_);
-  const bool starting =
-      problem_ == "welcome" || (!led_ && (problem_ == "no_map" || problem_ == "pose_stale"));
+  if (!problem_) return {};
+  const bool at_once =
+      problem_ == CueKind::arrived || problem_ == CueKind::guidance_lost || refused(problem_);
+  const bool starting = problem_ == CueKind::welcome ||
+                        (!led_ && (problem_ == CueKind::no_map || problem_ == CueKind::pose_stale));
   // Who was just told to stop need not be told to wait as well.
-  const bool stopped = problem_ == "blocked" && halt_.halted();
+  const bool stopped = problem_ == CueKind::blocked && halt_.halted();
   const bool near =
-      problem_ == "blocked" && now.measured &&
+      problem_ == CueKind::blocked && now.measured &&
       now.guidance->blocked_distance < now.measured->linear * config_.near.stop_moving;
   const double hold = at_once    ? 0.0
                       : stopped  ? kStopped
@@ -236,16 +266,16 @@ CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Link
                                  : config_.state_hold;
   if (time - problem_since_ < hold) return {};
   const double pause = awaited_ && now.stick_held_unarmed ? kHeldBack : config_.problem_repeat;
-  if (problem_said_ && (said_once(problem_) || time - *problem_said_ < pause)) return {};
+  if (problem_said_ && (said_once(*problem_) || time - *problem_said_ < pause)) return {};
   // What is said too seldom for that is said a little later.
-  if (phrasing_.too_soon(cue_kind(problem_), time)) return {};
+  if (phrasing_.too_soon(*problem_, time)) return {};
   problem_said_ = time;
-  if (problem_ == "arrived" && std::exchange(arrival_said_, true)) return {};
-  return {tell_problem(now)};
+  if (problem_ == CueKind::arrived && std::exchange(arrival_said_, true)) return {};
+  return {tell_problem(*problem_, now)};
 }
 
-Utterance CuePolicy::tell_problem(const Situation& now) const {
-  Utterance told{problem_};
+Utterance CuePolicy::tell_problem(CueKind kind, const Situation& now) const {
+  Utterance told{kind};
   if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
   return told;
 }
@@ -270,7 +300,7 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
   const bool may_go =
       halt_.over(now, follows_ && steered && !just_over, near_.comes(now, Halt::kObeyed), time);
   if (just_over) return {};
-  const bool leads = follows_ || (problem_ == "blocked" && now.guidance->leads());
+  const bool leads = follows_ || (problem_ == CueKind::blocked && now.guidance->leads());
   if (leads && steered) {
     // A wait that is not worth saying is no reason to say the direction again.
     if (!follows_ && !halt_.halted()) return {};
@@ -279,7 +309,8 @@ CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links,
     const auto on = route_.go_on(now, time);
     return on ? Utterances{*on} : Utterances{};
   }
-  const bool goal_gone = problem_ == "arrived" || problem_ == "welcome" || refused(problem_);
+  const bool goal_gone =
+      problem_ == CueKind::arrived || problem_ == CueKind::welcome || refused(problem_);
   if (goal_gone)
     route_.forget();
   else
@@ -299,7 +330,7 @@ Utterance CuePolicy::where_am_i(const Situation& now) const {
     told.fillings.distance = now.goal_straight;
     told.fillings.hour = route_.hour_of(*now.goal_angle);
   }
-  told.kind = !goal ? "where_place" : now.place ? "where" : "where_goal";
+  told.kind = !goal ? CueKind::where_place : now.place ? CueKind::where : CueKind::where_goal;
   return told;
 }
 
@@ -318,22 +349,22 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   if (question == Question::around) {
     answer = around(now.nearby);
   } else if (question == Question::help) {
-    answer.kind = now.keyboard ? "help_keys" : "help_pad";
+    answer.kind = now.keyboard ? CueKind::help_keys : CueKind::help_pad;
   } else if (question == Question::where && (now.place || (to_goal && now.goal_angle))) {
     answer = where_am_i(now);
   } else if (to_goal && question == Question::turn && !now.guidance->waypoint_is_goal) {
     answer = route_.next_turn(*now.guidance);
   } else if (to_goal && question == Question::goal) {
-    answer = route_.goal("goal_info", now);
+    answer = route_.goal(CueKind::goal_info, CueKind::goal_info_distance, now);
   } else if (follows_ && halt_.halted()) {
     answer = halt_.words();
   } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
     answer = *way;
     answer.goes_on = halt_.owes();
   } else {
-    answer = tell_problem(now);
-    if (problem_.empty() || problem_ == "welcome") answer.kind = "no_goal";
-    if (answer.kind == "no_goal" && time - *first_update_ < kFirstPath) return {};
+    const bool no_goal = !problem_ || problem_ == CueKind::welcome;
+    answer = tell_problem(no_goal ? CueKind::no_goal : *problem_, now);
+    if (answer.kind == CueKind::no_goal && time - *first_update_ < kFirstPath) return {};
   }
   // An answer is wanted at once, whatever was said just before.
   answer.priority = Priority::message;
@@ -344,34 +375,34 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
 
 /// It was not heard.
 void CuePolicy::forget(const CueEvent& event) {
-  const Family family = family_of(event.kind);
+  const CueKind kind = event.kind().value_or(CueKind::lesson);
   phrasing_.forget(event);
-  near_.unsaid(event.kind);
-  if (is_way(family)) route_.unheard();
-  if (new_route(event.kind)) route_.route_unheard();
-  if (event.kind == answered_) question_ = asked_;
+  near_.unsaid(kind);
+  if (is_way(family_of(kind))) route_.unheard();
+  if (new_route(kind)) route_.route_unheard();
+  if (kind == answered_) question_ = asked_;
 }
 
 void CuePolicy::note(const std::vector<CueEvent>& events) {
-  const auto replaced = [&](const std::string& kind) {
+  const auto replaced = [&](std::optional<CueKind> kind) {
     return std::any_of(events.begin(), events.end(), [&](const CueEvent& event) {
-      return event.stage == CueStage::queued && event.kind == kind;
+      return event.stage == CueStage::queued && event.kind() == kind;
     });
   };
   for (const CueEvent& event : events) {
     if (event.stage == CueStage::started) {
       phrasing_.heard(event, time_);
-      if (event.kind == answered_) answered_.clear();
-      if (event.kind == "obstacle_comes") halt_.repeat(time_);
+      if (event.kind() == answered_) answered_.reset();
+      if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
     }
     const bool owed = halt_.owes() && !halt_.halted();
-    halt_.note(event, replaced(event.kind), time_);
+    halt_.note(event, replaced(event.kind()), time_);
     // "Go on" was not heard to its end.
     if (owed && halt_.halted()) forget(event);
   }
   for (const CueEvent& event : events) {
-    const bool cut = event.stage == CueStage::cut && new_route(event.kind);
-    if (cut || (event.stage == CueStage::dropped && !replaced(event.kind))) forget(event);
+    const bool cut = event.stage == CueStage::cut && event.kind() && new_route(*event.kind());
+    if (cut || (event.stage == CueStage::dropped && !replaced(event.kind()))) forget(event);
   }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "cues/halt.hpp"
@@ -44,7 +44,7 @@ class CuePolicy {
   [[nodiscard]] Utterances collisions(const Situation& now, double time);
   [[nodiscard]] Utterances release(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterance tell_problem(const Situation& now) const;
+  [[nodiscard]] Utterance tell_problem(CueKind kind, const Situation& now) const;
   void halt(const Utterances& told, const Utterances& answer, double time);
   [[nodiscard]] Utterances near(const Situation& now, double time);
   [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
@@ -65,20 +65,20 @@ class CuePolicy {
   double time_ = 0.0;                   ///< s, of the last update
   Links links_;                         ///< as of the last update
   std::optional<DriveState::State> gate_;
-  bool awaited_ = false;  ///< a trial waits for the person
-  bool follows_ = false;  ///< there is a fresh path now
-  bool leads_ = false;    ///< and no word against following it
-  std::string problem_;   ///< why the guidance does not lead, as a cue kind
+  bool awaited_ = false;            ///< a trial waits for the person
+  bool follows_ = false;            ///< there is a fresh path now
+  bool leads_ = false;              ///< and no word against following it
+  std::optional<CueKind> problem_;  ///< why the guidance does not lead
   Eigen::Vector2d problem_goal_ = Eigen::Vector2d::Zero();
   double problem_since_ = 0.0;          ///< s
   std::optional<double> problem_said_;  ///< s
   bool arrival_said_ = false;
   bool led_ = false;                     ///< there was a path to follow
   std::optional<Question> asked_;        ///< the last that was answered
-  std::string answered_;                 ///< the kind of that
+  std::optional<CueKind> answered_;      ///< the kind of that
   std::optional<Question> question_;     ///< to be answered anew
   std::map<std::uint32_t, double> hit_;  ///< s, by thing
-  std::set<std::string> noticed_;
+  std::set<CueKind> noticed_;
   std::optional<double> trial_over_;  ///< s, when that was said
 };
 

@@ -153,12 +153,12 @@ TEST_F(CuePolicyTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   pass(5.0);
   now_.guidance->state = Guidance::State::following;
   heard();
-  for (int i = 0; i < 12 && last_.kind == "blocked"; ++i) {
+  for (int i = 0; i < 12 && last_.kind == CueKind::blocked; ++i) {
     now_.question = Question::way;
     pass(1.0);
     heard();
   }
-  EXPECT_EQ(last_.kind, "straight");
+  EXPECT_EQ(last_.kind, CueKind::straight);
 }
 
 TEST_F(CuePolicyTest, says_go_on_to_nobody_whom_something_will_reach_but_not_for_ever) {
@@ -464,7 +464,7 @@ TEST_F(CuePolicyTest, nothing_cuts_the_word_to_stop_and_the_way_on_follows_it) {
   under_way();
   NearThing forklift{ThingClass::forklift, 5, 1.8, {2.2, 0.0}, true};
   Texts said;
-  while (last_.kind != "obstacle_stop" && forklift.gap > 0.0) {
+  while (last_.kind != CueKind::obstacle_stop && forklift.gap > 0.0) {
     forklift.gap -= 0.006;
     forklift.nearest.x() -= 0.006;
     now_.nearby = {forklift};
@@ -560,18 +560,18 @@ TEST_F(CuePolicyTest, names_the_keyboard_where_the_stick_is_one) {
 
 TEST_F(CuePolicyTest, says_a_notice_once) {
   under_way();
-  now_.notices = {"no_rumble"};
+  now_.notices = {CueKind::no_rumble};
   EXPECT_EQ(pass(3.0), Texts{"this controller cannot rumble"});
   now_.notices.clear();
   EXPECT_EQ(pass(6.0), Texts{});
-  now_.notices = {"no_rumble"};
+  now_.notices = {CueKind::no_rumble};
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
 TEST_F(CuePolicyTest, names_the_person_whose_settings_are_used) {
   under_way();
   now_.person = "sub-01_b";
-  now_.notices = {"settings_of"};
+  now_.notices = {CueKind::settings_of};
   EXPECT_EQ(pass(1.0), Texts{"settings of sub-01 b"});
 }
 
@@ -596,7 +596,7 @@ TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_
   const std::string go_on = pass(5.0).front();
   EXPECT_EQ(go_on, "go on, straight ahead, 20 meters");
   for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
-    policy_.note({{9, stage, "straight", go_on}});
+    policy_.note({{9, stage, CueKind::straight, go_on}});
   now_.question = Question::way;
   EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
 }
@@ -612,7 +612,7 @@ TEST_F(CuePolicyTest, words_things_otherwise_as_soon_as_it_is_wanted) {
 
 TEST_F(CuePolicyTest, gives_no_direction_right_after_the_end_of_a_trial) {
   under_way();
-  now_.notices = {"trial_time_up"};
+  now_.notices = {CueKind::trial_time_up};
   EXPECT_EQ(pass(0.02), Texts{"time is up, the trial is over"});
   now_.notices.clear();
   now_.guidance->steer_angle = now_.guidance->waypoint_angle = 2.0;
@@ -625,7 +625,7 @@ TEST_F(CuePolicyTest, says_what_was_hit_and_where_and_then_the_way_on) {
   now_.contacts = {{ThingClass::shelf, {0.0, 0.35}}};
   EXPECT_EQ(pass(0.1), Texts{"hit a shelf on the left"});
   EXPECT_EQ(last_.priority, Priority::important);
-  EXPECT_EQ(last_.kind, "collision_shelf");
+  EXPECT_EQ(last_.kind, CueKind::collision_shelf);
   EXPECT_EQ(pass(2.0), Texts{"straight ahead, 20 meters"});
   now_.contacts = {{ThingClass::forklift, {0.35, 0.0}}};
   EXPECT_EQ(pass(0.1), Texts{"hit a forklift ahead"});
@@ -818,7 +818,7 @@ TEST_F(CuePolicyTest, has_a_kind_for_every_state_and_refusal_of_the_guidance) {
   }
 }
 
-TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
+TEST_F(CuePolicyTest, speaks_what_can_be_spoken_in_any_situation) {
   std::mt19937 random(1);
   const auto draw = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto link = [&] { return static_cast<Link>(draw(3)); };
@@ -853,7 +853,6 @@ TEST_F(CuePolicyTest, speaks_only_known_kinds_in_any_situation) {
     now_.stick_held_unarmed = draw(2) == 0;
     time_ += 0.02;
     for (const Cue& cue : policy_.update(now_, time_)) {
-      EXPECT_NO_THROW((void)cue_kind(cue.kind));
       EXPECT_TRUE(speakable(cue.text));
     }
     now_.contacts.clear();

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 2;
 
 CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {
-  return {id, stage, cue.kind, cue.text, cue.priority};
+  return {id, stage, navvi_types::Spoken(cue.kind, cue.lesson), cue.text, cue.priority};
 }
 
 }  // namespace

@@ -8,8 +8,21 @@
 namespace navvi_feedback::cues {
 namespace {
 
-Cue cue(const std::string& kind, Priority priority, double max_age = 2.0) {
-  return {kind, "text of " + kind, priority, max_age};
+/// Some kinds, under short names; others have their own.
+CueKind kind_of(const std::string& name) {
+  static const std::map<std::string, CueKind> names = {
+      {"0", CueKind::goal_chosen}, {"1", CueKind::goal_sure},   {"2", CueKind::menu_begin},
+      {"3", CueKind::menu_goals},  {"4", CueKind::menu_place},  {"5", CueKind::menu_end},
+      {"6", CueKind::menu_empty},  {"7", CueKind::menu_closed}, {"8", CueKind::no_trial},
+      {"9", CueKind::setting},     {"a", CueKind::where},       {"b", CueKind::around},
+      {"c", CueKind::no_goal},     {"d", CueKind::help_pad},    {"e", CueKind::help_keys},
+      {"f", CueKind::goal_info},   {"s", CueKind::pad_lost},    {"hit", CueKind::collision_wall}};
+  const auto found = names.find(name);
+  return found != names.end() ? found->second : *navvi_types::from_word<CueKind>(name);
+}
+
+Cue cue(const std::string& name, Priority priority, double max_age = 2.0) {
+  return {kind_of(name), "text of " + name, priority, max_age};
 }
 
 /// "stage kind" of each event, in order.
@@ -17,7 +30,8 @@ std::vector<std::string> told(const CueQueue::Step& step) {
   const std::vector<std::string> stages = {"queued", "started", "ended", "cut", "dropped"};
   std::vector<std::string> words;
   for (const CueEvent& event : step.events)
-    words.push_back(stages.at(static_cast<std::size_t>(event.stage)) + " " + event.kind);
+    words.push_back(stages.at(static_cast<std::size_t>(event.stage)) + " " +
+                    event.text.substr(8, event.text.find(',') - 8));
   return words;
 }
 
@@ -122,10 +136,10 @@ TEST(CueQueue, keeps_important_cues_of_one_kind_that_say_different_things) {
   CueQueue queue;
   Cue box = cue("hit", Priority::important);
   Cue shelf = box;
-  shelf.text = "another";
+  shelf.text = "text of hit, another";
   EXPECT_EQ(told(queue.update({box, shelf, shelf}, false, 0.0)),
             (Words{"queued hit", "queued hit", "queued hit", "dropped hit", "started hit"}));
-  EXPECT_EQ(queue.update({}, false, 0.5).start, "another");
+  EXPECT_EQ(queue.update({}, false, 0.5).start, "text of hit, another");
 }
 
 TEST(CueQueue, keeps_at_most_two_waiting_below_important_and_the_greatest_of_them) {

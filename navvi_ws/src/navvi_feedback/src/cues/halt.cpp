@@ -55,7 +55,7 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
     }
     return;
   }
-  if (!halted() || family_of(event.kind) != Family::halt) return;
+  if (!halted() || !event.kind() || family_of(*event.kind()) != Family::halt) return;
   if (event.stage == CueStage::started) {
     heard_ = true;
     if (std::exchange(begun_, true))

@@ -30,7 +30,7 @@ std::optional<Utterance> HeldStick::update(const Situation& now, double time) {
   if (!since_) since_ = time;
   if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return std::nullopt;
   said_ = time;
-  return Utterance{"release_stick"};
+  return Utterance{CueKind::release_stick};
 }
 
 }  // namespace navvi_feedback::cues

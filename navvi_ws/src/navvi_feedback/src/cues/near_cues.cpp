@@ -51,13 +51,13 @@ bool in_the_way(const Situation& now, const Eigen::Vector2d& point, bool close) 
   return forward >= 0.0 && (close || std::abs(point.y()) <= kHalfLane);
 }
 
-Utterance utterance(const char* kind, ThingClass thing, Side side, bool urgent) {
+Utterance utterance(CueKind kind, ThingClass thing, Side side, bool urgent) {
   return {kind, {{}, {}, thing, side}, urgent ? std::optional(Priority::message) : std::nullopt};
 }
 
-const char* close_kind(ThingClass thing) {
-  if (thing == ThingClass::shelf) return "shelf_close";
-  return thing == ThingClass::wall ? "wall_close" : "obstacle_close";
+CueKind close_kind(ThingClass thing) {
+  if (thing == ThingClass::shelf) return CueKind::shelf_close;
+  return thing == ThingClass::wall ? CueKind::wall_close : CueKind::obstacle_close;
 }
 
 }  // namespace
@@ -76,9 +76,9 @@ NearCues::Level NearCues::observe(Watch& watch, double gap, double time) const {
   return reached;
 }
 
-bool NearCues::too_soon(const std::string& kind, double time) const {
+bool NearCues::too_soon(CueKind kind, double time) const {
   const auto said = said_.find(kind);
-  return said != said_.end() && time - said->second < cue_kind(kind).min_interval;
+  return said != said_.end() && time - said->second < traits(kind).min_interval;
 }
 
 std::vector<Utterance> NearCues::update(const Situation& now, bool all, Hold hold, double time) {
@@ -133,7 +133,9 @@ void NearCues::consider_collisions(const Situation& now, double time,
       utterance(close_kind(first->thing_class), first->thing_class, side, true);
   const bool along = same && warned_stop_ && !first->moving && side != Side::ahead &&
                      soonest > kTooLate && instead_of(keep_off, now.sounds);
-  const std::string kind = comes ? "obstacle_comes" : along ? keep_off.kind : "obstacle_stop";
+  const CueKind kind = comes   ? CueKind::obstacle_comes
+                       : along ? keep_off.kind
+                               : CueKind::obstacle_stop;
   const bool lasts = same && warned_stop_ && !kept_off_ && time - danger_ < kOver;
   if (same) danger_ = time;
   // News is another thing, one that comes after a danger that was over, or the way into it.
@@ -143,8 +145,8 @@ void NearCues::consider_collisions(const Situation& now, double time,
   warned_ = danger_ = time;
   warned_stop_ = !comes;
   kept_off_ = along;
-  best = Candidate{along ? keep_off : utterance(kind.c_str(), first->thing_class, side, false),
-                   first->gap, &things_[first->id], Level::close};
+  best = Candidate{along ? keep_off : utterance(kind, first->thing_class, side, false), first->gap,
+                   &things_[first->id], Level::close};
   // A side of which this was said needs no more words, either.
   watches_[{first->thing_class, side}] = {Level::close, time};
 }
@@ -162,9 +164,9 @@ bool NearCues::comes(const Situation& now, double time) const {
   });
 }
 
-void NearCues::unsaid(const std::string& kind) {
+void NearCues::unsaid(CueKind kind) {
   said_.erase(kind);
-  if (kind == "obstacle_stop" || kind == "obstacle_comes") warned_of_.reset();
+  if (kind == CueKind::obstacle_stop || kind == CueKind::obstacle_comes) warned_of_.reset();
 }
 
 void NearCues::consider_sides(const Situation& now, double time, std::optional<Candidate>& best) {
@@ -191,9 +193,9 @@ void NearCues::consider_sides(const Situation& now, double time, std::optional<C
     if (side == Side::behind && !urgent) continue;
     if ((now.voice_busy && !urgent) || (hold_.ahead && side == Side::ahead))
       if (!now.sounds.shelf) continue;
-    const char* kind = reached == Level::close      ? close_kind(thing)
-                       : thing == ThingClass::shelf ? "shelf_near"
-                                                    : "wall_near";
+    const CueKind kind = reached == Level::close      ? close_kind(thing)
+                         : thing == ThingClass::shelf ? CueKind::shelf_near
+                                                      : CueKind::wall_near;
     if (too_soon(kind, time)) continue;
     best = Candidate{utterance(kind, thing, side, urgent), gap, &watch, reached};
   }
@@ -217,7 +219,7 @@ void NearCues::consider_things(const Situation& now, double time, std::optional<
     const bool urgent = approaches(now, side);
     if ((now.voice_busy && !urgent) || (hold_.ahead && side == Side::ahead))
       if (!now.sounds.near) continue;
-    const char* kind = close ? "obstacle_close" : "obstacle_near";
+    const CueKind kind = close ? CueKind::obstacle_close : CueKind::obstacle_near;
     if (too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
     best = Candidate{utterance(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
   }
@@ -242,8 +244,8 @@ sounds::Earcon earcon_of(ThingClass thing) {
 
 std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {
   using sounds::Earcon;
-  if (family_of(utterance.kind) != Family::near) return std::nullopt;
-  const bool close = utterance.kind.find("_close") != std::string::npos;
+  if (!is_near(family_of(utterance.kind))) return std::nullopt;
+  const bool close = family_of(utterance.kind) == Family::close;
   const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
   const bool shelf = is_structure(thing);
   if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;
@@ -262,12 +264,12 @@ Utterance around(const std::vector<NearThing>& nearby) {
         best = &thing;
     if (best) nearest.push_back(best);
   }
-  if (nearest.empty()) return {"around_nothing"};
+  if (nearest.empty()) return {CueKind::around_nothing};
   std::rotate(nearest.begin(), std::min_element(nearest.begin(), nearest.end(), nearer),
               nearest.end());
   std::vector<Utterance> told;
   for (const NearThing* thing : nearest) {
-    told.push_back({"around", {{}, {}, thing->thing_class, side_of(thing->nearest)}});
+    told.push_back({CueKind::around, {{}, {}, thing->thing_class, side_of(thing->nearest)}});
     told.back().from = thing->nearest;
   }
   Utterance first = told.front();

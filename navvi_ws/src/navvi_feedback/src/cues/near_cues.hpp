@@ -41,7 +41,7 @@ class NearCues {
   [[nodiscard]] bool comes(const Situation& now, double time) const;
 
   /// Words of this kind were dropped: what they told may be told again at once.
-  void unsaid(const std::string& kind);
+  void unsaid(CueKind kind);
 
  private:
   enum class Level { none, near, close };
@@ -65,7 +65,7 @@ class NearCues {
   void consider_sides(const Situation& now, double time, std::optional<Candidate>& best);
   void consider_things(const Situation& now, double time, std::optional<Candidate>& best);
   /// The same kind was said too short a time ago; its next thing waits, so that it is not lost.
-  [[nodiscard]] bool too_soon(const std::string& kind, double time) const;
+  [[nodiscard]] bool too_soon(CueKind kind, double time) const;
   /// Brings a watch up to date. \return what its thing has reached
   Level observe(Watch& watch, double gap, double time) const;
 
@@ -79,7 +79,7 @@ class NearCues {
   bool kept_off_ = false;                   ///< and then only to be kept off
   Hold hold_;
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
-  std::map<std::string, double> said_;     ///< s, by kind
+  std::map<CueKind, double> said_;         ///< s, by kind
   std::map<std::uint32_t, Watch> things_;  ///< by id
 };
 

@@ -40,9 +40,9 @@ class NearCuesTest : public testing::Test {
 using Sides = std::vector<Side>;
 
 TEST(InsteadOf, is_a_sound_for_what_is_near_where_its_family_is_heard) {
-  const Utterance shelf{"wall_close", {{}, {}, ThingClass::wall, Side::left}};
-  const Utterance worker{"obstacle_near", {{}, {}, ThingClass::worker, Side::right}};
-  const Utterance stop{"obstacle_stop", {{}, {}, ThingClass::worker, Side::ahead}};
+  const Utterance shelf{CueKind::wall_close, {{}, {}, ThingClass::wall, Side::left}};
+  const Utterance worker{CueKind::obstacle_near, {{}, {}, ThingClass::worker, Side::right}};
+  const Utterance stop{CueKind::obstacle_stop, {{}, {}, ThingClass::worker, Side::ahead}};
   const Sounds all{true, true, true};
   EXPECT_FALSE(instead_of(shelf, {true, false, true}));
   EXPECT_FALSE(instead_of(worker, {true, true, false}));
@@ -60,7 +60,7 @@ TEST_F(NearCuesTest, says_nothing_where_nothing_is_near) {
 
 TEST_F(NearCuesTest, says_once_that_a_shelf_is_within_a_metre_and_on_which_side) {
   EXPECT_EQ(pass(5.0, {shelf(0.99, kLeft)}), Sides{Side::left});
-  EXPECT_EQ(last_.kind, "shelf_near");
+  EXPECT_EQ(last_.kind, CueKind::shelf_near);
   EXPECT_FALSE(last_.priority);
 }
 
@@ -82,12 +82,12 @@ TEST_F(NearCuesTest, says_it_again_after_the_shelf_was_gone_for_a_while) {
 
 TEST_F(NearCuesTest, says_it_once_more_when_the_shelf_is_close) {
   pass(1.0, {shelf(0.9, kLeft)});
-  EXPECT_EQ(last_.kind, "shelf_near");
+  EXPECT_EQ(last_.kind, CueKind::shelf_near);
   EXPECT_EQ(pass(5.0, {shelf(0.3, kLeft)}), Sides{Side::left});
-  EXPECT_EQ(last_.kind, "shelf_close");
+  EXPECT_EQ(last_.kind, CueKind::shelf_close);
   pass(5.0, {});
   pass(1.0, {{ThingClass::wall, 1, 0.3, kRight, false}});
-  EXPECT_EQ(last_.kind, "wall_close");
+  EXPECT_EQ(last_.kind, CueKind::wall_close);
 }
 
 TEST_F(NearCuesTest, says_both_sides_of_a_narrow_aisle_one_after_the_other) {
@@ -112,7 +112,7 @@ TEST_F(NearCuesTest, names_what_is_behind_only_while_the_robot_drives_back) {
 
 TEST_F(NearCuesTest, speaks_of_walls_too) {
   EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
-  EXPECT_EQ(last_.kind, "wall_near");
+  EXPECT_EQ(last_.kind, CueKind::wall_near);
 }
 
 TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
@@ -121,7 +121,7 @@ TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
   now_.measured->linear = 0.5;
   now_.voice_busy = true;
   EXPECT_EQ(pass(5.0, {pedestal}), Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, "obstacle_near");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_near);
   EXPECT_EQ(last_.fillings.thing, ThingClass::pedestal);
   EXPECT_EQ(last_.priority, Priority::message);
   EXPECT_EQ(pass(1.0, {{ThingClass::box, 4, 0.8, kAhead, false}}), Sides{Side::ahead});
@@ -147,7 +147,7 @@ TEST_F(NearCuesTest, names_what_moves_about_once_more_if_the_robot_may_brush_it)
   };
   EXPECT_EQ(pass(1.0, {worker(0.9, kAhead)}), Sides{Side::ahead});
   EXPECT_EQ(pass(2.0, {worker(0.3, kLeft)}), Sides{Side::left});
-  EXPECT_EQ(last_.kind, "obstacle_close");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_close);
   EXPECT_EQ(pass(5.0, {worker(0.2, kLeft)}), Sides{}) << "it was said";
   EXPECT_EQ(pass(9.0, {}), Sides{});
   EXPECT_EQ(pass(2.0, {worker(0.3, {-0.1, 1.3})}), Sides{}) << "it is left behind";
@@ -180,23 +180,23 @@ TEST_F(StopTest, what_moves_is_stopped_for_by_the_time_to_collision) {
   now_.measured->linear = 0.9;
   EXPECT_EQ(approach({ThingClass::forklift, 3, 4.0, {4.4, 0.0}, true}, 1.5, 2.0),
             Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
   EXPECT_NEAR(gap_ / 1.5, 2.5, 0.1) << "s before the collision";
 }
 
 TEST_F(StopTest, so_is_a_shelf_but_later_if_the_guide_turns_off_before_it) {
   now_.measured->linear = 0.9;
   EXPECT_EQ(approach({ThingClass::shelf, 3, 3.0, {3.4, 0.0}, false}, 0.9, 3.0), Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
   EXPECT_NEAR(gap_ / 0.9, 1.5, 0.1);
   pass(20.0, {});
   now_.guidance.emplace();
   now_.guidance->state = Guidance::State::following;
   now_.guidance->waypoint_distance = 0.5;
   approach({ThingClass::wall, 4, 3.0, {3.4, 0.0}, false}, 0.9, 3.0);
-  while (last_.kind != "obstacle_stop" && gap_ > 0.1)
+  while (last_.kind != CueKind::obstacle_stop && gap_ > 0.1)
     approach({ThingClass::wall, 4, gap_, {gap_ + 0.4, 0.0}, false}, 0.9, 3.0);
-  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
   EXPECT_NEAR(gap_ / 0.9, 1.0, 0.25);
 }
 
@@ -209,7 +209,7 @@ TEST_F(StopTest, a_shelf_that_the_robot_slowly_nears_abeam_is_stopped_for) {
   for (; gap > 0.0 && said.empty(); gap -= 0.05 * 0.02)
     said = pass(0.02, {shelf(gap, {0.0, 0.35 + gap})});
   EXPECT_EQ(said, Sides{Side::left});
-  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
   EXPECT_GT(gap, 0.01);
 }
 
@@ -226,15 +226,15 @@ TEST_F(StopTest,
     return last_.kind;
   };
   pass(1.0, {shelf(0.2, {0.0, 0.55})});
-  EXPECT_EQ(near(0.2), "obstacle_stop");
+  EXPECT_EQ(near(0.2), CueKind::obstacle_stop);
   pass(3.0, {shelf(0.2, {0.0, 0.55})});
-  EXPECT_EQ(near(0.2), "shelf_close");
+  EXPECT_EQ(near(0.2), CueKind::shelf_close);
   EXPECT_EQ(last_.priority, Priority::message);
-  EXPECT_EQ(near(gap), "obstacle_stop") << "who does not keep off";
+  EXPECT_EQ(near(gap), CueKind::obstacle_stop) << "who does not keep off";
   EXPECT_GT(gap, 0.05);
   now_.sounds.shelf = false;
   pass(4.0, {shelf(0.2, {0.0, 0.55})});
-  EXPECT_EQ(near(0.2), "obstacle_stop") << "where there are no sounds";
+  EXPECT_EQ(near(0.2), CueKind::obstacle_stop) << "where there are no sounds";
 }
 
 TEST_F(StopTest, a_shelf_is_stopped_for_1_5_s_before_it_at_the_speed_driven_however_that_began) {
@@ -250,10 +250,10 @@ TEST_F(StopTest, a_shelf_is_stopped_for_1_5_s_before_it_at_the_speed_driven_howe
                                      std::sin(degrees * M_PI / 180.0));
         double gap = first;
         double speed = 0.0;
-        while (last_.kind != "obstacle_stop" && gap > 0.0) {
+        while (last_.kind != CueKind::obstacle_stop && gap > 0.0) {
           now_.commanded.linear = now_.measured->linear = speed;
           pass(0.02, {{ThingClass::shelf, id, gap, (gap + 0.35) * normal, false}});
-          if (last_.kind == "obstacle_stop") break;
+          if (last_.kind == CueKind::obstacle_stop) break;
           speed = std::min(fastest, speed + 1.2 * 0.02);
           gap -= 0.02 * speed * normal.x();
         }
@@ -268,7 +268,7 @@ TEST_F(StopTest, what_is_passed_is_not_stopped_for) {
   for (double x = 3.0; x > -3.0; x -= 0.018) {
     const Eigen::Vector2d at(x, 0.8);
     pass(0.02, {{ThingClass::box, 3, at.norm() - 0.35, at, false}});
-    EXPECT_NE(last_.kind, "obstacle_stop");
+    EXPECT_NE(last_.kind, CueKind::obstacle_stop);
   }
 }
 
@@ -278,18 +278,18 @@ TEST_F(StopTest, who_drives_on_at_it_is_told_again) {
     return NearThing{ThingClass::pallet_robot, 3, gap, {gap + 0.4, 0.0}, true};
   };
   approach(pallet(2.0), 0.3, 9.0);
-  EXPECT_EQ(last_.kind, "obstacle_near");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_near);
   EXPECT_EQ(approach(pallet(gap_), 0.3, 1.0), Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
   EXPECT_EQ(approach(pallet(gap_), 0.1, 2.0), Sides{});
   EXPECT_EQ(approach(pallet(gap_), 0.1, 3.0), Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, "obstacle_stop");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
 }
 
 TEST_F(StopTest, a_robot_that_stands_hears_what_comes_and_from_where) {
   EXPECT_EQ(approach({ThingClass::pallet_robot, 3, 4.0, {-4.4, 0.0}, true}, 1.0, 4.0),
             Sides{Side::behind});
-  EXPECT_EQ(last_.kind, "obstacle_comes");
+  EXPECT_EQ(last_.kind, CueKind::obstacle_comes);
   EXPECT_EQ(approach({ThingClass::pallet_robot, 3, gap_, {-gap_ - 0.4, 0.0}, true}, 1.0, 1.0),
             Sides{})
       << "it was said";
@@ -308,12 +308,12 @@ TEST_F(StopTest, a_robot_that_stands_hears_nothing_of_what_only_turns_past_it) {
 TEST_F(StopTest, what_was_stopped_for_is_told_again_from_the_side_once_it_is_a_danger_anew) {
   now_.measured->linear = 0.3;
   NearThing robot{ThingClass::pallet_robot, 3, 2.0, {2.4, 0.0}, true};
-  while (last_.kind != "obstacle_stop" && robot.gap > 0.1) {
+  while (last_.kind != CueKind::obstacle_stop && robot.gap > 0.1) {
     approach(robot, 0.3, 1.0);
     robot.gap = gap_;
     robot.nearest.x() = gap_ + 0.4;
   }
-  ASSERT_EQ(last_.kind, "obstacle_stop");
+  ASSERT_EQ(last_.kind, CueKind::obstacle_stop);
   pass(3.0, {robot});  // it is waited for, and then driven past, too near
   robot = {ThingClass::pallet_robot, 3, 0.4, {0.5, -0.6}, true};
   Sides said;
@@ -362,13 +362,13 @@ TEST_F(NearCuesTest, adds_nothing_to_a_collision) {
 
 TEST(InsteadOf, sounds_stand_for_what_is_near_and_for_no_other_words) {
   const Sounds all{true, true, true};
-  for (const CueKind& kind : cue_kinds()) {
-    Utterance told{kind.kind};
+  for (const CueKind kind : phrase_kinds()) {
+    Utterance told{kind};
     told.fillings.thing = ThingClass::shelf;
     told.fillings.side = Side::left;
-    EXPECT_EQ(instead_of(told, all).has_value(), kind.family == Family::near) << kind.kind;
+    EXPECT_EQ(instead_of(told, all).has_value(), is_near(family_of(kind))) << to_string(kind);
   }
-  EXPECT_FALSE(instead_of({"menu_closed"}, all)) << "a menu is not a thing";
+  EXPECT_FALSE(instead_of({CueKind::menu_closed}, all)) << "a menu is not a thing";
 }
 
 }  // namespace

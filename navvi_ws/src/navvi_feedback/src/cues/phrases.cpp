@@ -90,7 +90,7 @@ const std::set<std::string> kPicture = {"drive",
 
 std::set<std::string> kind_keys() {
   std::set<std::string> keys;
-  for (const CueKind& kind : cue_kinds()) keys.insert(kind.kind);
+  for (const CueKind kind : phrase_kinds()) keys.insert(to_string(kind));
   return keys;
 }
 
@@ -242,6 +242,13 @@ void check_phrase(const Section& section, const std::string& key, const std::str
 
 }  // namespace
 
+std::vector<CueKind> phrase_kinds() {
+  std::vector<CueKind> kinds;
+  for (const navvi_types::CueTraits& row : navvi_types::cue_table::kRows)
+    if (row.kind != CueKind::lesson) kinds.push_back(row.kind);
+  return kinds;
+}
+
 bool speakable(const std::string& text) {
   if (text.empty() || text.size() > kMaxBytes) return false;
   std::size_t word = 0;
@@ -291,27 +298,32 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   if (root["lessons"]) lessons_ = Section(name, root, "lessons").read(std::nullopt);
 
   Section phrases(name, root, "phrases");
-  auto& always = phrases_["phrases"] = phrases.read(kind_keys());
-  for (const CueKind& kind : cue_kinds())
-    if (always.count(kind.kind) == 0) phrases.fail(kind.kind, "is missing");
-  for (const auto& [kind, text] : always) check_phrase(phrases, kind, text, words_);
+  const auto read_phrases = [&](Section& section, const std::string& which) {
+    for (const auto& [key, text] : section.read(kind_keys())) {
+      check_phrase(section, key, text, words_);
+      phrases_[which].emplace(*navvi_types::from_word<CueKind>(key), text);
+    }
+  };
+  read_phrases(phrases, "phrases");
+  for (const CueKind kind : phrase_kinds())
+    if (phrases_["phrases"].count(kind) == 0) phrases.fail(to_string(kind), "is missing");
 
   for (const std::string& which : instead) {
     Section section(name, root, which);
-    phrases_[which] = section.read(kind_keys());
-    for (const auto& [kind, text] : phrases_[which]) check_phrase(section, kind, text, words_);
+    read_phrases(section, which);
   }
 
   // Whatever leads on may have to end a wait.
   for (const auto& [which, texts] : phrases_)
     for (const auto& [kind, text] : texts)
       for (const auto& ends : phrases_)
-        if (const auto go_on = ends.second.find("go_on");
+        if (const auto go_on = ends.second.find(CueKind::go_on);
             is_way(family_of(kind)) && go_on != ends.second.end())
-          check_phrase(Section(name, root, which), kind, go_on->second + ", " + text, words_);
+          check_phrase(Section(name, root, which), to_string(kind), go_on->second + ", " + text,
+                       words_);
 }
 
-std::string Phrases::say(const std::string& kind, const Fillings& fillings, bool again) const {
+std::string Phrases::say(CueKind kind, const Fillings& fillings, bool again) const {
   for (const std::string& section :
        {std::string("again"), wording_.verbosity, wording_.directions, std::string("phrases")}) {
     if (section == "again" && !again) continue;
@@ -321,7 +333,7 @@ std::string Phrases::say(const std::string& kind, const Fillings& fillings, bool
       return fill_in(phrase->second,
                      [&](const std::string& name) { return filling(name, fillings); });
   }
-  throw std::logic_error("\"" + kind + "\" has no phrase.");
+  throw std::logic_error(std::string("\"") + to_string(kind) + "\" has no phrase.");
 }
 
 std::string Phrases::filling(const std::string& placeholder, const Fillings& fillings) const {

@@ -99,67 +99,69 @@ TEST(Phrases, of_every_kind_can_be_spoken_in_each_language_and_wording) {
   for (const fs::path& language : {kEnglish, kSpanish})
     for (const WordingConfig& worded : all_wordings()) {
       const Phrases phrases(language, worded);
-      for (const CueKind& kind : cue_kinds())
-        EXPECT_TRUE(speakable(phrases.say(kind.kind, everything()))) << kind.kind;
+      for (const CueKind kind : phrase_kinds())
+        EXPECT_TRUE(speakable(phrases.say(kind, everything()))) << to_string(kind);
     }
 }
 
 TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say("direction", everything()), "3 o'clock, 8 meters");
-  EXPECT_EQ(phrases.say("straight", everything()), "straight ahead, 8 meters");
-  EXPECT_EQ(phrases.say("turn_ahead", everything()), "in 8 meters, turn to 3 o'clock");
-  EXPECT_EQ(phrases.say("turn_now", everything()), "turn to 3 o'clock now");
-  EXPECT_EQ(phrases.say("start", everything()), "Ready. Goal 8 meters, 3 o'clock");
-  EXPECT_EQ(phrases.say("shelf_near", everything()), "shelf on the left");
-  EXPECT_EQ(phrases.say("shelf_close", everything()), "shelf very close, on the left");
-  EXPECT_EQ(phrases.say("obstacle_near", everything()), "pallet robot on the left");
-  EXPECT_EQ(phrases.say("obstacle_stop", everything()), "stop, pallet robot on the left");
-  EXPECT_EQ(phrases.say("obstacle_close", everything()), "pallet robot very close, on the left");
-  EXPECT_EQ(phrases.say("release_stick"), "release the stick");
-  EXPECT_EQ(phrases.say("collision_obstacle", everything()), "hit a pallet robot on the left");
-  EXPECT_EQ(phrases.say("stuck", everything()), "stuck, pallet robot left, try 3 o'clock");
-  EXPECT_EQ(phrases.say("arrived"), "You have reached your destination");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "3 o'clock, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::straight, everything()), "straight ahead, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::turn_ahead, everything()), "in 8 meters, turn to 3 o'clock");
+  EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn to 3 o'clock now");
+  EXPECT_EQ(phrases.say(CueKind::start, everything()), "Ready. Goal 8 meters, 3 o'clock");
+  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "shelf on the left");
+  EXPECT_EQ(phrases.say(CueKind::shelf_close, everything()), "shelf very close, on the left");
+  EXPECT_EQ(phrases.say(CueKind::obstacle_near, everything()), "pallet robot on the left");
+  EXPECT_EQ(phrases.say(CueKind::obstacle_stop, everything()), "stop, pallet robot on the left");
+  EXPECT_EQ(phrases.say(CueKind::obstacle_close, everything()),
+            "pallet robot very close, on the left");
+  EXPECT_EQ(phrases.say(CueKind::release_stick), "release the stick");
+  EXPECT_EQ(phrases.say(CueKind::collision_obstacle, everything()),
+            "hit a pallet robot on the left");
+  EXPECT_EQ(phrases.say(CueKind::stuck, everything()), "stuck, pallet robot left, try 3 o'clock");
+  EXPECT_EQ(phrases.say(CueKind::arrived), "You have reached your destination");
 }
 
 TEST(Phrases, call_a_leg_straight_ahead_in_every_wording_but_a_place_by_its_hour) {
   Fillings ahead = everything();
   ahead.hour = 12;
   for (const char* directions : {"clock", "left_right", "degrees"})
-    EXPECT_EQ(Phrases(kEnglish, wording(directions)).say("rerouted", ahead),
+    EXPECT_EQ(Phrases(kEnglish, wording(directions)).say(CueKind::rerouted, ahead),
               "new route, straight ahead, 8 meters");
   const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say("make_room", ahead),
+  EXPECT_EQ(phrases.say(CueKind::make_room, ahead),
             "make room for a pallet robot, straight ahead, 8 meters");
-  EXPECT_EQ(phrases.say("goal_info", ahead), "goal 8 meters, 12 o'clock");
-  EXPECT_EQ(phrases.say("rerouted", everything()), "new route, 3 o'clock, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::goal_info, ahead), "goal 8 meters, 12 o'clock");
+  EXPECT_EQ(phrases.say(CueKind::rerouted, everything()), "new route, 3 o'clock, 8 meters");
 }
 
 TEST(Phrases, offer_left_and_right_instead_of_the_clock) {
   const Phrases phrases(kEnglish, wording("left_right"));
-  EXPECT_EQ(phrases.say("direction", everything()), "right, 8 meters");
-  EXPECT_EQ(phrases.say("turn_now", everything()), "turn right now");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "right, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn right now");
 }
 
 TEST(Phrases, count_degrees_to_either_side) {
   const Phrases phrases(kEnglish, wording("degrees"));
-  EXPECT_EQ(phrases.say("direction", everything()), "90 degrees right, 8 meters");
-  EXPECT_EQ(phrases.say("turn_now", everything()), "turn 90 degrees right now");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "90 degrees right, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn 90 degrees right now");
   Fillings left = everything();
   left.hour = 10;
-  EXPECT_EQ(phrases.say("rerouted", left), "new route, 60 degrees left, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::rerouted, left), "new route, 60 degrees left, 8 meters");
 }
 
 TEST(Phrases, are_shorter_or_longer_where_that_is_wanted) {
   const Phrases brief(kEnglish, wording("clock", "meters", "brief"));
-  EXPECT_EQ(brief.say("direction", everything()), "3 o'clock");
-  EXPECT_EQ(brief.say("turn_ahead", everything()), "in 8 meters, 3 o'clock");
+  EXPECT_EQ(brief.say(CueKind::direction, everything()), "3 o'clock");
+  EXPECT_EQ(brief.say(CueKind::turn_ahead, everything()), "in 8 meters, 3 o'clock");
   const Phrases full(kEnglish, wording("clock", "meters", "full"));
-  EXPECT_EQ(full.say("blocked", everything()),
+  EXPECT_EQ(full.say(CueKind::blocked, everything()),
             "wait, pallet robot in the way, I will say when to go on");
   const auto bytes = [](const Phrases& phrases) {
     std::size_t sum = 0;
-    for (const CueKind& kind : cue_kinds()) sum += phrases.say(kind.kind, everything()).size();
+    for (const CueKind kind : phrase_kinds()) sum += phrases.say(kind, everything()).size();
     return sum;
   };
   for (const fs::path& language : {kEnglish, kSpanish}) {
@@ -175,42 +177,44 @@ TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
   Fillings one = everything();
   one.hour = 1;
   one.distance = 1.0;
-  EXPECT_EQ(phrases.say("direction", one), "hacia la 1, 1 metro");
-  EXPECT_EQ(phrases.say("direction", everything()), "hacia las 3, 8 metros");
-  EXPECT_EQ(phrases.say("shelf_near", everything()), "estanter\u00eda a la izquierda");
+  EXPECT_EQ(phrases.say(CueKind::direction, one), "hacia la 1, 1 metro");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "hacia las 3, 8 metros");
+  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "estanter\u00eda a la izquierda");
 }
 
 TEST(Phrases, name_what_the_hands_are_on) {
   Fillings keys = everything();
   keys.keys = true;
   const Phrases english(kEnglish);
-  EXPECT_EQ(english.say("robot_stopped"), "robot stopped, release the stick");
-  EXPECT_EQ(english.say("robot_stopped", keys), "robot stopped, release the keys");
-  EXPECT_EQ(english.say("setting_open", keys),
+  EXPECT_EQ(english.say(CueKind::robot_stopped), "robot stopped, release the stick");
+  EXPECT_EQ(english.say(CueKind::robot_stopped, keys), "robot stopped, release the keys");
+  EXPECT_EQ(english.say(CueKind::setting_open, keys),
             "volume, 2 percent, page up for more, page down for less");
-  EXPECT_EQ(Phrases(kSpanish).say("release_stick", keys), "suelte las teclas");
+  EXPECT_EQ(Phrases(kSpanish).say(CueKind::release_stick, keys), "suelte las teclas");
 }
 
 TEST(Phrases, call_what_has_no_name_something) {
   Fillings fillings = everything();
   fillings.thing = ThingClass::other;
   const Phrases english(kEnglish);
-  EXPECT_EQ(english.say("collision_obstacle", fillings), "hit something on the left");
-  EXPECT_EQ(english.say("obstacle_comes", fillings), "something coming, on the left");
-  EXPECT_EQ(english.say("make_room", fillings), "make room for something, 3 o'clock, 8 meters");
-  EXPECT_EQ(Phrases(kSpanish).say("collision_obstacle", fillings), "choque, algo a la izquierda");
+  EXPECT_EQ(english.say(CueKind::collision_obstacle, fillings), "hit something on the left");
+  EXPECT_EQ(english.say(CueKind::obstacle_comes, fillings), "something coming, on the left");
+  EXPECT_EQ(english.say(CueKind::make_room, fillings),
+            "make room for something, 3 o'clock, 8 meters");
+  EXPECT_EQ(Phrases(kSpanish).say(CueKind::collision_obstacle, fillings),
+            "choque, algo a la izquierda");
 }
 
 TEST(Phrases, of_the_end_of_a_wait_and_of_straight_ahead_begin_with_other_words) {
   for (const fs::path& language : {kEnglish, kSpanish})
     for (const WordingConfig& worded : all_wordings()) {
       const Phrases phrases(language, worded);
-      const auto first = [&](const char* kind) {
+      const auto first = [&](CueKind kind) {
         const std::string text = phrases.say(kind, everything());
         return text.substr(0, text.find_first_of(" ,"));
       };
-      const std::set<std::string> words = {first("go_on"), first("straight"),
-                                           first("obstacle_stop"), first("blocked")};
+      const std::set<std::string> words = {first(CueKind::go_on), first(CueKind::straight),
+                                           first(CueKind::obstacle_stop), first(CueKind::blocked)};
       EXPECT_EQ(words.size(), 4U) << language;
     }
 }
@@ -225,7 +229,7 @@ TEST(Phrases, of_the_way_must_leave_room_for_the_end_of_a_wait) {
 TEST(Phrases, teach_the_word_to_stop_that_is_said) {
   for (const fs::path& language : {kEnglish, kSpanish}) {
     const Phrases phrases(language);
-    const std::string stop = phrases.say("obstacle_stop", everything());
+    const std::string stop = phrases.say(CueKind::obstacle_stop, everything());
     EXPECT_EQ(phrases.lessons().at("tutorial_stop"), stop.substr(0, stop.find(',')));
   }
 }
@@ -249,11 +253,11 @@ TEST(Phrases, give_feet_where_they_are_wanted) {
 
 TEST(Phrases, name_places_with_their_number) {
   const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say("menu_place", everything()), "dock 2");
+  EXPECT_EQ(phrases.say(CueKind::menu_place, everything()), "dock 2");
   Fillings task;
   task.place = PlaceName::task;
-  EXPECT_EQ(phrases.say("goal_chosen", task), "the goal is now the goal of the task");
-  EXPECT_THROW(static_cast<void>(phrases.say("menu_place")), std::logic_error);
+  EXPECT_EQ(phrases.say(CueKind::goal_chosen, task), "the goal is now the goal of the task");
+  EXPECT_THROW(static_cast<void>(phrases.say(CueKind::menu_place)), std::logic_error);
 }
 
 TEST(Phrases, round_distances_as_people_say_them) {
@@ -269,11 +273,11 @@ TEST(Phrases, round_distances_as_people_say_them) {
 
 TEST(Phrases, refuse_to_speak_without_what_the_phrase_needs) {
   const Phrases phrases(kEnglish);
-  EXPECT_THROW((void)phrases.say("direction"), std::logic_error);
-  EXPECT_THROW((void)phrases.say("no such kind"), std::logic_error);
+  EXPECT_THROW((void)phrases.say(CueKind::direction), std::logic_error);
+  EXPECT_THROW((void)phrases.say(CueKind::lesson), std::logic_error);
   Fillings thirteen = everything();
   thirteen.hour = 13;
-  EXPECT_THROW((void)phrases.say("direction", thirteen), std::logic_error);
+  EXPECT_THROW((void)phrases.say(CueKind::direction, thirteen), std::logic_error);
 }
 
 TEST(Phrases, refuse_a_file_that_is_missing_or_no_map) {
@@ -338,7 +342,7 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
   for (const fs::path& language : {kEnglish, kSpanish})
     for (const WordingConfig& worded : all_wordings()) {
       const Phrases phrases(language, worded);
-      for (const CueKind& kind : cue_kinds())
+      for (const CueKind kind : phrase_kinds())
         for (int hour = 1; hour <= 12; ++hour)
           for (int thing = static_cast<int>(ThingClass::shelf);
                thing <= static_cast<int>(ThingClass::other); ++thing)
@@ -353,7 +357,7 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
                                         static_cast<SettingName>(hour),
                                         std::nullopt,
                                         "a23456789_123456789-1234"};
-                ASSERT_TRUE(speakable(phrases.say(kind.kind, fillings))) << kind.kind;
+                ASSERT_TRUE(speakable(phrases.say(kind, fillings))) << to_string(kind);
               }
     }
 }

@@ -12,25 +12,25 @@ namespace {
 /// Its words are a reminder: each of the others is for something that has just happened, be it the
 /// same thing that is hit or waited for once more.
 bool tells_nothing_new(const Utterance& utterance) {
-  static const std::set<std::string> reminders = {"stuck",         "stuck_unknown", "back_away",
-                                                  "release_stick", "press_start",   "press_enter",
-                                                  "choose_goal"};
-  const Priority priority = utterance.priority.value_or(cue_kind(utterance.kind).priority);
-  const bool introduces = utterance.kind.rfind("start", 0) == 0;
+  static const std::set<CueKind> reminders = {
+      CueKind::stuck,       CueKind::stuck_unknown, CueKind::back_away,  CueKind::release_stick,
+      CueKind::press_start, CueKind::press_enter,   CueKind::choose_goal};
+  const Priority priority = utterance.priority.value_or(traits(utterance.kind).priority);
+  const bool introduces = traits(utterance.kind).ask == navvi_types::Ask::ready;
   return (priority <= Priority::text && !introduces) || reminders.count(utterance.kind) > 0;
 }
 
 /// Whether the person does without it, unless they ask.
-bool muted(const CueKind& kind, const WordingConfig& wording) {
-  return (!wording.way && kind.family == Family::way) ||
-         (!wording.near && kind.family == Family::near);
+bool muted(CueKind kind, const WordingConfig& wording) {
+  return (!wording.way && family_of(kind) == Family::way) ||
+         (!wording.near && is_near(family_of(kind)));
 }
 
 }  // namespace
 
-bool Phrasing::too_soon(const CueKind& kind, double time) const {
-  const auto last = last_said_.find(kind.kind);
-  return last != last_said_.end() && time - last->second < kind.min_interval;
+bool Phrasing::too_soon(CueKind kind, double time) const {
+  const auto last = last_said_.find(kind);
+  return last != last_said_.end() && time - last->second < traits(kind).min_interval;
 }
 
 /// As much of it as may be spoken at once.
@@ -47,7 +47,7 @@ Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const 
   };
   sounds_from(utterance);
   // Phrases has seen to it that there is room.
-  if (utterance.goes_on) told.text = phrases_.say("go_on") + ", " + told.text;
+  if (utterance.goes_on) told.text = phrases_.say(CueKind::go_on) + ", " + told.text;
   for (const Utterance& more : utterance.also)
     if (longer(told.text + ", " + phrases_.say(more.kind, more.fillings))) sounds_from(more);
   return told;
@@ -58,7 +58,8 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
   std::vector<Cue> cues;
   for (Utterance utterance : utterances) {
     utterance.fillings.keys = now.keyboard;
-    const CueKind& kind = cue_kind(utterance.kind);
+    const CueKind kind = utterance.kind;
+    const navvi_types::CueTraits& usual = traits(kind);
     // An answer, and the end of a wait, are always said.
     const bool always = utterance.asked || utterance.goes_on;
     if (!always && muted(kind, phrases_.wording()) && !instead_of(utterance, now.sounds)) continue;
@@ -74,17 +75,17 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
     const bool felt = again && now.touch && tells_nothing_new(utterance);
     if (again && !felt)
       if (Sentence other = word(utterance, true); age(other.text) > age(told.text)) told = other;
-    Cue cue{kind.kind,    told.text, utterance.priority.value_or(kind.priority),
-            kind.max_age, sound,     utterance.asked};
+    Cue cue{kind,          told.text, utterance.priority.value_or(usual.priority),
+            usual.max_age, sound,     utterance.asked};
     cue.goes_on = utterance.goes_on;
-    if (cue.goes_on) cue.max_age = cue_kind("go_on").max_age;
+    if (cue.goes_on) cue.max_age = traits(CueKind::go_on).max_age;
     cue.felt = felt;
     cue.scan = told.scan;
     if (!sound && !felt) {
       last_text_[cue.text] = time;
       if (utterance.fillings.hour == 12) straight_said_ = time;
     }
-    last_said_[kind.kind] = time;
+    last_said_[kind] = time;
     cues.push_back(cue);
   }
   std::stable_sort(cues.begin(), cues.end(),
@@ -93,7 +94,7 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
 }
 
 void Phrasing::forget(const CueEvent& event) {
-  last_said_.erase(event.kind);
+  if (event.kind()) last_said_.erase(*event.kind());
   last_text_.erase(event.text);
 }
 

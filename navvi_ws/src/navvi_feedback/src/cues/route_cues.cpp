@@ -87,7 +87,7 @@ std::vector<Utterance> RouteCues::update(const Situation& now, bool halted, doub
     reroutes_ = reroutes_before_ = guidance.reroutes;
     pending_ = Change::none;
     said_hour_.reset();
-    Utterance start = goal("start", now);
+    Utterance start = goal(CueKind::start, CueKind::start_distance, now);
     if (!by_sound_) return {start};
     // Ticks say where to turn first, but not to drive.
     if (*hour_ == 12) start.also = {*direction(guidance)};
@@ -102,19 +102,19 @@ std::optional<Utterance> RouteCues::go_on(const Situation& now, double time) {
   if (!way) return std::nullopt;
   if (guidance.state == Guidance::State::make_room) {
     made_room_ = true;
-    way->kind = "make_room";
+    way->kind = CueKind::make_room;
     way->fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
   } else if (new_goal(guidance)) {
-    way->also = {goal("goal_info", now)};
+    way->also = {goal(CueKind::goal_info, CueKind::goal_info_distance, now)};
     goal_ = guidance.goal;
     reroutes_ = reroutes_before_ = guidance.reroutes;
-  } else if (guidance.reroutes != reroutes_ && way->kind != "slight") {
-    way->kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+  } else if (guidance.reroutes != reroutes_ && way->kind != CueKind::slight) {
+    way->kind = closed_way(guidance) ? CueKind::rerouted_blocked : CueKind::rerouted;
   } else if (const auto turn = turn_within_reach(guidance); turn && *hour_ == 12) {
-    way = announce_turn("straight_then", *way, *turn, time);
+    way = announce_turn(CueKind::straight_then, *way, *turn, time);
   }
   way->goes_on = true;
-  way->priority = cue_kind("go_on").priority;
+  way->priority = traits(CueKind::go_on).priority;
   return said(*way, *hour_, time);
 }
 
@@ -123,18 +123,18 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
   Utterance way = *direction(guidance);
   if (guidance.state == Guidance::State::make_room && !made_room_) {
     made_room_ = true;
-    way.kind = "make_room";
+    way.kind = CueKind::make_room;
     way.fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
     return {said(way, *hour_, time)};
   }
   if (turning_) {
     if (by_sound_ || !about_to_face(now) || quiet(now, time)) return {};
     Utterance straight = *direction(guidance);
-    straight.kind = "straight";
+    straight.kind = CueKind::straight;
     straight.fillings.hour = 12;
     straight.priority = Priority::message;
     if (const auto turn = turn_within_reach(guidance))
-      straight = announce_turn("straight_then", straight, *turn, time);
+      straight = announce_turn(CueKind::straight_then, straight, *turn, time);
     return {said(straight, 12, time)};
   }
   if (pending_ == Change::next_corner && *hour_ != 12) {
@@ -147,40 +147,40 @@ std::vector<Utterance> RouteCues::tell(const Situation& now, double time) {
     if (leads_off_)
       way.priority = Priority::message;
     else
-      way.kind = "turn_now";
+      way.kind = CueKind::turn_now;
     if (const auto turn = turn_within_reach(guidance);
         turn && config_.join && guidance.waypoint_distance < kNextTurn)
-      way.also = {announce_turn("turn_ahead", way, *turn, time)};
+      way.also = {announce_turn(CueKind::turn_ahead, way, *turn, time)};
     return {said(way, *hour_, time)};
   }
   if (by_sound_ && pending_ == Change::reroute) {
     pending_ = Change::none;
     if (guidance.reroutes == reroutes_) return {};
-    way.kind = closed_way(guidance) ? "way_blocked" : "new_route";
+    way.kind = closed_way(guidance) ? CueKind::way_blocked : CueKind::new_route;
     reroutes_before_ = std::exchange(reroutes_, guidance.reroutes);
     return {way};
   }
   if (now.voice_busy) return {};
   if (const auto astray = stray(now, time)) return {*astray};
   if (pending_ == Change::reroute && *hour_ != said_hour_) {
-    way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+    way.kind = closed_way(guidance) ? CueKind::rerouted_blocked : CueKind::rerouted;
     return {said(way, *hour_, time)};
   }
   const std::optional<int> turn = turn_within_reach(guidance);
   if (fell_away_ && !turn && *hour_ == 12) {
-    way.kind = "turn_cancelled";
+    way.kind = CueKind::turn_cancelled;
     return {said(way, *hour_, time)};
   }
   if (direction_due(now, time)) {
     // Who is told "straight ahead" just before a turn drives past it.
-    if (turn && *hour_ == 12) return {announce_turn("straight_then", way, *turn, time)};
+    if (turn && *hour_ == 12) return {announce_turn(CueKind::straight_then, way, *turn, time)};
     // The route changed while the person waited.
-    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind != "slight")
-      way.kind = closed_way(guidance) ? "rerouted_blocked" : "rerouted";
+    if (!said_hour_ && guidance.reroutes != reroutes_ && way.kind != CueKind::slight)
+      way.kind = closed_way(guidance) ? CueKind::rerouted_blocked : CueKind::rerouted;
     return {said(way, *hour_, time)};
   }
   if (turn && !ahead_told_ && turn_ahead_due(guidance, *turn, time))
-    return {announce_turn("turn_ahead", way, *turn, time)};
+    return {announce_turn(CueKind::turn_ahead, way, *turn, time)};
   return {};
 }
 
@@ -189,25 +189,27 @@ std::optional<Utterance> RouteCues::stray(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
   const bool drives = now.measured && now.measured->linear > kDrives;
   const bool wrong = drives && std::abs(guidance.steer_angle) > kWrongWay;
-  const double limit = astray_ == "off_path" ? kOnPath : kOffPath;
-  const char* kind = wrong ? "wrong_way" : guidance.path_offset > limit ? "off_path" : "";
+  const double limit = astray_ == CueKind::off_path ? kOnPath : kOffPath;
+  std::optional<CueKind> kind;
+  if (guidance.path_offset > limit) kind = CueKind::off_path;
+  if (wrong) kind = CueKind::wrong_way;
   if (kind != astray_) {
     astray_ = kind;
     astray_since_ = time;
     astray_said_.reset();
   }
   // Where words alone lead, they would take the place of the direction.
-  if (!by_sound_ || astray_.empty() || time - astray_since_ < kAstray || !drives) return {};
+  if (!by_sound_ || !astray_ || time - astray_since_ < kAstray || !drives) return {};
   if (astray_said_ && time - *astray_said_ < kStillAstray) return {};
   astray_said_ = time;
   Utterance told = *direction(guidance);
-  told.kind = astray_;
+  told.kind = *astray_;
   told.fillings.side = guidance.steer_angle > 0.0 ? Side::right : Side::left;
   if (!wrong) told.fillings.distance = guidance.path_offset;
   return said(told, *hour_, time);
 }
 
-Utterance RouteCues::announce_turn(const char* kind, Utterance way, int turn, double time) {
+Utterance RouteCues::announce_turn(CueKind kind, Utterance way, int turn, double time) {
   way.kind = kind;
   way.fillings.hour = turn;
   turn_said_ = turn;
@@ -228,7 +230,9 @@ std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
   const auto hour = hour_ ? hour_ : clock_hour(guidance.steer_angle, rounding_);
   if (!hour || !std::isfinite(guidance.waypoint_distance)) return std::nullopt;
   Utterance utterance;
-  utterance.kind = leads_off_ ? "slight" : *hour == 12 ? "straight" : "direction";
+  utterance.kind = leads_off_    ? CueKind::slight
+                   : *hour == 12 ? CueKind::straight
+                                 : CueKind::direction;
   utterance.fillings.hour = hour;
   utterance.fillings.side = *hour < 6 ? Side::right : Side::left;
   utterance.fillings.distance = std::max(0.0, guidance.waypoint_distance);
@@ -236,17 +240,17 @@ std::optional<Utterance> RouteCues::direction(const Guidance& guidance) const {
 }
 
 Utterance RouteCues::next_turn(const Guidance& guidance) const {
-  Utterance turn{"turn_ahead"};
+  Utterance turn{CueKind::turn_ahead};
   turn.fillings.hour = hour_of(guidance.turn_angle);
   turn.fillings.distance = std::max(0.0, guidance.waypoint_distance);
   return turn;
 }
 
-Utterance RouteCues::goal(const std::string& kind, const Situation& now) const {
+Utterance RouteCues::goal(CueKind kind, CueKind without_hour, const Situation& now) const {
   Utterance utterance;
   utterance.fillings.distance = std::max(0.0, now.guidance->goal_distance);
   if (now.goal_angle) utterance.fillings.hour = clock_hour(*now.goal_angle, rounding_);
-  utterance.kind = utterance.fillings.hour ? kind : kind + "_distance";
+  utterance.kind = utterance.fillings.hour ? kind : without_hour;
   return utterance;
 }
 

@@ -31,13 +31,13 @@ class RouteCues {
 
   /// The direction as of now, for a person who asks.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
-  /// Distance and, if it is known, hour of the goal. \param kind  "start" or "goal_info"
   [[nodiscard]] int hour_of(double angle) const {
     return clock_hour(angle, rounding_).value_or(12);
   }
-  /// Where it is, and where to it leads.
+  /// Where the next turn is, and where it leads.
   [[nodiscard]] Utterance next_turn(const Guidance& guidance) const;
-  [[nodiscard]] Utterance goal(const std::string& kind, const Situation& now) const;
+  /// Distance and, if it is known, hour of the goal. \param without_hour  the kind if it is not
+  [[nodiscard]] Utterance goal(CueKind kind, CueKind without_hour, const Situation& now) const;
 
   /// The path is gone: when there is one again, say where it leads.
   void pause();
@@ -74,7 +74,7 @@ class RouteCues {
   [[nodiscard]] bool turn_ahead_due(const Guidance& guidance, int turn, double time) const;
   [[nodiscard]] bool direction_due(const Situation& now, double time) const;
   [[nodiscard]] std::vector<Utterance> tell(const Situation& now, double time);
-  [[nodiscard]] Utterance announce_turn(const char* kind, Utterance way, int turn, double time);
+  [[nodiscard]] Utterance announce_turn(CueKind kind, Utterance way, int turn, double time);
   [[nodiscard]] std::optional<Utterance> stray(const Situation& now, double time);
   Utterance said(Utterance utterance, int hour, double time);
 
@@ -101,7 +101,7 @@ class RouteCues {
   bool turning_ = false;                 ///< on the spot, or not yet settled
   std::optional<double> last_turning_;   ///< s
   double last_commanded_ = 0.0;          ///< s, when the person last moved the stick
-  std::string astray_;                   ///< the wrong way, or off the path, as a kind of cue
+  std::optional<CueKind> astray_;        ///< the wrong way, or off the path
   double astray_since_ = 0.0;            ///< s
   std::optional<double> astray_said_;    ///< s
   std::optional<double> reminder_;       ///< s, say the direction again from then on

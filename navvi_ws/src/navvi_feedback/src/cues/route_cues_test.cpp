@@ -32,8 +32,8 @@ class Drive {
   explicit Drive(const RouteConfig& config = {}) : cues(config) { now.measured.emplace(); }
 
   /// Lets `seconds` pass in this situation and returns the kinds that were said.
-  std::vector<std::string> pass(double seconds) {
-    std::vector<std::string> kinds;
+  std::vector<CueKind> pass(double seconds) {
+    std::vector<CueKind> kinds;
     for (const double end = time + seconds; time < end - 1e-9; time += kTick) {
       for (const Utterance& utterance : cues.update(now, false, time)) {
         kinds.push_back(utterance.kind);
@@ -63,7 +63,7 @@ class Drive {
   double time = 100.0;
 };
 
-using Kinds = std::vector<std::string>;
+using Kinds = std::vector<CueKind>;
 
 TEST(RouteCues, leave_corrections_to_the_sound_while_it_is_heard) {
   for (const bool sound : {true, false}) {
@@ -89,14 +89,14 @@ TEST(RouteCues, say_a_turn_once_and_no_bend_where_a_sound_leads_round) {
       drive.now.guidance = following(0.0, 5.0);
       drive.now.guidance->turn_angle = announced ? rad(turn) : 0.0;
       const bool worth_words = turn > 45.0;
-      EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{"turn_ahead"} : Kinds{});
+      EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{CueKind::turn_ahead} : Kinds{});
       drive.now.guidance->waypoint_distance = 0.5;
       drive.pass(1.0);
       drive.now.guidance = following(turn, 12.0);
       drive.now.guidance->waypoint = {10.0, 12.0};
-      EXPECT_EQ(drive.pass(3.0), worth_words && !announced ? Kinds{"turn_now"} : Kinds{});
+      EXPECT_EQ(drive.pass(3.0), worth_words && !announced ? Kinds{CueKind::turn_now} : Kinds{});
       drive.now.guidance->steer_angle = 0.0;
-      EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{"straight"} : Kinds{});
+      EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{CueKind::straight} : Kinds{});
     }
   }
 }
@@ -105,13 +105,13 @@ TEST(RouteCues, introduce_a_new_goal_and_then_the_way_to_it) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
   drive.now.goal_angle = rad(-60.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{"start"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start});
   EXPECT_EQ(drive.last.fillings.hour, 10);
   EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 25.0);
   drive.now.voice_busy = true;
   EXPECT_EQ(drive.pass(2.0), Kinds{});
   drive.now.voice_busy = false;
-  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::direction});
   EXPECT_EQ(drive.last.fillings.hour, 3);
   EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 8.0);
 }
@@ -119,7 +119,7 @@ TEST(RouteCues, introduce_a_new_goal_and_then_the_way_to_it) {
 TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start_distance});
 }
 
 TEST(RouteCues, say_nothing_of_an_angle_that_is_no_number) {
@@ -136,23 +136,23 @@ TEST(RouteCues, do_not_say_by_themselves_what_was_just_answered) {
   drive.settle(0.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
   drive.pass(6.0);
-  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, CueKind::straight);
   EXPECT_EQ(drive.pass(19.0), Kinds{});
-  EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::straight});
 }
 
 TEST(RouteCues, send_nobody_straight_ahead_into_a_thing_that_the_path_avoids) {
   Drive drive;
   drive.settle(10.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
-  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, CueKind::straight);
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.7, 0.2}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"});
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::slight});
   EXPECT_EQ(drive.last.fillings.side, Side::right);
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, -0.7}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "on the way's side, and not in the way";
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::straight}) << "on the way's side, and not in the way";
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.4, {0.2, 0.7}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"}) << "the way leads off from it";
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::slight}) << "the way leads off from it";
 }
 
 TEST(RouteCues, lead_off_from_what_is_all_but_touched_however_straight_the_path) {
@@ -160,17 +160,17 @@ TEST(RouteCues, lead_off_from_what_is_all_but_touched_however_straight_the_path)
   drive.settle(0.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.03, {0.02, 0.4}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"});
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::slight});
   EXPECT_EQ(drive.last.fillings.side, Side::right);
   drive.now.nearby.push_back(NearThing{ThingClass::shelf, 2, 0.05, {0.02, -0.4}, false});
-  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"}) << "between two";
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::straight}) << "between two";
 }
 
 TEST(RouteCues, send_nobody_aside_into_a_thing) {
   Drive drive;
   drive.settle(8.0, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
-  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, "straight");
+  EXPECT_EQ(drive.cues.ask(*drive.now.guidance, drive.time).value().kind, CueKind::straight);
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.55, {0.78, -0.45}, false}};
   EXPECT_EQ(drive.pass(3.0), Kinds{}) << "30 degrees to the right is where it stands";
 }
@@ -180,11 +180,11 @@ TEST(RouteCues, lead_aside_and_ahead_again_only_once_the_angle_has_clearly_chang
   drive.settle(7.5, 20.0);
   drive.now.guidance->waypoint_is_goal = true;
   drive.now.nearby = {NearThing{ThingClass::shelf, 1, 0.45, {0.8, 0.2}, false}};
-  EXPECT_EQ(drive.pass(3.0), Kinds{"slight"});
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::slight});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(6.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(3.0);
-  EXPECT_EQ(drive.pass(3.0), Kinds{"straight"});
+  EXPECT_EQ(drive.pass(3.0), Kinds{CueKind::straight});
 }
 
 TEST(RouteCues, judge_a_new_leg_afresh) {
@@ -192,7 +192,7 @@ TEST(RouteCues, judge_a_new_leg_afresh) {
   drive.settle(0.0, 1.5);
   drive.now.guidance = following(17.0, 8.0);
   drive.now.guidance->waypoint = {10.0, 8.0};
-  EXPECT_EQ(drive.pass(2.0), Kinds{"turn_now"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::turn_now});
   EXPECT_EQ(drive.last.fillings.hour, 1) << "17 degrees would still be held as 12 on the old leg";
 }
 
@@ -202,13 +202,13 @@ TEST(RouteCues, call_a_new_route_just_before_a_corner_by_its_name) {
   drive.now.guidance = following(90.0, 8.0);
   drive.now.guidance->waypoint = {10.0, 8.0};
   drive.now.guidance->reroutes = 1;
-  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 
 TEST(RouteCues, repeat_the_direction_while_the_robot_faces_elsewhere) {
   Drive drive;
   drive.settle(90.0, 8.0);
-  EXPECT_EQ(drive.pass(18.0), (Kinds{"direction", "direction", "direction"}));
+  EXPECT_EQ(drive.pass(18.0), (Kinds{CueKind::direction, CueKind::direction, CueKind::direction}));
 }
 
 TEST(RouteCues, say_the_direction_again_to_who_turns_away_from_it) {
@@ -217,7 +217,7 @@ TEST(RouteCues, say_the_direction_again_to_who_turns_away_from_it) {
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(38.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(44.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"}) << "although it is the same hour";
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::direction}) << "although it is the same hour";
 }
 
 TEST(RouteCues, repeat_half_as_often_while_the_stick_rests) {
@@ -231,7 +231,7 @@ TEST(RouteCues, repeat_half_as_often_while_the_stick_rests) {
 TEST(RouteCues, repeat_straight_ahead_seldom) {
   Drive drive;
   drive.settle(0.0, 30.0);
-  EXPECT_EQ(drive.pass(40.0), (Kinds{"straight", "straight"}));
+  EXPECT_EQ(drive.pass(40.0), (Kinds{CueKind::straight, CueKind::straight}));
 }
 
 TEST(RouteCues, correct_only_beyond_the_hysteresis) {
@@ -240,7 +240,7 @@ TEST(RouteCues, correct_only_beyond_the_hysteresis) {
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(18.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(21.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{"direction"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::direction});
   EXPECT_EQ(drive.last.fillings.hour, 1);
 }
 
@@ -254,12 +254,12 @@ TEST(RouteCues, leave_out_the_hours_that_a_turning_robot_passes_and_say_when_to_
   while (degrees > 0.0) {
     degrees -= kTick / kPi * 180.0;
     drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
-    for (const std::string& kind : drive.pass(kTick)) {
+    for (const CueKind kind : drive.pass(kTick)) {
       said.push_back(kind);
       angle_when_told = degrees;
     }
   }
-  EXPECT_EQ(said, Kinds{"straight"});
+  EXPECT_EQ(said, Kinds{CueKind::straight});
   EXPECT_EQ(drive.last.priority, Priority::message);
   EXPECT_GT(angle_when_told, 20.0) << "a person needs a moment to stop";
   EXPECT_LT(angle_when_told, 60.0);
@@ -270,11 +270,11 @@ TEST(RouteCues, tell_a_robot_that_turned_too_far_once_it_has_settled) {
   drive.settle(90.0, 8.0);
   drive.now.measured = Velocity{0.0, -1.0};
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(10.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
   drive.now.measured = Velocity{};
-  EXPECT_EQ(drive.pass(1.0), Kinds{"direction"});
+  EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::direction});
   EXPECT_EQ(drive.last.fillings.hour, 11);
 }
 
@@ -284,8 +284,8 @@ TEST(RouteCues, announce_a_turn_once_ahead_and_once_when_the_corner_is_reached) 
   Kinds said;
   for (double distance = 12.0; distance > 1.0; distance -= kTick) {
     drive.now.guidance->waypoint_distance = distance;
-    for (const std::string& kind : drive.pass(kTick)) {
-      if (kind == "turn_ahead") {
+    for (const CueKind kind : drive.pass(kTick)) {
+      if (kind == CueKind::turn_ahead) {
         EXPECT_LE(distance, 6.0);
         EXPECT_GT(distance, 4.0);
         EXPECT_EQ(drive.last.fillings.hour, 3);
@@ -293,11 +293,11 @@ TEST(RouteCues, announce_a_turn_once_ahead_and_once_when_the_corner_is_reached) 
       said.push_back(kind);
     }
   }
-  EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 1);
+  EXPECT_EQ(std::count(said.begin(), said.end(), CueKind::turn_ahead), 1);
   drive.now.guidance = following(80.0, 9.0);
   drive.now.guidance->waypoint = {10.0, -10.0};
   drive.now.voice_busy = true;  // it does not wait for a lesser cue to end
-  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_now"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::turn_now});
   EXPECT_EQ(drive.last.fillings.hour, 3);
 }
 
@@ -305,7 +305,7 @@ TEST(RouteCues, name_the_turn_where_straight_ahead_alone_would_lead_past_it) {
   Drive drive;
   drive.settle(90.0, 3.0);
   drive.now.guidance = following(0.0, 3.0);
-  EXPECT_EQ(drive.pass(2.0), Kinds{"straight_then"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::straight_then});
   EXPECT_EQ(drive.last.fillings.hour, 3);
   EXPECT_EQ(drive.pass(10.0), Kinds{}) << "the turn was announced";
 }
@@ -314,17 +314,17 @@ TEST(RouteCues, say_that_an_announced_turn_falls_away) {
   Drive drive;
   drive.settle(0.0, 12.0);
   drive.now.guidance->waypoint_distance = 5.0;
-  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_ahead"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::turn_ahead});
   drive.now.guidance = following(0.0, 14.0);
   drive.now.guidance->waypoint = {20.0, 0.0};
-  EXPECT_EQ(drive.pass(2.0), Kinds{"turn_cancelled"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::turn_cancelled});
 }
 
 TEST(RouteCues, keep_an_announced_turn_that_a_plan_moves_a_little) {
   Drive drive;
   drive.settle(0.0, 12.0);
   drive.now.guidance->waypoint_distance = 4.0;
-  EXPECT_EQ(drive.pass(kTick), Kinds{"turn_ahead"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::turn_ahead});
   drive.now.guidance = following(0.0, 5.5);
   drive.now.guidance->waypoint = {11.5, 0.0};
   EXPECT_EQ(drive.pass(6.0), Kinds{});
@@ -335,7 +335,7 @@ TEST(RouteCues, are_silent_while_the_person_is_to_stop_and_then_say_the_directio
   drive.settle(0.0, 30.0);
   for (double end = drive.time + 10.0; drive.time < end; drive.time += kTick)
     EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time).empty());
-  EXPECT_EQ(drive.go_on().value().kind, "straight");
+  EXPECT_EQ(drive.go_on().value().kind, CueKind::straight);
   EXPECT_EQ(drive.pass(5.0), Kinds{}) << "it was just said";
 }
 
@@ -344,7 +344,7 @@ TEST(RouteCues, keep_quiet_about_a_turn_at_the_goal) {
   drive.now.guidance = following(0.0, 5.0);
   drive.now.guidance->waypoint_is_goal = true;
   const Kinds said = drive.pass(20.0);
-  EXPECT_EQ(std::count(said.begin(), said.end(), "turn_ahead"), 0);
+  EXPECT_EQ(std::count(said.begin(), said.end(), CueKind::turn_ahead), 0);
 }
 
 TEST(RouteCues, keep_quiet_after_a_replan_that_changes_nothing_to_do) {
@@ -363,7 +363,7 @@ TEST(RouteCues, say_a_new_route_if_the_next_manoeuvre_changed) {
   drive.now.guidance->waypoint = {0.0, -12.0};
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(150.0);
   drive.now.guidance->waypoint_distance = 12.0;
-  EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted"});
+  EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::rerouted});
   EXPECT_EQ(drive.last.fillings.hour, 5);
 }
 
@@ -377,9 +377,9 @@ TEST(RouteCues, say_that_the_old_way_is_blocked_once_for_each_reroute) {
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->reroute_reason = Guidance::Replan::path_carved;
   lead_to(0.0, 150.0);
-  EXPECT_EQ(drive.pass(1.0), Kinds{"rerouted_blocked"});
+  EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::rerouted_blocked});
   lead_to(9.0, 60.0);
-  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 
 TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
@@ -393,7 +393,7 @@ TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
       drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(angle);
       const auto on = drive.go_on();
       ASSERT_TRUE(on);
-      EXPECT_EQ(on->kind, "rerouted");
+      EXPECT_EQ(on->kind, CueKind::rerouted);
       EXPECT_EQ(on->fillings.hour, hour);
       EXPECT_EQ(drive.pass(2.0), Kinds{});
     }
@@ -405,14 +405,14 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance = following(0.0, 3.0);
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->waypoint = {0.0, -12.0};
-  EXPECT_EQ(drive.go_on().value().kind, "rerouted");
+  EXPECT_EQ(drive.go_on().value().kind, CueKind::rerouted);
   RouteCues unheard = drive.cues;
   drive.cues.unsaid();
   drive.now.guidance->steer_angle = rad(-30.0);
-  EXPECT_EQ(drive.pass(2.0), Kinds{"direction"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::direction});
   drive.cues = unheard;
   drive.cues.unheard();
-  EXPECT_EQ(drive.pass(2.0), Kinds{"rerouted"});
+  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 
 TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
@@ -427,7 +427,7 @@ TEST(RouteCues, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
   };
   EXPECT_EQ(face(60.0), Kinds{});
   EXPECT_EQ(face(45.0), Kinds{});  // half a second later it would face it
-  EXPECT_EQ(face(29.0), Kinds{"straight"});
+  EXPECT_EQ(face(29.0), Kinds{CueKind::straight});
   EXPECT_EQ(face(10.0), Kinds{});
 }
 
@@ -442,7 +442,7 @@ TEST(RouteCues, let_a_turn_by_one_hour_end_by_itself) {
       EXPECT_EQ(drive.pass(kTick), Kinds{}) << degrees;
     }
     drive.now.measured->angular = 0.0;
-    EXPECT_EQ(drive.pass(2.0), Kinds{"straight"});
+    EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::straight});
   }
 }
 
@@ -463,13 +463,13 @@ TEST(RouteCues, do_not_waver_between_the_hours_ahead_just_before_the_way_point) 
   for (int i = 0; i < 10; ++i) {
     drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle =
         rad(i % 2 == 0 ? -40.0 : 0.0);
-    for (const std::string& kind : drive.pass(2.0)) said.push_back(kind);
+    for (const CueKind kind : drive.pass(2.0)) said.push_back(kind);
   }
   EXPECT_EQ(said, Kinds{});
   EXPECT_TRUE(drive.cues.ask(*drive.now.guidance, drive.time)) << "who asks is told";
   drive.pass(2.0);
   drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(100.0);
-  EXPECT_EQ(drive.pass(1.0), Kinds{"direction"}) << "who missed it is told";
+  EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::direction}) << "who missed it is told";
 }
 
 TEST(RouteCues, tell_a_person_who_stands_just_before_the_way_point_to_go_on) {
@@ -484,16 +484,16 @@ TEST(RouteCues, say_the_direction_again_after_a_stop) {
   drive.settle(0.0, 30.0);
   drive.cues.remind(drive.time + 1.0);
   EXPECT_EQ(drive.pass(0.9), Kinds{});
-  EXPECT_EQ(drive.pass(0.2), Kinds{"straight"});
+  EXPECT_EQ(drive.pass(0.2), Kinds{CueKind::straight});
 }
 
 TEST(RouteCues, say_the_direction_when_the_path_is_back_without_a_new_introduction) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.cues.pause();
-  EXPECT_EQ(drive.pass(kTick), Kinds{"straight"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
   drive.cues.forget();
-  EXPECT_EQ(drive.pass(kTick), Kinds{"start_distance"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start_distance});
 }
 
 /// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,
@@ -510,10 +510,11 @@ class Person {
 
   Velocity command(double time) {
     if (heard_ && time >= heard_->first) {
-      if (heard_->second.kind == "straight" || heard_->second.kind == "straight_then") {
+      if (heard_->second.kind == CueKind::straight ||
+          heard_->second.kind == CueKind::straight_then) {
         turn_left_ = 0.0;
         drives_ = true;
-      } else if (heard_->second.kind != "turn_ahead") {
+      } else if (heard_->second.kind != CueKind::turn_ahead) {
         const double turn = *heard_->second.fillings.hour * kPi / 6.0;
         turn_left_ = error_ * std::remainder(turn, 2.0 * kPi);
         drives_ = true;
@@ -589,17 +590,17 @@ TEST(RouteCues, name_once_the_thing_to_make_room_for_and_then_the_way) {
   drive.now.guidance->state = Guidance::State::make_room;
   drive.now.guidance->blocked_by = ThingClass::forklift;
   drive.now.voice_busy = true;
-  EXPECT_EQ(drive.pass(kTick), Kinds{"make_room"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::make_room});
   EXPECT_EQ(drive.last.fillings.thing, ThingClass::forklift);
   EXPECT_EQ(drive.last.fillings.hour, 6);
   EXPECT_EQ(drive.pass(1.0), Kinds{});
   drive.now.voice_busy = false;
-  EXPECT_EQ(drive.pass(6.0), Kinds{"direction"}) << "words alone lead";
+  EXPECT_EQ(drive.pass(6.0), Kinds{CueKind::direction}) << "words alone lead";
   drive.now.guidance = following(0.0, 12.0);
   drive.pass(6.0);
   drive.now.guidance = following(90.0, 3.0);
   drive.now.guidance->state = Guidance::State::make_room;
-  EXPECT_EQ(drive.pass(kTick), Kinds{"make_room"});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::make_room});
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ struct Situation {
   Sounds sounds;
   bool touch = false;  ///< what is said is felt, too, and so may do without the words
 
-  std::vector<std::string> notices;  ///< kinds to be said when they come, such as no_rumble
-  std::string person;                ///< whose settings are used
+  std::vector<CueKind> notices;  ///< to be said when they come, such as no_rumble
+  std::string person;            ///< whose settings are used
 };
 
 }  // namespace navvi_feedback::cues

@@ -58,10 +58,10 @@ std::optional<Utterance> Stuck::update(const Situation& now, bool follows, doubl
   for (const NearThing& thing : now.nearby)
     if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
       blocker = &thing;
-  if (!blocker) return Utterance{"stuck_unknown"};
+  if (!blocker) return Utterance{CueKind::stuck_unknown};
   Fillings fillings{{}, {}, blocker->thing_class, side_of(blocker->nearest)};
   const auto free = [&](int hour) { return is_free(hour, now.nearby, config_.blocker_gap); };
-  if (fillings.side == Side::ahead && free(6)) return Utterance{"back_away", fillings};
+  if (fillings.side == Side::ahead && free(6)) return Utterance{CueKind::back_away, fillings};
   const double wanted = follows ? now.guidance->steer_angle : 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (int hour = 1; hour <= 12; ++hour) {
@@ -70,8 +70,8 @@ std::optional<Utterance> Stuck::update(const Situation& now, bool follows, doubl
     least = aside;
     fillings.hour = hour;
   }
-  if (fillings.hour) return Utterance{"stuck", fillings};
-  Utterance boxed_in{"stuck_unknown"};
+  if (fillings.hour) return Utterance{CueKind::stuck, fillings};
+  Utterance boxed_in{CueKind::stuck_unknown};
   const Utterance sides = around(now.nearby);
   boxed_in.also = sides.also;
   boxed_in.also.insert(boxed_in.also.begin(), sides);

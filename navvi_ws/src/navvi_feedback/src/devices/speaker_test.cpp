@@ -224,9 +224,9 @@ TEST(SpeechChannel, lets_a_safety_cue_be_heard_and_gives_every_cue_its_end) {
   const auto tick = [&](const std::vector<cues::Cue>& cues) {
     for (CueEvent& event : channel.tick(cues, since(start))) events.push_back(std::move(event));
   };
-  tick({{"direction", "3 o'clock, 8 meters", Priority::text, 2.0}});
+  tick({{CueKind::direction, "3 o'clock, 8 meters", Priority::text, 2.0}});
   EXPECT_FALSE(channel.idle());
-  tick({{"pad_lost", "controller disconnected", Priority::important, 2.0}});
+  tick({{CueKind::pad_lost, "controller disconnected", Priority::important, 2.0}});
   ASSERT_TRUE(wait_for([&] {
     tick({});
     return channel.idle();
@@ -245,9 +245,9 @@ TEST(SpeechChannel, times_words_answers_and_silence) {
   const auto seen = [&](Chain chain) {
     return wait_for([&] { return latencies.figures(chain).count == 1; });
   };
-  (void)channel.tick({{"direction", "3 o'clock, 8 meters", Priority::text, 2.0}}, 0.0);
+  (void)channel.tick({{CueKind::direction, "3 o'clock, 8 meters", Priority::text, 2.0}}, 0.0);
   EXPECT_TRUE(seen(Chain::words));
-  cues::Cue answer{"goal_info", "goal 8 meters", Priority::message, 2.0};
+  cues::Cue answer{CueKind::goal_info, "goal 8 meters", Priority::message, 2.0};
   answer.asked = true;
   (void)channel.tick({answer}, 0.1, true);
   EXPECT_TRUE(seen(Chain::silence));

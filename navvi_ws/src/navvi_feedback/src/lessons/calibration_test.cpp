@@ -41,7 +41,7 @@ struct Person {
       if (time >= go + 0.1) go = 1e9;
       const Taught taught = calibration.update(seen, time);
       for (const cues::Cue& cue : taught.cues) {
-        kind = cue.kind;
+        kind = cue.word();
         speaks_until = time + 1.0;
       }
       for (std::size_t i = 0; i < taught.plays.size(); ++i) go = time + delay;

@@ -37,10 +37,12 @@ std::vector<Glossary::Entry> Glossary::all() {
     entries.push_back({std::string("glossary_felt_") + names(Pattern{})[i], Pattern(i)});
   for (std::size_t i = 0; i < names(Earcon{}).size(); ++i)
     entries.push_back({std::string("glossary_sound_") + names(Earcon{})[i], {}, Earcon(i)});
-  for (const char* kind : {"obstacle_stop", "blocked", "back_away", "go_on"})
-    entries.push_back({std::string("glossary_said_") + kind, {}, {}, {}, kind});
+  for (const CueKind kind :
+       {CueKind::obstacle_stop, CueKind::blocked, CueKind::back_away, CueKind::go_on})
+    entries.push_back({std::string("glossary_said_") + to_string(kind), {}, {}, {}, kind});
   for (const int hour : {12, 1, 3, 6, 9})
-    entries.push_back({"glossary_hour_" + std::to_string(hour), {}, {}, {}, "turn_now", hour});
+    entries.push_back(
+        {"glossary_hour_" + std::to_string(hour), {}, {}, {}, CueKind::turn_now, hour});
   return entries;
 }
 
@@ -150,7 +152,7 @@ void Glossary::give(const Entry& entry, double since, Taught& taught) {
     taught.motion = Velocity{0.0, off > 0.0 ? -kRate * kDegree : 0.0};
     return;
   }
-  const int times = entry.words.empty() ? 2 : 1;
+  const int times = entry.words ? 1 : 2;
   if (!entry.near && beats_ < times && since >= beats_ * kBeat * (entry.pattern ? 1.8 : 1.0)) {
     beat(entry, taught);
     ++beats_;
@@ -172,12 +174,12 @@ void Glossary::beat(const Entry& entry, Taught& taught) {
                                                                   : cues::Side::right);
     taught.plays.push_back({*entry.earcon, from, sounds_.family_of(*entry.earcon).volume});
   }
-  if (!entry.words.empty()) {
+  if (entry.words) {
     cues::Fillings fillings;
     fillings.thing = navvi_types::ThingClass::shelf;
     fillings.side = cues::Side::ahead;
     fillings.hour = entry.hour > 0 ? std::optional(entry.hour) : std::nullopt;
-    teller_.then_phrase(entry.words, fillings);
+    teller_.then_phrase(*entry.words, fillings);
   }
 }
 

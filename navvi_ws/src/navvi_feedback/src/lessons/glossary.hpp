@@ -32,7 +32,7 @@ class Glossary : public Lesson {
     std::optional<haptics::Pattern> pattern = {};
     std::optional<sounds::Earcon> earcon = {};
     std::optional<cues::Side> near = {};  ///< what is felt of a thing there
-    std::string words = {};               ///< kind of a phrase
+    std::optional<CueKind> words = {};    ///< a phrase
     int hour = 0;                         ///< of that phrase
   };
   [[nodiscard]] static std::vector<Entry> all();

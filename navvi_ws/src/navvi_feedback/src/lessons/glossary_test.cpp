@@ -29,7 +29,7 @@ class GlossaryTest : public testing::Test {
       const Taught taught = glossary_.update(seen_, time_);
       seen_.pressed.clear();
       for (const cues::Cue& cue : taught.cues) {
-        kinds_.push_back(cue.kind);
+        kinds_.push_back(cue.word());
         speaks_until_ = time_ + 1.0;
       }
       if (taught.pattern) felt_.push_back(*taught.pattern);
@@ -129,7 +129,7 @@ TEST(Lessons, teach_no_hours_to_who_hears_no_hours) {
   for (double time = 0.0; time < 100.0 && !glossary.over(); time += 0.02) {
     seen.pressed = {Button::next};
     for (const cues::Cue& cue : glossary.update(seen, time).cues)
-      EXPECT_EQ(cue.kind.rfind("glossary_hour", 0), std::string::npos) << cue.kind;
+      EXPECT_EQ(cue.word().rfind("glossary_hour", 0), std::string::npos) << cue.word();
   }
   EXPECT_TRUE(glossary.over());
 }

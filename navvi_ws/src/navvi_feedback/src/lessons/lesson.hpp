@@ -19,16 +19,16 @@ namespace navvi_feedback::lessons {
 /// What a lesson knows of the person and the robot at one instant.
 struct Seen {
   std::vector<drive::Button> pressed;  ///< since the last update
-  std::vector<std::string> begun;      ///< kinds of the words that began to be heard since then
+  std::vector<std::string> begun;      ///< keys of its texts that began to be heard since then
   bool hands = true;                   ///< there is something to press and to push
   drive::Stick stick;                  ///< without its dead zone; neutral where there is none
   bool keyboard = false;
   std::string pad = {};  ///< what identifies the motors, without spaces
-  bool quiet = true;   ///< nothing is spoken or waits for it
-  bool motors = true;  ///< they can be felt
-  bool sounds = true;  ///< short sounds can be heard
-  bool hit = false;    ///< something was touched since the last update
-  Velocity motion;     ///< of the robot
+  bool quiet = true;     ///< nothing is spoken or waits for it
+  bool motors = true;    ///< they can be felt
+  bool sounds = true;    ///< short sounds can be heard
+  bool hit = false;      ///< something was touched since the last update
+  Velocity motion;       ///< of the robot
   bool arrived = false;
   navvi_types::TrialState::State trial = navvi_types::TrialState::State::free;
 };

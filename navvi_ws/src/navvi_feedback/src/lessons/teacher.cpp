@@ -48,9 +48,10 @@ void Teacher::update(const Seen& seen, double time) {
 }
 
 void Teacher::join(std::vector<cues::Cue>& cues) const {
-  static const std::set<std::string> needed = {
-      "arrived",       "stuck",      "stuck_unknown", "back_away", "release_stick", "pad_back",
-      "keyboard_back", "audio_back", "settings_of",   "no_rumble", "second_pad",    "pad_firmware"};
+  static const std::set<CueKind> needed = {
+      CueKind::arrived,       CueKind::stuck,     CueKind::stuck_unknown, CueKind::back_away,
+      CueKind::release_stick, CueKind::pad_back,  CueKind::keyboard_back, CueKind::audio_back,
+      CueKind::settings_of,   CueKind::no_rumble, CueKind::second_pad,    CueKind::pad_firmware};
   if (speaks())
     cues.erase(std::remove_if(cues.begin(), cues.end(),
                               [](const cues::Cue& cue) {

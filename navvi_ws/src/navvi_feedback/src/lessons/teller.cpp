@@ -54,8 +54,7 @@ std::vector<std::string> Teller::sentences(const std::string& key, const Filling
 }
 
 void Teller::then(const std::string& key, const Fillings& fillings) {
-  for (const std::string& sentence : sentences(key, fillings))
-    waiting_.push_back({key, sentence, Priority::message, kPatience, {}, true});
+  for (const std::string& sentence : sentences(key, fillings)) push(CueKind::lesson, sentence, key);
 }
 
 void Teller::tell(const std::string& key, const Fillings& fillings) {
@@ -64,8 +63,15 @@ void Teller::tell(const std::string& key, const Fillings& fillings) {
   at_once_ = true;
 }
 
-void Teller::then_phrase(const std::string& kind, const cues::Fillings& fillings) {
-  waiting_.push_back({kind, phrases_.say(kind, fillings), Priority::message, kPatience, {}, true});
+void Teller::then_phrase(CueKind kind, const cues::Fillings& fillings) {
+  push(kind, phrases_.say(kind, fillings), "");
+}
+
+void Teller::push(CueKind kind, const std::string& text, const std::string& key) {
+  cues::Cue cue{kind, text, Priority::message, kPatience};
+  cue.asked = true;
+  cue.lesson = key;
+  waiting_.push_back(cue);
 }
 
 std::vector<cues::Cue> Teller::update(bool quiet) {

@@ -31,7 +31,7 @@ class Teller {
   void then(const std::string& key, const Fillings& fillings = {});
   void forget() { waiting_.clear(); }
   /// A phrase of the guide as it is spoken in a session, after what waits.
-  void then_phrase(const std::string& kind, const cues::Fillings& fillings);
+  void then_phrase(CueKind kind, const cues::Fillings& fillings);
 
   /// \param quiet  nothing is spoken or waits for it
   /// \return what is to be said now
@@ -39,6 +39,7 @@ class Teller {
   [[nodiscard]] bool done() const { return waiting_.empty(); }
 
  private:
+  void push(CueKind kind, const std::string& text, const std::string& key);
   [[nodiscard]] std::vector<std::string> sentences(const std::string& key,
                                                    const Fillings& fillings) const;
 

@@ -79,13 +79,13 @@ class TutorialTest : public testing::Test {
     off_ = taught.off;
     near_ = !taught.near.empty();
     for (const cues::Cue& cue : taught.cues) {
-      const bool goes_on = last_ == cue.kind;  // with its next sentence
-      last_ = cue.kind;
-      seen_.begun = {cue.kind};
-      heard_[cue.kind] = time_;
-      all_.push_back(cue.kind);
+      const bool goes_on = last_ == cue.word();  // with its next sentence
+      last_ = cue.word();
+      seen_.begun = {cue.word()};
+      heard_[cue.word()] = time_;
+      all_.push_back(cue.word());
       speaks_until_ = time_ + 1.0;
-      if (!goes_on && cue.kind.rfind("tutorial_wrong", 0) == 0) ++tries_;
+      if (!goes_on && cue.word().rfind("tutorial_wrong", 0) == 0) ++tries_;
     }
   }
   [[nodiscard]] auto count(const std::string& name) const {

@@ -11,7 +11,7 @@ constexpr double kPatience = 20.0;  // s
 
 }  // namespace
 
-cues::Utterance Menu::Destination::say(const char* kind) const {
+cues::Utterance Menu::Destination::say(CueKind kind) const {
   cues::Utterance told{kind};
   told.fillings.place = name;
   told.fillings.number = number;
@@ -41,42 +41,43 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
   switch (level.list) {
     case List::top:
       if (trial_ == TrialState::State::ready)
-        entries.push_back({{"menu_begin"}, {}, {}, TrialRequest::Kind::begin});
-      if (!destinations().empty()) entries.push_back({{"menu_goals"}, List::goals});
-      if (!values_.empty()) entries.push_back({{"menu_settings"}, List::settings});
+        entries.push_back({{CueKind::menu_begin}, {}, {}, TrialRequest::Kind::begin});
+      if (!destinations().empty()) entries.push_back({{CueKind::menu_goals}, List::goals});
+      if (!values_.empty()) entries.push_back({{CueKind::menu_settings}, List::settings});
       if (trial_ != TrialState::State::preparing && trial_ != TrialState::State::running)
-        entries.push_back({{"menu_glossary"}, {}, {}, {}, nullptr, true});
-      if (trial_ == TrialState::State::running) entries.push_back({{"menu_end"}, List::end});
-      if (entries.empty()) entries.push_back({{"menu_empty"}});
+        entries.push_back({{CueKind::menu_glossary}, {}, {}, {}, nullptr, true});
+      if (trial_ == TrialState::State::running) entries.push_back({{CueKind::menu_end}, List::end});
+      if (entries.empty()) entries.push_back({{CueKind::menu_empty}});
       break;
     case List::goals:
       for (const Destination& place : destinations())
-        entries.push_back({place.say("menu_place"), {}, place});
+        entries.push_back({place.say(CueKind::menu_place), {}, place});
       break;
     case List::goal:
-      entries.push_back({level.goal->say("goal_sure"), {}, level.goal});
+      entries.push_back({level.goal->say(CueKind::goal_sure), {}, level.goal});
       break;
     case List::settings:
       for (const Setting& setting : settings())
         if (const auto value = values_.find(setting.key); value != values_.end())
           entries.push_back(
-              {setting.say("setting", value->second), List::setting, {}, {}, &setting});
+              {setting.say(CueKind::setting, value->second), List::setting, {}, {}, &setting});
       break;
     case List::setting:
-      entries.push_back({level.setting->say("setting_open", values_.at(level.setting->key))});
+      entries.push_back(
+          {level.setting->say(CueKind::setting_open, values_.at(level.setting->key))});
       break;
     case List::end:
-      entries.push_back({{"menu_end_sure"}, {}, {}, TrialRequest::Kind::end});
+      entries.push_back({{CueKind::menu_end_sure}, {}, {}, TrialRequest::Kind::end});
       break;
   }
   return entries;
 }
 
 Menu::Step Menu::tell() const {
-  if (path_.empty()) return {cues::Utterance{"menu_closed"}};
+  if (path_.empty()) return {cues::Utterance{CueKind::menu_closed}};
   // What can be chosen may have become less meanwhile.
   const std::vector<Entry> list = entries(path_.back());
-  if (list.empty()) return {cues::Utterance{"menu_empty"}};
+  if (list.empty()) return {cues::Utterance{CueKind::menu_empty}};
   return {list[std::min(path_.back().at, list.size() - 1)].label};
 }
 
@@ -95,7 +96,7 @@ Menu::Step Menu::choose(const Entry& entry) {
   step.glossary = entry.glossary;
   if (entry.goal) {
     step.goal = entry.goal->at;
-    step.told = entry.goal->say("goal_chosen");
+    step.told = entry.goal->say(CueKind::goal_chosen);
   } else if (!entry.request && !entry.glossary) {
     return tell();
   }
@@ -106,7 +107,7 @@ Menu::Step Menu::choose(const Entry& entry) {
 Menu::Step Menu::change(const Setting& setting, bool up) {
   std::string& value = values_.at(setting.key);
   value = setting.step(value, up);
-  Step step{setting.say("setting_changed", value)};
+  Step step{setting.say(CueKind::setting_changed, value)};
   step.change = setting.key + (":=" + value);
   if (value == "false") return step;
   step.felt = setting.felt;
@@ -140,7 +141,7 @@ Menu::Step Menu::obey(drive::Button button) {
     return step;
   }
   if (button == Button::end && !ending) {
-    if (trial_ != TrialState::State::running) return {cues::Utterance{"no_trial"}};
+    if (trial_ != TrialState::State::running) return {cues::Utterance{CueKind::no_trial}};
     path_ = {{}, {List::end}};
     return tell();
   }

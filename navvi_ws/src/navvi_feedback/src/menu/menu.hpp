@@ -56,7 +56,7 @@ class Menu {
     int number = 0;                                ///< 0: there is one of that name
     Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
 
-    [[nodiscard]] cues::Utterance say(const char* kind) const;
+    [[nodiscard]] cues::Utterance say(CueKind kind) const;
   };
   enum class List { top, goals, goal, settings, setting, end };
   struct Entry {

@@ -28,7 +28,8 @@ class MenuTest : public testing::Test {
     const Menu::Step step = press(buttons);
     if (!step.told) return "";
     const int number = step.told->fillings.number;
-    return step.told->kind + (number > 0 ? " " + std::to_string(number) : "");
+    return std::string(to_string(step.told->kind)) +
+           (number > 0 ? " " + std::to_string(number) : "");
   }
 
   void trial(State state) { menu_.take(TrialState{state}); }
@@ -47,7 +48,7 @@ TEST_F(MenuTest, leads_to_a_goal_by_short_presses_of_one_hand) {
   const Menu::Step chosen = press({Button::choose});
   ASSERT_TRUE(chosen.goal);
   EXPECT_EQ(chosen.goal->x(), 5.0);
-  EXPECT_EQ(chosen.told->kind, "goal_chosen");
+  EXPECT_EQ(chosen.told->kind, CueKind::goal_chosen);
   EXPECT_FALSE(menu_.open());
 }
 
@@ -64,14 +65,14 @@ TEST_F(MenuTest, changes_the_goal_of_a_running_trial_only_when_asked_twice) {
   press({Button::next, Button::choose, Button::next});
   Menu::Step step = press({Button::choose});
   EXPECT_FALSE(step.goal);
-  EXPECT_EQ(step.told.value().kind, "goal_sure");
+  EXPECT_EQ(step.told.value().kind, CueKind::goal_sure);
   EXPECT_EQ(step.told.value().fillings.number, 1);
   EXPECT_EQ(heard({Button::back}), "menu_place 1") << "not this one";
   EXPECT_EQ(heard({Button::choose, Button::next}), "goal_sure 1");
   step = press({Button::choose});
   ASSERT_TRUE(step.goal);
   EXPECT_EQ(step.goal->x(), 3.0);
-  EXPECT_EQ(step.told.value().kind, "goal_chosen");
+  EXPECT_EQ(step.told.value().kind, CueKind::goal_chosen);
 }
 
 TEST_F(MenuTest, asks_for_no_goal_twice_once_the_trial_is_over) {
@@ -117,7 +118,7 @@ TEST_F(MenuTest, begins_a_trial_and_ends_it_only_when_asked_twice) {
   EXPECT_EQ(heard({Button::next, Button::next}), "menu_end");
   const Menu::Step asked = press({Button::choose});
   EXPECT_FALSE(asked.request);
-  EXPECT_EQ(asked.told->kind, "menu_end_sure");
+  EXPECT_EQ(asked.told->kind, CueKind::menu_end_sure);
   EXPECT_EQ(press({Button::choose}).request, TrialRequest::Kind::end);
 }
 
@@ -146,9 +147,9 @@ TEST_F(MenuTest, offers_the_goal_before_the_present_one) {
 TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
   Menu menu;
   menu.take(TrialState{State::preparing});
-  EXPECT_EQ(menu.press(Button::next).told.value().kind, "menu_empty");
-  EXPECT_EQ(menu.press(Button::choose).told.value().kind, "menu_empty");
-  EXPECT_EQ(menu.press(Button::back).told.value().kind, "menu_closed");
+  EXPECT_EQ(menu.press(Button::next).told.value().kind, CueKind::menu_empty);
+  EXPECT_EQ(menu.press(Button::choose).told.value().kind, CueKind::menu_empty);
+  EXPECT_EQ(menu.press(Button::back).told.value().kind, CueKind::menu_closed);
 }
 
 TEST_F(MenuTest, opens_at_the_settings_from_wherever_it_is) {
@@ -176,7 +177,7 @@ TEST_F(MenuTest, changes_a_setting_step_by_step) {
   EXPECT_EQ(heard({Button::choose}), "setting_open 230");
   Menu::Step step = press({Button::previous});
   EXPECT_EQ(step.change, "speaker/rate:=240");
-  EXPECT_EQ(step.told.value().kind, "setting_changed");
+  EXPECT_EQ(step.told.value().kind, CueKind::setting_changed);
   EXPECT_EQ(step.told.value().fillings.number, 240);
   EXPECT_EQ(press({Button::next, Button::next}).change, "speaker/rate:=200");
   EXPECT_EQ(heard({Button::back}), "setting 200");
@@ -185,7 +186,7 @@ TEST_F(MenuTest, changes_a_setting_step_by_step) {
   EXPECT_EQ(step.change, "sounds/turn/on:=false");
   EXPECT_EQ(step.told.value().fillings.value, cues::SettingValue::off);
   EXPECT_EQ(press({Button::next}).change, "sounds/turn/on:=false") << "the last of its values";
-  EXPECT_EQ(press({Button::choose}).told.value().kind, "setting") << "done";
+  EXPECT_EQ(press({Button::choose}).told.value().kind, CueKind::setting) << "done";
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::string Setting::step(const std::string& value, bool up) const {
   return above == values.begin() ? values.front() : *std::prev(above);
 }
 
-cues::Utterance Setting::say(const char* kind, const std::string& value) const {
+cues::Utterance Setting::say(CueKind kind, const std::string& value) const {
   cues::Utterance told{kind};
   told.fillings.setting = name;
   for (const auto word :

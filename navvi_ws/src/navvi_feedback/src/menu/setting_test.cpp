@@ -29,12 +29,13 @@ TEST(Setting, each_value_can_be_said) {
                                 ".yaml");
     for (const Setting& setting : settings())
       for (const std::string& value : setting.values)
-        EXPECT_TRUE(cues::speakable(
-            phrases.say("setting_open", setting.say("setting_open", value).fillings)));
+        EXPECT_TRUE(cues::speakable(phrases.say(
+            CueKind::setting_open, setting.say(CueKind::setting_open, value).fillings)));
   }
   const cues::Phrases english(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml");
   const auto said = [&](std::size_t setting, const char* value) {
-    return english.say("setting_changed", settings()[setting].say("", value).fillings);
+    return english.say(CueKind::setting_changed,
+                       settings()[setting].say(CueKind::setting_changed, value).fillings);
   };
   EXPECT_EQ(said(0, "240"), "speed of speech 240");
   EXPECT_EQ(said(2, "0.7"), "strength of the motors 70 percent");

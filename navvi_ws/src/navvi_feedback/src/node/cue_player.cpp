@@ -54,14 +54,14 @@ class CuePlayer {
  private:
   void take(const navvi_types::CueEvent& cue) {
     using navvi_types::CueStage;
-    if (cue.modality == navvi_types::Modality::rumble) {
+    if (cue.modality() == navvi_types::Modality::rumble) {
       rumble_ = {cue.left, cue.right};
     } else if (const auto sound = sound_of(cue)) {
       (void)earcons_.play({*sound});
-    } else if (cue.modality != navvi_types::Modality::speech) {
+    } else if (cue.modality() != navvi_types::Modality::speech) {
       return;
     } else if (cue.stage == CueStage::started) {
-      ROS_INFO("[%s] %s", cue.kind.c_str(), cue.text.c_str());
+      ROS_INFO("[%s] %s", cue.word().c_str(), cue.text.c_str());
       speaking_ = cue.id;
       speaker_.start(cue.text);
     } else if (cue.stage == CueStage::cut && speaking_ == cue.id) {

@@ -107,10 +107,10 @@ DiagnosticStatus speech_status(const devices::Speaker::Status& speaker, const st
 }
 
 DiagnosticStatus beat_status(const Beat& beat) {
-  DiagnosticStatus result =
-      beat.was_late()
-          ? status("navvi/beat", DiagnosticStatus::WARN, "The computer is too busy: signals come late.")
-          : status("navvi/beat", DiagnosticStatus::OK, "In time.");
+  DiagnosticStatus result = beat.was_late()
+                                ? status("navvi/beat", DiagnosticStatus::WARN,
+                                         "The computer is too busy: signals come late.")
+                                : status("navvi/beat", DiagnosticStatus::OK, "In time.");
   add(result, "longest_ms", std::to_string(std::lround(1e3 * beat.longest())));
   return result;
 }
@@ -141,11 +141,12 @@ DiagnosticStatus latency_status(const devices::Latencies& latencies,
   return result;
 }
 
-std::vector<std::string> notices_of(const devices::Gamepad::Status& pad) {
-  std::vector<std::string> kinds;
-  if (pad.connected && !pad.has_rumble) kinds.push_back("no_rumble");
-  if (pad.connected && pad.has_rumble && pad.jolting_firmware) kinds.push_back("pad_firmware");
-  if (pad.others > 0) kinds.push_back("second_pad");
+std::vector<CueKind> notices_of(const devices::Gamepad::Status& pad) {
+  std::vector<CueKind> kinds;
+  if (pad.connected && !pad.has_rumble) kinds.push_back(CueKind::no_rumble);
+  if (pad.connected && pad.has_rumble && pad.jolting_firmware)
+    kinds.push_back(CueKind::pad_firmware);
+  if (pad.others > 0) kinds.push_back(CueKind::second_pad);
   return kinds;
 }
 

@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "node/beat.hpp"
 
 namespace navvi_feedback::node {
+
+using navvi_types::CueKind;
 
 // The health of the hardware, truthfully: a device that is absent is never OK, and "state" tells
 // one that works from one that is missing and one that is off.
@@ -35,6 +38,6 @@ namespace navvi_feedback::node {
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus beat_status(const Beat& beat);
 
 /// What the person is to be told of the pad, as kinds of cues.
-[[nodiscard]] std::vector<std::string> notices_of(const devices::Gamepad::Status& pad);
+[[nodiscard]] std::vector<CueKind> notices_of(const devices::Gamepad::Status& pad);
 
 }  // namespace navvi_feedback::node

@@ -85,7 +85,7 @@ class FeedbackNode {
   void finish() {
     tick_timer_.stop();
     report(saver_->finish());
-    if (runs_) over("trial_over");
+    if (runs_) over(CueKind::trial_over);
     if (!news_.empty()) tick();
     cmd_vel_.publish(geometry_msgs::Twist());
     move_motors({}, std::nullopt, now());
@@ -188,7 +188,7 @@ class FeedbackNode {
   }
 
   /// \param kind  of the cue that tells the end of a trial
-  void over(const std::string& kind) {
+  void over(CueKind kind) {
     news_.push_back(kind);
     over_ = true;
   }
@@ -213,9 +213,11 @@ class FeedbackNode {
     if (time - std::exchange(last_tick_, time) > kHalted && time - woke_ > kRarely) woke_ = time;
     if (time - woke_ < kCatchUp) return;
     if (!caused && beat_.becomes_late(time)) {
-      ROS_WARN("The computer is too busy: touch and words come late. Close other programs; doc/driving.md says how "
-               "NavVI goes before them.");
-      news_.push_back("machine_slow");
+      ROS_WARN(
+          "The computer is too busy: touch and words come late. Close other programs; "
+          "doc/driving.md says how "
+          "NavVI goes before them.");
+      news_.push_back(CueKind::machine_slow);
     }
     core::Feedback::Input input;
     input.hands = source_.read(time);
@@ -233,9 +235,9 @@ class FeedbackNode {
     // Where words are heard by topic, whoever listens comes a moment after this node.
     if (welcomes_ && (config_.listener != "topic" || cues_.getNumSubscribers() > 0)) {
       welcomes_ = false;
-      news_.push_back("settings_of");
+      news_.push_back(CueKind::settings_of);
     }
-    for (const std::string& kind : std::exchange(news_, {})) input.notices.push_back(kind);
+    for (const CueKind kind : std::exchange(news_, {})) input.notices.push_back(kind);
     input.person = config_.person;
     const core::Feedback::Output output = feedback_.update(input, time);
     keep_lesson(output);
@@ -365,10 +367,10 @@ class FeedbackNode {
     return cues::Link::alive;
   }
 
-  [[nodiscard]] std::vector<std::string> notices() const {
-    std::vector<std::string> kinds;
+  [[nodiscard]] std::vector<CueKind> notices() const {
+    std::vector<CueKind> kinds;
     if (source_.pad()) kinds = notices_of(source_.pad()->status());
-    if (twin_) kinds.push_back("two_drivers");
+    if (twin_) kinds.push_back(CueKind::two_drivers);
     return kinds;
   }
 
@@ -397,8 +399,8 @@ class FeedbackNode {
     for (CueEvent event : events) {
       event.stamp = navvi_types::to_ns(ros::Time::now());
       cues_.publish(to_msg(event));
-      if (event.stage == CueStage::started && event.modality == Modality::speech)
-        ROS_INFO("[%s] %s", event.kind.c_str(), event.text.c_str());
+      if (event.stage == CueStage::started && event.modality() == Modality::speech)
+        ROS_INFO("[%s] %s", event.word().c_str(), event.text.c_str());
     }
   }
 
@@ -434,7 +436,7 @@ class FeedbackNode {
 
   NodeConfig config_;
   core::Feedback feedback_;
-  cues::Phrases plates_;          ///< what is written in the picture
+  cues::Phrases plates_;  ///< what is written in the picture
   Beat beat_{kLate};
   devices::Latencies latencies_;  ///< of this trial; before all that times for it
   devices::Mixer mixer_;
@@ -453,7 +455,7 @@ class FeedbackNode {
 
   std::vector<Eigen::Vector2d> path_;  ///< m, in map
   std::vector<drive::Button> asked_;   ///< by topic, not answered yet
-  std::vector<std::string> news_;      ///< kinds of cues, not said yet
+  std::vector<CueKind> news_;          ///< not said yet
   std::optional<person::PersonFile> person_;
   std::optional<person::SettingsSaver> saver_;
   bool twin_ = false;      ///< another node drives under the name of this one

@@ -55,21 +55,19 @@ std::optional<haptics::Rumble> from_msg(const sensor_msgs::JoyFeedbackArray& msg
   return rumble;
 }
 
-std::optional<std::string> last_words(const navvi_msgs::TrialEvent& msg) {
+std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg) {
   if (msg.type != "TRIAL_END") return std::nullopt;
   const std::string fields = ";" + msg.fields + ";";
   const auto holds = [&](const char* field) { return fields.find(field) != std::string::npos; };
   if (holds(";result=reached;")) return std::nullopt;
-  if (holds(";result=timeout;")) return "trial_time_up";
-  return holds(";reason=disk_full;") ? "trial_disk_full" : "trial_over";
+  if (holds(";result=timeout;")) return CueKind::trial_time_up;
+  return holds(";reason=disk_full;") ? CueKind::trial_disk_full : CueKind::trial_over;
 }
 
 navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
                                    std::optional<haptics::Pattern> pattern, std::uint32_t id) {
   using namespace navvi_types;
-  return {id,          CueStage::started,  pattern ? navvi_types::to_string(*pattern) : "rumble",
-          "",          Priority::progress, Modality::rumble,
-          rumble.left, rumble.right};
+  return {id, CueStage::started, Felt{pattern}, "", Priority::progress, rumble.left, rumble.right};
 }
 
 navvi_types::CueEvent sound_event(const sounds::Play& play, std::uint32_t id) {
@@ -78,17 +76,16 @@ navvi_types::CueEvent sound_event(const sounds::Play& play, std::uint32_t id) {
   const double leftness = distance > 0.0 ? play.from.y() / distance : 0.0;
   return {id,
           CueStage::started,
-          navvi_types::to_string(play.earcon),
+          play.earcon,
           "",
           Priority::progress,
-          Modality::sound,
           play.volume * 0.5 * (1.0 + leftness),
           play.volume * 0.5 * (1.0 - leftness)};
 }
 
 std::optional<sounds::Play> sound_of(const navvi_types::CueEvent& event) {
-  const auto earcon = navvi_types::from_word<sounds::Earcon>(event.kind);
-  if (event.modality != navvi_types::Modality::sound || !earcon) return std::nullopt;
+  const auto* const earcon = std::get_if<sounds::Earcon>(&event.what);
+  if (earcon == nullptr) return std::nullopt;
   const double volume = event.left + event.right;
   if (!(volume > 0.0)) return std::nullopt;
   const double leftness = (event.left - event.right) / volume;

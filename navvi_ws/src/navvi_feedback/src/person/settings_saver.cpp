@@ -17,7 +17,7 @@ std::vector<SettingsSaver::Failure> SettingsSaver::update() {
   if (file_) {
     saving_ = std::async(std::launch::async, [file = *file_, words] { file.save(words); });
   } else if (!std::exchange(told_, true)) {
-    failures.push_back({"settings_not_kept", ""});
+    failures.push_back({CueKind::settings_not_kept, ""});
   }
   return failures;
 }
@@ -35,7 +35,7 @@ void SettingsSaver::collect(std::vector<Failure>& failures) {
   try {
     saving_.get();
   } catch (const std::exception& error) {
-    failures.push_back({"settings_not_saved", error.what()});
+    failures.push_back({CueKind::settings_not_saved, error.what()});
   }
 }
 

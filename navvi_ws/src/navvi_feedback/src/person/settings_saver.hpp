@@ -1,6 +1,7 @@
 #pragma once
 
 #include <future>
+#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,11 +10,13 @@
 
 namespace navvi_feedback::person {
 
+using navvi_types::CueKind;
+
 /// Saves what a person changes while driving, in a thread of its own: a disk may take seconds.
 class SettingsSaver {
  public:
   struct Failure {
-    std::string cue;     ///< the kind that says so
+    CueKind cue;         ///< that says so
     std::string detail;  ///< a sentence for the log, or empty
   };
 

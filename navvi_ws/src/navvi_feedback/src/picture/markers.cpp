@@ -98,7 +98,7 @@ std::string turn_text(const Guidance& guidance, const cues::Phrases& words) {
   cues::Fillings turn;
   turn.hour = cues::clock_hour(guidance.turn_angle, cues::Rounding::nearest).value_or(12);
   turn.distance = std::max(0.0, guidance.waypoint_distance);
-  return words.say("turn_ahead", turn);
+  return words.say(CueKind::turn_ahead, turn);
 }
 
 void add_path(const MarkersConfig& config, const std::vector<Eigen::Vector2d>& path,

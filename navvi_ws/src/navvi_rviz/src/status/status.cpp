@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace navvi_rviz::status {
 namespace {
@@ -14,52 +13,71 @@ using navvi_types::Guidance;
 constexpr double kHeld = 10.0;
 constexpr double kShown = 4.0;  // s, of other warnings
 
-/// Cues that hold until the next word about the way.
-const std::set<std::string> kHolding = {"obstacle_stop", "blocked"};
-const std::set<std::string> kWarnings = {"collision_shelf", "collision_wall", "collision_obstacle",
-                                         "obstacle_stop",   "blocked",        "back_away",
-                                         "off_mesh",        "stuck",          "stuck_unknown",
-                                         "make_room",       "release_stick",  "trial_time_up",
-                                         "trial_disk_full", "trial_over",     "proximity_lost",
-                                         "simulator_lost",  "guidance_lost",  "no_route",
-                                         "record_lost"};
-/// Cues that say that the way goes on.
-const std::set<std::string> kReleasing = {
-    "direction", "straight", "slight", "straight_then", "turn_now", "rerouted", "rerouted_blocked"};
+using navvi_types::Banner;
+using navvi_types::CueFamily;
+using navvi_types::CueKind;
 
-/// What the spoken menu says while it is open, and what closes it.
-bool offers(const std::string& kind) {
-  static const std::set<std::string> others = {"goal_sure", "setting", "setting_open",
-                                               "setting_changed"};
-  return (kind.rfind("menu_", 0) == 0 && kind != "menu_closed") || others.count(kind) > 0;
-}
-bool closes(const std::string& kind) {
-  return kind == "menu_closed" || kind == "goal_chosen" || kind.rfind("glossary", 0) == 0;
+/// A word that the way goes on.
+bool releases(CueKind kind) {
+  switch (kind) {
+    case CueKind::direction:
+    case CueKind::straight:
+    case CueKind::slight:
+    case CueKind::straight_then:
+    case CueKind::turn_now:
+    case CueKind::rerouted:
+    case CueKind::rerouted_blocked:
+      return true;
+    default:
+      return false;
+  }
 }
 
-/// States that are said in words of their own.
-bool said_as_state(Guidance::State state) {
-  return state == Guidance::State::no_route || state == Guidance::State::off_mesh ||
-         state == Guidance::State::no_map || state == Guidance::State::pose_stale ||
-         state == Guidance::State::map_stale;
+/// The menu is closed, by itself or by what was chosen.
+bool closes(CueKind kind) {
+  return family_of(kind) == CueFamily::menu_end || kind == CueKind::lesson;
+}
+
+/// The cue whose words the banner shows of a state; nullopt for other words, or none.
+std::optional<CueKind> said_of(Guidance::State state) {
+  switch (state) {
+    case Guidance::State::no_route:
+      return CueKind::no_route;
+    case Guidance::State::off_mesh:
+      return CueKind::off_mesh;
+    case Guidance::State::no_map:
+      return CueKind::no_map;
+    case Guidance::State::pose_stale:
+      return CueKind::pose_stale;
+    case Guidance::State::map_stale:
+      return CueKind::map_stale;
+    case Guidance::State::no_goal:
+    case Guidance::State::following:
+    case Guidance::State::arrived:
+    case Guidance::State::blocked:
+    case Guidance::State::make_room:
+    case Guidance::State::goal_refused:
+      return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 void Status::take(const navvi_types::CueEvent& cue, double time) {
   using navvi_types::CueStage;
-  if (cue.modality != navvi_types::Modality::speech) return;
+  if (!cue.kind()) return;
+  const CueKind kind = *cue.kind();
   // The menu goes on, also where its word comes too late to be spoken.
-  if (cue.stage == CueStage::queued && offers(cue.kind)) menu_ = cue.text;
-  if (cue.stage == CueStage::queued && closes(cue.kind)) menu_.clear();
+  if (cue.stage == CueStage::queued && family_of(kind) == CueFamily::menu) menu_ = cue.text;
+  if (cue.stage == CueStage::queued && closes(kind)) menu_.clear();
   // Where nothing can be heard, what would have been is dropped.
   if (cue.stage != CueStage::started && !(silent_ && cue.stage == CueStage::dropped)) return;
-  last_ = Said{cue.kind, cue.text, time};
-  if (kWarnings.count(cue.kind) > 0) warning_ = last_;
-  if (kReleasing.count(cue.kind) > 0 && warning_ && kHolding.count(warning_->kind) > 0)
-    warning_.reset();
-  if (cue.kind == "pad_lost" || cue.kind == "keyboard_lost") lost_ = cue.text;
-  if (cue.kind == "pad_back" || cue.kind == "keyboard_back") lost_.clear();
+  last_ = Said{kind, cue.text, time};
+  if (traits(kind).banner != Banner::none) warning_ = last_;
+  if (releases(kind) && warning_ && traits(warning_->kind).banner == Banner::held) warning_.reset();
+  if (kind == CueKind::pad_lost || kind == CueKind::keyboard_lost) lost_ = cue.text;
+  if (kind == CueKind::pad_back || kind == CueKind::keyboard_back) lost_.clear();
 }
 
 void Status::take(const navvi_types::TrialState& state) {
@@ -96,7 +114,8 @@ void Status::take_device(const std::string& name, const std::string& state, doub
 std::optional<Status::Said> Status::warning(double time) const {
   if (!warning_) return std::nullopt;
   const double age = time - warning_->time;
-  return age < (kHolding.count(warning_->kind) > 0 ? kHeld : kShown) ? warning_ : std::nullopt;
+  return age < (traits(warning_->kind).banner == Banner::held ? kHeld : kShown) ? warning_
+                                                                                : std::nullopt;
 }
 
 /// The first that applies, most urgent first.
@@ -108,22 +127,24 @@ void Status::choose_banner(double time, Shown& shown) const {
     shown.tone = tone;
   };
   if (gate_ == navvi_types::DriveState::State::stopped)
-    show(words_.said("robot_stopped", keyboard_), Tone::alarm);
+    show(words_.said(CueKind::robot_stopped, keyboard_), Tone::alarm);
   show(lost_, Tone::alarm);
   if (const auto said = warning(time))
-    show(said->text,
-         said->kind == "blocked" || said->kind == "make_room" ? Tone::wait : Tone::alarm);
+    show(said->text, said->kind == CueKind::blocked || said->kind == CueKind::make_room
+                         ? Tone::wait
+                         : Tone::alarm);
   using Trial = navvi_types::TrialState::State;
   if (trial_ == Trial::ready)
-    show(words_.said(keyboard_ ? "press_enter" : "press_start", keyboard_), Tone::wait);
-  if (trial_ == Trial::choose_goal) show(words_.said("choose_goal", keyboard_), Tone::wait);
+    show(words_.said(keyboard_ ? CueKind::press_enter : CueKind::press_start, keyboard_),
+         Tone::wait);
+  if (trial_ == Trial::choose_goal) show(words_.said(CueKind::choose_goal, keyboard_), Tone::wait);
   if (!guidance_) return;
   const auto state = guidance_->state;
   if (state == Guidance::State::blocked) show(words_.of("picture/wait"), Tone::wait);
   if (state == Guidance::State::make_room) show(words_.of("picture/make_room"), Tone::wait);
   if (state == Guidance::State::arrived) show(words_.of("picture/arrived"), Tone::good);
   if (state == Guidance::State::goal_refused) show(words_.of("picture/goal_refused"), Tone::alarm);
-  if (said_as_state(state)) show(words_.said(to_string(state), keyboard_), Tone::alarm);
+  if (const auto kind = said_of(state)) show(words_.said(*kind, keyboard_), Tone::alarm);
   if (silent_ && time - *silent_ < kHeld) show(words_.of("picture/no_sound"), Tone::wait);
 }
 

@@ -56,7 +56,8 @@ class Status {
 
  private:
   struct Said {
-    std::string kind, text;
+    navvi_types::CueKind kind;
+    std::string text;
     double time;
   };
 

@@ -6,14 +6,15 @@ namespace navvi_rviz::status {
 namespace {
 
 using navvi_types::CueEvent;
+using navvi_types::CueKind;
 using navvi_types::CueStage;
 using navvi_types::DriveState;
 using navvi_types::Guidance;
 
-CueEvent said(const std::string& kind, const std::string& text) {
+CueEvent said(CueKind kind, const std::string& text) {
   CueEvent cue;
   cue.stage = CueStage::started;
-  cue.kind = kind;
+  cue.what = kind;
   cue.text = text;
   return cue;
 }
@@ -48,7 +49,7 @@ TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
   Status status = speaking();
   status.take(in(Guidance::State::blocked));
   EXPECT_EQ(status.shown(1.0, 0.0).banner, "wait");
-  status.take(said("collision_shelf", "hit a shelf on the left"), 1.0);
+  status.take(said(CueKind::collision_shelf, "hit a shelf on the left"), 1.0);
   EXPECT_EQ(status.shown(1.1, 0.0).banner, "hit a shelf on the left");
   status.take(gate(DriveState::State::stopped));
   EXPECT_EQ(status.shown(1.2, 0.0).banner, "robot stopped, release the stick");
@@ -58,20 +59,20 @@ TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
 
 TEST(Status, stop_holds_until_go_on_or_until_it_is_old) {
   Status status = speaking();
-  status.take(said("obstacle_stop", "stop, worker ahead"), 0.0);
+  status.take(said(CueKind::obstacle_stop, "stop, worker ahead"), 0.0);
   EXPECT_EQ(status.shown(8.0, 0.0).banner, "stop, worker ahead");
   EXPECT_EQ(status.shown(11.0, 0.0).banner, "");
-  status.take(said("obstacle_stop", "stop, worker ahead"), 20.0);
-  status.take(said("straight", "go on, straight ahead, 5 meters"), 21.0);
+  status.take(said(CueKind::obstacle_stop, "stop, worker ahead"), 20.0);
+  status.take(said(CueKind::straight, "go on, straight ahead, 5 meters"), 21.0);
   EXPECT_EQ(status.shown(21.1, 0.0).banner, "");
   EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on, straight ahead, 5 meters");
 }
 
 TEST(Status, a_lost_controller_is_shown_until_it_is_back) {
   Status status = speaking();
-  status.take(said("pad_lost", "controller disconnected"), 0.0);
+  status.take(said(CueKind::pad_lost, "controller disconnected"), 0.0);
   EXPECT_EQ(status.shown(100.0, 0.0).banner, "controller disconnected");
-  status.take(said("pad_back", "controller connected, release the stick"), 101.0);
+  status.take(said(CueKind::pad_back, "controller connected, release the stick"), 101.0);
   EXPECT_EQ(status.shown(101.0, 0.0).banner, "");
 }
 
@@ -124,7 +125,7 @@ TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
 
 TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
   Status status;
-  CueEvent cue = said("obstacle_stop", "stop, worker ahead");
+  CueEvent cue = said(CueKind::obstacle_stop, "stop, worker ahead");
   for (const CueStage stage : {CueStage::queued, CueStage::dropped, CueStage::ended}) {
     cue.stage = stage;
     status.take(cue, 0.0);
@@ -135,7 +136,7 @@ TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
 TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
   Status status = speaking();
   status.take_device("navvi/audio", "missing", 0.0);
-  CueEvent cue = said("direction", "2 o'clock, 5 meters");
+  CueEvent cue = said(CueKind::direction, "2 o'clock, 5 meters");
   cue.stage = CueStage::dropped;
   status.take(cue, 0.0);
   EXPECT_EQ(status.shown(0.0, 0.0).instruction, "2 o'clock, 5 meters");
@@ -143,18 +144,18 @@ TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
 
 TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
   Status status = speaking();
-  const auto queued = [](const std::string& kind, const std::string& text) {
+  const auto queued = [](CueKind kind, const std::string& text) {
     CueEvent cue = said(kind, text);
     cue.stage = CueStage::queued;
     return cue;
   };
-  status.take(queued("setting", "volume, 50 percent"), 0.0);
-  status.take(said("direction", "2 o'clock, 5 meters"), 1.0);
+  status.take(queued(CueKind::setting, "volume, 50 percent"), 0.0);
+  status.take(said(CueKind::direction, "2 o'clock, 5 meters"), 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");
   EXPECT_EQ(status.shown(1.0, 0.0).instruction, "2 o'clock, 5 meters");
-  status.take(queued("menu_closed", "menu closed"), 2.0);
+  status.take(queued(CueKind::menu_closed, "menu closed"), 2.0);
   EXPECT_EQ(status.shown(2.0, 0.0).menu, "");
-  status.take(queued("menu_begin", "begin the trial"), 3.0);
+  status.take(queued(CueKind::menu_begin, "begin the trial"), 3.0);
   status.take(navvi_types::TrialState{navvi_types::TrialState::State::running});
   EXPECT_EQ(status.shown(3.0, 0.0).menu, "") << "it was chosen";
 }

@@ -18,9 +18,9 @@ std::string Words::of(const std::string& key) const {
   return found == texts_.end() ? "" : found->second;
 }
 
-std::string Words::said(const std::string& kind, bool keyboard) const {
+std::string Words::said(navvi_types::CueKind kind, bool keyboard) const {
   const std::string place = "{stick}";
-  std::string text = of("phrases/" + kind);
+  std::string text = of(std::string("phrases/") + to_string(kind));
   if (const std::size_t at = text.find(place); at != std::string::npos)
     text.replace(at, place.size(), of(keyboard ? "words/key_stick" : "words/pad_stick"));
   return text;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <navvi_types/cue_kind.hpp>
 #include <string>
 
 namespace navvi_rviz::status {
@@ -17,7 +18,7 @@ class Words {
   [[nodiscard]] std::string of(const std::string& key) const;
   /// What is said of this kind of cue, where nothing else is put into it.
   /// \param keyboard  the hands are on the arrow keys
-  [[nodiscard]] std::string said(const std::string& kind, bool keyboard) const;
+  [[nodiscard]] std::string said(navvi_types::CueKind kind, bool keyboard) const;
 
  private:
   std::map<std::string, std::string> texts_;

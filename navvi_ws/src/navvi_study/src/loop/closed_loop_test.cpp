@@ -239,11 +239,12 @@ class Voxels {
 
 /// Whether a sentence says what to do, and not only what there is.
 bool instructs(const navvi_msgs::Cue& cue, const people::Listener& listener) {
-  using Kind = people::Instruction::Kind;
-  if (cue.kind == "obstacle_stop") return true;
-  const auto parts = listener.understand(cue.kind, cue.text);
+  const auto kind = navvi_types::from_word<navvi_types::CueKind>(cue.kind);
+  if (!kind || *kind == navvi_types::CueKind::obstacle_stop) return kind.has_value();
+  const auto parts = listener.understand(*kind, cue.text);
   return std::any_of(parts.begin(), parts.end(), [](const people::Instruction& part) {
-    return part.kind != Kind::nothing && part.kind != Kind::ready && part.kind != Kind::near;
+    return part.asks != people::Ask::nothing && part.asks != people::Ask::ready &&
+           part.asks != people::Ask::beware;
   });
 }
 

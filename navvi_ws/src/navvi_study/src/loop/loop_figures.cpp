@@ -10,6 +10,8 @@
 namespace navvi_study::loop {
 namespace {
 
+using navvi_types::CueKind;
+
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kStay = 0.3;        // m; who does not leave this circle stands still
 constexpr double kNearby = 1.5;      // m; what is farther away does not hold a robot up
@@ -30,6 +32,19 @@ std::string metres(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2f m", value);
   return text.data();
+}
+
+bool tells_new_way(CueKind kind) {
+  switch (kind) {
+    case CueKind::rerouted:
+    case CueKind::rerouted_blocked:
+    case CueKind::new_route:
+    case CueKind::no_route:
+    case CueKind::make_room:
+      return true;
+    default:
+      return false;
+  }
 }
 
 /// How many hours lie between two, the shorter way round.
@@ -69,8 +84,9 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
     const auto report = node::from_msg(cue);
     if (report) (void)monitor_.observe(*report);
     if (report && begun_) speech_.hear(*report, loop.time() - asked_ < kAnswered, loop.time());
-    if (begun_ && cue.stage == navvi_msgs::Cue::STARTED) listen(loop, cue);
-    if (cue.stage == navvi_msgs::Cue::STARTED) hear(cue, loop.time());
+    if (!report || report->stage != navvi_types::CueStage::started) continue;
+    if (begun_) listen(loop, *report);
+    hear(*report, loop.time());
   }
   if (told.guidance) {
     if (const auto report = node::from_msg(*told.guidance)) {
@@ -107,38 +123,40 @@ void LoopFigures::take(const navvi_msgs::Guidance& guidance) {
   ++guidances_;
 }
 
-void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
-  if (cue.modality != navvi_msgs::Cue::SPEECH) return;
+void LoopFigures::listen(const ClosedLoop& loop, const navvi_types::CueEvent& cue) {
+  if (!cue.kind()) return;
+  const CueKind kind = *cue.kind();
   spoken_ = cue.text;
-  const auto parts = loop.person().listener().understand(cue.kind, cue.text);
+  const auto parts = loop.person().listener().understand(kind, cue.text);
   if (parts.empty()) return;
   const people::Instruction& instruction = parts.back();
   const double driven = monitor_.tally().path_length;
-  const bool new_way = cue.kind.find("route") != std::string::npos || cue.kind == "make_room";
-  const bool replaced = new_way || cue.kind == "straight_then" || cue.kind == "turn_cancelled";
+  const bool new_way = tells_new_way(kind);
+  const bool replaced =
+      new_way || kind == CueKind::straight_then || kind == CueKind::turn_cancelled;
   if (replaced || driven > announced_until_) announced_.reset();
-  if (cue.kind == "turn_ahead") {
+  if (kind == CueKind::turn_ahead) {
     announced_ = instruction.hour;
     announced_until_ = driven + instruction.distance.value_or(0.0) + kSamePlace;
     return;
   }
-  const bool turn = instruction.kind == people::Instruction::Kind::turn;
-  if (!turn && instruction.kind != people::Instruction::Kind::straight) return;
+  const bool turn = instruction.asks == people::Ask::turn;
+  if (!turn && instruction.asks != people::Ask::go) return;
   const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
   const Said now{instruction.hour, robot.yaw - instruction.hour * kPi / 6.0, loop.time(),
                  robot.position};
-  if (cue.kind == "turn_now" && announced_) {
+  if (kind == CueKind::turn_now && announced_) {
     if (hours_between(*announced_, now.hour) > 1) ++misled_;
     announced_.reset();
   }
   if (said_) {
     if (said_->hour != now.hour) ++turns_;
     // Whoever has come to a corner is rightly sent elsewhere.
-    if (cue.kind != "turn_now" && now.time - said_->time < kJustBefore &&
+    if (kind != CueKind::turn_now && now.time - said_->time < kJustBefore &&
         (now.place - said_->place).norm() < kSamePlace &&
         std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kContrary)
       ++flips_;
-    const bool reason = cue.kind == "turn_now" || new_way;
+    const bool reason = kind == CueKind::turn_now || new_way;
     if (!reason && now.time - said_->time < kSoon &&
         std::abs(std::remainder(now.course - said_->course, 2.0 * kPi)) > kReversed)
       ++reversed_;
@@ -146,11 +164,11 @@ void LoopFigures::listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue) {
   said_ = now;
 }
 
-void LoopFigures::hear(const navvi_msgs::Cue& cue, double time) {
+void LoopFigures::hear(const navvi_types::CueEvent& cue, double time) {
   pushed_.reset();
   for (const char* mover : {"worker", "forklift", "pallet_robot"}) {
     std::string word = mover;
-    const bool sound = cue.kind.find(word) != std::string::npos;
+    const bool sound = cue.word().find(word) != std::string::npos;
     std::replace(word.begin(), word.end(), '_', ' ');
     if (sound || cue.text.find(word) != std::string::npos) named_[mover].push_back(time);
   }

@@ -48,11 +48,11 @@ class LoopFigures {
   };
 
   void begin(const ClosedLoop& loop);
-  void listen(const ClosedLoop& loop, const navvi_msgs::Cue& cue);
+  void listen(const ClosedLoop& loop, const navvi_types::CueEvent& cue);
   void take(const navvi_msgs::Guidance& guidance);
   void stand(const ClosedLoop& loop);
   void judge_warning(const navvi_msgs::Contact& contact, double time);
-  void hear(const navvi_msgs::Cue& cue, double time);
+  void hear(const navvi_types::CueEvent& cue, double time);
   void push(const ClosedLoop& loop);
   [[nodiscard]] std::string about() const;
 

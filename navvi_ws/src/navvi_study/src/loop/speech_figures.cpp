@@ -9,14 +9,14 @@ constexpr double kSame = 10.0;  // s; the same sentence again within it is a rep
 constexpr double kObey = 2.0;   // s, to hear a word to stop and let go of the stick
 
 bool stops(const navvi_types::CueEvent& cue) {
-  return cue.kind == "blocked" || cue.kind == "obstacle_stop";
+  return family_of(*cue.kind()) == navvi_types::CueFamily::halt;
 }
 
 }  // namespace
 
 void SpeechFigures::hear(const navvi_types::CueEvent& cue, bool asked, double time) {
   using navvi_types::CueStage;
-  if (cue.modality != navvi_types::Modality::speech) return;
+  if (cue.modality() != navvi_types::Modality::speech) return;
   if (cue.stage == CueStage::ended || cue.stage == CueStage::cut) {
     if (speaks_since_) talk_ += time - *speaks_since_;
     speaks_since_.reset();

@@ -1,6 +1,7 @@
 #include "people/listener.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <navvi_config/reader.hpp>
 #include <regex>
@@ -9,59 +10,7 @@
 namespace navvi_study::people {
 namespace {
 
-using Kind = Instruction::Kind;
-
 constexpr double kFoot = 0.3048;  // m
-
-/// What each kind of cue is to the hands; those that are not here are for the mind alone.
-Kind meaning(const std::string& kind) {
-  static const std::map<std::string, Kind> meanings = {{"start", Kind::ready},
-                                                       {"start_distance", Kind::ready},
-                                                       {"direction", Kind::turn},
-                                                       {"turn_now", Kind::turn},
-                                                       {"slight", Kind::turn},
-                                                       {"rerouted", Kind::turn},
-                                                       {"make_room", Kind::turn},
-                                                       {"rerouted_blocked", Kind::turn},
-                                                       {"wrong_way", Kind::turn},
-                                                       {"straight", Kind::straight},
-                                                       {"straight_then", Kind::straight},
-                                                       {"turn_cancelled", Kind::straight},
-                                                       {"go_on", Kind::straight},
-                                                       {"turn_ahead", Kind::turn_ahead},
-                                                       {"shelf_near", Kind::near},
-                                                       {"wall_near", Kind::near},
-                                                       {"shelf_close", Kind::near},
-                                                       {"wall_close", Kind::near},
-                                                       {"obstacle_near", Kind::near},
-                                                       {"obstacle_close", Kind::near},
-                                                       {"obstacle_stop", Kind::near},
-                                                       {"obstacle_comes", Kind::near},
-                                                       {"collision_shelf", Kind::bump},
-                                                       {"collision_wall", Kind::bump},
-                                                       {"collision_obstacle", Kind::bump},
-                                                       {"stuck", Kind::turn},
-                                                       {"stuck_unknown", Kind::bump},
-                                                       {"back_away", Kind::bump},
-                                                       {"off_mesh", Kind::bump},
-                                                       {"pad_lost", Kind::halt},
-                                                       {"pad_back", Kind::halt},
-                                                       {"keyboard_lost", Kind::halt},
-                                                       {"robot_stopped", Kind::halt},
-                                                       {"simulator_lost", Kind::halt},
-                                                       {"guidance_lost", Kind::halt},
-                                                       {"no_route", Kind::halt},
-                                                       {"no_map", Kind::halt},
-                                                       {"pose_stale", Kind::halt},
-                                                       {"map_stale", Kind::halt},
-                                                       {"blocked", Kind::halt},
-                                                       {"release_stick", Kind::halt},
-                                                       {"press_start", Kind::begin},
-                                                       {"arrived", Kind::arrived}};
-  const auto found = meanings.find(kind);
-  if (found != meanings.end()) return found->second;
-  return kind.rfind("goal_refused", 0) == 0 ? Kind::halt : Kind::nothing;
-}
 
 std::string literal(const std::string& text) {
   static const std::regex special(R"([.^$|()\[\]{}*+?\\])");
@@ -74,35 +23,36 @@ Listener::Listener(const std::filesystem::path& phrases) {
   const YAML::Node root = navvi_config::load_yaml(phrases);
   for (const char* section : {"phrases", "again", "clock", "brief", "full"})
     for (const auto& item : root[section])
-      phrases_.emplace(item.first.Scalar(), item.second.Scalar());
+      if (const auto kind = navvi_types::from_word<CueKind>(item.first.Scalar()))
+        phrases_.emplace(*kind, item.second.Scalar());
   for (const auto& item : root["words"])
     words_.emplace_back(item.second.Scalar(), item.first.Scalar());
-  const auto go_on = phrases_.find("go_on");
+  const auto go_on = phrases_.find(CueKind::go_on);
   if (go_on != phrases_.end()) go_on_ = go_on->second;
 }
 
-std::vector<Instruction> Listener::understand(const std::string& kind,
+std::vector<Instruction> Listener::understand(std::optional<CueKind> kind,
                                               const std::string& text) const {
   std::vector<Instruction> heard;
-  if (!kind.empty()) {
-    (void)parse(kind, text, heard);
+  if (kind) {
+    (void)parse(*kind, text, heard);
     return heard;
   }
   for (auto known = phrases_.begin(); known != phrases_.end();
        known = phrases_.upper_bound(known->first))
-    if (heard.clear(); parse(known->first, text, heard) && heard.front().kind != Kind::nothing)
+    if (heard.clear(); parse(known->first, text, heard) && heard.front().asks != Ask::nothing)
       break;
   return heard;
 }
 
-bool Listener::startles(const std::string& kind, const std::string& text, double letters) const {
-  const bool stops = kind == "blocked" || kind == "obstacle_stop" ||
-                     kind.rfind("collision_", 0) == 0 || kind.rfind("stuck", 0) == 0;
+bool Listener::startles(CueKind kind, const std::string& text, double letters) const {
+  using Family = navvi_types::CueFamily;
+  const Family family = family_of(kind);
+  const bool stops = family == Family::halt || family == Family::hit || family == Family::stuck;
   return stops && letters >= static_cast<double>(std::min(text.find_first_of(" ,"), text.size()));
 }
 
-bool Listener::parse(const std::string& kind, const std::string& text,
-                     std::vector<Instruction>& heard) const {
+bool Listener::parse(CueKind kind, const std::string& text, std::vector<Instruction>& heard) const {
   const std::string go_on = go_on_ + ", ";
   const bool goes_on = text.rfind(go_on, 0) == 0;
   const std::string told = goes_on ? text.substr(go_on.size()) : text;
@@ -113,7 +63,7 @@ bool Listener::parse(const std::string& kind, const std::string& text,
   return known;
 }
 
-bool Listener::parse(const std::string& kind, const std::string& phrase, const std::string& text,
+bool Listener::parse(CueKind kind, const std::string& phrase, const std::string& text,
                      std::vector<Instruction>& heard) const {
   static const std::regex placeholder(R"(\{(\w+)\})");
   std::string pattern;
@@ -138,20 +88,21 @@ bool Listener::parse(const std::string& kind, const std::string& phrase, const s
   std::smatch match;
   if (!std::regex_match(text, match, std::regex(pattern))) return false;
   Instruction told;
-  told.kind = meaning(kind);
+  told.asks = traits(kind).ask;
   for (std::size_t i = 0; i < slots.size(); ++i)
     fill(told, slots[i], match[2 * i + 2], match[2 * i + 1]);
-  told.slight = kind == "slight";
-  told.very_close = kind.find("_close") != std::string::npos;
+  told.slight = kind == CueKind::slight;
+  told.very_close = family_of(kind) == navvi_types::CueFamily::close;
   if (told.slight) told.hour = told.side == Instruction::Side::left ? 11 : 1;
-  if (told.kind == Kind::turn && told.hour == 12) told.kind = Kind::straight;
+  if (told.asks == Ask::turn && told.hour == 12) told.asks = Ask::go;
   // What comes after it is told again at the corner.
-  if (told.kind == Kind::straight) told.hour = 12;
+  if (told.asks == Ask::go) told.hour = 12;
   std::vector<Instruction> parts = {told};
   const std::string rest = match[match.size() - 1];
-  const auto way = {"direction", "slight",    "straight",          "turn_ahead",
-                    "around",    "goal_info", "goal_info_distance"};
-  const bool known = rest.empty() || std::any_of(way.begin(), way.end(), [&](const char* more) {
+  static constexpr std::array kWay = {
+      CueKind::direction, CueKind::slight,    CueKind::straight,          CueKind::turn_ahead,
+      CueKind::around,    CueKind::goal_info, CueKind::goal_info_distance};
+  const bool known = rest.empty() || std::any_of(kWay.begin(), kWay.end(), [&](CueKind more) {
                        return parse(more, rest, parts);
                      });
   if (known) heard.insert(heard.end(), parts.begin(), parts.end());

@@ -35,6 +35,11 @@ double angle_of(int hour, bool slight, bool from_straight) {
   return angle > kPi + 1e-9 ? angle - 2.0 * kPi : angle;
 }
 
+/// nullopt where the words alone tell what they are.
+std::optional<CueKind> label(CueKind kind) {
+  return kind == CueKind::lesson ? std::nullopt : std::optional(kind);
+}
+
 }  // namespace
 
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
@@ -81,10 +86,12 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std:
 
 void SimulatedOperator::hear(const CueEvent& cue, double time) {
   using navvi_types::CueStage;
-  if (cue.modality == navvi_types::Modality::sound) return hear_sound(cue, time);
-  if (cue.modality != navvi_types::Modality::speech) return;
+  if (const auto* const earcon = std::get_if<Earcon>(&cue.what))
+    return hear_sound(*earcon, cue.left, cue.right, time);
+  const auto* const spoken = std::get_if<navvi_types::Spoken>(&cue.what);
+  if (spoken == nullptr) return;
   if (cue.stage == CueStage::started) {
-    hearing_[cue.id] = {cue.kind, cue.text, heading_, odometer_, time, time};
+    hearing_[cue.id] = {spoken->kind, cue.text, heading_, odometer_, time, time};
   } else if (cue.stage == CueStage::cut) {
     hearing_.erase(cue.id);
   } else if (cue.stage == CueStage::ended) {
@@ -92,12 +99,12 @@ void SimulatedOperator::hear(const CueEvent& cue, double time) {
   }
 }
 
-void SimulatedOperator::hear_sound(const CueEvent& cue, double time) {
+void SimulatedOperator::hear_sound(Earcon earcon, double left, double right, double time) {
   using Side = Instruction::Side;
   if (std::uniform_real_distribution<double>(0.0, 1.0)(ear_random_) < config_.missed_sounds) return;
-  const double lean = cue.left - cue.right;
-  const bool aside = std::abs(lean) > 0.3 * (cue.left + cue.right);
-  heard_.push_back({cue.kind,
+  const double lean = left - right;
+  const bool aside = std::abs(lean) > 0.3 * (left + right);
+  heard_.push_back({earcon,
                     !aside       ? Side::ahead
                     : lean > 0.0 ? Side::left
                                  : Side::right,
@@ -105,35 +112,56 @@ void SimulatedOperator::hear_sound(const CueEvent& cue, double time) {
 }
 
 void SimulatedOperator::follow(const Heard& sound, double time) {
-  const std::string& kind = sound.kind;
-  if (kind == "turn" || kind == "turn_click") {
-    last_news_ = time;
-    const bool same = ticks_ && ticks_->side == sound.side;
-    const bool slow = !same || time - ticks_->last > kSlowTicks;
-    ticks_ = Ticks{sound.side, time, sound.much.value_or(slow)};
-    if (mode_ == Mode::waiting && !told_to_halt_) mode_ = Mode::driving;
-  } else if (kind == "on_course") {
-    last_news_ = time;
-    stop_at_ = std::max(stop_at_, odometer_ + 0.5 * config_.trust);
-  } else if (kind == "turn_stop") {
-    last_news_ = time;
-    ticks_.reset();
-    if (mode_ != Mode::turning && mode_ != Mode::driving) return;
-    mode_ = Mode::driving;
-    target_ = heading_;
-    straight_before_ = true;
-    stop_at_ = std::max(stop_at_, odometer_ + config_.trust);
-    speed_ = config_.cruise;
-  } else if (kind.rfind("hit_", 0) == 0) {
-    if (mode_ != Mode::arrived && mode_ != Mode::backing) mode_ = Mode::waiting;
-  } else if (const bool close = kind.find("_close") != std::string::npos;
-             close || kind.find("_near") != std::string::npos) {
-    Instruction near;
-    near.kind = Instruction::Kind::near;
-    near.side = sound.side;
-    near.very_close = close;
-    shy_away(near, time);
+  switch (sound.earcon) {
+    case Earcon::turn:
+    case Earcon::turn_click:
+      return follow_tick(sound, time);
+    case Earcon::on_course:
+      last_news_ = time;
+      stop_at_ = std::max(stop_at_, odometer_ + 0.5 * config_.trust);
+      return;
+    case Earcon::turn_stop:
+      return stop_turn(time);
+    case Earcon::hit_shelf:
+    case Earcon::hit_obstacle:
+      if (mode_ != Mode::arrived && mode_ != Mode::backing) mode_ = Mode::waiting;
+      return;
+    case Earcon::shelf_near:
+    case Earcon::worker_near:
+    case Earcon::forklift_near:
+    case Earcon::pallet_robot_near:
+    case Earcon::thing_near:
+      return shy_away({Ask::beware, 12, {}, sound.side}, time);
+    case Earcon::shelf_close:
+    case Earcon::worker_close:
+    case Earcon::forklift_close:
+    case Earcon::pallet_robot_close:
+    case Earcon::thing_close:
+      return shy_away({Ask::beware, 12, {}, sound.side, true}, time);
+    case Earcon::arrived:
+    case Earcon::beacon:
+    case Earcon::sonar:
+      return;
   }
+}
+
+void SimulatedOperator::follow_tick(const Heard& tick, double time) {
+  last_news_ = time;
+  const bool same = ticks_ && ticks_->side == tick.side;
+  const bool slow = !same || time - ticks_->last > kSlowTicks;
+  ticks_ = Ticks{tick.side, time, tick.much.value_or(slow)};
+  if (mode_ == Mode::waiting && !told_to_halt_) mode_ = Mode::driving;
+}
+
+void SimulatedOperator::stop_turn(double time) {
+  last_news_ = time;
+  ticks_.reset();
+  if (mode_ != Mode::turning && mode_ != Mode::driving) return;
+  mode_ = Mode::driving;
+  target_ = heading_;
+  straight_before_ = true;
+  stop_at_ = std::max(stop_at_, odometer_ + config_.trust);
+  speed_ = config_.cruise;
 }
 
 /// A large turn is made on the spot, a small one on the way.
@@ -154,10 +182,10 @@ void SimulatedOperator::feel(double left, double right, double time) {
     const bool pulled = (left > 0.0) != (right > 0.0);
     const double reaction = time + sound_reaction_;
     if (pulled)
-      heard_.push_back({"turn", left > 0.0 ? Side::left : Side::right, reaction,
+      heard_.push_back({Earcon::turn, left > 0.0 ? Side::left : Side::right, reaction,
                         std::max(left, right) > kMuchForce});
     else if (left == 0.0 && ticks_)
-      heard_.push_back({"turn_stop", Side::none, reaction});
+      heard_.push_back({Earcon::turn_stop, Side::none, reaction});
     return;
   }
   left_motor_ = left;
@@ -174,9 +202,9 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
                   unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
   understood_.push_back(sentence);
   // A thing nearby, or a later turn, is no news while waiting for a direction.
-  const std::vector<Instruction> told = listener_.understand(sentence.kind, sentence.text);
+  const std::vector<Instruction> told = listener_.understand(label(sentence.kind), sentence.text);
   const auto idle = [](const Instruction& part) {
-    return part.kind == Instruction::Kind::near || part.kind == Instruction::Kind::turn_ahead;
+    return part.asks == Ask::beware || part.asks == Ask::turn_ahead;
   };
   if (mode_ != Mode::waiting || !std::all_of(told.begin(), told.end(), idle)) last_news_ = time;
 }
@@ -245,39 +273,37 @@ void SimulatedOperator::be_startled(double time) {
 }
 
 void SimulatedOperator::wait_for_go_on(const Sentence& sentence) {
-  const bool stops = sentence.kind == "obstacle_stop" || sentence.kind == "blocked";
+  const bool stops = family_of(sentence.kind) == navvi_types::CueFamily::halt;
   if (!config_.obeys || !stops) return;
   waits_ = std::max(waits_.value_or(sentence.begun), sentence.begun);
   told_to_halt_ = true;
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
-  using Kind = Instruction::Kind;
   wait_for_go_on(sentence);
-  const auto parts = listener_.understand(sentence.kind, sentence.text);
+  const auto parts = listener_.understand(label(sentence.kind), sentence.text);
   if (!parts.empty() && parts.front().goes_on && waits_ && sentence.begun > *waits_) waits_.reset();
   for (const Instruction& part : parts) {
-    const bool leads = part.kind == Kind::turn || part.kind == Kind::straight;
+    const bool leads = part.asks == Ask::turn || part.asks == Ask::go;
     if (!(leads && waits_)) follow(sentence, part, time);
   }
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, const Instruction& instruction,
                                double time) {
-  using Kind = Instruction::Kind;
-  if (instruction.kind == Kind::halt || instruction.kind == Kind::bump) told_to_halt_ = true;
-  if (instruction.kind == Kind::ready || instruction.kind == Kind::turn ||
-      instruction.kind == Kind::straight)
+  if (instruction.asks == Ask::halt || instruction.asks == Ask::back) told_to_halt_ = true;
+  if (instruction.asks == Ask::ready || instruction.asks == Ask::turn ||
+      instruction.asks == Ask::go)
     told_to_halt_ = false;
-  switch (instruction.kind) {
-    case Instruction::Kind::nothing:
-    case Instruction::Kind::ready:
+  switch (instruction.asks) {
+    case Ask::nothing:
+    case Ask::ready:
       break;
-    case Instruction::Kind::turn:
+    case Ask::turn:
       turn_to(sentence, instruction);
       straight_before_ = false;
       break;
-    case Instruction::Kind::straight:
+    case Ask::go:
       // A turn that a sound has led since is not turned back.
       if (turned_by_ear_ < sentence.begun) target_ = sentence.heading;
       turn_speed_ = 0.0;
@@ -285,29 +311,29 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
       go_for(sentence, instruction);
       straight_before_ = true;
       break;
-    case Instruction::Kind::turn_ahead:
+    case Ask::turn_ahead:
       if (mode_ == Mode::driving) {
         stop_at_ = sentence.odometer + instruction.distance.value_or(kBlindTurn);
         if (stop_at_ - odometer_ < 3.0) speed_ = std::min(speed_, config_.slow);
       }
       break;
-    case Instruction::Kind::near:
+    case Ask::beware:
       if (instruction.side == Instruction::Side::ahead && mode_ == Mode::driving) {
         mode_ = Mode::waiting;
         ask_soon(time);
       }
       shy_away(instruction, time);
       break;
-    case Instruction::Kind::bump:
+    case Ask::back:
       back_off(instruction.side, time);
       break;
-    case Instruction::Kind::halt:
+    case Ask::halt:
       mode_ = Mode::waiting;
       break;
-    case Instruction::Kind::begin:
+    case Ask::begin:
       pressed_ = time;
       break;
-    case Instruction::Kind::arrived:
+    case Ask::rest:
       mode_ = Mode::arrived;
       break;
   }

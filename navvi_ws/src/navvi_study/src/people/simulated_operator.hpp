@@ -15,6 +15,7 @@
 
 namespace navvi_study {
 using navvi_types::CueEvent;
+using navvi_types::Earcon;
 }  // namespace navvi_study
 
 namespace navvi_study::people {
@@ -80,7 +81,7 @@ class SimulatedOperator {
   enum class Mode { waiting, turning, driving, backing, arrived };
   /// A sentence, and where the operator believed to be when it began.
   struct Sentence {
-    std::string kind;
+    CueKind kind = CueKind::lesson;
     std::string text;
     double heading = 0.0;
     double odometer = 0.0;
@@ -90,7 +91,7 @@ class SimulatedOperator {
 
   /// A short sound, as the ear takes it.
   struct Heard {
-    std::string kind;
+    Earcon earcon = Earcon::turn;
     Instruction::Side side = Instruction::Side::none;
     double time = 0.0;              ///< s: when the hands will follow
     std::optional<bool> much = {};  ///< is left to turn; nullopt: as slow ticks tell
@@ -102,8 +103,10 @@ class SimulatedOperator {
     bool much = true;   ///< is left to turn
   };
 
-  void hear_sound(const CueEvent& cue, double time);
+  void hear_sound(Earcon earcon, double left, double right, double time);
   void follow(const Heard& sound, double time);
+  void follow_tick(const Heard& tick, double time);
+  void stop_turn(double time);
   [[nodiscard]] StickAndButtons turn_by_ear(double time) const;
   void understood(std::uint32_t id, double time);
   void follow(const Sentence& sentence, double time);

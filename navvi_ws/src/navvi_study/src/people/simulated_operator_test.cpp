@@ -45,7 +45,7 @@ class Loop {
     return hand;
   }
 
-  void say(const std::string& text, const std::string& kind = "") {
+  void say(const std::string& text, CueKind kind = CueKind::lesson) {
     ++id_;
     person.hear({id_, CueStage::started, kind, text}, time);
     speaking_until_ = time + 0.4 + static_cast<double>(text.size()) / 18.0;
@@ -141,15 +141,8 @@ TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {
 }
 
 /// A short sound: from the left, the right or, with both, from ahead.
-CueEvent sound(const char* kind, double left, double right) {
-  return {1,
-          CueStage::started,
-          kind,
-          "",
-          navvi_types::Priority::progress,
-          navvi_types::Modality::sound,
-          left,
-          right};
+CueEvent sound(Earcon earcon, double left, double right) {
+  return {1, CueStage::started, earcon, "", navvi_types::Priority::progress, left, right};
 }
 
 /// Turns to `angle`, rad, counter-clockwise, by ticks that end `early` s before it is reached.
@@ -168,11 +161,12 @@ double turned_by_ear(std::uint64_t seed, double angle, double early) {
     const double rate = (loop.yaw - before) / kStep;
     before = loop.yaw;
     over = over || (off - rate * early) * angle < 0.0;
-    if (over && !told) loop.person.hear(sound("turn_stop", 0.3, 0.3), loop.time);
+    if (over && !told) loop.person.hear(sound(Earcon::turn_stop, 0.3, 0.3), loop.time);
     told = over;
     if (!over && loop.time - ticked > 0.1 + 0.4 * std::min(1.0, std::abs(off) / 1.57)) {
       ticked = loop.time;
-      loop.person.hear(off > 0.0 ? sound("turn", 0.6, 0.0) : sound("turn", 0.0, 0.6), loop.time);
+      loop.person.hear(off > 0.0 ? sound(Earcon::turn, 0.6, 0.0) : sound(Earcon::turn, 0.0, 0.6),
+                       loop.time);
     }
     loop.step();
   }
@@ -198,10 +192,10 @@ TEST(SimulatedOperator, does_not_turn_back_what_a_sound_led_while_it_was_told_to
   for (int i = 0; i < 200; ++i) loop.step();
   loop.say("go on, straight ahead, 9 meters");
   for (int i = 0; i < 40; ++i) {
-    if (i % 10 == 0) loop.person.hear(sound("turn", 0.6, 0.0), loop.time);
+    if (i % 10 == 0) loop.person.hear(sound(Earcon::turn, 0.6, 0.0), loop.time);
     loop.step();
   }
-  loop.person.hear(sound("turn_stop", 0.3, 0.3), loop.time);
+  loop.person.hear(sound(Earcon::turn_stop, 0.3, 0.3), loop.time);
   for (int i = 0; i < 30; ++i) loop.step();
   const double turned = loop.yaw;
   EXPECT_GT(turned, 0.1);
@@ -264,7 +258,7 @@ TEST(SimulatedOperator, lets_go_at_the_word_that_something_was_hit) {
   loop.say("straight ahead, 8 meters");
   loop.person.hear({1, CueStage::ended}, loop.time);
   for (int i = 0; i < 150; ++i) (void)loop.step();
-  loop.say("hit a pallet robot on the right", "collision_obstacle");
+  loop.say("hit a pallet robot on the right", CueKind::collision_obstacle);
   for (int i = 0; i < 45; ++i) (void)loop.step();
   EXPECT_EQ(loop.step().forward, 0.0) << "the sentence is not over yet";
 }

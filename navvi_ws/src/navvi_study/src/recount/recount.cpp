@@ -28,7 +28,7 @@ trial::TrialStart start_of(const record::Row& row) {
   start.contact_seq = static_cast<std::uint32_t>(count_in(row, "contact_seq"));
   start.shelf_count = count_in(row, "shelf_contacts");
   start.obstacle_count = count_in(row, "obstacle_contacts");
-  if (!row.fields.find("stuck_cues")) start.stuck = {"stuck"};
+  if (!row.fields.find("stuck_cues")) start.stuck = {navvi_types::CueKind::stuck};
   return start;
 }
 

@@ -275,7 +275,9 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
   fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);
   fields.set("center_range", monitor.center_range).set("arrival_range", monitor.arrival_range);
-  fields.set("stuck_cues", list_of(beginning.stuck));
+  std::vector<std::string> stuck;
+  for (const CueKind kind : beginning.stuck) stuck.emplace_back(to_string(kind));
+  fields.set("stuck_cues", list_of(stuck));
   return fields;
 }
 

@@ -13,11 +13,10 @@ using navvi_types::CueStage;
 using navvi_types::Modality;
 using navvi_types::ThingClass;
 
-constexpr std::size_t kReports = 20;         // of latencies; some seconds
-constexpr double kSameGoal = 0.05;           // m
-constexpr double kMoved = 0.05;              // m, driven
-constexpr double kTurned = 0.1;              // rad
-constexpr const char* kNearness = "rumble";  // the kind of what is felt of near things all the time
+constexpr std::size_t kReports = 20;  // of latencies; some seconds
+constexpr double kSameGoal = 0.05;    // m
+constexpr double kMoved = 0.05;       // m, driven
+constexpr double kTurned = 0.1;       // rad
 constexpr std::int64_t kOldNews =
     2'000'000'000;  // ns in which an arrival may still be the last goal's
 
@@ -337,16 +336,18 @@ void TrialMonitor::count_plans(const Guidance& guidance, std::vector<Event>& eve
 std::optional<Event> TrialMonitor::row_of(const CueEvent& cue) {
   const bool begins = cue.stage == CueStage::started;
   if (!begins && cue.stage != CueStage::ended && cue.stage != CueStage::cut) return std::nullopt;
-  if (cue.modality != Modality::speech) {
+  if (cue.modality() != Modality::speech) {
     // What is played or felt is reported at each change of strength; a row is for a new kind.
-    const std::string before = std::exchange(playing_[cue.modality], begins ? cue.kind : "");
-    if (begins && cue.modality == Modality::sound) ++tally_.sounds_played;
-    if (!begins || cue.kind == before || cue.kind == kNearness) return std::nullopt;
-    if (cue.modality == Modality::rumble) ++tally_.patterns_felt;
+    const std::string before = std::exchange(playing_[cue.modality()], begins ? cue.word() : "");
+    if (begins && cue.modality() == Modality::sound) ++tally_.sounds_played;
+    const auto* const felt = std::get_if<navvi_types::Felt>(&cue.what);
+    const bool nearness = felt != nullptr && !felt->pattern;
+    if (!begins || cue.word() == before || nearness) return std::nullopt;
+    if (cue.modality() == Modality::rumble) ++tally_.patterns_felt;
   }
   record::Fields fields = place();
-  fields.set("id", std::uint64_t{cue.id}).set("modality", to_string(cue.modality));
-  fields.set("kind", cue.kind)
+  fields.set("id", std::uint64_t{cue.id}).set("modality", to_string(cue.modality()));
+  fields.set("kind", cue.word())
       .set("text", cue.text.empty() ? "n/a" : cue.text)
       .set("stage", to_string(cue.stage));
   return Event{begins ? "CUE" : "CUE_END", fields, cue.stamp, false};
@@ -356,11 +357,11 @@ std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
   if (!counts(cue.stamp)) return {};
   std::vector<Event> events;
   if (const auto row = row_of(cue)) events.push_back(*row);
-  if (cue.modality != Modality::speech) return events;
+  if (cue.modality() != Modality::speech) return events;
   if (cue.stage == CueStage::started) ++tally_.cues_spoken;
   // However its speech fares, a cue that says stuck is the fact of being stuck.
-  const std::vector<std::string>& stuck = start_->stuck;
-  const bool says_stuck = std::find(stuck.begin(), stuck.end(), cue.kind) != stuck.end();
+  const std::vector<CueKind>& stuck = start_->stuck;
+  const bool says_stuck = std::find(stuck.begin(), stuck.end(), cue.kind()) != stuck.end();
   if (says_stuck && stuck_cues_.insert(cue.id).second)
     events.push_back({"STUCK", place(), cue.stamp, true});
   return events;

@@ -19,6 +19,7 @@
 namespace navvi_study {
 using navvi_types::Contact;
 using navvi_types::CueEvent;
+using navvi_types::CueKind;
 using navvi_types::DriveState;
 using navvi_types::Guidance;
 using navvi_types::NearThing;
@@ -75,7 +76,7 @@ struct TrialStart {
   std::uint64_t shelf_count = 0;  ///< contacts before the trial
   std::uint64_t obstacle_count = 0;
   /// Kinds of cues that say that the robot is stuck; records of 0.1.0 count the first alone.
-  std::vector<std::string> stuck = {"stuck", "stuck_unknown", "back_away"};
+  std::vector<CueKind> stuck = {CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away};
 };
 
 /// Running figures of a trial.

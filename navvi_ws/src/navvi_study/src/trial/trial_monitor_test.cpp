@@ -236,7 +236,7 @@ TEST_F(Monitor, measures_the_way_driven) {
 
 TEST_F(Monitor, has_a_row_where_a_cue_begins_and_one_where_it_ends) {
   using navvi_types::CueStage;
-  CueEvent cue{3, CueStage::queued, "turn_now", "turn to 2 o'clock now"};
+  CueEvent cue{3, CueStage::queued, CueKind::turn_now, "turn to 2 o'clock now"};
   cue.stamp = 11 * kSecond;
   EXPECT_TRUE(monitor_.observe(cue).empty());
   cue.stage = CueStage::started;
@@ -250,14 +250,16 @@ TEST_F(Monitor, has_a_row_where_a_cue_begins_and_one_where_it_ends) {
 
 TEST_F(Monitor, has_a_row_for_each_pattern_that_is_felt_and_none_for_what_is_near_all_the_time) {
   CueEvent felt{1, navvi_types::CueStage::started};
-  felt.modality = navvi_types::Modality::rumble;
   felt.stamp = 11 * kSecond;
   Names rows;
-  for (const char* kind : {"rumble", "hit_hard", "hit_hard", "rumble", "hit_hard"}) {
-    felt.kind = kind;
+  using navvi_types::Felt;
+  const Felt near;
+  const Felt hit{navvi_types::Pattern::hit_shelf};
+  for (const Felt& what : {near, hit, hit, near, hit}) {
+    felt.what = what;
     for (const auto& event : monitor_.observe(felt)) rows.push_back(event.fields.get("kind"));
   }
-  EXPECT_EQ(rows, (Names{"hit_hard", "hit_hard"}));
+  EXPECT_EQ(rows, (Names{"hit_shelf", "hit_shelf"}));
   EXPECT_EQ(monitor_.tally().cues_spoken, 0u);
 }
 
@@ -278,7 +280,7 @@ TEST_F(Monitor, counts_the_reroutes_of_all_goals_and_of_a_guidance_that_was_star
 TEST_F(Monitor, counts_being_stuck_once_a_cue) {
   using navvi_types::CueStage;
   const auto events = [this](std::uint32_t id, CueStage stage) {
-    CueEvent cue{id, stage, "stuck"};
+    CueEvent cue{id, stage, CueKind::stuck};
     cue.stamp = 11 * kSecond;
     return types(monitor_.observe(cue));
   };
@@ -290,15 +292,16 @@ TEST_F(Monitor, counts_being_stuck_once_a_cue) {
 
 TEST_F(Monitor, counts_every_way_of_being_told_that_the_robot_is_stuck) {
   std::uint32_t id = 0;
-  for (const char* kind : {"stuck", "stuck_unknown", "back_away", "blocked"}) {
+  for (const CueKind kind :
+       {CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away, CueKind::blocked}) {
     CueEvent cue{++id, navvi_types::CueStage::queued, kind};
     cue.stamp = 11 * kSecond;
-    EXPECT_EQ(types(monitor_.observe(cue)), id < 4 ? Names{"STUCK"} : Names{}) << kind;
+    EXPECT_EQ(types(monitor_.observe(cue)), id < 4 ? Names{"STUCK"} : Names{}) << to_string(kind);
   }
   TrialStart older{20 * kSecond, {5.0, 0.0}};
-  older.stuck = {"stuck"};
+  older.stuck = {CueKind::stuck};
   monitor_.start(older);
-  CueEvent cue{9, navvi_types::CueStage::queued, "back_away"};
+  CueEvent cue{9, navvi_types::CueStage::queued, CueKind::back_away};
   cue.stamp = 21 * kSecond;
   EXPECT_TRUE(monitor_.observe(cue).empty());
 }
@@ -343,11 +346,10 @@ TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
 }
 
 TEST_F(Monitor, counts_sounds_and_felt_patterns_and_keeps_how_long_the_person_waited) {
-  const auto played = [&](navvi_types::Modality modality, const char* kind, int second) {
+  const auto played = [&](navvi_types::Modality modality, const char* word, int second) {
     CueEvent cue;
     cue.stage = navvi_types::CueStage::started;
-    cue.kind = kind;
-    cue.modality = modality;
+    cue.what = *navvi_types::signal_of(modality, word);
     cue.stamp = second * kSecond;
     return monitor_.observe(cue);
   };

@@ -2,9 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 
+#include "navvi_types/cue_kind.hpp"
 #include "navvi_types/names.hpp"
+#include "navvi_types/signal.hpp"
 
 namespace navvi_types {
 
@@ -18,23 +23,41 @@ enum class Modality : std::uint8_t { speech, rumble, sound };
   return {"speech", "rumble", "sound"};
 }
 
-/// The scale of speech-dispatcher, least first.
-enum class Priority : std::uint8_t { progress, notification, text, message, important };
-[[nodiscard]] constexpr std::array<const char*, 5> names(Priority) {
-  return {"progress", "notification", "text", "message", "important"};
-}
+/// A sentence.
+struct Spoken {
+  // NOLINTNEXTLINE(google-explicit-constructor): a kind alone is a sentence of the guide
+  Spoken(CueKind of = CueKind::lesson, std::string key = {}) : kind(of), lesson(std::move(key)) {}
+  CueKind kind;
+  std::string lesson;  ///< key of the text, where the kind is a lesson's
+};
+/// A change of the motors.
+struct Felt {
+  std::optional<Pattern> pattern = {};  ///< nullopt: what is near
+};
 
 /// One moment in the life of a message that is spoken, felt, or a short sound.
 struct CueEvent {
   std::uint32_t id = 0;  ///< the same through the cue's life, 1 for the first, no gaps
   CueStage stage = CueStage::queued;
-  std::string kind = {};  ///< the phrase's key, such as turn_now, or the pattern's or sound's name
-  std::string text = {};  ///< as spoken; else empty
+  std::variant<Spoken, Felt, Earcon> what = {};  ///< in the order of Modality
+  std::string text = {};                         ///< as spoken; else empty
   Priority priority = Priority::text;
-  Modality modality = Modality::speech;
   double left = 0.0;  ///< motor command, or share of a sound from the left, [0, 1]; 0 for speech
   double right = 0.0;
   std::int64_t stamp = 0;  ///< ns, ROS time
+
+  [[nodiscard]] Modality modality() const { return static_cast<Modality>(what.index()); }
+  /// nullopt for what is not spoken
+  [[nodiscard]] std::optional<CueKind> kind() const {
+    const auto* const spoken = std::get_if<Spoken>(&what);
+    return spoken != nullptr ? std::optional(spoken->kind) : std::nullopt;
+  }
+  /// In messages and records: the kind, a lesson's key, the pattern or "rumble", or the sound.
+  [[nodiscard]] std::string word() const;
 };
+
+/// The inverse of CueEvent::word(). \return nullopt for a word that no pattern or sound has
+[[nodiscard]] std::optional<std::variant<Spoken, Felt, Earcon>> signal_of(Modality modality,
+                                                                          const std::string& word);
 
 }  // namespace navvi_types

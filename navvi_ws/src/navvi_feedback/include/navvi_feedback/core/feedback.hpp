@@ -39,7 +39,7 @@ struct NearNow;
 struct SoundsNow;
 
 struct FeedbackConfig {
-  double stale = 0.8;  ///< s
+  double stale = 0.8;           ///< s
   std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
@@ -67,7 +67,7 @@ class Feedback {
     bool voice_busy = false;                  ///< something is being spoken or waits for it
     std::optional<navvi_types::Pose2> robot;  ///< base_link in map, if known
     std::vector<drive::Button> asked;  ///< by other means than the hands, since the last update
-    std::vector<std::string> notices;  ///< as Situation::notices
+    std::vector<CueKind> notices;      ///< as Situation::notices
     std::string person;                ///< whose settings are used, if anybody's
   };
   struct Output {
@@ -162,7 +162,8 @@ class Feedback {
 
   FeedbackConfig config_;
   std::unique_ptr<Deciders> deciders_;
-  std::vector<std::string> begun_;  ///< kinds of words that began to be heard since the last update
+  std::vector<std::string>
+      begun_;  ///< texts of a lesson that began to be heard since the last update
 
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;

@@ -14,6 +14,8 @@
 
 namespace navvi_feedback::node {
 
+using navvi_types::CueKind;
+
 /// Axes out of [-1, 1] by more than rounding, or fewer than two, are rejected.
 [[nodiscard]] std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg);
 
@@ -28,7 +30,7 @@ namespace navvi_feedback::node {
                                                       const std::string& driver);
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
 /// arrival tells it.
-[[nodiscard]] std::optional<std::string> last_words(const navvi_msgs::TrialEvent& msg);
+[[nodiscard]] std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg);
 /// As a navvi_msgs/Cue, of the kind of its pattern, or "rumble".
 /// \param id  counts the changes of the motors
 [[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "navvi_types/names.hpp"
+
+namespace navvi_types {
+
+/// Patterns of the pad's motors, felt besides what is near; the most urgent last.
+enum class Pattern : std::uint8_t {
+  sample,        ///< one long pulse: how strong the motors are set
+  ready,         ///< two light taps: a trial waits for the person
+  begun,         ///< one light tap: it runs
+  rerouted,      ///< a light tap on the left, then on the right
+  arrived,       ///< three pulses that rise
+  no_sound,      ///< three soft pulses: what the voice cannot say
+  stuck,         ///< four quick taps
+  halt,          ///< a short and a long pulse: the word is to stop, or to wait
+  stopped,       ///< two long pulses: the robot was stopped
+  hit_obstacle,  ///< two hard knocks, on its side
+  hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
+};
+/// As recorded.
+[[nodiscard]] constexpr std::array<const char*, 11> names(Pattern) {
+  return {"sample", "ready", "begun",   "rerouted",     "arrived",  "no_sound",
+          "stuck",  "halt",  "stopped", "hit_obstacle", "hit_shelf"};
+}
+
+/// Short sounds, each recognisably its own.
+enum class Earcon : std::uint8_t {
+  turn,       ///< the heading is off, to that side; the faster, the less
+  turn_stop,  ///< no further
+  on_course,  ///< straight on
+  hit_shelf,  ///< or a wall
+  hit_obstacle,
+  shelf_near,  ///< or a wall
+  shelf_close,
+  worker_near,
+  worker_close,
+  forklift_near,
+  forklift_close,
+  pallet_robot_near,
+  pallet_robot_close,
+  thing_near,  ///< anything else
+  thing_close,
+  arrived,
+  beacon,      ///< from the next way-point; the faster, the nearer
+  sonar,       ///< from the nearest thing; likewise
+  turn_click,  ///< as turn, while words are spoken: short, and above them
+};
+/// As recorded.
+[[nodiscard]] constexpr std::array<const char*, 19> names(Earcon) {
+  return {"turn",
+          "turn_stop",
+          "on_course",
+          "hit_shelf",
+          "hit_obstacle",
+          "shelf_near",
+          "shelf_close",
+          "worker_near",
+          "worker_close",
+          "forklift_near",
+          "forklift_close",
+          "pallet_robot_near",
+          "pallet_robot_close",
+          "thing_near",
+          "thing_close",
+          "arrived",
+          "beacon",
+          "sonar",
+          "turn_click"};
+}
+
+}  // namespace navvi_types
