@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/feedback.hpp"
 #include "lessons/lesson.hpp"
-#include "navvi_feedback/core/feedback.hpp"
 #include "sounds/soundscape.hpp"
 
 namespace navvi_feedback::core {

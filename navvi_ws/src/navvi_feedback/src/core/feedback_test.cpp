@@ -1,4 +1,4 @@
-#include "navvi_feedback/core/feedback.hpp"
+#include "core/feedback.hpp"
 
 #include <gtest/gtest.h>
 

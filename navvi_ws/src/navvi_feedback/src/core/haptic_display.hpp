@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/feedback.hpp"
 #include "lessons/lesson.hpp"
-#include "navvi_feedback/core/feedback.hpp"
 
 namespace navvi_feedback::core {
 

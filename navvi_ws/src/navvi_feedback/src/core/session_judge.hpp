@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "navvi_feedback/core/feedback.hpp"
-#include "navvi_feedback/cues/cue_queue.hpp"
+#include "core/feedback.hpp"
+#include "cues/cue_queue.hpp"
 
 namespace navvi_feedback::core {
 

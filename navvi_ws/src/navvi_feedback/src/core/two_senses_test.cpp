@@ -3,7 +3,7 @@
 #include <functional>
 #include <set>
 
-#include "navvi_feedback/core/feedback.hpp"
+#include "core/feedback.hpp"
 
 namespace navvi_feedback::core {
 namespace {

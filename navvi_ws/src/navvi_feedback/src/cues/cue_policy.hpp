@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "cues/cue_config.hpp"
 #include "cues/halt.hpp"
 #include "cues/held_stick.hpp"
 #include "cues/near_cues.hpp"
@@ -12,7 +13,6 @@
 #include "cues/route_cues.hpp"
 #include "cues/situation.hpp"
 #include "cues/stuck.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/cue_queue.hpp"
+#include "cues/cue_queue.hpp"
 
 #include <gtest/gtest.h>
 

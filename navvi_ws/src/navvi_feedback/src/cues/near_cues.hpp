@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cues/collision_forecast.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::cues {

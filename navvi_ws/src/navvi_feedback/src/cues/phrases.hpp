@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "cues/cue.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/side.hpp"
-#include "navvi_feedback/cues/cue.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback {
 using navvi_types::ThingClass;

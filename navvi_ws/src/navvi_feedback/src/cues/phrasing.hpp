@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "cues/cue.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue.hpp"
 
 namespace navvi_feedback::cues {
 

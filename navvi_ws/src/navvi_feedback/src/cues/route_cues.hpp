@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cues/clock_face.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -9,8 +9,8 @@
 
 #include "devices/device_thread.hpp"
 #include "drive/press_counter.hpp"
+#include "haptics/haptics.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
-#include "navvi_feedback/haptics/haptics.hpp"
 
 namespace navvi_feedback::devices {
 

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "devices/input_source.hpp"
+#include "drive/drive.hpp"
 #include "virtual_pad.hpp"
 
 // A device is its own clock: these tests wait, each for an event with a deadline.

@@ -4,26 +4,18 @@
 
 namespace navvi_feedback::devices {
 
-std::vector<CueEvent> SpeechChannel::tick(const std::vector<cues::Cue>& new_cues, double time,
-                                          bool pressed) {
-  if (pressed) pressed_ = Latencies::Clock::now();
-  return apply(queue_.update(new_cues, speaker_.busy(), time));
-}
-
-std::vector<CueEvent> SpeechChannel::finish() { return apply(queue_.clear()); }
-
-std::vector<CueEvent> SpeechChannel::apply(cues::CueQueue::Step step) {
+void SpeechChannel::obey(const cues::VoiceOrder& order, bool pressed) {
   const auto now = Latencies::Clock::now();
+  if (pressed) pressed_ = now;
   const auto timed = [&](Chain chain, Latencies::Clock::time_point cause) {
     return [this, chain, cause] { latencies_.add(chain, cause); };
   };
-  if (step.stop) speaker_.stop(timed(Chain::silence, now));
-  if (step.start && step.asked)
-    speaker_.start(*step.start, timed(Chain::answer, std::exchange(pressed_, {}).value_or(now)),
-                   step.scan);
-  else if (step.start)
-    speaker_.start(*step.start, timed(Chain::words, now));
-  return std::move(step.events);
+  if (order.stop) speaker_.stop(timed(Chain::silence, now));
+  if (order.start && order.asked)
+    speaker_.start(*order.start, timed(Chain::answer, std::exchange(pressed_, {}).value_or(now)),
+                   order.scan);
+  else if (order.start)
+    speaker_.start(*order.start, timed(Chain::words, now));
 }
 
 }  // namespace navvi_feedback::devices

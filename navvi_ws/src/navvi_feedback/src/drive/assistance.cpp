@@ -1,4 +1,4 @@
-#include "navvi_feedback/drive/assistance.hpp"
+#include "drive/assistance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "navvi_feedback/drive/buttons.hpp"
+#include "drive/buttons.hpp"
 
 #include <string>
 

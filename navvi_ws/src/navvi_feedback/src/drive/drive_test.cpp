@@ -1,4 +1,4 @@
-#include "navvi_feedback/drive/drive.hpp"
+#include "drive/drive.hpp"
 
 #include <gtest/gtest.h>
 

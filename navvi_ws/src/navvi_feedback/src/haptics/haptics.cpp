@@ -1,4 +1,4 @@
-#include "navvi_feedback/haptics/haptics.hpp"
+#include "haptics/haptics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "navvi_feedback/haptics/haptics.hpp"
+#include "haptics/haptics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <navvi_config/reader.hpp>
 
-#include "navvi_feedback/haptics/rumble_output.hpp"
+#include "haptics/rumble_output.hpp"
 
 namespace navvi_feedback::haptics {
 namespace {

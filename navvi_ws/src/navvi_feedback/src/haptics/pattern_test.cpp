@@ -1,4 +1,4 @@
-#include "navvi_feedback/haptics/pattern.hpp"
+#include "haptics/pattern.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "navvi_feedback/haptics/rumble_output.hpp"
+#include "haptics/rumble_output.hpp"
 
 #include <algorithm>
 #include <cmath>

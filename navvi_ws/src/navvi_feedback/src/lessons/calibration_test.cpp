@@ -4,7 +4,7 @@
 
 #include <navvi_config/reader.hpp>
 
-#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "haptics/haptics.hpp"
 #include "lessons/lesson.hpp"
 #include "lessons/teller.hpp"
-#include "navvi_feedback/haptics/haptics.hpp"
-#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/cue.hpp"
-#include "navvi_feedback/drive/buttons.hpp"
-#include "navvi_feedback/drive/drive.hpp"
-#include "navvi_feedback/haptics/haptics.hpp"
-#include "navvi_feedback/haptics/pattern.hpp"
+#include "cues/cue.hpp"
+#include "drive/buttons.hpp"
+#include "drive/drive.hpp"
+#include "haptics/haptics.hpp"
+#include "haptics/pattern.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::lessons {

@@ -6,7 +6,7 @@
 
 #include "cues/phrases.hpp"
 #include "lessons/lesson.hpp"
-#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {
 

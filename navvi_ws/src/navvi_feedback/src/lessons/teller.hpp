@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "cues/cue.hpp"
 #include "cues/phrases.hpp"
-#include "navvi_feedback/cues/cue.hpp"
-#include "navvi_feedback/drive/buttons.hpp"
+#include "drive/buttons.hpp"
 
 namespace navvi_feedback::lessons {
 

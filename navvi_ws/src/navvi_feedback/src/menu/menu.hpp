@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cues/phrases.hpp"
+#include "drive/buttons.hpp"
 #include "menu/setting.hpp"
-#include "navvi_feedback/drive/buttons.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Scenario;

@@ -10,7 +10,8 @@
 #include "devices/earcon_player.hpp"
 #include "devices/gamepad.hpp"
 #include "devices/speaker.hpp"
-#include "navvi_feedback/haptics/rumble_output.hpp"
+#include "haptics/rumble_output.hpp"
+#include "lockstep/events.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
 
 namespace navvi_feedback::node {
@@ -56,7 +57,7 @@ class CuePlayer {
     using navvi_types::CueStage;
     if (cue.modality() == navvi_types::Modality::rumble) {
       rumble_ = {cue.left, cue.right};
-    } else if (const auto sound = sound_of(cue)) {
+    } else if (const auto sound = lockstep::sound_of(cue)) {
       (void)earcons_.play({*sound});
     } else if (cue.modality() != navvi_types::Modality::speech) {
       return;

@@ -64,33 +64,4 @@ std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg) {
   return holds(";reason=disk_full;") ? CueKind::trial_disk_full : CueKind::trial_over;
 }
 
-navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
-                                   std::optional<haptics::Pattern> pattern, std::uint32_t id) {
-  using namespace navvi_types;
-  return {id, CueStage::started, Felt{pattern}, "", Priority::progress, rumble.left, rumble.right};
-}
-
-navvi_types::CueEvent sound_event(const sounds::Play& play, std::uint32_t id) {
-  using namespace navvi_types;
-  const double distance = play.from.norm();
-  const double leftness = distance > 0.0 ? play.from.y() / distance : 0.0;
-  return {id,
-          CueStage::started,
-          play.earcon,
-          "",
-          Priority::progress,
-          play.volume * 0.5 * (1.0 + leftness),
-          play.volume * 0.5 * (1.0 - leftness)};
-}
-
-std::optional<sounds::Play> sound_of(const navvi_types::CueEvent& event) {
-  const auto* const earcon = std::get_if<sounds::Earcon>(&event.what);
-  if (earcon == nullptr) return std::nullopt;
-  const double volume = event.left + event.right;
-  if (!(volume > 0.0)) return std::nullopt;
-  const double leftness = (event.left - event.right) / volume;
-  return sounds::Play{
-      *earcon, {std::sqrt(std::max(0.0, 1.0 - leftness * leftness)), leftness}, volume};
-}
-
 }  // namespace navvi_feedback::node

@@ -38,7 +38,7 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
         "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
         "in it over the profile's");
   visit(record, "record", Any{}, "", "path of a file for how a lesson went; empty for none");
-  visit(feedback.lesson, "lesson", OneOf{{"none", "glossary", "tutorial", "calibrate"}}, "",
+  visit(feedback->lesson, "lesson", OneOf{{"none", "glossary", "tutorial", "calibrate"}}, "",
         "what is taught before all else; glossary and calibrate want no robot");
   PersonConfig::describe(visit);
 }
@@ -49,7 +49,7 @@ std::filesystem::path NodeConfig::phrases_file() const {
 }
 
 cues::WordingConfig NodeConfig::plates() const {
-  cues::WordingConfig wording = feedback.cues.wording;
+  cues::WordingConfig wording = feedback->cues.wording;
   wording.verbosity = "brief";
   return wording;
 }

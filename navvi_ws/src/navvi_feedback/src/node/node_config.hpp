@@ -5,7 +5,7 @@
 
 #include "devices/mixer.hpp"
 #include "devices/speaker.hpp"
-#include "navvi_feedback/core/feedback.hpp"
+#include "lockstep/guide_values.hpp"
 #include "picture/markers.hpp"
 
 namespace navvi_feedback::node {
@@ -14,7 +14,7 @@ namespace navvi_feedback::node {
 struct PersonConfig {
   std::string language = "en";
   std::string phrases;  ///< path; empty for that of the language
-  core::FeedbackConfig feedback;
+  lockstep::GuideConfig feedback;
   devices::SpeakerConfig speaker;
   devices::MixerConfig mixer;
   picture::MarkersConfig markers;

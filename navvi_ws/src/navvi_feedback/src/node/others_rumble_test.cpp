@@ -4,8 +4,8 @@
 #include <functional>
 #include <thread>
 
+#include "core/feedback.hpp"
 #include "devices/gamepad.hpp"
-#include "navvi_feedback/core/feedback.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
 #include "virtual_pad.hpp"
 

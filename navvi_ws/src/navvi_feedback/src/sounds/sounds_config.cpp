@@ -1,4 +1,4 @@
-#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::sounds {
 

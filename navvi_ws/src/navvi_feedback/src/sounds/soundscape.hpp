@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "navvi_feedback/sounds/earcon.hpp"
-#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/sounds_config.hpp"
 #include "sounds/turn_sound.hpp"
 
 namespace navvi_feedback::sounds {

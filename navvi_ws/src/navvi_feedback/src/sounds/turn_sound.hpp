@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "navvi_feedback/sounds/earcon.hpp"
-#include "navvi_feedback/sounds/sounds_config.hpp"
+#include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Velocity;

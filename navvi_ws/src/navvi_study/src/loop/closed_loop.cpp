@@ -49,7 +49,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav),
-      feedback_(config.feedback, phrases),
+      guide_(config.feedback, phrases),
       person_(config.person, static_cast<std::uint64_t>(config.sim.seed), phrases) {
   if (!setting_.senses)
     navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
@@ -80,21 +80,21 @@ void ClosedLoop::sense() {
   const navvi_sim::live::Snapshot& now = session_.world().now();
   published_.odometry = navvi_types::to_msg(session_.world().odometry());
   if (const auto odometry = node::from_msg(published_.odometry)) {
-    feedback_.take(*odometry, time());
+    guide_.take(*odometry, time());
     navigation_.set_speed(odometry->velocity.linear);
   }
   if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
-    feedback_.take(*gate, time());
+    guide_.take(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
     const auto felt = node::from_msg(published_.contacts.back());
-    if (felt && !setting_.senses) feedback_.take(*felt);
+    if (felt && !setting_.senses) guide_.take(*felt);
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
     published_.proximity =
         navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
     const auto proximity = node::from_msg(*published_.proximity);
-    if (proximity && !setting_.senses) feedback_.take(*proximity, time());
+    if (proximity && !setting_.senses) guide_.take(*proximity, time());
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
     published_.obstacles = navvi_types::to_msg(session_.world().obstacles());
@@ -107,10 +107,10 @@ void ClosedLoop::sense() {
 void ClosedLoop::sense_by_robot() {
   RobotSenses::News news = setting_.senses->look(session_);
   for (const navvi_types::Contact& contact : news.contacts)
-    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) feedback_.take(*felt);
+    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) guide_.take(*felt);
   if (news.proximity)
     if (const auto proximity = node::from_msg(navvi_types::to_msg(*news.proximity)))
-      feedback_.take(*proximity, time());
+      guide_.take(*proximity, time());
   perceived_ = std::nullopt;
   if (news.obstacles) perceived_ = node::from_msg(navvi_types::to_msg(*news.obstacles));
   if (perceived_) navigation_.set_obstacles(*perceived_, time());
@@ -134,38 +134,32 @@ void ClosedLoop::navigate() {
   std::optional<navvi_types::Guidance> guidance = navigation_.update(time());
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
-  feedback_.take(*guidance, time());
+  guide_.take(*guidance, time());
   published_.guidance = navvi_types::to_msg(*guidance);
 }
 
 void ClosedLoop::feed_back() {
-  navvi_feedback::core::Feedback::Input input;
+  navvi_feedback::lockstep::Devices devices;
   if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand_, stamp())))
-    input.hands = *hands;
-  input.voice_busy = !queue_.empty();
-  input.robot = node::from_msg(pose());
-  const navvi_feedback::core::Feedback::Output output = feedback_.update(input, time());
-  if (output.command) gate_.receive(node::from_msg(node::to_msg(*output.command)), instant());
-  if (rumble_output_.update(output.rumble, time()).feedback)
-    person_.feel(output.rumble.left, output.rumble.right, time());
-  std::vector<CueEvent> events = speak(output.cues);
-  feedback_.note(events);
-  for (const navvi_feedback::sounds::Play& play : output.plays)
-    events.push_back(navvi_feedback::node::sound_event(play, ++sound_id_));
+    devices.hands = *hands;
+  devices.speaking = time() < speaks_until_;
+  devices.robot = node::from_msg(pose());
+  const auto told = guide_.update(devices, time());
+  if (!told) return;
+  if (told->command) gate_.receive(node::from_msg(node::to_msg(*told->command)), instant());
+  if (told->rumble_due) person_.feel(told->rumble.left, told->rumble.right, time());
+  if (told->voice.stop) speaks_until_ = time();
+  if (told->voice.start) {
+    const auto length = static_cast<double>(told->voice.start->size());
+    speaks_until_ = time() + kVoiceStarts + length / kCharactersPerSecond;
+  }
+  std::vector<CueEvent> events = told->said;
+  for (const navvi_feedback::sounds::Play& play : told->plays)
+    events.push_back(guide_.event_of(play));
   for (CueEvent& event : events) {
     event.stamp = navvi_types::to_ns(stamp());
     published_.cues.push_back(node::to_msg(event));
   }
-}
-
-std::vector<CueEvent> ClosedLoop::speak(const std::vector<navvi_feedback::cues::Cue>& cues) {
-  navvi_feedback::cues::CueQueue::Step step = queue_.update(cues, time() < speaks_until_, time());
-  if (step.stop) speaks_until_ = time();
-  if (step.start) {
-    const auto length = static_cast<double>(step.start->size());
-    speaks_until_ = time() + kVoiceStarts + length / kCharactersPerSecond;
-  }
-  return std::move(step.events);
 }
 
 void ClosedLoop::operate() {

@@ -9,9 +9,7 @@
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
 
-#include <navvi_feedback/core/feedback.hpp>
-#include <navvi_feedback/cues/cue_queue.hpp>
-#include <navvi_feedback/haptics/rumble_output.hpp>
+#include <navvi_feedback/lockstep/guide.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
@@ -28,7 +26,7 @@ namespace navvi_study::loop {
 struct ClosedLoopConfig {
   navvi_sim::setup::SimNodeConfig sim;
   navvi_nav::lockstep::NavigationConfig nav;
-  navvi_feedback::core::FeedbackConfig feedback;
+  navvi_feedback::lockstep::GuideConfig feedback;
   people::SimulatedOperatorConfig person;
   navvi_perception::see::PerceptionConfig
       perception;  ///< used where sim's sensing is not the truth
@@ -103,7 +101,6 @@ class ClosedLoop {
   void sense_by_robot();
   void navigate();
   void feed_back();
-  [[nodiscard]] std::vector<CueEvent> speak(const std::vector<navvi_feedback::cues::Cue>& cues);
   void operate();
   [[nodiscard]] navvi_safety::Instant instant() const { return {time(), time()}; }
   [[nodiscard]] ros::Time stamp() const { return ros::Time(time()); }
@@ -115,11 +112,8 @@ class ClosedLoop {
   navvi_sim::live::Session session_;
   navvi_safety::CommandGate gate_;
   navvi_nav::lockstep::Navigation navigation_;
-  navvi_feedback::core::Feedback feedback_;
-  navvi_feedback::cues::CueQueue queue_;
-  navvi_feedback::haptics::RumbleOutput rumble_output_;
+  navvi_feedback::lockstep::Guide guide_;
   double speaks_until_ = 0.0;  ///< s
-  std::uint32_t sound_id_ = 0;
   people::SimulatedOperator person_;
   people::StickAndButtons hand_;
   bool begun_ = false;

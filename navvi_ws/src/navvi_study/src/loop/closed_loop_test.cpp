@@ -120,16 +120,19 @@ TEST_F(ClosedLoopIn, aWorldWithASlabOnItsPlaneIsDrivenOnTheSlab) {
 }
 
 TEST_F(ClosedLoopIn, everyLanguageAndWordingLeadsToTheGoalByWordsAlone) {
-  config_.feedback.sounds.enabled = false;
   config_.sim.goal = "3,-2";
-  navvi_feedback::cues::WordingConfig& wording = config_.feedback.cues.wording;
   for (const char* language : {"en.yaml", "es.yaml"})
     for (const char* directions : {"clock", "left_right", "degrees"})
       for (const char* verbosity : {"brief", "normal", "full"}) {
         phrases_ = std::filesystem::path(NAVVI_PHRASES).replace_filename(language);
-        wording.directions = directions;
-        wording.verbosity = verbosity;
-        wording.units = verbosity == std::string("full") ? "feet" : "meters";
+        const std::string wording = "cues/wording/";
+        navvi_config::read(
+            config_.feedback,
+            navvi_config::read_words(
+                {"sounds/enabled:=false", wording + "directions:=" + directions,
+                 wording + "verbosity:=" + verbosity,
+                 wording + "units:=" + (verbosity == std::string("full") ? "feet" : "meters")}),
+            "the test");
         EXPECT_EQ(play(kRoom, 90.0).get("result"), "reached")
             << language << " " << directions << " " << verbosity << "\n"
             << trace_.str();

@@ -16,9 +16,6 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr double kSilent = 1.0;                  // s
-constexpr double kHalted = 1.0;                  // s, without a step
-constexpr double kCatchUp = 0.5;                 // s
-constexpr double kRarely = 3.0;                  // s; who is slow all the time judges nevertheless
 constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
@@ -294,11 +291,7 @@ void TrialKeeper::ask_for_goal() {
 }
 
 void TrialKeeper::watch() {
-  // Who was halted first takes what came meanwhile, and only then judges what is silent.
-  const double wall = now_.wall();
-  const double before = std::max(std::exchange(watched_, wall), phase_since_);
-  if (wall - before > kHalted && wall - woke_ > kRarely) woke_ = wall;
-  if (wall - woke_ < kCatchUp) return;
+  if (stall_.catches_up(now_.wall(), phase_since_)) return;
   watch_bag();
   const Signs seen = signs();
   watch_feedback(seen.feedback_silence);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <navvi_types/stall_guard.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -130,8 +131,7 @@ class TrialKeeper {
   OdometryInMap places_;
   Phase phase_ = Phase::waiting;
   double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
-  double watched_ = 0.0;      ///< when it last looked for what is silent
-  double woke_ = -1e9;        ///< after it was halted
+  navvi_types::StallGuard stall_{{1.0, 0.5, 3.0}};
   double said_ = 0.0;
   std::optional<Scenario> scenario_;
   bool scenario_played_ = false;

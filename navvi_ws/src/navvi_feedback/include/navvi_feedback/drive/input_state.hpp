@@ -3,9 +3,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "navvi_feedback/drive/drive.hpp"
-
 namespace navvi_feedback::drive {
+
+/// The one stick (R-CTL-1), as joy_node's axes 0 and 1.
+struct Stick {
+  double x = 0.0;  ///< [-1, 1], left positive
+  double y = 0.0;  ///< [-1, 1], forward positive
+};
 
 /// The input of the person's hands, from any device, as in sensor_msgs/Joy.
 struct InputState {

@@ -9,8 +9,7 @@
 #include <string>
 
 #include "navvi_feedback/drive/input_state.hpp"
-#include "navvi_feedback/haptics/pattern.hpp"
-#include "navvi_feedback/sounds/earcon.hpp"
+#include "navvi_feedback/haptics/rumble.hpp"
 
 namespace navvi_feedback::node {
 
@@ -31,15 +30,5 @@ using navvi_types::CueKind;
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
 /// arrival tells it.
 [[nodiscard]] std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg);
-/// As a navvi_msgs/Cue, of the kind of its pattern, or "rumble".
-/// \param id  counts the changes of the motors
-[[nodiscard]] navvi_types::CueEvent rumble_event(const haptics::Rumble& rumble,
-                                                 std::optional<haptics::Pattern> pattern,
-                                                 std::uint32_t id);
-/// Likewise, of the kind of its earcon; its volume is shared by the two sides.
-/// \param id  counts the sounds
-[[nodiscard]] navvi_types::CueEvent sound_event(const sounds::Play& play, std::uint32_t id);
-/// What such an event tells to play; nullopt if it is none. Ahead and behind are the same.
-[[nodiscard]] std::optional<sounds::Play> sound_of(const navvi_types::CueEvent& event);
 
 }  // namespace navvi_feedback::node

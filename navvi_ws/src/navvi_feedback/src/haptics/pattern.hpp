@@ -3,7 +3,7 @@
 #include <navvi_types/signal.hpp>
 #include <optional>
 
-#include "navvi_feedback/haptics/haptics.hpp"
+#include "haptics/haptics.hpp"
 
 namespace navvi_feedback::haptics {
 

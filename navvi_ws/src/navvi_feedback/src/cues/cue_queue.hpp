@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/cue.hpp"
+#include "cues/cue.hpp"
+#include "navvi_feedback/cues/voice_order.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -18,13 +19,9 @@ namespace navvi_feedback::cues {
 /// reaches exactly one of ended, cut, dropped.
 class CueQueue {
  public:
-  /// Orders for the speaker, and the events of the cues in order.
-  struct Step {
+  /// The order to the voice, and the events of the cues in order.
+  struct Step : VoiceOrder {
     std::vector<CueEvent> events;
-    bool stop = false;                 ///< fall silent, before `start`
-    std::optional<std::string> start;  ///< begin to speak this text
-    bool asked = false;                ///< it answers a button
-    std::vector<sounds::Play> scan;    ///< as Cue::scan
   };
 
   /// \param fresh         cues that were decided since the last call

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "navvi_config/field.hpp"
+#include "navvi_feedback/haptics/rumble.hpp"
 
 namespace navvi_feedback {
 using navvi_types::NearThing;
@@ -14,12 +15,6 @@ using navvi_types::ThingClass;
 }  // namespace navvi_feedback
 
 namespace navvi_feedback::haptics {
-
-/// What the two motors of the pad do, each in [0, 1].
-struct Rumble {
-  double left = 0.0;   ///< the strong motor
-  double right = 0.0;  ///< the weak motor
-};
 
 /// Defaults are ours; config/paper.yaml holds what the paper prints.
 struct HapticsConfig {

@@ -11,16 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/cue.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
+#include "core/feedback_config.hpp"
+#include "cues/cue.hpp"
+#include "drive/buttons.hpp"
+#include "drive/drive.hpp"
+#include "haptics/haptics.hpp"
+#include "haptics/pattern.hpp"
 #include "navvi_feedback/cues/link.hpp"
-#include "navvi_feedback/drive/buttons.hpp"
-#include "navvi_feedback/drive/drive.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
-#include "navvi_feedback/haptics/haptics.hpp"
-#include "navvi_feedback/haptics/pattern.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
-#include "navvi_feedback/sounds/sounds_config.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Contact;
@@ -37,18 +36,6 @@ namespace navvi_feedback::core {
 
 struct NearNow;
 struct SoundsNow;
-
-struct FeedbackConfig {
-  double stale = 0.8;           ///< s
-  std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person
-  drive::DriveConfig drive;
-  drive::ButtonsConfig buttons;
-  haptics::HapticsConfig haptics;
-  sounds::SoundsConfig sounds;
-  cues::CuePolicyConfig cues;
-
-  void describe(navvi_config::Visitor& visit);
-};
 
 /// All decisions of feedback_node: the command for the wheels, the motors of the pad, what is said
 /// and what sounds.

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "navvi_feedback/haptics/haptics.hpp"
+#include "haptics/haptics.hpp"
 
 namespace navvi_feedback::haptics {
 

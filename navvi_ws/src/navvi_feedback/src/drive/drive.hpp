@@ -4,20 +4,15 @@
 #include <optional>
 #include <string>
 
+#include "drive/assistance.hpp"
 #include "navvi_config/field.hpp"
-#include "navvi_feedback/drive/assistance.hpp"
+#include "navvi_feedback/drive/input_state.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Velocity;
 }  // namespace navvi_feedback
 
 namespace navvi_feedback::drive {
-
-/// The one stick (R-CTL-1), as joy_node's axes 0 and 1.
-struct Stick {
-  double x = 0.0;  ///< [-1, 1], left positive
-  double y = 0.0;  ///< [-1, 1], forward positive
-};
 
 struct DriveConfig {
   std::string stick = "left";  ///< left or right

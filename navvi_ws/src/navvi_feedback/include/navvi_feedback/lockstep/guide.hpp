@@ -1,0 +1,147 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <navvi_config/field.hpp>
+#include <navvi_types/cue_event.hpp>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
+#include <navvi_types/motion.hpp>
+#include <navvi_types/scenario.hpp>
+#include <navvi_types/thing.hpp>
+#include <navvi_types/trial.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/cues/link.hpp"
+#include "navvi_feedback/cues/voice_order.hpp"
+#include "navvi_feedback/drive/button.hpp"
+#include "navvi_feedback/drive/input_state.hpp"
+#include "navvi_feedback/haptics/rumble.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
+
+namespace navvi_feedback::lockstep {
+
+/// The parameters of feedback_node's core.
+class GuideConfig {
+ public:
+  GuideConfig();
+  GuideConfig(const GuideConfig& other);
+  GuideConfig& operator=(const GuideConfig& other);
+  ~GuideConfig();
+
+  void describe(navvi_config::Visitor& visit);
+
+  /// Known to this package alone.
+  struct Values;
+  [[nodiscard]] Values* operator->() { return values_.get(); }
+  [[nodiscard]] const Values* operator->() const { return values_.get(); }
+
+ private:
+  std::unique_ptr<Values> values_;
+};
+
+/// The devices of a person at one instant, and the robot's place.
+struct Devices {
+  drive::InputState hands;
+  bool keyboard = false;                     ///< the hands are on the arrow keys
+  cues::Link audio = cues::Link::alive;      ///< the sound device
+  bool words = true;                         ///< words are wanted; false: none is ever heard
+  bool sounds = true;                        ///< words and short sounds reach somebody
+  bool motors = true;                        ///< false if our own pad is not connected
+  bool felt = true;                          ///< there are motors that somebody feels
+  std::string pad;                           ///< identifies the motors, without spaces
+  bool speaking = false;                     ///< the voice still speaks the last text
+  std::optional<navvi_types::Pose2> robot;   ///< base_link in map, if known
+  std::vector<drive::Button> asked;          ///< by other means than the hands, since the last beat
+  std::vector<navvi_types::CueKind> states;  ///< said when they begin, such as no_rumble
+  std::string person;                        ///< whose settings are used, if anybody's
+};
+
+/// What goes to the wheels, to the person and to other nodes after one beat.
+struct Told {
+  std::optional<navvi_types::Velocity> command;  ///< nullopt: nothing is sent
+  double share = 1.0;  ///< [0, 1], of the person's speed that assistance lets through
+
+  haptics::Rumble rumble;                     ///< of the motors, now
+  bool rumble_due = false;                    ///< other drivers are to be sent it
+  bool rumble_moved = false;                  ///< and it has changed
+  std::optional<navvi_types::CueEvent> felt;  ///< worth a row of the record
+  bool alarm_begins = false;                  ///< the motors begin to report that there is no sound
+
+  cues::VoiceOrder voice;
+  bool answers = false;                     ///< a button's question among the words
+  std::vector<navvi_types::CueEvent> said;  ///< of the words, in order
+  std::vector<sounds::Play> plays;          ///< short sounds that begin now
+
+  std::optional<navvi_types::TrialRequest::Kind> request;
+  std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
+  std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
+
+  bool lesson_over = false;
+  std::string record;                 ///< how the lesson went so far, as a table in CSV
+  std::vector<std::string> settings;  ///< that it has found, such as haptics/enabled:=true
+};
+
+/// The core of feedback_node without devices and without a clock: values and a time go in, orders
+/// to devices come out. feedback_node and the closed loop run this same class. Times are s of one
+/// clock that does not run backwards; places are m, in map.
+class Guide {
+ public:
+  /// \param phrases  file of the spoken phrases
+  /// \throws navvi_config::ConfigError if that file or the classes that are felt cannot be used
+  Guide(const GuideConfig& config, const std::filesystem::path& phrases);
+  ~Guide();
+
+  void take(const navvi_types::Proximity& proximity, double time);
+  void take(const navvi_types::Guidance& guidance, double time);
+  void take(const navvi_types::DriveState& state, double time);
+  void take(const navvi_types::TrialState& state, double time);
+  void take(const navvi_types::Odometry& odometry, double time);
+  void take(const navvi_types::Scenario& scenario, double time);
+  void take(const navvi_types::Contact& contact);
+  /// From any source. \param goal  m, in map
+  void take_goal(const Eigen::Vector2d& goal);
+  /// Wanted by another program, until it is stale.
+  void take(const haptics::Rumble& others, double time);
+  /// Values of the parameters that the menu offers.
+  void offer(const std::map<std::string, std::string>& values);
+  /// From now on, as far as a person can set it: touch, sounds and wording.
+  void use(const GuideConfig& config);
+
+  /// To be said once, with the next beat.
+  void announce(navvi_types::CueKind kind);
+  /// The trial is over. \param words  that say so, unless the arrival does
+  void end_trial(std::optional<navvi_types::CueKind> words);
+
+  /// One beat, at 50 Hz.
+  /// \return nullopt while messages that have waited for a halted program are still to be taken
+  [[nodiscard]] std::optional<Told> update(const Devices& devices, double time);
+  /// The session ends: announces it if a trial runs. \return whether a beat is due for it
+  [[nodiscard]] bool end_session();
+  /// The voice is to be heard out before the session ends.
+  [[nodiscard]] bool has_last_words() const;
+  /// A beat for the voice alone: the wheels and the motors get nothing.
+  [[nodiscard]] Told hear_out(const Devices& devices, double time);
+  /// Ends all words.
+  [[nodiscard]] Told finish(const Devices& devices);
+
+  /// Numbered for the record: a sound that was played.
+  [[nodiscard]] navvi_types::CueEvent event_of(const sounds::Play& play);
+
+  /// s, that this person and robot take to stop a turn, as learnt so far; nullopt where turns have
+  /// no sound
+  [[nodiscard]] std::optional<double> stopping_delay() const;
+  /// The latest, however old.
+  [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const;
+  [[nodiscard]] bool guidance_fresh(double time) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace navvi_feedback::lockstep

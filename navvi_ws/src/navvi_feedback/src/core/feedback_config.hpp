@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "cues/cue_config.hpp"
+#include "drive/buttons.hpp"
+#include "drive/drive.hpp"
+#include "haptics/haptics.hpp"
+#include "sounds/sounds_config.hpp"
+
+namespace navvi_feedback::core {
+
+/// The parameters of all that decides on the person's side.
+struct FeedbackConfig {
+  double stale = 0.8;           ///< s
+  std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person
+  drive::DriveConfig drive;
+  drive::ButtonsConfig buttons;
+  haptics::HapticsConfig haptics;
+  sounds::SoundsConfig sounds;
+  cues::CuePolicyConfig cues;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
+}  // namespace navvi_feedback::core

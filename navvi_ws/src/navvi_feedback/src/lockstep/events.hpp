@@ -1,0 +1,22 @@
+#pragma once
+
+#include <navvi_types/cue_event.hpp>
+#include <optional>
+
+#include "cues/cue.hpp"
+#include "haptics/pattern.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
+
+namespace navvi_feedback::lockstep {
+
+/// As a navvi_msgs/Cue, of the kind of its pattern, or "rumble".
+/// \param id  counts the changes of the motors
+[[nodiscard]] CueEvent rumble_event(const haptics::Rumble& rumble,
+                                    std::optional<haptics::Pattern> pattern, std::uint32_t id);
+/// Likewise, of the kind of its earcon; its volume is shared by the two sides.
+/// \param id  counts the sounds
+[[nodiscard]] CueEvent sound_event(const sounds::Play& play, std::uint32_t id);
+/// What such an event tells to play; nullopt if it is none. Ahead and behind are the same.
+[[nodiscard]] std::optional<sounds::Play> sound_of(const CueEvent& event);
+
+}  // namespace navvi_feedback::lockstep

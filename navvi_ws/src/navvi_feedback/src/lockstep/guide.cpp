@@ -1,0 +1,198 @@
+#include "navvi_feedback/lockstep/guide.hpp"
+
+#include <algorithm>
+#include <navvi_types/stall_guard.hpp>
+#include <utility>
+
+#include "core/feedback.hpp"
+#include "cues/cue_queue.hpp"
+#include "cues/heard_words.hpp"
+#include "haptics/rumble_output.hpp"
+#include "lockstep/events.hpp"
+#include "lockstep/guide_values.hpp"
+
+namespace navvi_feedback::lockstep {
+
+using core::Feedback;
+
+GuideConfig::GuideConfig() : values_(std::make_unique<Values>()) {}
+GuideConfig::GuideConfig(const GuideConfig& other)
+    : values_(std::make_unique<Values>(*other.values_)) {}
+GuideConfig& GuideConfig::operator=(const GuideConfig& other) {
+  *values_ = *other.values_;
+  return *this;
+}
+GuideConfig::~GuideConfig() = default;
+
+void GuideConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
+
+struct Guide::Parts {
+  Parts(const core::FeedbackConfig& config, const std::filesystem::path& phrases)
+      : feedback(config, phrases) {}
+
+  Feedback feedback;
+  cues::CueQueue queue;
+  cues::HeardWords heard_words;
+  haptics::RumbleOutput rumble_output;
+  navvi_types::StallGuard stall;
+  std::vector<CueKind> news;  ///< not said yet
+  bool runs = false;          ///< a trial
+  bool told_to_run = false;   ///< by its last state, which is repeated
+  bool last_words = false;    ///< it has ended, which is told
+  std::uint32_t rumbles = 0;  ///< so far, as are
+  std::uint32_t sounds = 0;
+
+  void move_motors(const haptics::Rumble& rumble, std::optional<haptics::Pattern> pattern,
+                   bool somebody_feels, double time, Told& told) {
+    const haptics::RumbleOutput::Due due = rumble_output.update(rumble, time);
+    told.rumble = rumble;
+    told.rumble_due = due.feedback;
+    told.rumble_moved = due.moved;
+    // The record holds what can have been felt.
+    if (due.changed && somebody_feels) told.felt = rumble_event(rumble, pattern, ++rumbles);
+  }
+};
+
+namespace {
+
+Feedback::Input input_of(const Devices& devices, std::vector<CueKind> news, bool voice_busy) {
+  Feedback::Input input;
+  input.hands = devices.hands;
+  input.keyboard = devices.keyboard;
+  input.audio = devices.audio;
+  input.sounds = devices.sounds;
+  input.motors = devices.motors;
+  input.felt = devices.felt;
+  input.pad = devices.pad;
+  input.voice_busy = voice_busy;
+  input.robot = devices.robot;
+  input.asked = devices.asked;
+  input.notices = devices.states;
+  input.notices.insert(input.notices.end(), news.begin(), news.end());
+  input.person = devices.person;
+  return input;
+}
+
+/// All but what is said and felt.
+Told told_of(Feedback::Output& output) {
+  Told told;
+  told.command = output.command;
+  told.share = output.share;
+  told.alarm_begins = output.alarm_begins;
+  told.answers = std::any_of(output.cues.begin(), output.cues.end(),
+                             [](const cues::Cue& cue) { return cue.asked; });
+  told.plays = std::move(output.plays);
+  told.request = output.request;
+  told.goal = output.goal;
+  told.change = std::move(output.change);
+  told.lesson_over = output.lesson_over;
+  told.record = std::move(output.record);
+  told.settings = std::move(output.settings);
+  return told;
+}
+
+/// Where no words are wanted, there are none in the record.
+std::vector<CueEvent> as_heard(cues::HeardWords& words, const std::vector<CueEvent>& events,
+                               const Devices& devices) {
+  if (!devices.words) return {};
+  return words.of(events, devices.sounds);
+}
+
+}  // namespace
+
+Guide::Guide(const GuideConfig& config, const std::filesystem::path& phrases)
+    : parts_(std::make_unique<Parts>(*config.operator->(), phrases)) {}
+Guide::~Guide() = default;
+
+void Guide::take(const navvi_types::Proximity& proximity, double time) {
+  parts_->feedback.take(proximity, time);
+}
+void Guide::take(const navvi_types::Guidance& guidance, double time) {
+  parts_->feedback.take(guidance, time);
+}
+void Guide::take(const navvi_types::DriveState& state, double time) {
+  parts_->feedback.take(state, time);
+}
+void Guide::take(const navvi_types::TrialState& state, double time) {
+  const bool runs = state.state == TrialState::State::running;
+  if (runs && !parts_->told_to_run) {
+    parts_->runs = true;
+    parts_->last_words = false;
+  }
+  parts_->told_to_run = runs;
+  parts_->feedback.take(state, time);
+}
+void Guide::take(const navvi_types::Odometry& odometry, double time) {
+  parts_->feedback.take(odometry, time);
+}
+void Guide::take(const navvi_types::Scenario& scenario, double time) {
+  parts_->feedback.take(scenario, time);
+}
+void Guide::take(const navvi_types::Contact& contact) { parts_->feedback.take(contact); }
+void Guide::take_goal(const Eigen::Vector2d& goal) { parts_->feedback.take_goal(goal); }
+void Guide::take(const haptics::Rumble& others, double time) {
+  parts_->feedback.take(others, time);
+}
+void Guide::offer(const std::map<std::string, std::string>& values) {
+  parts_->feedback.take_settings(values);
+}
+void Guide::use(const GuideConfig& config) { parts_->feedback.use(*config.operator->()); }
+
+void Guide::announce(CueKind kind) { parts_->news.push_back(kind); }
+
+void Guide::end_trial(std::optional<CueKind> words) {
+  parts_->runs = false;
+  if (!words) return;
+  announce(*words);
+  parts_->last_words = true;
+}
+
+std::optional<Told> Guide::update(const Devices& devices, double time) {
+  if (parts_->stall.catches_up(time)) return std::nullopt;
+  Feedback::Output output = parts_->feedback.update(
+      input_of(devices, std::exchange(parts_->news, {}), !parts_->queue.empty()), time);
+  Told told = told_of(output);
+  parts_->move_motors(output.rumble, output.pattern, devices.felt, time, told);
+  const cues::CueQueue::Step step = parts_->queue.update(output.cues, devices.speaking, time);
+  parts_->feedback.note(step.events);
+  told.voice = step;
+  told.said = as_heard(parts_->heard_words, step.events, devices);
+  return told;
+}
+
+bool Guide::end_session() {
+  if (parts_->runs) end_trial(CueKind::trial_over);
+  return !parts_->news.empty();
+}
+
+bool Guide::has_last_words() const { return parts_->last_words && !parts_->queue.empty(); }
+
+Told Guide::hear_out(const Devices& devices, double time) {
+  const cues::CueQueue::Step step = parts_->queue.update({}, devices.speaking, time);
+  parts_->feedback.note(step.events);
+  Told told;
+  parts_->move_motors({}, std::nullopt, devices.felt, time, told);
+  told.voice = step;
+  told.said = as_heard(parts_->heard_words, step.events, devices);
+  return told;
+}
+
+Told Guide::finish(const Devices& devices) {
+  const cues::CueQueue::Step step = parts_->queue.clear();
+  Told told;
+  told.voice = step;
+  told.said = as_heard(parts_->heard_words, step.events, devices);
+  return told;
+}
+
+CueEvent Guide::event_of(const sounds::Play& play) { return sound_event(play, ++parts_->sounds); }
+
+std::optional<double> Guide::stopping_delay() const { return parts_->feedback.stopping_delay(); }
+
+const std::optional<navvi_types::Guidance>& Guide::guidance() const {
+  return parts_->feedback.guidance();
+}
+
+bool Guide::guidance_fresh(double time) const { return parts_->feedback.guidance_fresh(time); }
+
+}  // namespace navvi_feedback::lockstep

@@ -1,0 +1,74 @@
+#include "node/outlets.hpp"
+
+#include <std_msgs/Float32.h>
+
+#include <navvi_types/msg_conversion.hpp>
+
+#include "navvi_feedback/node/msg_conversion.hpp"
+
+namespace navvi_feedback::node {
+namespace {
+
+using navvi_types::to_msg;
+
+constexpr double kMarkers = 0.1;  // s
+
+std::int64_t stamp() { return navvi_types::to_ns(ros::Time::now()); }
+
+}  // namespace
+
+Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands)
+    : motors_driver_(config.motors), markers_config_(config.markers) {
+  cmd_vel_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  motors_ = node.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
+  cues_ = node.advertise<navvi_msgs::Cue>("navvi/cues", 100);
+  assistance_ = node.advertise<std_msgs::Float32>("navvi/assistance", 1, true);
+  goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
+  requests_ = node.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
+  markers_ = node.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
+  diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
+  if (own_hands) joy_ = node.advertise<sensor_msgs::Joy>("joy", 1);
+}
+
+void Outlets::stop_wheels() { cmd_vel_.publish(geometry_msgs::Twist()); }
+
+void Outlets::send(const lockstep::Told& told) {
+  if (told.command) cmd_vel_.publish(to_msg(*told.command));
+  if (share_ != told.share) {
+    std_msgs::Float32 share;
+    share.data = static_cast<float>(told.share);
+    assistance_.publish(share);
+    share_ = told.share;
+  }
+  if (told.goal) goals_.publish(navvi_types::goal_msg(*told.goal, stamp()));
+  if (told.request) requests_.publish(to_msg(navvi_types::TrialRequest{*told.request, stamp()}));
+  if (told.rumble_due) motors_.publish(feedback_msg(told.rumble, motors_driver_));
+}
+
+void Outlets::send(std::vector<CueEvent> events) {
+  for (CueEvent& event : events) {
+    event.stamp = stamp();
+    cues_.publish(to_msg(event));
+    if (event.stage == CueStage::started && event.kind())
+      ROS_INFO("[%s] %s", event.word().c_str(), event.text.c_str());
+  }
+}
+
+void Outlets::send(const drive::InputState& hands) {
+  if (joy_) joy_.publish(to_msg(hands, ros::Time::now()));
+}
+
+void Outlets::show(const std::optional<Guidance>& guidance,
+                   const std::vector<Eigen::Vector2d>& path, const cues::Phrases& plates,
+                   double time) {
+  if (markers_time_ && time - *markers_time_ < kMarkers) return;
+  markers_time_ = time;
+  visualization_msgs::MarkerArray markers =
+      picture::guide_markers(markers_config_, guidance, path, plates);
+  if (markers.markers == shown_.markers) return;
+  shown_ = markers;
+  picture::stamp(markers, ros::Time::now());
+  markers_.publish(markers);
+}
+
+}  // namespace navvi_feedback::node

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cues/phrases.hpp"
+#include "navvi_feedback/lockstep/guide.hpp"
+#include "node/node_config.hpp"
+#include "picture/markers.hpp"
+
+namespace navvi_feedback::node {
+
+/// The topics that feedback_node publishes.
+class Outlets {
+ public:
+  /// \param own_hands  the stick is our own device, whose state is published; another driver's joy
+  /// is never answered with one of ours
+  Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands);
+
+  void stop_wheels();
+  /// All but the words.
+  void send(const lockstep::Told& told);
+  void send(std::vector<CueEvent> events);
+  void send(const drive::InputState& hands);
+  void send(const diagnostic_msgs::DiagnosticArray& report) { diagnostics_.publish(report); }
+  /// The path and what is written beside it, where they have changed.
+  /// \param path  m, in map \param plates  wording of what is written \param time  s
+  void show(const std::optional<Guidance>& guidance, const std::vector<Eigen::Vector2d>& path,
+            const cues::Phrases& plates, double time);
+
+  [[nodiscard]] bool are_words_read() const { return cues_.getNumSubscribers() > 0; }
+
+ private:
+  std::string motors_driver_;
+  picture::MarkersConfig markers_config_;
+  ros::Publisher cmd_vel_, joy_, motors_, assistance_, goals_, requests_, cues_, markers_,
+      diagnostics_;
+  std::optional<double> share_;         ///< of the person's speed, last published
+  std::optional<double> markers_time_;  ///< s
+  visualization_msgs::MarkerArray shown_;
+};
+
+}  // namespace navvi_feedback::node

@@ -1,0 +1,83 @@
+#include "node/person_devices.hpp"
+
+#include "node/diagnostics.hpp"
+
+namespace navvi_feedback::node {
+namespace {
+
+using devices::InputSource;
+using Sound = devices::Mixer::Status::Device;
+
+cues::Link link_of(Sound device) {
+  switch (device) {
+    case Sound::missing:
+      return cues::Link::never;
+    case Sound::lost:
+      return cues::Link::lost;
+    case Sound::open:
+    case Sound::off:
+      break;
+  }
+  return cues::Link::alive;
+}
+
+}  // namespace
+
+PersonDevices::PersonDevices(const NodeConfig& config)
+    : listener_(config.listener),
+      speech_wanted_(config.speech),
+      person_(config.person),
+      mixer_(config.mixer, config.speech ? devices::Audio::on : devices::Audio::off),
+      speech_(config.voice(), mixer_, latencies_),
+      earcons_(mixer_),
+      source_(config.input) {}
+
+std::optional<devices::Gamepad::Status> PersonDevices::pad() const {
+  return source_.pad() != nullptr ? std::optional(source_.pad()->status()) : std::nullopt;
+}
+
+bool PersonDevices::heard() const { return by_topic() || mixer_.status().device == Sound::open; }
+
+bool PersonDevices::felt() const {
+  const auto own = pad();
+  return own ? own->connected && own->has_rumble : source_.kind() == InputSource::Kind::topic;
+}
+
+lockstep::Devices PersonDevices::read(double time) {
+  const auto own = pad();
+  lockstep::Devices now;
+  now.hands = source_.read(time);
+  now.keyboard = source_.kind() == InputSource::Kind::keyboard;
+  now.audio = link_of(mixer_.status().device);
+  now.words = speech_wanted_ || by_topic();
+  now.sounds = heard();
+  now.motors = !own || own->connected;
+  now.felt = felt();
+  now.pad = own ? own->guid : "joy";
+  now.speaking = speech_.busy();
+  if (own) now.states = notices_of(*own);
+  now.person = person_;
+  return now;
+}
+
+void PersonDevices::use(int rate, double volume) {
+  speech_.set_rate(rate);
+  mixer_.set_volume(volume);
+}
+
+std::vector<sounds::Play> PersonDevices::obey(const lockstep::Told& told) {
+  std::vector<sounds::Play> played = earcons_.play(told.plays);
+  if (by_topic()) played = told.plays;
+  for (const sounds::Play& sound : speech_.take_played())
+    if (heard()) played.push_back(sound);
+  speech_.obey(told.voice, told.answers);
+  return played;
+}
+
+bool PersonDevices::move_motors(const haptics::Rumble& rumble,
+                                const std::function<void()>& called) {
+  if (source_.pad() != nullptr) source_.pad()->rumble(rumble, called);
+  return source_.pad() != nullptr;
+}
+
+}  // namespace navvi_feedback::node

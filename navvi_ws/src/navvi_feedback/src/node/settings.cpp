@@ -1,0 +1,62 @@
+#include "node/settings.hpp"
+
+#include <ros/ros.h>
+
+#include <fstream>
+#include <navvi_config/ros_parameters.hpp>
+
+namespace navvi_feedback::node {
+namespace {
+
+std::optional<person::PersonFile> file_of(const NodeConfig& config) {
+  if (config.person.empty()) return std::nullopt;
+  return person::PersonFile::of<PersonConfig>(config.person);
+}
+
+std::vector<CueKind> cues_of(const std::vector<person::SettingsSaver::Failure>& failures) {
+  std::vector<CueKind> cues;
+  for (const auto& [cue, detail] : failures) {
+    if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
+    cues.push_back(cue);
+  }
+  return cues;
+}
+
+}  // namespace
+
+Settings::Settings(NodeConfig& config)
+    : config_(config), file_(file_of(config)), saver_(file_of(config)) {}
+
+std::map<std::string, std::string> Settings::values() const {
+  std::map<std::string, std::string> values;
+  const auto describe = [this](navvi_config::Visitor& visit) { config_.describe(visit); };
+  for (const navvi_config::Row& row : navvi_config::table_of(describe)) {
+    const bool in_vain = (row.key.rfind("sounds/", 0) == 0 && !config_.feedback->sounds.enabled) ||
+                         (row.key.rfind("haptics/", 0) == 0 && !config_.feedback->haptics.enabled);
+    if (!in_vain) values[row.key] = row.default_value;
+  }
+  return values;
+}
+
+void Settings::change(const std::string& word) {
+  navvi_config::read(config_, navvi_config::read_words({word}), "the menu");
+  const std::size_t end = word.find(":=");
+  ros::param::set("~" + word.substr(0, end), word.substr(end + 2));
+  saver_.save(word);
+}
+
+void Settings::keep(const lockstep::Told& told) {
+  if (!config_.record.empty() && recorded_ != told.record) {
+    recorded_ = told.record;
+    std::ofstream(config_.record) << told.record;
+  }
+  if (found_ == told.settings) return;
+  found_ = told.settings;
+  for (const std::string& word : found_) ROS_INFO("Found: feedback/%s", word.c_str());
+  if (file_) file_->save(found_);  // before it is said
+}
+
+std::vector<CueKind> Settings::failures() { return cues_of(saver_.update()); }
+std::vector<CueKind> Settings::finish() { return cues_of(saver_.finish()); }
+
+}  // namespace navvi_feedback::node

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/lockstep/guide.hpp"
+#include "node/node_config.hpp"
+#include "person/person_file.hpp"
+#include "person/settings_saver.hpp"
+
+namespace navvi_feedback::node {
+
+/// What a person sets while driving, and what a lesson finds for them: in force at once, kept in
+/// their file, and written where the node is started anew.
+class Settings {
+ public:
+  /// \param config  outlives this
+  explicit Settings(NodeConfig& config);
+
+  /// The values of all parameters that the menu may offer.
+  [[nodiscard]] std::map<std::string, std::string> values() const;
+  /// A person has a file, whose settings are in force.
+  [[nodiscard]] bool loaded() const { return file_.has_value(); }
+
+  /// \param word  such as "speaker/rate:=240"
+  void change(const std::string& word);
+  /// A lesson's results: its table goes to the parameter `record`, its settings to the file.
+  void keep(const lockstep::Told& told);
+
+  /// To be called often; does not wait. \return cues that say what has failed, which is logged
+  [[nodiscard]] std::vector<CueKind> failures();
+  /// Waits until all is saved. \return likewise
+  [[nodiscard]] std::vector<CueKind> finish();
+
+ private:
+  NodeConfig& config_;
+  std::optional<person::PersonFile> file_;
+  person::SettingsSaver saver_;
+  std::string recorded_;            ///< of the lesson, as it is in the file
+  std::vector<std::string> found_;  ///< by the lesson, and saved
+};
+
+}  // namespace navvi_feedback::node
