@@ -223,7 +223,7 @@ def test_each_view_file_offers_chase_top_and_forward(path):
 
 
 NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback", "feedback_node"), ("navvi_perception", "perception_node"),
-         ("navvi_safety", "relay_node"), ("navvi_study", "trial_node"), ("navvi_study", "operator_node")]
+         ("navvi_safety", "relay_node"), ("navvi_study", "trial_node"), ("navvi_people", "operator_node")]
 
 
 @pytest.mark.parametrize("package, node", NODES, ids=lambda word: word)

@@ -22,7 +22,7 @@ class Person:
         self.begun = time.monotonic()
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
         rospy.Subscriber("/navvi/cues", Cue, self.hear, tcp_nodelay=True)
-        self.operator = subprocess.Popen(["rosrun", "navvi_study", "operator_node", "joy:=hand", "__name:=operator_node"])
+        self.operator = subprocess.Popen(["rosrun", "navvi_people", "operator_node", "joy:=hand", "__name:=operator_node"])
         rospy.Subscriber("/hand", Joy, self.steer, queue_size=1, tcp_nodelay=True)
 
     def hear(self, cue):

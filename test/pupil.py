@@ -151,7 +151,7 @@ class Pupil:
 
     def to_the_goal(self):
         follows = [True]
-        operator = subprocess.Popen(["rosrun", "navvi_study", "operator_node", "joy:=hand", "__name:=operator_node"])
+        operator = subprocess.Popen(["rosrun", "navvi_people", "operator_node", "joy:=hand", "__name:=operator_node"])
         subscriber = rospy.Subscriber("/hand", Joy, lambda hand: self.steer(hand.axes if follows else [0.0, 0.0]), queue_size=1, tcp_nodelay=True)
         try:
             self.press("start")

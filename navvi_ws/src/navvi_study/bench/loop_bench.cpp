@@ -6,15 +6,17 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <navvi_people/loop/closed_loop.hpp>
 #include <string>
 #include <vector>
 
-#include "loop/closed_loop.hpp"
-#include "loop/loop_figures.hpp"
+#include "batch/loop_figures.hpp"
 
 namespace {
 
-namespace loop = navvi_study::loop;
+using navvi_people::loop::ClosedLoop;
+using navvi_people::loop::ClosedLoopConfig;
+using navvi_study::batch::LoopFigures;
 namespace setup = navvi_sim::setup;
 
 constexpr int kSeeds = 6;       // trials of a world
@@ -39,7 +41,7 @@ struct Cost {
 
 /// One trial. The mesh is made while the loop waits for its goal.
 void run(const std::string& world, int seed, const std::string& phrases, Cost& cost) {
-  loop::ClosedLoopConfig config;
+  ClosedLoopConfig config;
   config.sim.world = world;
   config.sim.seed = seed;
   const auto loaded = timed(cost.world, [&] { return setup::load_world(config.sim); });
@@ -47,8 +49,8 @@ void run(const std::string& world, int seed, const std::string& phrases, Cost& c
   (void)timed(cost.ends, [&] { return setup::scenario_of(config.sim, loaded.world, map); });
 
   const double since = now();
-  loop::ClosedLoop trial(config, phrases);
-  loop::LoopFigures figures(static_cast<int>(kLimit));
+  ClosedLoop trial(config, phrases);
+  LoopFigures figures(static_cast<int>(kLimit));
   const double set_up = now();
   double begun = set_up;
   while (trial.step() && figures.watch(trial))

@@ -11,18 +11,23 @@
 #include <iostream>
 #include <map>
 #include <navvi_config/reader.hpp>
+#include <navvi_people/loop/closed_loop.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "loop/closed_loop.hpp"
-#include "loop/loop_figures.hpp"
-#include "loop/loop_trace.hpp"
+#include "batch/loop_figures.hpp"
+#include "batch/loop_trace.hpp"
 #include "record/child_process.hpp"
 
 namespace navvi_study::bench {
 namespace {
+
+using batch::LoopFigures;
+using batch::LoopTrace;
+using navvi_people::loop::ClosedLoop;
+using navvi_people::loop::ClosedLoopConfig;
 
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
@@ -140,8 +145,8 @@ std::string share(const std::string& package) {
   return path;
 }
 
-loop::ClosedLoopConfig configured(const Options& options) {
-  loop::ClosedLoopConfig config;
+ClosedLoopConfig configured(const Options& options) {
+  ClosedLoopConfig config;
   const auto overlay = [&](auto& part, const std::string& package) {
     const std::string file = share(package) + "/config/" + options.profile + ".yaml";
     navvi_config::read(part, navvi_config::load_yaml(file), file);
@@ -158,13 +163,13 @@ struct Task {
   int seed = 1;
 };
 
-record::Fields run_trial(const Options& options, loop::ClosedLoopConfig config,
+record::Fields run_trial(const Options& options, ClosedLoopConfig config,
                          const std::string& phrases, const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
-  loop::ClosedLoop loop(config, phrases);
-  loop::LoopFigures figures(options.limit);
-  std::optional<loop::LoopTrace> trace;
+  ClosedLoop loop(config, phrases);
+  LoopFigures figures(options.limit);
+  std::optional<LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
   bool goes_on = true;
   while (goes_on) {
@@ -287,7 +292,7 @@ class Total {
 };
 
 int run(const Options& options) {
-  const loop::ClosedLoopConfig config = configured(options);
+  const ClosedLoopConfig config = configured(options);
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;
   const auto task_of = [&](std::size_t index) {

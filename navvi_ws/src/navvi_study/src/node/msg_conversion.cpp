@@ -60,12 +60,4 @@ std::optional<record::Row> from_msg(const navvi_msgs::TrialEvent& msg) {
   return record::Row{msg.trial, msg.seq, to_ns(msg.header.stamp), 0, msg.type, *fields};
 }
 
-sensor_msgs::Joy to_msg(const people::StickAndButtons& hand, const ros::Time& stamp) {
-  sensor_msgs::Joy msg;
-  msg.header.stamp = stamp;
-  msg.axes = {static_cast<float>(hand.left), static_cast<float>(hand.forward)};
-  msg.buttons = {hand.repeat ? 1 : 0, 0, 0, 0, 0, 0, hand.start ? 1 : 0};
-  return msg;
-}
-
 }  // namespace navvi_study::node

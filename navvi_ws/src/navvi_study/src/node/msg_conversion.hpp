@@ -2,14 +2,12 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <navvi_msgs/TrialEvent.h>
-#include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <navvi_types/msg_conversion.hpp>
 #include <optional>
 #include <vector>
 
-#include "people/simulated_operator.hpp"
 #include "trial/odometry_in_map.hpp"
 #include "trial/trial_monitor.hpp"
 
@@ -30,7 +28,5 @@ using navvi_types::to_msg;
 [[nodiscard]] navvi_msgs::TrialEvent to_msg(const record::Row& row);
 /// nullopt if its fields are not in order. mono_ns is not in the message and stays 0.
 [[nodiscard]] std::optional<record::Row> from_msg(const navvi_msgs::TrialEvent& msg);
-
-[[nodiscard]] sensor_msgs::Joy to_msg(const people::StickAndButtons& hand, const ros::Time& stamp);
 
 }  // namespace navvi_study::node

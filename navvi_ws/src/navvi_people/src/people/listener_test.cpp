@@ -1,8 +1,8 @@
-#include "people/listener.hpp"
+#include "navvi_people/people/listener.hpp"
 
 #include <gtest/gtest.h>
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 namespace {
 
 TEST(Listener, understands_the_sentences_of_the_voice) {
@@ -102,4 +102,4 @@ TEST(Listener, lets_go_at_the_first_word_of_what_startles) {
 }
 
 }  // namespace
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

@@ -3,7 +3,7 @@
 #include <navvi_types/cue_kind.hpp>
 #include <optional>
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 
 using navvi_types::Ask;
 
@@ -20,4 +20,4 @@ struct Instruction {
   bool goes_on = false;     ///< after "go on"
 };
 
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

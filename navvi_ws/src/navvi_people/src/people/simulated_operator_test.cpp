@@ -1,4 +1,4 @@
-#include "people/simulated_operator.hpp"
+#include "navvi_people/people/simulated_operator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 namespace {
 
 using navvi_types::CueStage;
@@ -319,4 +319,4 @@ TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
 }
 
 }  // namespace
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

@@ -1,9 +1,9 @@
-#include "loop/robot_senses.hpp"
+#include "navvi_people/loop/robot_senses.hpp"
 
 #include <cmath>
 #include <navvi_sim/occupancy/slice.hpp>
 
-namespace navvi_study::loop {
+namespace navvi_people::loop {
 namespace {
 
 constexpr double kProximityRate = 20.0;  // Hz, as perception_node's
@@ -69,4 +69,4 @@ RobotSenses::News RobotSenses::look(const navvi_sim::live::Session& session) {
   return news;
 }
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_people::loop

@@ -1,4 +1,4 @@
-#include "people/listener.hpp"
+#include "navvi_people/people/listener.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <regex>
 #include <set>
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 namespace {
 
 constexpr double kFoot = 0.3048;  // m
@@ -149,4 +149,4 @@ void Listener::fill(Instruction& told, const std::string& placeholder, const std
     told.distance = std::stod(number) * (key.front() == 'f' ? kFoot : 1.0);
 }
 
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

@@ -1,8 +1,8 @@
-#include "loop/sensing_figures.hpp"
+#include "batch/sensing_figures.hpp"
 
 #include <algorithm>
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 namespace {
 
 constexpr int kRays = 3;         // of the lidar, on a mover that is in sight
@@ -58,4 +58,4 @@ void SensingFigures::add_to(record::Fields& row) const {
   row.set("lag", lags_ > 0 ? lag_ / static_cast<double>(lags_) : 0.0, 2);
 }
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

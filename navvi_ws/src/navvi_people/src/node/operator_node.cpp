@@ -11,15 +11,15 @@
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_config/subscribe.hpp>
 
+#include "navvi_people/people/simulated_operator.hpp"
 #include "node/msg_conversion.hpp"
-#include "people/simulated_operator.hpp"
 
 namespace {
 
 struct NodeConfig {
   int seed = 0;
   double rate = 50.0;
-  navvi_study::people::SimulatedOperatorConfig hand;
+  navvi_people::people::SimulatedOperatorConfig hand;
 
   void describe(navvi_config::Visitor& visit) {
     visit(seed, "seed", navvi_config::Range{0, 2147483647}, "", "of reaction times and errors");
@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
     if (phrases.empty())
       phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/" +
                 ros::param::param<std::string>(feedback + "/language", "en") + ".yaml";
-    navvi_study::people::SimulatedOperator person(config.hand,
-                                                  static_cast<std::uint64_t>(config.seed), phrases);
+    navvi_people::people::SimulatedOperator person(
+        config.hand, static_cast<std::uint64_t>(config.seed), phrases);
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);
@@ -66,10 +66,10 @@ int main(int argc, char** argv) {
     ros::WallTimer timer =
         node.createWallTimer(ros::WallDuration(1.0 / config.rate), [&](const ros::WallTimerEvent&) {
           const double time = std::max(last, now());
-          navvi_study::people::StickAndButtons hand;
+          navvi_people::people::StickAndButtons hand;
           if (last > 0.0) hand = person.update(time, time - last);
           last = time;
-          joy.publish(navvi_study::node::to_msg(hand, ros::Time::now()));
+          joy.publish(navvi_people::node::to_msg(hand, ros::Time::now()));
         });
     ros::spin();
     return 0;

@@ -1,17 +1,16 @@
-#include "loop/loop_trace.hpp"
+#include "batch/loop_trace.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <navvi_types/msg_conversion.hpp>
 #include <ostream>
 #include <utility>
 #include <vector>
 
-#include "node/msg_conversion.hpp"
-
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 namespace {
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
@@ -40,7 +39,7 @@ double seen(const navvi_sim::physics::RobotState& robot, double x, double y) {
 }
 
 std::string guidance_text(const navvi_msgs::Guidance& guidance) {
-  std::string out = to_string(static_cast<Guidance::State>(guidance.state));
+  std::string out = to_string(static_cast<navvi_types::Guidance::State>(guidance.state));
   const bool leads = guidance.state == navvi_msgs::Guidance::FOLLOWING ||
                      guidance.state == navvi_msgs::Guidance::BLOCKED ||
                      guidance.state == navvi_msgs::Guidance::MAKE_ROOM;
@@ -134,7 +133,7 @@ void LoopTrace::tell_guidance(double time, const navvi_msgs::Guidance& guidance)
   const bool other_state = guidance.state != guidance_.state;
   const bool elsewhere = away(guidance.waypoint, guidance_.waypoint) > kMoved;
   if (other_state || elsewhere) {
-    const auto report = node::from_msg(guidance);
+    const auto report = navvi_types::from_msg(guidance);
     const std::string why = guidance.plans != guidance_.plans && report
                                 ? std::string("planned, ") + to_string(report->replan_reason)
                                 : std::string("on the way");
@@ -158,4 +157,4 @@ void LoopTrace::tell_state(const ClosedLoop& loop) {
                 : std::string()));
 }
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

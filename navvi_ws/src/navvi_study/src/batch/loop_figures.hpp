@@ -2,17 +2,20 @@
 
 #include <cstdint>
 #include <map>
+#include <navvi_people/loop/closed_loop.hpp>
+#include <navvi_people/people/instruction.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "loop/closed_loop.hpp"
-#include "loop/sensing_figures.hpp"
-#include "loop/speech_figures.hpp"
-#include "people/instruction.hpp"
+#include "batch/sensing_figures.hpp"
+#include "batch/speech_figures.hpp"
 #include "trial/trial_monitor.hpp"
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
+
+using navvi_people::loop::ClosedLoop;
+namespace people = navvi_people::people;
 
 /// Judges the trial of a closed loop: whether and when its goal was reached, and how good the
 /// guidance was on the way. What trials count, it counts as they do (TrialMonitor).
@@ -95,4 +98,4 @@ class LoopFigures {
   std::string why_;
 };
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

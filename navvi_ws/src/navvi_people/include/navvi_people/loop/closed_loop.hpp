@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "loop/robot_senses.hpp"
-#include "people/simulated_operator.hpp"
+#include "navvi_people/loop/robot_senses.hpp"
+#include "navvi_people/people/simulated_operator.hpp"
 
-namespace navvi_study::loop {
+namespace navvi_people::loop {
 
 /// The parameters of all nodes of a session with a simulated operator, each under its part's name.
 struct ClosedLoopConfig {
@@ -121,4 +121,4 @@ class ClosedLoop {
   std::optional<navvi_types::Obstacles> perceived_;
 };
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_people::loop

@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "navvi_config/field.hpp"
-#include "people/instruction.hpp"
-#include "people/listener.hpp"
+#include "navvi_people/people/instruction.hpp"
+#include "navvi_people/people/listener.hpp"
 
-namespace navvi_study {
+namespace navvi_people {
 using navvi_types::CueEvent;
 using navvi_types::Earcon;
-}  // namespace navvi_study
+}  // namespace navvi_people
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 
 struct SimulatedOperatorConfig {
   double min_reaction = 0.4;
@@ -161,4 +161,4 @@ class SimulatedOperator {
   double right_motor_ = 0.0;
 };
 
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

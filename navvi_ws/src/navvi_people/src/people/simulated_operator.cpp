@@ -1,11 +1,11 @@
-#include "people/simulated_operator.hpp"
+#include "navvi_people/people/simulated_operator.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -469,4 +469,4 @@ StickAndButtons SimulatedOperator::update(double time, double dt) {
   return hand;
 }
 
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "people/instruction.hpp"
+#include "navvi_people/people/instruction.hpp"
 
-namespace navvi_study::people {
+namespace navvi_people::people {
 
 using navvi_types::CueKind;
 
@@ -47,4 +47,4 @@ class Listener {
   std::string go_on_;
 };
 
-}  // namespace navvi_study::people
+}  // namespace navvi_people::people

@@ -1,8 +1,8 @@
-#include "loop/speech_figures.hpp"
+#include "batch/speech_figures.hpp"
 
 #include <gtest/gtest.h>
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 namespace {
 
 using navvi_types::CueEvent;
@@ -67,4 +67,4 @@ TEST(SpeechFigures, count_straight_ahead_said_beside_what_is_ahead) {
 }
 
 }  // namespace
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

@@ -7,7 +7,7 @@
 
 #include "record/row.hpp"
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 
 /// Judges how much is said in a trial, and how well it can be obeyed.
 class SpeechFigures {
@@ -37,4 +37,4 @@ class SpeechFigures {
   std::map<std::string, double> last_said_;  ///< s, by text
 };
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

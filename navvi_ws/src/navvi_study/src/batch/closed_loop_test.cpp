@@ -1,5 +1,3 @@
-#include "loop/closed_loop.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,17 +6,19 @@
 #include <filesystem>
 #include <fstream>
 #include <navvi_config/reader.hpp>
+#include <navvi_people/loop/closed_loop.hpp>
 #include <random>
 #include <set>
 #include <sstream>
 
-#include "loop/loop_figures.hpp"
-#include "loop/loop_trace.hpp"
+#include "batch/loop_figures.hpp"
+#include "batch/loop_trace.hpp"
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 namespace {
 
 namespace fs = std::filesystem;
+using navvi_people::loop::ClosedLoopConfig;
 
 const std::string kRoom = R"(name: room
 things:
@@ -365,4 +365,4 @@ TEST(ClosedLoopConfig, namesEachPartAndRefusesAnUnknownOne) {
 }
 
 }  // namespace
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

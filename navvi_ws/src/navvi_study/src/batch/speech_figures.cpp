@@ -1,8 +1,8 @@
-#include "loop/speech_figures.hpp"
+#include "batch/speech_figures.hpp"
 
 #include <algorithm>
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 namespace {
 
 constexpr double kSame = 10.0;  // s; the same sentence again within it is a repeat
@@ -56,4 +56,4 @@ void SpeechFigures::add_to(record::Fields& row, double duration) const {
   row.set("hasty", std::uint64_t(hasty_)).set("at_odds", std::uint64_t(at_odds_));
 }
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

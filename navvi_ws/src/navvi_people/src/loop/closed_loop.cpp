@@ -1,4 +1,4 @@
-#include "loop/closed_loop.hpp"
+#include "navvi_people/loop/closed_loop.hpp"
 
 #include <navvi_config/reader.hpp>
 #include <navvi_feedback/node/msg_conversion.hpp>
@@ -8,7 +8,7 @@
 
 #include "node/msg_conversion.hpp"
 
-namespace navvi_study::loop {
+namespace navvi_people::loop {
 namespace {
 
 constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the obstacles
@@ -168,4 +168,4 @@ void ClosedLoop::operate() {
   hand_ = person_.update(time(), 1.0 / kFeedbackRate);
 }
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_people::loop

@@ -1,13 +1,12 @@
-#include "loop/loop_figures.hpp"
+#include "batch/loop_figures.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <navvi_types/msg_conversion.hpp>
 
-#include "node/msg_conversion.hpp"
-
-namespace navvi_study::loop {
+namespace navvi_study::batch {
 namespace {
 
 using navvi_types::CueKind;
@@ -60,16 +59,16 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   if (!begun_ && loop.begun()) begin(loop);
   const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
   // Where the robot truly is, which the odometry may not know.
-  if (const auto place = node::from_msg(
+  if (const auto place = navvi_types::from_msg(
           navvi_types::to_msg(robot.odometry(0.0, loop.session().world().now().stamp()))))
     (void)monitor_.observe(*place);
   for (const auto& contact : told.contacts) {
-    if (const auto report = node::from_msg(contact)) (void)monitor_.observe(*report);
+    if (const auto report = navvi_types::from_msg(contact)) (void)monitor_.observe(*report);
     if (begun_) ++hits_[contact.thing_class];
     if (begun_) judge_warning(contact, loop.time());
   }
   if (told.proximity) {
-    if (const auto report = node::from_msg(*told.proximity)) (void)monitor_.observe(*report);
+    if (const auto report = navvi_types::from_msg(*told.proximity)) (void)monitor_.observe(*report);
     std::map<std::uint32_t, double> felt;
     for (const auto& thing : told.proximity->things)
       felt[thing.id] = felt_.count(thing.id) > 0 ? felt_[thing.id] : loop.time();
@@ -81,7 +80,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   }
   if (loop.hand().repeat) asked_ = loop.time();
   for (const auto& cue : told.cues) {
-    const auto report = node::from_msg(cue);
+    const auto report = navvi_types::from_msg(cue);
     if (report) (void)monitor_.observe(*report);
     if (report && begun_) speech_.hear(*report, loop.time() - asked_ < kAnswered, loop.time());
     if (!report || report->stage != navvi_types::CueStage::started) continue;
@@ -89,7 +88,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
     hear(*report, loop.time());
   }
   if (told.guidance) {
-    if (const auto report = node::from_msg(*told.guidance)) {
+    if (const auto report = navvi_types::from_msg(*told.guidance)) {
       (void)monitor_.observe(*report);
       state_ = report->state;
     }
@@ -251,4 +250,4 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
   return row.set("hash", navvi_types::to_hex(loop.session().world().state_hash()));
 }
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

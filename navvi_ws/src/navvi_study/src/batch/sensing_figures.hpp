@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <navvi_people/loop/closed_loop.hpp>
 #include <set>
 
-#include "loop/closed_loop.hpp"
 #include "record/row.hpp"
 
-namespace navvi_study::loop {
+namespace navvi_study::batch {
+
+using navvi_people::loop::ClosedLoop;
 
 /// Judges what the robot's own sensors told of what moves, by what truly did.
 class SensingFigures {
@@ -37,4 +39,4 @@ class SensingFigures {
   double lag_ = 0.0;  ///< s, the sum
 };
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace navvi_study::loop {
+namespace navvi_people::loop {
 
 /// What a robot's own sensors tell of the world, as perception_node tells it: sim_node's sensors, a
 /// prior map as a lidar would have made it, and a bumper. Where the robot is, is true.
@@ -39,4 +39,4 @@ class RobotSenses {
   navvi_sim::sensors::Reading scan_;
 };
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_people::loop

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <iosfwd>
+#include <navvi_people/loop/closed_loop.hpp>
 #include <string>
 
-#include "loop/closed_loop.hpp"
+namespace navvi_study::batch {
 
-namespace navvi_study::loop {
+using navvi_people::loop::ClosedLoop;
 
 /// Writes down what happens in a closed loop, for whoever looks for a cause: a line a second with
 /// the robot, the guidance, the hand and what is near, and a line for each thing said or hit and
@@ -34,4 +35,4 @@ class LoopTrace {
   bool hand_repeat_ = false;
 };
 
-}  // namespace navvi_study::loop
+}  // namespace navvi_study::batch
