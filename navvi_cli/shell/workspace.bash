@@ -82,3 +82,9 @@ catkin_toplevel() {
     [[ ! -f $file ]] || { echo "$file"; return; }
   done
 }
+
+# environment DEVEL: that of the workspace, each variable ended by a zero.
+environment() {
+  source_ros "$1" >&2
+  env -0
+}

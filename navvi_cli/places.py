@@ -1,0 +1,38 @@
+"""Where things are; nothing else names a place."""
+import os
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+COMMANDS = ROOT / "navvi_cli" / "commands"
+SHELL = ROOT / "navvi_cli" / "shell" / "run"
+LAUNCH = ROOT / "launch"
+# In an install space there are no sources, hence nothing to build.
+WORKSPACE = ROOT / "navvi_ws" if (ROOT / "navvi_ws").is_dir() else None
+DEVEL = WORKSPACE / "devel" if WORKSPACE else ROOT.parent.parent
+TRIALS = ROOT / "trials" if WORKSPACE else Path.home() / ".navvi" / "trials"
+NAVVI = "./navvi" if WORKSPACE else "navvi"  # as a person types it
+
+
+def share(package):
+    return WORKSPACE / "src" / package if WORKSPACE else DEVEL / "share" / package
+
+
+def config_of(package, profile):
+    return share(package) / "config" / f"{profile}.yaml"
+
+
+def program(package, name):
+    return DEVEL / "lib" / package / name
+
+
+def script(package, name):
+    return WORKSPACE / "src" / package / "scripts" / name if WORKSPACE else program(package, name)
+
+
+def trial_folder(word):
+    """The argument type of a trial's folder."""
+    from .say import fail
+    folder = Path(os.path.abspath(word))
+    if not (folder / "trial.bag").is_file():
+        fail(f"{word} holds no trial.bag; the folder of a trial is allowed, such as trials/trial-20260101T120000Z.", 2)
+    return folder
