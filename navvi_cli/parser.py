@@ -23,7 +23,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-h", "--help", action="help", help=argparse.SUPPRESS)
 
     def shown(self):
-        return [action for action in self._actions if action.help != argparse.SUPPRESS]
+        return sorted((action for action in self._actions if action.help != argparse.SUPPRESS), key=lambda action: action.nargs == "*")
 
     def format_usage(self):
         return " ".join([self.prog, *map(usage_of, self.shown())])
@@ -43,14 +43,14 @@ class Parser(argparse.ArgumentParser):
         fail(f"{message.replace('the following arguments are required', 'missing')}; allowed is: {self.format_usage()}", 2)
 
     def parse_known_args(self, args=None, namespace=None):
-        """A value may begin with a minus, as in --from -1,2."""
-        options = {name for action in self._actions if action.nargs is None and not isinstance(action, argparse._SubParsersAction)
-                   for name in action.option_strings}
-        joined, words = [], iter(args)
+        """Options may stand anywhere, and a value may begin with a minus, as in --from -1,2; argparse alone takes neither."""
+        options, others, words = [], [], iter(args)
         for word in words:
-            value = next(words, None) if word in options else None
-            joined.append(word if value is None else f"{word}={value}" if word.startswith("--") else word + value)
-        found, unknown = super().parse_known_args(joined, namespace)
+            action = None if self._subparsers else self._option_string_actions.get(word)
+            value = next(words, None) if action and action.nargs is None else None
+            options += [] if not action else [word] if value is None else [f"{word}={value}" if word.startswith("--") else word + value]
+            others += [] if action else [word]
+        found, unknown = super().parse_known_args(options + others, namespace)
         if unknown:
             fail(f"\"{unknown[0]}\" is not taken here; allowed is: {self.format_usage()}", 2)
         return found, unknown
@@ -81,9 +81,10 @@ def add_actions(parser, **actions):
 
 
 def add_command(subparsers, name, command):
-    """`command`: a module or class with a docstring (the help), run(args), and arguments(parser) if it takes any."""
+    """`command`: a module or class with a docstring (the help), arguments(parser) if it takes any, and run(args) unless actions do."""
     parser = subparsers.add_parser(name, text=command.__doc__)
-    parser.set_defaults(run=command.run)
+    if hasattr(command, "run"):
+        parser.set_defaults(run=command.run)
     if hasattr(command, "arguments"):
         command.arguments(parser)
     return parser

@@ -1,5 +1,4 @@
 """Where things are; nothing else names a place."""
-import os
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,12 +26,3 @@ def program(package, name):
 
 def script(package, name):
     return WORKSPACE / "src" / package / "scripts" / name if WORKSPACE else program(package, name)
-
-
-def trial_folder(word):
-    """The argument type of a trial's folder."""
-    from .say import fail
-    folder = Path(os.path.abspath(word))
-    if not (folder / "trial.bag").is_file():
-        fail(f"{word} holds no trial.bag; the folder of a trial is allowed, such as trials/trial-20260101T120000Z.", 2)
-    return folder

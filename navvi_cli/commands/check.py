@@ -8,12 +8,12 @@ Exit codes
 0: equal, and how many states were. 1: they differ, and where first. 2: it
 cannot be compared.
 """
-from navvi_cli.places import trial_folder
+from navvi_cli.arguments import add_trial
 from navvi_cli.workspace import show, tool
 
 
 def arguments(parser):
-    parser.add_argument("trial", metavar="TRIAL", type=trial_folder, help="the folder of a trial.")
+    add_trial(parser)
 
 
 def run(args):

@@ -49,24 +49,3 @@ with_progress() {
   job="" sleeper=""
   return "$status"
 }
-
-# help_text COMMAND: the text beside the command; a line {FILE.launch} stands for the arguments of a launch file.
-help_text() {
-  local line
-  while IFS= read -r line; do
-    if [[ $line =~ ^\{(.*)\}$ ]]; then launch_arguments "${BASH_REMATCH[1]}"; else echo "$line"; fi
-  done <"$commands/$1.txt"
-  [[ $1 != help ]] || command_list
-}
-launch_arguments() {
-  # shellcheck disable=SC2016  # what roslaunch would put in is left out
-  sed -n 's/.*<arg name="\([a-z_]*\)" \(default="\([^"]*\)" \)\{0,1\}doc="\(.*\)"\/>.*/\1:=\3: \4/p' "$launch_files/$1" |
-    grep -v '^[a-z]*_\{0,1\}parameters\|^version\|^bag' | sed 's/:=\($([^:]*\)\{0,1\}: /: /' | fold -s -w 78 | sed 's/ $//'
-}
-# Each sub-command with the first sentence of its help.
-command_list() {
-  local file
-  for file in "$commands"/*.txt; do
-    [[ $file == */help.txt ]] || echo "$(basename "$file" .txt): $(sed -n 2p "$file")"
-  done
-}

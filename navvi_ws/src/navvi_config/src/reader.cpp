@@ -10,6 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "navvi_config/json.hpp"
+
 namespace navvi_config {
 namespace {
 
@@ -325,14 +327,15 @@ void read_fields(const Describe& describe, const YAML::Node& node, const std::st
   reader.finish();
 }
 
-std::string markdown(const std::vector<Row>& rows) {
-  std::ostringstream out;
-  out << "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
+std::string json(const std::vector<Row>& rows) {
+  std::vector<std::string> objects;
   for (const Row& row : rows) {
-    out << "| " << row.key << " | " << row.default_value << " | " << row.allowed << " | "
-        << row.help << " |\n";
+    objects.push_back(json_object({{"parameter", json_text(row.key)},
+                                   {"default", json_text(row.default_value)},
+                                   {"allowed", json_text(row.allowed)},
+                                   {"meaning", json_text(row.help)}}));
   }
-  return out.str();
+  return json_list(objects);
 }
 
 std::vector<Row> table_of(const Describe& describe) {

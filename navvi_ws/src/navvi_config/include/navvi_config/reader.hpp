@@ -57,8 +57,8 @@ struct Row {
 
 [[nodiscard]] std::vector<Row> table_of(const Describe& describe);
 
-/// The rows as a table in Markdown.
-[[nodiscard]] std::string markdown(const std::vector<Row>& rows);
+/// The rows as a list of objects with parameter, default, allowed and meaning.
+[[nodiscard]] std::string json(const std::vector<Row>& rows);
 
 /// The fields of `Config` with their defaults, in order of description.
 template <typename Config>
@@ -70,7 +70,7 @@ template <typename Config>
 /// The node on one line, as YAML.
 [[nodiscard]] std::string one_line(const YAML::Node& node);
 
-/// Answers a program that was called with --parameters: prints the table of `Config`, or, of words
+/// Answers a program that was called with --parameters: prints the table of `Config` as JSON, or, of words
 /// that follow, such as haptics/range:=2, checks that `Config` takes them and prints them as YAML.
 /// \param below  what the words are laid over, by the Config that they make
 /// \return its exit code; nullopt if it was called otherwise
@@ -79,7 +79,7 @@ template <typename Config>
     int argc, char** argv, const std::function<YAML::Node(const Config&)>& below = {}) {
   if (argc < 2 || std::string(argv[1]) != "--parameters") return std::nullopt;
   if (argc == 2) {
-    std::cout << markdown(table<Config>());
+    std::cout << json(table<Config>()) << "\n";
     return 0;
   }
   try {

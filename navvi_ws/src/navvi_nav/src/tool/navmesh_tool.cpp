@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <navvi_config/json.hpp>
 #include <navvi_config/reader.hpp>
 #include <optional>
 #include <sstream>
@@ -28,7 +29,7 @@ using namespace navvi_nav::tool;
 
 constexpr const char* kUsage =
     R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
-        [--stage STAGE] [name:=value ...]
+        [--stage STAGE] [--json FILE] [name:=value ...]
   MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
   -o          draw the map, its mesh, the cylinders and the path; ./navvi also takes FILE.png
   --from --to search a path, m in map
@@ -36,6 +37,7 @@ constexpr const char* kUsage =
   --stage     stop after map, bake, mesh (holes), search (shortest path) or smooth (the default)
   --config    parameters that differ from the defaults, as in nav_node's config files; single ones
               as in mesh/climb:=0.1
+  --json FILE the numbers and the path, or why there is none, for a program
 )";
 
 class UsageError : public std::runtime_error {
@@ -59,6 +61,7 @@ struct Options {
   std::string map;
   std::string picture;
   std::string config;
+  std::string json;
   Stage stage = Stage::smooth;
   std::optional<Point> from;
   std::optional<Point> to;
@@ -107,6 +110,8 @@ Options read_options(const std::vector<std::string>& words) {
       out.stage = stage_named(value());
     } else if (word == "--config") {
       out.config = value();
+    } else if (word == "--json") {
+      out.json = value();
     } else if (word == "--from") {
       out.from = point();
     } else if (word == "--to") {
@@ -131,8 +136,11 @@ Options read_options(const std::vector<std::string>& words) {
   return out;
 }
 
-void print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
-                const plan::MeshUpdate& update) {
+/// What a program reads; print_mesh() and print_plan() print the same for people.
+using navvi_config::JsonFields;
+
+JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
+                      const plan::MeshUpdate& update) {
   const map::Floor& floor = *nav_mesh.shared_floor();
   const mesh::Mesh& mesh = nav_mesh.mesh();
   double area = 0.0;  // m^2
@@ -167,9 +175,32 @@ void print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
       area, polygons, mesh.vertices.size(), portals / 2, update.tiles, components.size(), largest);
   std::printf("memory      %zu bytes, %.1f a square metre\n", bytes,
               static_cast<double>(bytes) / area);
+  using navvi_config::json_number;
+  return {{"map", navvi_config::json_text(source)},
+          {"floor length m", json_number(floor.columns() * floor.cell_size(), 2)},
+          {"floor width m", json_number(floor.rows() * floor.cell_size(), 2)},
+          {"cell m", json_number(floor.cell_size(), 3)},
+          {"floor z m", json_number(floor.height(), 2)},
+          {"mesh m^2", json_number(area, 1)},
+          {"polygons", std::to_string(polygons)},
+          {"vertices", std::to_string(mesh.vertices.size())},
+          {"portals", std::to_string(portals / 2)},
+          {"tiles", std::to_string(update.tiles)},
+          {"components", std::to_string(components.size())},
+          {"largest component m^2", json_number(largest, 1)},
+          {"memory bytes", std::to_string(bytes)}};
 }
 
-void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds) {
+std::string json_of(const Path& path) {
+  std::vector<std::string> points;
+  for (const Point point : path)
+    points.push_back(navvi_config::json_list(
+        {navvi_config::json_number(point.x, 2), navvi_config::json_number(point.y, 2)}));
+  return navvi_config::json_list(points);
+}
+
+void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds,
+                JsonFields& fields) {
   std::printf("query       %.3f ms with smoothing, %zu nodes\n", milliseconds, plan.nodes_expanded);
   std::printf("shortest    %.6f m\n", plan.shortest);
   std::printf("guide path  %.3f m:", length_of(plan.path));
@@ -177,6 +208,11 @@ void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds) 
   std::printf("\nturns       %zu:", turns.size());
   for (const Point point : turns) std::printf(" %.2f,%.2f", point.x, point.y);
   std::puts("");
+  fields.emplace_back("query ms", navvi_config::json_number(milliseconds, 3));
+  fields.emplace_back("shortest way m", navvi_config::json_number(plan.shortest));
+  fields.emplace_back("guide path m", navvi_config::json_number(length_of(plan.path), 3));
+  fields.emplace_back("path", json_of(plan.path));
+  fields.emplace_back("turns", json_of(turns));
 }
 
 /// Each library ends its sentences in its own way.
@@ -210,7 +246,7 @@ int run(const Options& options) {
   const double baked = lap();
   if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
   const double carved = lap();
-  print_mesh(survey.source, planner.nav_mesh(), update);
+  JsonFields fields = print_mesh(survey.source, planner.nav_mesh(), update);
   std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
               surveyed, baked, carved);
 
@@ -228,15 +264,17 @@ int run(const Options& options) {
       for (const smooth::Turn turn : smooth::turns_of(plan.path, config.path.guidance.one_turn))
         picture.turns.push_back(plan.path[turn.at]);
       if (!picture.turns.empty()) picture.turns.pop_back();  // the goal
-      print_plan(plan, picture.turns, planned);
+      print_plan(plan, picture.turns, planned, fields);
     } else {
       refusal = plan.detail.empty() ? "there is no route" : plan.detail;
+      fields.emplace_back("refusal", navvi_config::json_text(refusal));
     }
   }
   if (!options.picture.empty()) {
     file << svg_of(picture);
     if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");
   }
+  if (!options.json.empty()) navvi_config::write_json(options.json, fields);
   if (refusal.empty()) return 0;
   tell(refusal);
   return 1;

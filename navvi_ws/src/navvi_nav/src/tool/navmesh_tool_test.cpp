@@ -46,6 +46,23 @@ class NavmeshTool : public testing::Test {
   std::filesystem::path folder_;
 };
 
+TEST_F(NavmeshTool, gives_programs_the_path_as_json_or_why_there_is_none) {
+  const auto json = [&](const std::string& words) {
+    const Answer answer = ask(path("map.bt") + " --json " + path("a.json") + " " + words);
+    std::ostringstream text;
+    text << std::ifstream(path("a.json")).rdbuf();
+    return std::to_string(answer.code) + " " + text.str();
+  };
+  const std::string found = json("--from 1,1 --to 6,1");
+  EXPECT_EQ(found.rfind("0 {\"map\": ", 0), 0U) << found;
+  EXPECT_NE(found.find("\"components\": 2, "), std::string::npos) << found;
+  EXPECT_NE(found.find("\"guide path m\": 5.000, \"path\": [[1.00, 1.00], "), std::string::npos)
+      << found;
+  const std::string none = json("--from 1,1 --to 9,1");
+  EXPECT_EQ(none.rfind("1 {", 0), 0U) << none;
+  EXPECT_NE(none.find("\"refusal\": \""), std::string::npos) << none;
+}
+
 TEST_F(NavmeshTool, tells_what_a_mesh_is_like_and_draws_it) {
   const Answer answer =
       ask(path("map.bt") + " --picture " + path("map.svg") + " --cylinder 5.5,3,0.4");

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <navvi_config/json.hpp>
 #include <navvi_config/reader.hpp>
 #include <sstream>
 
@@ -35,7 +36,8 @@ constexpr const char* kUsage =
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"
     "such as length:=80; `./navvi parameters` lists them all. --config takes a file like those of "
-    "sim_node.\n";
+    "sim_node.\n"
+    "--json FILE, of list and check: the same for a program.\n";
 
 /// A sentence on a wrong command.
 class UsageError : public std::runtime_error {
@@ -74,7 +76,8 @@ Words sort_out(const std::vector<std::string>& words) {
   Words sorted;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
-    if (word == "-o" || word == "--config" || word == "--path" || word == "--turns") {
+    if (word == "-o" || word == "--config" || word == "--path" || word == "--turns" ||
+        word == "--json") {
       if (++i == words.size()) throw UsageError(word + " needs a value after it");
       sorted.options[word] = words[i];
     } else if (word.find(":=") != std::string::npos) {
@@ -127,13 +130,39 @@ std::string caption_of(const Request& request, const scenario::StartAndGoal& sce
          world_hash(request.loaded.world) + (scenario.note.empty() ? "" : "; ") + scenario.note;
 }
 
-void print(const Request& request, const scenario::StartAndGoal& scenario) {
-  const WorldDescription& world = request.loaded.world;
-  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
+/// How many things of each class there are, with and without routes.
+std::map<std::string, int> counts_of(const WorldDescription& world) {
   std::map<std::string, int> counts;
   for (const Thing& thing : world.things)
     ++counts[std::string(to_string(thing.thing_class)) + (thing.route ? " on routes" : "")];
-  for (const auto& [what, number] : counts) std::cout << number << ' ' << what << '\n';
+  return counts;
+}
+
+/// As print(), for a program.
+navvi_config::JsonFields fields_of(const Request& request,
+                                   const scenario::StartAndGoal& scenario) {
+  using navvi_config::json_text;
+  const WorldDescription& world = request.loaded.world;
+  navvi_config::JsonFields fields;
+  for (const auto& [what, number] : counts_of(world))
+    fields.emplace_back(what, std::to_string(number));
+  fields.emplace_back("world", json_text(world.name));
+  fields.emplace_back("seed", std::to_string(request.config.session.seed));
+  fields.emplace_back("world hash", json_text(world_hash(world)));
+  fields.emplace_back("floor z m", rounded(world.floor_height, 3));
+  fields.emplace_back("start x m, y m, yaw rad",
+                      navvi_config::json_list({rounded(scenario.start.position.x(), 3),
+                                               rounded(scenario.start.position.y(), 3),
+                                               rounded(scenario.start.yaw, 3)}));
+  fields.emplace_back("goal x m, y m", navvi_config::json_list({rounded(scenario.goal.x(), 3),
+                                                                rounded(scenario.goal.y(), 3)}));
+  return fields;
+}
+
+void print(const Request& request, const scenario::StartAndGoal& scenario) {
+  const WorldDescription& world = request.loaded.world;
+  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
+  for (const auto& [what, number] : counts_of(world)) std::cout << number << ' ' << what << '\n';
   std::cout << world.name << ", " << caption_of(request, scenario)
             << "\nfloor at z = " << rounded(world.floor_height, 3) << " m\nstart "
             << rounded(scenario.start.position.x(), 3) << ","
@@ -167,8 +196,12 @@ void check(const Words& words) {
   if (out) check_octomap(*out);
   const Request request = load(words);
   const auto map = setup::map_of(request.config.session, request.loaded.world);
-  print(request, setup::scenario_of(request.config.session, request.loaded.world, map));
+  const scenario::StartAndGoal scenario =
+      setup::scenario_of(request.config.session, request.loaded.world, map);
+  print(request, scenario);
   if (out) write_octomap(*out, map);
+  if (const auto file = words.option("--json"))
+    navvi_config::write_json(*file, fields_of(request, scenario));
 }
 
 void write_map(const Words& words) {
@@ -229,10 +262,15 @@ void write(const Words& words) {
   std::cout << request.loaded.world.things.size() << " things in " << path.string() << '\n';
 }
 
-void list(const Words&) {
-  for (const generate::Preset& known : generate::presets())
-    std::cout << known.name << std::string(12 - known.name.size(), ' ') << known.help << ", "
-              << known.config.length << " x " << known.config.width << " m\n";
+void list(const Words& words) {
+  navvi_config::JsonFields fields;
+  for (const generate::Preset& known : generate::presets()) {
+    std::ostringstream meaning;
+    meaning << known.help << ", " << known.config.length << " x " << known.config.width << " m";
+    std::cout << known.name << ": " << meaning.str() << '\n';
+    fields.emplace_back(known.name, navvi_config::json_text(meaning.str()));
+  }
+  if (const auto file = words.option("--json")) navvi_config::write_json(*file, fields);
 }
 
 struct Command {
@@ -251,6 +289,8 @@ void run(const Words& words) {
   const std::string name = words.plain.empty() ? "" : words.plain.front();
   if (words.option("-o") && name != "show" && name != "check")
     throw UsageError("-o belongs to world show and world check");
+  if (words.option("--json") && name != "list" && name != "check")
+    throw UsageError("--json belongs to world list and world check");
   for (const Command& command : kCommands) {
     if (name != command.name) continue;
     if (words.plain.size() > command.words)

@@ -57,6 +57,18 @@ TEST_F(WorldTool, lists_the_worlds_that_have_a_name) {
     EXPECT_NE(answer.text.find(name), std::string::npos) << name;
 }
 
+TEST_F(WorldTool, gives_programs_as_json_what_it_prints_for_people) {
+  const Answer answer = run("check busy seed:=2 --json a.json");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  const std::string json = content("a.json");
+  EXPECT_NE(json.find("\"world\": \"busy\", \"seed\": 2"), std::string::npos) << json;
+  const auto at = answer.text.find("start ") + 6;
+  EXPECT_NE(json.find(answer.text.substr(at, answer.text.find(',', at) - at)), std::string::npos);
+  EXPECT_EQ(run("list --json b.json").code, 0);
+  EXPECT_NE(content("b.json").find("\"training\": \""), std::string::npos);
+  EXPECT_EQ(run("check easy --json /nowhere/a.json").code, 2);
+}
+
 TEST_F(WorldTool, writes_the_octomap_by_the_library_and_with_free_space_if_wanted) {
   const Answer plain = run("map training a.bt");
   EXPECT_EQ(plain.code, 0) << plain.text;
@@ -143,7 +155,8 @@ TEST_F(WorldTool, refuses_what_is_wrong_in_a_sentence_and_writes_nothing) {
                             "write easy",
                             "write easy a.txt",
                             "write easy /nowhere/a.sdf",
-                            "list easy"}) {
+                            "list easy",
+                            "write easy a.sdf --json a.json"}) {
     const Answer answer = run(words);
     EXPECT_EQ(answer.code, 2) << words << ": " << answer.text;
     EXPECT_EQ(answer.text.rfind("navvi: ", 0), 0u) << words << ": " << answer.text;

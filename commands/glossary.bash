@@ -1,1 +1,0 @@
-navvi_glossary() { give_lesson glossary "$@"; }

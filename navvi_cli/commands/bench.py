@@ -1,0 +1,62 @@
+"""Run the benchmarks, or whole sessions with a simulated person.
+
+The sim and nav benchmarks print ratios to a plain use of the same library in
+the same run. nav takes --maps for maps alone, --resolution=0.05 and
+--largest=100 (m). build times what a newcomer waits for, in a clone of its own
+and without the compiler's cache. latency [--rounds=10] times what a person
+waits for, with nodes as they run live. loop [WORLD ...] prints how many times
+faster than life sessions without ROS are. motors [-o motors.svg] draws what the
+motors do as a thing comes and goes.
+trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]
+[--sensing=truth|lidar|robot] [--jobs=1] [--csv] [--trace[=FROM-TO]]
+[PART/NAME:=VALUE ...] runs sessions without ROS and prints one row a trial, or
+with --csv a table for a program. --trace prints what happens second by second,
+between FROM and TO (s). --sensing gives guidance and feedback what a lidar, or
+a lidar and a depth camera (robot), show of the world. PART is sim, nav,
+feedback, operator or perception, with the parameters of its node, such as
+nav/replan/hold_time:=3 or sim/goal:=3,4.
+
+Exit codes
+0: done. 1: one failed. 2: a wrong argument.
+
+Examples
+./navvi bench nav --seed=2
+./navvi bench trials --world=busy --seeds=1-20 --jobs=2
+"""
+import argparse
+import re
+
+from navvi_cli.places import WORKSPACE, program
+from navvi_cli.say import fail
+
+
+def benchmarks():
+    """The file of each, by names such as nav/nav."""
+    found = {}
+    for path in sorted([*WORKSPACE.glob("src/navvi_*/bench/*_bench.cpp"), *WORKSPACE.glob("src/navvi_*/scripts/*_bench")]):
+        name = f"{path.parent.parent.name[len('navvi_'):]}/{path.stem}"
+        if re.fullmatch(r"[a-z]+/[a-z_]+", name):
+            found[name] = path
+    return found
+
+
+def arguments(parser):
+    parser.add_argument("filter", nargs="?", default="", metavar="FILTER",
+                        help="only benchmarks whose package/name contains it.").completer = lambda **_: benchmarks()
+    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="ARGUMENT ...", help="what the benchmarks take.")
+
+
+def run(args):
+    known = benchmarks()
+    chosen = {name: path for name, path in known.items() if args.filter in name and (not name.startswith("build/") or args.filter == "build")}
+    if not chosen:
+        fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
+    from navvi_cli.workspace import build, enter, shell, show
+    shell("install_packages", "all")
+    build("session", *(path.stem for path in chosen.values() if path.suffix == ".cpp"))
+    enter()
+    failed = 0
+    for name, path in sorted(chosen.items(), key=lambda item: item[1].suffix != ".cpp"):
+        print(name, flush=True)
+        failed = failed or show(program(f"navvi_{name.split('/')[0]}", path.stem) if path.suffix == ".cpp" else path, *args.words)
+    return failed

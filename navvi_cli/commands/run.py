@@ -1,0 +1,129 @@
+"""Run a session: a person drives the robot to the goal, and it is recorded.
+
+Without arguments the pad drives if there is one, else the keyboard, else a
+simulated person. It begins with six lines that tell what to press, where the
+record goes and how to stop (Ctrl-C), and ends with how it went.
+
+Exit codes
+0: the goal was reached. 1: it was not. 2: a wrong argument, nothing started.
+"""
+import os
+import time
+from pathlib import Path
+
+from navvi_cli import trials
+from navvi_cli.arguments import LaunchFile, add_words, words_for
+from navvi_cli.places import TRIALS, config_of, program
+from navvi_cli.say import fail, say
+
+PERSON = ["person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
+          "begins a new file.",
+          "PART/NAME:=VALUE: any parameter of a node, such as feedback/speaker/rate:=300; \"./navvi parameters feedback\" lists them."]
+DRIVE = {
+    "pad": "press start; then the left stick of the pad drives, up for forward.",
+    "keyboard": "press enter; then the arrow keys drive, with Shift slowly, while the picture or NavVI's small window has the focus.",
+    "simulated": "nothing to do; a simulated person drives.",
+}
+ASK = {
+    "pad": "the lower button repeats the direction, the right one tells the goal, the left one what is near.",
+    "keyboard": "space repeats the direction, G tells the goal, A what is near.",
+    "simulated": "what it hears is in the log below, and in \"./navvi watch\".",
+}
+
+
+def arguments(parser):
+    add_words(parser, "live.launch", *PERSON)
+
+
+def run(args):
+    return session(args.words)
+
+
+def session(given):
+    launch_file = LaunchFile("live.launch")
+    words = words_for(launch_file, given)
+    complete(words)
+    check(words)
+    from navvi_cli.network import Network
+    from navvi_cli.session import Launch, prepare
+    targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else []), *(["perception_node"] if words["sensing"] != "truth" else [])]
+    prepare(words, targets, [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool")], check_by_programs)
+    network = Network()
+    begin = time.time_ns()
+    log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
+    announce(words, log, network)
+    launch = Launch(launch_file, words, log, network)
+    launch.run()
+    return report(words["out"], begin, log, launch.log.fatal)
+
+
+def complete(words):
+    """What an argument is if it is not given."""
+    from navvi_cli.session import check_operator, has_display, has_pad, resolve_rviz
+    if words.setdefault("operator", "auto") == "auto":
+        words["operator"] = "pad" if has_pad() else "keyboard" if has_display() else "simulated"
+    check_operator(words, "operator:=keyboard and operator:=simulated need")
+    if words["operator"] == "simulated":
+        words.setdefault("once", "true")
+        words.setdefault("limit", "600")
+    resolve_rviz(words)
+    for name, value in {"speech": "auto", "profile": "default", "once": "false", "lesson": "none", "sensing": "truth", "world": "warehouse",
+                        "out": str(TRIALS)}.items():
+        words.setdefault(name, value)
+
+
+def check(words):
+    """What can be refused without a program."""
+    if words["operator"] == "simulated" and words["lesson"] != "none":
+        fail("the tutorial needs a person: a game controller, or a display for the keyboard, such as with operator:=keyboard.", 2)
+    if words["operator"] == "simulated" and words["speech"] == "false":
+        fail("the simulated person drives by what it hears, and with speech:=false that is nothing; leave speech out, or drive yourself, "
+             "such as with operator:=keyboard.", 2)
+    words["out"] = Path(os.path.abspath(words["out"]))
+    try:
+        words["out"].mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        fail(f"the folder {words['out']} cannot be made: {problem.strerror}; out:=FOLDER names another, such as out:=/tmp/trials.", 2)
+    # Nodes run elsewhere: paths become absolute.
+    for name in ("world", "classes"):
+        if name in words and Path(words[name]).is_file():
+            words[name] = Path(words[name]).resolve()
+    folders = [folder for folder in words.get("models", "").split(":") if folder]
+    for folder in folders:
+        if not Path(folder).is_dir():
+            fail(f"models:={folder} is not a folder; folders that exist are allowed, separated by colons.", 2)
+    if folders:
+        words["models"] = ":".join(str(Path(folder).resolve()) for folder in folders)
+
+
+def check_by_programs(words):
+    """The nodes would refuse the same, but only when all have started."""
+    from navvi_cli.session import check_parameters
+    from navvi_cli.worlds import Verdict
+    check_parameters(words)
+    session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
+    Verdict(words["world"], ["--config", config_of("navvi_sim", words["profile"]), *session, *words.parameters_of("sim")],
+            words.parameters_of("nav"), words["profile"]).require()
+
+
+def announce(words, log, network):
+    """Six lines: what begins, what to press, where the record goes, how to stop."""
+    operator = words["operator"]
+    own_buttons = any(word.startswith("feedback/buttons/") for word in words.parameters)
+    say(f"a session begins in some seconds: world {words['world']}, seed {words.get('seed', 1)}, profile {words['profile']}, operator {operator}.")
+    print("To drive:", "listen; each step of the tutorial is spoken." if words["lesson"] == "tutorial" else DRIVE[operator])
+    print("To hear more:", "as your feedback/buttons say." if own_buttons and operator == "pad" else ASK[operator])
+    print(f"The record: a new folder in {words['out']}; the output of the programs: {log}")
+    print("To stop: Ctrl-C in this terminal.")
+    print(f"In a second terminal: ./navvi watch prints it in lines; for ROS tools: {network.second_terminal()}", flush=True)
+
+
+def report(out, begin, log, fatal):
+    """The end of a session, by the summary of its last trial."""
+    from navvi_cli.workspace import show
+    show(program("navvi_study", "close_trials"), out)
+    written = [(path.stat().st_mtime_ns, path.parent) for path in out.glob("trial-*/summary.csv")]
+    folder = max((at, folder) for at, folder in [*written, (begin, None)] if at >= begin)[1] if written else None
+    if folder is None:
+        fail(f"the session ended without a trial; the log {log} says why. {fatal}".strip())
+    return trials.report(folder)

@@ -1,0 +1,42 @@
+"""Run the tests.
+
+quick, the default: what every commit passes: all parts by themselves, the
+structure, the documents, one session with its record. Some minutes.
+whole: what every change passes before it lands: quick, the nodes, and
+sessions by pad, by keyboard, by sensors, watched, stopped and broken.
+release: whole, the picture in each vision, all lessons, the package of
+Debian, long runs, and the parts with sanitizers. About an hour.
+
+A line each 10 s tells how far it is. The output of the tests goes to
+navvi_ws/test.log; of a test that fails, name and reason are shown, too.
+The last line is "N passed, N failed".
+
+Exit codes
+0: all passed. 1: one failed, or none ran. 2: a wrong argument.
+"""
+from navvi_cli.say import fail
+from navvi_cli.workspace import shell
+
+TIERS = ["quick", "whole", "release"]
+
+
+def arguments(parser):
+    parser.add_argument("words", nargs="*", default=[], metavar="quick|whole|release|FILTER",
+                        help="a tier, and a part of the names of tests, such as accessibility; without a tier, of all tiers.").completer = (
+                            lambda **_: TIERS)
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--asan", action="store_true", help="the tests of the parts, with sanitizers, in a build of their own.")
+    kind.add_argument("--slowest", action="store_true", help="which tests of the last run took the longest.")
+
+
+def run(args):
+    words = list(args.words)
+    tier = words.pop(0) if words and words[0] in TIERS and not args.asan else None
+    if len(words) > 1 or (args.slowest and args.words):
+        fail(f"\"{words[-1] if words else tier}\" is too much; allowed are a tier and one part of a test's name.", 2)
+    if args.slowest:
+        shell("slowest")
+    elif args.asan:
+        shell("sanitized_tests", *words)
+    else:
+        shell("tests", tier or ("release" if words else "quick"), *words)

@@ -1,0 +1,68 @@
+"""Print a session in lines: state, what is said and felt, distance, hits.
+
+For a terminal, a braille display or a screen reader. Without TRIAL it is the
+session that runs on this machine (./navvi run in another terminal); with a
+trial's folder, that record. Each line says something new and ends with the
+seconds since the trial began (or since watching began).
+
+For the voice of speech:=true alone, start the session with
+"./navvi run speech:=false feedback/listener:=topic". In a running session the
+newest state and distance replace those that wait, contacts and stops come
+first, and if much comes at once the least important lines are left out; how
+many is said.
+
+Exit codes
+0: the session or the record ended. 2: a wrong argument, or nothing to watch.
+130: Ctrl-C; the session goes on.
+
+Examples
+./navvi watch
+./navvi watch trials/trial-20260101T120000Z pace:=0 > trial.txt
+"""
+import os
+
+from navvi_cli.arguments import Words, completions, trial_in, trials_that_hold
+from navvi_cli.places import DEVEL, script
+from navvi_cli.say import fail
+
+CHOICES = {"speech": ["true", "false"]}
+HELP = ["TRIAL: the folder of a trial, such as trials/trial-20260101T120000Z.",
+        "speech:=true: each line is also spoken, by speech-dispatcher, and the next one waits until it was.",
+        "pace:=180: no line comes before the last one can have been read at so many words a minute; 0: no pause.",
+        "port:=11312: of several sessions, the one with this port."]
+
+
+def arguments(parser):
+    words = parser.add_argument("words", nargs="*", default=[], metavar="TRIAL|name:=value")
+    words.completer = lambda prefix, **_: [*completions(prefix, ["pace", "port", "speech"], CHOICES), *trials_that_hold("trial.bag")]
+    parser.more_help = lambda: HELP
+
+
+def run(args):
+    given = list(args.words)
+    trial = trial_in(given.pop(0)) if given and ":=" not in given[0] else None
+    words = Words(given, ["pace", "port", "speech"], choices=CHOICES)
+    port = None if trial else port_of_session(words.get("port"))
+    from navvi_cli.workspace import build, enter, is_current
+    if not is_current(DEVEL / "lib/python3/dist-packages/navvi_msgs/msg/__init__.py"):
+        build("navvi_msgs_generate_messages_py")
+    enter()
+    if port:
+        os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1")
+        os.environ.pop("ROS_HOSTNAME", None)
+    program = str(script("navvi_study", "watch_session"))
+    os.execv(program, [program, words.get("pace", "180"), words.get("speech", "false"), *([str(trial)] if trial else [])])
+
+
+def port_of_session(wanted):
+    from navvi_cli.network import listeners, running_sessions
+    ports = running_sessions()
+    if wanted:
+        if int(wanted) not in ports and not listeners(wanted):
+            fail(f"no session runs at port:={wanted}; allowed are: {' '.join(f'port:={port}' for port in ports) or 'none, as no session runs'}", 2)
+        return wanted
+    if not ports:
+        fail("no session runs on this machine; start one with \"./navvi run\", or name a trial's folder, such as trials/trial-20260101T120000Z.", 2)
+    if len(ports) > 1:
+        fail(f"several sessions run; one of these is allowed: {' '.join(f'port:={port}' for port in ports)}", 2)
+    return ports[0]

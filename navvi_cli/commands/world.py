@@ -1,0 +1,142 @@
+"""List worlds, check one, draw it, or write it as SDF or OctoMap.
+
+The names are those of sim_node's parameters, such as seed:=3, and for a layout
+also its own, such as length:=80; "./navvi parameters" lists them all.
+
+Exit codes
+0: done. 2: the world is rejected, or no way leads from start to goal, and
+why; or a wrong argument.
+"""
+from navvi_cli.arguments import completions, parameter
+from navvi_cli.parser import add_actions
+from navvi_cli.pictures import picture
+from navvi_cli.say import fail, say
+
+ENDING = {"write": "sdf", "map": "bt"}
+
+
+def arguments(parser):
+    add_actions(parser, list=List, check=Check, show=Show, write=Write, map=Map)
+
+
+def world_arguments(parser, file=""):
+    """A world, the file to write if any, and parameters."""
+    parser.add_argument("world", metavar="NAME|FILE", help="the world; \"./navvi world list\" lists the names.").completer = (
+        lambda **_: [word[len("world:="):] for word in completions("world:=", [])])
+    parser.add_argument("--config", metavar="CONFIG.yaml", help="parameters, as in the config files of sim_node.")
+    parser.add_argument("words", nargs="*", default=[], metavar=f"{file}name:=value", help="parameters, such as seed:=3" +
+                        (", and the file to write." if file else "."), **({} if file else {"type": parameter}))
+
+
+def words_of(args):
+    return [*args.words, *(["--config", args.config] if args.config else [])]
+
+
+def tool(name="world_tool", package="navvi_sim"):
+    from navvi_cli.workspace import tool as built
+    return built(package, name)
+
+
+def verdict(args, octomap=None):
+    from navvi_cli.worlds import Verdict
+    tool(), tool("navmesh_tool", "navvi_nav")
+    return Verdict(args.world, words_of(args), octomap=octomap)
+
+
+class List:
+    """List the worlds that have a name."""
+
+    def arguments(parser):
+        parser.add_argument("--csv", action="store_true", help="as a table for a program.")
+
+    def run(args):
+        from navvi_cli.worlds import names, table
+        tool()
+        if args.csv:
+            table(["name", "meaning"], names().items())
+        else:
+            print("\n".join(f"{name}: {meaning}" for name, meaning in names().items()))
+
+
+class Check:
+    """Print what is in a world, and how far a session leads from start to goal."""
+
+    def arguments(parser):
+        world_arguments(parser)
+        parser.add_argument("--csv", action="store_true", help="as a table for a program.")
+        parser.add_argument("-o", dest="octomap", metavar="FILE.bt", help="saves its OctoMap.")
+
+    def run(args):
+        from navvi_cli.worlds import table
+        found = verdict(args, args.octomap)
+        if not args.csv:
+            print(found.sentences, end="", flush=True)
+        found.require()
+        way = {name: found.way[name] for name in ("shortest way m", "guide path m")}
+        if args.csv:
+            table(["what", "value"], {**found.world, **{name: round(value, 1) for name, value in way.items()}}.items())
+        else:
+            print("\n".join(f"{name[:-2]} {value:.1f} m" for name, value in way.items()))
+
+
+class Show:
+    """Draw a world from above.
+
+    The picture has start, goal, the path that a person is led along with the
+    turns that are said, and the routes of what moves.
+    """
+
+    def arguments(parser):
+        world_arguments(parser)
+        parser.add_argument("-o", dest="picture", metavar="FILE", type=picture, help="the picture, .svg or .png; NAME.svg by default.")
+
+    def run(args):
+        from navvi_cli.pictures import draw
+        from navvi_cli.workspace import show
+        from navvi_cli.worlds import points
+        found = verdict(args)
+        guide = [] if found.refusal else ["--path", points(found.way["path"]), "--turns", points(found.way["turns"])]
+        status = draw(args.picture, show, tool(), "show", args.world, *words_of(args), *guide)
+        if found.refusal:
+            say(found.refusal)
+        return status
+
+
+class Write:
+    """Write a world as SDF."""
+
+    def arguments(parser):
+        written_arguments(parser, "FILE.sdf|")
+
+    def run(args):
+        return write("write", args)
+
+
+class Map:
+    """Write the OctoMap of a world.
+
+    octomap/free:=true marks free space, too, as mappers do.
+    """
+
+    def arguments(parser):
+        written_arguments(parser, "FILE.bt|FILE.ot|")
+
+    def run(args):
+        return write("map", args)
+
+
+def written_arguments(parser, file):
+    world_arguments(parser, file)
+    parser.add_argument("-o", dest="file", metavar="FILE", help="the file to write, which may stand alone, too.")
+
+
+def write(action, args):
+    from navvi_cli.workspace import show
+    files = [word for word in args.words if ":=" not in word] + ([args.file] if args.file else [])
+    if len(files) != 1:
+        fail(f"\"world {action}\" writes one file, and {len(files)} are named; allowed is such as \"world {action} training /tmp/a.{ENDING[action]}\".", 2)
+    words = [word for word in words_of(args) if word not in files]
+    status = show(tool(), action, args.world, files[0], *words)
+    if status == 0:
+        say(f"the world is in {files[0]}.")
+    return status

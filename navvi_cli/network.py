@@ -1,0 +1,104 @@
+"""A master of its own for each session, on the loopback interface.
+
+The lock of a port keeps a second session that starts now from it until this one's master listens there, and `watch` finds running
+sessions by it. It is one file for all users of the machine, locked through a descriptor that only reads: the file may be another
+user's. A port whose lock cannot be opened, or on which anything listens, is not ours.
+"""
+import fcntl
+import os
+import re
+import subprocess
+from pathlib import Path
+
+from .places import DEVEL
+from .say import fail
+
+PORTS = range(11311, 11411)
+
+
+def lock_file(port):
+    return Path(os.environ.get("TMPDIR") or "/tmp") / f"navvi-port-{port}.lock"
+
+
+def lock(path):
+    """The descriptor of the lock; None where somebody has it, or it cannot be opened."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(descriptor)
+        return None
+    return descriptor
+
+
+def listeners(port):
+    """What ss prints of those that listen on a port, with the user (-e)."""
+    try:
+        return subprocess.run(["ss", "-ltnHe", f"sport = :{port}"], check=True, text=True, stdout=subprocess.PIPE).stdout
+    except (OSError, subprocess.CalledProcessError):
+        fail(f"ss of iproute2 cannot say whether port {port} is free, and without that no session starts; \"apt install iproute2\" installs it.", 2)
+
+
+def claim(port):
+    """The descriptor of the port's lock; None where the port is another's."""
+    path, mask = lock_file(port), os.umask(0o022)  # all users may read it
+    try:
+        os.close(os.open(path, os.O_RDONLY | os.O_CREAT | os.O_EXCL))
+    except OSError:  # it is there, perhaps as another user's
+        pass
+    finally:
+        os.umask(mask)
+    descriptor = lock(path)
+    if descriptor is not None and listeners(port):
+        os.close(descriptor)
+        return None
+    return descriptor
+
+
+class Network:
+    """Holds a port as long as this process, and those that get `descriptor`, live."""
+
+    def __init__(self):
+        for self.port in PORTS:
+            self.descriptor = claim(self.port)
+            if self.descriptor is not None:
+                break
+        else:
+            fail(f"no port from {PORTS[0]} to {PORTS[-1]} is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them.")
+        self.uri = f"http://127.0.0.1:{self.port}"
+        os.environ.update(ROS_IP="127.0.0.1", ROS_MASTER_URI=self.uri)
+        os.environ.pop("ROS_HOSTNAME", None)
+
+    @staticmethod
+    def preload():
+        """Nodes would also open a port on every interface, which this library prevents; it also ends rosmaster, rosout and RViz with
+        roslaunch."""
+        return str(DEVEL / "lib" / "libnavvi_loopback.so")
+
+    def second_terminal(self):
+        setup = DEVEL / "setup.bash"
+        near = os.path.relpath(setup) if Path.cwd() in setup.parents else setup
+        return f"{f'source {near}; ' if setup.exists() else ''}export ROS_MASTER_URI={self.uri} ROS_IP=127.0.0.1"
+
+
+def is_ours(port):
+    """Nobody listens while a session begins; ss names no user where that is root."""
+    listener = listeners(port)
+    user = re.search(r"uid:(\d+)", listener)
+    return not listener or int(user.group(1) if user else 0) == os.getuid()
+
+
+def running_sessions():
+    """The ports of this user's sessions. A lock that cannot be opened is nothing that could be watched."""
+    ports = []
+    for path in sorted(lock_file("*").parent.glob(lock_file("*").name)):
+        descriptor = lock(path)
+        port = path.stem.rpartition("-")[2]
+        if descriptor is not None:
+            os.close(descriptor)
+        elif os.access(path, os.R_OK) and port.isdigit() and is_ours(int(port)):
+            ports.append(int(port))
+    return ports

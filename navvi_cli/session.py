@@ -1,0 +1,143 @@
+"""What run, replay and the lessons share: who drives, what is built, roslaunch, and what is shown of it."""
+import glob
+import os
+import re
+import signal
+import subprocess
+
+from .places import DEVEL, program
+from .say import Failure, fail
+from .version import version
+from .workspace import build, enter, is_current
+
+CONTROLS = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07|[\r\x07]")
+# Of all that roslaunch and the nodes print, a person reads warnings, errors, which trial begins and ends, and which node ended.
+# roslaunch frames the end of a required node as a death, also where it has done its work.
+SHOWN = [(re.compile(pattern), text) for pattern, text in [
+    (r"^\[ *FATAL\] \[[^]]*\]: (.*)", r"error: \1"),
+    (r"^\[ *ERROR\] \[[^]]*\]: (.*)", r"error: \1"),
+    (r"^\[ *WARN\] \[[^]]*\]: (.*)", r"warning: \1"),
+    (r"^\[ *INFO\] \[[^]]*\]: ((?:Trial [^ ]* has begun|Trial ended).*)", r"\1"),
+    (r".*REQUIRED process \[([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),
+    (r"^\[([a-z_]*)-[0-9]*\] process has died \[.*exit code ([-0-9]*).*", r"warning: \1 has ended with exit code \2 and is started anew."),
+    (r"^RLException: (.*)", r"error: \1"),
+]]
+FATAL = re.compile(r"FATAL|RLException")
+
+
+def has_display():
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def has_pad():
+    if glob.glob("/dev/input/js*") or glob.glob("/dev/input/by-id/*-event-joystick"):
+        return True
+    for path in glob.glob("/sys/class/hidraw/*/device/uevent"):
+        with open(path, errors="replace") as file:
+            if re.search(r"HID_ID=.*054C.*0CE6", file.read(), re.I):
+                return True
+    return False
+
+
+def check_operator(words, also):
+    """Refuses a pad or keys that are not there; `also` names what is left."""
+    if words["operator"] == "pad" and not has_pad():
+        fail(f"operator:=pad needs a game controller, and none is connected; {also} none.", 2)
+    if words["operator"] == "keyboard" and not has_display():
+        fail("operator:=keyboard needs a display, and DISPLAY is not set; operator:=simulated of \"./navvi run\" needs none.", 2)
+
+
+def resolve_rviz(words):
+    if words.setdefault("rviz", "auto") == "auto":
+        words["rviz"] = "true" if has_display() else "false"
+    elif words["rviz"] == "true" and not has_display():
+        fail("rviz:=true needs a display, and DISPLAY is not set; rviz:=false needs none.", 2)
+
+
+def nodes_of(words):
+    """The program of each part that has parameters."""
+    parts = sorted({word.partition("/")[0] for word in words.parameters})
+    return {part: next((DEVEL / "lib").glob(f"navvi_*/{part}_node"), program("navvi", f"{part}_node")) for part in parts}
+
+
+def check_parameters(words):
+    """Lets each node check its own, and hands them to the launch file as YAML."""
+    for part, node in nodes_of(words).items():
+        checked = subprocess.run([str(node), "--parameters", *words.parameters_of(part)], text=True, stdout=subprocess.PIPE)
+        if checked.returncode:
+            raise Failure(None, 2)
+        words[f"{part}_parameters"] = checked.stdout.strip()
+    words["parameters"] = " ".join(words.parameters).replace(":=", "=")  # roslaunch ignores a value with := in it
+    words["version"] = version()
+
+
+def prepare(words, targets, programs, check):
+    """Checks words by the programs that know them, before anything is built where these are up to date; then builds."""
+    programs = [*programs, *nodes_of(words).values()]
+    early = is_current(*programs)
+    if early:
+        check(words)
+    build(*targets)
+    enter()
+    if not early:
+        check(words)
+
+
+def write(sentence):
+    """As say(), also for signal handlers; a session goes on where nobody reads any more."""
+    try:
+        os.write(1, f"navvi: {sentence}\n".encode())
+    except OSError:
+        pass
+
+
+class Log:
+    """Everything goes to the file; `show` prints what a person reads. The last sentence that ended a session is `fatal`."""
+
+    def __init__(self, path):
+        self.fatal = ""
+        try:
+            self.file = open(path, "w")
+        except OSError as problem:
+            fail(f"the log {path} cannot be written: {problem.strerror}; a place that can be is needed, such as out:=/tmp.", 2)
+
+    def take(self, line):
+        line = CONTROLS.sub("", line)
+        self.file.write(line)
+        self.file.flush()
+        if FATAL.search(line):
+            self.fatal = line.rpartition("]: ")[2].strip()
+        for pattern, text in SHOWN:
+            if pattern.match(line):
+                write(pattern.sub(text, line.rstrip("\n")))
+
+
+class Launch:
+    """A roslaunch that runs to its end, whatever ends it."""
+
+    def __init__(self, launch_file, words, log, network):
+        self.interrupted, self.log = False, Log(log)
+        env = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1", PYTHONUNBUFFERED="1", LD_PRELOAD=network.preload())
+        # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too.
+        self.process = subprocess.Popen(["sh", "-c", "export NAVVI_LAUNCHER=$$; exec roslaunch \"$@\"", "sh", str(launch_file.path),
+                                         *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=[network.descriptor],
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def run(self):
+        """Whether roslaunch ended in order. A terminal sends Ctrl-C to roslaunch, too; other signals are handed on."""
+        before = {number: signal.signal(number, self.stop) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+                  if signal.getsignal(number) != signal.SIG_IGN}
+        before[signal.SIGPIPE] = signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+        for line in self.process.stdout:
+            self.log.take(line.decode(errors="replace"))
+        status = self.process.wait()
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        return status == 0
+
+    def stop(self, number, _):
+        if number != signal.SIGINT:
+            self.process.terminate()
+        elif not self.interrupted:
+            write("stopped by Ctrl-C; what was recorded is kept.")
+        self.interrupted = True

@@ -1,0 +1,57 @@
+# The tests' tiers, each with those before it.
+tiers=(quick whole release)
+
+tests() {  # TIER [FILTER]
+  local tier=$1 filter=${2:-.} labels="" results=$workspace/build/test_results log=$workspace/test.log name status=0
+  install_packages all
+  if [[ $tier == quick ]]; then
+    build_workspace all core_tests
+  elif [[ $tier == release && $filter == . ]]; then
+    build_workspace all tests benchmarks
+  else
+    build_workspace all tests
+  fi
+  rm -rf "$results"
+  mkdir -p "$results"
+  export ROS_IP=127.0.0.1
+  unset ROS_HOSTNAME
+  for name in "${tiers[@]}"; do
+    labels+=${labels:+|}$name
+    [[ $name != "$tier" ]] || break
+  done
+  cd "$workspace/build"
+  ctest -N -L "^($labels)\$" -R "$filter" | grep -q 'Total Tests: [1-9]' || fail "no test's name contains \"$filter\"; \"ctest -N\" in $PWD lists them." 2
+  # Sessions in real time, which quick has one of, are tried again where a machine was too busy; which ones is reported.
+  with_progress "testing" "$log" tests_percent ctest -j"$(nproc)" -L "^($labels)\$" -R "$filter" --repeat until-pass:2 --output-on-failure \
+    --output-junit "$results.xml" || true
+  sed -n 's/.*Test *#[0-9]*: \([^ ]*\) .*\*\*\*.*/tried twice: \1/p' "$log" | sort -u
+  if [[ $tier == release && $filter == . ]]; then
+    sanitized_tests || status=$?
+  fi
+  echo "The output of the tests is in $log."
+  /usr/bin/python3 "$root/test/count_results.py" "$results.xml" "$results" || status=$?
+  return "$status"
+}
+# "12/40 Test #7: ..."
+tests_percent() { sed -n 's/^ *\([0-9]*\)\/\([0-9]*\) Test .*/\1 \2/p' "$1" | tail -n 1 | awk '{print int(100 * $1 / $2)}'; }
+
+slowest() {
+  [[ -d $workspace/build/test_results ]] || fail "no tests have run yet; \"./navvi test\" runs them."
+  /usr/bin/python3 "$root/test/count_results.py" --slowest "$workspace/build/test_results.xml" "$workspace/build/test_results"
+}
+
+# The tests of the cores with sanitizers; without a filter also the comparison of types between the libraries.
+sanitized_tests() {
+  local filter=${1:-} results=$workspace/build_asan/test_results log=$workspace/test_asan.log targets=(core_tests)
+  install_packages all
+  [[ -n $filter ]] || targets+=(odr_check)
+  build_workspace --asan "${targets[@]}"
+  cd "$workspace/build_asan"
+  rm -rf "$results"
+  # Libraries that are not ours keep memory to the end of the program.
+  export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1:strict_string_checks=1
+  export UBSAN_OPTIONS=print_stacktrace=1
+  with_progress "testing with sanitizers" "$log" tests_percent ctest -j"$(nproc)" -R "^navvi_.*/.*$filter" --output-on-failure --output-junit "$results.xml" || true
+  echo "The output of the tests is in $log."
+  /usr/bin/python3 "$root/test/count_results.py" "$results.xml" "$results"
+}

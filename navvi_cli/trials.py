@@ -1,0 +1,56 @@
+"""What a trial left in its folder."""
+import csv
+from pathlib import Path
+
+from .places import NAVVI
+from .say import fail
+
+# What a person reads at a session's end; all of it by ./navvi show.
+BRIEF = ["world", "seed", "path_length_m", "safe_stop_count", "cues_spoken"]
+
+
+def summary(folder):
+    path = Path(folder) / "summary.csv"
+    try:
+        with open(path, newline="") as file:
+            return next(csv.DictReader(file))
+    except (OSError, StopIteration) as problem:
+        fail(f"{path} cannot be read: {problem or 'it is empty'}; the folder of a trial that has ended is allowed.", 2)
+
+
+def conditions(folder):
+    """The fields of the journal's TRIAL_START by name; its settings, such as nav/mesh/climb, as `settings` by theirs."""
+    from urllib.parse import unquote
+    fields = {}
+    try:
+        with open(Path(folder) / "journal.csv", newline="", errors="replace") as file:
+            row = next((row for row in csv.reader(file) if "TRIAL_START" in row), [])
+    except OSError:  # as in a folder that holds a bag alone
+        row = []
+    if row:
+        fields = dict(pair.split("=", 1) for pair in row[row.index("TRIAL_START") + 1].split(";") if "=" in pair)
+    fields = {name: unquote(value) for name, value in fields.items()}
+    fields["settings"] = dict(word.split("=", 1) for word in fields.get("settings", "").split(" ") if "=" in word)
+    return fields
+
+
+def sentence(row):
+    """How a trial ended."""
+    if row["result"] != "reached":
+        return f"The goal was not reached: {row['result']}, {row['reason'].replace('_', ' ')}."
+    if row["shelf_collision_count"] == "unknown":
+        return f"The goal was reached in {row['elapsed_s']} s; contacts are unknown, as the robot has no bumper."
+    return (f"The goal was reached in {row['elapsed_s']} s, with {row['shelf_collision_count']} collisions with shelves "
+            f"and {row['obstacle_collision_count']} with obstacles.")
+
+
+def lines(row, names):
+    return [f"{name.replace('_', ' ')}: {row.get(name, 'n/a')}" for name in names]
+
+
+def report(folder):
+    """The end of a session in at most 8 lines, the sentence last; the exit code."""
+    row = summary(folder)
+    broken = ["bag"] if row.get("bag") != "ok" else []
+    print("\n".join([*lines(row, [*BRIEF, *broken]), f"The record is in {folder}; \"{NAVVI} show\" with this folder prints all of it.", sentence(row)]))
+    return 0 if row["result"] == "reached" else 1

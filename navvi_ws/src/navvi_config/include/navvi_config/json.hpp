@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace navvi_config {
+
+/// What one program prints for another. Values are JSON already.
+using JsonFields = std::vector<std::pair<std::string, std::string>>;
+
+[[nodiscard]] std::string json_text(std::string_view text);
+/// \param digits  after the point
+/// \return null where the value is not finite
+[[nodiscard]] std::string json_number(double value, int digits = 6);
+[[nodiscard]] std::string json_list(const std::vector<std::string>& values);
+/// In the order of the fields.
+[[nodiscard]] std::string json_object(const JsonFields& fields);
+
+/// Throws ConfigError where the file cannot be written.
+void write_json(const std::filesystem::path& path, const JsonFields& fields);
+
+}  // namespace navvi_config

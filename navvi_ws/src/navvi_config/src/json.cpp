@@ -1,0 +1,58 @@
+#include "navvi_config/json.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "navvi_config/reader.hpp"
+
+namespace navvi_config {
+namespace {
+
+std::string between(char open, const std::vector<std::string>& values, char close) {
+  std::string text(1, open);
+  for (const std::string& value : values) text += (text.size() > 1 ? ", " : "") + value;
+  return text + close;
+}
+
+}  // namespace
+
+std::string json_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += {'\\', c};
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      std::array<char, 8> code{};
+      std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(c));
+      out += code.data();
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string json_number(double value, int digits) {
+  if (!std::isfinite(value)) return "null";
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string json_list(const std::vector<std::string>& values) { return between('[', values, ']'); }
+
+std::string json_object(const JsonFields& fields) {
+  std::vector<std::string> pairs;
+  for (const auto& [name, value] : fields) pairs.push_back(json_text(name) + ": " + value);
+  return between('{', pairs, '}');
+}
+
+void write_json(const std::filesystem::path& path, const JsonFields& fields) {
+  std::ofstream file(path);
+  file << json_object(fields) << '\n';
+  if (!file.flush()) throw ConfigError("the file '" + path.string() + "' cannot be written");
+}
+
+}  // namespace navvi_config
