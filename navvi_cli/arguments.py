@@ -33,7 +33,7 @@ class LaunchFile:
         self.path = LAUNCH / name
         root = ElementTree.parse(self.path).getroot()
         args = {arg.get("name"): arg for arg in root.findall("arg")}
-        self.arguments = {name: (arg.get("default", ""), arg.get("doc")) for name, arg in args.items()
+        self.arguments = {name: (arg.get("default", ""), " ".join(arg.get("doc").split())) for name, arg in args.items()
                           if arg.get("doc") and not INTERNAL.fullmatch(name)}
         self.parts = sorted(name[:-len("_parameters")] for name in args if name.endswith("_parameters"))
         self.fixed = fixed_parameters(root)

@@ -46,7 +46,7 @@ def claim(port):
     """The descriptor of the port's lock; None where the port is another's."""
     path, mask = lock_file(port), os.umask(0o022)  # all users may read it
     try:
-        os.close(os.open(path, os.O_RDONLY | os.O_CREAT | os.O_EXCL))
+        os.close(os.open(path, os.O_RDONLY | os.O_CREAT | os.O_EXCL, 0o644))
     except OSError:  # it is there, perhaps as another user's
         pass
     finally:

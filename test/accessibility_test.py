@@ -33,6 +33,7 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 23. Controls remappable, one hand, no holds: CORES, and by_hand_test.py, test_three_goals_by_pad_alone.
 24. README and reports with headings, alternative texts, table headers: test_documents_have_headings_alt_texts_and_table_headers.
 """
+import ast
 import os
 import pathlib
 import re
@@ -44,7 +45,7 @@ import pytest
 
 pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-COMMANDS = sorted(path.stem for path in (ROOT / "commands").glob("*.txt"))
+COMMANDS = sorted(path.stem for path in (ROOT / "navvi_cli/commands").glob("*.py"))
 QUIET = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
 
 
@@ -80,12 +81,17 @@ def test_help_is_understood_without_colour_or_column(command):
     assert "  " not in text and "\t" not in text, "what stands in a column is lost where lines are read one after the other"
 
 
-def test_every_command_has_its_help_and_no_help_is_without_its_command():
-    assert [path.stem for path in sorted((ROOT / "commands").glob("*.bash"))] == COMMANDS
+def test_every_command_is_listed_with_its_summary():
+    listed = dict(line.split(": ", 1) for line in navvi("help").stdout.splitlines() if re.match(r"[a-z]+: ", line))
+    assert sorted([*listed, "help"]) == COMMANDS and all(summary.endswith(".") for summary in listed.values())
 
 
 def test_every_function_of_the_commands_is_short():
-    for path in (ROOT / "commands").rglob("*.bash"):
+    for path in (ROOT / "navvi_cli").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef):
+                assert node.end_lineno - node.lineno <= 40, node.name
+    for path in (ROOT / "navvi_cli").rglob("*.bash"):
         for name, body in re.findall(r"^(\w+)\(\) \{.*\n((?:.*\n)*?)^\}", path.read_text(), re.M):
             assert body.count("\n") <= 40, name
 
@@ -106,11 +112,13 @@ def test_the_manual_holds_every_help(tmp_path):
     ("./navvi run operator:=key", "keyboard "),
     ("./navvi build --as", "--asan "),
     ("./navvi world sh", "show "),
+    ("./navvi world show trai", "training "),
     ("./navvi run world:=train", "training "),
+    ("./navvi watch spee", "speech:="),
 ])
 def test_the_tab_key_completes(typed, word):
     script = f"""source <("{ROOT}/navvi" completion); cd "{ROOT}"
-      COMP_LINE={typed!r} COMP_POINT={len(typed)}; _navvi; printf '%s\\n' "${{COMPREPLY[@]}}" """
+      COMP_LINE={typed!r} COMP_POINT={len(typed)} COMP_TYPE=9; _python_argcomplete ./navvi; printf '%s\\n' "${{COMPREPLY[@]}}" """
     found = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60)
     assert found.stdout == word + "\n", found.stderr
 
@@ -154,7 +162,7 @@ def test_success_is_told_in_words(words, sentence, tmp_path):
 
 
 @pytest.mark.parametrize("words", [["fly"], ["run", "x:=1"], ["run", "operator:=pad"], ["replay"], ["check", "/none"], ["bench", "none"], ["calibrate"], ["glossary"], ["tutorial", "x:=1"],
-                                   ["world", "show", "training", "-o", "a.gif"], ["navmesh"], ["build", "-x"], ["man", "-x"]],
+                                   ["world", "show", "training", "-o", "a.gif"], ["navmesh"], ["build", "-x"], ["man", "-x"], ["world", "lst"], ["show"], ["watch", "port:=1"], ["completion", "fish"]],
                          ids=lambda words: " ".join(words))
 def test_an_error_begins_with_what_where_and_what_to_do(words):
     result = navvi(*words)
@@ -182,7 +190,7 @@ def test_long_output_goes_to_a_file():
 
 
 BASH = f"""set -euo pipefail
-for part in "{ROOT}"/commands/parts/*.bash; do source "$part"; done
+for part in "{ROOT}"/navvi_cli/shell/*.bash; do source "$part"; done
 trap stopped INT
 """
 
@@ -274,8 +282,9 @@ def start_tells_what_to_press(lines):
 
 def test_nothing_asks_where_there_is_no_terminal():
     """No command reads what is typed; sudo asks only where there is a terminal."""
-    for path in [ROOT / "navvi", *(ROOT / "commands").rglob("*.bash")]:
+    for path in [ROOT / "navvi", *(ROOT / "navvi_cli").rglob("*.py"), *(ROOT / "navvi_cli").rglob("*.bash")]:
         text = path.read_text()
+        assert not re.search(r"\binput\(|\bgetpass\b", text), path.name
         assert not re.search(r"\bread -[a-z]*p\b|\bselect \w+ in\b", text), path.name
         for line in text.splitlines():
             assert "sudo -v" not in line or "-t 0" in line, path.name

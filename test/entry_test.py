@@ -26,13 +26,13 @@ def sentences(result):
 
 
 def test_shell_scripts_are_clean():
-    subprocess.run(["shellcheck", ROOT / ".ci" / "run"], check=True)
-    whole = "".join(path.read_text() for path in [ROOT / "navvi", *sorted((ROOT / "commands").rglob("*.bash"))])
+    subprocess.run(["shellcheck", ROOT / ".ci" / "run", ROOT / "navvi"], check=True)
+    whole = "".join(path.read_text() for path in [ROOT / "navvi_cli/shell/run", *sorted((ROOT / "navvi_cli/shell").glob("*.bash"))])
     subprocess.run(["shellcheck", "--shell=bash", "-"], input=whole, text=True, check=True)
 
 
 @pytest.mark.parametrize("words, sentence", [
-    (["fly"], "no sub-command"),
+    (["fly"], "is not a sub-command"),
     (["run", "fast"], "arguments look like name:=value"),
     (["run", "spede:=2"], "\"spede\" is unknown; known are:"),
     (["run", "operator:=robot"], "allowed are: auto pad keyboard simulated"),
@@ -44,7 +44,7 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "vision:=x-ray"], "allowed are: high_contrast"),
     (["run", *SIMULATED, "once:=maybe"], "allowed are: true false"),
     (["run", *SIMULATED, "world:=office"], "'office' is no world; allowed are"),
-    (["run", *SIMULATED, "world:=training", "start:=here"], "not of the form x,y,yaw"),
+    (["run", *SIMULATED, "world:=training", "start:=here"], "of the form x,y,yaw"),
     (["run", *SIMULATED, "participant:=Ann Smith"], "letters, digits, - and _"),
     (["run", *SIMULATED, "wheels/size:=1"], "those of feedback nav operator perception sim trial can be given"),
     (["run", *SIMULATED, "feedback/haptics/enabld:=1"], "the key \"haptics/enabld\" is unknown"),
@@ -58,20 +58,36 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "trial/limit:=3"], "\"trial/limit\" would have no effect; allowed is limit:=3."),
     (["run", *SIMULATED, "trial/version:=2"], "\"trial/version\" cannot be given: the session itself sets it."),
     (["run", *SIMULATED, "out:=$(anon x)"], "holds \"$(\""),
-    (["run", *SIMULATED, "models:=/nonexistent"], "models:=/nonexistent is no folder"),
+    (["run", *SIMULATED, "models:=/nonexistent"], "models:=/nonexistent is not a folder"),
     (["run", *SIMULATED, "out:=/proc/none"], "cannot be made"),
-    (["check"], "which trial?"),
-    (["setup", "now"], "takes none"),
-    (["build", "--fast"], "--asan and --odr are allowed"),
-    (["parameters", "--xml"], "--csv is allowed"),
-    (["replay"], "which trial?"),
+    (["check"], "missing: TRIAL"),
+    (["setup", "now"], "allowed is: ./navvi setup"),
+    (["build", "--fast"], "[--asan] [--odr]"),
+    (["parameters", "--xml"], "allowed is: ./navvi parameters [FILTER] [--csv]"),
+    (["parameters", "nope"], "allowed are parts of: cue_player feedback_node"),
+    (["world"], "missing: ACTION"),
+    (["world", "lst"], "allowed are: list check show write map"),
+    (["world", "show"], "missing: NAME|FILE"),
+    (["world", "map", "training"], "writes one file"),
+    (["bench", "foo"], "allowed are parts of: build/build_bench nav/nav_bench"),
+    (["test", "quick", "a", "b"], "is too much"),
+    (["completion", "fish"], "allowed are: bash zsh"),
+    (["show"], "missing: TRIAL"),
+    (["show", "/nonexistent"], "holds no summary.csv"),
+    (["watch", "port:=1"], "no session runs at port:=1"),
+    (["watch", "a/b/c"], "holds no trial.bag"),
+    (["run", "seed:=x"], "allowed are whole numbers"),
+    (["run", "goal:=1"], "of the form x,y in m"),
+    (["run", "person:="], "up to 24 letters, digits, - and _"),
+    (["run", "person:=../x"], "up to 24 letters, digits, - and _"),
+    (["replay"], "missing: TRIAL"),
     (["calibrate"], "person:=NAME is needed"),
     (["glossary", "world:=busy"], "\"world\" is unknown"),
     (["glossary", "operator:=pad"], "none is connected"),
     (["tutorial", "lesson:=none"], "given twice"),
     (["tutorial"], "the tutorial needs a person"),
     (["replay", "/nonexistent"], "holds no trial.bag"),
-    (["check", "-x"], "holds no trial.bag"),
+    (["check", "-x"], "missing: TRIAL"),
     (["check", "none/at/all"], "holds no trial.bag"),
 ])
 def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):

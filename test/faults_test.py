@@ -121,9 +121,8 @@ def test_A1_a_guide_that_does_not_stay_alive_ends_the_session_before_any_trial(m
 
 def ports(folder, *how):
     """The ports that a session would take, as user `how`; the first line is printed while the lock is held."""
-    script = (f"set -euo pipefail; fail() {{ echo \"$1\"; exit 2; }}; source {ROOT}/commands/parts/session.bash; devel={folder}; "
-              "loopback_network 2>/dev/null; unset LD_PRELOAD; echo $ROS_MASTER_URI; read -r _")
-    return subprocess.Popen([*how, "bash", "-c", script], env=dict(os.environ, TMPDIR=str(folder)), text=True,
+    script = "from navvi_cli.network import Network; print(Network().uri, flush=True); input()"
+    return subprocess.Popen([*how, "/usr/bin/python3", "-c", script], cwd=ROOT, env=dict(os.environ, TMPDIR=str(folder)), text=True,
                             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
 
 

@@ -40,7 +40,7 @@ def test_the_launch_files_are_found_by_their_package(installed, tmp_path):
 def test_what_builds_is_not_installed(installed, tmp_path):
     for command in "build", "test", "setup", "bench", "deb":
         result = run(installed, tmp_path, "navvi", command)
-        assert result.returncode == 2 and "is no sub-command" in result.stdout
+        assert result.returncode == 2 and "is not a sub-command" in result.stdout
 
 
 def test_no_installed_text_names_the_sources(installed):

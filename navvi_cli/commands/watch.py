@@ -59,7 +59,8 @@ def port_of_session(wanted):
     ports = running_sessions()
     if wanted:
         if int(wanted) not in ports and not listeners(wanted):
-            fail(f"no session runs at port:={wanted}; allowed are: {' '.join(f'port:={port}' for port in ports) or 'none, as no session runs'}", 2)
+            allowed = " ".join(f"port:={port}" for port in ports)
+            fail(f"no session runs at port:={wanted}; {f'allowed are: {allowed}' if ports else 'start one, such as with ./navvi run'}.", 2)
         return wanted
     if not ports:
         fail("no session runs on this machine; start one with \"./navvi run\", or name a trial's folder, such as trials/trial-20260101T120000Z.", 2)

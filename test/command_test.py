@@ -1,0 +1,281 @@
+"""The parts of the command by themselves: arguments, launch files, the lock of a port, what a session prints, and its end."""
+import csv
+import os
+import pathlib
+import socket
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from navvi_cli import arguments, network, parser, session, trials, worlds  # noqa: E402
+from navvi_cli.commands import replay, run  # noqa: E402
+from navvi_cli.main import command_names, parser_of  # noqa: E402
+from navvi_cli.say import Failure  # noqa: E402
+
+
+def refusal(work):
+    with pytest.raises(Failure) as found:
+        work()
+    assert found.value.code == 2
+    return found.value.sentence
+
+
+# --- arguments
+
+class Draw:
+    """Draw it.
+
+    How it is drawn.
+
+    Exit codes
+    0: drawn.
+    """
+
+    def arguments(parser):
+        parser.add_argument("-o", metavar="FILE", help="the picture.")
+        parser.add_argument("--from", metavar="X,Y", help="the start.")
+        parser.add_argument("words", nargs="*", default=[], metavar="name:=value")
+
+    def run(args):
+        return args
+
+
+@pytest.fixture
+def command():
+    found = parser.Parser(prog="./navvi thing", text="Thing.\n")
+    parser.add_actions(found, draw=Draw)
+    return found
+
+
+def test_options_may_stand_anywhere_and_values_may_begin_with_a_minus(command):
+    args = command.parse_args(["draw", "a:=1", "--from", "-1,-2", "b:=2", "-o", "-x.svg", "c:=3"])
+    assert (getattr(args, "from"), args.o, args.words) == ("-1,-2", "-x.svg", ["a:=1", "b:=2", "c:=3"])
+    assert args.run(args) is args
+
+
+@pytest.mark.parametrize("words, sentence", [
+    ([], "missing: ACTION; allowed is: ./navvi thing draw ..."),
+    (["drow"], "\"drow\" is not allowed here; allowed are: draw"),
+    (["draw", "--to", "1"], "\"--to\" is not taken here; allowed is: ./navvi thing draw [-o FILE] [--from X,Y] [name:=value ...]"),
+    (["draw", "-o"], "argument -o: expected one argument; allowed is: ./navvi thing draw [-o FILE] [--from X,Y] [name:=value ...]"),
+])
+def test_a_wrong_argument_is_refused_with_what_is_allowed(command, words, sentence):
+    assert refusal(lambda: command.parse_args(words)) == sentence
+
+
+def test_help_is_usage_summary_text_arguments_and_exit_codes(command, capsys):
+    with pytest.raises(SystemExit) as end:
+        command.parse_args(["draw", "--help"])
+    assert end.value.code == 0
+    assert capsys.readouterr().out == ("./navvi thing draw [-o FILE] [--from X,Y] [name:=value ...]\nDraw it.\n\nHow it is drawn.\n\n"
+                                       "-o FILE: the picture.\n--from X,Y: the start.\n\nExit codes\n0: drawn.\n")
+
+
+def test_no_command_imports_ros_or_starts_a_program_to_parse_its_arguments():
+    code = ("import sys, subprocess; sys.path.insert(0, sys.argv[1]); subprocess.Popen = None\n"
+            "from navvi_cli.main import command_names, parser_of\n"
+            "parser_of(*command_names())\n"
+            "assert not {'rospy', 'roslaunch', 'rosbag', 'argcomplete', 'yaml'} & set(sys.modules)")
+    subprocess.run(["/usr/bin/python3", "-c", code, str(ROOT)], check=True)
+    assert {"run", "world", "show", "version"} <= set(parser_of(*command_names()).commands)
+
+
+# --- launch files
+
+LAUNCH = """<launch>
+  <arg name="seed" default="1" doc="draws"/>
+  <arg name="view"
+       doc="of
+  RViz" default="$(eval 1)"/>
+  <!-- <arg name="gone" default="" doc="a comment"/> -->
+  <arg name="inner" default="not for a person"/>
+  <arg name="sim_parameters" default="{}" doc="parameters"/>
+  <arg name="version" default="n/a" doc="set by the command"/>
+  <node name="sim_node" pkg="p" type="t"><param name="seed" value="$(arg seed)"/><param name="mode" value="1"/></node>
+  <include file="$(dirname)/other.launch"/>
+</launch>"""
+
+
+@pytest.fixture
+def launch_file(tmp_path, monkeypatch):
+    (tmp_path / "a.launch").write_text(LAUNCH)
+    (tmp_path / "other.launch").write_text("<launch><group><node name='nav_node' pkg='p' type='t'><param name='map' value=''/></node></group></launch>")
+    monkeypatch.setattr(arguments, "LAUNCH", tmp_path)
+    return arguments.LaunchFile("a.launch")
+
+
+def test_the_arguments_of_a_launch_file_are_those_with_a_meaning_for_a_person(launch_file):
+    assert list(launch_file.arguments) == ["seed", "view"]
+    assert launch_file.parts == ["sim"]
+    assert launch_file.fixed == {"sim/seed", "sim/mode", "nav/map"}
+    assert launch_file.help()[1:] == ["seed:=1: draws", "view: of RViz"]
+
+
+def test_words_become_values_and_parameters(launch_file):
+    words = arguments.words_for(launch_file, ["seed:=7", "sim/rate:=2", "sim/a/b:=c:=d"])
+    assert words == {"seed": "7"} and words.parameters == ["sim/rate:=2", "sim/a/b:=c:=d"]
+    assert words.parameters_of("sim") == ["rate:=2", "a/b:=c:=d"]
+
+
+@pytest.mark.parametrize("word, sentence", [
+    ("fast", "arguments look like name:=value"), ("gone:=1", "\"gone\" is unknown; known are: seed view"), ("inner:=1", "is unknown"),
+    ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers, 0 or more"),
+    ("view:=wide", "allowed are: chase top forward"), ("nav/x:=1", "those of sim can be given"), ("sim/seed:=1", "allowed is seed:=1"),
+    ("sim/mode:=1", "the session itself sets it"),
+])
+def test_a_wrong_word_is_refused(launch_file, word, sentence):
+    assert sentence in refusal(lambda: arguments.words_for(launch_file, [word]))
+
+
+def test_a_word_that_is_given_twice_is_refused(launch_file):
+    assert "given twice" in refusal(lambda: arguments.words_for(launch_file, ["seed:=1", "seed:=2"]))
+
+
+@pytest.mark.parametrize("word, good", [
+    ("start:=-6.5,-5,1.57", True), ("start:=1,2", False), ("start:=", True), ("goal:=0.2,-1", True), ("goal:=1e1,.5", True), ("goal:=1", False),
+    ("limit:=30", True), ("limit:=-1", False), ("participant:=sub-01", True), ("participant:=Ann Smith", False), ("person:=anna", True),
+    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=1\n", False),
+])
+def test_the_form_of_a_value_is_checked(word, good):
+    check = lambda: arguments.words_for(arguments.LaunchFile("live.launch"), [word])  # noqa: E731
+    assert check() is not None if good else "allowed are" in refusal(check)
+
+
+def test_each_form_and_choice_is_of_an_argument_that_there_is():
+    known = {name for path in (ROOT / "launch").glob("*.launch") for name in arguments.LaunchFile(path.name).arguments}
+    assert set(arguments.CHOICES) <= known
+    assert set(arguments.FORMS) <= known | {"person", "pace", "port"}
+
+
+# --- the lock of a port
+
+@pytest.fixture
+def locks(tmp_path, monkeypatch):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def test_a_port_is_claimed_once_and_free_again_after_its_descriptor_is_closed(locks):
+    descriptor = network.claim(locks)
+    assert network.claim(locks) is None
+    assert network.running_sessions() == [locks], "nobody listens while a session begins"
+    os.close(descriptor)
+    assert network.running_sessions() == []
+    os.close(network.claim(locks))
+
+
+def test_the_lock_is_for_all_users_to_read_and_is_opened_for_reading_alone(locks):
+    before = os.umask(0o077)
+    try:
+        descriptor = network.claim(locks)
+    finally:
+        os.umask(before)
+    assert os.stat(network.lock_file(locks)).st_mode & 0o777 == 0o644
+    with pytest.raises(OSError):
+        os.write(descriptor, b"x")
+    os.close(descriptor)
+    network.lock_file(locks).chmod(0o444)
+    os.close(network.claim(locks))
+
+
+@pytest.mark.parametrize("plant", [lambda path: path.symlink_to("/nonexistent/lock"), lambda path: path.symlink_to("/etc/hostname")])
+def test_a_port_whose_lock_is_a_link_is_not_ours(locks, plant):
+    plant(network.lock_file(locks))
+    assert network.claim(locks) is None
+
+
+def test_a_port_on_which_anybody_listens_is_not_ours(locks):
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", locks))
+        listener.listen()
+        assert network.claim(locks) is None
+    os.close(network.claim(locks))
+
+
+# --- what a session prints
+
+@pytest.mark.parametrize("line, shown", [
+    ("[ INFO] [1.0]: Trial t has begun: goal at 1, 2.", "navvi: Trial t has begun: goal at 1, 2."),
+    ("\x1b[33m[ WARN] [1.0]: slow\x1b[0m", "navvi: warning: slow"),
+    ("[ERROR] [1.0, 2.0]: bad", "navvi: error: bad"),
+    ("\x1b]2;title\x07[ INFO] [1.0]: noise", ""),
+    ("REQUIRED process [trial_node-5] has died!", "navvi: trial_node has ended, and the session with it."),
+    ("[nav_node-2] process has died [pid 7, exit code -11, cmd x].", "navvi: warning: nav_node has ended with exit code -11 and is started anew."),
+    ("RLException: no such file", "navvi: error: no such file"),
+])
+def test_of_all_that_is_printed_a_person_reads_what_matters(line, shown, tmp_path, capfd):
+    log = session.Log(tmp_path / "log")
+    log.take(line + "\n")
+    assert capfd.readouterr().out == (shown + "\n" if shown else "")
+    assert "\x1b" not in (tmp_path / "log").read_text() and log.file.tell() > 0
+
+
+def test_what_ended_a_session_is_remembered(tmp_path):
+    log = session.Log(tmp_path / "log")
+    for line in "[FATAL] [1.0]: there is no map", "[ INFO] [2.0]: bye":
+        log.take(line + "\n")
+    assert log.fatal == "there is no map"
+
+
+# --- the end of a session, and what its record says
+
+ROW = {"trial": "trial-1", "world": "busy", "seed": "3", "result": "reached", "reason": "goal_reached", "elapsed_s": "28.550", "path_length_m": "31.2",
+       "shelf_collision_count": "1", "obstacle_collision_count": "0", "safe_stop_count": "0", "cues_spoken": "4", "bag": "ok",
+       **{f"figure_{number}": "1" for number in range(40)}}
+
+
+@pytest.fixture
+def trial(tmp_path):
+    def write(**more):
+        with open(tmp_path / "summary.csv", "w", newline="") as file:
+            table = csv.DictWriter(file, ROW)
+            table.writeheader()
+            table.writerow({**ROW, **more})
+        return tmp_path
+    return write
+
+
+@pytest.mark.parametrize("more, code, last", [
+    ({}, 0, "The goal was reached in 28.550 s, with 1 collisions with shelves and 0 with obstacles."),
+    ({"shelf_collision_count": "unknown"}, 0, "The goal was reached in 28.550 s; contacts are unknown, as the robot has no bumper."),
+    ({"result": "aborted", "reason": "stopped_by_signal", "bag": "missing"}, 1, "The goal was not reached: aborted, stopped by signal."),
+])
+def test_a_session_ends_in_at_most_eight_lines_with_its_result_last(trial, more, code, last, capsys):
+    assert trials.report(trial(**more)) == code
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) <= 8 and lines[-1] == last
+    assert any("show" in line and str(trial()) in line for line in lines)
+    assert ("bag: missing" in lines) == ("bag" in more)
+
+
+def test_the_newest_summary_since_the_session_began_is_its_end(trial, monkeypatch, capsys):
+    monkeypatch.setattr("navvi_cli.workspace.show", lambda *words: 0)
+    out = trial().parent / "out"
+    for name, at in ("trial-1", 1000), ("trial-2", 3000), ("trial-3", 2000):
+        (out / name).mkdir(parents=True)
+        (out / name / "summary.csv").write_bytes((trial(seed=name[-1]) / "summary.csv").read_bytes())
+        os.utime(out / name / "summary.csv", (at, at))
+    assert run.report(out, 1500 * 10**9, "log", "") == 0
+    assert "seed: 2" in capsys.readouterr().out
+    with pytest.raises(Failure) as found:
+        run.report(out, 4000 * 10**9, "LOG", "there is no map")
+    assert found.value.code == 1 and "LOG" in found.value.sentence and "there is no map" in found.value.sentence
+
+
+def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):
+    settings = "feedback/speaker/rate%3d220 nav/mesh/climb%3d0.1 nav/mesh/x%3d$(eval) sim/seed%3d3"
+    (tmp_path / "journal.csv").write_text(f"t,1,0,0,NODE,a=b,00000000\nt,2,0,0,TRIAL_START,world=busy;voice=en-us;settings={settings},00000000\n")
+    assert replay.recorded(tmp_path) == {"speaker": "{rate: 220, voice: en-us}", "mesh": "{climb: 0.1}"}
+    assert replay.recorded(tmp_path / "none") == {"speaker": "{}", "mesh": "{}"}
+
+
+def test_points_and_tables_are_for_programs(capsys):
+    worlds.table(["what", "value"], {"6 \"x\"": 1, "start": [1.5, 2, 0], "path": [[1.0, 2.0], [3, 4]], "none": []}.items())
+    assert list(csv.reader(capsys.readouterr().out.splitlines())) == [
+        ["what", "value"], ["6 \"x\"", "1"], ["start", "1.5,2,0"], ["path", "1.0,2.0 3,4"], ["none", ""]]
