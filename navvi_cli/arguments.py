@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree
 
+from . import worlds
 from .places import LAUNCH, TRIALS
 from .say import fail
 
@@ -142,6 +143,5 @@ def completions(prefix, names, choices=()):
     if not separator:
         return [f"{name}:=" for name in names]
     if name == "world":
-        from .worlds import names as values
-        return [f"world:={value}" for value in values()]
+        return [f"world:={value}" for value in worlds.names()]
     return [f"{name}:={value}" for value in {**CHOICES, **dict(choices)}.get(name, [])]

@@ -4,8 +4,10 @@ import tempfile
 from pathlib import Path
 
 from .arguments import LaunchFile, add_words, words_for
+from .network import Network
 from .places import program
 from .say import fail, say
+from .session import Launch, check_operator, check_parameters, has_display, has_pad, prepare
 
 CHOICES = {"operator": ["auto", "pad", "keyboard"], "speech": ["true", "false"]}
 
@@ -15,8 +17,6 @@ def lesson_arguments(parser, person):
 
 
 def give(lesson, given):
-    from .network import Network
-    from .session import Launch, check_operator, check_parameters, has_display, has_pad, prepare
     launch_file = LaunchFile("lesson.launch")
     words = words_for(launch_file, given, CHOICES)
     words.update({"lesson": lesson, "speech": words.get("speech", "true"), "profile": words.get("profile", "default")})

@@ -47,6 +47,9 @@ def main(words):
         if failure.sentence:
             aside(failure.sentence)
         return failure.code
+    except OSError as problem:
+        aside(f"{problem.filename} cannot be used: {problem.strerror}.")
+        return 1
     except KeyboardInterrupt:
         aside("stopped by Ctrl-C, before it was done. The same command goes on from here.")
         return 130

@@ -1,6 +1,8 @@
 """What a person reads: plain lines, without colour, and none is written over."""
 import sys
 
+from .places import NAVVI
+
 
 class Failure(Exception):
     """Ends the command. The sentence says what is wrong, where, and what is allowed; None where that was printed already."""
@@ -14,10 +16,15 @@ def fail(sentence, code=1):
     raise Failure(sentence, code)
 
 
+def tell(line, file=None):
+    """Prints a line, in which the command is named as a person types it here."""
+    print(line.replace("./navvi", NAVVI), file=file, flush=True)
+
+
 def say(sentence):
-    print(f"navvi: {sentence}", flush=True)
+    tell(f"navvi: {sentence}")
 
 
 def aside(sentence):
     """What is not the command's result."""
-    print(f"navvi: {sentence}", file=sys.stderr, flush=True)
+    tell(f"navvi: {sentence}", sys.stderr)

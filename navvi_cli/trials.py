@@ -1,6 +1,7 @@
 """What a trial left in its folder."""
 import csv
 from pathlib import Path
+from urllib.parse import unquote
 
 from .places import NAVVI
 from .say import fail
@@ -20,7 +21,6 @@ def summary(folder):
 
 def conditions(folder):
     """The fields of the journal's TRIAL_START by name; its settings, such as nav/mesh/climb, as `settings` by theirs."""
-    from urllib.parse import unquote
     fields = {}
     try:
         with open(Path(folder) / "journal.csv", newline="", errors="replace") as file:

@@ -6,10 +6,11 @@ from .places import ROOT, WORKSPACE, share
 
 
 def version():
-    """Such as 0.1.0, or in a checkout 0.1.0+0123456789ab, -dirty where files differ from the commit."""
+    """Such as 0.1.0+0123456789ab, -dirty where files differ from the commit; 0.1.0 where git knows none."""
     number = ElementTree.parse(share("navvi") / "package.xml").findtext("version")
-    if not WORKSPACE:
-        return number
-    described = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"], text=True,
-                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    return f"{number}+{described.stdout.strip()}" if described.stdout.strip() else number
+    if WORKSPACE:
+        commit = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"], text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.strip()
+    else:
+        commit = (ROOT / "navvi_cli" / "commit").read_text().strip()
+    return f"{number}+{commit}" if commit else number

@@ -28,6 +28,7 @@ import re
 
 from navvi_cli.places import WORKSPACE, program
 from navvi_cli.say import fail
+from navvi_cli.workspace import build, enter, shell, show
 
 
 def benchmarks():
@@ -51,7 +52,6 @@ def run(args):
     chosen = {name: path for name, path in known.items() if args.filter in name and (not name.startswith("build/") or args.filter == "build")}
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
-    from navvi_cli.workspace import build, enter, shell, show
     shell("install_packages", "all")
     build("session", *(path.stem for path in chosen.values() if path.suffix == ".cpp"))
     enter()

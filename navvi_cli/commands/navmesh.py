@@ -10,8 +10,10 @@ import os
 import sys
 
 from navvi_cli.arguments import parameter
-from navvi_cli.pictures import picture
+from navvi_cli.pictures import draw, picture
 from navvi_cli.say import fail
+from navvi_cli.workspace import show, tool
+from navvi_cli.worlds import answer, table
 
 STAGES = ["map", "bake", "mesh", "search", "smooth"]
 
@@ -36,8 +38,6 @@ def arguments(parser):
 
 
 def run(args):
-    from navvi_cli.pictures import draw
-    from navvi_cli.workspace import show, tool
     options = {name: value for name, value in vars(args).items() if name in ("from", "to", "stage", "config") and value is not None}
     words = [args.map, *(word for name, value in options.items() for word in (f"--{name}", value)),
              *(word for at in args.cylinder for word in ("--cylinder", at)), *args.parameters]
@@ -46,7 +46,6 @@ def run(args):
 
 
 def numbers(program, *words):
-    from navvi_cli.worlds import answer, table
     done, found = answer(program, *words)
     if found:
         table(["what", "value"], found.items())

@@ -14,8 +14,12 @@ import os
 import re
 
 from navvi_cli.arguments import LaunchFile, add_trial, add_words, words_for
+from navvi_cli.network import Network
 from navvi_cli.places import program
 from navvi_cli.say import fail, say
+from navvi_cli.session import Launch, resolve_rviz
+from navvi_cli.trials import conditions
+from navvi_cli.workspace import build, enter, show
 
 CHOICES = {"speech": ["true", "false"]}
 
@@ -28,9 +32,6 @@ def arguments(parser):
 def run(args):
     launch_file = LaunchFile("replay.launch")
     words = words_for(launch_file, args.words, CHOICES)
-    from navvi_cli.network import Network
-    from navvi_cli.session import Launch, resolve_rviz
-    from navvi_cli.workspace import build, enter, show
     resolve_rviz(words)
     settings = recorded(args.trial)
     words.update({"speech": words.get("speech", "true"), "bag": args.trial / "trial.bag", **{**settings, **words}})
@@ -52,7 +53,6 @@ def run(args):
 
 def recorded(trial):
     """The voice and the mesh of the record, as parameters of cue_player and nav_node; what older records lack is left to them."""
-    from navvi_cli.trials import conditions
     fields = conditions(trial)
     settings = fields["settings"]
     speaker = {name: settings.get(f"feedback/speaker/{name}", "") for name in ("rate", "pitch", "volume")}

@@ -11,10 +11,13 @@ import os
 import time
 from pathlib import Path
 
-from navvi_cli import trials
+from navvi_cli import trials, workspace
 from navvi_cli.arguments import LaunchFile, add_words, words_for
+from navvi_cli.network import Network
 from navvi_cli.places import TRIALS, config_of, program
-from navvi_cli.say import fail, say
+from navvi_cli.say import fail, say, tell
+from navvi_cli.session import Launch, check_operator, check_parameters, has_display, has_pad, prepare, resolve_rviz
+from navvi_cli.worlds import Verdict
 
 PERSON = ["person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
           "begins a new file.",
@@ -44,8 +47,6 @@ def session(given):
     words = words_for(launch_file, given)
     complete(words)
     check(words)
-    from navvi_cli.network import Network
-    from navvi_cli.session import Launch, prepare
     targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else []), *(["perception_node"] if words["sensing"] != "truth" else [])]
     prepare(words, targets, [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool")], check_by_programs)
     network = Network()
@@ -59,7 +60,6 @@ def session(given):
 
 def complete(words):
     """What an argument is if it is not given."""
-    from navvi_cli.session import check_operator, has_display, has_pad, resolve_rviz
     if words.setdefault("operator", "auto") == "auto":
         words["operator"] = "pad" if has_pad() else "keyboard" if has_display() else "simulated"
     check_operator(words, "operator:=keyboard and operator:=simulated need")
@@ -98,8 +98,6 @@ def check(words):
 
 def check_by_programs(words):
     """The nodes would refuse the same, but only when all have started."""
-    from navvi_cli.session import check_parameters
-    from navvi_cli.worlds import Verdict
     check_parameters(words)
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], ["--config", config_of("navvi_sim", words["profile"]), *session, *words.parameters_of("sim")],
@@ -110,18 +108,17 @@ def announce(words, log, network):
     """Six lines: what begins, what to press, where the record goes, how to stop."""
     operator = words["operator"]
     own_buttons = any(word.startswith("feedback/buttons/") for word in words.parameters)
+    drive = "listen; each step of the tutorial is spoken." if words["lesson"] == "tutorial" else DRIVE[operator]
+    ask = "as your feedback/buttons say." if own_buttons and operator == "pad" else ASK[operator]
     say(f"a session begins in some seconds: world {words['world']}, seed {words.get('seed', 1)}, profile {words['profile']}, operator {operator}.")
-    print("To drive:", "listen; each step of the tutorial is spoken." if words["lesson"] == "tutorial" else DRIVE[operator])
-    print("To hear more:", "as your feedback/buttons say." if own_buttons and operator == "pad" else ASK[operator])
-    print(f"The record: a new folder in {words['out']}; the output of the programs: {log}")
-    print("To stop: Ctrl-C in this terminal.")
-    print(f"In a second terminal: ./navvi watch prints it in lines; for ROS tools: {network.second_terminal()}", flush=True)
+    tell(f"To drive: {drive}\nTo hear more: {ask}\nThe record: a new folder in {words['out']}; the output of the programs: {log}\n"
+         "To stop: Ctrl-C in this terminal.\n"
+         f"In a second terminal: ./navvi watch prints it in lines; for ROS tools: {network.second_terminal()}")
 
 
 def report(out, begin, log, fatal):
     """The end of a session, by the summary of its last trial."""
-    from navvi_cli.workspace import show
-    show(program("navvi_study", "close_trials"), out)
+    workspace.show(program("navvi_study", "close_trials"), out)
     written = [(path.stat().st_mtime_ns, path.parent) for path in out.glob("trial-*/summary.csv")]
     folder = max((at, folder) for at, folder in [*written, (begin, None)] if at >= begin)[1] if written else None
     if folder is None:

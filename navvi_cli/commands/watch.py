@@ -22,8 +22,10 @@ Examples
 import os
 
 from navvi_cli.arguments import Words, completions, trial_in, trials_that_hold
+from navvi_cli.network import listeners, running_sessions
 from navvi_cli.places import DEVEL, script
 from navvi_cli.say import fail
+from navvi_cli.workspace import build, enter, is_current
 
 CHOICES = {"speech": ["true", "false"]}
 HELP = ["TRIAL: the folder of a trial, such as trials/trial-20260101T120000Z.",
@@ -43,7 +45,6 @@ def run(args):
     trial = trial_in(given.pop(0)) if given and ":=" not in given[0] else None
     words = Words(given, ["pace", "port", "speech"], choices=CHOICES)
     port = None if trial else port_of_session(words.get("port"))
-    from navvi_cli.workspace import build, enter, is_current
     if not is_current(DEVEL / "lib/python3/dist-packages/navvi_msgs/msg/__init__.py"):
         build("navvi_msgs_generate_messages_py")
     enter()
@@ -55,7 +56,6 @@ def run(args):
 
 
 def port_of_session(wanted):
-    from navvi_cli.network import listeners, running_sessions
     ports = running_sessions()
     if wanted:
         if int(wanted) not in ports and not listeners(wanted):

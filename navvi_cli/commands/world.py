@@ -7,11 +7,14 @@ Exit codes
 0: done. 2: the world is rejected, or no way leads from start to goal, and
 why; or a wrong argument.
 """
-from navvi_cli.arguments import completions, parameter
+from navvi_cli.arguments import parameter
 from navvi_cli.parser import add_actions
-from navvi_cli.pictures import picture
+from navvi_cli.pictures import draw, picture
 from navvi_cli.say import fail, say
+from navvi_cli.workspace import show, tool
+from navvi_cli.worlds import Verdict, names, points, table
 
+WORLD_TOOL = "navvi_sim", "world_tool"
 ENDING = {"write": "sdf", "map": "bt"}
 
 
@@ -22,7 +25,7 @@ def arguments(parser):
 def world_arguments(parser, file=""):
     """A world, the file to write if any, and parameters."""
     parser.add_argument("world", metavar="NAME|FILE", help="the world; \"./navvi world list\" lists the names.").completer = (
-        lambda **_: [word[len("world:="):] for word in completions("world:=", [])])
+        lambda **_: names())
     parser.add_argument("--config", metavar="CONFIG.yaml", help="parameters, as in the config files of sim_node.")
     parser.add_argument("words", nargs="*", default=[], metavar=f"{file}name:=value", help="parameters, such as seed:=3" +
                         (", and the file to write." if file else "."), **({} if file else {"type": parameter}))
@@ -32,14 +35,8 @@ def words_of(args):
     return [*args.words, *(["--config", args.config] if args.config else [])]
 
 
-def tool(name="world_tool", package="navvi_sim"):
-    from navvi_cli.workspace import tool as built
-    return built(package, name)
-
-
 def verdict(args, octomap=None):
-    from navvi_cli.worlds import Verdict
-    tool(), tool("navmesh_tool", "navvi_nav")
+    tool(*WORLD_TOOL), tool("navvi_nav", "navmesh_tool")
     return Verdict(args.world, words_of(args), octomap=octomap)
 
 
@@ -50,8 +47,7 @@ class List:
         parser.add_argument("--csv", action="store_true", help="as a table for a program.")
 
     def run(args):
-        from navvi_cli.worlds import names, table
-        tool()
+        tool(*WORLD_TOOL)
         if args.csv:
             table(["name", "meaning"], names().items())
         else:
@@ -67,7 +63,6 @@ class Check:
         parser.add_argument("-o", dest="octomap", metavar="FILE.bt", help="saves its OctoMap.")
 
     def run(args):
-        from navvi_cli.worlds import table
         found = verdict(args, args.octomap)
         if not args.csv:
             print(found.sentences, end="", flush=True)
@@ -91,12 +86,9 @@ class Show:
         parser.add_argument("-o", dest="picture", metavar="FILE", type=picture, help="the picture, .svg or .png; NAME.svg by default.")
 
     def run(args):
-        from navvi_cli.pictures import draw
-        from navvi_cli.workspace import show
-        from navvi_cli.worlds import points
         found = verdict(args)
         guide = [] if found.refusal else ["--path", points(found.way["path"]), "--turns", points(found.way["turns"])]
-        status = draw(args.picture, show, tool(), "show", args.world, *words_of(args), *guide)
+        status = draw(args.picture, show, tool(*WORLD_TOOL), "show", args.world, *words_of(args), *guide)
         if found.refusal:
             say(found.refusal)
         return status
@@ -131,12 +123,11 @@ def written_arguments(parser, file):
 
 
 def write(action, args):
-    from navvi_cli.workspace import show
     files = [word for word in args.words if ":=" not in word] + ([args.file] if args.file else [])
     if len(files) != 1:
         fail(f"\"world {action}\" writes one file, and {len(files)} are named; allowed is such as \"world {action} training /tmp/a.{ENDING[action]}\".", 2)
     words = [word for word in words_of(args) if word not in files]
-    status = show(tool(), action, args.world, files[0], *words)
+    status = show(tool(*WORLD_TOOL), action, args.world, files[0], *words)
     if status == 0:
         say(f"the world is in {files[0]}.")
     return status

@@ -44,6 +44,6 @@ int main(int argc, char** argv) {
   }
   const auto sentences = study::record::differences(*summary, *recounted);
   for (const auto& sentence : sentences) std::printf("%s\n", sentence.c_str());
-  if (sentences.empty()) std::printf("equal\n");
+  if (sentences.empty()) std::printf("The bag and the summary are equal.\n");
   return sentences.empty() ? 0 : 1;
 }
