@@ -131,11 +131,12 @@ def add_trial(parser, holds="trial.bag"):
     trial.completer = lambda **_: trials_that_hold(holds)
 
 
-def add_words(parser, launch_name, *more, choices=()):
-    """Takes the words of a launch file; `more`: further lines on them, "NAME:=VALUE: help"."""
+def add_words(parser, launch_name, *more, choices=(), shown=True):
+    """Takes the words of a launch file; `more`: further lines of help on them, "NAME:=VALUE: meaning"."""
     words = parser.add_argument("words", nargs="*", default=[], metavar="name:=value")
-    parser.more_help = lambda: [*LaunchFile(launch_name).help(), *more]
-    words.completer = lambda prefix, **_: completions(prefix, [*LaunchFile(launch_name).arguments, *(["person"] if more else [])], choices)
+    words.completer = lambda prefix, **_: completions(prefix, [*LaunchFile(launch_name).arguments, "person"], choices)
+    if shown:
+        parser.more_help = lambda: [*LaunchFile(launch_name).help(), *more]
 
 
 def completions(prefix, names, choices=()):

@@ -19,6 +19,12 @@ def summary(folder):
         fail(f"{path} cannot be read: {problem or 'it is empty'}; the folder of a trial that has ended is allowed.", 2)
 
 
+def written_since(begin, out):
+    """The folders of `out` whose summary was written since `begin` (ns), in the order of their trials; one may be of an earlier session
+    that broke off, and closed only now."""
+    return sorted(path.parent for path in out.glob("trial-*/summary.csv") if path.stat().st_mtime_ns >= begin)
+
+
 def conditions(folder):
     """The fields of the journal's TRIAL_START by name; its settings, such as nav/mesh/climb, as `settings` by theirs."""
     fields = {}

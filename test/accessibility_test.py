@@ -37,6 +37,7 @@ import ast
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -121,6 +122,13 @@ def test_the_tab_key_completes(typed, word):
       COMP_LINE={typed!r} COMP_POINT={len(typed)} COMP_TYPE=9; _python_argcomplete ./navvi; printf '%s\\n' "${{COMPREPLY[@]}}" """
     found = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60)
     assert found.stdout == word + "\n", found.stderr
+
+
+@pytest.mark.skipif(not shutil.which("zsh"), reason="zsh is not installed")
+def test_zsh_takes_the_completion(tmp_path):
+    script = f"source <('{ROOT}/navvi' completion zsh); print -- ${{_comps[./navvi]}}"
+    found = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60, env=dict(QUIET, HOME=str(tmp_path)))
+    assert "_python_argcomplete" in found.stdout and not found.stderr, found.stderr
 
 
 # --- what is said

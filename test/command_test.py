@@ -254,10 +254,10 @@ def test_a_session_ends_in_at_most_eight_lines_with_its_result_last(trial, more,
     assert ("bag: missing" in lines) == ("bag" in more)
 
 
-def test_the_newest_summary_since_the_session_began_is_its_end(trial, monkeypatch, capsys):
+def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_closed_after_it(trial, monkeypatch, capsys):
     monkeypatch.setattr("navvi_cli.workspace.show", lambda *words: 0)
     out = trial().parent / "out"
-    for name, at in ("trial-1", 1000), ("trial-2", 3000), ("trial-3", 2000):
+    for name, at in ("trial-1", 3000), ("trial-2", 2000), ("trial-3", 1000):
         (out / name).mkdir(parents=True)
         (out / name / "summary.csv").write_bytes((trial(seed=name[-1]) / "summary.csv").read_bytes())
         os.utime(out / name / "summary.csv", (at, at))

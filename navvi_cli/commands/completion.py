@@ -24,5 +24,5 @@ def run(args):
     except ImportError:
         fail("completion needs the package python3-argcomplete of Debian; \"apt install python3-argcomplete\" installs it, as root.")
     if args.shell == "zsh":
-        print("autoload -U +X compinit bashcompinit && compinit && bashcompinit")
+        print("(( $+functions[compdef] )) || { autoload -U compinit && compinit -i; }; autoload -U bashcompinit && bashcompinit")
     print(argcomplete.shellcode(["./navvi", "navvi", str(ROOT / "navvi")], shell="bash"))

@@ -119,8 +119,7 @@ def announce(words, log, network):
 def report(out, begin, log, fatal):
     """The end of a session, by the summary of its last trial."""
     workspace.show(program("navvi_study", "close_trials"), out)
-    written = [(path.stat().st_mtime_ns, path.parent) for path in out.glob("trial-*/summary.csv")]
-    folder = max((at, folder) for at, folder in [*written, (begin, None)] if at >= begin)[1] if written else None
-    if folder is None:
+    folders = trials.written_since(begin, out)
+    if not folders:
         fail(f"the session ended without a trial; the log {log} says why. {fatal}".strip())
-    return trials.report(folder)
+    return trials.report(folders[-1])

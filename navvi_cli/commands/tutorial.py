@@ -24,7 +24,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from navvi_cli.arguments import LaunchFile, completions
+from navvi_cli import trials
+from navvi_cli.arguments import add_words
 from navvi_cli.commands import run as run_command
 from navvi_cli.places import TRIALS
 from navvi_cli.say import say
@@ -33,14 +34,13 @@ HALL = {"world": "training", "start": "-6.5,-5,1.57", "goal": "0.2,-1"}
 
 
 def arguments(parser):
-    parser.add_argument("words", nargs="*", default=[], metavar="name:=value").completer = (
-        lambda prefix, **_: completions(prefix, [*LaunchFile("live.launch").arguments, "person"]))
+    add_words(parser, "live.launch", shown=False)
 
 
 def run(args):
     names = [word.partition(":=")[0] for word in args.words]
     hall = {} if "world" in names else {name: value for name, value in HALL.items() if name not in names}
-    begin = time.time()
+    begin = time.time_ns()
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "tutorial.csv"
         words = [*(f"{name}:={value}" for name, value in hall.items()), "lesson:=tutorial", f"feedback/record:={record}", *args.words]
@@ -54,7 +54,7 @@ def run(args):
 
 def keep(record, out, begin):
     """In the trial's folder, or beside it where there was no trial; and in words."""
-    folders = sorted(path.parent for path in out.glob("trial-*/summary.csv") if path.stat().st_mtime >= begin)
+    folders = trials.written_since(begin, out)
     path = folders[-1] / "tutorial.csv" if folders else out / time.strftime("tutorial-%Y%m%dT%H%M%SZ.csv", time.gmtime())
     path.write_text(record)
     say(f"how the steps of the tutorial went is in {path}:")
