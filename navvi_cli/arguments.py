@@ -39,6 +39,9 @@ class LaunchFile:
         self.parts = sorted(name[:-len("_parameters")] for name in args if name.endswith("_parameters"))
         self.fixed = fixed_parameters(root)
 
+    def names(self):
+        return [*self.arguments, *(["person"] if "feedback" in self.parts else [])]
+
     def help(self):
         return ["Each argument with its default:",
                 *(f"{name}:={default}: {doc}" if default and not default.startswith("$") else f"{name}: {doc}"
@@ -134,7 +137,7 @@ def add_trial(parser, holds="trial.bag"):
 def add_words(parser, launch_name, *more, choices=(), shown=True):
     """Takes the words of a launch file; `more`: further lines of help on them, "NAME:=VALUE: meaning"."""
     words = parser.add_argument("words", nargs="*", default=[], metavar="name:=value")
-    words.completer = lambda prefix, **_: completions(prefix, [*LaunchFile(launch_name).arguments, "person"], choices)
+    words.completer = lambda prefix, **_: completions(prefix, LaunchFile(launch_name).names(), choices)
     if shown:
         parser.more_help = lambda: [*LaunchFile(launch_name).help(), *more]
 

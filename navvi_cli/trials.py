@@ -7,7 +7,7 @@ from .places import NAVVI
 from .say import fail
 
 # What a person reads at a session's end; all of it by ./navvi show.
-BRIEF = ["world", "seed", "path_length_m", "safe_stop_count", "cues_spoken"]
+BRIEF = ["path_length_m", "safe_stop_count", "cues_spoken"]
 
 
 def summary(folder):
