@@ -56,7 +56,7 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "see[d]:=1"], "\"see[d]\" is unknown"),
     (["run", *SIMULATED, "sim/seed:=7"], "\"sim/seed\" would have no effect; allowed is seed:=7."),
     (["run", *SIMULATED, "trial/limit:=3"], "\"trial/limit\" would have no effect; allowed is limit:=3."),
-    (["run", *SIMULATED, "trial/version:=2"], "\"trial/version\" cannot be given: the session itself sets it."),
+    (["run", *SIMULATED, "trial/version:=2"], "\"trial/version\" cannot be given: the session itself sets it;"),
     (["run", *SIMULATED, "out:=$(anon x)"], "holds \"$(\""),
     (["run", *SIMULATED, "models:=/nonexistent"], "models:=/nonexistent is not a folder"),
     (["run", *SIMULATED, "out:=/proc/none"], "cannot be made"),
