@@ -30,6 +30,9 @@ def test_a_session_by_the_installed_command_reaches_its_goal(installed, tmp_path
     assert result.returncode == 0 and "The goal was reached" in result.stdout, result.stdout
     assert len(list(tmp_path.glob(".navvi/trials/trial-*/summary.csv"))) == 1
     assert "./navvi" not in result.stdout
+    assert "./navvi" not in run(installed, tmp_path, "navvi", "man").stdout
+    version = run(installed, tmp_path, "navvi", "version").stdout
+    assert version == subprocess.run([str(ROOT / "navvi"), "version"], text=True, stdout=subprocess.PIPE).stdout.replace("-dirty", "") or "-dirty" in version
 
 
 def test_the_launch_files_are_found_by_their_package(installed, tmp_path):
@@ -44,7 +47,7 @@ def test_what_builds_is_not_installed(installed, tmp_path):
 
 
 def test_no_installed_text_names_the_sources(installed):
-    texts = [path for path in installed.glob("share/**/*") if path.is_file() and "cmake" not in path.parts]
+    texts = [path for path in installed.glob("share/**/*") if path.is_file() and not {"cmake", "__pycache__"} & set(path.parts)]
     assert len(texts) > 50
     assert [path for path in texts if str(ROOT).encode() in path.read_bytes()] == []
 
@@ -66,4 +69,4 @@ def test_the_package_of_debian_is_one_that_lintian_takes(tmp_path):
     names = subprocess.run(["dpkg-deb", "-c", str(package)], text=True, stdout=subprocess.PIPE, check=True).stdout
     for name in "./usr/bin/navvi ", "./usr/share/man/man1/navvi.1.gz", "./usr/lib/udev/rules.d/60-navvi-pads.rules", "./usr/lib/navvi_nav/nav_node":
         assert name in names
-    assert all(line.split(None, 5)[5].startswith("./usr") or line.endswith(" ./") for line in names.splitlines())
+    assert all(line.split(None, 5)[5].startswith(("./usr", "./etc")) or line.endswith(" ./") for line in names.splitlines())

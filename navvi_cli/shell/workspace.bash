@@ -58,7 +58,7 @@ built_percent() { sed -n 's/^\[\([0-9]*\)\/\([0-9]*\)\] .*/\1 \2/p' "$1" | tail 
 
 # cmake_build VARIANT FLAG... -- TARGET...
 cmake_build() {
-  local build=$workspace/build$1 flags=(-DCATKIN_DEVEL_PREFIX="$devel$1" -DPYTHON_EXECUTABLE=/usr/bin/python3
+  local build=$workspace/build$1 flags=(-DCATKIN_DEVEL_PREFIX="$devel$1" -DCMAKE_INSTALL_PREFIX="$workspace/install" -DPYTHON_EXECUTABLE=/usr/bin/python3
     -DPython3_EXECUTABLE=/usr/bin/python3 -DNAVVI_WARNINGS_ARE_ERRORS="${NAVVI_WARNINGS_ARE_ERRORS:-OFF}" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   shift
   while [[ $1 != -- ]]; do flags+=("$1") && shift; done
