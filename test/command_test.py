@@ -279,3 +279,15 @@ def test_points_and_tables_are_for_programs(capsys):
     worlds.table(["what", "value"], {"6 \"x\"": 1, "start": [1.5, 2, 0], "path": [[1.0, 2.0], [3, 4]], "none": []}.items())
     assert list(csv.reader(capsys.readouterr().out.splitlines())) == [
         ["what", "value"], ["6 \"x\"", "1"], ["start", "1.5,2,0"], ["path", "1.0,2.0 3,4"], ["none", ""]]
+
+
+# --- what the shell does
+
+@pytest.mark.parametrize("steps, answer", [(0, "up to date"), (1, "to build"), (20000, "to build")])
+def test_however_much_is_to_build_it_is_seen(steps, answer, tmp_path):
+    (tmp_path / "ninja").write_text(f"#!/bin/sh\nfor i in $(seq {steps}); do echo \"[$i/{steps}] Building CXX object x$i.o\"; done\n"
+                                    "echo '[1/1] genmsg_check_deps_x'\n")
+    (tmp_path / "ninja").chmod(0o755)
+    script = (f"set -euo pipefail; source {ROOT}/navvi_cli/shell/workspace.bash; is_configured() {{ true; }}; PATH={tmp_path}:$PATH; "
+              "if is_built x y; then echo up to date; else echo to build; fi")
+    assert subprocess.check_output(["bash", "-c", script], text=True) == answer + "\n"

@@ -47,7 +47,7 @@ build_workspace() {
 # does not count.
 is_built() {
   local steps
-  is_configured "$1" && steps=$(ninja -C "$1" -n "${@:2}" 2>/dev/null) && ! grep '^\[' <<<"$steps" | grep -qv genmsg_check_deps
+  is_configured "$1" && steps=$(ninja -C "$1" -n "${@:2}" 2>/dev/null) && [[ -z $(sed -n '/genmsg_check_deps/d; /^\[/p' <<<"$steps") ]]
 }
 # Whether no source file was added or removed since cmake looked for them.
 is_configured() {  # FOLDER

@@ -70,10 +70,10 @@ template <typename Config>
 /// The node on one line, as YAML.
 [[nodiscard]] std::string one_line(const YAML::Node& node);
 
-/// Answers a program that was called with --parameters: prints the table of `Config` as JSON, or, of words
-/// that follow, such as haptics/range:=2, checks that `Config` takes them and prints them as YAML.
-/// \param below  what the words are laid over, by the Config that they make
-/// \return its exit code; nullopt if it was called otherwise
+/// Answers a program that was called with --parameters: prints the table of `Config` as JSON, or,
+/// of words that follow, such as haptics/range:=2, checks that `Config` takes them and prints them
+/// as YAML. \param below  what the words are laid over, by the Config that they make \return its
+/// exit code; nullopt if it was called otherwise
 template <typename Config>
 [[nodiscard]] std::optional<int> print_parameters(
     int argc, char** argv, const std::function<YAML::Node(const Config&)>& below = {}) {

@@ -139,8 +139,7 @@ std::map<std::string, int> counts_of(const WorldDescription& world) {
 }
 
 /// As print(), for a program.
-navvi_config::JsonFields fields_of(const Request& request,
-                                   const scenario::StartAndGoal& scenario) {
+navvi_config::JsonFields fields_of(const Request& request, const scenario::StartAndGoal& scenario) {
   using navvi_config::json_text;
   const WorldDescription& world = request.loaded.world;
   navvi_config::JsonFields fields;
