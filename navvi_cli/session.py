@@ -18,6 +18,7 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^\[ *ERROR\] \[[^]]*\]: (.*)", r"error: \1"),
     (r"^\[ *WARN\] \[[^]]*\]: (.*)", r"warning: \1"),
     (r"^\[ *INFO\] \[[^]]*\]: ((?:Trial [^ ]* has begun|Trial ended).*)", r"\1"),
+    (r"^\[ *INFO\] \[[^]]*\]: Found: (.*)", r"found and saved: \1"),
     (r".*REQUIRED process \[([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),
     (r"^\[([a-z_]*)-[0-9]*\] process has died \[.*exit code ([-0-9]*).*", r"warning: \1 has ended with exit code \2 and is started anew."),
     (r"^RLException: (.*)", r"error: \1"),

@@ -202,6 +202,7 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
 
 @pytest.mark.parametrize("line, shown", [
     ("[ INFO] [1.0]: Trial t has begun: goal at 1, 2.", "navvi: Trial t has begun: goal at 1, 2."),
+    ("[ INFO] [1.0]: Found: stopping_delay 0.3.", "navvi: found and saved: stopping_delay 0.3."),
     ("\x1b[33m[ WARN] [1.0]: slow\x1b[0m", "navvi: warning: slow"),
     ("[ERROR] [1.0, 2.0]: bad", "navvi: error: bad"),
     ("\x1b]2;title\x07[ INFO] [1.0]: noise", ""),
