@@ -1,5 +1,6 @@
 """The entry script, the launch files, the views and the parameter files, as they ship."""
 import csv
+import fcntl
 import pathlib
 import subprocess
 import xml.etree.ElementTree as ElementTree
@@ -96,6 +97,16 @@ def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     assert sentence in result.stderr
     assert len(sentences(result)) == 1
     assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
+
+
+@pytest.mark.parametrize("words, code", [(["world", "check", "training"], 0), (["check", "{}"], 2), (["watch", "{}"], 2), (["world", "list"], 0)],
+                         ids=lambda words: " ".join(words) if isinstance(words, list) else "")
+def test_what_needs_no_build_waits_for_none(words, code, tmp_path):
+    (tmp_path / "trial.bag").write_text("no bag")
+    with open(ROOT / "navvi_ws/.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        result = navvi(*[word.format(tmp_path) for word in words])
+    assert result.returncode == code and "waiting" not in result.stderr and len(result.stdout + result.stderr) > 20
 
 
 @pytest.mark.parametrize("text, sentence", [
