@@ -13,10 +13,13 @@ session_packages=(
   zlib1g-dev libpng-dev pkg-config libgtest-dev librostest-dev
   "${run_packages[@]}"
 )
+# A study's report draws and counts with these; a session does not need them.
+report_packages=(python3-jinja2 python3-matplotlib python3-pandas python3-scipy python3-statsmodels)
 test_packages=(
   libbenchmark-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
   shellcheck xvfb imagemagick sox openbox xdotool lintian catkin-lint
   python3-pyatspi dbus-daemon
+  "${report_packages[@]}"
 )
 # Tests that need one of these are skipped, and counted, where the release of Debian lacks it.
 optional_packages=(libsdformat-dev)
@@ -39,10 +42,11 @@ installed_percent() {
   awk -F: '/^dlstatus:/ {done = $3 / 2} /^pmstatus:/ {done = 50 + $3 / 2} END {print int(done)}' "$1"
 }
 
-# install_packages [all]: what a session needs, or what the tests need as well.
+# install_packages [report|all]: what a session needs, what a study's report needs as well, or the tests.
 install_packages() {
   [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
   local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=()
+  [[ ${1:-} != report ]] || needed+=("${report_packages[@]}")
   [[ ${1:-} != all ]] || needed+=("${test_packages[@]}") optional=("${optional_packages[@]}")
   command -v apt-get >/dev/null || elsewhere
   missing=$(missing_packages "${needed[@]}")

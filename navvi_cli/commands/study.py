@@ -1,0 +1,49 @@
+"""Plan a study, run it with participants, and report it.
+
+doc/study.md shows how, from plan to report.
+"""
+import sys
+
+from navvi_cli import places
+from navvi_cli.parser import add_actions
+from navvi_cli.say import fail
+
+sys.path.insert(0, str(places.share("navvi_study") / "python"))
+
+from navvi_study.actions import ACTIONS, TOOLS  # noqa: E402  (found by the path above)
+from navvi_study.errors import StudyError  # noqa: E402
+
+
+def arguments(parser):
+    add_actions(parser, **{name: _guarded(action) for name, action in ACTIONS.items()})
+
+
+def run(args):
+    """An action runs instead."""
+
+
+def _tool(package, name):
+    from navvi_cli.workspace import enter, tool
+    path = tool(package, name)
+    enter()
+    return path
+
+
+def _guarded(action):
+    """The action, with the product's programs, and its errors as the command prints them."""
+    class Guarded(action):
+        __doc__ = action.__doc__
+
+        @staticmethod
+        def run(args):
+            from navvi_cli.version import version
+            from navvi_cli.workspace import shell
+            if places.WORKSPACE and action.__name__ in ("Report", "Rehearse"):
+                shell("install_packages", "report")
+            TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi")
+            try:
+                return action.run(args)
+            except StudyError as problem:
+                fail(str(problem), 2)
+
+    return Guarded

@@ -1,0 +1,286 @@
+"""The actions of `./navvi study`: each a class with its help, its arguments and run(). Nothing here knows how programs are built."""
+
+from .errors import StudyError
+
+# Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; navvi and version are of the product.
+TOOLS = {}
+
+
+def plan_argument(parser):
+    parser.add_argument("plan", metavar="PLAN", help="the study's YAML file; all that is recorded is kept in the folder beside it that bears the study's name.")
+
+
+def participant_argument(parser):
+    parser.add_argument("participant", metavar="PARTICIPANT", help="a code of the plan, such as sub-03.")
+
+
+def only_argument(parser):
+    parser.add_argument("--only", metavar="MEASURE", help="only the tables, and the figure of one measure, such as time, as SVG.")
+
+
+def opened(args):
+    from .study import Study
+    return Study.of(args.plan)
+
+
+class Check:
+    """Print the whole schedule of a study before anything starts.
+
+    The file is read strictly; then follow conditions, who drives what in which
+    order, the minutes of each session, and each world as the reference driver
+    meets it.
+
+    Exit codes
+    0: the plan can be run. 1: it can, and its sets of worlds are not alike.
+    2: it cannot, and why.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        parser.add_argument("--no-worlds", action="store_true", help="leave the worlds out, which takes some seconds each.")
+
+    @staticmethod
+    def run(args):
+        from . import overview, plan_file, worlds
+        planned = plan_file.load(args.plan)
+        print("\n".join(overview.schedule(planned)))
+        if args.no_worlds:
+            return 0
+        lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
+        print("\n".join(["", *lines]))
+        return 0 if alike else 1
+
+
+class Freeze:
+    """Fix the plan: its hash, the version of NavVI, outcome and exclusions.
+
+    Nothing is recorded before. A plan that changes later must be frozen again
+    with a reason; the report lists each change.
+
+    Exit codes
+    0: frozen. 2: a wrong plan, or nothing to freeze.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        parser.add_argument("--reason", metavar="TEXT", help="why a plan that was frozen has changed.")
+
+    @staticmethod
+    def run(args):
+        study = opened(args)
+        changes = study.freeze(TOOLS["version"](), args.reason)
+        print(f"navvi: the plan is frozen: {study.plan.hash()}")
+        for change in changes or []:
+            print(f"  changed: {change}")
+
+
+class Next:
+    """Start the next thing that a participant does.
+
+    Consent, calibration, practice, a trial, a questionnaire or a break: what comes
+    next by plan and record. After a crash, a break or a trial that does not count
+    it goes on from there. While a trial runs, lines typed here are recorded: m for
+    a mark, n TEXT for a note, i TEXT for an intervention, a to end the trial.
+
+    Exit codes
+    0: done. 1: broken off. 2: not allowed, and why. 3: nothing is left to do.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        participant_argument(parser)
+        parser.add_argument("--typed", action="store_true", help="questionnaires are read aloud by the experimenter and answered in this terminal.")
+        parser.add_argument("--session", action="store_true", help="go on to the end of the session, without a wait for the next command.")
+
+    @staticmethod
+    def run(args):
+        from .runner import LiveRunner
+        from .session import Session
+        study = opened(args)
+        study.progress().person(args.participant)
+        study.require_frozen()
+        runner = LiveRunner(study, TOOLS["navvi"], TOOLS["tool"]("navvi_study", "close_trials"), args.typed)
+        session = Session(study, runner, wait=study.plan.operator != "simulated")
+        while True:
+            left = study.progress()
+            if left.next(left.person(args.participant)) is None and not left.person(args.participant).open:
+                session.next(args.participant)
+                return 3
+            step = session.next(args.participant)
+            if step is None:
+                return 1
+            if not args.session or step.kind == "session_end":
+                return 0
+
+
+class Status:
+    """Print how far each participant is, and what comes next.
+
+    Exit codes
+    0: printed. 2: a wrong plan, or a damaged record.
+    """
+
+    arguments = staticmethod(plan_argument)
+
+    @staticmethod
+    def run(args):
+        from . import overview
+        study = opened(args)
+        print("\n".join(overview.status(study, study.progress())))
+
+
+class Exclude:
+    """Write that a trial, or a participant, does not count.
+
+    Nothing is deleted: a row is appended that names who, when and why, and holds
+    the hash of the row before it. A world of the reserve takes the trial's place.
+
+    Exit codes
+    0: written. 2: no such trial, or excluded before.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        parser.add_argument("what", metavar="TRIAL", help="a trial by its name, such as sub-03/trial-20260101T120000Z, or the code of a participant.")
+        parser.add_argument("--reason", metavar="TEXT", required=True, help="why, in words.")
+        parser.add_argument("--no-replacement", action="store_true", help="no other trial takes its place.")
+
+    @staticmethod
+    def run(args):
+        reason = _reason(args.reason)
+        study = opened(args)
+        progress = study.progress()
+        if args.what in progress.people:
+            if progress.people[args.what].excluded:
+                raise StudyError(f"{args.what} is excluded already: {progress.people[args.what].excluded}.")
+            study.journal.append("exclude", participant=args.what, reason=reason, rule=False)
+            print(f"navvi: {args.what} does not count: {reason}.")
+            return
+        person, attempt = progress.find(args.what)
+        if attempt.excluded:
+            raise StudyError(f"{args.what} is excluded already: {attempt.excluded}.")
+        study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
+                             rule=False, replace=not args.no_replacement)
+        print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if args.no_replacement else " Another world takes its place."))
+
+
+class Withdraw:
+    """Write that a participant has withdrawn, and delete or keep what there is.
+
+    Deleted are trials, answers, notes and settings; the record keeps the code, and
+    that it was withdrawn.
+
+    Exit codes
+    0: written. 2: not planned, or withdrawn before.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        participant_argument(parser)
+        parser.add_argument("--data", metavar="WHAT", required=True, choices=("delete", "keep"), help="delete or keep what was recorded.")
+
+    @staticmethod
+    def run(args):
+        study = opened(args)
+        person = study.progress().person(args.participant)
+        if person.withdrawn == "delete" or person.withdrawn == args.data:
+            raise StudyError(f"{person.name} has withdrawn already.")
+        with study.claimed(person.name):
+            study.journal.append("withdraw", participant=person.name, data=args.data)
+        study.finish_erasing()
+        print(f"navvi: {person.name} has withdrawn; what was recorded is {'deleted' if args.data == 'delete' else 'kept'}.")
+
+
+class Table:
+    """Write trials.csv and answers.csv, with a JSON file that describes each column.
+
+    Exit codes
+    0: written. 2: a wrong plan, or a damaged record.
+    """
+
+    arguments = staticmethod(plan_argument)
+
+    @staticmethod
+    def run(args):
+        from . import table
+        study = opened(args)
+        for path in table.write(study, study.progress()):
+            print(f"navvi: written: {path}")
+
+
+class Report:
+    """Write the study's report, one HTML file, besides its tables.
+
+    It tells who took part, what was measured by condition, the primary outcome and
+    the secondary ones, corrected, apart from all else that was looked at.
+
+    Exit codes
+    0: written. 2: a wrong plan, or a damaged record.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        only_argument(parser)
+
+    @staticmethod
+    def run(args):
+        study = opened(args)
+        _write_report(study, args.only, rehearsed=False)
+
+
+class Rehearse:
+    """Run the whole plan with simulated people, without ROS, and report.
+
+    It proves that plan, record, tables and report work, in minutes; nothing is said
+    by it about people. Trials and report are kept in the folder rehearsal of the
+    study, which is begun anew each time.
+
+    Exit codes
+    0: done. 2: the plan cannot be run, and why.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        only_argument(parser)
+
+    @staticmethod
+    def run(args):
+        from . import plan_file, rehearsal
+        planned = plan_file.load(args.plan)
+        _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench")), args.only, rehearsed=True)
+
+
+def _write_report(study, only, rehearsed):
+    from . import figures, report, table
+    from .analysis import Analysis
+    from .measures import MEASURES
+    from .study import write_safely
+    progress = study.progress()
+    files = table.write(study, progress)
+    if not only:
+        files.append(report.write(study, progress, rehearsed))
+    elif only not in MEASURES or only not in (measured := Analysis(study, progress)).asked():
+        raise StudyError(f"--only is \"{only}\"; allowed is a measure with values, of: {', '.join(MEASURES)}.")
+    else:
+        files.append(study.folder / f"{only}.svg")
+        write_safely(files[-1], figures.by_condition(measured, only))
+    for path in files:
+        print(f"navvi: written: {path}")
+
+
+def _reason(words):
+    from . import checked
+    try:
+        return checked.text(words)
+    except ValueError as allowed:
+        raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
+
+
+ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Status, Exclude, Withdraw, Table, Report, Rehearse)}

@@ -1,0 +1,197 @@
+"""Figures of a study from its tables: by condition, paired differences, models."""
+import itertools
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+import scipy.stats
+import statsmodels.api as sm
+from statsmodels.stats.multitest import multipletests
+from statsmodels.tools.sm_exceptions import PerfectSeparationError
+
+from . import measures, table
+from .measures import MEASURES
+
+RESAMPLES = 10000
+SEED = 20260101  # of the bootstrap: the same data give the same interval
+LEAST = 5  # participants, below which an interval or a test is not given
+
+
+@dataclass
+class Contrast:
+    """One measure, the second condition against the first."""
+    measure: str
+    first: str
+    second: str
+    participants: int = 0  # with both
+    difference: float = None  # mean of the participants' differences, second minus first
+    low: float = None  # 95 % bootstrap over participants
+    high: float = None
+    model: str = ""
+    effect: str = ""  # what the estimate is
+    estimate: float = None
+    estimate_low: float = None
+    estimate_high: float = None
+    p: float = None
+    corrected: float = None
+    note: str = ""
+
+
+class Analysis:
+    def __init__(self, study, progress):
+        self.plan = progress.plan
+        rows = [row for row in table.trials(study, progress) if row["counts"] == "yes"]
+        self.trials = pd.DataFrame(rows, columns=list(rows[0]) if rows else ["participant", "group", "condition", "order", "result"])
+        self.scores = pd.DataFrame(table.scores(study, progress), columns=["participant", "group", "condition", "order", "questionnaire", "score"])
+
+    def values(self, name):
+        """A row a trial, or an answered questionnaire: participant, group, condition, order, value, reached."""
+        measure = MEASURES[name]
+        if measure.questionnaire:
+            rows = self.scores[self.scores["questionnaire"] == measure.questionnaire].rename(columns={"score": "value"}).assign(reached=True)
+        else:
+            rows = self.trials.assign(value=[measures.value(measure, row) for row in self.trials.to_dict("records")],
+                                      reached=self.trials["result"] == "reached")
+        rows = rows[["participant", "group", "condition", "order", "value", "reached"]].dropna(subset=["value"])
+        return rows.astype({"value": float, "order": int})
+
+    def asked(self):
+        """Names of all measures that have values."""
+        return [name for name in MEASURES if len(self.values(name))]
+
+    def by_condition(self, name):
+        """A row a group and condition: participants, trials, mean and SD of the participants' means, median, and for times how many were
+        not reached."""
+        rows = []
+        for (group, condition), part in self.values(name).groupby(["group", "condition"], sort=False):
+            means = part.groupby("participant")["value"].mean()
+            low, high = interval(means.to_numpy())
+            rows.append({"group": group, "condition": condition, "participants": len(means), "trials": len(part), "mean": means.mean(),
+                         "low": low, "high": high, "sd": means.std(ddof=1), "median": part["value"].median(), "least": part["value"].min(),
+                         "most": part["value"].max(), "unfinished": int((~part["reached"]).sum())})
+        names = [condition.name for condition in self.plan.conditions]
+        return sorted(rows, key=lambda row: (row["group"], names.index(row["condition"]) if row["condition"] in names else -1))
+
+    def contrast(self, name, first, second):
+        values = self.values(name)
+        values = values[values["condition"].isin([first, second])]
+        means = values.pivot_table(index="participant", columns="condition", values="value", aggfunc="mean").dropna()
+        result = Contrast(name, first, second, participants=len(means) if {first, second} <= set(means) else 0)
+        if not result.participants:
+            result.note = "nobody has both conditions"
+            return result
+        differences = (means[second] - means[first]).to_numpy()
+        result.difference = differences.mean()
+        result.low, result.high = interval(differences)
+        if result.participants < LEAST:
+            result.note = f"fewer than {LEAST} participants: no interval and no test"
+            return result
+        values = values[values["participant"].isin(means.index)].assign(second=lambda rows: (rows["condition"] == second).astype(float))
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                MODELS[MEASURES[name].kind](result, values, differences)
+        except (ValueError, np.linalg.LinAlgError, ZeroDivisionError, PerfectSeparationError) as problem:
+            result.note = f"the model cannot be estimated: {problem}"
+        if result.p is not None and not np.isfinite([result.p, result.estimate, result.estimate_low, result.estimate_high]).all():
+            result.p = result.estimate = result.estimate_low = result.estimate_high = None
+            result.note = "the model cannot be estimated from these data"
+        return result
+
+    def confirmatory(self):
+        """The primary contrast, and the secondary ones with p corrected by Holm."""
+        primary = self._of(self.plan.primary)
+        primary.corrected = primary.p  # one outcome: nothing to correct
+        return primary, corrected([self._of(question) for question in self.plan.secondary], "holm")
+
+    def exploratory(self):
+        """All that was not asked for before, with p corrected by Benjamini and Hochberg."""
+        asked = {(one.measure, frozenset((one.first, one.second))) for one in (self.plan.primary, *self.plan.secondary)}
+        pairs = dict.fromkeys(pair for group in self.plan.groups for pair in itertools.combinations(group.conditions, 2))
+        return corrected([self.contrast(name, *pair) for name in self.asked() for pair in pairs if (name, frozenset(pair)) not in asked], "fdr_bh")
+
+    def _of(self, question):
+        return self.contrast(question.measure, question.first, question.second)
+
+
+def interval(values):
+    """95 % of the mean, by bootstrap of the participants; None for fewer than LEAST."""
+    if len(values) < LEAST:
+        return None, None
+    source = np.random.default_rng(SEED)
+    means = values[source.integers(0, len(values), (RESAMPLES, len(values)))].mean(axis=1)
+    return tuple(np.percentile(means, [2.5, 97.5]))
+
+
+def corrected(contrasts, method):
+    tested = [one for one in contrasts if one.p is not None]
+    if tested:
+        for one, p in zip(tested, multipletests([one.p for one in tested], method=method)[1]):
+            one.corrected = p
+    return contrasts
+
+
+def _predictors(values):
+    """The condition, and the place in the order where that varies."""
+    columns = {"const": 1.0, "second": values["second"]}
+    if values["order"].nunique() > 1:
+        columns["order"] = values["order"] - values["order"].mean()
+    return pd.DataFrame(columns, index=values.index)
+
+
+def _ratio(result, model, effect, estimate, error, p):
+    result.model, result.effect, result.p = model, effect, float(p)
+    result.estimate, result.estimate_low, result.estimate_high = (float(np.exp(estimate + shift * error)) for shift in (0, -1.96, 1.96))
+
+
+def _count(result, values, _):
+    """Negative binomial by GEE, participants as clusters; its dispersion from a plain negative binomial model first."""
+    predictors = _predictors(values)
+    if values["value"].sum() == 0:
+        raise ValueError("nothing was counted")
+    if values.groupby("second")["value"].sum().min() == 0:
+        raise ValueError("nothing was counted under one of the conditions")
+    try:
+        dispersion = float(sm.NegativeBinomial(values["value"], predictors).fit(disp=False).params["alpha"])
+    except np.linalg.LinAlgError:
+        dispersion = 1.0
+    dispersion = min(max(dispersion, 1e-3), 10.0) if np.isfinite(dispersion) else 1.0
+    family = sm.families.NegativeBinomial(alpha=dispersion)
+    fit = sm.GEE(values["value"], predictors, groups=values["participant"], family=family, cov_struct=sm.cov_struct.Exchangeable()).fit()
+    _ratio(result, "negative binomial, GEE by participant", "rate ratio", fit.params["second"], fit.bse["second"], fit.pvalues["second"])
+
+
+def _time(result, values, _):
+    """Cox, stratified by participant; who did not arrive is censored at the limit."""
+    reached = values["reached"].astype(int)
+    if reached.groupby(values["second"]).sum().min() == 0:
+        raise ValueError("nobody arrived under one of the conditions")
+    predictors = _predictors(values).drop(columns="const")
+    fit = sm.PHReg(values["value"], predictors, status=reached, strata=values["participant"], ties="efron").fit()
+    at = list(predictors).index("second")
+    _ratio(result, "Cox, stratified by participant, censored at the limit", "hazard ratio of arriving", fit.params[at], fit.bse[at], fit.pvalues[at])
+
+
+def _share(result, values, _):
+    """Logistic by GEE, participants as clusters."""
+    if values.groupby("second")["value"].mean().isin([0.0, 1.0]).any():
+        raise ValueError("all or none under one of the conditions")
+    fit = sm.GEE(values["value"], _predictors(values), groups=values["participant"], family=sm.families.Binomial(),
+                 cov_struct=sm.cov_struct.Exchangeable()).fit()
+    _ratio(result, "logistic, GEE by participant", "odds ratio", fit.params["second"], fit.bse["second"], fit.pvalues["second"])
+
+
+def _number(result, values, differences):
+    """Wilcoxon's signed ranks of the participants' differences, with the estimate of Hodges and Lehmann."""
+    if not np.any(differences):
+        raise ValueError("no difference in any participant")
+    walsh = np.sort([(one + other) / 2 for at, one in enumerate(differences) for other in differences[at:]])
+    result.model, result.effect, result.p = "Wilcoxon signed ranks", "Hodges-Lehmann shift", float(scipy.stats.wilcoxon(differences).pvalue)
+    count = len(differences)
+    spread = 1.96 * np.sqrt(count * (count + 1) * (2 * count + 1) / 24)
+    rank = int(max(0, np.floor(count * (count + 1) / 4 - spread)))
+    result.estimate, result.estimate_low, result.estimate_high = float(np.median(walsh)), float(walsh[rank]), float(walsh[-1 - rank])
+
+
+MODELS = {"count": _count, "time": _time, "share": _share, "number": _number}

@@ -1,0 +1,191 @@
+"""YAML files read key by key: an unknown key or a wrong value is an error that names file, line, key and what is allowed."""
+import difflib
+import re
+
+import yaml
+
+from .errors import StudyError
+
+
+REQUIRED = object()
+
+
+class _Loader(yaml.SafeLoader):
+    """Refuses a key that is given twice, and keeps the line of each."""
+
+
+def _mapping(loader, node, deep=True):
+    keys = _Lined()
+    for key_node, value_node in node.value:
+        key = loader.construct_object(key_node, deep=True)
+        line = key_node.start_mark.line + 1
+        if not isinstance(key, str):
+            raise StudyError(f"{loader.file}:{line}: the key {key!r} is not text; quote it, such as \"{key}\".")
+        if key in keys:
+            raise StudyError(f"{loader.file}:{line}: the key \"{key}\" is given twice; once is allowed.")
+        keys[key] = loader.construct_object(value_node, deep=True)
+        keys.lines[key] = line
+    return keys
+
+
+class _Lined(dict):
+    def __init__(self, *args):
+        super().__init__(*args)
+        self.lines = {}
+
+
+_Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
+
+
+def load(path):
+    """The file as a Section. Raises StudyError."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            loader = _Loader(file)
+            loader.file = path
+            try:
+                values = loader.get_single_data()
+            finally:
+                loader.dispose()
+    except (OSError, UnicodeDecodeError) as problem:
+        raise StudyError(f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}.") from None
+    except yaml.YAMLError as problem:
+        mark = getattr(problem, "problem_mark", None)
+        raise StudyError(f"{path}:{mark.line + 1 if mark else 1}: cannot parse the YAML: {getattr(problem, 'problem', problem)}.") from None
+    return Section(path, "", values)
+
+
+class Section:
+    """A mapping of a file. Each key is taken once; done() refuses those that are left."""
+
+    def __init__(self, file, path, values):
+        self.file, self.path, self.line = file, path, 1
+        if not isinstance(values, dict):
+            raise StudyError(f"{file}: {path or 'the file'} is {_shown(values)}; allowed is a mapping of keys.")
+        self.values, self.taken = values, set()
+
+    def __contains__(self, key):
+        return key in self.values
+
+    def take(self, key, kind, default=REQUIRED):
+        """The value of the key as `kind` makes it; the default where the key is absent."""
+        self.taken.add(key)
+        if key not in self.values:
+            if default is REQUIRED:
+                alike = difflib.get_close_matches(key, [other for other in self.values if other not in self.taken], 1)
+                raise StudyError(f"{self.file}: the key \"{self._path(key)}\" is missing" + (f"; \"{alike[0]}\" is unknown." if alike else "."))
+            return default
+        try:
+            return kind(self.values[key])
+        except ValueError as allowed:
+            raise self.error(key, f"is {_shown(self.values[key])}; allowed is {allowed}") from None
+
+    def section(self, key, required=False):
+        """The mapping below the key; an empty one where it is absent."""
+        self.taken.add(key)
+        if required and key not in self.values:
+            raise StudyError(f"{self.file}: the key \"{self._path(key)}\" is missing.")
+        return Section(self.file, self._path(key), self.values.get(key, _Lined()))
+
+    def sections(self, key=None):
+        """Name and mapping of each entry below the key, or of all that are here."""
+        below = self.section(key) if key else self
+        below.taken.update(below.values)
+        return [(name, Section(below.file, below._path(name), value)) for name, value in below.values.items()]
+
+    def items(self, key, default=REQUIRED):
+        """A list of mappings."""
+        values = self.take(key, list_of(anything), default)
+        return [Section(self.file, f"{self._path(key)}[{at}]", value) for at, value in enumerate(values)]
+
+    def error(self, key, words):
+        """To be raised: what is wrong with the value of the key."""
+        line = getattr(self.values, "lines", {}).get(key, 1)
+        return StudyError(f"{self.file}:{line}: \"{self._path(key)}\" {words}.")
+
+    def done(self):
+        for key in self.values:
+            if key not in self.taken:
+                known = ", ".join(sorted(self.taken))
+                raise self.error(key, f"is unknown; known are: {known}")
+
+    def _path(self, key):
+        return f"{self.path}/{key}" if self.path else key
+
+
+def _shown(value):
+    if value is None:
+        return "empty"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"\"{value}\"" if isinstance(value, str) else str(value)
+
+
+def anything(value):
+    return value
+
+
+def text(value):
+    if not isinstance(value, str) or not value.strip() or any(ord(letter) < 32 for letter in value.strip()):
+        raise ValueError("text of one line")
+    return value.strip()
+
+
+def code(value):
+    """What stands in the record for a person, a condition, a set."""
+    if not isinstance(value, str) or not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]{0,23}", value):
+        raise ValueError("up to 24 letters, digits, - and _, a letter or digit first")
+    return value
+
+
+def flag(value):
+    if not isinstance(value, bool):
+        raise ValueError("true or false")
+    return value
+
+
+def number(least, most):
+    def kind(value):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
+            raise ValueError(f"a number from {least} to {most}")
+        return float(value)
+    return kind
+
+
+def whole(least, most):
+    def kind(value):
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+            raise ValueError(f"a whole number from {least} to {most}")
+        return value
+    return kind
+
+
+def one_of(*words):
+    def kind(value):
+        if value not in words or isinstance(value, bool):
+            raise ValueError("one of: " + ", ".join(str(word) for word in words))
+        return value
+    return kind
+
+
+def list_of(kind):
+    def kinds(value):
+        if not isinstance(value, list) or not value:
+            raise ValueError("a list with at least one entry")
+        return [kind(entry) for entry in value]
+    return kinds
+
+
+def numbered(kind):
+    """A list, or a span such as "101-110" or "sub-01..sub-20" where `kind` takes each of it."""
+    def kinds(value):
+        found = re.fullmatch(r"(.*?)(\d+)\.\.\1(\d+)", value) if isinstance(value, str) else None
+        if not found:
+            return list_of(kind)(value if isinstance(value, list) else [value])
+        head, first, last = found.groups()
+        if int(last) < int(first) or int(last) - int(first) > 9999:
+            raise ValueError("a span that goes upwards, by 10000 at most")
+        width = len(first) if first.startswith("0") or head else 0
+        entries = [f"{head}{at:0{width}d}" for at in range(int(first), int(last) + 1)]
+        return [kind(entry if head else int(entry)) for entry in entries]
+    return kinds

@@ -1,0 +1,2 @@
+class StudyError(Exception):
+    """A sentence for the person at the terminal."""

@@ -1,0 +1,145 @@
+"""The study's own record: rows are only ever appended, each safe on the disk before anything follows from it.
+
+A row is a line of JSON. It holds the hash of the row before it, so that no row can be changed, left out or put in later without the chain
+breaking. What belongs to one participant (answers, notes, trials) is in that participant's folder, so that it can be erased."""
+import contextlib
+import datetime
+import fcntl
+import getpass
+import hashlib
+import json
+import os
+import socket
+import time
+from pathlib import Path
+
+from .errors import StudyError
+
+BEGIN = "0" * 64  # before the first row
+
+
+class Journal:
+    def __init__(self, path):
+        self.path = Path(path)
+        self._good, self._known = 0, []  # bytes that were checked, and their rows: what is in the file never changes
+
+    def rows(self):
+        """All rows. An unfinished last line, of a crash, is set aside. Raises StudyError where a row was damaged or changed."""
+        with self._locked() as file:
+            return self._read(file)
+
+    def append(self, kind, **fields):
+        """Returns the row, once it is on the disk."""
+        with self._locked() as file:
+            rows = self._read(file)
+            row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": f"{getpass.getuser()}@{socket.gethostname()}",
+                   "type": kind, **fields, "before": rows[-1]["hash"] if rows else BEGIN}
+            row["hash"] = hash_of(row)
+            line = (json.dumps(row, ensure_ascii=False) + "\n").encode()
+            try:
+                if os.write(file, line) != len(line):
+                    raise OSError("the disk took only a part of the row")
+                os.fsync(file)
+            except OSError as problem:
+                raise StudyError(f"{self.path} cannot be written: {problem.strerror or problem}. Nothing is begun; mend that and try again.") from None
+            return row
+
+    @contextlib.contextmanager
+    def _locked(self):
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            new = not self.path.exists()
+            file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
+            if new:
+                sync_folder(self.path.parent)
+        except OSError as problem:
+            raise StudyError(f"{self.path} cannot be opened: {problem.strerror}.") from None
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield file
+        finally:
+            os.close(file)
+
+    def _read(self, file):
+        size = os.fstat(file).st_size
+        if size < self._good:
+            raise StudyError(f"{self.path} has become shorter; restore it from a copy.")
+        whole, _, torn = os.pread(file, size - self._good, self._good).rpartition(b"\n")
+        if torn:
+            self._set_aside(torn)
+            os.ftruncate(file, size - len(torn))
+            os.fsync(file)
+        for line in whole.split(b"\n") if whole else []:
+            self._known.append(self._checked(line))
+            self._good += len(line) + 1
+        return list(self._known)
+
+    def _checked(self, line):
+        number = len(self._known) + 1
+        try:
+            row = json.loads(line)
+            good = row["seq"] == number and row["before"] == (self._known[-1]["hash"] if self._known else BEGIN) and row["hash"] == hash_of(row)
+        except (ValueError, KeyError, TypeError):
+            good = False
+        if not good:
+            raise StudyError(f"{self.path}:{number}: the row was damaged, changed, or one before it was taken away; restore the file from a copy.")
+        return row
+
+    def _set_aside(self, torn):
+        with open(self.path.with_suffix(".torn"), "ab") as aside:
+            aside.write(torn + b"\n")
+            os.fsync(aside.fileno())
+
+
+def hash_of(row):
+    content = {key: value for key, value in row.items() if key != "hash"}
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def utc_now():
+    return datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+def sync_folder(folder):
+    file = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(file)
+    finally:
+        os.close(file)
+
+
+def append_line(path, values):
+    """A line of JSON in a participant's own file, safe on the disk on return."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    new = not path.exists()
+    line = (json.dumps(values, ensure_ascii=False) + "\n").encode()
+    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
+    try:
+        # What a crash left of a line ends here, so that the next one stands for itself.
+        size = os.fstat(file).st_size
+        if size and os.pread(file, 1, size - 1) != b"\n":
+            line = b"\n" + line
+        if os.write(file, line) != len(line):
+            raise StudyError(f"{path} cannot be written: the disk is full.")
+        os.fsync(file)
+    except OSError as problem:
+        raise StudyError(f"{path} cannot be written: {problem.strerror}.") from None
+    finally:
+        os.close(file)
+    if new:
+        sync_folder(path.parent)
+
+
+def read_lines(path):
+    """The lines that append_line() wrote whole."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return []
+    rows = []
+    for line in lines:
+        try:
+            rows.append(json.loads(line))
+        except ValueError:
+            continue  # unfinished when the power failed
+    return rows

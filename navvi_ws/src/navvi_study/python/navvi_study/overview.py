@@ -1,0 +1,72 @@
+"""What `study check` and `study status` print: plain lines, for a screen reader as well."""
+from .schedule import minutes_of, order_of, steps_of
+from .session import why_nothing
+
+
+def schedule(plan):
+    """The whole study, before anything starts."""
+    lines = [f"{plan.title}: study {plan.study}, {len(plan.participants)} participants in {len(plan.groups)} groups, {_count(plan.sessions, 'session')} each.",
+             f"Primary outcome: {question(plan.primary)}. Everything is kept in {plan.folder}.", ""]
+    for condition in plan.conditions:
+        switched = [f"{'no ' if not getattr(condition, name) else ''}{name}" for name in ("touch", "speech", "sounds", "picture")]
+        lines.append(f"Condition {condition.name}: {', '.join(switched)}, profile {condition.profile}"
+                     + "".join(f", {name} {value}" for name, value in condition.parameters) + ".")
+    lines += [f"Worlds: {len(plan.sets)} sets of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
+    for group in plan.groups:
+        lines.append(f"Group {group.name}:")
+        for name in group.participants:
+            shown = "; ".join(f"{condition} in {', '.join(map(str, worlds))}" for condition, worlds in order_of(plan, name))
+            lines.append(f"  {name}: {' and '.join(f'{minutes:.0f}' for minutes in minutes_of(plan, name))} min. {shown}.")
+    lines += ["", f"What {plan.participants[0]} does:"]
+    for step in steps_of(plan, plan.participants[0]):
+        lines.append(f"  {step.name}: {step}" + (f", {step.world}" if step.world else "") + (f", about {step.minutes:g} min" if step.minutes else ""))
+    lines += ["", *balance(plan)]
+    hours = sum(sum(minutes_of(plan, name)) for name in plan.participants) / 60
+    lines.append(f"All together {hours:.1f} hours.")
+    return lines
+
+
+def balance(plan):
+    """A sentence a group: whether as many take part as its orders need."""
+    from .design import williams
+    lines = []
+    for group in plan.groups:
+        orders = len(williams(len(group.conditions))) if plan.order == "williams" else 1
+        left = len(group.participants) % orders
+        words = "balanced for order and first-order carry-over" if plan.order == "williams" else "in the order of the plan, alike for all"
+        lines.append(f"Group {group.name}: {_count(orders, 'order')}, {words}." if not left else
+                     f"Group {group.name}: {orders} orders and {len(group.participants)} participants; balanced would be {len(group.participants) + orders - left}.")
+    return lines
+
+
+def question(one):
+    from .measures import MEASURES
+    return f"{MEASURES[one.measure].label.lower()}, {one.first} against {one.second}"
+
+
+def status(study, progress):
+    """A line a participant, one a trial that does not count, and how many are through."""
+    plan = progress.plan
+    lines = []
+    for person in progress.people.values():
+        trials = [step for step in person.steps if step.kind == "trial"]
+        driven = sum(any(attempt.counts for attempt in person.of(step)) for step in trials)
+        step = progress.next(person)
+        what = f"next is {step.name}, {step}" if step else why_nothing(progress, person)[:-1]
+        lines.append(f"{person.name}: {driven} of {len(trials)} trials; {'has not begun; ' if not person.begun else ''}{what}.")
+        for attempt in person.attempts:
+            if attempt.excluded:
+                lines.append(f"  {person.name}/{attempt.trial} does not count: {attempt.excluded}, by {attempt.excluded_by}.")
+            elif not attempt.ended:
+                lines.append(f"  {attempt.step} is running, or was broken off; \"study next\" goes on.")
+        if missing := progress.missing(person):
+            lines.append(f"  without a trial that counts: {', '.join(step.name for step in missing)}.")
+    complete = sum(progress.complete(person) for person in progress.people.values())
+    begun = sum(person.begun for person in progress.people.values())
+    frozen = f"frozen {_count(len(progress.freezes), 'time')}" if progress.freezes else "not frozen"
+    lines.append(f"{plan.study}: {begun} of {len(plan.participants)} have begun, {complete} have completed; the plan is {frozen}.")
+    return lines
+
+
+def _count(number, noun):
+    return f"{number} {noun}{'' if number == 1 else 's'}"

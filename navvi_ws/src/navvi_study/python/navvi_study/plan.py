@@ -1,0 +1,171 @@
+"""What a study plans, as values."""
+import hashlib
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from .errors import StudyError
+
+# What a condition switches, and the parameters of feedback_node that do it. Words for safety are never off.
+SWITCHES = {
+    "touch": ["feedback/haptics/enabled"],
+    "speech": ["feedback/cues/wording/way", "feedback/cues/wording/near"],
+    "sounds": ["feedback/sounds/enabled"],
+}
+WORLD_FILES = (".yaml", ".sdf", ".world")
+# Given by the study itself to each session.
+OWN = {"feedback/locked", "trial/locked", "feedback/sounds/turn/learn", "feedback/sounds/turn/stopping_delay"}
+
+
+@dataclass(frozen=True)
+class World:
+    """What ./navvi run draws from a name, or a file, and a seed."""
+    world: str
+    seed: int
+
+    def __str__(self):
+        return f"{self.world} {self.seed}"
+
+
+@dataclass(frozen=True)
+class Condition:
+    name: str
+    profile: str
+    touch: bool
+    speech: bool
+    sounds: bool
+    picture: bool
+    parameters: tuple  # of (PART/NAME, value as text)
+
+    def arguments(self):
+        """Of ./navvi run."""
+        words = {"profile": self.profile, "rviz": shown(self.picture)}
+        for switch, names in SWITCHES.items():
+            words.update({name: shown(getattr(self, switch)) for name in names})
+        words.update(self.parameters)
+        return words
+
+
+@dataclass(frozen=True)
+class Group:
+    name: str
+    participants: tuple
+    conditions: tuple
+
+
+@dataclass(frozen=True)
+class Practice:
+    """Trials before what counts, until as many in a row as wanted meet the criterion, or `most` were driven."""
+    before: str = "study"  # study, session or condition
+    worlds: tuple = ()
+    in_a_row: int = 1
+    collisions: int = 0  # at most
+    most: int = 5
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Between conditions."""
+    after: int = 1  # conditions
+    minutes: float = 5.0
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A trial whose column is so does not count."""
+    column: str
+    reason: str
+    one_of: tuple = ()
+    above: float = None
+
+    def meets(self, row):
+        cell = row.get(self.column, "n/a")
+        if self.one_of:
+            return cell in self.one_of
+        try:
+            return float(cell) > self.above
+        except ValueError:
+            return False
+
+
+@dataclass(frozen=True)
+class Question:
+    """A measure compared between two conditions."""
+    measure: str
+    first: str
+    second: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    file: str
+    study: str
+    title: str
+    operator: str
+    learning: str
+    limit: float  # s a trial
+    sessions: int
+    order: str
+    groups: tuple
+    conditions: tuple
+    sets: tuple  # of tuples of worlds
+    reserve: tuple
+    practice: Practice
+    pause: Pause
+    calibrate: bool
+    consent: object  # a Questionnaire or None
+    after_condition: tuple  # of Questionnaires
+    at_end: tuple
+    primary: Question
+    secondary: tuple
+    exclusions: tuple
+    stop_after: int  # participants who have completed; 0: all
+    minutes: dict = field(default_factory=dict, compare=False)
+
+    def condition(self, name):
+        return next(condition for condition in self.conditions if condition.name == name)
+
+    def group_of(self, participant):
+        for group in self.groups:
+            if participant in group.participants:
+                return group
+        known = ", ".join(name for group in self.groups for name in group.participants)
+        raise StudyError(f"{self.file}: \"{participant}\" is not planned; planned are: {known}.")
+
+    @property
+    def folder(self):
+        """Where all of the study is kept: beside the plan, under its name."""
+        return Path(self.file).absolute().parent / self.study
+
+    @property
+    def participants(self):
+        return [name for group in self.groups for name in group.participants]
+
+    def world_file(self, world):
+        """The file of a world that is no name; None for a name."""
+        return Path(self.file).absolute().parent / world.world if world.world.endswith(WORLD_FILES) else None
+
+    def values(self):
+        """All that is planned, as JSON values; what a freeze keeps. Where the files are is no part of it, what is in them is."""
+        values = _without_places(json.loads(json.dumps(asdict(self))))
+        worlds = [world for worlds in (*self.sets, self.reserve, self.practice.worlds if self.practice else ()) for world in worlds]
+        files = {world.world: self.world_file(world) for world in worlds if self.world_file(world)}
+        return dict(values, world_files={name: hashlib.sha256(file.read_bytes()).hexdigest() for name, file in files.items()})
+
+    def hash(self):
+        return hashlib.sha256(json.dumps(self.values(), sort_keys=True).encode()).hexdigest()
+
+
+def _without_places(value):
+    if isinstance(value, dict):
+        return {key: _without_places(below) for key, below in value.items() if key != "file"}
+    return [_without_places(below) for below in value] if isinstance(value, list) else value
+
+
+def shown(value):
+    """As an argument of ./navvi run."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return "[" + ", ".join(shown(entry) for entry in value) + "]"
+    return str(value)

@@ -1,0 +1,182 @@
+"""Reads a plan from its YAML file, and finds everything that is wrong with the file alone."""
+from pathlib import Path
+
+from . import checked, measures, questionnaire
+from .checked import code, flag, list_of, number, numbered, one_of, text, whole
+from .errors import StudyError
+from .plan import OWN, SWITCHES, WORLD_FILES, Condition, Group, Pause, Plan, Practice, Question, Rule, World, shown
+
+
+def load(path):
+    """The plan in the file. Raises StudyError."""
+    root = checked.load(path)
+    folder = Path(path).absolute().parent
+    conditions = tuple(_condition(name, part) for name, part in root.sections("conditions"))
+    if len(conditions) < 1:
+        raise StudyError(f"{path}: the key \"conditions\" is missing or empty.")
+    worlds = root.section("worlds", required=True)
+    sets = tuple(tuple(_worlds(part, folder)) for _, part in worlds.sections("sets"))
+    reserve = tuple(_worlds(worlds.section("reserve", required=True), folder))
+    worlds.done()
+    questions = root.section("questionnaires")
+    outcomes = root.section("outcomes", required=True)
+    stop = root.section("stop")
+    plan = Plan(
+        file=str(path), study=root.take("study", code), title=root.take("title", text),
+        operator=root.take("operator", one_of("auto", "pad", "keyboard", "simulated"), "auto"),
+        learning=root.take("learning", one_of("reset", "frozen", "kept"), "reset"),
+        limit=root.take("limit", number(1, 86400)), sessions=root.take("sessions", whole(1, 20), 1),
+        order=root.take("order", one_of("williams", "listed"), "williams"),
+        groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
+        conditions=conditions, sets=sets, reserve=reserve,
+        practice=_practice(root.section("practice"), folder), pause=_pause(root.section("break")),
+        calibrate=root.take("calibrate", flag, False),
+        consent=questionnaire.find(root.take("consent", text), folder) if "consent" in root else None,
+        after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
+        primary=_question(outcomes.section("primary", required=True), conditions),
+        secondary=tuple(_question(part, conditions) for part in outcomes.items("secondary", [])),
+        exclusions=tuple(_rule(part) for part in root.items("exclusions", [])),
+        stop_after=stop.take("completed", whole(1, 10000), 0),
+        minutes=_minutes(root.section("minutes")))
+    for part in (questions, outcomes, stop, root):
+        part.done()
+    _check(root, plan)
+    return plan
+
+
+def _condition(name, part):
+    name = _name(part, name)
+    switches = {switch: part.take(switch, flag, True) for switch in (*SWITCHES, "picture")}
+    profile = part.take("profile", one_of("default", "paper"), "default")
+    parameters = []
+    below = part.section("parameters")
+    for key in below.values:
+        value = below.take(key, checked.anything)
+        if "/" not in key or isinstance(value, dict):
+            raise below.error(key, "is no parameter of a node; allowed are those of ./navvi parameters, such as feedback/haptics/strength: 0.5")
+        taken = {name for switch, names in SWITCHES.items() for name in names}
+        if key in taken | OWN:
+            raise below.error(key, "is set by the study itself; allowed here are the switches " + ", ".join(SWITCHES) + ", and other parameters")
+        parameters.append((key, shown(value)))
+    part.done()
+    return Condition(name=name, profile=profile, parameters=tuple(parameters), **switches)
+
+
+def _group(name, part, conditions):
+    name = _name(part, name)
+    names = [condition.name for condition in conditions]
+    group = Group(name, tuple(part.take("participants", numbered(code))), tuple(part.take("conditions", list_of(one_of(*names)), names)))
+    if len(set(group.conditions)) < len(group.conditions):
+        raise part.error("conditions", "has a condition twice; once is allowed")
+    part.done()
+    return group
+
+
+def _worlds(part, folder):
+    """`{world: NAME, seeds: [...]}`; a file is looked for beside the plan."""
+    world = part.take("world", text)
+    if world.endswith(WORLD_FILES) and not (folder / world).is_file():
+        raise part.error("world", f"is \"{world}\", and {folder / world} is no file; allowed are files beside the plan, and names of ./navvi world list")
+    worlds = [World(world, seed) for seed in part.take("seeds", numbered(whole(0, 2**31 - 1)))]
+    part.done()
+    return worlds
+
+
+def _practice(part, folder):
+    if not part.values:
+        return None
+    practice = Practice(
+        before=part.take("before", one_of("study", "session", "condition"), "study"), in_a_row=part.take("in_a_row", whole(1, 20), 1),
+        collisions=part.take("collisions_at_most", whole(0, 1000), 0), most=part.take("most", whole(1, 50), 5),
+        worlds=tuple(_worlds(part.section("worlds", required=True), folder)))
+    part.done()
+    if practice.in_a_row > practice.most:
+        raise part.error("in_a_row", f"is more than \"most\", which is {practice.most}; allowed is no more than that")
+    return practice
+
+
+def _pause(part):
+    if not part.values:
+        return None
+    pause = Pause(part.take("after", whole(1, 20), 1), part.take("minutes", number(0, 600)))
+    part.done()
+    return pause
+
+
+def _rule(part):
+    allowed = part.take("is", list_of(text), None)
+    above = part.take("above", number(-1e9, 1e9), None)
+    if (allowed is None) == (above is None):
+        raise StudyError(f"{part.file}: \"{part.path}\" needs one of the keys \"is\" and \"above\".")
+    rule = Rule(part.take("column", text), part.take("reason", text), tuple(allowed or ()), above)
+    part.done()
+    return rule
+
+
+def _question(part, conditions):
+    names = [condition.name for condition in conditions]
+    measure = part.take("measure", one_of(*measures.MEASURES))
+    pair = part.take("conditions", list_of(one_of(*names)))
+    if len(pair) != 2 or pair[0] == pair[1]:
+        raise part.error("conditions", f"has {len(pair)} entries or one twice; allowed are two conditions")
+    part.done()
+    return Question(measure, *pair)
+
+
+def _questionnaires(folder, part, key):
+    return tuple(questionnaire.find(name, folder) for name in part.take(key, list_of(text), []))
+
+
+def _minutes(part):
+    """What a session's parts take, for the schedule."""
+    given = {"trial": None, "practice": None, "questionnaire": 3.0, "consent": 5.0, "calibrate": 6.0, "between": 1.0}
+    minutes = {name: part.take(name, number(0, 600), usual) for name, usual in given.items()}
+    part.done()
+    return minutes
+
+
+def _name(part, name):
+    try:
+        return code(name)
+    except ValueError as allowed:
+        raise StudyError(f"{part.file}: \"{part.path}\" is named \"{name}\"; allowed is {allowed}.") from None
+
+
+def _check(root, plan):
+    """What is wrong between parts of the plan."""
+    twice = _first_twice(plan.participants)
+    if not plan.groups:
+        raise StudyError(f"{plan.file}: the key \"groups\" is missing or empty.")
+    if twice:
+        raise root.error("groups", f"plans {twice} twice; once is allowed")
+    sizes = {len(worlds) for worlds in plan.sets}
+    if len(sizes) != 1:
+        raise root.error("worlds", "has sets of different sizes, or none; allowed are sets with the same number of worlds")
+    met = [world for worlds in plan.sets for world in worlds] + list(plan.reserve) + list(plan.practice.worlds if plan.practice else ())
+    if twice := _first_twice(met):
+        raise root.error("worlds", f"has {twice} twice, and nobody may meet a world twice; allowed are other seeds")
+    for group in plan.groups:
+        if len(group.conditions) > len(plan.sets):
+            raise root.error("worlds", f"has {len(plan.sets)} sets, and group {group.name} has {len(group.conditions)} conditions; allowed are as many sets or more")
+        if plan.sessions > len(group.conditions):
+            raise root.error("sessions", f"is {plan.sessions}, and group {group.name} has {len(group.conditions)} conditions; allowed is a condition a session or more")
+        seen = {}
+        for name in group.conditions:
+            same = seen.setdefault(tuple(sorted(plan.condition(name).arguments().items())), name)
+            if same != name:
+                raise root.error("conditions", f"has {same} and {name}, which are alike; allowed are conditions that differ")
+    for question in (plan.primary, *plan.secondary):
+        if not any({question.first, question.second} <= set(group.conditions) for group in plan.groups):
+            raise root.error("outcomes", f"compares {question.first} and {question.second}, which no group has both; allowed are two conditions of a group")
+        asked = measures.MEASURES[question.measure].questionnaire
+        if asked and asked not in [one.name for one in (*plan.after_condition, *plan.at_end)]:
+            raise root.error("outcomes", f"has the measure {question.measure}, and the plan does not ask {asked}; allowed is a questionnaire of the plan")
+
+
+def _first_twice(entries):
+    seen = set()
+    for entry in entries:
+        if entry in seen:
+            return entry
+        seen.add(entry)
+    return None

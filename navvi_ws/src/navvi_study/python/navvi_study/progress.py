@@ -1,0 +1,165 @@
+"""How far the study is: a pure function of plan and journal."""
+from dataclasses import dataclass, field
+
+from .errors import StudyError
+from .schedule import steps_of
+
+
+@dataclass
+class Attempt:
+    """One start of ./navvi run for a step."""
+    step: str
+    number: int  # from 1
+    world: str
+    seed: int
+    begun_utc: str
+    begun_ns: int
+    ended_ns: int = None
+    trial: str = ""  # its folder's name; empty where no trial began
+    result: str = ""  # empty until it has ended
+    collisions: float = None
+    replaces: str = ""  # the trial that did not count
+    excluded: str = ""  # why
+    excluded_by: str = ""
+    replaced: bool = True  # another attempt takes its place
+
+    @property
+    def ended(self):
+        return self.ended_ns is not None
+
+    @property
+    def counts(self):
+        return self.ended and bool(self.trial) and not self.excluded
+
+
+@dataclass
+class Participant:
+    """What one participant has done."""
+    name: str
+    steps: list
+    attempts: list = field(default_factory=list)
+    done: dict = field(default_factory=dict)  # row of the journal by step
+    excluded: str = ""
+    withdrawn: str = ""  # keep or delete
+    erased: bool = False
+
+    def of(self, step):
+        return [attempt for attempt in self.attempts if attempt.step == step.name]
+
+    @property
+    def open(self):
+        """The attempt that has not ended."""
+        return next((attempt for attempt in self.attempts if not attempt.ended), None)
+
+    @property
+    def begun(self):
+        return bool(self.attempts or self.done)
+
+    @property
+    def refused(self):
+        """Consent was not given in the last session that asked for it."""
+        asked = [row for step in self.steps if step.kind == "consent" and (row := self.done.get(step.name))]
+        return bool(asked) and asked[-1].get("given") is False
+
+
+class Progress:
+    def __init__(self, plan, rows):
+        self.plan = plan
+        self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
+        self.freezes = [row for row in rows if row["type"] == "freeze"]
+        for row in rows:
+            if row["type"] != "freeze":
+                getattr(self, "_" + row["type"])(row)
+
+    def person(self, name):
+        self.plan.group_of(name)  # a sentence where the plan lacks it
+        return self.people[name]
+
+    def next(self, person):
+        """The step that comes next; None where nothing is left, or nothing may be done."""
+        if person.withdrawn or person.excluded or person.refused:
+            return None
+        return next((step for step in person.steps if not self.finished(person, step)), None)
+
+    def finished(self, person, step):
+        if step.kind == "practice":
+            return step.name in person.done
+        if step.kind != "trial":
+            return step.name in person.done
+        attempts = person.of(step)
+        if any(attempt.counts for attempt in attempts):
+            return True
+        if attempts and attempts[-1].excluded and not attempts[-1].replaced:
+            return True
+        return bool(attempts) and self.world_for(person, step) is None
+
+    def complete(self, person):
+        return not person.withdrawn and not person.excluded and all(self.finished(person, step) for step in person.steps)
+
+    def missing(self, person):
+        """Trials that no world is left for, or that nothing shall replace."""
+        return [step for step in person.steps
+                if step.kind == "trial" and self.finished(person, step) and not any(attempt.counts for attempt in person.of(step))]
+
+    def world_for(self, person, step):
+        """What the next attempt drives in: the planned world, unless it was met and the trial does not count; then one of the reserve."""
+        before = person.of(step)
+        if step.kind == "practice":
+            driven = sum(1 for attempt in person.attempts if attempt.trial and self._kind(person, attempt) == "practice")
+            return self.plan.practice.worlds[driven % len(self.plan.practice.worlds)]
+        if before and not before[-1].trial:  # none began: nobody has met it
+            return next(world for world in (step.world, *self.plan.reserve) if (world.world, world.seed) == (before[-1].world, before[-1].seed))
+        met = {(attempt.world, attempt.seed) for attempt in person.attempts}
+        return next((world for world in (step.world, *self.plan.reserve) if (world.world, world.seed) not in met), None)
+
+    def mastered(self, person, step):
+        """Whether the practice is over: True by its criterion, False where all tries are used up, None while it goes on."""
+        wanted = self.plan.practice
+        tries = [attempt for attempt in person.of(step) if attempt.trial]
+        good = [attempt.result == "reached" and attempt.collisions is not None and attempt.collisions <= wanted.collisions for attempt in tries]
+        if len(good) >= wanted.in_a_row and all(good[-wanted.in_a_row:]):
+            return True
+        return False if len(tries) >= wanted.most else None
+
+    def find(self, trial):
+        """Person and attempt of a trial, by its folder's name, or PARTICIPANT/NAME."""
+        owner, _, name = trial.rstrip("/").rpartition("/")
+        owner = owner.rpartition("/")[2]
+        found = [(person, attempt) for person in self.people.values() for attempt in person.attempts
+                 if attempt.trial and attempt.trial.rpartition("/")[2] == name and owner in ("", person.name, attempt.trial.rpartition("/")[0])]
+        if len(found) != 1:
+            raise StudyError(f"\"{trial}\" names {len(found)} trials of this study; allowed is a trial's name from \"study status\", such as sub-01/trial-20260101T120000Z.")
+        return found[0]
+
+    @staticmethod
+    def _kind(person, attempt):
+        return next(step.kind for step in person.steps if step.name == attempt.step)
+
+    def _attempt(self, row):
+        return next(attempt for attempt in self.people[row["participant"]].attempts
+                    if (attempt.step, attempt.number) == (row["step"], row["attempt"]))
+
+    def _begin(self, row):
+        self.people[row["participant"]].attempts.append(Attempt(
+            row["step"], row["attempt"], row["world"], row["seed"], row["utc"], row["mono_ns"], replaces=row["replaces"]))
+
+    def _end(self, row):
+        attempt = self._attempt(row)
+        attempt.ended_ns, attempt.trial, attempt.result, attempt.collisions = row["mono_ns"], row["trial"], row["result"], row["collisions"]
+
+    def _done(self, row):
+        self.people[row["participant"]].done[row["step"]] = row
+
+    def _exclude(self, row):
+        person = self.people[row["participant"]]
+        if "step" not in row:
+            person.excluded = row["reason"]
+            return
+        attempt = self._attempt(row)
+        attempt.excluded, attempt.excluded_by, attempt.replaced = row["reason"], row["rule"] and "rule" or row["by"], row["replace"]
+
+    def _withdraw(self, row):
+        self.people[row["participant"]].withdrawn = row["data"]
+
+    def _erased(self, row):
+        self.people[row["participant"]].erased = True

@@ -1,0 +1,233 @@
+"""How a trial is driven and a questionnaire asked: live by ./navvi, or without ROS by simulated people."""
+import csv
+import hashlib
+import os
+import random
+import select
+import signal
+import subprocess
+import sys
+import time
+
+from . import questionnaire
+from .errors import StudyError
+from .journal import utc_now
+from .plan import shown
+from .study import write_safely
+
+DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; a: end the trial now."
+
+
+class LiveRunner:
+    """By ./navvi, with the experimenter's lines from this terminal."""
+
+    def __init__(self, study, navvi, close_trials, typed=False):
+        self.study, self.navvi, self.close_trials, self.typed = study, str(navvi), str(close_trials), typed
+
+    def trial(self, participant, step, attempt, folder, lock):
+        """Returns when the session has ended, in whatever way."""
+        words = [f"{name}:={value}" for name, value in self.arguments(participant, step, attempt, folder).items()]
+        print("navvi: " + DESK)
+        self._run(["run", *words], participant, lock, lambda row: self.study.note(participant, attempt, row))
+
+    def arguments(self, participant, step, attempt, folder):
+        """Of ./navvi run."""
+        plan, group = self.study.plan, self.study.plan.group_of(participant)
+        simulated = plan.operator == "simulated"
+        words = {**plan.condition(step.condition).arguments(), "operator": plan.operator, "participant": participant, "person": participant,
+                 "world": str(plan.world_file(attempt) or attempt.world), "seed": attempt.seed, "limit": f"{plan.limit:g}", "once": "true",
+                 "out": folder, "feedback/locked": "true", "trial/locked": "true", **self._learnt(participant, attempt)}
+        if simulated:
+            words.update(rviz="false", **person_of(participant))
+        else:
+            words["speech"] = "true"
+        about = {"name": plan.study, "plan": plan.hash()[:12], "group": group.name, "condition": step.condition, "order": step.order,
+                 "session": step.session, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number, "replaces": attempt.replaces or "none"}
+        words.update({f"trial/study/{name}": value for name, value in about.items()})
+        return words
+
+    def _learnt(self, participant, attempt):
+        plan = self.study.plan
+        if plan.learning == "frozen":
+            return {"feedback/sounds/turn/learn": "false"}
+        if plan.learning == "reset":
+            return {}
+        before = [self.study.summary(participant, other).get("stopping_delay_s", "n/a")
+                  for other in self.study.progress().person(participant).attempts if other.trial]
+        known = [delay for delay in before if delay != "n/a"]
+        return {"feedback/sounds/turn/stopping_delay": known[-1]} if known else {}
+
+    def ask(self, participant, step, items, answered, lock):
+        """Asks the items. answered(ITEM, ANSWER) keeps each at once."""
+        if self.typed:
+            ask_in_terminal(step.asks, items, answered)
+        elif self.study.plan.operator == "simulated":
+            simulate_answers(participant, step, items, answered)
+        else:
+            self._ask_by_voice(participant, step, items, answered, lock)
+
+    def _ask_by_voice(self, participant, step, items, answered, lock):
+        script = self.study.home(participant) / f"{step.name}.yaml"
+        record = script.with_suffix(".csv")
+        write_safely(script, questionnaire.script(items, step.asks.title, step.asks.intro))
+        self._run(["questionnaire", f"feedback/questions:={script}", f"feedback/record:={record}", f"person:={participant}",
+                   f"operator:={self.study.plan.operator}"], participant, lock)
+        keep_answers(record, items, answered)
+
+    def calibrate(self, participant, lock):
+        if self.study.plan.operator != "simulated":
+            self._run(["calibrate", f"person:={participant}"], participant, lock)
+
+    def close(self, folder):
+        """Puts the trials of a session in order that was killed."""
+        if folder.exists():
+            subprocess.run([self.close_trials, str(folder)], check=False)
+
+    def _run(self, words, participant, lock, note=None):
+        env = dict(os.environ, NAVVI_PEOPLE=str(self.study.home(participant) / "settings"))
+        # A group of its own: Ctrl-C goes to all of the session, and what it leaves is recorded here.
+        process = subprocess.Popen([self.navvi, *map(str, words)], env=env, stdin=subprocess.DEVNULL, pass_fds=(lock,), process_group=0)
+        before = signal.signal(signal.SIGINT, lambda *_: os.killpg(process.pid, signal.SIGINT))
+        try:
+            desk = Desk(process, note)
+            while process.poll() is None:
+                desk.listen(0.2)
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+
+class Desk:
+    """The experimenter's lines while a session runs."""
+
+    def __init__(self, process, note):
+        self.process, self.note, self.open = process, note, note is not None
+
+    def listen(self, seconds):
+        if not self.open:
+            time.sleep(seconds)
+            return
+        if not select.select([sys.stdin], [], [], seconds)[0]:
+            return
+        line = sys.stdin.readline()
+        self.open = bool(line)
+        self.obey(line.strip())
+
+    def obey(self, line):
+        key, _, words = line.partition(" ")
+        kinds = {"m": "mark", "n": "note", "i": "intervention", "a": "abort"}
+        if not line:
+            return
+        if key not in kinds or (key in "n" and not words):
+            print("navvi: " + DESK)
+            return
+        self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
+        print(f"navvi: {kinds[key]} written.")
+        if key == "a":
+            os.killpg(self.process.pid, signal.SIGINT)
+
+
+class LoopRunner:
+    """Simulated people without ROS, many times faster than life. It proves the pipeline, nothing about people."""
+
+    def __init__(self, study, trials_bench):
+        self.study, self.program = study, str(trials_bench)
+
+    def trial(self, participant, step, attempt, folder, lock):
+        plan = self.study.plan
+        words = plan.condition(step.condition).arguments()
+        command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={plan.limit:.0f}",
+                   f"--profile={words.pop('profile')}", "--csv"]
+        words.pop("rviz")
+        words.update(person_of(participant))
+        parts = ("sim/", "nav/", "feedback/", "operator/", "perception/")
+        command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]
+        result = subprocess.run(command, capture_output=True, text=True, check=False, pass_fds=(lock,))
+        rows = list(csv.DictReader(result.stdout.splitlines()))
+        if result.returncode != 0 or len(rows) != 1:
+            raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
+        self._write(folder / "trial-rehearsed", rows[0], participant, plan)
+
+    @staticmethod
+    def _write(folder, row, participant, plan):
+        """The columns of a trial's summary that the loop knows."""
+        hits = row["hits"].split()
+        counts = dict(zip(hits[::2], map(int, hits[1::2]))) if row["hits"] != "-" else {}
+        shelves = counts.pop("shelf", 0)
+        reached = row["result"] == "reached"
+        summary = {"trial": folder.name, "world": row["world"], "seed": row["seed"], "operator": "simulated", "participant": participant,
+                   "started_utc": utc_now(), "result": row["result"], "reason": "n/a", "elapsed_s": row["time"] if reached else f"{plan.limit:g}",
+                   "shelf_collision_count": shelves, "obstacle_collision_count": sum(counts.values()), "path_length_m": row["driven"],
+                   "first_path_length_m": row["shortest"], "reroute_count": row["reroutes"], "missed_messages": 0}
+        folder.mkdir(parents=True, exist_ok=True)
+        with open(folder / "summary.csv", "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, summary)
+            writer.writeheader()
+            writer.writerow(summary)
+
+    def ask(self, participant, step, items, answered, lock):
+        simulate_answers(participant, step, items, answered)
+
+    def calibrate(self, participant, lock):
+        pass
+
+    def close(self, folder):
+        pass
+
+
+def keep_answers(record, items, answered):
+    """What the lesson has written."""
+    answers = {row["item"]: row["answer"] for row in questionnaire.read_answers(record)}
+    for item in items:
+        if item.name in answers:
+            answered(item, answers[item.name])
+
+
+def ask_in_terminal(asks, items, answered):
+    """The experimenter reads aloud and types. An answer counts once the next one is typed, or the last is confirmed; b corrects it."""
+    print(f"navvi: {asks.title}. {asks.intro}. For each, type the answer, r to read it again, b for the one before, d for rather not say.")
+    given, at = {}, 0
+    while at < len(items):
+        item = items[at]
+        print(f"{item.ask}? Allowed: {allowed_words(item)}" + (f"; now {given[item.name]}" if item.name in given else ""))
+        line = sys.stdin.readline()
+        if not line:
+            return
+        word = line.strip()
+        if word == "b":
+            at = max(0, at - 1)
+        elif word == "d" or word in item.values():
+            given[item.name] = questionnaire.DECLINED if word == "d" else word
+            at += 1
+        elif word != "r":
+            print(f"navvi: \"{word}\" is not allowed here.")
+    for item in items:
+        answered(item, given[item.name])
+
+
+def allowed_words(item):
+    if item.choices:
+        return ", ".join(item.choices)
+    step = "" if item.step == 1 else f" in steps of {item.step:g}"
+    return f"{item.low:g}, {item.least}, to {item.high:g}, {item.most}{step}"
+
+
+def drawn(*words):
+    """A source of numbers of its own for these words, the same on every machine."""
+    return random.Random(hashlib.sha256("/".join(map(str, words)).encode()).hexdigest())
+
+
+def simulate_answers(participant, step, items, answered):
+    """Drawn, whatever was driven: they fill the tables, and mean nothing."""
+    for item in items:
+        source = drawn(participant, step.name, item.name)
+        answered(item, item.required or (questionnaire.DECLINED if source.random() < 0.02 else source.choice(item.values())))
+
+
+def person_of(participant):
+    """A simulated person: traits drawn from the code, within what is assumed of people."""
+    source = drawn(participant)
+    least = source.uniform(0.3, 0.8)
+    sound = source.uniform(0.2, 0.5)
+    traits = {"min_reaction": least, "max_reaction": least + 0.6, "min_sound_reaction": sound, "max_sound_reaction": sound + 0.3,
+              "gain_error": source.uniform(0.05, 0.2), "cruise": source.uniform(0.6, 0.95), "missed_sounds": source.uniform(0.0, 0.1)}
+    return {f"operator/{name}": shown(round(value, 3)) for name, value in traits.items()}

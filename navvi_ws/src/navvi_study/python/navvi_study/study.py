@@ -1,0 +1,154 @@
+"""A study on the disk: its plan, its journal, and the folders of its participants."""
+import contextlib
+import csv
+import fcntl
+import json
+import os
+import shutil
+from pathlib import Path
+
+from . import plan_file
+from .errors import StudyError
+from .journal import Journal, append_line, read_lines, sync_folder, utc_now
+from .progress import Progress
+
+
+class Study:
+    def __init__(self, plan, folder=None):
+        self.plan = plan
+        self.folder = Path(folder or plan.folder)
+        self.journal = Journal(self.folder / "journal.jsonl")
+        self.finish_erasing()
+
+    @classmethod
+    def of(cls, file):
+        return cls(plan_file.load(file))
+
+    def progress(self):
+        return Progress(self.plan, self.journal.rows() if self.journal.path.exists() else [])
+
+    def home(self, participant):
+        """All that is kept of a participant, besides the journal's rows with the code alone."""
+        return self.folder / participant
+
+    # What was planned when the study began.
+
+    @property
+    def frozen_file(self):
+        return self.folder / "frozen.json"
+
+    def frozen(self):
+        """The values that were frozen last; None before."""
+        freezes = self.progress().freezes
+        if not freezes:
+            return None
+        for path in sorted(self.folder.glob("frozen*.json")):
+            values = json.loads(path.read_text(encoding="utf-8"))
+            if values["hash"] == freezes[-1]["plan"]:
+                return values["plan"]
+        raise StudyError(f"{self.folder} lacks the file of the frozen plan; restore it from a copy.")
+
+    def freeze(self, version, reason):
+        """Returns what has changed since the last time, a sentence each; None where nothing was frozen before."""
+        before = self.frozen()
+        changes = None if before is None else differences(before, self.plan.values())
+        if changes == []:
+            raise StudyError("nothing has changed since the plan was frozen.")
+        if changes and not reason:
+            raise StudyError("the plan was frozen before; a change needs --reason. It is:\n  " + "\n  ".join(changes))
+        number = len(self.progress().freezes) + 1
+        file = self.folder / ("frozen.json" if number == 1 else f"frozen-{number}.json")
+        write_safely(file, json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1, sort_keys=True) + "\n")
+        self.journal.append("freeze", plan=self.plan.hash(), version=version, reason=reason or "", changes=changes or [])
+        return changes
+
+    def require_frozen(self):
+        before = self.frozen()
+        if before is None:
+            raise StudyError(f"the plan is not frozen; \"./navvi study freeze {self.plan.file}\" does it, once \"study check\" shows what you want.")
+        if changes := differences(before, self.plan.values()):
+            raise StudyError("the plan has changed since it was frozen; undo that, or freeze it again with --reason. Changed:\n  " + "\n  ".join(changes))
+
+    # One participant's own.
+
+    @contextlib.contextmanager
+    def claimed(self, participant):
+        """Nobody else goes on with the participant meanwhile. The session inherits the lock: one that outlives this program keeps it."""
+        self.home(participant).mkdir(parents=True, exist_ok=True)
+        lock = os.open(self.folder / f".{participant}.lock", os.O_RDWR | os.O_CREAT, 0o600)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(lock)
+            raise StudyError(f"something of {participant} is running still; wait for its end, or end it.") from None
+        try:
+            yield lock
+        finally:
+            os.close(lock)
+
+    def add_answer(self, participant, step, item, answer):
+        append_line(self.home(participant) / "answers.jsonl", {
+            "step": step.name, "condition": step.condition, "order": step.order, "session": step.session, "questionnaire": step.asks.name,
+            "item": item.name, "answer": answer, "utc": utc_now()})
+
+    def answers_of(self, participant, step):
+        """By item's name."""
+        return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
+
+    def answers(self, participant):
+        return read_lines(self.home(participant) / "answers.jsonl")
+
+    def note(self, participant, attempt, row):
+        append_line(self.home(participant) / "notes.jsonl", {"step": attempt.step, "attempt": attempt.number, **row})
+
+    def notes(self, participant):
+        return read_lines(self.home(participant) / "notes.jsonl")
+
+    def attempt_folder(self, participant, step, number):
+        return self.home(participant) / f"{step}-a{number}"
+
+    def summary(self, participant, attempt):
+        """The summary of an attempt's trial; empty where none was written."""
+        if not attempt.trial:
+            return {}
+        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / attempt.trial)
+
+    def finish_erasing(self):
+        """What was to be deleted is deleted, also after a crash amid that."""
+        for person in self.progress().people.values():
+            if person.withdrawn == "delete" and not person.erased:
+                shutil.rmtree(self.home(person.name), ignore_errors=True)
+                if self.home(person.name).exists():
+                    raise StudyError(f"{self.home(person.name)} cannot be deleted, and the withdrawal asks for it; delete it.")
+                self.journal.append("erased", participant=person.name)
+
+
+def read_summary(folder):
+    try:
+        with open(folder / "summary.csv", newline="", encoding="utf-8") as file:
+            return next(csv.DictReader(file), {})
+    except OSError:
+        return {}
+
+
+def write_safely(path, content):
+    """The old file or the new one, as a whole."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    aside = path.with_name(path.name + ".new")
+    with open(aside, "w", encoding="utf-8", newline="") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(aside, path)
+    sync_folder(path.parent)
+
+
+def differences(before, now, path=""):
+    """A sentence for each value that differs."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        lists = [differences(before.get(key), now.get(key), f"{path}/{key}" if path else key) for key in sorted({*before, *now})]
+        return [sentence for sentences in lists for sentence in sentences]
+    if isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
+        lists = [differences(one, other, f"{path}[{at}]") for at, (one, other) in enumerate(zip(before, now))]
+        return [sentence for sentences in lists for sentence in sentences]
+    return [] if before == now else [f"{path}: {json.dumps(before)} is now {json.dumps(now)}"]

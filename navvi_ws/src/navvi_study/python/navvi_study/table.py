@@ -1,0 +1,102 @@
+"""The study as tables: trials.csv with a row an attempt, answers.csv with a row an answer, and a JSON file that describes each column."""
+import csv
+import io
+import json
+
+from .study import write_safely
+
+# Set by the study; the others are those of each trial's summary.csv.
+COLUMNS = {
+    "participant": "code of the plan", "group": "of the participant", "session": "from 1", "order": "place of the condition, from 1; 0 in practice before all",
+    "condition": "see the plan", "phase": "practice or trial", "repeat": "of the trial in its condition, from 1; 0 in practice",
+    "attempt": "from 1; more where a trial was replaced", "counts": "yes, or no where the trial is excluded or is practice",
+    "excluded": "the reason, or n/a", "excluded_by": "rule, or the user who excluded it", "replaces": "the trial in whose place it stands",
+    "marks": "marks and notes of the experimenter", "interventions": "of the experimenter",
+}
+NOT_OURS = {"participant", "study", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
+UNITS = {"_s": "s", "_m": "m", "_ms": "ms"}
+DESCRIBED = {
+    "trial": "name of its folder", "world": "name or file", "world_hash": "of the world that was built", "seed": "draws the world, start and goal",
+    "result": "reached, timeout, refused, aborted or invalid", "reason": "of the result", "elapsed_s": "simulated time from start to goal, or to the end",
+    "shelf_collision_count": "collisions with shelves", "obstacle_collision_count": "collisions with everything else",
+    "path_length_m": "way driven", "first_path_length_m": "of the first path", "started_utc": "ISO 8601", "bag": "ok, bad or none",
+}
+
+
+def trials(study, progress):
+    """Rows by column name; every attempt in which a trial began, of those who have not withdrawn their data."""
+    rows = []
+    for person in progress.people.values():
+        steps = {step.name: step for step in person.steps}
+        notes = study.notes(person.name)
+        for attempt in person.attempts:
+            if not attempt.trial or person.withdrawn == "delete":
+                continue
+            step = steps[attempt.step]
+            summary = study.summary(person.name, attempt)
+            mine = [note for note in notes if (note["step"], note["attempt"]) == (attempt.step, attempt.number)]
+            row = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
+                   "condition": step.condition, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number,
+                   "counts": "yes" if step.kind == "trial" and attempt.counts and not person.excluded else "no",
+                   "excluded": person.excluded or attempt.excluded or "n/a", "excluded_by": attempt.excluded_by or "n/a",
+                   "replaces": attempt.replaces or "n/a", "marks": len([note for note in mine if note["type"] in ("mark", "note")]),
+                   "interventions": len([note for note in mine if note["type"] == "intervention"])}
+            row.update({name: cell for name, cell in summary.items() if name not in NOT_OURS})
+            rows.append({name: str(cell) for name, cell in row.items()})
+    return rows
+
+
+def answers(study, progress):
+    rows = []
+    for person in progress.people.values():
+        if person.withdrawn == "delete":
+            continue
+        for row in study.answers(person.name):
+            rows.append({"participant": person.name, "group": progress.plan.group_of(person.name).name, **{name: str(cell) for name, cell in row.items()}})
+    return rows
+
+
+def scores(study, progress):
+    """Of each questionnaire that was answered as a whole: rows with participant, condition, order, questionnaire and score."""
+    given = {}
+    for row in answers(study, progress):
+        given.setdefault((row["participant"], row["step"]), []).append(row)
+    asked = {one.name: one for one in (*progress.plan.after_condition, *progress.plan.at_end)}
+    rows = []
+    for (participant, _), items in given.items():
+        first = items[0]
+        if first["questionnaire"] not in asked or progress.people[participant].excluded:
+            continue
+        score = asked[first["questionnaire"]].scored({row["item"]: row["answer"] for row in items})
+        rows.append({"participant": participant, "group": first["group"], "condition": first["condition"], "order": first["order"],
+                     "questionnaire": first["questionnaire"], "score": score})
+    return rows
+
+
+def write(study, progress):
+    """Returns the files that were written."""
+    files = []
+    for name, rows in (("trials", trials(study, progress)), ("answers", answers(study, progress))):
+        columns = list(dict.fromkeys(column for row in rows for column in row))
+        for path, content in ((study.folder / f"{name}.csv", as_csv(columns, rows)), (study.folder / f"{name}.json", described(columns))):
+            write_safely(path, content)
+            files.append(path)
+    return files
+
+
+def as_csv(columns, rows):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, restval="n/a", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def described(columns):
+    """A column's meaning and unit, in the form of BIDS."""
+    entries = {}
+    for column in columns:
+        entry = {"Description": COLUMNS.get(column) or DESCRIBED.get(column) or column.replace("_", " ")}
+        unit = next((unit for end, unit in UNITS.items() if column.endswith(end)), None)
+        entries[column] = dict(entry, Units=unit) if unit else entry
+    return json.dumps(entries, indent=1) + "\n"

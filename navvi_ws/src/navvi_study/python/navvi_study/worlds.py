@@ -1,0 +1,43 @@
+"""The plan's worlds as the reference driver meets them: the simulated person without errors, in the loop without ROS."""
+import csv
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+
+from .errors import StudyError
+
+LIKE = 1.25  # times: the way of the longest set over that of the shortest
+
+
+def drive(plan, trials_bench, jobs=2):
+    """Rows of the bench by world, each driven once with all that guides. Raises StudyError for a world that cannot be."""
+    worlds = [world for worlds in (*plan.sets, plan.reserve, plan.practice.worlds if plan.practice else ()) for world in worlds]
+
+    def one(world):
+        command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv"]
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        rows = list(csv.DictReader(result.stdout.splitlines()))
+        if result.returncode != 0 or len(rows) != 1:
+            raise StudyError(f"{plan.file}: no trial can be driven in {world}: {(result.stderr or result.stdout).strip()}")
+        return rows[0]
+
+    with ThreadPoolExecutor(jobs) as pool:
+        return dict(zip(worlds, pool.map(one, worlds)))
+
+
+def compared(plan, driven):
+    """Lines on the worlds, and whether the sets are alike."""
+    lines, ways = ["The reference driver, way in m, turns a minute, time in s, movers met:"], {}
+    for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
+                         ("practice", plan.practice.worlds if plan.practice else ())]:
+        for world in worlds:
+            row = driven[world]
+            lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {row['turns']}, time {row['time']}, met {row.get('passed', 'n/a')}.")
+        if name.startswith("set"):
+            ways[name] = sum(float(driven[world]["shortest"]) for world in worlds)
+    short, long = min(ways, key=ways.get), max(ways, key=ways.get)
+    ratio = ways[long] / max(ways[short], 0.1)
+    lines.append(f"The ways of {long} are {ratio:.2f} times those of {short}; " + ("alike enough." if ratio <= LIKE else f"other seeds would be better, {LIKE} times is alike."))
+    late = [str(world) for world, row in driven.items() if row["result"] != "reached"]
+    if late:
+        lines.append(f"Within {plan.limit:g} s the reference driver does not arrive in: {', '.join(late)}; choose others.")
+    return lines, ratio <= LIKE and not late

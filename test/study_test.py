@@ -1,0 +1,512 @@
+"""Studies without a session: the plan and what is refused in it, the schedule, the journal after crashes, what comes next, the tables."""
+import collections
+import html.parser
+import itertools
+import json
+import multiprocessing
+import os
+import shutil
+import signal
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "navvi_ws/src/navvi_study"
+sys.path.insert(0, str(PACKAGE / "python"))
+
+from navvi_study import actions, design, journal, overview, plan_file, progress, questionnaire, runner, schedule, session, study, table  # noqa: E402
+from navvi_study.errors import StudyError  # noqa: E402
+
+EXAMPLE = PACKAGE / "config/example_plan.yaml"
+PLAN = """
+study: small
+title: A small study
+groups: {all: {participants: sub-01..sub-04}}
+conditions: {full: {picture: false}, plain: {picture: false, touch: false}}
+worlds:
+  sets: {a: {world: easy, seeds: [1]}, b: {world: easy, seeds: [2]}}
+  reserve: {world: easy, seeds: 11..12}
+operator: simulated
+limit: 60
+questionnaires: {after_condition: [tlx]}
+outcomes: {primary: {measure: time, conditions: [plain, full]}}
+exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]
+"""
+
+
+def small(folder, *changes):
+    """A plan, with pairs of old and new text in place."""
+    text = PLAN
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / "small.yaml"
+    path.write_text(text)
+    return plan_file.load(path)
+
+
+class Driver:
+    """Instead of ./navvi: each trial's summary has the next result, or none is written."""
+
+    def __init__(self, work, *results):
+        self.work, self.results, self.driven = work, list(results), []
+
+    def trial(self, participant, step, attempt, folder, lock):
+        self.driven.append((attempt.world, attempt.seed))
+        result = self.results.pop(0) if self.results else "reached"
+        if result == "none":
+            return
+        if result == "killed":
+            raise KeyboardInterrupt
+        write_summary(folder / f"trial-{len(self.driven)}", result)
+
+    def ask(self, participant, step, items, answered, lock):
+        runner.simulate_answers(participant, step, items, answered)
+
+    def calibrate(self, participant, lock):
+        pass
+
+    def close(self, folder):
+        pass
+
+
+def write_summary(folder, result="reached", elapsed=20.0):
+    folder.mkdir(parents=True)
+    row = {"trial": folder.name, "started_utc": "2026-01-01T00:00:00Z", "result": result, "elapsed_s": elapsed, "shelf_collision_count": 1,
+           "obstacle_collision_count": 2, "path_length_m": 12.0, "first_path_length_m": 10.0}
+    (folder / "summary.csv").write_text(",".join(row) + "\n" + ",".join(map(str, row.values())) + "\n")
+
+
+@pytest.fixture
+def work(tmp_path):
+    """A frozen study; work(*results) gives a session whose trials end so."""
+    kept = study.Study(small(tmp_path))
+    kept.freeze("test", None)
+
+    def begin(*results):
+        driver = Driver(kept, *results)
+        begun = session.Session(kept, driver, say=lambda line: None, wait=False)
+        begun.driver = driver
+        return begun
+    begin.study = kept
+    return begin
+
+
+def rest(begun, name="sub-01"):
+    """The steps that are left, done."""
+    steps = []
+    while (step := begun.next(name)) is not None:
+        steps.append(step.name)
+    return steps
+
+
+# The design.
+
+@pytest.mark.parametrize("size", range(1, 9))
+def test_orders_are_balanced_for_place_and_first_order_carry_over(size):
+    rows = design.williams(size)
+    assert len(rows) == (size if size % 2 == 0 else 2 * size)
+    for place in range(size):
+        assert len(set(collections.Counter(row[place] for row in rows).values())) == 1
+    followed = collections.Counter(pair for row in rows for pair in itertools.pairwise(row))
+    assert len(followed) == size * (size - 1)
+    assert len(set(followed.values())) <= 1
+
+
+@pytest.mark.parametrize("size", range(2, 7))
+def test_each_condition_is_driven_in_each_set_of_worlds_equally_often(size):
+    orders = len(design.williams(size))
+    met = collections.Counter((condition, design.set_of(participant, condition, size, orders))
+                              for participant in range(orders * size) for condition in range(size))
+    assert len(met) == size * size and len(set(met.values())) == 1
+
+
+@pytest.mark.parametrize("size", range(2, 7))
+def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
+    rows = design.williams(size)
+    met = collections.Counter((place, design.set_of(participant, rows[participant % len(rows)][place], size, len(rows)))
+                              for participant in range(len(rows) * size) for place in range(size))
+    assert len(met) == size * size and len(set(met.values())) == 1
+
+
+# The plan.
+
+@pytest.mark.parametrize("old, new, sentence", [
+    ("limit: 60", "limt: 60", "\"limit\" is missing; \"limt\" is unknown"),
+    ("operator: simulated", "oprator: simulated", "small.yaml:9: \"oprator\" is unknown; known are: "),
+    ("limit: 60", "limit: -1", "\"limit\" is -1; allowed is a number from 1 to 86400"),
+    ("limit: 60", "limit: 60\nlimit: 61", "the key \"limit\" is given twice"),
+    ("limit: 60", "limit: [", "cannot parse the YAML"),
+    ("touch: false", "tuch: false", "\"conditions/plain/tuch\" is unknown"),
+    ("touch: false", "touch: off_", "\"conditions/plain/touch\" is \"off_\"; allowed is true or false"),
+    ("touch: false", "touch: true", "full and plain, which are alike"),
+    ("touch: false", "parameters: {feedback/haptics/enabled: false}", "is set by the study itself"),
+    ("touch: false", "parameters: {strength: 1}", "is no parameter of a node"),
+    ("seeds: [2]", "seeds: [1]", "has easy 1 twice"),
+    ("seeds: [2]", "seeds: [2, 3]", "sets of different sizes"),
+    ("seeds: 11..12", "seeds: 1..3", "has easy 1 twice"),
+    (", b: {world: easy, seeds: [2]}", "", "has 1 sets, and group all has 2 conditions"),
+    ("world: easy, seeds: [1]", "world: own.yaml, seeds: [1]", "own.yaml is no file"),
+    ("sub-01..sub-04", "[sub-01, sub-01]", "plans sub-01 twice"),
+    ("sub-01..sub-04", "[Ann Smith]", "letters, digits, - and _"),
+    ("[plain, full]", "[plain, none]", "allowed is one of: full, plain"),
+    ("[plain, full]", "[plain, plain]", "allowed are two conditions"),
+    ("measure: time", "measure: sus", "does not ask sus"),
+    ("[tlx]", "[txl]", "allowed are files in"),
+    ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
+    ("title: A small study", "", "the key \"title\" is missing"),
+    ("operator: simulated", "sessions: 3", "a condition a session or more"),
+])
+def test_a_wrong_plan_is_refused_with_file_key_and_what_is_allowed(tmp_path, old, new, sentence):
+    with pytest.raises(StudyError) as problem:
+        small(tmp_path, (old, new))
+    assert str(tmp_path) in str(problem.value)
+    assert sentence in str(problem.value)
+
+
+def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
+    example = plan_file.load(EXAMPLE)
+    assert len(example.participants) == 20
+    for name in example.participants:
+        worlds = [step.world for step in schedule.steps_of(example, name) if step.world]
+        assert len(worlds) == len(set(worlds)) == 8
+    text = "\n".join(overview.schedule(example))
+    assert "sub-20: " in text and "4 orders" in text and "hours" in text
+    assert "balanced for order and first-order carry-over" in text
+
+
+def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
+    for path in (PACKAGE / "config/questionnaires").glob("*.yaml"):
+        asked = questionnaire.load(path)
+        assert asked.items and questionnaire.script(asked.items, asked.title, asked.intro)
+    sus = questionnaire.find("sus", EXAMPLE.parent)
+    assert sus.scored({item.name: "3" for item in sus.items}) == 50.0
+    assert sus.scored({item.name: "5" if at % 2 == 0 else "1" for at, item in enumerate(sus.items)}) == 100.0
+    tlx = questionnaire.find("tlx", EXAMPLE.parent)
+    assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}) == 25.0
+    assert tlx.scored({item.name: "declined" for item in tlx.items}) is None
+
+
+def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
+    kept = study.Study(small(tmp_path))
+    step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.condition == "plain" and step.kind == "trial")
+    attempt = progress.Attempt(step.name, 1, "easy", 2, "", 0)
+    words = runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path)
+    assert words["feedback/haptics/enabled"] == "false" and words["feedback/sounds/enabled"] == "true"
+    assert words["feedback/locked"] == words["trial/locked"] == "true"
+    assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
+
+
+# What comes next.
+
+def test_a_participant_is_led_through_the_plan(work):
+    assert rest(work()) == ["s1-c1-trial-1", "s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
+    assert work.study.progress().complete(work.study.progress().person("sub-01"))
+    assert "sub-01: 2 of 2 trials; has done everything." in overview.status(work.study, work.study.progress())
+
+
+def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_path):
+    kept = study.Study(small(tmp_path))
+    with pytest.raises(StudyError, match="not frozen"):
+        rest(session.Session(kept, Driver(kept)))
+    kept.freeze("test", None)
+    changed = study.Study(small(tmp_path, ("limit: 60", "limit: 90")))
+    with pytest.raises(StudyError, match="limit: 60.0 is now 90.0"):
+        rest(session.Session(changed, Driver(changed)))
+    with pytest.raises(StudyError, match="--reason"):
+        changed.freeze("test", None)
+    assert changed.freeze("test", "too short") == ["limit: 60.0 is now 90.0"]
+    assert changed.progress().freezes[-1]["changes"] == ["limit: 60.0 is now 90.0"]
+
+
+def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(work):
+    begun = work("aborted")
+    assert rest(begun)[:2] == ["s1-c1-trial-1", "s1-c1-trial-1"]
+    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 11)]
+    rows = table.trials(work.study, work.study.progress())
+    assert [(row["attempt"], row["counts"], row["excluded"], row["replaces"]) for row in rows[:2]] == [
+        ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
+
+
+def test_where_no_trial_began_the_same_world_comes_again(work):
+    begun = work("none")
+    assert begun.next("sub-01") is None
+    assert rest(begun)[0] == "s1-c1-trial-1"
+    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 1)]
+
+
+def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
+    with pytest.raises(KeyboardInterrupt):
+        work("killed").next("sub-01")
+    attempt = work.study.progress().person("sub-01").open
+    write_summary(work.study.attempt_folder("sub-01", attempt.step, attempt.number) / "trial-9", "reached")
+    assert rest(work())[0] == "s1-c1-tlx"
+    assert [row["trial"] for row in table.trials(work.study, work.study.progress())][0] == "trial-9"
+
+
+def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
+    rest(work())
+    before = work.study.journal.path.read_bytes()
+    args = type("Args", (), {"plan": work.study.plan.file, "what": "sub-01/trial-1", "reason": "the phone rang", "no_replacement": False})
+    actions.Exclude.run(args)
+    assert work.study.journal.path.read_bytes().startswith(before)
+    with pytest.raises(StudyError, match="excluded already"):
+        actions.Exclude.run(args)
+    begun = work()
+    assert rest(begun) == ["s1-c1-trial-1"] and begun.driver.driven == [("easy", 11)]
+    row = work.study.journal.rows()[-3]
+    assert row["type"] == "exclude" and row["reason"] == "the phone rang" and "@" in row["by"]
+
+
+def test_when_the_reserve_is_used_up_the_trial_is_missing_and_the_rest_goes_on(work):
+    assert rest(work("aborted", "aborted", "aborted"))[3:] == ["s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
+    state = work.study.progress()
+    assert [step.name for step in state.missing(state.person("sub-01"))] == ["s1-c1-trial-1"]
+
+
+def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path):
+    kept = study.Study(small(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 2, collisions_at_most: 3, most: 4}\nlimit: 60")))
+    kept.freeze("test", None)
+    begun = session.Session(kept, Driver(kept, "timeout", "reached", "reached"), say=lambda line: None)
+    assert rest(begun).count("s1-practice") == 3
+    begun = session.Session(kept, Driver(kept, "timeout", "reached", "timeout", "reached"), say=lambda line: None)
+    assert rest(begun, "sub-02").count("s1-practice") == 4
+    people = kept.progress().people
+    assert (people["sub-01"].done["s1-practice"]["mastered"], people["sub-02"].done["s1-practice"]["mastered"]) == (True, False)
+
+
+def test_nobody_drives_without_consent(tmp_path):
+    (tmp_path / "consent.yaml").write_text("title: Consent\nitems: [{name: agree, ask: Do you agree, choices: [\"no\", \"yes\"], required: \"yes\"}]")
+    kept = study.Study(small(tmp_path, ("limit: 60", "consent: consent\nlimit: 60")))
+    kept.freeze("test", None)
+    begun = session.Session(kept, Driver(kept), say=lambda line: None)
+    begun.runner.ask = lambda participant, step, items, answered, lock: answered(items[0], "no")
+    assert begun.next("sub-01") is None
+    with_status = "\n".join(overview.status(kept, kept.progress()))
+    assert "sub-01: 0 of 2 trials; has not given consent." in with_status
+    assert rest(begun) == [] and begun.runner.driven == []
+
+
+def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
+    rest(work())
+    work.study.journal.append("withdraw", participant="sub-01", data="delete")
+    again = study.Study(work.study.plan)  # after a crash, any command
+    assert not again.home("sub-01").exists()
+    assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"]
+    assert table.trials(again, again.progress()) == [] and table.answers(again, again.progress()) == []
+    assert rest(work()) == []
+
+
+def test_the_study_stops_where_the_plan_says(tmp_path):
+    kept = study.Study(small(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60")))
+    kept.freeze("test", None)
+    begun = session.Session(kept, Driver(kept), say=lambda line: None)
+    rest(begun)
+    with pytest.raises(StudyError, match="stops after 1"):
+        begun.next("sub-02")
+
+
+def test_two_experimenters_do_not_drive_one_participant(work):
+    with work.study.claimed("sub-01"), pytest.raises(StudyError, match="running still"):
+        work().next("sub-01")
+
+
+# The journal.
+
+def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
+    kept = journal.Journal(tmp_path / "journal.jsonl")
+    for number in range(3):
+        kept.append("done", number=number)
+    with open(kept.path, "ab") as file:
+        file.write(b'{"seq": 4, "ty')
+    assert [row["number"] for row in journal.Journal(kept.path).rows()] == [0, 1, 2]
+    assert (tmp_path / "journal.torn").read_bytes() == b'{"seq": 4, "ty\n'
+    assert kept.append("done", number=3)["seq"] == 4
+    lines = kept.path.read_text().splitlines(keepends=True)
+    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]]):
+        kept.path.write_text("".join(changed))
+        with pytest.raises(StudyError, match="damaged, changed"):
+            journal.Journal(kept.path).rows()
+
+
+def _write_for_ever(path):
+    kept = journal.Journal(path)
+    for number in itertools.count():
+        kept.append("done", number=number)
+        sys.stdout.write(f"{number}\n")
+        sys.stdout.flush()
+
+
+def test_kill_9_loses_no_row_that_was_acknowledged_and_doubles_none(tmp_path):
+    path, told = tmp_path / "journal.jsonl", 0
+    for _ in range(3):
+        reader, writer = os.pipe()
+        process = multiprocessing.Process(target=lambda: (os.dup2(writer, 1), setattr(sys, "stdout", os.fdopen(1, "w")), _write_for_ever(path)))
+        process.start()
+        os.close(writer)
+        time.sleep(0.4)
+        os.kill(process.pid, signal.SIGKILL)
+        process.join()
+        with os.fdopen(reader) as lines:
+            acknowledged = sum(1 for _ in lines)
+        rows = journal.Journal(path).rows()
+        assert acknowledged > 3
+        assert told + acknowledged <= len(rows) <= told + acknowledged + 1
+        assert [row["seq"] for row in rows] == list(range(1, len(rows) + 1))
+        told = len(rows)
+
+
+def test_a_full_disk_begins_nothing(work, monkeypatch):
+    monkeypatch.setattr(journal.os, "write", lambda file, line: len(line) // 2)
+    begun = work()
+    with pytest.raises(StudyError, match="cannot be written"):
+        begun.next("sub-01")
+    monkeypatch.undo()
+    assert begun.driver.driven == []
+    assert rest(begun)[0] == "s1-c1-trial-1"
+
+
+# The tables.
+
+def test_tables_describe_each_column_and_the_same_study_gives_the_same_bytes(work):
+    rest(work())
+    files = table.write(work.study, work.study.progress())
+    before = [path.read_bytes() for path in files]
+    assert before == [path.read_bytes() for path in table.write(work.study, work.study.progress())]
+    header = files[0].read_text().splitlines()[0].split(",")
+    described = json.loads(files[1].read_text())
+    assert list(described) == header and described["elapsed_s"]["Units"] == "s"
+    assert len(files[2].read_text().splitlines()) == 1 + 2 * 6
+
+
+def test_answers_that_were_given_are_not_asked_again(work):
+    begun = work()
+    asked = []
+
+    def ask(participant, step, items, answered, lock):
+        asked.append([item.name for item in items])
+        for item in items[:2]:
+            answered(item, "50")
+    begun.runner.ask = ask
+    begun.next("sub-01")
+    for _ in range(3):
+        begun.next("sub-01")
+    assert asked == [["mental", "physical", "temporal", "performance", "effort", "frustration"],
+                     ["temporal", "performance", "effort", "frustration"], ["effort", "frustration"]]
+    assert len(work.study.answers("sub-01")) == 6
+
+
+def test_marks_and_interventions_stand_in_the_table(work):
+    begun = work()
+    drive = begun.driver.trial
+
+    def trial(participant, step, attempt, folder, lock):
+        desk = runner.Desk(None, lambda row: work.study.note(participant, attempt, row))
+        for line in ("m", "n the door opened", "i led the robot", "what", ""):
+            desk.obey(line)
+        drive(participant, step, attempt, folder, lock)
+    begun.runner.trial = trial
+    begun.next("sub-01")
+    row = table.trials(work.study, work.study.progress())[0]
+    assert (row["marks"], row["interventions"]) == ("2", "1")
+    assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot"]
+
+
+def test_nothing_of_a_study_names_a_person_but_by_code(work):
+    rest(work())
+    shutil.rmtree(work.study.home("sub-01"))
+    text = work.study.journal.path.read_text()
+    assert "sub-01" in text and "mental" not in text
+
+
+# The report.
+
+class Page(html.parser.HTMLParser):
+    """The headings, images and tables of a page, in their order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.parts, self.links, self.text = [], [], ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if tag in ("h1", "h2", "h3", "img", "table", "html"):
+            self.parts.append((tag, attributes))
+        self.links += [attributes[name] for name in ("src", "href") if name in attributes]
+
+    def handle_data(self, data):
+        self.text += data
+
+
+@pytest.fixture(scope="module")
+def reported(tmp_path_factory):
+    """A study of six people, half as quick and with twice the collisions in one condition."""
+    from navvi_study import report
+    kept = study.Study(small(tmp_path_factory.mktemp("reported"), ("sub-04", "sub-06"), ("full]}}", "full]}, secondary: [{measure: collisions, conditions: [plain, full]}]}")))
+    kept.freeze("0.1.0", None)
+
+    class Drawn(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            factor = 2.0 if step.condition == "plain" else 1.0
+            write_summary(folder / f"trial-{participant}-{step.name}", elapsed=factor * (15.0 + int(participant[-1])))
+    for name in kept.plan.participants:
+        rest(session.Session(kept, Drawn(kept), say=lambda line: None, wait=False), name)
+    kept.journal.append("exclude", participant="sub-06", reason="fell ill", rule=False)
+    return kept, report.page(kept, kept.progress(), rehearsed=False)
+
+
+def test_a_report_gives_the_difference_that_is_worked_out_by_hand(reported):
+    from navvi_study.analysis import Analysis
+    kept, _ = reported
+    one = Analysis(kept, kept.progress()).contrast("time", "plain", "full")
+    assert one.participants == 5  # the sixth is excluded
+    assert one.difference == pytest.approx(-18.0)  # the mean of 16 to 20 s, less than twice as much
+    assert -20.0 <= one.low < one.difference < one.high <= -16.0
+    detour = Analysis(kept, kept.progress()).contrast("detour", "plain", "full")
+    assert detour.difference == 0.0 and detour.p is None and "cannot be estimated" in detour.note
+
+
+def test_a_report_is_read_without_eyes_and_without_a_network(reported):
+    kept, text = reported
+    page = Page(text)
+    assert dict(page.parts[0][1])["lang"] == "en"
+    headings = [tag for tag, _ in page.parts if tag.startswith("h") and tag != "html"]
+    assert headings[0] == "h1" and headings.count("h1") == 1 and headings[1] == "h2"
+    images = [at for at, (tag, _) in enumerate(page.parts) if tag == "img"]
+    assert len(images) >= 5
+    for at in images:
+        assert len(page.parts[at][1]["alt"]) > 60
+        assert page.parts[at + 1][0] == "table"
+    assert page.links and all(link.startswith("data:") for link in page.links)
+    assert "sub-06 is excluded: fell ill." in page.text
+    assert f"./navvi study report {kept.plan.file} --only time" in page.text
+
+
+def test_the_same_study_gives_the_same_report(reported):
+    from navvi_study import report
+    kept, text = reported
+    assert report.page(kept, study.Study(kept.plan).progress(), rehearsed=False) == text
+
+
+def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
+    import numpy as np
+    import pandas as pd
+    from navvi_study.analysis import MODELS, Contrast
+    source = np.random.default_rng(7)
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True,
+             "count": source.poisson(3.0 * (2.0 if second else 1.0) * ability), "time": min(60.0, source.exponential(20.0 if second else 40.0) * ability)}
+            for person in range(40) for ability in [source.gamma(8.0, 1 / 8.0)] for second in (0, 1) for _ in range(3)]
+    values = pd.DataFrame(rows).assign(reached=lambda rows: rows["time"] < 60.0)
+    counted, timed = Contrast("collisions", "a", "b"), Contrast("time", "a", "b")
+    MODELS["count"](counted, values.assign(value=values["count"].astype(float)), None)
+    MODELS["time"](timed, values.assign(value=values["time"]), None)
+    assert counted.estimate_low < 2.0 < counted.estimate_high and counted.p < 1e-6
+    assert timed.estimate_low < 2.0 < timed.estimate_high and timed.p < 1e-3
+    shuffled = values.assign(second=source.permutation(values["second"]))
+    nothing = Contrast("collisions", "a", "b")
+    MODELS["count"](nothing, shuffled.assign(value=values["count"].astype(float)), None)
+    assert nothing.p > 0.01
