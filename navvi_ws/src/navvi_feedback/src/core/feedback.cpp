@@ -52,7 +52,9 @@ struct Feedback::Deciders {
         sounds(config.sounds),
         cues(config.cues, phrases),
         teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
-                0.5 * config.drive.max_turn / config.drive.turn_acceleration) {}
+                0.5 * config.drive.max_turn / config.drive.turn_acceleration, config.questions) {
+    menu.lock(config.locked);
+  }
 
   drive::Drive drive;
   drive::Assistance assistance;

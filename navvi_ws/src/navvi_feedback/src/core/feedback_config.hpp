@@ -13,7 +13,9 @@ namespace navvi_feedback::core {
 /// The parameters of all that decides on the person's side.
 struct FeedbackConfig {
   double stale = 0.8;           ///< s
-  std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person
+  std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person, as the next two
+  std::string questions;        ///< path, likewise
+  bool locked = false;          ///< the menu offers neither goals nor settings
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;

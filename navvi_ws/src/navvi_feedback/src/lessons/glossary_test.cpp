@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lessons/calibration.hpp"
+#include "lessons/questionnaire.hpp"
 #include "lessons/tutorial.hpp"
 
 namespace navvi_feedback::lessons {
@@ -100,7 +101,8 @@ TEST_F(GlossaryTest, leaves_out_what_cannot_be_felt_or_heard_here) {
 TEST(Lessons, have_each_text_in_every_language_and_no_other) {
   for (const char* language : {"en", "es"}) {
     std::set<std::string> known;
-    for (const auto& keys : {Glossary::texts(), Tutorial::texts(), Calibration::texts()})
+    for (const auto& keys :
+         {Glossary::texts(), Tutorial::texts(), Calibration::texts(), Questionnaire::texts()})
       known.insert(keys.begin(), keys.end());
     const cues::Phrases spoken = phrases(language);
     const auto on_keys = [&](const std::string& key) {

@@ -14,13 +14,15 @@ using navvi_types::TrialState;
 
 Teacher::Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
                  const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
-                 double robot_delay)
+                 double robot_delay, const std::string& questions)
     : first_(std::move(first)),
       phrases_(std::move(phrases)),
       buttons_(buttons),
       haptics_(haptics),
       sounds_(sounds),
-      robot_delay_(robot_delay) {}
+      robot_delay_(robot_delay) {
+  if (first_ == "questionnaire") questions_ = read_questions(questions);
+}
 
 void Teacher::use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
                   const cues::WordingConfig& wording) {
@@ -36,6 +38,8 @@ void Teacher::begin(const std::string& lesson, const std::string& pad) {
     lesson_ = std::make_unique<Tutorial>(phrases_, buttons_);
   } else if (lesson == "calibrate") {
     lesson_ = std::make_unique<Calibration>(phrases_, buttons_, haptics_, pad, robot_delay_);
+  } else if (lesson == "questionnaire") {
+    lesson_ = std::make_unique<Questionnaire>(phrases_, buttons_, questions_);
   }
 }
 

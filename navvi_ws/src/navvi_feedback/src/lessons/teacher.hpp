@@ -6,6 +6,7 @@
 
 #include "cues/phrases.hpp"
 #include "lessons/lesson.hpp"
+#include "lessons/questionnaire.hpp"
 #include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {
@@ -13,11 +14,13 @@ namespace navvi_feedback::lessons {
 /// Gives the lesson that comes before all else, and those that the person chooses.
 class Teacher {
  public:
-  /// \param first  "glossary", "tutorial" or "calibrate"; "none": no lesson comes before all else
+  /// \param first  "glossary", "tutorial", "calibrate" or "questionnaire"; "none": no lesson first
   /// \param robot_delay  s, as Calibration takes it
+  /// \param questions  path, as read_questions() takes it; of a questionnaire
+  /// \throws navvi_config::ConfigError if they cannot be asked
   Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
           const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
-          double robot_delay);
+          double robot_delay, const std::string& questions);
 
   /// For the lessons that begin from now on.
   void use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
@@ -61,6 +64,7 @@ class Teacher {
   haptics::HapticsConfig haptics_;
   sounds::SoundsConfig sounds_;
   double robot_delay_;
+  std::vector<Question> questions_;
   std::unique_ptr<Lesson> lesson_;
   Taught taught_;  ///< now
 };

@@ -24,7 +24,8 @@ Teller::Teller(cues::Phrases phrases, const drive::ButtonsConfig& buttons,
       throw navvi_config::ConfigError("the phrase file lacks lessons/" + key + ".");
     for (const bool keyboard : {false, true}) {
       keyboard_ = keyboard;
-      for (const std::string& sentence : sentences(key, {{"count", "99"}, {"all", "99"}}))
+      for (const std::string& sentence :
+           sentences(key, {{"count", "99"}, {"all", "99"}, {"text", "text"}}))
         if (!cues::speakable(sentence))
           throw navvi_config::ConfigError("the phrase file's lessons/" + key +
                                           " cannot be spoken: \"" + sentence +

@@ -27,6 +27,7 @@ void Menu::take_goal(const Eigen::Vector2d& goal) {
 
 std::vector<Menu::Destination> Menu::destinations() const {
   std::vector<Destination> all;
+  if (locked_) return all;
   if (scenario_) all.push_back({cues::PlaceName::task, 0, scenario_->goal});
   if (goals_.size() == 2) all.push_back({cues::PlaceName::last, 0, goals_[0]});
   if (scenario_)

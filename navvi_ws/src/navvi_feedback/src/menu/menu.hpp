@@ -36,12 +36,16 @@ class Menu {
     bool glossary = false;                     ///< is to be given
   };
 
+  /// A study has set what could be changed: neither goals nor settings are offered.
+  void lock(bool locked) { locked_ = locked; }
   void take(const Scenario& scenario) { scenario_ = scenario; }
   void take(const TrialState& trial) { trial_ = trial.state; }
   /// Whoever has set it. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   /// What can be set. \param values  by the key of each setting, as parameters have them
-  void take_settings(std::map<std::string, std::string> values) { values_ = std::move(values); }
+  void take_settings(std::map<std::string, std::string> values) {
+    if (!locked_) values_ = std::move(values);
+  }
 
   /// Other buttons than its own are ignored.
   [[nodiscard]] Step press(drive::Button button);
@@ -82,6 +86,7 @@ class Menu {
   [[nodiscard]] Step change(const Setting& setting, bool up);
   [[nodiscard]] Step tell() const;
 
+  bool locked_ = false;
   std::optional<Scenario> scenario_;
   std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
   TrialState::State trial_ = TrialState::State::free;

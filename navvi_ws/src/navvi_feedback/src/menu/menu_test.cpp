@@ -52,6 +52,22 @@ TEST_F(MenuTest, leads_to_a_goal_by_short_presses_of_one_hand) {
   EXPECT_FALSE(menu_.open());
 }
 
+TEST_F(MenuTest, offers_neither_goals_nor_settings_where_a_study_has_set_them) {
+  menu_.lock(true);
+  menu_.take_goal({3.0, 4.0});
+  menu_.take_settings({{"haptics/strength", "0.7"}});
+  trial(State::ready);
+  EXPECT_EQ(heard({Button::choose}), "menu_begin");
+  EXPECT_EQ(heard({Button::next}), "menu_glossary");
+  EXPECT_EQ(heard({Button::next}), "menu_begin") << "round";
+  press({Button::back});
+  trial(State::running);
+  EXPECT_EQ(heard({Button::choose}), "menu_end");
+  EXPECT_EQ(heard({Button::next}), "menu_end") << "round";
+  EXPECT_EQ(heard({Button::settings}), "menu_empty");
+  EXPECT_EQ(heard({Button::choose}), "menu_end") << "back at the top";
+}
+
 TEST_F(MenuTest, goes_back_level_by_level_and_says_that_it_is_closed) {
   press({Button::choose, Button::choose});
   EXPECT_EQ(heard({Button::back}), "menu_goals");

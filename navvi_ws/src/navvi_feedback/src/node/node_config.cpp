@@ -38,8 +38,12 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
         "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
         "in it over the profile's");
   visit(record, "record", Any{}, "", "path of a file for how a lesson went; empty for none");
-  visit(feedback->lesson, "lesson", OneOf{{"none", "glossary", "tutorial", "calibrate"}}, "",
-        "what is taught before all else; glossary and calibrate want no robot");
+  visit(feedback->lesson, "lesson",
+        OneOf{{"none", "glossary", "tutorial", "calibrate", "questionnaire"}}, "",
+        "what is taught or asked before all else; all but the tutorial want no robot");
+  visit(feedback->questions, "questions", Any{}, "", "path of the file that a questionnaire asks");
+  visit(feedback->locked, "locked", Any{}, "",
+        "true: the menu offers neither goals nor settings, as a study has set them");
   PersonConfig::describe(visit);
 }
 

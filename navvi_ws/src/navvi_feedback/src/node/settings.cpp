@@ -2,7 +2,7 @@
 
 #include <ros/ros.h>
 
-#include <fstream>
+#include <navvi_config/files.hpp>
 #include <navvi_config/ros_parameters.hpp>
 
 namespace navvi_feedback::node {
@@ -48,7 +48,8 @@ void Settings::change(const std::string& word) {
 void Settings::keep(const lockstep::Told& told) {
   if (!config_.record.empty() && recorded_ != told.record) {
     recorded_ = told.record;
-    std::ofstream(config_.record) << told.record;
+    if (const auto problem = navvi_config::write_atomically(config_.record, told.record))
+      ROS_ERROR("The results of the lesson are not kept: %s.", problem->c_str());
   }
   if (found_ == told.settings) return;
   found_ = told.settings;

@@ -1,0 +1,26 @@
+"""Ask a questionnaire by voice, and take the answers by stick and buttons.
+
+Arrow up and down, or the stick, find the answer, start confirms it, the left
+arrow goes back, the lower button repeats, select is for "rather not say"; on
+the keyboard page up, page down, enter, back space, space, F8. Each answer is
+saved at once. A study asks its questionnaires by this.
+
+Exit codes
+0: it has ended. 1: it broke off. 2: a wrong argument, or neither a pad nor a
+display for the keyboard.
+
+Example
+./navvi questionnaire feedback/questions:=asked.yaml feedback/record:=answers.csv
+"""
+from navvi_cli.lessons import give, lesson_arguments
+from navvi_cli.say import fail
+
+
+def arguments(parser):
+    lesson_arguments(parser, "whose settings are used.")
+
+
+def run(args):
+    if not any(word.startswith("feedback/questions:=") for word in args.words):
+        fail("which questions? feedback/questions:=FILE is needed: a YAML list of items, each with name, ask, values and spoken.", 2)
+    give("questionnaire", args.words)

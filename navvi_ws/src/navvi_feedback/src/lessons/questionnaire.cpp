@@ -1,0 +1,202 @@
+#include "lessons/questionnaire.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <regex>
+
+#include "navvi_config/reader.hpp"
+
+namespace navvi_feedback::lessons {
+namespace {
+
+using drive::Button;
+using navvi_config::ConfigError;
+
+constexpr double kLean = 0.6;     // of the stick
+constexpr double kUpright = 0.3;  // it is at rest again
+constexpr double kEvery = 0.7;    // s, between two steps while it is held
+
+std::string key(const char* name) { return std::string("ask_") + name; }
+
+std::vector<std::string> words(const YAML::Node& node, const std::string& where) {
+  if (!node.IsSequence() || node.size() == 0)
+    throw ConfigError(where + " is no list; allowed is a list of texts.");
+  std::vector<std::string> texts;
+  for (const YAML::Node& entry : node) {
+    if (!entry.IsScalar()) throw ConfigError(where + " holds no text; allowed is a list of texts.");
+    texts.push_back(entry.Scalar());
+  }
+  return texts;
+}
+
+void check_spoken(const std::string& text, const std::string& where) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(". ", begin), text.size());
+    const std::string sentence = text.substr(begin, end - begin);
+    if (!cues::speakable(sentence))
+      throw ConfigError(where + " cannot be spoken: \"" + sentence +
+                        "\"; allowed are letters, digits, space , . ' - and 80 bytes a sentence.");
+    begin = end + 2;
+  }
+}
+
+Question read_question(const YAML::Node& item, const std::string& where) {
+  if (!item.IsMap())
+    throw ConfigError(where + " is no map; allowed are name, ask, values and spoken.");
+  Question question;
+  for (const auto& entry : item) {
+    const std::string name = entry.first.Scalar();
+    const std::string place = where + "/" + name;
+    if (name == "name" || name == "ask") {
+      if (!entry.second.IsScalar()) throw ConfigError(place + " is no text.");
+      (name == "name" ? question.name : question.ask) = entry.second.Scalar();
+    } else if (name == "values" || name == "spoken") {
+      (name == "values" ? question.values : question.spoken) = words(entry.second, place);
+    } else {
+      throw ConfigError(place + " is unknown; known are name, ask, values and spoken.");
+    }
+  }
+  static const std::regex plain("[A-Za-z0-9_.-]{1,40}( [A-Za-z0-9_.-]{1,40}){0,9}");
+  if (!std::regex_match(question.name, plain))
+    throw ConfigError(where + "/name is \"" + question.name +
+                      "\"; allowed are letters, digits, . - and _.");
+  if (question.values.empty() || question.values.size() != question.spoken.size())
+    throw ConfigError(where + " has " + std::to_string(question.values.size()) + " values and " +
+                      std::to_string(question.spoken.size()) +
+                      " spoken; allowed is one that is spoken for each value.");
+  for (const std::string& value : question.values)
+    if (!std::regex_match(value, plain))
+      throw ConfigError(where + "/values holds \"" + value +
+                        "\"; allowed are words of letters, digits, . - and _.");
+  check_spoken(question.ask, where + "/ask");
+  for (const std::string& text : question.spoken) check_spoken(text, where + "/spoken");
+  return question;
+}
+
+}  // namespace
+
+std::vector<Question> read_questions(const std::filesystem::path& path) {
+  const YAML::Node root = navvi_config::load_yaml(path);
+  const YAML::Node items = root.IsMap() ? root["items"] : YAML::Node();
+  if (!items.IsDefined() || !items.IsSequence() || items.size() == 0 || root.size() != 1)
+    throw ConfigError(path.string() + ": allowed is the key items alone, a list of questions.");
+  std::vector<Question> questions;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    questions.push_back(
+        read_question(items[i], path.string() + ": items[" + std::to_string(i) + "]"));
+  return questions;
+}
+
+std::vector<std::string> Questionnaire::texts() {
+  std::vector<std::string> keys;
+  for (const char* name : {"welcome", "read", "chosen", "choose_first", "declined", "last", "end"})
+    keys.push_back(key(name));
+  return keys;
+}
+
+Questionnaire::Questionnaire(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
+                             std::vector<Question> questions)
+    : questions_(std::move(questions)),
+      answers_(questions_.size()),
+      teller_(phrases, buttons, texts()) {}
+
+Taught Questionnaire::update(const Seen& seen, double time) {
+  time_ = time;
+  teller_.hands(seen.keyboard);
+  if (!begun_) {
+    begun_ = true;
+    teller_.tell(key("welcome"));
+    go_to(0);
+  }
+  if (!finished_) {
+    for (const Button button : seen.pressed) obey(button);
+    lean(seen.stick);
+  }
+  Taught taught;
+  taught.cues = teller_.update(seen.quiet);
+  over_ = finished_ && teller_.done() && seen.quiet && taught.cues.empty();
+  return taught;
+}
+
+void Questionnaire::obey(Button button) {
+  switch (button) {
+    case Button::previous:
+    case Button::next:
+      return change(button == Button::previous);
+    case Button::choose:
+    case Button::start:
+      if (all_asked()) {
+        finished_ = true;
+        return teller_.tell(key("end"));
+      }
+      if (const auto chosen = answers_[at_].chosen) return give(questions_[at_].values[*chosen]);
+      return teller_.tell(key("choose_first"));
+    case Button::back:
+      teller_.forget();
+      return go_to(at_ == 0 ? 0 : at_ - 1);
+    case Button::repeat:
+      teller_.forget();
+      return tell();
+    case Button::end:
+      if (all_asked()) return;
+      answers_[at_].chosen.reset();
+      teller_.tell(key("declined"));
+      return give(kDeclined);
+    default:
+      return;
+  }
+}
+
+/// The stick up or down is a press of more or less, again and again while it is held.
+void Questionnaire::lean(const drive::Stick& stick) {
+  if (std::abs(stick.y) < kUpright) leans_ = false;
+  if (std::abs(stick.y) < kLean || (leans_ && time_ - leaned_ < kEvery)) return;
+  leans_ = true;
+  leaned_ = time_;
+  change(stick.y > 0.0);
+}
+
+void Questionnaire::change(bool more) {
+  if (all_asked()) return;
+  const std::size_t last = questions_[at_].values.size() - 1;
+  std::optional<std::size_t>& chosen = answers_[at_].chosen;
+  if (!chosen) {
+    chosen = last % 2 == 0 ? last / 2 : last / 2 + (more ? 1 : 0);  // from the middle
+  } else if (more ? *chosen < last : *chosen > 0) {
+    chosen = more ? *chosen + 1 : *chosen - 1;
+  }
+  teller_.tell(key("chosen"), {{"text", questions_[at_].spoken[*chosen]}});
+}
+
+void Questionnaire::give(const std::string& answer) {
+  if (answers_[at_].given != answer) answers_[at_].seconds = time_ - asked_;
+  answers_[at_].given = answer;
+  go_to(at_ + 1);
+}
+
+void Questionnaire::go_to(std::size_t question) {
+  at_ = question;
+  asked_ = time_;
+  tell();
+}
+
+void Questionnaire::tell() {
+  if (all_asked()) return teller_.then(key("last"));
+  teller_.then(key("read"), {{"text", questions_[at_].ask}});
+  if (const auto chosen = answers_[at_].chosen)
+    teller_.then(key("chosen"), {{"text", questions_[at_].spoken[*chosen]}});
+}
+
+std::string Questionnaire::record() const {
+  std::string table = "item,answer,seconds\n";
+  for (std::size_t i = 0; i < questions_.size(); ++i) {
+    if (answers_[i].given.empty()) continue;
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.1f", answers_[i].seconds);
+    table += questions_[i].name + "," + answers_[i].given + "," + seconds + "\n";
+  }
+  return table;
+}
+
+}  // namespace navvi_feedback::lessons

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lessons/lesson.hpp"
+#include "lessons/teller.hpp"
+
+namespace navvi_feedback::lessons {
+
+/// One question, and all that can be answered.
+struct Question {
+  std::string name;                 ///< in the record: letters, digits, - and _
+  std::string ask;                  ///< sentences
+  std::vector<std::string> values;  ///< in the record, from least to most
+  std::vector<std::string> spoken;  ///< the same, as they are said
+};
+
+/// \param path  YAML: items, each with name, ask, values and spoken
+/// \throws navvi_config::ConfigError that names the file, the key and what is allowed
+[[nodiscard]] std::vector<Question> read_questions(const std::filesystem::path& path);
+
+/// Asks by voice and takes answers by stick and buttons: up for more, down for less, a button to
+/// answer, one to go back and correct, one to hear it again, one for who would rather not say.
+/// Nothing is chosen beforehand.
+class Questionnaire : public Lesson {
+ public:
+  /// The answer of who would rather not say.
+  static constexpr const char* kDeclined = "declined";
+
+  /// \throws navvi_config::ConfigError if the phrases lack a text
+  Questionnaire(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
+                std::vector<Question> questions);
+
+  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] bool over() const override { return over_; }
+  /// item,answer,seconds: s from the question's beginning to its last answer.
+  [[nodiscard]] std::string record() const override;
+
+  /// The keys of all texts.
+  [[nodiscard]] static std::vector<std::string> texts();
+
+ private:
+  struct Answer {
+    std::optional<std::size_t> chosen;  ///< of the question's values
+    std::string given;                  ///< empty: not answered yet
+    double seconds = 0.0;
+  };
+
+  void obey(drive::Button button);
+  void lean(const drive::Stick& stick);
+  void change(bool more);
+  void give(const std::string& answer);
+  void go_to(std::size_t question);
+  void tell();
+  [[nodiscard]] bool all_asked() const { return at_ == questions_.size(); }
+
+  std::vector<Question> questions_;
+  std::vector<Answer> answers_;
+  Teller teller_;
+  std::size_t at_ = 0;   ///< the question; their number: all are asked
+  double time_ = 0.0;    ///< s, of the last update
+  double asked_ = 0.0;   ///< s, when the question came
+  double leaned_ = 0.0;  ///< s, when the stick last counted as a press
+  bool leans_ = false;
+  bool begun_ = false;
+  bool finished_ = false;
+  bool over_ = false;
+};
+
+}  // namespace navvi_feedback::lessons
