@@ -12,6 +12,12 @@ namespace {
 constexpr const char* kNewer[] = {"parameters",    "version",       "started_utc",
                                   "reroute_count", "sounds_played", "patterns_felt"};
 
+/// Of TRIAL_START: where the trial stands in a study, and on what it ran. Older summaries lack
+/// them.
+constexpr const char* kSettings[] = {
+    "study",   "plan",     "group", "condition", "condition_order", "phase", "session", "repeat",
+    "attempt", "replaces", "cpu",   "compiler",  "audio_device",    "voice", "pad_name"};
+
 std::string seconds(std::int64_t from, std::int64_t to) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.3f", static_cast<double>(to - from) * 1e-9);
@@ -159,6 +165,7 @@ Summary summarize(const std::vector<Row>& rows) {
                            "parameters", "version", "audio", "pad"}) {
     add(name, start ? start->fields.get(name) : nothing);
   }
+  for (const char* name : kSettings) add(name, start ? start->fields.get(name) : nothing);
   add("started_utc", start ? start->fields.get("utc") : nothing);
   add("result", end ? end->fields.get("result") : "aborted");
   add("reason", end ? end->fields.get("reason") : "no_end");
@@ -182,8 +189,8 @@ Summary summarize(const std::vector<Row>& rows) {
       })));
   add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
   // A simulated person knows of sounds by message, also where no device plays them.
-  const bool unheard = start && start->fields.get("pad") == "simulated" &&
-                       start->fields.get("audio") != "works";
+  const bool unheard =
+      start && start->fields.get("pad") == "simulated" && start->fields.get("audio") != "works";
   add("sounds_played", tally && !unheard ? tally->fields.get("sounds_played") : nothing);
   add("patterns_felt", tally ? tally->fields.get("patterns_felt") : nothing);
   for (const std::string& name : reported_columns())
@@ -240,6 +247,7 @@ std::vector<std::string> differences(const Summary& summary, const Summary& reco
   std::map<std::string, std::string> again(recount.begin(), recount.end());
   std::vector<std::string> newer = reported_columns();
   newer.insert(newer.end(), std::begin(kNewer), std::end(kNewer));
+  newer.insert(newer.end(), std::begin(kSettings), std::end(kSettings));
   for (const std::string& name : newer)
     if (before.count(name) == 0) again.erase(name);
   std::vector<std::string> sentences;

@@ -9,6 +9,7 @@
 
 #include "record/metrics.hpp"
 #include "record/trial_folder.hpp"
+#include "trial/platform.hpp"
 
 namespace navvi_study::trial {
 namespace fs = std::filesystem;
@@ -31,6 +32,19 @@ std::string place_of(const Eigen::Vector2d& point) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << point.x() << ", " << point.y();
   return text.str();
+}
+
+void set_study(record::Fields& fields, const StudyConfig& study) {
+  fields.set("study", study.name).set("plan", study.plan).set("group", study.group);
+  fields.set("condition", study.condition).set("phase", study.phase);
+  fields.set("replaces", study.replaces);
+  const auto set = [&](const char* name, int count) {
+    fields.set(name, count > 0 ? std::to_string(count) : "n/a");
+  };
+  set("session", study.session);
+  set("condition_order", study.order);
+  set("repeat", study.repeat);
+  set("attempt", study.attempt);
 }
 
 }  // namespace
@@ -111,6 +125,7 @@ void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
     next_goal_ = goal;
     if (!config_.press_to_start) start(goal);
   } else if (phase_ == Phase::running) {
+    if (config_.locked) return end({"aborted", "goal_changed", monitor_.latest()});
     if (monitor_.goal_taken()) goal_before_ = goal_;
     change_goal(goal);
     goal_tries_.sent_elsewhere(now.wall());
@@ -262,6 +277,9 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("voice", readiness_.trait("speech", "voice"));
   fields.set("pad_name", readiness_.trait("pad", "name"));
   fields.set("pad_firmware", readiness_.trait("pad", "firmware"));
+  fields.set("audio_device", readiness_.trait("audio", "device"));
+  fields.set("cpu", processor()).set("compiler", compiler());
+  set_study(fields, config_.study);
   fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);
   fields.set("contacts", config_.contacts);

@@ -235,6 +235,37 @@ TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
   EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
 }
 
+TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {
+  config_.locked = true;
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(1.0, State::following, kScenario.goal);
+  keeper_->take_goal({3.0, 0.0}, now());
+  live(9.0, State::following, kScenario.goal);
+  EXPECT_NE(content("summary.csv").find(",aborted,goal_changed,"), std::string::npos)
+      << content("summary.csv");
+}
+
+TEST_F(Trials, of_a_study_name_their_place_in_it_and_on_what_they_ran) {
+  config_.study.condition = "no_touch";
+  config_.study.order = 2;
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  const std::string journal = content("journal.csv");
+  EXPECT_NE(
+      journal.find(";condition=no_touch;phase=n/a;replaces=n/a;session=n/a;condition_order=2;"),
+      std::string::npos)
+      << journal;
+  EXPECT_NE(journal.find(";audio_device="), std::string::npos);
+  EXPECT_NE(journal.find(";compiler=GCC"), std::string::npos);
+  live(1.0, State::following, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_NE(content("summary.csv").find(",condition,condition_order,"), std::string::npos);
+  EXPECT_NE(content("summary.csv").find(",no_touch,2,"), std::string::npos);
+}
+
 TEST_F(Trials, that_are_to_begin_forget_a_goal_that_is_refused) {
   config_.press_to_start = true;
   config_.once = false;

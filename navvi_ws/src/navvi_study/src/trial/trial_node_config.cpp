@@ -14,16 +14,31 @@ void refuse_control_characters(const char* name, const std::string& text) {
 }
 
 /// Letters, digits, - and _, such as sub-01, so that names do not slip into the record.
-void refuse_all_but_pseudonyms(const std::string& text) {
+void refuse_all_but_pseudonyms(const std::string& name, const std::string& text) {
   const bool plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '-' || c == '_';
   });
   if (text == "n/a" || (plain && !text.empty() && text.size() <= 32)) return;
-  throw std::runtime_error("participant is \"" + text +
+  throw std::runtime_error(name + " is \"" + text +
                            "\"; allowed are up to 32 letters, digits, - and _, such as sub-01");
 }
 
 }  // namespace
+
+void StudyConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Any;
+  const navvi_config::Range count{0, 10000};
+  visit(name, "name", Any{}, "", "of the study");
+  visit(plan, "plan", Any{}, "", "hash of the plan");
+  visit(group, "group", Any{}, "", "of the participant");
+  visit(condition, "condition", Any{}, "", "of the trial");
+  visit(phase, "phase", Any{}, "", "practice or trial");
+  visit(replaces, "replaces", Any{}, "", "the trial that does not count, in whose place it stands");
+  visit(session, "session", count, "", "from 1; 0 outside of a study, as the next three");
+  visit(order, "order", count, "", "place of the condition, from 1");
+  visit(repeat, "repeat", count, "", "of the trial in its condition, from 1");
+  visit(attempt, "attempt", count, "", "from 1");
+}
 
 void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
@@ -51,6 +66,9 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(record, "record", Any{}, "", "keep a bag of each trial");
   visit(tail, "tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words");
   visit(odom_frame, "odom_frame", Any{}, "", "frame of the odometry; its parent is the map's");
+  visit(locked, "locked", Any{}, "",
+        "true: a goal that anybody else sets ends the trial as aborted");
+  visit.group("study", study);
   visit.group("monitor", monitor);
 }
 
@@ -59,7 +77,11 @@ void check(const TrialNodeConfig& config) {
   refuse_control_characters("profile", config.profile);
   refuse_control_characters("parameters", config.parameters);
   refuse_control_characters("version", config.version);
-  refuse_all_but_pseudonyms(config.participant);
+  const StudyConfig& study = config.study;
+  for (const std::string* text :
+       {&study.name, &study.plan, &study.group, &study.condition, &study.phase, &study.replaces})
+    refuse_all_but_pseudonyms("study", *text);
+  refuse_all_but_pseudonyms("participant", config.participant);
   if (config.out.empty()) throw std::runtime_error("out names no folder");
 }
 

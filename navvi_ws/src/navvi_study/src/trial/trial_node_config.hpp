@@ -8,6 +8,22 @@
 
 namespace navvi_study::trial {
 
+/// Where a trial stands in a study's plan, as its summary has it.
+struct StudyConfig {
+  std::string name = "n/a";
+  std::string plan = "n/a";
+  std::string group = "n/a";
+  std::string condition = "n/a";
+  std::string phase = "n/a";
+  std::string replaces = "n/a";
+  int session = 0;
+  int order = 0;
+  int repeat = 0;
+  int attempt = 0;
+
+  void describe(navvi_config::Visitor& visit);
+};
+
 struct TrialNodeConfig {
   std::string out = "trials";
   double limit = 0.0;
@@ -24,6 +40,8 @@ struct TrialNodeConfig {
   bool record = true;
   double tail = 4.0;
   std::string odom_frame = "odom";
+  bool locked = false;
+  StudyConfig study;
   TrialMonitorConfig monitor;
 
   void describe(navvi_config::Visitor& visit);
