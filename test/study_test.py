@@ -20,7 +20,7 @@ sys.path.insert(0, str(PACKAGE / "python"))
 from navvi_study import actions, design, journal, overview, plan_file, progress, questionnaire, runner, schedule, session, study, table  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
 
-EXAMPLE = PACKAGE / "config/example_plan.yaml"
+EXAMPLE = PACKAGE / "studies/example_plan.yaml"
 PLAN = """
 study: small
 title: A small study
@@ -179,7 +179,7 @@ def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
 
 
 def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
-    for path in (PACKAGE / "config/questionnaires").glob("*.yaml"):
+    for path in (PACKAGE / "studies/questionnaires").glob("*.yaml"):
         asked = questionnaire.load(path)
         assert asked.items and questionnaire.script(asked.items, asked.title, asked.intro)
     sus = questionnaire.find("sus", EXAMPLE.parent)

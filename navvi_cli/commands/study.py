@@ -25,6 +25,8 @@ def run(args):
 def _tool(package, name):
     from navvi_cli.workspace import enter, tool
     path = tool(package, name)
+    if not path.exists():
+        fail(f"{name} is not installed; allowed are \"study check --no-worlds\", or a checkout of NavVI.", 2)
     enter()
     return path
 
@@ -45,5 +47,7 @@ def _guarded(action):
                 return action.run(args)
             except StudyError as problem:
                 fail(str(problem), 2)
+            except ModuleNotFoundError as missing:
+                fail(f"the report needs the package python3-{missing.name}; \"sudo apt install python3-{missing.name}\" installs it.", 2)
 
     return Guarded

@@ -254,7 +254,7 @@ class Rehearse:
     def run(args):
         from . import plan_file, rehearsal
         planned = plan_file.load(args.plan)
-        _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench")), args.only, rehearsed=True)
+        _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
 
 
 def _write_report(study, only, rehearsed):

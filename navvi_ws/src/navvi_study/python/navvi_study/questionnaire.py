@@ -11,7 +11,7 @@ from .checked import code, list_of, number, one_of, text
 from .errors import StudyError
 
 # Either in the sources, or installed.
-SHIPPED = [Path(__file__).resolve().parents[2] / "config" / "questionnaires"]
+SHIPPED = [Path(__file__).resolve().parents[2] / "studies" / "questionnaires"]
 LONGEST = 80  # bytes of a sentence that the voice speaks
 DECLINED = "declined"  # rather not say
 

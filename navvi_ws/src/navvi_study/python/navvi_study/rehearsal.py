@@ -8,12 +8,12 @@ from .session import Session
 from .study import Study
 
 
-def rehearse(plan, trials_bench, say=print):
+def rehearse(plan, trials_bench, version, say=print):
     """Returns the study that was run, in a folder of its own."""
     folder = plan.folder / "rehearsal"
     shutil.rmtree(folder, ignore_errors=True)
     study = Study(plan, folder)
-    study.freeze("rehearsal", None)
+    study.freeze(version, None)
     session = Session(study, LoopRunner(study, trials_bench), say=lambda line: None, wait=False)
 
     def live(participant):

@@ -85,8 +85,8 @@ def shown(value):
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
 
 
-def span(low, high):
-    return "n/a" if low is None else f"{shown(low)} to {shown(high)}"
+def with_interval(value, low, high):
+    return shown(value) + ("" if low is None else f" ({shown(low)} to {shown(high)})")
 
 
 def probability(p):
@@ -94,9 +94,9 @@ def probability(p):
 
 
 def contrast_row(one):
-    return [MEASURES[one.measure].label, f"{one.second} against {one.first}", one.participants, shown(one.difference), span(one.low, one.high), one.model or "n/a",
-            f"{one.effect} {shown(one.estimate)}" if one.estimate is not None else "n/a", span(one.estimate_low, one.estimate_high),
-            probability(one.p), probability(one.corrected), one.note]
+    effect = f"{one.effect} {with_interval(one.estimate, one.estimate_low, one.estimate_high)}" if one.estimate is not None else "n/a"
+    return [MEASURES[one.measure].label, f"{one.second} against {one.first}", one.participants, with_interval(one.difference, one.low, one.high),
+            one.model or "n/a", effect, probability(one.p), probability(one.corrected), one.note]
 
 
 def measure_part(analysis, name, command):
@@ -113,16 +113,15 @@ def measure_part(analysis, name, command):
         "svg": base64.b64encode(figures.by_condition(analysis, name).encode()).decode(),
         "alt": alt(measure, rows), "caption": "A dot is a participant's mean, a line joins one participant's, a square is the mean with its 95 % interval"
         + (", times that were not reached at their limit." if censored else "."),
-        "rows": [[f"{row['group']}, {row['condition']}", row["participants"], row["trials"], shown(row["mean"]), span(row["low"], row["high"]), shown(row["sd"]),
-                  shown(row["median"]), shown(row["least"]), shown(row["most"])] + ([row["unfinished"]] if censored else []) for row in rows],
-        "pairs": [[f"{one.second} against {one.first}", one.participants, shown(one.difference), span(one.low, one.high)] for one in compared]}
+        "rows": [[f"{row['group']}, {row['condition']}", row["participants"], row["trials"], with_interval(row["mean"], row["low"], row["high"]),
+                  shown(row["sd"]), shown(row["median"]), shown(row["least"]), shown(row["most"])] + ([row["unfinished"]] if censored else []) for row in rows],
+        "pairs": [[f"{one.second} against {one.first}", one.participants, with_interval(one.difference, one.low, one.high)] for one in compared]}
 
 
 def alt(measure, rows):
     """The plot in words."""
-    parts = [f"{row['group']}, {row['condition']}: {shown(row['mean'])}" + (f", 95 % interval {span(row['low'], row['high'])}" if row["low"] is not None else "")
-             for row in rows]
-    return f"{measure.label}, {measure.unit}, mean by group and condition. " + ". ".join(parts) + ". The table below has all values."
+    parts = [f"{row['group']}, {row['condition']}: {with_interval(row['mean'], row['low'], row['high'])}" for row in rows]
+    return f"{measure.label}, {measure.unit}, mean by group and condition, in brackets its 95 % interval. " + ". ".join(parts) + ". The table below has all values."
 
 
 def answered(study, progress):

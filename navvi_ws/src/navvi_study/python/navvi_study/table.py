@@ -13,7 +13,7 @@ COLUMNS = {
     "excluded": "the reason, or n/a", "excluded_by": "rule, or the user who excluded it", "replaces": "the trial in whose place it stands",
     "marks": "marks and notes of the experimenter", "interventions": "of the experimenter",
 }
-NOT_OURS = {"participant", "study", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
+NOT_OURS = {"participant", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
 UNITS = {"_s": "s", "_m": "m", "_ms": "ms"}
 DESCRIBED = {
     "trial": "name of its folder", "world": "name or file", "world_hash": "of the world that was built", "seed": "draws the world, start and goal",

@@ -26,14 +26,15 @@ def drive(plan, trials_bench, jobs=2):
 
 def compared(plan, driven):
     """Lines on the worlds, and whether the sets are alike."""
-    lines, ways = ["The reference driver, way in m, turns a minute, time in s, movers met:"], {}
+    lines, ways = ["The reference driver, way in m, turns a minute, time in s:"], {}
     for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
                          ("practice", plan.practice.worlds if plan.practice else ())]:
         for world in worlds:
             row = driven[world]
-            lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {row['turns']}, time {row['time']}, met {row.get('passed', 'n/a')}.")
+            lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {row['turns']}, time {row['time']}.")
         if name.startswith("set"):
             ways[name] = sum(float(driven[world]["shortest"]) for world in worlds)
+            lines.append(f"  {name}: all together way {ways[name]:.1f}, time {sum(float(driven[world]['time']) for world in worlds):.1f}.")
     short, long = min(ways, key=ways.get), max(ways, key=ways.get)
     ratio = ways[long] / max(ways[short], 0.1)
     lines.append(f"The ways of {long} are {ratio:.2f} times those of {short}; " + ("alike enough." if ratio <= LIKE else f"other seeds would be better, {LIKE} times is alike."))

@@ -1,0 +1,101 @@
+"""A study of two simulated participants, two conditions and one world each, run live to its end and killed amid it."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PLAN = """
+study: tiny
+title: A tiny study
+groups: {all: {participants: sub-01..sub-02}}
+conditions: {full: {}, plain: {touch: false}}
+worlds:
+  sets: {a: {world: training, seeds: [3]}, b: {world: training, seeds: [4]}}
+  reserve: {world: training, seeds: 11..14}
+operator: simulated
+limit: 120
+questionnaires: {after_condition: [tlx]}
+outcomes: {primary: {measure: time, conditions: [plain, full]}}
+exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]
+"""
+
+
+class Study:
+    def __init__(self, folder):
+        self.plan = folder / "tiny.yaml"
+        self.plan.write_text(PLAN)
+        self.folder = folder / "tiny"
+
+    def begin(self, *words):
+        return subprocess.Popen([str(ROOT / "navvi"), "study", words[0], str(self.plan), *words[1:]], text=True, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def run(self, *words):
+        process = self.begin(*words)
+        said = process.communicate(timeout=400)[0]
+        return process.returncode, said
+
+    def rows(self):
+        path = self.folder / "journal.jsonl"
+        return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+    def wait_for(self, condition, seconds=120):
+        deadline = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < deadline, self.rows()[-3:]
+            time.sleep(0.2)
+
+    def table(self):
+        with open(self.folder / "trials.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    study = Study(tmp_path_factory.mktemp("study"))
+    assert study.run("freeze")[0] == 0
+    # Killed while the first trial runs: the session goes on without a terminal, nobody drives sub-01 meanwhile, and it is taken over.
+    first = study.begin("next", "sub-01")
+    study.wait_for(lambda: "TRIAL_START" in "".join(path.read_text() for path in study.folder.glob("sub-01/*/trial-*/journal.csv")))
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    code, said = study.run("next", "sub-01")
+    assert code == 2 and "running still" in said
+    study.wait_for(lambda: list(study.folder.glob("sub-01/*/trial-*/summary.csv")))
+    study.wait_for(lambda: study.run("next", "sub-01", "--session")[0] == 0)
+    assert study.run("next", "sub-02", "--session")[0] == 0
+    assert study.run("next", "sub-02")[0] == 3
+    assert study.run("report")[0] == 0
+    return study
+
+
+def test_nothing_is_lost_and_nothing_is_doubled(done):
+    begun = [(row["participant"], row["step"], row["attempt"]) for row in done.rows() if row["type"] == "begin"]
+    ended = [(row["participant"], row["step"], row["attempt"]) for row in done.rows() if row["type"] == "end"]
+    assert begun == ended and len(begun) == len(set(begun)) == 4
+    counted = [(row["participant"], row["condition"]) for row in done.table() if row["counts"] == "yes"]
+    assert sorted(counted) == [(name, condition) for name in ("sub-01", "sub-02") for condition in ("full", "plain")]
+
+
+def test_each_trial_names_its_place_in_the_study_in_its_own_record(done):
+    for row in done.table():
+        assert row["study"] == "tiny" and row["result"] == "reached" and row["bag"] == "ok"
+        assert row["operator"] == "simulated" and row["compiler"].startswith("GCC") and row["cpu"] != ""
+        assert f"feedback/haptics/enabled={'false' if row['condition'] == 'plain' else 'true'}" in row["parameters"]
+        assert "feedback/locked=true" in row["parameters"]
+        folder = next(done.folder.glob(f"{row['participant']}/*/{row['trial']}"))
+        with open(folder / "summary.csv", newline="") as file:
+            own = next(csv.DictReader(file))
+        for name in ("condition", "group", "phase", "repeat", "attempt", "session"):
+            assert own[name] == row[name], name
+
+
+def test_the_report_has_both_conditions(done):
+    text = (done.folder / "report.html").read_text()
+    assert "all, full" in text and "all, plain" in text and "fewer than 5 participants" in text
