@@ -1,5 +1,4 @@
 """What glossary and calibrate share: feedback_node alone, until it ends."""
-import re
 import tempfile
 from pathlib import Path
 

@@ -6,7 +6,7 @@ import signal
 import subprocess
 
 from .places import DEVEL, program
-from .say import Failure, fail
+from .say import fail
 from .version import version
 from .workspace import build, enter, is_current
 
@@ -64,9 +64,10 @@ def nodes_of(words):
 def check_parameters(words):
     """Lets each node check its own, and hands them to the launch file as YAML."""
     for part, node in nodes_of(words).items():
-        checked = subprocess.run([str(node), "--parameters", *words.parameters_of(part)], text=True, stdout=subprocess.PIPE)
+        checked = subprocess.run([str(node), "--parameters", *words.parameters_of(part)], text=True, stdout=subprocess.PIPE,
+                                 stderr=subprocess.PIPE)
         if checked.returncode:
-            raise Failure(None, 2)
+            fail(f"{part}_node refuses this: {checked.stderr.strip()}", 2)
         words[f"{part}_parameters"] = checked.stdout.strip()
     words["parameters"] = " ".join(words.parameters).replace(":=", "=")  # roslaunch ignores a value with := in it
     words["version"] = version()
@@ -93,7 +94,7 @@ def write(sentence):
 
 
 class Log:
-    """Everything goes to the file; `show` prints what a person reads. The last sentence that ended a session is `fatal`."""
+    """Everything goes to the file, what a person reads to the screen, too. The last sentence that ended a session is `fatal`."""
 
     def __init__(self, path):
         self.fatal = ""
@@ -104,8 +105,12 @@ class Log:
 
     def take(self, line):
         line = CONTROLS.sub("", line)
-        self.file.write(line)
-        self.file.flush()
+        try:
+            self.file.write(line)
+            self.file.flush()
+        except OSError as problem:  # the session goes on; its record is not in this file
+            self.file = open(os.devnull, "w")
+            write(f"warning: the log cannot be written any more: {problem.strerror}.")
         if FATAL.search(line):
             self.fatal = line.rpartition("]: ")[2].strip()
         for pattern, text in SHOWN:

@@ -217,6 +217,14 @@ def test_of_all_that_is_printed_a_person_reads_what_matters(line, shown, tmp_pat
     assert "\x1b" not in (tmp_path / "log").read_text() and log.file.tell() > 0
 
 
+def test_a_full_disk_ends_the_log_and_not_the_session(capfd):
+    log = session.Log("/dev/full")
+    for line in "[ WARN] [1.0]: one", "[ WARN] [1.0]: two":
+        log.take(line + "\n")
+    assert capfd.readouterr().out == ("navvi: warning: the log cannot be written any more: No space left on device.\n"
+                                      "navvi: warning: one\nnavvi: warning: two\n")
+
+
 def test_what_ended_a_session_is_remembered(tmp_path):
     log = session.Log(tmp_path / "log")
     for line in "[FATAL] [1.0]: there is no map", "[ INFO] [2.0]: bye":
