@@ -192,6 +192,7 @@ def test_a_port_whose_lock_is_a_link_is_not_ours(locks, plant):
 
 def test_a_port_on_which_anybody_listens_is_not_ours(locks):
     with socket.socket() as listener:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(("127.0.0.1", locks))
         listener.listen()
         assert network.claim(locks) is None

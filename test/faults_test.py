@@ -232,6 +232,7 @@ def test_a_session_never_takes_a_port_that_is_locked_or_listened_on_by_anybody(e
         release(other)
     release(first)
     with socket.socket() as listener:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # a session may just have ended there
         listener.bind(("127.0.0.1", port))
         listener.listen()
         third = ports(everybodys_folder)
