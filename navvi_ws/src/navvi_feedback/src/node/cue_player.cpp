@@ -4,8 +4,8 @@
 #include <sensor_msgs/JoyFeedbackArray.h>
 
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 
 #include "devices/earcon_player.hpp"
 #include "devices/gamepad.hpp"
@@ -45,7 +45,7 @@ class CuePlayer {
              config.speaker.voice.empty() ? "en" : config.speaker.voice.c_str(),
              config.speaker.rate, config.speaker.pitch);
     feedback_ = node_.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
-    cues_ = navvi_config::subscribe<navvi_msgs::Cue>(
+    cues_ = navvi_types::subscribe<navvi_msgs::Cue>(
         node_, "navvi/cues", 100, navvi_types::from_msg,
         [this](const navvi_types::CueEvent& cue) { take(cue); });
     motor_timer_ = node_.createWallTimer(ros::WallDuration(0.02),

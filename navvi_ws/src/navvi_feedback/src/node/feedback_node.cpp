@@ -9,8 +9,8 @@
 #include <csignal>
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 
 #include "navvi_feedback/lockstep/guide.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
@@ -87,7 +87,7 @@ class FeedbackNode {
  private:
   template <typename Msg, typename Take>
   void listen(const std::string& topic, std::uint32_t queue, Take take) {
-    subscribers_.push_back(navvi_config::subscribe<Msg>(node_, topic, queue, from_msg, take));
+    subscribers_.push_back(navvi_types::subscribe<Msg>(node_, topic, queue, from_msg, take));
   }
 
   /// Without delay, and with the name of the publisher.

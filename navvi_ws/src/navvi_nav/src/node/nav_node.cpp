@@ -8,8 +8,8 @@
 
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 
 #include "guide/navigator.hpp"
 #include "guide/publish_throttle.hpp"
@@ -72,14 +72,14 @@ class NavNode {
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
     subscribers_ = {node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
                     node.subscribe("map", 1, &NavNode::on_grid, this),
-                    navvi_config::subscribe<navvi_msgs::Obstacles>(
+                    navvi_types::subscribe<navvi_msgs::Obstacles>(
                         node, "navvi/obstacles", 1, navvi_types::from_msg,
                         [this](const navvi_types::Obstacles& obstacles) {
                           navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
                           beat();
                         },
                         config.map_frame, [this] { navigator_.reject_obstacles(); }),
-                    navvi_config::subscribe<nav_msgs::Odometry>(
+                    navvi_types::subscribe<nav_msgs::Odometry>(
                         node, "odom", 1, navvi_types::from_msg,
                         [this](const navvi_types::Odometry& odometry) {
                           navigator_.set_speed(odometry.velocity.linear);

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_config/subscribe.hpp>
+#include <navvi_types/subscribe.hpp>
 
 #include "navvi_people/people/simulated_operator.hpp"
 #include "node/msg_conversion.hpp"
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);
-    const ros::Subscriber cues = navvi_config::subscribe<navvi_msgs::Cue>(
+    const ros::Subscriber cues = navvi_types::subscribe<navvi_msgs::Cue>(
         node, "navvi/cues", 100, navvi_types::from_msg,
         [&](const navvi_types::CueEvent& cue) { person.hear(cue, now()); });
     ros::Subscriber rumble = node.subscribe<sensor_msgs::JoyFeedbackArray>(

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <memory>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 
 #include "navvi_perception/see/perception.hpp"
 #include "node/msg_conversion.hpp"
@@ -73,7 +73,7 @@ class PerceptionNode {
     subscribers_ = {listen<LaserScan>(node, "scan", scans_),
                     listen<PointCloud2>(node, "points", clouds_)};
     if (config.prior.empty())
-      subscribers_.push_back(navvi_config::subscribe<nav_msgs::OccupancyGrid>(
+      subscribers_.push_back(navvi_types::subscribe<nav_msgs::OccupancyGrid>(
           node, "map", 1, from_msg, [this](const sight::Prior& prior) { know(prior); },
           config.map_frame));
     else
@@ -95,7 +95,7 @@ class PerceptionNode {
   template <typename Message>
   ros::Subscriber listen(ros::NodeHandle& node, const char* topic,
                          tf2_ros::MessageFilter<Message>& filter) {
-    return navvi_config::subscribe<Message>(
+    return navvi_types::subscribe<Message>(
         node, topic, kWaiting, from_msg, [this, &filter](const typename Message::ConstPtr& msg) {
           const double age = (ros::Time::now() - msg->header.stamp).toSec();
           if (age < -kAhead)

@@ -5,14 +5,14 @@
 #include <ros/package.h>
 
 #include <navvi_config/reader.hpp>
-#include <navvi_config/subscribe.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 #include <utility>
 
 namespace navvi_rviz::plugin {
 
-using navvi_config::subscribe;
 using navvi_types::from_msg;
+using navvi_types::subscribe;
 
 namespace {
 

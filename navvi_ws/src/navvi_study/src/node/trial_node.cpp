@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_config/subscribe.hpp>
+#include <navvi_types/subscribe.hpp>
 
 #include "node/crashed_part.hpp"
 #include "node/msg_conversion.hpp"
@@ -189,9 +189,9 @@ class TrialNode {
   /// The keeper takes the messages of `topic`; bad ones are dropped and counted.
   template <typename Message>
   void take(const std::string& topic) {
-    subscribers_.push_back(navvi_config::subscribe<Message>(
-        node_, topic, kQueue, navvi_types::from_msg,
-        [this](const auto& value) { keeper_.take(value, now()); }));
+    subscribers_.push_back(
+        navvi_types::subscribe<Message>(node_, topic, kQueue, navvi_types::from_msg,
+                                        [this](const auto& value) { keeper_.take(value, now()); }));
   }
 
   void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {

@@ -8,12 +8,11 @@
 #include <optional>
 #include <string>
 
-namespace navvi_config {
+namespace navvi_types {
 
 /// Subscribes to `topic` without delay: `convert` turns each message into the value for `take`. A
-/// message that it rejects, or that is not in `frame` (empty: in any), is dropped whole, counted, and
-/// logged at most every 5 s (safety rule 2).
-/// \param rejected  is called for each such message
+/// message that it rejects, or that is not in `frame` (empty: in any), is dropped whole, counted,
+/// and logged at most every 5 s (safety rule 2). \param rejected  is called for each such message
 template <typename Message, typename Value, typename Take>
 [[nodiscard]] ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic,
                                         std::uint32_t queue,
@@ -36,4 +35,4 @@ template <typename Message, typename Value, typename Take>
                                  ros::TransportHints().tcpNoDelay());
 }
 
-}  // namespace navvi_config
+}  // namespace navvi_types
