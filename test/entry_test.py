@@ -69,7 +69,7 @@ def test_shell_scripts_are_clean():
     (["world"], "missing: ACTION"),
     (["world", "lst"], "allowed are: list check show write map"),
     (["world", "show"], "missing: NAME|FILE"),
-    (["world", "map", "training"], "writes one file"),
+    (["world", "write", "training"], "writes one file"),
     (["bench", "foo"], "allowed are parts of: build/build_bench nav/nav_bench"),
     (["test", "quick", "a", "b"], "is too much"),
     (["completion", "fish"], "allowed are: bash zsh"),

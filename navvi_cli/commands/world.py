@@ -1,4 +1,4 @@
-"""List worlds, check one, draw it, or write it as SDF or OctoMap.
+"""List worlds, check one, draw it, or write it as SDF.
 
 The names are those of sim_node's parameters, such as seed:=3, and for a layout
 also its own, such as length:=80; "./navvi parameters" lists them all.
@@ -15,11 +15,10 @@ from navvi_cli.workspace import show, tool
 from navvi_cli.worlds import Verdict, names, points, table
 
 WORLD_TOOL = "navvi_sim", "world_tool"
-ENDING = {"write": "sdf", "map": "bt"}
 
 
 def arguments(parser):
-    add_actions(parser, list=List, check=Check, show=Show, write=Write, map=Map)
+    add_actions(parser, list=List, check=Check, show=Show, write=Write)
 
 
 def world_arguments(parser, file=""):
@@ -60,7 +59,7 @@ class Check:
     def arguments(parser):
         world_arguments(parser)
         parser.add_argument("--csv", action="store_true", help="as a table for a program.")
-        parser.add_argument("-o", dest="octomap", metavar="FILE.bt", help="saves its OctoMap.")
+        parser.add_argument("-o", dest="octomap", metavar="FILE", help="saves its OctoMap, .bt or .ot; octomap/free:=true marks free space, too, as mappers do.")
 
     def run(args):
         found = verdict(args, args.octomap)
@@ -98,36 +97,15 @@ class Write:
     """Write a world as SDF."""
 
     def arguments(parser):
-        written_arguments(parser, "FILE.sdf|")
+        world_arguments(parser, "FILE.sdf|")
+        parser.add_argument("-o", dest="file", metavar="FILE", help="the file to write, which may stand alone, too.")
 
     def run(args):
-        return write("write", args)
-
-
-class Map:
-    """Write the OctoMap of a world.
-
-    octomap/free:=true marks free space, too, as mappers do.
-    """
-
-    def arguments(parser):
-        written_arguments(parser, "FILE.bt|FILE.ot|")
-
-    def run(args):
-        return write("map", args)
-
-
-def written_arguments(parser, file):
-    world_arguments(parser, file)
-    parser.add_argument("-o", dest="file", metavar="FILE", help="the file to write, which may stand alone, too.")
-
-
-def write(action, args):
-    files = [word for word in args.words if ":=" not in word] + ([args.file] if args.file else [])
-    if len(files) != 1:
-        fail(f"\"world {action}\" writes one file, and {len(files)} are named; allowed is such as \"world {action} training /tmp/a.{ENDING[action]}\".", 2)
-    words = [word for word in words_of(args) if word not in files]
-    status = show(tool(*WORLD_TOOL), action, args.world, files[0], *words)
-    if status == 0:
-        say(f"the world is in {files[0]}.")
-    return status
+        files = [word for word in args.words if ":=" not in word] + ([args.file] if args.file else [])
+        if len(files) != 1:
+            fail(f"\"world write\" writes one file, and {len(files)} are named; allowed is such as \"world write training /tmp/a.sdf\".", 2)
+        words = [word for word in words_of(args) if word not in files]
+        status = show(tool(*WORLD_TOOL), "write", args.world, files[0], *words)
+        if status == 0:
+            say(f"the world is in {files[0]}.")
+        return status

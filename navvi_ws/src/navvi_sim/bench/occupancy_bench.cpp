@@ -28,8 +28,8 @@ navvi_sim::WorldDescription hall() {
   for (int column = 0; column < 2; ++column)
     for (int row = 0; row < 3; ++row)
       for (navvi_sim::Thing thing :
-           navvi_sim::read::load_world("warehouse", "",
-                                       static_cast<std::uint64_t>(2 * row + column + 1), {})
+           navvi_sim::read::load_world(
+               {"warehouse", "", static_cast<std::uint64_t>(2 * row + column + 1)})
                .world.things) {
         if (thing.thing_class == navvi_sim::ThingClass::floor) continue;
         thing.name += "_" + std::to_string(column) + std::to_string(row);

@@ -41,7 +41,7 @@ struct Scenery {
 
 const Scenery& warehouse() {
   static const Scenery scenery{
-      read::load_world("warehouse", "", 1, {}).world, {{6.5, -12.8}, 1.57}, {0.45, 0.45}};
+      read::load_world({"warehouse"}).world, {{6.5, -12.8}, 1.57}, {0.45, 0.45}};
   return scenery;
 }
 
@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
       ->Unit(kUnit);
   const std::filesystem::path meshes = NAVVI_AWS_WORLD;
   if (std::filesystem::exists(meshes)) {
-    static const WorldDescription aws = read::load_world(meshes.string(), "", 1, {}).world;
+    static const WorldDescription aws = read::load_world({meshes.string()}).world;
     RegisterBenchmark("proximity among the meshes of AWS", run_proximity, aws,
                       Pose2{{1.0, -9.0}, 0.0})
         ->Unit(kUnit);

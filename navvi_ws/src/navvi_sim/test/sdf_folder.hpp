@@ -42,7 +42,7 @@ inline Eigen::AlignedBox3d bounds(const Thing& thing) {
 
 inline std::string sentence_of(const std::string& spec, const std::string& models = "") {
   try {
-    static_cast<void>(load_world(spec, models, 1, {}));
+    static_cast<void>(load_world({spec, models}));
   } catch (const WorldError& error) {
     return error.what();
   }
@@ -77,10 +77,10 @@ class SdfFolder : public testing::Test {
   std::filesystem::path folder_;
   [[nodiscard]] LoadedWorld load(const std::string& body,
                                  const std::string& version = "1.6") const {
-    return load_world(write_world(body, version), "", 1, {});
+    return load_world({write_world(body, version)});
   }
   [[nodiscard]] LoadedWorld load_leaving_out(const std::string& body) const {
-    return load_world(write_world(body), "", 1, {}, "", Missing::leave_out);
+    return load_world({write_world(body), "", 1, Workers::as_laid_out, "", Missing::leave_out});
   }
   /// A model of one link with one collision of that geometry.
   [[nodiscard]] static std::string model(const std::string& name, const std::string& geometry,

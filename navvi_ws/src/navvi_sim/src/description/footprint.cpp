@@ -76,9 +76,9 @@ bool Ground::holds(const Eigen::Vector2d& point, double gap) const {
 std::vector<Eigen::Vector3d> hull_points(const Geometry& geometry) {
   std::vector<Eigen::Vector3d> points;
   const auto rim = [&](double radius, double z) {
-    const double outer = radius / std::cos(M_PI / kRimPoints);
+    const double outer = radius / std::cos(kPi / kRimPoints);
     for (int i = 0; i < kRimPoints; ++i) {
-      const double angle = 2.0 * M_PI * (i + 0.5) / kRimPoints;
+      const double angle = 2.0 * kPi * (i + 0.5) / kRimPoints;
       points.emplace_back(outer * std::cos(angle), outer * std::sin(angle), z);
     }
   };
@@ -150,7 +150,7 @@ navvi_types::MovingThing extent_of(const Footprint& print) {
   extent.radius = print.radius;
   const double length = 2.0 * std::max(print.front, print.back);
   const double width = 2.0 * print.side;
-  if (length * width >= M_PI * print.radius * print.radius) return extent;
+  if (length * width >= kPi * print.radius * print.radius) return extent;
   extent.radius = std::max(print.radius, 0.5 * std::hypot(length, width));
   extent.length = length;
   extent.width = width;

@@ -83,8 +83,8 @@ Mesh ellipsoid_mesh(const Eigen::Vector3d& radii) {
   Mesh mesh;
   for (std::uint32_t ring = 0; ring <= kRings; ++ring)
     for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
-      const double polar = M_PI * ring / kRings;
-      const double around = 2.0 * M_PI * sector / kSectors;
+      const double polar = kPi * ring / kRings;
+      const double around = 2.0 * kPi * sector / kSectors;
       const Eigen::Vector3d unit(std::sin(polar) * std::cos(around),
                                  std::sin(polar) * std::sin(around), std::cos(polar));
       mesh.vertices.push_back(radii.cwiseProduct(unit).cast<float>());

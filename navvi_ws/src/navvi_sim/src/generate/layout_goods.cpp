@@ -57,7 +57,7 @@ std::vector<Thing> LayoutGoods::racks(Random random) const {
           const int from = plan_.bays() * rack / racks;
           const int to = plan_.bays() * (rack + 1) / racks;
           add(things, numbered("shelf", ++number), ThingClass::shelf,
-              at(x, area.min().y() + kBay * (from + to) / 2.0, 0.0, -side * M_PI / 2.0),
+              at(x, area.min().y() + kBay * (from + to) / 2.0, 0.0, -side * kPi / 2.0),
               loaded_rack(random, to - from, config_.fill));
         }
       }
@@ -69,12 +69,12 @@ std::vector<Thing> LayoutGoods::racks(Random random) const {
 void LayoutGoods::add_pallet(Things& things, Random& random, const Eigen::Vector2d& spot,
                              double yaw, bool loaded) {
   const std::string name = numbered("pallet", ++pallets_);
-  add(things, name, ThingClass::pedestal, at(spot.x(), spot.y(), 0.0, yaw + M_PI / 2.0),
+  add(things, name, ThingClass::pedestal, at(spot.x(), spot.y(), 0.0, yaw + kPi / 2.0),
       {box_on(0.0, 0.0, 0.0, kPalletLength, kPalletWidth, kPalletHeight)});
   const double height = random.uniform(0.4, 1.4);
   if (loaded)
     add(things, name + "_load", ThingClass::box,
-        at(spot.x(), spot.y(), kPalletHeight, yaw + M_PI / 2.0),
+        at(spot.x(), spot.y(), kPalletHeight, yaw + kPi / 2.0),
         {box_on(0.0, 0.0, 0.0, kPalletLength - 0.08, kPalletWidth - 0.08, height)});
 }
 
@@ -172,13 +172,13 @@ void LayoutGoods::add_pedestal(Things& things, Random& random, const Place& plac
   const std::string name = numbered("pedestal", ++pedestals_);
   const double height = random.uniform(config_.pedestal_min, config_.pedestal_max);
   const double x = place.x(kPedestalRoom);
-  add(things, name, ThingClass::pedestal, at(x, place.y, 0.0, M_PI / 2.0),
+  add(things, name, ThingClass::pedestal, at(x, place.y, 0.0, kPi / 2.0),
       {box_on(0.0, 0.0, 0.0, kPalletLength, kPalletWidth, height)});
   const double length = random.uniform(0.5, 1.0);
   const double width = random.uniform(0.4, 0.7);
   const double top = random.uniform(0.4, 0.9);
   if (random.chance(0.5))
-    add(things, name + "_box", ThingClass::box, at(x, place.y, height, M_PI / 2.0),
+    add(things, name + "_box", ThingClass::box, at(x, place.y, height, kPi / 2.0),
         {box_on(0.0, 0.0, 0.0, length, width, top)});
 }
 

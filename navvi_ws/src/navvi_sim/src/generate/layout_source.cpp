@@ -39,10 +39,12 @@ WorldDescription LayoutSource::build(std::uint64_t seed) const {
   }
 }
 
-std::optional<LayoutSource> read_layout(const std::filesystem::path& file) {
+LayoutSource read_layout(const std::filesystem::path& file) {
   try {
     const YAML::Node node = navvi_config::load_yaml(file);
-    if (!node.IsMap() || !(has_key(node, "layout") || has_key(node, "preset"))) return std::nullopt;
+    if (!node.IsMap() || !(has_key(node, "layout") || has_key(node, "preset")))
+      throw WorldError(file.string() +
+                       ": this is not a layout; it needs preset or layout, and may have name");
     LayoutFile content;
     navvi_config::read(content, node, file.string());
     // Once more: what the file sets goes on top of the preset that it names.

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "generate/layout_config.hpp"
@@ -30,9 +29,7 @@ struct LayoutSource {
 ///       length: 80
 ///       forklifts: 8
 ///
-/// \return nullopt for YAML that has neither a preset nor a layout at its top: no layout, but
-/// perhaps a world (yaml_world.hpp)
 /// \throws WorldError with file, line and what is allowed
-[[nodiscard]] std::optional<LayoutSource> read_layout(const std::filesystem::path& file);
+[[nodiscard]] LayoutSource read_layout(const std::filesystem::path& file);
 
 }  // namespace navvi_sim::generate

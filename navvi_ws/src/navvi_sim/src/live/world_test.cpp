@@ -8,8 +8,6 @@
 namespace navvi_sim::live {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 Thing box_thing(const std::string& name, ThingClass thing_class, const Eigen::Vector3d& centre,
                 const Eigen::Vector3d& size) {
   Thing thing;
@@ -167,7 +165,7 @@ TEST(World, F3_a_robot_at_a_wall_turns_as_without_contact) {
     for (int i = 0; i < 200; ++i) {
       const double yaw = world.now().robot.yaw;
       EXPECT_EQ(world.step(command), World::Status::running);
-      angle += std::remainder(world.now().robot.yaw - yaw, 2.0 * kPi);
+      angle += navvi_types::wrap(world.now().robot.yaw - yaw);
     }
     return std::pair{angle, (world.now().robot.position - before).norm()};
   };
@@ -179,7 +177,7 @@ TEST(World, F3_a_robot_at_a_wall_turns_as_without_contact) {
         WorldDescription description = floor_only();
         description.things.push_back(obstacle);
         for (int degrees = -80; degrees <= 80; degrees += 2) {
-          const auto [angle, moved] = turned(description, degrees * kPi / 180.0, command);
+          const auto [angle, moved] = turned(description, navvi_types::radians(degrees), command);
           EXPECT_NEAR(angle, free, 0.1 * std::abs(free)) << degrees << " degrees, " << forward;
           if (forward == 0.0) {
             EXPECT_LT(moved, 0.005) << degrees << " degrees";

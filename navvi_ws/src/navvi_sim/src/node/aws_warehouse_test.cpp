@@ -18,7 +18,7 @@ class AwsWarehouse : public testing::Test {
                                        "worlds/aws_small_warehouse/no_roof_small_warehouse.world";
     if (!std::filesystem::exists(file))
       GTEST_SKIP() << "the world " << file << " is not on this machine";
-    loaded_ = read::load_world(file.string(), "", 1, {});
+    loaded_ = read::load_world({file.string()});
   }
   read::LoadedWorld loaded_;
 };

@@ -17,7 +17,6 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 const ros::Time kStamp(12.5);
-constexpr double kPi = 3.14159265358979323846;
 
 Thing box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   Thing thing;

@@ -211,8 +211,8 @@ TEST(OccupancyAgrees, with_the_meshes_of_a_world_that_others_made) {
   const std::filesystem::path folder =
       std::filesystem::path(NAVVI_SHARED_DIR) / "worlds/aws_small_warehouse";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not on this machine";
-  expect_agreement(
-      read::load_world((folder / "no_roof_small_warehouse.world").string(), "", 1, {}).world, 1);
+  expect_agreement(read::load_world({(folder / "no_roof_small_warehouse.world").string()}).world,
+                   1);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ sensor_msgs::LaserScan scan_msg(const sensors::Sensor& lidar, const sensors::Rea
   msg.header.frame_id = frame;
   // The first ray may point straight back: atan2 gives either sign there.
   msg.angle_min = static_cast<float>(-std::abs(angle(0)));
-  msg.angle_increment = static_cast<float>(std::remainder(angle(1) - angle(0), 2.0 * M_PI));
+  msg.angle_increment = static_cast<float>(navvi_types::wrap(angle(1) - angle(0)));
   msg.angle_max = msg.angle_min + static_cast<float>(lidar.rays().size() - 1) * msg.angle_increment;
   msg.scan_time = static_cast<float>(1.0 / lidar.rate());
   msg.range_min = static_cast<float>(lidar.nearest());

@@ -49,7 +49,7 @@ TEST(SensorConversion, the_frame_of_a_camera_that_looks_down_turns_its_x_axis_do
   const auto msg = mount_msg(sensors::Sensor(config, 1), "camera_link");
   const auto& q = msg.transform.rotation;
   const Eigen::Vector3d ahead = Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Eigen::Vector3d::UnitX();
-  EXPECT_NEAR(ahead.z(), -std::sin(config.pitch * M_PI / 180.0), 1e-9);
+  EXPECT_NEAR(ahead.z(), -std::sin(navvi_types::radians(config.pitch)), 1e-9);
   EXPECT_DOUBLE_EQ(msg.transform.translation.z, config.height);
 }
 

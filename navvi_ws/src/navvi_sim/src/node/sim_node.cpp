@@ -30,9 +30,10 @@ namespace {
 
 constexpr double kTick = 0.005;  // s, wall clock; shorter than a step, for an even pace
 // What moves in the picture, for a bag that RViz shows without us: seldom, that it stays small.
+constexpr int kMostSteps = 10;  // at once after a delay; beyond it the simulation slows down
 constexpr double kRecordedPeriod = 0.5;     // s
 constexpr double kRecordedMarkers = 400.0;  // a second, at most
-constexpr double kJump = 0.25;   // s, of ROS time; longer than any step
+constexpr double kJump = 0.25;              // s, of ROS time; longer than any step
 constexpr const char* kLidarFrame = "laser";
 constexpr const char* kCameraFrame = "camera_link";
 
@@ -141,7 +142,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
       map_(setup::map_of(config_, description_)),
       looks_(description_, config.life.robot),
       gate_(config.gate),
-      pacer_(config.life.step, config.rate, config.max_catch_up) {
+      pacer_(config.life.step, config.rate, kMostSteps) {
   const scenario::StartAndGoal scenario = setup::scenario_of(config_, description_, map_);
   session_.emplace(description_, config_.life, scenario.start,
                    static_cast<std::uint64_t>(config_.seed));
@@ -246,7 +247,7 @@ void SimNode::tick(const ros::WallTimerEvent&) {
     commands_queue_.callAvailable();
     if (!step()) return;
   }
-  if (due == config_.max_catch_up && dropped > 0)
+  if (due == kMostSteps && dropped > 0)
     ROS_WARN_THROTTLE(5.0, "the simulation is slower than asked for: %ld steps let go so far",
                       dropped);
 }

@@ -71,7 +71,7 @@ void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
 TEST(Tangible, is_all_that_the_map_shows_in_the_worlds_that_ship) {
   for (const char* name : {"warehouse", "busy", "easy", "narrow", "maze", "training"}) {
     SCOPED_TRACE(name);
-    WorldDescription world = read::load_world(name, "", 3, read::Workers::standing).world;
+    WorldDescription world = read::load_world({name, "", 3, read::Workers::standing}).world;
     for (Thing& thing : world.things) thing.route.reset();
     expect_agreement(world, 3);
   }
@@ -104,8 +104,7 @@ TEST(Tangible, is_all_that_the_map_shows_in_worlds_that_others_made) {
   const std::filesystem::path folder = std::filesystem::path(NAVVI_SHARED_DIR) / "worlds";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not on this machine";
   expect_agreement(
-      read::load_world((folder / "aws_small_warehouse/no_roof_small_warehouse.world").string(), "",
-                       1, {})
+      read::load_world({(folder / "aws_small_warehouse/no_roof_small_warehouse.world").string()})
           .world,
       1);
 }

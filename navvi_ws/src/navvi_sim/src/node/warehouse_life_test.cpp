@@ -122,7 +122,7 @@ TEST(WarehouseLife, a_robot_that_drives_blindly_among_meshes_enters_none) {
   const std::filesystem::path path = std::filesystem::path(NAVVI_SHARED_DIR) /
                                      "worlds/aws_small_warehouse/no_roof_small_warehouse.world";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const WorldDescription description = read::load_world(path, "", 1, {}).world;
+  const WorldDescription description = read::load_world({path}).world;
   for (const double yaw : {0.0, 1.57, 3.14, -1.57}) {
     live::World world(description, {}, {{1.0, -9.0}, yaw}, 1);
     std::size_t contacts = 0;

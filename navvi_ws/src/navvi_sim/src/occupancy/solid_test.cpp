@@ -12,7 +12,6 @@
 namespace navvi_sim::occupancy {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr long double kBeside = 1e-10L;  // m: what is nearer to a voxel than that belongs to it
 constexpr long double kAway = 1e-5L;     // m: what is farther away does not
 

@@ -115,7 +115,7 @@ void MapCanvas::line(const std::vector<Eigen::Vector2d>& points, const char* col
 
 void MapCanvas::start(const Eigen::Vector2d& page, double yaw, double size) {
   out_ << "<g transform=\"translate(" << svg_number(page.x()) << ',' << svg_number(page.y())
-       << ") rotate(" << svg_number(-yaw * 180.0 / M_PI) << ") scale(" << svg_number(size)
+       << ") rotate(" << svg_number(navvi_types::degrees(-yaw)) << ") scale(" << svg_number(size)
        << ")\"><circle r=\"1\" fill=\"#ffffff\" stroke=\"#000000\" stroke-width=\"0.2\"/>"
        << "<path d=\"M1.5,0L-0.5,0.75L-0.5,-0.75Z\" fill=\"#9b00d3\"/></g>\n";
 }

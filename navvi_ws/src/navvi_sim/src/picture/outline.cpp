@@ -69,7 +69,7 @@ class Tracer {
   [[nodiscard]] std::vector<Eigen::Vector2d> circle(double radius) const {
     std::vector<Eigen::Vector2d> ring;
     for (int i = 0; i < kRimPoints; ++i) {
-      const double angle = 2.0 * M_PI * i / kRimPoints;
+      const double angle = 2.0 * kPi * i / kRimPoints;
       ring.emplace_back(pose_.translation().head<2>() +
                         radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
     }

@@ -163,8 +163,8 @@ void draw_swatch(MapCanvas& canvas, const WorldDescription& world, ThingClass th
     canvas.svg() << "<g transform=\"translate(" << svg_number(p.x()) << ',' << svg_number(p.y())
                  << ") scale(" << svg_number(scale / canvas.scale()) << ") translate("
                  << svg_number(-middle.x()) << ',' << svg_number(middle.y()) << ") rotate("
-                 << svg_number(yaw * 180.0 / M_PI) << ") translate(" << svg_number(-place.x())
-                 << ',' << svg_number(-place.y()) << ")\">\n";
+                 << svg_number(navvi_types::degrees(yaw)) << ") translate("
+                 << svg_number(-place.x()) << ',' << svg_number(-place.y()) << ")\">\n";
     for (const Outline& outline : outlines) canvas.outline(outline);
     canvas.svg() << "</g>\n";
     return;

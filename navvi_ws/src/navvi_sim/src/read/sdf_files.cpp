@@ -177,37 +177,42 @@ void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path
   element.children = std::move(children);
 }
 
+std::optional<XmlElement> SdfFiles::stand_in(const XmlElement& include, const std::string& uri,
+                                             SdfNotes& notes) const {
+  const Stock stock = stock_of(uri);
+  if (stock == Stock::none)
+    refuse(include, "the model '" + uri + "' is not there; looked in " + looked_in() +
+                        " (give its folder as models)");
+  if (stock == Stock::sun) {
+    notes.add_harmless(include);
+    return std::nullopt;
+  }
+  XmlElement ground = stock_ground(include);
+  override_with(ground, include);
+  notes.add(include, "the model '" + uri + "' is not there; a level plane stands for it");
+  return ground;
+}
+
+fs::path SdfFiles::model_file(const XmlElement& include, const fs::path& found) {
+  if (const auto known = broken_.find(found); known != broken_.end())
+    refuse(include, known->second);
+  try {
+    auto known = model_files_.find(found);
+    if (known == model_files_.end()) known = model_files_.emplace(found, sdf_file_of(found)).first;
+    static_cast<void>(document(known->second));
+    return known->second;
+  } catch (const WorldError& error) {
+    refuse(include, broken_[found] = error.what());
+  }
+}
+
 std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes& notes,
                                              std::vector<fs::path>& chain) {
   const std::string uri = required(include, "uri").text;
   const auto found = find(uri, *include.file);
-  if (!found) {
-    const Stock stock = stock_of(uri);
-    if (stock == Stock::none)
-      refuse(include, "the model '" + uri + "' is not there; looked in " + looked_in() +
-                          " (give its folder as models)");
-    if (stock == Stock::sun) {
-      notes.add_harmless(include);
-      return std::nullopt;
-    }
-    XmlElement ground = stock_ground(include);
-    override_with(ground, include);
-    notes.add(include, "the model '" + uri + "' is not there; a level plane stands for it");
-    return ground;
-  }
-  const XmlElement* root = nullptr;
-  fs::path file;
-  if (const auto known = broken_.find(*found); known != broken_.end())
-    refuse(include, known->second);
-  try {
-    auto known = model_files_.find(*found);
-    if (known == model_files_.end())
-      known = model_files_.emplace(*found, sdf_file_of(*found)).first;
-    file = known->second;
-    root = &document(file);
-  } catch (const WorldError& error) {
-    refuse(include, broken_[*found] = error.what());
-  }
+  if (!found) return stand_in(include, uri, notes);
+  const fs::path file = model_file(include, *found);
+  const XmlElement& root = document(file);
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(file, error);
   if (std::find(chain.begin(), chain.end(), canonical) != chain.end())
@@ -216,8 +221,8 @@ std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes
     refuse(include, "includes are nested more than " + std::to_string(kMaxDepth) +
                         " deep; allowed is up to that");
   for (const char* kind : {"model", "actor", "light"}) {
-    if (root->name != "sdf" || root->child(kind) == nullptr) continue;
-    XmlElement model = *root->child(kind);
+    if (root.name != "sdf" || root.child(kind) == nullptr) continue;
+    XmlElement model = *root.child(kind);
     elements_ += size_of(model);
     if (elements_ > kMaxElements)
       throw WorldError(include.place() + ": with this include the world comes to more than " +
@@ -229,8 +234,8 @@ std::optional<XmlElement> SdfFiles::included(const XmlElement& include, SdfNotes
     return model;
   }
   refuse(include, "the model '" + uri + "' holds " +
-                      (root->name == "sdf" ? "no <model>, <actor> or <light>"
-                                           : "a <" + root->name + "> and no <sdf>") +
+                      (root.name == "sdf" ? "no <model>, <actor> or <light>"
+                                          : "a <" + root.name + "> and no <sdf>") +
                       "; allowed is an <sdf> element with one of these in it");
 }
 

@@ -36,6 +36,12 @@ class SdfFiles {
   void expand(XmlElement& element, SdfNotes& notes, std::vector<std::filesystem::path>& chain);
   [[nodiscard]] std::optional<XmlElement> included(const XmlElement& include, SdfNotes& notes,
                                                    std::vector<std::filesystem::path>& chain);
+  /// What Gazebo ships itself and a world may therefore include. nullopt: it means nothing here
+  [[nodiscard]] std::optional<XmlElement> stand_in(const XmlElement& include,
+                                                   const std::string& uri, SdfNotes& notes) const;
+  /// The file of a model that was found. \throws WorldError at `include` if it cannot be read
+  [[nodiscard]] std::filesystem::path model_file(const XmlElement& include,
+                                                 const std::filesystem::path& found);
   [[nodiscard]] const XmlElement& document(const std::filesystem::path& file);
 
   std::filesystem::path world_file_;

@@ -104,11 +104,10 @@ TEST_F(SdfFrames, are_those_of_libsdformat) {
 
     const std::size_t end = text.rfind("</world>");
     const LoadedWorld ours = load_world(
-        write("a.world", text.substr(0, end) +
-                             "<model name='ground_plane'><pose>0 0 -50 0 0 0</pose><link "
-                             "name='l'><collision name='c'><geometry><plane/></geometry>"
-                             "</collision></link></model></world></sdf>"),
-        "", 1, {});
+        {write("a.world", text.substr(0, end) +
+                              "<model name='ground_plane'><pose>0 0 -50 0 0 0</pose><link "
+                              "name='l'><collision name='c'><geometry><plane/></geometry>"
+                              "</collision></link></model></world></sdf>")});
     for (std::uint64_t i = 0; i < theirs.ModelCount(); ++i) {
       const sdf::Model& model = *theirs.ModelByIndex(i);
       std::vector<JudgedCollision> judged;

@@ -179,7 +179,7 @@ TEST_F(HostileWorld, however_it_is_mangled_is_read_or_refused_with_a_sentence) {
     for (std::size_t k = 0; k < changes; ++k) text = mutated(text, random);
     const std::string file = write("a.world", text);
     try {
-      static_cast<void>(load_world(file, "", 1, {}));
+      static_cast<void>(load_world({file}));
       ++read;
     } catch (const WorldError& error) {
       ++refused;
@@ -202,7 +202,7 @@ TEST_F(HostileWorld, with_a_mangled_mesh_is_read_or_refused_with_a_sentence) {
     write("m.obj", i % 2 == 0 ? mutated(obj, random) : obj);
     write("m.stl", i % 2 == 1 ? mutated(stl, random) : stl);
     try {
-      static_cast<void>(load_world(file, "", 1, {}));
+      static_cast<void>(load_world({file}));
     } catch (const WorldError& error) {
       EXPECT_NE(std::string(error.what()).find("a.world"), std::string::npos) << error.what();
     }

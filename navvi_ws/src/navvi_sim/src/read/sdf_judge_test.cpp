@@ -141,7 +141,7 @@ class Judge : public SdfFolder {
     if (!root) return 0;
     LoadedWorld ours;
     try {
-      ours = load_world(file, list, 1, {}, "", Missing::leave_out);
+      ours = load_world({file, list, 1, Workers::as_laid_out, "", Missing::leave_out});
     } catch (const WorldError&) {
       return 0;
     }

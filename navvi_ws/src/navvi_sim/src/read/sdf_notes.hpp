@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "navvi_sim/read/world_source.hpp"
+#include "navvi_sim/read/loaded_world.hpp"
 #include "read/xml_element.hpp"
 
 namespace navvi_sim::read {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "navvi_sim/read/world_source.hpp"
+#include "navvi_sim/read/loaded_world.hpp"
 #include "read/class_rules.hpp"
 #include "read/sdf_notes.hpp"
 

@@ -107,7 +107,7 @@ Eigen::Isometry3d pose_value(const XmlElement& pose) {
   }
   const bool degrees = pose.attribute("degrees") == "true" || pose.attribute("degrees") == "1";
   for (std::size_t i = 3; i < 6; ++i)
-    v[i] = std::remainder(degrees ? v[i] * M_PI / 180.0 : v[i], 2.0 * M_PI);
+    v[i] = navvi_types::wrap(degrees ? navvi_types::radians(v[i]) : v[i]);
   result.linear() = rotation({v[3], v[4], v[5]});
   return result;
 }

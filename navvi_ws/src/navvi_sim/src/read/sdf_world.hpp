@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "navvi_sim/read/world_source.hpp"
+#include "navvi_sim/read/loaded_world.hpp"
 #include "read/class_rules.hpp"
 
 // Why SDF is read by our own reader, with libsdformat only as its judge in tests. libsdformat 12

@@ -14,8 +14,7 @@ namespace {
 class SdfWorld : public SdfFolder {};
 
 TEST_F(SdfWorld, that_ships_is_a_room_with_a_shelf) {
-  const LoadedWorld loaded =
-      load_world(std::string(NAVVI_SIM_DIR) + "/worlds/small_room.world", "", 1, {});
+  const LoadedWorld loaded = load_world({std::string(NAVVI_SIM_DIR) + "/worlds/small_room.world"});
   EXPECT_TRUE(loaded.notes.empty());
   EXPECT_EQ(loaded.world.name, "small_room");
   EXPECT_EQ(loaded.world.things.size(), 8U);
@@ -38,9 +37,8 @@ TEST_F(SdfWorld, adds_up_poses_of_world_model_link_and_collision) {
       "<link name='l'><pose>0 2 0 0 0 0</pose><collision name='c'><pose>0 0 0.5 0 0 0</pose>"
       "<geometry><box><size>1 1 1</size></box></geometry></collision></link>");
   const LoadedWorld loaded = load_world(
-      write_world(ground_ + "<model name='crate_1'><include><uri>model://crate</uri></include>"
-                            "<pose>1 0 0 0 0 1.5707963267948966</pose></model>"),
-      "", 1, {});
+      {write_world(ground_ + "<model name='crate_1'><include><uri>model://crate</uri></include>"
+                             "<pose>1 0 0 0 0 1.5707963267948966</pose></model>")});
   const Thing* crate = thing_named(loaded.world, "crate_1");
   ASSERT_NE(crate, nullptr);
   EXPECT_LT((bounds(*crate).center() - Eigen::Vector3d(-1.0, 0.0, 0.5)).norm(), 1e-9);
@@ -48,36 +46,32 @@ TEST_F(SdfWorld, adds_up_poses_of_world_model_link_and_collision) {
 
 TEST_F(SdfWorld, follows_relative_to) {
   const LoadedWorld loaded = load_world(
-      write_world(ground_ +
-                      "<frame name='f'><pose>3 0 0 0 0 0</pose></frame><model name='box'>"
-                      "<pose relative_to='f'>0 1 0.5 0 0 0</pose>" +
-                      cube_ + "</model>",
-                  "1.7"),
-      "", 1, {});
+      {write_world(ground_ +
+                       "<frame name='f'><pose>3 0 0 0 0 0</pose></frame><model name='box'>"
+                       "<pose relative_to='f'>0 1 0.5 0 0 0</pose>" +
+                       cube_ + "</model>",
+                   "1.7")});
   EXPECT_LT(
       (bounds(*thing_named(loaded.world, "box")).center() - Eigen::Vector3d(3, 1, 0.5)).norm(),
       1e-9);
 }
 
 TEST_F(SdfWorld, takes_geometry_whatever_the_masses_are) {
-  const LoadedWorld loaded = load_world(
-      write_world(ground_ +
-                  "<model name='box'><link name='l'><inertial><mass>-3</mass><inertia><ixx>-1</ixx>"
-                  "</inertia></inertial><collision name='c'><geometry><box><size>1 1 1</size></box>"
-                  "</geometry></collision></link></model>"),
-      "", 1, {});
+  const LoadedWorld loaded = load_world({write_world(
+      ground_ +
+      "<model name='box'><link name='l'><inertial><mass>-3</mass><inertia><ixx>-1</ixx>"
+      "</inertia></inertial><collision name='c'><geometry><box><size>1 1 1</size></box>"
+      "</geometry></collision></link></model>")});
   EXPECT_NE(thing_named(loaded.world, "box"), nullptr);
 }
 
 TEST_F(SdfWorld, as_gazebo_saves_it_is_read_with_its_state) {
-  const LoadedWorld loaded = load_world(
-      write_world(
-          ground_ +
-          "<model name='box'><link name='A::body'><collision name='c'><geometry><box>"
-          "<size>1 1 1</size></box></geometry></collision></link></model>"
-          "<state world_name='w'><model name='box'><pose frame=''>2 3 0.5 0 -0 0</pose>"
-          "<link name='A::body'><pose frame=''>2 3 0.5 0 -0 0</pose></link></model></state>"),
-      "", 1, {});
+  const LoadedWorld loaded = load_world({write_world(
+      ground_ +
+      "<model name='box'><link name='A::body'><collision name='c'><geometry><box>"
+      "<size>1 1 1</size></box></geometry></collision></link></model>"
+      "<state world_name='w'><model name='box'><pose frame=''>2 3 0.5 0 -0 0</pose>"
+      "<link name='A::body'><pose frame=''>2 3 0.5 0 -0 0</pose></link></model></state>")});
   EXPECT_LT(
       (bounds(*thing_named(loaded.world, "box")).center() - Eigen::Vector3d(2, 3, 0.5)).norm(),
       1e-9);
@@ -85,12 +79,11 @@ TEST_F(SdfWorld, as_gazebo_saves_it_is_read_with_its_state) {
 }
 
 TEST_F(SdfWorld, makes_a_floor_of_an_endless_plane) {
-  const LoadedWorld loaded = load_world(
-      write_world("<model name='ground_plane'><link name='l'><collision name='c'><geometry><plane>"
-                  "<normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
-                  "</model><model name='box'><pose>4 0 0.5 0 0 0</pose>" +
-                  cube_ + "</model>"),
-      "", 1, {});
+  const LoadedWorld loaded = load_world({write_world(
+      "<model name='ground_plane'><link name='l'><collision name='c'><geometry><plane>"
+      "<normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
+      "</model><model name='box'><pose>4 0 0.5 0 0 0</pose>" +
+      cube_ + "</model>")});
   EXPECT_NEAR(loaded.world.floor_height, 0.0, 1e-9);
   EXPECT_EQ(thing_named(loaded.world, "ground_plane")->thing_class, ThingClass::floor);
 }
@@ -300,9 +293,8 @@ TEST_F(SdfWorld, finds_models_where_gazebo_and_most_repositories_keep_them) {
 
 TEST_F(SdfWorld, has_names_that_a_terminal_can_show) {
   const LoadedWorld loaded = load_world(
-      write("n.world", "<sdf version='1.6'><world name='a&#10;b'>" + ground_ +
-                           "<model name='red&#27;[31m'>" + cube_ + "</model></world></sdf>"),
-      "", 1, {});
+      {write("n.world", "<sdf version='1.6'><world name='a&#10;b'>" + ground_ +
+                            "<model name='red&#27;[31m'>" + cube_ + "</model></world></sdf>")});
   EXPECT_EQ(loaded.world.name, "a b");
   EXPECT_NE(thing_named(loaded.world, "red [31m"), nullptr);
 }
@@ -360,12 +352,10 @@ TEST_F(SdfWorld, takes_a_mesh_in_its_unit_and_as_it_lies_in_its_file) {
             "<library_visual_scenes><visual_scene id='s'><node id='n'><instance_geometry "
             "url='#g'/></node></visual_scene></library_visual_scenes><scene>"
             "<instance_visual_scene url='#s'/></scene></COLLADA>");
-    const LoadedWorld loaded = load_world(
-        write_world(
-            ground_ +
-            "<model name='box'><link name='l'><collision name='c'><geometry><mesh><uri>"
-            "tri.dae</uri><scale>1 1 2</scale></mesh></geometry></collision></link></model>"),
-        "", 1, {});
+    const LoadedWorld loaded = load_world({write_world(
+        ground_ +
+        "<model name='box'><link name='l'><collision name='c'><geometry><mesh><uri>"
+        "tri.dae</uri><scale>1 1 2</scale></mesh></geometry></collision></link></model>")});
     const Eigen::AlignedBox3d box = bounds(*thing_named(loaded.world, "box"));
     EXPECT_LT((box.max() - Eigen::Vector3d(2.0, 3.0, 2.0)).norm(), 1e-6) << up;
     EXPECT_LT((box.min() - Eigen::Vector3d(0.0, 0.0, 2.0)).norm(), 1e-6) << up;

@@ -24,7 +24,7 @@ class SdfWriter : public testing::Test {
   LoadedWorld read(const std::string& text) const {
     const fs::path file = folder_ / "a.sdf";
     std::ofstream(file) << text;
-    return load_world(file.string(), "", 1, {});
+    return load_world({file.string()});
   }
 
   fs::path folder_;
@@ -92,8 +92,8 @@ TEST_F(SdfWriter, writes_every_layout_so_that_it_reads_back_the_same) {
 }
 
 TEST_F(SdfWriter, writes_a_world_from_a_file) {
-  const fs::path file = fs::path(NAVVI_SIM_DIR) / "worlds/crossing.yaml";
-  const WorldDescription world = load_world(file.string(), "", 2, {}).world;
+  const fs::path file = fs::path(NAVVI_SIM_DIR) / "worlds/crossing.sdf";
+  const WorldDescription world = load_world({file.string(), "", 2}).world;
   expect_same(world, read(to_sdf(world)).world);
 }
 
@@ -105,7 +105,7 @@ TEST_F(SdfWriter, keeps_odd_names_poses_and_routes) {
     thing.thing_class = ThingClass::worker;
     thing.pose.translation() = Eigen::Vector3d(0.1 * i, 1e-7, 1.0 / 3.0);
     // Straight up and straight down, where roll and yaw are one, come round as well.
-    thing.pose.rotate(Eigen::AngleAxisd(i * M_PI / 6.0, Eigen::Vector3d::UnitY()) *
+    thing.pose.rotate(Eigen::AngleAxisd(i * kPi / 6.0, Eigen::Vector3d::UnitY()) *
                       Eigen::AngleAxisd(0.3 * i, Eigen::Vector3d(1, 2, 3).normalized()));
     Eigen::Isometry3d askew = thing.pose;
     askew.translation() = Eigen::Vector3d(0.0, 0.1, 0.0);

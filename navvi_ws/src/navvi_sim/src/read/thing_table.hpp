@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "navvi_sim/read/world_source.hpp"
+#include "navvi_sim/read/loaded_world.hpp"
 
 namespace navvi_sim::read {
 

@@ -8,7 +8,6 @@
 #include "description/validate.hpp"
 #include "read/layout_world.hpp"
 #include "read/sdf_world.hpp"
-#include "read/yaml_world.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -19,7 +18,7 @@ std::string allowed() {
   return words + "and files that end in .yaml, .yml, .sdf or .world";
 }
 
-enum class Kind { yaml, sdf };
+enum class Kind { layout, sdf };
 
 /// \throws WorldError if `spec` is no file that may hold a world
 Kind kind_of(const std::string& spec) {
@@ -30,7 +29,7 @@ Kind kind_of(const std::string& spec) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(spec, error))
     throw WorldError("the world file '" + spec + "' does not exist or is no file" + allowed());
-  return is_yaml ? Kind::yaml : Kind::sdf;
+  return is_yaml ? Kind::layout : Kind::sdf;
 }
 
 /// Walking workers stand where their routes begin.
@@ -57,13 +56,13 @@ LoadedWorld validated(LoadedWorld loaded, const std::string& where) {
   return loaded;
 }
 
-LoadedWorld load(const std::string& spec, const std::string& models, std::uint64_t seed,
-                 Workers workers, const std::string& classes, Missing missing) {
-  if (const auto source = layout_source(spec)) return build(*source, seed, workers);
-  if (kind_of(spec) == Kind::yaml) return {read_yaml_world(spec), {}};
-  return read_sdf_world(spec, folders(models),
-                        classes.empty() ? ClassRules::standard() : ClassRules::read(classes),
-                        missing);
+LoadedWorld load(const WorldRequest& request) {
+  if (const auto source = layout_source(request.spec))
+    return build(*source, request.seed, request.workers);
+  return read_sdf_world(
+      request.spec, folders(request.models),
+      request.classes.empty() ? ClassRules::standard() : ClassRules::read(request.classes),
+      request.missing);
 }
 
 }  // namespace
@@ -71,7 +70,7 @@ LoadedWorld load(const std::string& spec, const std::string& models, std::uint64
 std::optional<generate::LayoutSource> layout_source(const std::string& spec) {
   if (const auto config = generate::preset(spec))
     return generate::LayoutSource{spec, *config, spec, {}};
-  if (kind_of(spec) != Kind::yaml) return std::nullopt;
+  if (kind_of(spec) != Kind::layout) return std::nullopt;
   return generate::read_layout(spec);
 }
 
@@ -93,9 +92,8 @@ std::vector<std::filesystem::path> folders(const std::string& models) {
   return result;
 }
 
-LoadedWorld load_world(const std::string& spec, const std::string& models, std::uint64_t seed,
-                       Workers workers, const std::string& classes, Missing missing) {
-  return validated(load(spec, models, seed, workers, classes, missing), spec);
+LoadedWorld load_world(const WorldRequest& request) {
+  return validated(load(request), request.spec);
 }
 
 LoadedWorld load_world(const generate::LayoutSource& source, std::uint64_t seed, Workers workers) {

@@ -16,7 +16,7 @@ constexpr int kAttempts = 20;
 constexpr int kDraws = 50;            // of one end of a route, the other fixed, until its turns fit
 constexpr double kUsualRoute = 10.0;  // m
 constexpr double kLeg = 1.0;          // m, least length of a leg that counts for turns
-constexpr double kTurn = 30.0 * M_PI / 180.0;
+constexpr double kTurn = navvi_types::radians(30.0);
 constexpr double kSpot = 0.01;      // m
 constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
 
@@ -293,7 +293,7 @@ int turns(const std::vector<Eigen::Vector2d>& polyline) {
     const Eigen::Vector2d leg = polyline[i] - polyline[i - 1];
     if (leg.norm() < kLeg) continue;
     const double next = std::atan2(leg.y(), leg.x());
-    if (course && std::abs(std::remainder(next - *course, 2.0 * M_PI)) >= kTurn) ++count;
+    if (course && std::abs(navvi_types::wrap(next - *course)) >= kTurn) ++count;
     course = next;
   }
   return count;

@@ -232,7 +232,7 @@ TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {
     EXPECT_GE(std::hypot(scenario.start.position.x() + 4.0, scenario.start.position.y()), 2.0);
   }
   const StartAndGoal to_east = draw(3, std::nullopt, Eigen::Vector2d(-1.0, 2.0));
-  EXPECT_LT(std::abs(to_east.start.yaw), M_PI);
+  EXPECT_LT(std::abs(to_east.start.yaw), kPi);
 }
 
 Thing shuttle(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {

@@ -20,7 +20,7 @@ double width(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
 std::vector<Eigen::Vector3d> circle(const Eigen::Isometry3d& pose, double radius, double z) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < kRound; ++i) {
-    const double angle = 2.0 * M_PI * i / kRound;
+    const double angle = 2.0 * kPi * i / kRound;
     points.push_back(pose * Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z));
   }
   return points;
@@ -148,7 +148,7 @@ void Painter::cylinder(const Cylinder& cylinder, const Eigen::Isometry3d& pose) 
 
 void Painter::sphere(const Sphere& sphere, const Eigen::Isometry3d& pose) {
   const auto at_latitude = [&](int i) {
-    const double latitude = M_PI * (static_cast<double>(i) / kRings - 0.5);
+    const double latitude = kPi * (static_cast<double>(i) / kRings - 0.5);
     return circle(pose, sphere.radius * std::cos(latitude), sphere.radius * std::sin(latitude));
   };
   for (int i = 0; i < kRings; ++i) ring(at_latitude(i), at_latitude(i + 1));

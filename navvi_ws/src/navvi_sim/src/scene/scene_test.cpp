@@ -125,7 +125,7 @@ TEST(Scene, draws_round_things_with_their_faces_outwards_and_as_large_as_they_ar
 }
 
 TEST(Scene, is_cut_open_above_walls_and_heads_however_things_are_turned) {
-  for (const double yaw : {0.0, 0.5 * M_PI, 0.4}) {
+  for (const double yaw : {0.0, 0.5 * kPi, 0.4}) {
     WorldDescription world;
     world.floor_height = 0.5;
     for (const ThingClass thing_class : {ThingClass::wall, ThingClass::other}) {
@@ -263,7 +263,7 @@ TEST(MovingScene, keeps_its_ids_and_shows_the_robot_with_its_nose_ahead) {
   Scene scene(world, robot);
   live::Snapshot now = snapshot_of(world);
   now.robot.position = {3.0, 4.0};
-  now.robot.yaw = M_PI / 2.0;
+  now.robot.yaw = kPi / 2.0;
   const MarkerArray one = scene.moving(now, kStamp);
   for (MoverState& mover : now.movers) mover.pose.translation().x() += 1.0;
   const MarkerArray two = scene.moving(now, kStamp);
@@ -278,14 +278,14 @@ TEST(MovingScene, keeps_its_ids_and_shows_the_robot_with_its_nose_ahead) {
   const Marker& nose = one.markers.back();
   EXPECT_EQ(nose.ns, "robot");
   EXPECT_GT(nose.points[0].x, robot.radius) << "over the rim";
-  EXPECT_NEAR(nose.pose.orientation.z, std::sin(M_PI / 4.0), 1e-9);
+  EXPECT_NEAR(nose.pose.orientation.z, std::sin(kPi / 4.0), 1e-9);
 }
 
 TEST(MovingScene, a_model_is_as_large_as_the_body_and_in_its_place) {
   WorldDescription world;
   Thing forklift = thing_of(ThingClass::forklift, Box{{2.0, 1.0, 1.5}}, {5.0, 6.0, 0.0});
   forklift.shapes[0].pose.translation() = Eigen::Vector3d(0.5, 0.0, 0.75);
-  forklift.pose.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
+  forklift.pose.rotate(Eigen::AngleAxisd(kPi / 2.0, Eigen::Vector3d::UnitZ()));
   forklift.route = Route{};
   world.things = {forklift};
   const MarkerArray array = Scene(world, {}).moving(snapshot_of(world), kStamp);

@@ -10,7 +10,7 @@
 namespace navvi_sim::sensors {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kDegree = navvi_types::radians(1.0);
 
 }  // namespace
 

@@ -57,7 +57,7 @@ TEST(Sensors, a_lidar_measures_what_is_in_its_plane_to_a_millimetre) {
     const Reading scan = at.sensors.look(lidar, at.now);
     ASSERT_EQ(scan.ranges.size(), 360U);
     EXPECT_NEAR(scan.ranges[ray(0)], 3.0, 1e-3);
-    EXPECT_NEAR(scan.ranges[ray(30)], 3.0 / std::cos(M_PI / 6.0), 1e-3);
+    EXPECT_NEAR(scan.ranges[ray(30)], 3.0 / std::cos(kPi / 6.0), 1e-3);
     EXPECT_NEAR(scan.ranges[ray(90)], 2.0, 1e-3);
     EXPECT_TRUE(std::isinf(scan.ranges[ray(-90)])) << "the pedestal is below the plane";
     EXPECT_EQ(scan.movers[ray(0)], Reading::kNoMover);
@@ -68,7 +68,7 @@ TEST(Sensors, a_lidar_measures_what_is_in_its_plane_to_a_millimetre) {
 
 TEST(Sensors, a_ray_turns_with_the_robot_and_meets_a_mover_where_it_is_now) {
   At at;
-  at.now.robot.yaw = M_PI / 2.0;
+  at.now.robot.yaw = kPi / 2.0;
   at.now.robot.position = {1.0, 0.0};
   at.now.movers[0].pose.translation() += Eigen::Vector3d(0.0, 3.0, 0.0);
   Sensor lidar(exact(), 1);
@@ -111,7 +111,7 @@ TEST(Sensors, noise_and_drop_outs_are_as_large_as_said_and_drawn_from_the_seed) 
         continue;
       }
       EXPECT_EQ(again.ranges[ray(degrees)], scan.ranges[ray(degrees)]);
-      squares += std::pow(range - 3.0 / std::cos(degrees * M_PI / 180.0), 2);
+      squares += std::pow(range - 3.0 / std::cos(navvi_types::radians(degrees)), 2);
     }
   }
   EXPECT_TRUE(differs);
@@ -121,7 +121,7 @@ TEST(Sensors, noise_and_drop_outs_are_as_large_as_said_and_drawn_from_the_seed) 
 
 TEST(Sensors, a_camera_sees_the_floor_and_a_pedestal_on_it) {
   At at;
-  at.now.robot.yaw = -M_PI / 2.0;
+  at.now.robot.yaw = -kPi / 2.0;
   CameraConfig config;
   config.noise = config.dropouts = 0.0;
   Sensor camera(config, 1);

@@ -73,8 +73,6 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(start, "start", Any{}, "m, m, rad", "x,y,yaw of the robot; empty: drawn from the seed");
   visit(goal, "goal", Any{}, "m, m", "x,y of the goal; empty: drawn from the seed");
   visit(rate, "rate", Range{0.05, 50.0}, "", "simulated seconds per second of wall time");
-  visit(max_catch_up, "max_catch_up", Range{1, 1000}, "",
-        "most steps at once after a delay; beyond it the simulation slows down");
   visit(detection_radius, "detection_radius", Range{0.5, 20.0}, "m",
         "gap up to which things are reported as near");
   life.describe(visit);
@@ -108,10 +106,10 @@ std::optional<Eigen::Vector2d> SimNodeConfig::goal_point() const {
 }
 
 read::LoadedWorld load_world(const SimNodeConfig& config) {
-  return load_world(
-      config.world, config.models, static_cast<std::uint64_t>(config.seed), config.worker_choice(),
-      config.classes,
-      config.missing == "leave_out" ? read::Missing::leave_out : read::Missing::refuse);
+  const bool all = config.missing != "leave_out";
+  return read::load_world({config.world, config.models, static_cast<std::uint64_t>(config.seed),
+                           config.worker_choice(), config.classes,
+                           all ? read::Missing::refuse : read::Missing::leave_out});
 }
 
 occupancy::OccupancyMap map_of(const SimNodeConfig& config, const WorldDescription& world) {

@@ -26,13 +26,11 @@ constexpr const char* kUsage =
     "world check NAME|FILE [-o FILE.bt|FILE.ot] [--config FILE.yaml] [name:=value ...]   what a "
     "session "
     "makes\n"
-    "      of it; -o saves its OctoMap\n"
+    "      of it; -o saves its OctoMap, with octomap/free:=true free space, too\n"
     "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
     "      --path and --turns, each \"X,Y X,Y ...\", m: the guide path. ./navvi adds it, and also "
     "takes FILE.png\n"
     "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
-    "world map NAME|FILE FILE.bt|FILE.ot [--config FILE.yaml] [name:=value ...]   its OctoMap;\n"
-    "      octomap/free:=true marks free space, too\n"
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"
     "such as length:=80; `./navvi parameters` lists them all. --config takes a file like those of "
@@ -194,26 +192,14 @@ void check(const Words& words) {
   const auto out = words.option("-o");
   if (out) check_octomap(*out);
   const Request request = load(words);
-  const auto map = setup::map_of(request.config.session, request.loaded.world);
-  const scenario::StartAndGoal scenario =
-      setup::scenario_of(request.config.session, request.loaded.world, map);
+  const setup::SimNodeConfig& session = request.config.session;
+  const WorldDescription& world = request.loaded.world;
+  const auto map = setup::map_of(session, world);
+  const scenario::StartAndGoal scenario = setup::scenario_of(session, world, map);
   print(request, scenario);
-  if (out) write_octomap(*out, map);
+  if (out) write_octomap(*out, session.octomap.free ? occupancy::with_free_space(map, world) : map);
   if (const auto file = words.option("--json"))
     navvi_config::write_json(*file, fields_of(request, scenario));
-}
-
-void write_map(const Words& words) {
-  const fs::path path = words.plain[2];
-  check_octomap(path);
-  const Request request = load(words);
-  const setup::SimNodeConfig& session = request.config.session;
-  auto map = setup::map_of(session, request.loaded.world);
-  if (session.octomap.free) map = occupancy::with_free_space(map, request.loaded.world);
-  write_octomap(path, map);
-  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
-  std::cout << map.resolution() << " m a voxel, " << occupancy::octree_of(map)->size()
-            << " nodes in " << path.string() << '\n';
 }
 
 /// Points in map, m. \param text  as in "1.5,2 3,-4"
@@ -278,11 +264,8 @@ struct Command {
   void (*run)(const Words&);
 };
 
-constexpr Command kCommands[] = {{"list", 1, list},
-                                 {"check", 2, check},
-                                 {"show", 2, show},
-                                 {"write", 3, write},
-                                 {"map", 3, write_map}};
+constexpr Command kCommands[] = {
+    {"list", 1, list}, {"check", 2, check}, {"show", 2, show}, {"write", 3, write}};
 
 void run(const Words& words) {
   const std::string name = words.plain.empty() ? "" : words.plain.front();

@@ -15,11 +15,12 @@
 namespace navvi_sim::traffic {
 namespace {
 
-constexpr double kBlock = 0.5;        // m
-constexpr double kDrivenOver = 0.05;  // m above the floor; lower things stop nobody
-constexpr double kOffRoute = 0.1;     // m, farther from its way, corners cut, no thing may stand
-constexpr double kThere = 1e-9;       // m, nearer is there
-constexpr int kHalvings = 3;          // of a corner's radius, before it is turned on the spot
+constexpr double kBlock = 0.5;           // m
+constexpr double kDrivenOver = 0.05;     // m above the floor; lower things stop nobody
+constexpr double kOffRoute = 0.1;        // m, farther from its way, corners cut, no thing may stand
+constexpr double kForkliftCorner = 1.2;  // m, radius; pallet robots half, workers a quarter
+constexpr double kThere = 1e-9;          // m, nearer is there
+constexpr int kHalvings = 3;             // of a corner's radius, before it is turned on the spot
 
 std::string place_text(const Eigen::Vector2d& at) {
   std::ostringstream text;
@@ -28,15 +29,16 @@ std::string place_text(const Eigen::Vector2d& at) {
   return text.str();
 }
 
-/// m, the radius at which things of a class round corners.
-double corner_radius(ThingClass thing_class, const MoversConfig& config) {
+/// m, the radius at which things of a class round corners where there is room; else all turn on the
+/// spot.
+double corner_radius(ThingClass thing_class) {
   switch (thing_class) {
     case ThingClass::worker:
-      return 0.25 * config.corner_radius;
+      return 0.25 * kForkliftCorner;
     case ThingClass::pallet_robot:
-      return 0.5 * config.corner_radius;
+      return 0.5 * kForkliftCorner;
     default:
-      return config.corner_radius;
+      return kForkliftCorner;
   }
 }
 
@@ -152,7 +154,7 @@ void LaneBuilder::group_by_route() {
     if (is_new) {
       Route route = *thing.route;
       if (key.alone == 0) route.waypoints = key.waypoints;
-      const double radius = corner_radius(thing.thing_class, config_);
+      const double radius = corner_radius(thing.thing_class);
       plans_.push_back({{},
                         route,
                         print,
@@ -265,9 +267,6 @@ void MoversConfig::describe(navvi_config::Visitor& visit) {
   visit(acceleration, "acceleration", Range{0.1, 5.0}, "m/s^2",
         "of movers, to faster and to slower, and sideways in curves");
   visit(turn_rate, "turn_rate", Range{0.1, 6.0}, "rad/s", "of movers, on the spot and in curves");
-  visit(corner_radius, "corner_radius", Range{0.0, 10.0}, "m",
-        "at which forklifts round corners where there is room; pallet robots half, workers a "
-        "quarter of it; 0: all turn on the spot");
   visit(clearance, "clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot");
   visit(patience, "patience", Range{4.0, 3600.0}, "s",
         "after which a mover that the robot blocks reverses, to let it pass");

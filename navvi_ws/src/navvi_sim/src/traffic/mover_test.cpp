@@ -114,7 +114,7 @@ TEST(Mover, turns_brakes_and_speeds_up_no_faster_than_it_may) {
   Eigen::Vector2d at = alone.at();
   for (int i = 0; i < 12000; ++i) {
     alone.run(0.01);
-    const double turned = std::remainder(alone.mover().place().yaw - yaw, 2 * 3.14159265358979);
+    const double turned = navvi_types::wrap(alone.mover().place().yaw - yaw);
     ASSERT_LE(std::abs(turned), 0.01 * 1.0 + 1e-9) << i;
     ASSERT_LE(alone.mover().speed() - speed, 0.8 * 0.01 + 1e-9);
     ASSERT_GE(alone.mover().speed() - speed, -1.7 * 0.01 - 1e-9) << i;

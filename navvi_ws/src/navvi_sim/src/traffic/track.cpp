@@ -14,20 +14,19 @@ constexpr double kLeastLength = 1e-6;  // m
 constexpr double kTurned = 0.3;        // m a rad, that a heading counts
 constexpr double kNearestStep = 0.05;  // m
 
-double wrap(double angle) { return std::remainder(angle, 2.0 * M_PI); }
-
 Eigen::Vector2d direction(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
+double heading(const Eigen::Vector2d& along) { return std::atan2(along.y(), along.x()); }
 
 }  // namespace
 
 Pose2 Track::Element::place(double s) const {
   const double distance = s - begin;
-  if (spin != 0.0) return {from, wrap(yaw + spin * distance)};
+  if (spin != 0.0) return {from, navvi_types::wrap(yaw + spin * distance)};
   if (curvature == 0.0) return {from + distance * along, yaw};
   const double turned = curvature * distance;
   const Eigen::Vector2d centre = from + Eigen::Vector2d(-std::sin(yaw), std::cos(yaw)) / curvature;
   return {centre + Eigen::Vector2d(std::sin(yaw + turned), -std::cos(yaw + turned)) / curvature,
-          wrap(yaw + turned)};
+          navvi_types::wrap(yaw + turned)};
 }
 
 Track::Track(const Route& route, const TrackLimits& limits, const std::vector<double>& radii)
@@ -52,42 +51,41 @@ Track::Track(const Route& route, const TrackLimits& limits, const std::vector<do
   limit_speeds(limits.acceleration);
 }
 
-/// Each leg is straight from where the last corner's arc ends to where the next one's begins; each
-/// arc takes half a leg at most.
-void Track::lay(const std::vector<Corner>& corners, const TrackLimits& limits) {
+/// One a leg. Each arc takes half a leg at most.
+std::vector<Track::Rounding> Track::roundings_of(const std::vector<Corner>& corners) const {
   const std::size_t count = corners.size();
   const std::size_t legs = closed_ ? count : count - 1;
-  const auto leg = [&](std::size_t i) -> Eigen::Vector2d {
-    return corners[(i + 1) % count].at - corners[i % count].at;
-  };
-  const auto heading = [&](std::size_t i) { return std::atan2(leg(i).y(), leg(i).x()); };
-  struct Rounding {
-    double turn = 0.0;
-    double radius = 0.0;   ///< m; 0: on the spot
-    double tangent = 0.0;  ///< m, that the arc takes of each leg
-  };
-  // The corner at the end of each leg.
   std::vector<Rounding> roundings(legs);
   for (std::size_t i = 0; i < legs; ++i) {
+    if (!closed_ && i + 1 == legs) break;
     const Corner& corner = corners[(i + 1) % count];
-    const bool last = !closed_ && i + 1 == legs;
+    const Eigen::Vector2d in = corner.at - corners[i].at;
+    const Eigen::Vector2d out = corners[(i + 2) % count].at - corner.at;
     Rounding& rounding = roundings[i];
-    if (last) continue;
-    rounding.turn = wrap(heading((i + 1) % count) - heading(i));
+    rounding.turn = navvi_types::wrap(heading(out) - heading(in));
     const double size = std::abs(rounding.turn);
     if (corner.pause > 0.0 || size < kStraight || size > kSharp) continue;
-    const double room = 0.5 * std::min(leg(i).norm(), leg((i + 1) % count).norm());
+    const double room = 0.5 * std::min(in.norm(), out.norm());
     rounding.radius = std::min(corner.radius, room / std::tan(0.5 * size));
     if (rounding.radius < kLeastRadius) rounding.radius = 0.0;
     rounding.tangent = rounding.radius * std::tan(0.5 * size);
   }
+  return roundings;
+}
+
+/// Each leg is straight from where the last corner's arc ends to where the next one's begins.
+void Track::lay(const std::vector<Corner>& corners, const TrackLimits& limits) {
+  const std::vector<Rounding> roundings = roundings_of(corners);
+  const std::size_t count = corners.size();
+  const std::size_t legs = roundings.size();
   for (std::size_t i = 0; i < legs; ++i) {
     const Corner& corner = corners[(i + 1) % count];
     const Rounding& rounding = roundings[i];
     const double before = i > 0 || closed_ ? roundings[(i + legs - 1) % legs].tangent : 0.0;
-    const double yaw = heading(i);
+    const Eigen::Vector2d leg = corner.at - corners[i].at;
+    const double yaw = heading(leg);
     const std::size_t waypoint = corner.waypoint;
-    Element line{0.0, leg(i).norm() - before - rounding.tangent,
+    Element line{0.0, leg.norm() - before - rounding.tangent,
                  corners[i].at + before * direction(yaw), yaw};
     line.speed = corner.speed;
     line.corner = waypoint;
@@ -156,8 +154,8 @@ double Track::nearest(const Pose2& pose) const {
   double found = 0.0;
   const auto consider = [&](const Element& element, double s) {
     const Pose2 place = element.place(s);
-    const double cost =
-        (place.position - pose.position).norm() + kTurned * std::abs(wrap(place.yaw - pose.yaw));
+    const double cost = (place.position - pose.position).norm() +
+                        kTurned * std::abs(navvi_types::wrap(place.yaw - pose.yaw));
     if (cost < best - 1e-9) {
       best = cost;
       found = s;

@@ -63,6 +63,14 @@ class Track {
     std::size_t waypoint;
   };
 
+  /// How the corner at the end of a leg is taken.
+  struct Rounding {
+    double turn = 0.0;     ///< rad
+    double radius = 0.0;   ///< m; 0: on the spot
+    double tangent = 0.0;  ///< m, that the arc takes of each leg
+  };
+
+  [[nodiscard]] std::vector<Rounding> roundings_of(const std::vector<Corner>& corners) const;
   void lay(const std::vector<Corner>& corners, const TrackLimits& limits);
   void add(Element element);
   void limit_speeds(double acceleration);

@@ -260,8 +260,7 @@ TEST(Traffic, on_shared_loops_that_cross_goes_on_after_a_robot) {
       thing.pose.translation() = Eigen::Vector3d(at.x() + 1.0 + 6.0 * (i % 2), at.y(), 0.25);
       if (i >= 2) {
         thing.pose.translation() += Eigen::Vector3d(5.0, 12, 0);
-        thing.pose.linear() =
-            Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        thing.pose.linear() = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()).toRotationMatrix();
       }
       things.push_back(thing);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <navvi_types/angles.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
@@ -14,6 +15,7 @@
 
 namespace navvi_sim {
 
+using navvi_types::kPi;
 using navvi_types::Place;
 using navvi_types::Pose2;
 using navvi_types::ThingClass;

@@ -2,20 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "navvi_sim/description/world_description.hpp"
+#include "navvi_sim/read/loaded_world.hpp"
 
 namespace navvi_sim::read {
-
-/// A world, and what its source holds that could not be taken over (one sentence each).
-struct LoadedWorld {
-  WorldDescription world;
-  std::vector<std::string> notes;
-  std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
-};
 
 /// What the workers of a layout do (R-SIM-2).
 enum class Workers {
@@ -24,28 +16,24 @@ enum class Workers {
   walking,      ///< all walk
 };
 
-/// What becomes of a piece of an SDF world, such as a model or a shape, that is missing or wrong.
-enum class Missing {
-  refuse,     ///< the world is refused, with all that is wrong
-  leave_out,  ///< the world is read without it, and the notes say so
+/// Which world is wanted.
+struct WorldRequest {
+  /// A layout by the name of a preset (layout_config.hpp), or a file by its ending: .yaml / .yml
+  /// for a layout (layout_source.hpp), .sdf / .world for SDF (sdf_world.hpp). A relative path is
+  /// taken from the working directory.
+  std::string spec;
+  /// Folders for model://, separated by colons. After these come GAZEBO_MODEL_PATH, the world's
+  /// folder, the one above it and `models` in both.
+  std::string models = {};
+  std::uint64_t seed = 1;                  ///< of layouts; SDF does not depend on it
+  Workers workers = Workers::as_laid_out;  ///< of layouts; those of SDF do as their file says
+  std::string classes = {};  ///< a file of class rules for SDF (class_rules.hpp); empty: standard
+  Missing missing = Missing::refuse;  ///< of SDF
 };
 
-/// Loads and validates the world that `spec` names: a layout by the name of a preset
-/// (layout_config.hpp), or a file by its ending, .yaml / .yml (layout_source.hpp and
-/// yaml_world.hpp) or .sdf / .world (sdf_world.hpp). A relative path is taken from the working
-/// directory.
-/// \param models  folders for model://, separated by colons; may be empty. After these come
-///                GAZEBO_MODEL_PATH, the world's folder, the one above it and `models` in both.
-/// \param seed    of layouts; other files do not depend on it
-/// \param workers  of layouts; those of other files do as their file says
-/// \param classes  a file of class rules for the models of SDF (class_rules.hpp); empty: the
-///                standard ones
-/// \param missing  of SDF: what to do with pieces that are missing or wrong
+/// Loads and validates a world.
 /// \throws WorldError naming the file or thing, what is wrong and what is allowed
-[[nodiscard]] LoadedWorld load_world(const std::string& spec, const std::string& models,
-                                     std::uint64_t seed, Workers workers,
-                                     const std::string& classes = "",
-                                     Missing missing = Missing::refuse);
+[[nodiscard]] LoadedWorld load_world(const WorldRequest& request);
 
 /// The folders of a colon separated list, and then those of GAZEBO_MODEL_PATH that exist.
 /// \throws WorldError if one of the list is no folder

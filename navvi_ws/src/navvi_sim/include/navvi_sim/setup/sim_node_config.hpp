@@ -23,7 +23,6 @@ struct SimNodeConfig {
   std::string start;              ///< "x,y,yaw" in m and rad; empty: drawn from the seed
   std::string goal;               ///< "x,y" in m; empty: drawn from the seed
   double rate = 1.0;              ///< simulated seconds per second
-  int max_catch_up = 10;          ///< steps at once, then the simulation slows down
   double detection_radius = 5.0;  ///< m
   live::WorldConfig life;
   std::string workers = "both";  ///< of layouts: standing, walking, or both as laid out

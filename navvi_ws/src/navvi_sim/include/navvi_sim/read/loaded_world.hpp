@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "navvi_sim/description/world_description.hpp"
+
+namespace navvi_sim::read {
+
+/// A world, and what its source holds that could not be taken over (one sentence each).
+struct LoadedWorld {
+  WorldDescription world;
+  std::vector<std::string> notes;
+  std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
+};
+
+/// What becomes of a piece of an SDF world, such as a model or a shape, that is missing or wrong.
+enum class Missing {
+  refuse,     ///< the world is refused, with all that is wrong
+  leave_out,  ///< the world is read without it, and the notes say so
+};
+
+}  // namespace navvi_sim::read
