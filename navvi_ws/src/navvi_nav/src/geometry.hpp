@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <navvi_types/angles.hpp>
 #include <vector>
 
 namespace navvi_nav {
+
+using navvi_types::kPi;
 
 /// A point or a difference of points on the floor, frame map, m.
 struct Point {

@@ -193,7 +193,6 @@ const std::vector<Column>& columns() {
       {"time", 6, {"time"}},
       {"driven/short", 12, {"driven", "shortest"}},
       {"reroutes", 8, {"reroutes"}},
-      {"churn mean/max", 14, {"churn_mean", "churn_max"}},
       {"turns/min", 9, {"turns"}},
       {"flips/reversed/misled", 21, {"flips", "reversed", "misled"}},
       {"cues/words/min talk", 20, {"cues", "words", "talk"}},
@@ -246,9 +245,9 @@ class Total {
     reached_ += reached ? 1 : 0;
     for (const char* name : {"time", "driven", "shortest"})
       if (reached) sums_[name] += row.number(name).value_or(0.0);
-    for (const char* name : {"reroutes", "churn_mean", "turns", "flips", "misled", "still", "cues",
-                             "words", "talk", "repeats", "waits", "hasty", "at_odds", "reversed",
-                             "late", "speechless", "passed", "missed", "ghosts"})
+    for (const char* name : {"reroutes", "turns", "flips", "misled", "still", "cues", "words",
+                             "talk", "repeats", "waits", "hasty", "at_odds", "reversed", "late",
+                             "speechless", "passed", "missed", "ghosts"})
       sums_[name] += row.number(name).value_or(0.0);
     for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh", "other"})
       states_ += row.number(name).value_or(0.0);
@@ -263,7 +262,7 @@ class Total {
     const auto share = [&](const char* name) { return 100.0 * get(name) / std::max(1.0, states_); };
     std::printf(
         "%d of %d reached in %.0f s on the mean, %.2f x the shortest way; %d without a contact; "
-        "on the mean %.1f reroutes, churn %.1f m/min, %.1f turns/min, %.1f flips, %.1f misled, "
+        "on the mean %.1f reroutes, %.1f turns/min, %.1f flips, %.1f misled, "
         "longest standstill %.0f s; blocked %.1f %%, make room %.1f %%, no route %.1f %%, off mesh "
         "%.1f %% of the "
         "time; %.1f cues and %.0f words a minute, %.0f %% of the time; %.2f repeats, %.1f words to "
@@ -272,10 +271,10 @@ class Total {
         "is ahead, %.0f pushes without a word, %.0f movers hit that were felt or told of late\n",
         reached_, trials_, reached_ > 0 ? get("time") / reached_ : 0.0,
         get("shortest") > 0.0 ? get("driven") / get("shortest") : 0.0, clean_, mean("reroutes"),
-        mean("churn_mean"), mean("turns"), mean("flips"), mean("misled"), mean("still"),
-        share("blocked"), share("make_room"), share("no_route"), share("off_mesh"), mean("cues"),
-        mean("words"), 100.0 * mean("talk"), mean("repeats"), mean("waits"), get("hasty"),
-        get("reversed"), get("at_odds"), get("speechless"), get("late"));
+        mean("turns"), mean("flips"), mean("misled"), mean("still"), share("blocked"),
+        share("make_room"), share("no_route"), share("off_mesh"), mean("cues"), mean("words"),
+        100.0 * mean("talk"), mean("repeats"), mean("waits"), get("hasty"), get("reversed"),
+        get("at_odds"), get("speechless"), get("late"));
   }
 
  private:

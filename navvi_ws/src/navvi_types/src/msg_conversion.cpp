@@ -89,10 +89,8 @@ void copy_guidance(const From& from, To& to) {
   copy(from.replan_reason, to.replan_reason);
   copy(from.plans, to.plans);
   copy(from.plan_time, to.plan_time);
-  copy(from.nodes_expanded, to.nodes_expanded);
   copy(from.reroutes, to.reroutes);
   copy(from.reroute_reason, to.reroute_reason);
-  copy(from.path_churn, to.path_churn);
   copy(from.blocked_distance, to.blocked_distance);
   copy(from.waypoint_is_goal, to.waypoint_is_goal);
   copy(from.waypoint_distance, to.waypoint_distance);
@@ -102,7 +100,6 @@ void copy_guidance(const From& from, To& to) {
   copy(from.goal_distance, to.goal_distance);
   copy(from.eta, to.eta);
   copy(from.shortest_length, to.shortest_length);
-  copy(from.smoothing_price, to.smoothing_price);
   copy(from.path_offset, to.path_offset);
   copy(from.detail, to.detail);
 }
@@ -213,10 +210,9 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
       is_constant<Guidance::Replan>(msg.reroute_reason) && valid(msg.goal) && valid(msg.waypoint) &&
       within({msg.plan_time, msg.eta}, 0.0, kLongestTime) && is_duration_or_none(msg.mesh_age) &&
       is_duration_or_none(msg.map_age) && is_duration_or_none(msg.blocked_for) &&
-      within({msg.path_churn, msg.blocked_distance, msg.waypoint_distance, msg.goal_distance,
-              msg.shortest_length, msg.path_offset},
+      within({msg.blocked_distance, msg.waypoint_distance, msg.goal_distance, msg.shortest_length,
+              msg.path_offset},
              0.0, kLongest) &&
-      within({msg.smoothing_price}, kLongest) &&
       within({msg.waypoint_angle, msg.steer_angle, msg.turn_angle}, M_PI + kRounding);
   if (!sound) return std::nullopt;
   Guidance guidance;

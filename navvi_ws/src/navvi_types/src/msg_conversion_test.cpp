@@ -153,10 +153,8 @@ navvi_msgs::Guidance guidance() {
   msg.replan_reason = navvi_msgs::Guidance::PERIOD;
   msg.plans = 5;
   msg.plan_time = 0.01;
-  msg.nodes_expanded = 40;
   msg.reroutes = 2;
   msg.reroute_reason = navvi_msgs::Guidance::PATH_CARVED;
-  msg.path_churn = 12.0;
   msg.mesh_age = 0.1;
   msg.map_age = 60.0;
   msg.blocked_by = "worker";
@@ -173,7 +171,6 @@ navvi_msgs::Guidance guidance() {
   msg.goal_distance = 8.0;
   msg.eta = 11.0;
   msg.shortest_length = 7.5;
-  msg.smoothing_price = -1e-12;
   msg.path_offset = 0.25;
   msg.detail = "blocked";
   return msg;
@@ -374,7 +371,6 @@ TEST(MsgConversion, EveryNumberOfAGuidanceIsChecked) {
   const auto length = beyond_from_0(kLongest), duration = beyond_from_0(kLongestTime);
   const std::vector<double> or_none = {-0.5, -2.0, 1.001 * kLongestTime};
   expect_each_checked<Msg>(guidance(), {{LEAF(Msg, plan_time), duration},
-                                        {LEAF(Msg, path_churn), length},
                                         {LEAF(Msg, mesh_age), or_none},
                                         {LEAF(Msg, map_age), or_none},
                                         {LEAF(Msg, blocked_distance), length},
@@ -392,7 +388,6 @@ TEST(MsgConversion, EveryNumberOfAGuidanceIsChecked) {
                                         {LEAF(Msg, goal_distance), length},
                                         {LEAF(Msg, eta), duration},
                                         {LEAF(Msg, shortest_length), length},
-                                        {LEAF(Msg, smoothing_price), beyond(kLongest)},
                                         {LEAF(Msg, path_offset), length}});
 }
 

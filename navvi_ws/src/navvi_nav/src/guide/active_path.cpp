@@ -1,5 +1,7 @@
 #include "guide/active_path.hpp"
 
+#include "guide/moved_path.hpp"
+
 namespace navvi_nav::guide {
 namespace {
 
@@ -13,13 +15,12 @@ void ActivePathConfig::describe(navvi_config::Visitor& visit) {
         "a robot farther off its path gets a new one at the next plan");
 }
 
-double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason, double time,
+double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason,
                           std::optional<Point> robot) {
   const bool retreat = plan.status == plan::PlanStatus::retreat;
   double moved = 0.0;
   if (following() && robot) {
-    moved = PathInstability::moved(remaining(*robot), plan.path);
-    instability_.add(time, moved);
+    moved = moved_length(remaining(*robot), plan.path);
     if (moved > kElsewhere && leads_to_goal_ && !retreat) {
       ++reroutes_;
       reroute_reason_ = reason;
@@ -28,7 +29,6 @@ double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason, doubl
   follower_.follow(plan.path);
   leads_to_goal_ = !retreat;
   shortest_length_ = plan.shortest;
-  smoothing_price_ = length_of(plan.path) - plan.shortest;
   if (plan.status == plan::PlanStatus::found)
     mode_ = PathMode::to_goal;
   else if (retreat)
@@ -41,7 +41,6 @@ double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason, doubl
 void ActivePath::reset() {
   drop();
   mode_ = PathMode::to_goal;
-  instability_.reset();
   reroutes_ = 0;
   reroute_reason_ = Guidance::Replan::none;
 }
@@ -59,13 +58,11 @@ void ActivePath::report(Guidance& out, const Pose2& robot, const map::Floor& flo
   if (!leads_to_goal_) out.waypoint_is_goal = false;
   out.eta = out.goal_distance / pace;
   out.shortest_length = shortest_length_;
-  out.smoothing_price = smoothing_price_;
 }
 
-void ActivePath::report_changes(Guidance& out, double time) const {
+void ActivePath::report_changes(Guidance& out) const {
   out.reroutes = reroutes_;
   out.reroute_reason = reroute_reason_;
-  out.path_churn = instability_.per_minute(time);
 }
 
 }  // namespace navvi_nav::guide

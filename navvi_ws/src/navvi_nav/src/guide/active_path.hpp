@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "guide/path_follower.hpp"
-#include "guide/path_instability.hpp"
 #include "plan/plan_request.hpp"
 
 namespace navvi_nav::guide {
@@ -32,13 +31,11 @@ class ActivePath {
   /// Follows a new path. \param plan  found, closed or retreat
   /// \returns m of the path so far, if one was followed by a `robot` whose place is known, that the
   /// new one leaves
-  double follow(const plan::Plan& plan, Guidance::Replan reason, double time,
-                std::optional<Point> robot);
+  double follow(const plan::Plan& plan, Guidance::Replan reason, std::optional<Point> robot);
   /// There is no path to follow.
   void drop() { follower_.follow({}); }
   /// A new goal, or none.
   void reset();
-  void reset_times() { instability_.reset(); }
 
   void advance(Point robot, const map::Space& space) { follower_.advance(robot, space); }
   void set_mode(PathMode mode) { mode_ = mode; }
@@ -60,7 +57,7 @@ class ActivePath {
   /// Fills in where the path leads. \pre following()
   void report(Guidance& out, const Pose2& robot, const map::Floor& floor, double pace) const;
   /// Fills in how often it changed, followed or not.
-  void report_changes(Guidance& out, double time) const;
+  void report_changes(Guidance& out) const;
 
  private:
   ActivePathConfig config_;
@@ -70,8 +67,6 @@ class ActivePath {
   unsigned reroutes_ = 0;
   Guidance::Replan reroute_reason_ = Guidance::Replan::none;
   double shortest_length_ = 0.0;
-  double smoothing_price_ = 0.0;
-  PathInstability instability_;
 };
 
 }  // namespace navvi_nav::guide

@@ -20,11 +20,11 @@ class Following : public testing::Test {
  protected:
   double follow(plan::PlanStatus status, const Path& path,
                 Guidance::Replan reason = Guidance::Replan::period) {
-    return path_.follow(plan(status, path), reason, 100.0, robot_);
+    return path_.follow(plan(status, path), reason, robot_);
   }
   [[nodiscard]] Guidance status() const {
     Guidance out;
-    path_.report_changes(out, 100.0);
+    path_.report_changes(out);
     path_.report(out, {{robot_.x, robot_.y}, 0.0}, {}, 0.7);
     return out;
   }
@@ -41,14 +41,12 @@ TEST_F(Following, counts_as_a_reroute_what_leads_elsewhere) {
   EXPECT_EQ(path_.follower().path(), straight_);
   EXPECT_EQ(status().reroutes, 1U);
   EXPECT_EQ(status().reroute_reason, Guidance::Replan::period);
-  EXPECT_GT(status().path_churn, 5.0);
   EXPECT_EQ(follow(plan::PlanStatus::found, {{2, 5}, {13, 5}, {14, 5.3}}), 0.0);
   EXPECT_EQ(status().reroutes, 1U);
   path_.reset();
   EXPECT_FALSE(path_.following());
   follow(plan::PlanStatus::found, round_, Guidance::Replan::new_goal);
   EXPECT_EQ(status().reroutes, 0U);
-  EXPECT_EQ(status().path_churn, 0.0);
 }
 
 TEST_F(Following, counts_no_reroute_on_a_retreat_or_back_from_one) {

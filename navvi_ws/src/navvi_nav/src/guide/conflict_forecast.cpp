@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <limits>
 
+#include "guide/cylinders.hpp"
+
 namespace navvi_nav::guide {
 namespace {
 
-constexpr double kRounding = 1e-6;  // m
+constexpr double kStep = 0.25;        // s, of the forecast
+constexpr double kChase = 3.0;        // s, what comes from behind and would hit later may turn off
+constexpr double kSpareRoom = 0.05;   // m, for paths that are not followed exactly
+constexpr double kHeadway = 1.5;      // m, what drives on so far ahead of the robot is no conflict,
+constexpr double kHeadwayGain = 0.5;  // m, if it moves so far along the path by foresight
+constexpr int kMostPlaces = 64;       // that one obstacle is predicted in
+constexpr double kRounding = 1e-6;    // m
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The point `along` m down the path, or its end.
@@ -69,39 +77,25 @@ void ConflictForecastConfig::describe(navvi_config::Visitor& visit) {
         "how far an obstacle may reach into the path's room");
   visit(look_ahead, "look_ahead", Range{0.5, 1e6}, "m",
         "obstacles on the path farther ahead than this are left to move away");
-  visit(standing_speed, "standing_speed", Range{0.0, 2.0}, "m/s",
-        "a slower obstacle counts as standing");
   visit(pause, "pause", Range{0.0, 60.0}, "s",
         "a thing that moved and has stood for less, or for less than it takes to get there, may "
         "drive on");
   visit(foresight, "foresight", Range{0.0, 20.0}, "s",
         "a thing that leaves the path within this time, keeping its velocity, only crosses");
-  visit(forecast_step, "forecast_step", Range{0.05, 2.0}, "s", "time step of the forecast");
   visit(notice_time, "notice_time", Range{0.0, 20.0}, "s",
         "an obstacle that will cut the path within this time counts as cutting it");
   visit(late_time, "late_time", Range{0.0, 20.0}, "s",
         "how late the robot may be against its pace");
-  visit(
-      chase_time, "chase_time", Range{0.0, 20.0}, "s",
-      "an obstacle from behind that would hit a waiting robot later than this may still turn off");
   visit(stop_room, "stop_room", Range{0.0, 2.0}, "m",
         "least gap from a waiting robot to a thing that passes it");
   visit(elbow_room, "elbow_room", Range{0.0, 2.0}, "m",
         "least gap between a driving robot and an obstacle");
-  visit(spare_room, "spare_room", Range{0.0, 2.0}, "m",
-        "added to predicted obstacles, for paths that are not followed exactly");
-  visit(headway, "headway", Range{0.0, 20.0}, "m",
-        "an obstacle that drives on ahead is no conflict if it stays so far ahead of the robot");
-  visit(headway_gain, "headway_gain", Range{0.0, 20.0}, "m",
-        "and has moved so far along the path by foresight");
-  visit(most_places, "most_places", Range{1.0, 1000.0}, "",
-        "most predicted places of one obstacle");
 }
 
 /// Neither driving on nor waiting is safe, and it was not seen to come.
 bool ConflictForecast::must_be_evaded(const Encounter& one) const {
   const bool from_behind =
-      one.state != Conflict::State::oncoming && one.time_to_hit_waiting <= config_.chase_time;
+      one.state != Conflict::State::oncoming && one.time_to_hit_waiting <= kChase;
   return one.hits_waiting() && one.time_to_collision < kNever && (one.ends || from_behind);
 }
 
@@ -158,26 +152,14 @@ ConflictForecast::Encounter ConflictForecast::encounter(const Path& path, const 
   if (thing.gap(path.front(), 0.0) > far) return out;
   const std::optional<double> now = cut_at(path, thing, 0.0);
   out.cut = now;
-  if (norm(thing.velocity()) <= config_.standing_speed) {
-    if (!now) return out;
-    // What has stood for long will stand for long.
-    const double there = now.value() / pace;
-    const double stood = thing.first->stood;
-    const bool pauses = stood < config_.pause || there > std::max(config_.pause, stood);
-    out.state = pauses ? Conflict::State::oncoming : Conflict::State::stationary;
-    out.at = *now;
-    out.time_to_meeting = out.time_to_collision = there;
-    out.ends = false;
-    return out;
-  }
+  if (norm(thing.velocity()) <= kStandingSpeed) return now ? standing(thing, *now, pace) : out;
   const double touch = config_.robot_radius;
   std::optional<double> first = now;
   std::optional<double> last = now;
   double last_time = 0.0;
   double noticed = now ? 0.0 : config_.foresight;  // s, when it first cuts the path
   bool keeps_ahead = now.has_value();
-  for (double t = config_.forecast_step; t <= config_.foresight + 1e-9;
-       t += config_.forecast_step) {
+  for (double t = kStep; t <= config_.foresight + 1e-9; t += kStep) {
     if (thing.gap(path.front(), t) < touch + config_.stop_room)
       out.time_to_hit_waiting = std::min(out.time_to_hit_waiting, t);
     const std::optional<double> cut = cut_at(path, thing, t);
@@ -195,16 +177,30 @@ ConflictForecast::Encounter ConflictForecast::encounter(const Path& path, const 
     }
     last = cut;
     last_time = t;
-    keeps_ahead = keeps_ahead && *cut >= pace * t + config_.headway;
+    keeps_ahead = keeps_ahead && *cut >= pace * t + kHeadway;
   }
   if (!first) return out;
   out.at = *first;
-  out.time_to_clear = last_time + config_.forecast_step;
+  out.time_to_clear = last_time + kStep;
   out.time_to_meeting = *first / (pace + norm(thing.velocity()));
   out.ends = out.time_to_clear <= config_.foresight + 1e-9 ||
-             (keeps_ahead && *last >= *first + config_.headway_gain);
+             (keeps_ahead && *last >= *first + kHeadwayGain);
   if (out.ends && noticed <= config_.notice_time + 1e-9) out.state = Conflict::State::crossing;
   if (!out.ends && now) out.state = Conflict::State::oncoming;
+  return out;
+}
+
+/// What a standing thing does that cuts the path: what has stood for long will stand for long.
+ConflictForecast::Encounter ConflictForecast::standing(const Thing& thing, double cut,
+                                                       double pace) const {
+  Encounter out;
+  const double there = cut / pace;
+  const double stood = thing.first->stood;
+  const bool pauses = stood < config_.pause || there > std::max(config_.pause, stood);
+  out.state = pauses ? Conflict::State::oncoming : Conflict::State::stationary;
+  out.cut = out.at = cut;
+  out.time_to_meeting = out.time_to_collision = there;
+  out.ends = false;
   return out;
 }
 
@@ -222,7 +218,7 @@ Conflict ConflictForecast::forecast(const Path& path, const std::vector<Cylinder
     if (one.cut && (!out.cut || *one.cut < out.cut->at))
       out.cut = Conflict::Cut{thing.first->id, *one.cut};
     out.hits_waiting = out.hits_waiting || one.hits_waiting();
-    const bool moves = norm(thing.velocity()) > config_.standing_speed;
+    const bool moves = norm(thing.velocity()) > kStandingSpeed;
     if (moves && one.time_to_collision < kNever && (!out.wait_for || one.at < out.wait_for->at))
       out.wait_for = Blocker{thing.first->id, one.at,
                              one.ends ? std::optional(one.time_to_clear) : std::nullopt};
@@ -250,11 +246,11 @@ std::vector<Cylinder> ConflictForecast::predicted(const Path& path,
     const bool evades = must_be_evaded(one);
     if (one.state != Conflict::State::oncoming && !evades) return;
     const double speed = norm(thing.velocity());
-    if (speed <= config_.standing_speed) return;
+    if (speed <= kStandingSpeed) return;
     const double leaves = one.ends ? one.time_to_clear : config_.foresight;
     const double end = evades ? leaves : one.time_to_meeting + config_.late_time;
     const double step = std::max(std::max(thing.first->radius, config_.robot_radius) / speed,
-                                 end / config_.most_places);  // s
+                                 end / kMostPlaces);  // s
     const double spare = 2.0 * config_.robot_radius + config_.elbow_room;
     for (double t = std::min(step, end); t <= end + 1e-9; t += step) {
       if (thing.gap(path.front(), t) < spare) {
@@ -263,7 +259,7 @@ std::vector<Cylinder> ConflictForecast::predicted(const Path& path,
       }
       for (Cylinder part : thing) {
         part.center = part.center + t * part.velocity;
-        part.radius += config_.elbow_room + config_.spare_room;
+        part.radius += config_.elbow_room + kSpareRoom;
         out.push_back(part);
       }
     }

@@ -14,19 +14,12 @@ struct ConflictForecastConfig {
   double robot_radius = 0.35;  ///< m, set from the mesh's
   double tolerance = 0.05;
   double look_ahead = 12.0;
-  double standing_speed = 0.2;
   double foresight = 6.0;
   double pause = 5.0;
-  double forecast_step = 0.25;
   double notice_time = 1.0;
   double late_time = 1.0;
-  double chase_time = 3.0;
   double stop_room = 0.1;
   double elbow_room = 0.2;
-  double spare_room = 0.05;
-  double headway = 1.5;
-  double headway_gain = 0.5;
-  int most_places = 64;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -102,6 +95,7 @@ class ConflictForecast {
                                              double later) const;
   [[nodiscard]] bool taken(Point place, const std::vector<Cylinder>& obstacles) const;
   [[nodiscard]] Encounter encounter(const Path& path, const Thing& thing, double pace) const;
+  [[nodiscard]] Encounter standing(const Thing& thing, double cut, double pace) const;
 
   ConflictForecastConfig config_;
 };

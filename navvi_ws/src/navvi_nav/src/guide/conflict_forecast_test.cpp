@@ -137,12 +137,11 @@ TEST_F(Forecast, foresees_where_what_comes_from_behind_goes_on) {
 
 TEST_F(Forecast, judges_a_long_thing_by_what_it_fills_and_as_one) {
   using navvi_types::ThingClass;
-  const MovingThing along{7,  ThingClass::forklift, {{8, 1.3}, M_PI}, {-1.0, 0}, 1.35, 2.0, 2.4,
-                          1.1};
+  const MovingThing along{7, ThingClass::forklift, {{8, 1.3}, kPi}, {-1.0, 0}, 1.35, 2.0, 2.4, 1.1};
   EXPECT_EQ(forecast(cylinders_of(along, 1)).state, Conflict::State::oncoming);
   EXPECT_EQ(forecast(cylinders_of(along, 4)).state, Conflict::State::clear);  // it passes beside
-  const MovingThing across{
-      7, ThingClass::forklift, {{3, -2.0}, M_PI / 2}, {0, 0.8}, 1.35, 2.0, 2.4, 1.1};
+  const MovingThing across{7,  ThingClass::forklift, {{3, -2.0}, kPi / 2}, {0, 0.8}, 1.35, 2.0, 2.4,
+                           1.1};
   const Conflict conflict = forecast(cylinders_of(across, 4));
   ASSERT_TRUE(conflict.wait_for);
   EXPECT_GT(conflict.wait_for->time_to_clear, (2.0 + 1.2 + 0.35) / 0.8);  // its end has left, too

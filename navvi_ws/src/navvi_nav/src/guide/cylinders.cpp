@@ -17,7 +17,7 @@ std::vector<Cylinder> cylinders_of(const MovingThing& thing, int most) {
   const double radius = std::hypot(slimmer, piece) / 2.0;
   if (count < 2 || radius >= one.radius) return {one};
   const Point middle = one.center;
-  const double along = thing.pose.yaw + (thing.length >= thing.width ? 0.0 : M_PI / 2);
+  const double along = thing.pose.yaw + (thing.length >= thing.width ? 0.0 : kPi / 2);
   const Point step = piece * Point{std::cos(along), std::sin(along)};
   std::vector<Cylinder> out;
   one.radius = radius;

@@ -11,6 +11,8 @@ namespace navvi_nav::guide {
 using navvi_types::MovingThing;
 using navvi_types::Pose2;
 
+inline constexpr double kStandingSpeed = 0.2;  ///< m/s, a slower thing counts as standing
+
 /// The values of messages as those of meshes and back, m, in map.
 [[nodiscard]] inline Point to_point(const Eigen::Vector2d& point) { return {point.x(), point.y()}; }
 [[nodiscard]] std::vector<Eigen::Vector2d> to_vectors(const Path& path);

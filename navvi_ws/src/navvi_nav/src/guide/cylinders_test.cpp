@@ -41,7 +41,7 @@ TEST(Cylinders, are_one_where_a_row_would_not_be_slimmer) {
 }
 
 TEST(Cylinders, are_a_row_that_covers_the_rectangle_half_as_wide) {
-  for (const double yaw : {0.0, 0.7, M_PI / 2, -2.5}) {
+  for (const double yaw : {0.0, 0.7, kPi / 2, -2.5}) {
     for (const bool across : {false, true}) {
       MovingThing one = forklift(yaw);
       if (across) std::swap(one.length, one.width);

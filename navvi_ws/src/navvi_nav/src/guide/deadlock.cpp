@@ -5,10 +5,11 @@
 namespace navvi_nav::guide {
 namespace {
 
-constexpr double kAhead = 8.0;                // m, of its way that a thing is given
-constexpr double kTurn = 1.2;                 // m, about its front
-constexpr double kBeside = 0.2;               // m
-constexpr double kFaces = 60.0 / 180 * M_PI;  // rad, from its heading to the robot
+constexpr double kAhead = 8.0;                         // m, of its way that a thing is given
+constexpr double kTurn = 1.2;                          // m, about its front
+constexpr double kBeside = 0.2;                        // m
+constexpr double kWaitAside = 20.0;                    // s, that the other is given to pass
+constexpr double kFaces = navvi_types::radians(60.0);  // rad, from its heading to the robot
 constexpr int kOften = 2;      // a thing that stays although the robot yielded does not wait for it
 constexpr double kNear = 0.4;  // m, from the end of a retreat: near enough out of the swept area
 constexpr double kThere = 0.15;  // m, likewise: near enough anywhere
@@ -25,7 +26,6 @@ void DeadlockConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(make_room_after, "make_room_after", Range{0.0, 600.0}, "s",
         "the robot yields to a thing that closes the only way and faces it for so long; 0: never");
-  visit(wait_aside, "wait_aside", Range{0.0, 600.0}, "s", "how long it is then given to pass");
 }
 
 std::vector<Cylinder> area_swept_by(const MovingThing& thing) {
@@ -72,7 +72,7 @@ void Deadlock::retreated(double time) {
 }
 
 bool Deadlock::waits(double time) const {
-  return retreated_at_ && time - *retreated_at_ < config_.wait_aside;
+  return retreated_at_ && time - *retreated_at_ < kWaitAside;
 }
 
 void Deadlock::reset_times() {

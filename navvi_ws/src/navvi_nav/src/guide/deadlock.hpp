@@ -12,7 +12,6 @@ namespace navvi_nav::guide {
 struct DeadlockConfig {
   double robot_radius = 0.35;  ///< m, set from the mesh's
   double make_room_after = 10.0;
-  double wait_aside = 20.0;
 
   void describe(navvi_config::Visitor& visit);
 };

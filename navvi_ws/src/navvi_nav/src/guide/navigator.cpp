@@ -16,7 +16,6 @@ NavigatorConfig completed(NavigatorConfig config) {
   config.replan.trigger.robot_radius = radius;
   config.replan.forecast.robot_radius = radius;
   config.deadlock.robot_radius = radius;
-  config.observation.standing_speed = config.replan.forecast.standing_speed;
   return config;
 }
 
@@ -36,7 +35,8 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   visit.group("stand_off", deadlock);
   observation.describe(visit);
   visit(carve_period, "carve_period", Range{0.05, 60.0}, "s",
-        "least time between two times the planner is told what moves while nothing asks for a plan (R-NAV-5)");
+        "least time between two times the planner is told what moves while nothing asks for a plan "
+        "(R-NAV-5)");
   visit(carve_within, "carve_within", Range{10.0, 1e6}, "m",
         "what drives or walks farther from the robot leaves no hole: it moves on before the robot "
         "comes");
@@ -102,7 +102,6 @@ void Navigator::drop_goal(Guidance::State state) {
 
 void Navigator::reset_times() {
   observation_.reset_times();
-  path_.reset_times();
   trigger_.reset();
   keeper_.reset();
   deadlock_.reset_times();
@@ -231,7 +230,7 @@ std::vector<Cylinder> Navigator::holes() const {
   const std::optional<Point> robot = position_of(observation_.last_pose());
   const auto goes_far_off = [&](const Cylinder& one) {
     return robot && distance(one.center, *robot) > config_.carve_within &&
-           norm(one.velocity) > config_.replan.forecast.standing_speed;
+           norm(one.velocity) > kStandingSpeed;
   };
   out.erase(std::remove_if(out.begin(), out.end(), goes_far_off), out.end());
   return out;
@@ -268,7 +267,6 @@ void Navigator::deliver(const plan::PlanAnswer& answer, double time) {
   if (!answer.plan || sent_.goal != goal_.number) return;
   ++guidance_.plans;
   guidance_.plan_time = answer.seconds;
-  guidance_.nodes_expanded = static_cast<std::uint32_t>(answer.plan->nodes_expanded);
   guidance_.replan_reason = sent_.reason;
   goal_.planned = true;
   take_plan(*answer.plan, sent_.reason, time);
@@ -327,7 +325,7 @@ bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, doub
 }
 
 void Navigator::change_path(const plan::Plan& plan, Guidance::Replan reason, double time) {
-  const double moved = path_.follow(plan, reason, time, position_of(observation_.last_pose()));
+  const double moved = path_.follow(plan, reason, position_of(observation_.last_pose()));
   if (moved > 0.0 && reason != Guidance::Replan::new_goal &&
       reason != Guidance::Replan::map_changed)
     keeper_.chose(time);
@@ -335,13 +333,14 @@ void Navigator::change_path(const plan::Plan& plan, Guidance::Replan reason, dou
 
 Guidance Navigator::guidance(double time) const {
   Guidance out = guidance_;
-  path_.report_changes(out, time);
+  path_.report_changes(out);
   out.mesh_age = age_of(map_.mesh_time, time);
   out.map_age = age_of(map_.time, time);
   out.floor = floor_height();
   if (!map_.floor && map_.new_map && !map_.stands_at) {
     out.state = Guidance::State::pose_stale;
-    out.detail = "no fresh pose of the robot, whose height tells which level of the map is the floor";
+    out.detail =
+        "no fresh pose of the robot, whose height tells which level of the map is the floor";
   } else if (!map_.floor) {
     out.state = Guidance::State::no_map;
     out.detail = "no usable map came yet";
@@ -358,8 +357,8 @@ Guidance Navigator::guidance(double time) const {
   const bool rejected = observation_.obstacles_rejected();
   if (map_.floor && goal_.place && (!fresh || rejected)) {
     if (!out.detail.empty()) out.detail += "; ";
-    out.detail += rejected ? "the obstacles are rejected, as malformed or too many"
-                           : "no fresh obstacles";
+    out.detail +=
+        rejected ? "the obstacles are rejected, as malformed or too many" : "no fresh obstacles";
     out.detail += fresh ? "" : ": moving things are not in the path";
   }
   return out;

@@ -5,8 +5,8 @@
 namespace navvi_nav::guide {
 namespace {
 
-constexpr double kMoving = 0.1;   // m/s
-constexpr double kMemory = 10.0;  // s, time constant of the pace
+constexpr double kMoving = 0.1;     // m/s
+constexpr double kMemory = 10.0;    // s, time constant of the pace
 constexpr double kMostAhead = 0.3;  // s, of a pose; clocks and messages differ by less
 
 }  // namespace
@@ -27,7 +27,7 @@ void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
   for (const MovingThing& thing : things) {
     const Moved now{thing.id, time};
     const auto before = std::lower_bound(moved_.begin(), moved_.end(), now, by_id);
-    const bool moves = norm(to_point(thing.velocity)) > config_.standing_speed;
+    const bool moves = norm(to_point(thing.velocity)) > kStandingSpeed;
     const bool moved_before = before != moved_.end() && before->id == thing.id;
     if (moves || moved_before) moved.push_back(moves ? now : *before);
     for (Cylinder part : cylinders_of(thing, config_.most_cylinders)) {

@@ -9,7 +9,6 @@
 namespace navvi_nav::guide {
 
 struct ObservationConfig {
-  double standing_speed = 0.2;  ///< m/s, set from the forecast's
   int most_cylinders = 4;
   double pose_timeout = 1.0;
   double obstacle_timeout = 1.0;
@@ -25,8 +24,8 @@ class Observation {
   void set_obstacles(std::vector<MovingThing> things, double time);
   void reject_obstacles() { obstacles_rejected_ = true; }
   /// \param stamp  of the pose
-  /// \return false for a pose from the future, which is not taken: by a clock that is ahead it looks
-  /// fresh for as long as that clock is ahead
+  /// \return false for a pose from the future, which is not taken: by a clock that is ahead it
+  /// looks fresh for as long as that clock is ahead
   bool set_pose(const Pose2& pose, double stamp, double now);
   void set_speed(double forward) { speed_ = forward; }  ///< m/s
   /// Drops obstacles that are too old, and measures the pace.

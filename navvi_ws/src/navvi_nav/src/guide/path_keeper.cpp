@@ -3,10 +3,11 @@
 namespace navvi_nav::guide {
 namespace {
 
-constexpr double kLetGo = 0.5;                // s, that it must be clear before a wait ends
-constexpr double kBack = 120.0 / 180 * M_PI;  // rad, from the course that is followed
-constexpr double kCourse = 1.0;               // m, how much of a path makes its course
-constexpr double kSafer = 1.0;                // s, by which a collision must be later
+constexpr double kLetGo = 0.5;        // s, that it must be clear before a wait ends
+constexpr double kHoldMeeting = 4.0;  // s, what is met later may turn off
+constexpr double kBack = navvi_types::radians(120.0);  // rad, from the course that is followed
+constexpr double kCourse = 1.0;                        // m, how much of a path makes its course
+constexpr double kSafer = 1.0;                         // s, by which a collision must be later
 
 /// From the path's start to the point kCourse along it.
 Point course_of(const Path& path) {
@@ -46,8 +47,6 @@ void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   visit(hold_choice, "hold_choice", Range{0.0, 60.0}, "s",
         "a path chosen because of moving things is kept so long at least, if no collision is "
         "forecast within as long");
-  visit(hold_meeting, "hold_meeting", Range{0.0, 60.0}, "s",
-        "an oncoming thing is evaded only when it is so close: it may turn off");
   visit(hold_detour, "hold_detour", Range{0.0, 100.0}, "m",
         "longest detour around a moving thing while the path may be kept");
   visit(wait_distance, "wait_distance", Range{0.0, 100.0}, "m",
@@ -155,8 +154,8 @@ bool PathKeeper::goes_on_safely(const Conflict& conflict) {
     return false;
   const bool safely = !conflict.hits_waiting && !std::isfinite(conflict.time_to_collision);
   if (safely) since_.reset();
-  return safely || (conflict.state == Conflict::State::oncoming &&
-                    conflict.time_to_meeting > config_.hold_meeting);
+  return safely ||
+         (conflict.state == Conflict::State::oncoming && conflict.time_to_meeting > kHoldMeeting);
 }
 
 }  // namespace navvi_nav::guide

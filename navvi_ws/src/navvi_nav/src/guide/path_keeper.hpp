@@ -15,7 +15,6 @@ struct PathKeeperConfig {
   double gain_back = 4.0;
   double hold_time = 8.0;
   double hold_choice = 3.0;
-  double hold_meeting = 4.0;
   double hold_detour = 6.0;
   double wait_distance = 3.0;
 
@@ -30,7 +29,7 @@ class PathKeeper {
 
   /// Call it on every tick. \returns true to keep the path without a search: no obstacle that cuts
   /// it will hit the robot, or all leave it soon and have not closed it for hold_time, or the first
-  /// one comes but is not met within hold_meeting
+  /// one comes but is not met within 4 s
   [[nodiscard]] bool update(double time, const Conflict& conflict);
 
   struct Candidate {

@@ -4,6 +4,7 @@ namespace navvi_nav::guide {
 namespace {
 
 constexpr double kMoved = 0.1;  // m, an obstacle that moved less has not left its place
+constexpr double kStray = 0.5;  // m, a robot farther off its path strayed
 constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robot on its rim
 
 }  // namespace
@@ -21,7 +22,6 @@ void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
   visit(only_if_it_matters, "only_if_it_matters", navvi_config::Any{}, "",
         "search for a path that is still free only if something left a place through which a "
         "better one could lead, or the robot strayed");
-  visit(stray, "stray", Range{0.0, 10.0}, "m", "a robot so far off its path strayed");
 }
 
 void ReplanTrigger::reset() {
@@ -70,8 +70,7 @@ bool ReplanTrigger::note_near(const ReplanInput& input) {
 
 /// False if a search could only find the path that is followed, or none that is worth changing to.
 bool ReplanTrigger::matters(const ReplanInput& input) const {
-  if (!config_.only_if_it_matters || input.remaining.size() < 2 ||
-      input.path_offset > config_.stray)
+  if (!config_.only_if_it_matters || input.remaining.size() < 2 || input.path_offset > kStray)
     return true;
   return may_have_opened(input);
 }

@@ -20,7 +20,6 @@ struct ReplanTriggerConfig {
   double near_range = 3.0;
   double min_interval = 0.5;
   bool only_if_it_matters = true;
-  double stray = 0.5;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -117,9 +117,6 @@ void LoopFigures::take(const navvi_msgs::Guidance& guidance) {
   blocked_by_ = guidance.blocked_by;
   reroutes_ = std::max(reroutes_, guidance.reroutes);
   if (shortest_ == 0.0) shortest_ = guidance.shortest_length;
-  churn_sum_ += guidance.path_churn;
-  churn_max_ = std::max(churn_max_, guidance.path_churn);
-  ++guidances_;
 }
 
 void LoopFigures::listen(const ClosedLoop& loop, const navvi_types::CueEvent& cue) {
@@ -233,8 +230,6 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
   row.set("result", result_).set("time", time_, 1);
   row.set("driven", monitor_.tally().path_length, 1).set("shortest", shortest_, 1);
   row.set("hits", hits.empty() ? "-" : hits).set("reroutes", std::uint64_t{reroutes_});
-  row.set("churn_mean", guidances_ > 0 ? churn_sum_ / guidances_ : 0.0, 1);
-  row.set("churn_max", churn_max_, 1);
   row.set("turns", time_ > 0.0 ? 60.0 * turns_ / time_ : 0.0, 1);
   row.set("flips", std::uint64_t{flips_}).set("misled", std::uint64_t{misled_});
   row.set("reversed", std::uint64_t{reversed_}).set("late", std::uint64_t{late_});

@@ -28,17 +28,15 @@ class LoopFigures {
   [[nodiscard]] bool watch(const ClosedLoop& loop);
 
   /// One row. `time` s since the goal was set; `driven` and `shortest` m; `hits` by class;
-  /// `churn_mean` and `churn_max` m/min (Guidance.path_churn); `turns` changes of the announced
-  /// hour a minute; `flips` how often a direction contradicted the one just before; `reversed` how
-  /// often it led 4 hours or more elsewhere than one within 4 s before, no corner and no new route
-  /// being told; `misled` how often the turn that was
-  /// ordered was not the one announced for that corner;
-  /// `warned`: of each contact with what moves, the s before it since when that was felt, and since
-  /// when it was told, and `late`, how many of them were felt < 3 s or told < 2 s before;
-  /// `speechless` how often a stick was pushed in vain for 3 s without a word or a sound;
-  /// the states of the guidance
-  /// in s; `still` s, the longest stay within 0.3 m, since `still_at` s, and `why`: what was about
-  /// at its end; `hash` of the world's last state; and what SpeechFigures and SensingFigures add.
+  /// `turns` changes of the announced hour a minute; `flips` how often a direction contradicted the
+  /// one just before; `reversed` how often it led 4 hours or more elsewhere than one within 4 s
+  /// before, no corner and no new route being told; `misled` how often the turn that was ordered
+  /// was not the one announced for that corner; `warned`: of each contact with what moves, the s
+  /// before it since when that was felt, and since when it was told, and `late`, how many of them
+  /// were felt < 3 s or told < 2 s before; `speechless` how often a stick was pushed in vain for 3
+  /// s without a word or a sound; the states of the guidance in s; `still` s, the longest stay
+  /// within 0.3 m, since `still_at` s, and `why`: what was about at its end; `hash` of the world's
+  /// last state; and what SpeechFigures and SensingFigures add.
   [[nodiscard]] record::Fields row(const ClosedLoop& loop) const;
 
  private:
@@ -69,9 +67,6 @@ class LoopFigures {
   std::map<std::string, std::uint64_t> hits_;
   unsigned reroutes_ = 0;
   double shortest_ = 0.0;
-  double churn_sum_ = 0.0;
-  double churn_max_ = 0.0;
-  unsigned guidances_ = 0;
   unsigned turns_ = 0;
   unsigned flips_ = 0;
   unsigned misled_ = 0;

@@ -49,11 +49,11 @@ std::string guidance_text(const navvi_msgs::Guidance& guidance) {
                 guidance.blocked_distance, guidance.blocked_for);
   return out + text(
                    ", steer %+.0f to %s %.2f,%.2f in %.1f m at %+.0f, then %+.0f; %.1f m left, "
-                   "%.1f m off, churn %.0f",
+                   "%.1f m off",
                    kDegrees * guidance.steer_angle, guidance.waypoint_is_goal ? "goal" : "corner",
                    guidance.waypoint.x, guidance.waypoint.y, guidance.waypoint_distance,
                    kDegrees * guidance.waypoint_angle, kDegrees * guidance.turn_angle,
-                   guidance.goal_distance, guidance.path_offset, guidance.path_churn);
+                   guidance.goal_distance, guidance.path_offset);
 }
 
 std::string movers_text(const navvi_sim::physics::RobotState& robot,

@@ -52,10 +52,8 @@ struct Guidance {
   Replan replan_reason = Replan::none;   ///< of the last plan
   std::uint32_t plans = 0;               ///< so far
   double plan_time = 0.0;                ///< s, of the last plan, wall clock
-  std::uint32_t nodes_expanded = 0;      ///< by the last search
   std::uint32_t reroutes = 0;            ///< of this goal
   Replan reroute_reason = Replan::none;  ///< of the last of them
-  double path_churn = 0.0;               ///< m/min, of path ahead that plans moved, >= 0
   std::optional<double> mesh_age;        ///< s, >= 0
   std::optional<double> map_age;         ///< s, >= 0
 
@@ -74,7 +72,6 @@ struct Guidance {
   double goal_distance = 0.0;      ///< m, along the path
   double eta = 0.0;                ///< s, for what is left, >= 0
   double shortest_length = 0.0;    ///< m, of the shortest path when this one was planned
-  double smoothing_price = 0.0;    ///< m, by how much the guide path made of it is longer
   double path_offset = 0.0;        ///< m, from the robot to the nearest point of the path
   std::string detail;              ///< a sentence for the log; never spoken
 

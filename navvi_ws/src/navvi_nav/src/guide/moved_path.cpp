@@ -1,4 +1,4 @@
-#include "guide/path_instability.hpp"
+#include "guide/moved_path.hpp"
 
 namespace navvi_nav::guide {
 namespace {
@@ -6,7 +6,6 @@ namespace {
 constexpr double kAhead = 20.0;   // m, of the path that counts
 constexpr double kAside = 0.5;    // m, less is no change to a person
 constexpr double kSample = 0.25;  // m
-constexpr double kMinute = 60.0;  // s
 
 double away(Point point, const Path& path) {
   double best = distance(point, path.front());
@@ -17,7 +16,7 @@ double away(Point point, const Path& path) {
 
 }  // namespace
 
-double PathInstability::moved(const Path& old, const Path& fresh) {
+double moved_length(const Path& old, const Path& fresh) {
   if (fresh.empty()) return std::min(kAhead, length_of(old));
   double sum = 0.0;
   double before = 0.0;
@@ -32,19 +31,6 @@ double PathInstability::moved(const Path& old, const Path& fresh) {
       const double share = (k + 0.5) / samples * counts / length;
       if (away(old[i - 1] + share * leg, fresh) > kAside) sum += counts / samples;
     }
-  }
-  return sum;
-}
-
-void PathInstability::add(double time, double metres) {
-  while (!moves_.empty() && moves_.front().first <= time - kMinute) moves_.pop_front();
-  moves_.push_back({time, metres});
-}
-
-double PathInstability::per_minute(double time) const {
-  double sum = 0.0;
-  for (const auto& [when, metres] : moves_) {
-    if (when > time - kMinute) sum += metres;
   }
   return sum;
 }
