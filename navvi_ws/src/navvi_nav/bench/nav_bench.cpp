@@ -245,8 +245,7 @@ struct Followed {
   void add(const Path& path, const Course& c) {
     const map::Space space = c.carved.nav_mesh().space();
     const smooth::GuideCost guide_cost(c.config.smoothing.cost, c.carved.nav_mesh().mesh(), space,
-                                       c.config.mesh.robot_radius,
-                                       c.config.mesh.preferred_clearance);
+                                       c.config.mesh.robot_radius);
     if (const double price = guide_cost.of(path); std::isfinite(price)) {
       cost += price;
       ++costed;

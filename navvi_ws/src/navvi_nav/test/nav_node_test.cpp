@@ -261,15 +261,12 @@ TEST_F(MakePlanTest, plans_from_the_start_given_or_from_the_robot) {
   EXPECT_DOUBLE_EQ(robots.poses.front().pose.position.y, 5.0);
 }
 
-TEST_F(MakePlanTest, gives_an_empty_plan_where_nothing_leads_and_heeds_the_tolerance) {
+TEST_F(MakePlanTest, gives_an_empty_plan_where_nothing_leads_and_moves_no_goal) {
   EXPECT_TRUE(plan(pose(2, 2), pose(7, 5)).poses.empty());
   EXPECT_TRUE(plan(pose(2, 2), pose(7, 5), 0.5F).poses.empty());
   EXPECT_TRUE(plan(pose(2, 2), pose(std::numeric_limits<double>::quiet_NaN(), 5)).poses.empty());
   EXPECT_TRUE(plan(pose(2, 2, "nowhere"), pose(14, 5)).poses.empty());
-  const nav_msgs::Path near = plan(pose(2, 5), pose(6.3, 5), 1.0F);  // 0.3 m inside the block
-  ASSERT_GE(near.poses.size(), 2U);
-  EXPECT_NEAR(near.poses.back().pose.position.x, 5.5, 0.2);
-  EXPECT_NEAR(near.poses.back().pose.position.y, 5.0, 0.2);
+  EXPECT_TRUE(plan(pose(2, 5), pose(6.3, 5), 1.0F).poses.empty());  // 0.3 m inside the block
 }
 
 /// Another nav_node, which never gets an OctoMap.
@@ -368,13 +365,11 @@ TEST_F(NavNodeTest, N6_more_obstacles_than_a_message_may_hold_are_announced) {
   one.radius = 0.1;
   one.height = 1.0;
   played_.obstacles.assign(10001, one);
-  EXPECT_TRUE(until([this] {
-    return guidance_.detail.find("the obstacles are rejected") != std::string::npos;
-  }));
+  EXPECT_TRUE(until(
+      [this] { return guidance_.detail.find("the obstacles are rejected") != std::string::npos; }));
   played_.obstacles.clear();
-  EXPECT_TRUE(until([this] {
-    return guidance_.detail.find("the obstacles are rejected") == std::string::npos;
-  }));
+  EXPECT_TRUE(until(
+      [this] { return guidance_.detail.find("the obstacles are rejected") == std::string::npos; }));
 }
 
 TEST_F(NavNodeTest, lives_on_after_garbage) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "bake/fine_parts.hpp"
@@ -42,14 +43,6 @@ int part_of(int tile_cells) {
   return tile_cells;
 }
 
-/// One tile on its way.
-struct Work {
-  TileIndex tile;
-  const TileParts* before;
-  TileParts parts;
-  std::vector<mesh::GridPolygon> polygons;
-};
-
 TileCells cells_of(const map::Floor& floor, map::Cell low, int size, const MapBakeConfig& config) {
   TileCells out{low, size, {}, {}};
   const auto side = static_cast<std::size_t>(size) + 2;
@@ -69,84 +62,133 @@ bool changed_around(const map::Floor& floor, const map::Area& part, const MapBak
       map::grown(part, 2 * kLeastTile + static_cast<int>(config.margin / floor.cell_size()) + 8));
 }
 
+/// How the map before is compared: by tiles of the same cells.
+bool comparable(const BakedMap& before, const map::Floor& floor, int tile_cells) {
+  return before.floor && before.tile_cells == tile_cells &&
+         before.floor->cell_size() == floor.cell_size() && before.floor->grow() == floor.grow();
+}
+
+/// The tiles of one map on their way: baked part by part, then merged across the parts' borders.
+class Tiles {
+ public:
+  /// \param tile_cells  along a tile's side \param last  the map before; empty: not to be compared
+  Tiles(const map::Floor& floor, int tile_cells, const MapBakeConfig& config, const BakedMap& last)
+      : floor_(floor),
+        config_(config),
+        how_(tile_config(config, floor)),
+        last_(last),
+        part_(part_of(tile_cells)),
+        aside_(tile_cells / part_) {
+    const map::Area all = floor.area();
+    for (int y = floor_div(all.low.y, tile_cells); y * tile_cells < all.high.y; ++y)
+      for (int x = floor_div(all.low.x, tile_cells); x * tile_cells < all.high.x; ++x) add({x, y});
+  }
+
+  void bake_parts() {
+    const int parts = aside_ * aside_;
+    map::in_parallel(static_cast<int>(tiles_.size()) * parts, config_.threads, [&](int i) {
+      bake_part(tiles_[static_cast<std::size_t>(i / parts)], i % parts);
+    });
+  }
+  void merge_parts() {
+    map::in_parallel(static_cast<int>(tiles_.size()), config_.threads,
+                     [&](int i) { merge(tiles_[static_cast<std::size_t>(i)]); });
+  }
+  void move_to(BakedMap& out) {
+    for (Tile& tile : tiles_) {
+      const auto old = last_.tiles.find(tile.index);
+      if (old != last_.tiles.end() ? tile.polygons != old->second : !tile.polygons.empty())
+        out.rebuilt.push_back(tile.index);
+      if (!tile.polygons.empty()) out.tiles.emplace(tile.index, std::move(tile.polygons));
+      out.parts.emplace(tile.index, std::move(tile.parts));
+    }
+    for (const auto& [index, polygons] : last_.tiles)
+      if (out.parts.count(index) == 0) out.rebuilt.push_back(index);
+  }
+
+ private:
+  struct Tile {
+    TileIndex index;
+    const TileParts* before;  ///< null: none
+    TileParts parts;
+    std::vector<mesh::GridPolygon> polygons;
+  };
+
+  void add(TileIndex index) {
+    const auto old = last_.parts.find(index);
+    tiles_.push_back({index,
+                      old != last_.parts.end() ? &old->second : nullptr,
+                      TileParts(static_cast<std::size_t>(aside_ * aside_)),
+                      {}});
+  }
+  /// \param i  number of the part, row by row
+  void bake_part(Tile& tile, int i) {
+    auto& baked = tile.parts[static_cast<std::size_t>(i)];
+    const map::Cell low{(tile.index.first * aside_ + i % aside_) * part_,
+                        (tile.index.second * aside_ + i / aside_) * part_};
+    if (tile.before != nullptr) {
+      baked = (*tile.before)[static_cast<std::size_t>(i)];
+      if (!changed_around(floor_, {low, {low.x + part_, low.y + part_}}, config_)) return;
+    }
+    const TileCells cells = cells_of(floor_, low, part_, config_);
+    if (tile.before != nullptr && cells == cells_of(*last_.floor, low, part_, config_)) return;
+    baked = std::make_shared<const std::vector<mesh::GridPolygon>>(bake_tile(cells, how_));
+  }
+  void merge(Tile& tile) {
+    if (tile.before != nullptr && tile.parts == *tile.before) {
+      const auto old = last_.tiles.find(tile.index);
+      if (old != last_.tiles.end()) tile.polygons = old->second;
+      return;
+    }
+    for (const auto& polygons : tile.parts)
+      tile.polygons.insert(tile.polygons.end(), polygons->begin(), polygons->end());
+    if (config_.max_corners > 3)
+      tile.polygons = merge_convex(std::move(tile.polygons), config_.max_corners);
+  }
+
+  const map::Floor& floor_;
+  const MapBakeConfig& config_;
+  const BakeConfig how_;
+  const BakedMap& last_;
+  const int part_;   // cells along a part's side
+  const int aside_;  // parts along a tile's side
+  std::vector<Tile> tiles_;
+};
+
+std::string too_wide_for(double cell) {
+  const std::string most = std::to_string(map::Floor::kMaxReach - 2);
+  return "the robot is too wide for a map with cells of " + std::to_string(cell) +
+         " m: its radius must not be more than " + most + " cells";
+}
+
+std::string no_floor(const std::string& levels) {
+  const std::string sentence = "the map shows no walkable floor";
+  return levels.empty() ? sentence : sentence + "; what there is of floor lies at " + levels;
+}
+
 }  // namespace
 
 BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config, const BakedMap* before) {
   BakedMap out;
-  out.error = survey.error;
-  if (!out.error.empty()) return out;
   const double cell = survey.cell_size;
-  const std::string levels = std::move(survey.levels);
+  out.error = std::move(survey.error);
+  if (out.error.empty() && config.margin > (map::Floor::kMaxReach - 2) * cell)
+    out.error = too_wide_for(cell);
+  if (!out.error.empty()) return out;
   out.record = std::move(survey.record);
-  if (config.margin > (map::Floor::kMaxReach - 2) * cell) {
-    out.error = "the robot is too wide for a map with cells of " + std::to_string(cell) +
-                " m: its radius must not be more than " +
-                std::to_string(map::Floor::kMaxReach - 2) + " cells";
-    return out;
-  }
   out.floor = std::make_shared<const map::Floor>(
-      survey.low, survey.columns, survey.rows, cell, survey.floor_height, std::move(survey.ground),
-      config.margin + config.reach, config.margin, config.threads,
+      map::FloorGround{survey.low, survey.columns, survey.rows, cell, survey.floor_height,
+                       std::move(survey.ground)},
+      map::FloorDistances{config.margin + config.reach, config.margin}, config.threads,
       before != nullptr ? before->floor.get() : nullptr);
-  const map::Floor& floor = *out.floor;
-  const int size = tile_cells_of(config.tile_size / cell);
-  const int part = part_of(size);
-  const int aside = size / part, parts = aside * aside;
-  out.tile_cells = size;
-  const bool comparable = before != nullptr && before->floor && before->tile_cells == size &&
-                          before->floor->cell_size() == cell &&
-                          before->floor->grow() == floor.grow();
+  out.tile_cells = tile_cells_of(config.tile_size / cell);
   static const BakedMap kNone;
-  const BakedMap& last = comparable ? *before : kNone;
-  std::vector<Work> works;
-  for (int y = floor_div(floor.origin().y, size); y * size < floor.area().high.y; ++y) {
-    for (int x = floor_div(floor.origin().x, size); x * size < floor.area().high.x; ++x) {
-      const auto old = last.parts.find({x, y});
-      works.push_back({{x, y},
-                       old != last.parts.end() ? &old->second : nullptr,
-                       TileParts(static_cast<std::size_t>(parts)),
-                       {}});
-    }
-  }
-  const BakeConfig how = tile_config(config, floor);
-  map::in_parallel(static_cast<int>(works.size()) * parts, config.threads, [&](int i) {
-    Work& work = works[static_cast<std::size_t>(i / parts)];
-    const auto at = static_cast<std::size_t>(i % parts);
-    const map::Cell low{work.tile.first * size + i % aside * part,
-                        work.tile.second * size + i % parts / aside * part};
-    work.parts[at] = work.before != nullptr ? (*work.before)[at] : nullptr;
-    const bool same = work.before != nullptr &&
-                      !changed_around(floor, {low, {low.x + part, low.y + part}}, config);
-    if (same) return;
-    const TileCells cells = cells_of(floor, low, part, config);
-    if (work.before != nullptr && cells == cells_of(*last.floor, low, part, config)) return;
-    work.parts[at] = std::make_shared<const std::vector<mesh::GridPolygon>>(bake_tile(cells, how));
-  });
-  map::in_parallel(static_cast<int>(works.size()), config.threads, [&](int i) {
-    Work& work = works[static_cast<std::size_t>(i)];
-    const auto old = last.tiles.find(work.tile);
-    if (work.before != nullptr && work.parts == *work.before) {
-      if (old != last.tiles.end()) work.polygons = old->second;
-      return;
-    }
-    for (const auto& polygons : work.parts)
-      work.polygons.insert(work.polygons.end(), polygons->begin(), polygons->end());
-    if (config.max_corners > 3)
-      work.polygons = merge_convex(std::move(work.polygons), config.max_corners);
-  });
-  for (Work& work : works) {
-    const auto old = last.tiles.find(work.tile);
-    if (old != last.tiles.end() ? work.polygons != old->second : !work.polygons.empty())
-      out.rebuilt.push_back(work.tile);
-    if (!work.polygons.empty()) out.tiles.emplace(work.tile, std::move(work.polygons));
-    out.parts.emplace(work.tile, std::move(work.parts));
-  }
-  if (out.tiles.empty()) {
-    out.error = "the map shows no walkable floor";
-    if (!levels.empty()) out.error += "; what there is of floor lies at " + levels;
-  }
-  for (const auto& [tile, polygons] : last.tiles)
-    if (out.parts.count(tile) == 0) out.rebuilt.push_back(tile);
+  const bool compared = before != nullptr && comparable(*before, *out.floor, out.tile_cells);
+  Tiles tiles(*out.floor, out.tile_cells, config, compared ? *before : kNone);
+  tiles.bake_parts();
+  tiles.merge_parts();
+  tiles.move_to(out);
+  if (out.tiles.empty()) out.error = no_floor(survey.levels);
   return out;
 }
 

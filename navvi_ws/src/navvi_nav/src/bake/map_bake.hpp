@@ -8,7 +8,7 @@
 
 #include "bake/tile_bake.hpp"
 #include "map/floor.hpp"
-#include "map/map_survey.hpp"
+#include "map/survey.hpp"
 
 namespace navvi_nav::bake {
 

@@ -204,7 +204,7 @@ class ChangingHall {
   }
   void change() {
     const int x = pick(-10, length_), y = pick(-10, width_), side = pick(1, 30), high = pick(1, 12);
-    const double level = 2.0 * M_PI * pick(0, 15) / 16.0;  // of a ramp's heading
+    const double level = 2.0 * kPi * pick(0, 15) / 16.0;  // of a ramp's heading
     switch (pick(0, 12)) {
       case 0:  // a step
         return fill(x, y, 0, x + side, y + pick(1, 90), pick(1, 2));
@@ -284,8 +284,8 @@ TEST(MapBake, surveys_a_large_map_that_changes_over_and_over_as_at_once) {
       ASSERT_TRUE(survey.ground == anew.ground) << seed << ' ' << round;
       in_part += survey.in_part ? 1 : 0;
       last = std::move(survey);
-      floor =
-          map::Floor(last.low, last.columns, last.rows, last.cell_size, 0.0, last.ground, 0.1, 0.0);
+      floor = map::Floor({last.low, last.columns, last.rows, last.cell_size, 0.0, last.ground},
+                         {0.1, 0.0});
     }
   }
   EXPECT_GT(in_part, 25);

@@ -41,12 +41,24 @@ double segment_to_box(Point a, Point b, Point low, Point high) {
   return best;
 }
 
-/// Units squared between the squares of two cells that lie so many cells apart along one axis, if
-/// one is grown by `grow` units. A cell has `unit` units along a side.
-int squared_gap(int cells, int unit, int grow) {
-  const int between = std::max(0, (std::abs(cells) - 1) * unit - grow);
-  return between * between;
-}
+/// In what gaps between the squares of two cells are measured.
+struct Measure {
+  int unit = 1;  ///< units along a cell's side
+  int grow = 0;  ///< units, by which one of the two is larger
+
+  /// Units squared between two that lie so many cells apart along one axis.
+  [[nodiscard]] int squared_gap(int cells) const {
+    const int between = std::max(0, (std::abs(cells) - 1) * unit - grow);
+    return between * between;
+  }
+};
+
+/// How many cells away, along the column, the nearest one is that blocks.
+struct ColumnSteps {
+  std::vector<std::uint8_t> steps;  ///< row by row
+  int stride = 0;                   ///< in a row
+  int aside = 0;                    ///< of these, at the left of the area that is measured
+};
 
 /// For a row of columns' gaps, with `reach` more on either side: the least of gap + gap along the
 /// row, squared, into `row`.
@@ -65,25 +77,24 @@ void least_over_row(const Number* gaps, int count, int reach, const std::vector<
   }
 }
 
-/// Squared gaps of an area's cells: least over the rows within `reach` cells, in units. `store(y,
-/// values)` takes each row.
-/// \param steps  along columns, of the area with `aside` more cells at its left, `stride` in a row
+/// Squared gaps of an area's cells: least over the rows within `reach` cells. `store(y, values)`
+/// takes each row.
 template <typename Number, typename Store>
-void for_each_row(const std::vector<std::uint8_t>& steps, int stride, int aside, const Area& area,
-                  int reach, int unit, int grow, const Store& store) {
+void for_each_row(const ColumnSteps& columns, const Area& area, int reach, const Measure& measure,
+                  const Store& store) {
   // Nothing nearer than `reach` is as far as anything: one more than any sum that counts.
-  const int farthest = squared_gap(reach + 1, unit, grow);
   std::vector<Number> squares(static_cast<std::size_t>(reach) + 2);
   for (int k = 0; k <= reach + 1; ++k)
-    squares[static_cast<std::size_t>(k)] = static_cast<Number>(squared_gap(k, unit, grow));
-  squares.back() = static_cast<Number>(farthest);
+    squares[static_cast<std::size_t>(k)] = static_cast<Number>(measure.squared_gap(k));
   const int count = area.columns();
+  const int aside = columns.aside;
   const int first = std::max(0, aside - reach);
-  const int last = std::min(stride, aside + count + reach);
+  const int last = std::min(columns.stride, aside + count + reach);
   std::vector<Number> gaps(static_cast<std::size_t>(count + 2 * reach), 0);
   std::vector<Number> row(static_cast<std::size_t>(count));
   for (int y = area.low.y; y < area.high.y; ++y) {
-    const std::uint8_t* from = steps.data() + static_cast<std::ptrdiff_t>(y - area.low.y) * stride;
+    const std::uint8_t* from =
+        columns.steps.data() + static_cast<std::ptrdiff_t>(y - area.low.y) * columns.stride;
     for (int x = first; x < last; ++x)
       gaps[static_cast<std::size_t>(x - aside + reach)] =
           squares[std::min<std::size_t>(from[x], squares.size() - 1)];
@@ -94,18 +105,16 @@ void for_each_row(const std::vector<std::uint8_t>& steps, int stride, int aside,
 
 }  // namespace
 
-Floor::Floor(Cell origin, int columns, int rows, double cell_size, double height,
-             std::vector<Ground> ground, double reach, double margin, int threads,
-             const Floor* before)
-    : origin_(origin),
-      columns_(columns),
-      rows_(rows),
-      cell_size_(cell_size),
-      height_(height),
-      reach_(std::min(reach, (kMaxReach - 1) * cell_size)),
-      reach_cells_(static_cast<int>(std::ceil(reach_ / cell_size - kRounding)) + 1),
-      margin_(margin),
-      ground_(std::move(ground)) {
+Floor::Floor(FloorGround ground, const FloorDistances& distances, int threads, const Floor* before)
+    : origin_(ground.origin),
+      columns_(ground.columns),
+      rows_(ground.rows),
+      cell_size_(ground.cell_size),
+      height_(ground.height),
+      reach_(std::min(distances.reach, (kMaxReach - 1) * ground.cell_size)),
+      reach_cells_(static_cast<int>(std::ceil(reach_ / ground.cell_size - kRounding)) + 1),
+      margin_(distances.margin),
+      ground_(std::move(ground.ground)) {
   measure(threads, before);
 }
 
@@ -170,11 +179,8 @@ void Floor::measure(int threads, const Floor* before) {
 void Floor::measure(const Area& square) {
   const Area around = clipped(grown(square, influence()), area());
   const Area beside{{around.low.x, square.low.y}, {around.high.x, square.high.y}};
-  const std::vector<std::uint8_t> steps = steps_along_columns(beside);
-  const auto each_row = [&](auto number, int reach, int unit, int grow, const auto& store) {
-    for_each_row<decltype(number)>(steps, beside.columns(), square.low.x - beside.low.x, square,
-                                   reach, unit, grow, store);
-  };
+  const ColumnSteps columns{steps_along_columns(beside), beside.columns(),
+                            square.low.x - beside.low.x};
   const double margin_cells = margin_ / cell_size_;
   const auto is_open = [](auto least) { return [least](auto gap2) { return gap2 >= least; }; };
   const auto keep_open = [&](int y, const auto* row, const auto& far_enough) {
@@ -183,20 +189,23 @@ void Floor::measure(const Area& square) {
   };
   const auto whole = static_cast<std::uint16_t>(std::ceil(margin_cells * margin_cells - kRounding));
   const bool whole_cells = grow_ == 0;
-  each_row(std::uint16_t{0}, reach_cells_, 1, 0, [&](int y, const std::uint16_t* row) {
-    std::copy_n(row, square.columns(), gap2_.data() + index({square.low.x, y}));
-    if (whole_cells) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
-  });
+  for_each_row<std::uint16_t>(
+      columns, square, reach_cells_, Measure{}, [&](int y, const std::uint16_t* row) {
+        std::copy_n(row, square.columns(), gap2_.data() + index({square.low.x, y}));
+        if (whole_cells) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
+      });
   if (whole_cells) return;
   const double margin_steps = margin_cells * kStepsPerCellSide;
   const int far = std::max(1, static_cast<int>(std::ceil(margin_steps * margin_steps - kRounding)));
   const int reach = margin_reach();
   const auto fine = [&](auto number) {
-    each_row(number, reach, kStepsPerCellSide, grow_, [&](int y, const auto* row) {
-      keep_open(y, row, is_open(static_cast<decltype(number)>(far)));
-    });
+    using Number = decltype(number);
+    for_each_row<Number>(
+        columns, square, reach, {kStepsPerCellSide, grow_},
+        [&](int y, const Number* row) { keep_open(y, row, is_open(static_cast<Number>(far))); });
   };
-  if (2 * squared_gap(reach + 1, kStepsPerCellSide, 0) <= std::numeric_limits<std::uint16_t>::max())
+  if (2 * Measure{kStepsPerCellSide, 0}.squared_gap(reach + 1) <=
+      std::numeric_limits<std::uint16_t>::max())
     fine(std::uint16_t{0});
   else
     fine(std::uint32_t{0});

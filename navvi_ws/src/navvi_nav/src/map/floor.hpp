@@ -44,6 +44,23 @@ enum class Ground : std::uint8_t {
   obstacle,  ///< something stands on the floor or hangs too low
 };
 
+/// The ground of a map, cell by cell.
+struct FloorGround {
+  Cell origin;  ///< the lower cell
+  int columns = 0;
+  int rows = 0;
+  double cell_size = 0.05;     ///< m
+  double height = 0.0;         ///< m, z of the floor in map
+  std::vector<Ground> ground;  ///< row by row
+};
+
+/// What is to be known of the distances from each cell to what blocks, m.
+struct FloorDistances {
+  double reach = 0.0;  ///< they are known up to here, but never farther than kMaxReach - 1 cells
+  double margin =
+      0.0;  ///< an open cell, grown, is at least so far away; at most kMaxReach - 2 cells
+};
+
 /// The floor of a map as a grid: what blocks it, and how far each cell is from that. Everything
 /// that is not floor blocks. Distances run from square to square, so they are never more than the
 /// true distance between any two points of the cells.
@@ -53,13 +70,9 @@ class Floor {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
 
   Floor() = default;
-  /// \param reach  m, distances are known up to here, but never farther than kMaxReach - 1 cells
-  /// \param margin  m, an open cell, grown, is at least so far from everything that blocks; at most
-  ///                kMaxReach - 2 cells
   /// \param threads  that may share the work
   /// \param before  from where distances are taken over as far as the ground around is the same
-  Floor(Cell origin, int columns, int rows, double cell_size, double height,
-        std::vector<Ground> ground, double reach, double margin, int threads = 1,
+  Floor(FloorGround ground, const FloorDistances& distances, int threads = 1,
         const Floor* before = nullptr);
 
   [[nodiscard]] bool empty() const { return ground_.empty(); }

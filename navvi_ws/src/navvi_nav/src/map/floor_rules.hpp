@@ -7,8 +7,8 @@
 
 #include "map/floor_spread.hpp"
 #include "map/height_field.hpp"
-#include "map/map_survey.hpp"
 #include "map/resample.hpp"
+#include "map/survey.hpp"
 
 namespace navvi_nav::map {
 

@@ -22,8 +22,8 @@ struct Heading {
 const std::array<Heading, 16> kHeadings = [] {
   std::array<Heading, 16> all{};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double x = std::cos(M_PI / 8 * static_cast<double>(i));
-    const double y = std::sin(M_PI / 8 * static_cast<double>(i));
+    const double x = std::cos(kPi / 8 * static_cast<double>(i));
+    const double y = std::sin(kPi / 8 * static_cast<double>(i));
     const double longer = std::max(std::abs(x), std::abs(y));
     all[i] = {x / longer, y / longer};
   }

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "map/map_survey.hpp"
+
 namespace navvi_nav::map {
 namespace {
 

@@ -2,8 +2,9 @@
 
 #include <string>
 
-#include "map/map_survey.hpp"
+#include "map/occupancy_grid.hpp"
 #include "map/octomap_reader.hpp"
+#include "map/survey.hpp"
 
 namespace navvi_nav::map {
 

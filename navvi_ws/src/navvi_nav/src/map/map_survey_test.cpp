@@ -115,14 +115,14 @@ TEST(MapSurvey, judges_slopes_alike_whichever_way_they_run) {
   for (const auto& [degrees, walks] : {std::pair{38.0, true}, {47.0, false}}) {
     for (const auto& [heading, climb] : {std::pair{0.0, 0.1},
                                          {0.4, 0.1},
-                                         {M_PI / 4, 0.1},
+                                         {kPi / 4, 0.1},
                                          {1.2, 0.1},
                                          {0.0, 0.04},
-                                         {M_PI / 4, 0.04},
+                                         {kPi / 4, 0.04},
                                          {1.5, 0.04}}) {
       SmallWorld world;
       world.floor(0, 0, 6, 6);
-      const double slope = std::tan(degrees * M_PI / 180.0);
+      const double slope = std::tan(navvi_types::radians(degrees));
       for (int i = 0; i < 120; ++i) {
         for (int j = 0; j < 120; ++j) {
           const double along =

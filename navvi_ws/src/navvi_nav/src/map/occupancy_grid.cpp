@@ -1,6 +1,8 @@
+#include "map/occupancy_grid.hpp"
+
 #include <cmath>
 
-#include "map/map_survey.hpp"
+#include "map/octomap_reader.hpp"
 #include "map/resample.hpp"
 
 namespace navvi_nav::map {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "map/map_survey.hpp"
+#include "map/survey.hpp"
 
 namespace navvi_nav::map {
 

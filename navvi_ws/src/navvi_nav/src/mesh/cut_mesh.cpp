@@ -152,7 +152,7 @@ bool CutMesh::is_floor_corner(int vertex) const {
       walled = walled || portals < 2;
     }
   });
-  return walled && free > M_PI + kStraight;
+  return walled && free > kPi + kStraight;
 }
 
 Point CutMesh::position(const Intersection& at) const {

@@ -116,7 +116,7 @@ bool in_hole(const std::vector<Disc>& discs, Point at, double slack) {
   for (const Disc& disc : discs) {
     bool inside = true;
     for (int k = 0; k < kSides; ++k) {
-      const double angle = 2 * M_PI * k / kSides;
+      const double angle = 2 * kPi * k / kSides;
       inside =
           inside && dot(at - disc.center, {std::cos(angle), std::sin(angle)}) < disc.radius + slack;
     }
@@ -194,7 +194,7 @@ void expect_sound(const Mesh& mesh) {
     ASSERT_EQ(portal, polygon.portals.size());
   }
   for (const int vertex : walled) {
-    if (free[vertex] > M_PI + 1e-6) {
+    if (free[vertex] > kPi + 1e-6) {
       ASSERT_TRUE(mesh.vertices[static_cast<std::size_t>(vertex)].corner)
           << mesh.at(vertex).x << " " << mesh.at(vertex).y;
     }

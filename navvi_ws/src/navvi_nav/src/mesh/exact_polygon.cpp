@@ -133,10 +133,10 @@ void Hole::place(Point center, double radius, int sides) {
 }
 
 void Hole::build(LatticePoint middle, double reach, int sides) {
-  const double outer = reach / std::cos(M_PI / sides);
+  const double outer = reach / std::cos(kPi / sides);
   std::vector<LatticePoint> corners;
   for (int k = 0; k < sides; ++k) {
-    const double angle = (2 * k - 1) * M_PI / sides;
+    const double angle = (2 * k - 1) * kPi / sides;
     corners.push_back({middle.x + std::llround(outer * std::cos(angle)),
                        middle.y + std::llround(outer * std::sin(angle))});
   }

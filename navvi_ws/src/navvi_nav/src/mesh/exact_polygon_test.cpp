@@ -155,7 +155,7 @@ TEST(Hole, keeps_the_radius_and_loses_little) {
         const double gap = distance(center, nearest_on_segment(center, corners[i], next));
         EXPECT_GE(gap, radius);
         EXPECT_LE(gap, radius + 3.0);
-        EXPECT_LE(distance(center, corners[i]), (radius + 4.0) / std::cos(M_PI / sides));
+        EXPECT_LE(distance(center, corners[i]), (radius + 4.0) / std::cos(kPi / sides));
       }
     }
   }
@@ -265,7 +265,7 @@ TEST(Cutter, cuts_anything_out_of_anything) {
     std::vector<LatticePoint> corners;
     const int count = draw(3, 7);
     for (int k = 0; k < count; ++k) {
-      const double angle = 2 * M_PI * k / count;
+      const double angle = 2 * kPi * k / count;
       corners.push_back({kCell * std::llround(90 * std::cos(angle)) + kCell * draw(-3, 3),
                          kCell * std::llround(90 * std::sin(angle)) + kCell * draw(-3, 3)});
     }

@@ -126,7 +126,7 @@ void NonManifoldVertices::split_one(Mesh& mesh, VertexPool& pool, int vertex) {
       }
       free += mesh.angle_at(polygon, wedges_[i].corner);
     }
-    mesh.vertices[slot(own)].corner = corner && free > M_PI - kNearlyStraight;
+    mesh.vertices[slot(own)].corner = corner && free > kPi - kNearlyStraight;
   }
   const auto entry = duplicates_.find(vertex);
   if (entry == duplicates_.end()) return;

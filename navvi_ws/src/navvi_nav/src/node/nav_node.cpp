@@ -23,8 +23,10 @@ using navvi_types::Guidance;
 using navvi_types::Pose2;
 
 constexpr double kServicePatience = 1.0;  // s
-constexpr double kBeat = 0.05;            // s, where nothing wakes the node sooner
-constexpr double kForget = 1.0;           // s, between two fresh starts of the transforms
+constexpr double kMeshPeriod =
+    0.5;                         // s, between two pictures of the mesh; a large one waits longer
+constexpr double kBeat = 0.05;   // s, where nothing wakes the node sooner
+constexpr double kForget = 1.0;  // s, between two fresh starts of the transforms
 
 /// Work for the node's own thread, from any other.
 class Wake : public ros::CallbackInterface {
@@ -43,16 +45,12 @@ struct NodeConfig {
   guide::NavigatorConfig navigator;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
-  double mesh_period = 0.5;
 
   void describe(navvi_config::Visitor& visit) {
-    using navvi_config::Range;
     navigator.describe(visit);
     visit(map_frame, "map_frame", navvi_config::Any{}, "",
           "frame of the map and of all that is published");
     visit(base_frame, "base_frame", navvi_config::Any{}, "", "frame of the robot");
-    visit(mesh_period, "mesh_period", Range{0.1, 60.0}, "s",
-          "least time between two pictures of the mesh; a large mesh waits longer");
   }
 };
 
@@ -66,25 +64,25 @@ class NavNode {
                   ros::getGlobalCallbackQueue()->addCallback(
                       boost::make_shared<Wake>([this] { beat(); }));
                 }),
-        mesh_throttle_(config.mesh_period) {
+        mesh_throttle_(kMeshPeriod) {
     path_ = node.advertise<nav_msgs::Path>("navvi/path", 1, true);
     guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
-    subscribers_ = {node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
-                    node.subscribe("map", 1, &NavNode::on_grid, this),
-                    navvi_types::subscribe<navvi_msgs::Obstacles>(
-                        node, "navvi/obstacles", 1, navvi_types::from_msg,
-                        [this](const navvi_types::Obstacles& obstacles) {
-                          navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
-                          beat();
-                        },
-                        config.map_frame, [this] { navigator_.reject_obstacles(); }),
-                    navvi_types::subscribe<nav_msgs::Odometry>(
-                        node, "odom", 1, navvi_types::from_msg,
-                        [this](const navvi_types::Odometry& odometry) {
-                          navigator_.set_speed(odometry.velocity.linear);
-                        }),
-                    node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
+    subscribers_ = {
+        node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
+        node.subscribe("map", 1, &NavNode::on_grid, this),
+        navvi_types::subscribe<navvi_msgs::Obstacles>(
+            node, "navvi/obstacles", 1, navvi_types::from_msg,
+            [this](const navvi_types::Obstacles& obstacles) {
+              navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
+              beat();
+            },
+            config.map_frame, [this] { navigator_.reject_obstacles(); }),
+        navvi_types::subscribe<nav_msgs::Odometry>(node, "odom", 1, navvi_types::from_msg,
+                                                   [this](const navvi_types::Odometry& odometry) {
+                                                     navigator_.set_speed(odometry.velocity.linear);
+                                                   }),
+        node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(kBeat),
                                   [this](const ros::WallTimerEvent&) { beat(); });
@@ -145,8 +143,9 @@ class NavNode {
              stands ? "; the goal before it stands" : "", bad_goals_);
   }
 
-  /// As move_base: without a frame the plan starts at the robot; where nothing leads to the goal or
-  /// within the tolerance of it, the plan is empty; false means that nothing could be planned.
+  /// As move_base: without a frame the plan starts at the robot; where nothing leads to the goal,
+  /// the plan is empty: no goal is moved, whatever the tolerance; false means that nothing could be
+  /// planned.
   bool on_make_plan(nav_msgs::GetPlan::Request& request, nav_msgs::GetPlan::Response& response) {
     const ros::Time now = ros::Time::now();
     const std::optional<Pose2> robot = navigator_.pose(now.toSec());
@@ -166,8 +165,7 @@ class NavNode {
     const std::optional<Eigen::Vector2d> goal = place(request.goal);
     if (!start || !goal) return true;
     const std::optional<plan::Plan> plan =
-        worker_.ask(guide::to_point(*start), guide::to_point(*goal),
-                    static_cast<double>(request.tolerance), kServicePatience);
+        worker_.ask(guide::to_point(*start), guide::to_point(*goal), kServicePatience);
     if (!plan) {
       ROS_ERROR("No plan can be made: the planner is busy with a map.");
       return false;
@@ -201,7 +199,7 @@ class NavNode {
           buffer_.lookupTransform(config_.map_frame, config_.base_frame, ros::Time(0));
       const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform);
       if (pose && !navigator_.set_pose(*pose, transform.transform.translation.z,
-                                          transform.header.stamp.toSec(), now))
+                                       transform.header.stamp.toSec(), now))
         forget_transforms("the robot's pose is stamped ahead of this clock", now);
     } catch (const tf2::ExtrapolationException&) {
       // One transform of the chain is so far ahead that none of the others is as late.

@@ -7,9 +7,12 @@
 namespace navvi_nav::plan {
 namespace {
 
+/// Of a hole: 8 lose nothing along axes and diagonals and 8 % at most between.
+constexpr int kHoleSides = 8;
+
 std::size_t slot(int index) { return static_cast<std::size_t>(index); }
 
-double area(double radius) { return M_PI * radius * radius; }
+double area(double radius) { return kPi * radius * radius; }
 
 /// m^2, of the part that two circles share
 double shared_area(double d, double r, double s) {
@@ -56,7 +59,7 @@ int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders) 
     if (pair.after < 0) continue;
     const Cylinder& cylinder = next_[slot(pair.after)];
     next_holes_[slot(pair.after)] =
-        mesh.add(cylinder.center, cylinder.radius + rules_.room, rules_.sides);
+        mesh.add(cylinder.center, cylinder.radius + rules_.room, kHoleSides);
   }
   std::swap(carved_, next_);
   std::swap(holes_, next_holes_);
@@ -70,7 +73,7 @@ void Carving::lift(mesh::CutMesh& mesh) {
 
 void Carving::repeat(mesh::CutMesh& mesh) {
   for (std::size_t i = 0; i < carved_.size(); ++i)
-    holes_[i] = mesh.add(carved_[i].center, carved_[i].radius + rules_.room, rules_.sides);
+    holes_[i] = mesh.add(carved_[i].center, carved_[i].radius + rules_.room, kHoleSides);
   mesh.update();
 }
 

@@ -44,7 +44,7 @@ std::optional<mesh::Mesh::Place> escape(const mesh::Mesh& mesh, const map::Space
   const double room = std::min(radius, space.floor->clearance(start) - kRounding);
   if (!(room > 0.0)) return best;
   for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2.0 * M_PI * i / kDirections;
+    const double angle = 2.0 * kPi * i / kDirections;
     const Point ahead{std::cos(angle), std::sin(angle)};
     const bool before =
         std::any_of(space.cylinders->begin(), space.cylinders->end(),

@@ -34,14 +34,10 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
         "longer edges along walls are split; 0: never");
   visit(polygon_corners, "polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon");
   visit(threads, "threads", Range{1.0, 64.0}, "", "that share the work on a new map");
-  visit(preferred_clearance, "preferred_clearance", Range{0.0, 2.0}, "m",
-        "room a guide path leaves beyond the robot's radius where there is room");
   visit(carve_moved, "carve_moved", Range{0.0, 1.0}, "m",
         "an obstacle that moved less keeps its hole");
   visit(carve_changed, "carve_changed", Range{0.0, 1.0}, "",
         "fraction of the carved area that must have changed before holes follow (R-NAV-5)");
-  visit(hole_sides, "hole_sides", Range{4.0, 64.0}, "",
-        "sides of a hole; 8 lose nothing along axes and diagonals and 8 % at most between");
 }
 
 double NavMesh::margin(double cell) const {
@@ -57,7 +53,7 @@ map::SurveyConfig survey_config(const NavMeshConfig& config, std::optional<doubl
 bake::BakedMap NavMesh::bake(map::MapSurvey survey) const {
   bake::MapBakeConfig how;
   how.margin = margin(survey.cell_size);
-  how.reach = config_.preferred_clearance + 2.0 * survey.cell_size;
+  how.reach = clearance_ + 2.0 * survey.cell_size;
   how.tile_size = config_.tile_size;
   how.contour_error = config_.contour_error;
   how.max_edge = config_.max_edge;

@@ -11,9 +11,11 @@
 #include "bake/map_bake.hpp"
 #include "map/floor.hpp"
 #include "map/map_survey.hpp"
+#include "map/occupancy_grid.hpp"
 #include "mesh/cut_mesh.hpp"
 #include "mesh/mesh.hpp"
 #include "plan/carving.hpp"
+#include "smooth/guide_cost.hpp"
 
 namespace navvi_nav::plan {
 
@@ -29,10 +31,8 @@ struct NavMeshConfig {
   double max_edge = 0.0;
   int polygon_corners = 12;
   int threads = 2;
-  double preferred_clearance = 0.6;
   double carve_moved = 0.0;
   double carve_changed = 0.0;
-  int hole_sides = 8;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -55,10 +55,12 @@ struct MeshUpdate {
 /// a carved cylinder. survey_map() defines the floor.
 class NavMesh {
  public:
-  explicit NavMesh(const NavMeshConfig& config)
+  /// \param clearance  m, beyond the robot's radius, that is known of each place on the floor
+  explicit NavMesh(const NavMeshConfig& config,
+                   double clearance = smooth::GuideCostConfig{}.preferred_clearance)
       : config_(config),
-        carving_(
-            {config.robot_radius, config.hole_sides, config.carve_moved, config.carve_changed}) {}
+        clearance_(clearance),
+        carving_({config.robot_radius, config.carve_moved, config.carve_changed}) {}
 
   /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
   /// changed keep their polygons.
@@ -110,6 +112,7 @@ class NavMesh {
   void change_tiles();
 
   NavMeshConfig config_;
+  double clearance_;
   bake::BakedMap baked_;
   std::shared_ptr<const map::Floor> floor_ = std::make_shared<map::Floor>();
   std::map<bake::TileIndex, std::vector<int>> tile_polygons_;  // numbers in the mesh's floor

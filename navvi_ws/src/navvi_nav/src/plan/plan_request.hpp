@@ -4,6 +4,7 @@
 #include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plan/nav_mesh.hpp"
@@ -54,6 +55,16 @@ struct Plan {
   std::size_t nodes_expanded = 0;
   std::string detail;  ///< a sentence
 };
+
+/// A plan without a path. \param detail  why, a sentence
+[[nodiscard]] inline Plan no_plan(PlanStatus status, std::string detail,
+                                  Guidance::Refusal refusal = Guidance::Refusal::none) {
+  Plan out;
+  out.status = status;
+  out.refusal = refusal;
+  out.detail = std::move(detail);
+  return out;
+}
 
 struct PlanAnswer {
   std::optional<Plan> plan;  ///< nullopt: none was requested

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
+#include "plan/guide_path.hpp"
 #include "plan/nav_mesh.hpp"
 #include "plan/plan_request.hpp"
+#include "plan/route.hpp"
 #include "search/search.hpp"
 #include "smooth/smoothing.hpp"
 
@@ -49,56 +51,29 @@ class Planner {
     uncarved_.reset();
     return nav_mesh_.carve(cylinders);
   }
-  /// A path for the robot at `start` to exactly `goal`, on the mesh as it was carved last. Nothing is moved in silence: only a start
-  /// off the mesh is taken to the nearest point of it, at most `start_snap` away, and from within
-  /// an obstacle's hole the path begins with a straight leg out of it: see escape().
+  /// A path for the robot at `start` to exactly `goal`, clear of the latest obstacles. Nothing is
+  /// moved in silence: only a start off the mesh is taken to the nearest point of it, at most
+  /// `start_snap` away, and from within an obstacle's hole the path begins with a straight leg out
+  /// of it: see escape().
   /// \param followed  a path to the goal whose corners are known: as many as lead there are kept,
   /// unless that costs more than smoothing.keep
-  [[nodiscard]] Plan plan(Point start, Point goal, const Path& followed = {}) const {
-    return guided(search(start, goal), followed);
-  }
-  /// The shortest path to a place outside of `swept_area`, with some room to it where there is, or
-  /// no_route.
-  [[nodiscard]] Plan retreat(const std::vector<Cylinder>& swept_area, Point start) const {
-    return guided(search_retreat(swept_area, start), {});
-  }
-  /// As plan(), but if nothing leads to `goal` itself, to the nearest of the places about it that
-  /// something leads to: on a grid of at least three cells' spacing, within `tolerance` (m, at most
-  /// 10 steps of that grid) along x and y. For callers that accept such a place.
-  [[nodiscard]] Plan plan_near(Point start, Point goal, double tolerance);
+  [[nodiscard]] Plan plan(Point start, Point goal, const Path& followed = {});
+  /// As find_retreat(), or no_route.
+  [[nodiscard]] Plan retreat(const std::vector<Cylinder>& swept_area, Point start);
   [[nodiscard]] const NavMesh& nav_mesh() const { return nav_mesh_; }
 
  private:
-  struct Anchor;
-  /// A plan whose path is the shortest on the mesh.
-  struct Route {
-    Plan plan;
-    mesh::Mesh::Place from = {};  ///< the ends of the path
-    mesh::Mesh::Place to = {};
-    std::optional<Point> start = {};  ///< a straight leg from here comes before the path
-    std::optional<Point> goal = {};   ///< and one to here after it
-    bool leaves_hole = false;         ///< the leg from the start
-  };
   void carve_latest();
-  [[nodiscard]] Plan plan(const PlanRequest& request);
+  [[nodiscard]] Plan best_plan(const PlanRequest& request);
+  [[nodiscard]] Plan clear_plan(const PlanRequest& request);
   [[nodiscard]] Plan plan_without_obstacles(const PlanRequest& request, const Plan& blocked);
-  [[nodiscard]] Route search(Point start, Point goal) const;
-  [[nodiscard]] Route search_retreat(const std::vector<Cylinder>& swept_area, Point start) const;
-  [[nodiscard]] Route search_retreat(const std::vector<Cylinder>& swept_area, Point start,
-                                     double spare) const;
-  [[nodiscard]] static Route route_of(const search::Found& found, const Anchor& from,
-                                      const mesh::Mesh::Place& to, Point start, Point goal);
-  [[nodiscard]] Plan guided(Route route, const Path& followed) const;
-  [[nodiscard]] Path guide_path(const Route& route, const Path& followed) const;
-  [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
-  [[nodiscard]] Anchor anchor(Point point, double within, std::optional<int> part) const;
-  [[nodiscard]] Anchor begin(Point start, Point goal, std::optional<int> part) const;
+  [[nodiscard]] RouteFinder routes() { return {nav_mesh_, search_, config_.start_snap}; }
 
   PlannerConfig config_;
   NavMesh nav_mesh_;
   std::optional<std::vector<Cylinder>> uncarved_;  ///< the latest, until something needs the mesh
-  mutable search::Search search_;                  ///< its memory
-  smooth::Smoother smoother_;
+  search::Search search_;
+  GuidePaths guide_paths_;
 };
 
 }  // namespace navvi_nav::plan

@@ -42,7 +42,7 @@ TEST(Planner, says_that_there_is_no_map) {
 TEST(Planner, refuses_a_goal_that_is_not_finite) {
   SmallWorld world;
   world.room(6, 6);
-  const Planner planner = planner_on(world);
+  Planner planner = planner_on(world);
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Plan plan = planner.plan({3, 3}, {bad, 3});
@@ -54,7 +54,7 @@ TEST(Planner, refuses_a_goal_that_is_not_finite) {
 TEST(Planner, tells_the_refusals_apart) {
   SmallWorld world;
   world.room(12, 6).box(6, 0, 0, 6.1, 6, 1).box(2, 2, 0, 3, 3, 1);
-  const Planner planner = planner_on(world);
+  Planner planner = planner_on(world);
   EXPECT_EQ(planner.plan({1, 1}, {2.5, 2.5}).refusal, Guidance::Refusal::inside_obstacle);
   EXPECT_EQ(planner.plan({1, 1}, {3.2, 2.5}).refusal, Guidance::Refusal::inside_obstacle);
   EXPECT_EQ(planner.plan({1, 1}, {40, 2}).refusal, Guidance::Refusal::off_the_map);
@@ -66,7 +66,7 @@ TEST(Planner, tells_the_refusals_apart) {
 TEST(Planner, says_off_mesh_where_no_path_can_begin) {
   SmallWorld world;
   world.room(12, 8).box(2, 2, 0, 6, 6, 1);
-  const Planner planner = planner_on(world);
+  Planner planner = planner_on(world);
   EXPECT_EQ(planner.plan({4, 4}, {1, 1}).status, PlanStatus::off_mesh);
   const Plan snapped = planner.plan({1.75, 4}, {1, 1});  // touches the box
   ASSERT_EQ(snapped.status, PlanStatus::found);
@@ -83,7 +83,7 @@ TEST(Planner, cuts_no_holes_before_something_needs_them_and_then_those_of_the_la
     EXPECT_FALSE(planner.answer(request).plan);
     EXPECT_TRUE(planner.nav_mesh().carved().empty());
   }
-  EXPECT_EQ(planner.plan_near({2, 2}, {10, 2}, 0.0).status, PlanStatus::no_route);
+  EXPECT_EQ(planner.plan({2, 2}, {10, 2}).status, PlanStatus::no_route);
   ASSERT_EQ(planner.nav_mesh().carved().size(), 1U);
   request.obstacles.clear();
   request.show_mesh = true;
@@ -107,7 +107,7 @@ TEST(Planner, calls_a_route_closed_by_a_cylinder_no_route_not_unreachable) {
 TEST(Planner, ends_exactly_at_the_goal_even_in_the_last_cell_before_a_wall) {
   SmallWorld world;
   world.room(8, 8);
-  const Planner planner = planner_on(world);
+  Planner planner = planner_on(world);
   const Point goal{0.46, 4.0};
   const Plan plan = planner.plan({4, 4}, goal);
   ASSERT_EQ(plan.status, PlanStatus::found);
@@ -124,7 +124,7 @@ TEST(Planner, survives_start_and_goal_in_one_place) {
 
 TEST(Planner, gives_the_same_path_for_the_same_question) {
   RandomWorld world(3);
-  const Planner planner = planner_on(world.map);
+  Planner planner = planner_on(world.map);
   const Plan first = planner.plan(world.start, world.goal);
   const Plan second = planner.plan(world.start, world.goal);
   ASSERT_EQ(first.path.size(), second.path.size());
@@ -250,7 +250,7 @@ TEST(Planner, keeps_the_radius_in_the_papers_profile_too) {
   config.mesh.cell_size = 0.2;
   config.mesh.whole_cell_erosion = true;
   config.mesh.contour_error = 0.0;
-  config.mesh.preferred_clearance = 0.0;
+  config.smoothing.cost.preferred_clearance = 0.0;
   config.smoothing.enabled = false;
   int found = 0;
   for (unsigned seed = 0; seed < 15; ++seed) {
@@ -284,7 +284,7 @@ bool joined_by_cells(const map::Floor& floor, map::Cell from, map::Cell to) {
 TEST(Planner, finds_a_route_wherever_open_cells_join_start_and_goal) {
   for (unsigned seed = 100; seed < 125; ++seed) {
     RandomWorld world(seed);
-    const Planner planner = planner_on(world.map);
+    Planner planner = planner_on(world.map);
     const map::Floor& floor = *planner.nav_mesh().shared_floor();
     const map::Cell from = floor.cell_at(world.start), to = floor.cell_at(world.goal);
     if (!floor.open(from) || !floor.open(to)) continue;
@@ -299,7 +299,7 @@ TEST(Planner, finds_a_route_wherever_open_cells_join_start_and_goal) {
 TEST(Planner, leaves_the_preferred_clearance_where_there_is_room) {
   SmallWorld world;
   world.room(16, 10).box(4, 4, 0, 12, 6, 1);
-  const Planner planner = planner_on(world);
+  Planner planner = planner_on(world);
   const Plan plan = planner.plan({2, 5}, {14, 5});
   ASSERT_EQ(plan.status, PlanStatus::found);
   const map::Space space = planner.nav_mesh().space();
@@ -436,7 +436,7 @@ TEST(Planner, has_a_better_path_the_more_work_it_may_do_and_a_whole_one_without_
                                           0.1);
       EXPECT_TRUE(plan.path == planner.plan(world.start, world.goal).path);
       const NavMesh& mesh = planner.nav_mesh();
-      const smooth::GuideCost cost(config.smoothing.cost, mesh.mesh(), mesh.space(), kRadius, 0.6);
+      const smooth::GuideCost cost(config.smoothing.cost, mesh.mesh(), mesh.space(), kRadius);
       const double own = cost.of(plan.path);
       if (std::isfinite(own)) costs.back() += own;  // no start or goal off the mesh
     }
@@ -464,7 +464,7 @@ TEST(Planner, has_dearer_paths_without_ompl_a_third_of_all) {
       const Point from{pick(18.8), pick(12.8)}, to{pick(18.8), pick(12.8)};
       const Path path = ours.plan(from, to).path, other = without.plan(from, to).path;
       const NavMesh& mesh = ours.nav_mesh();
-      const smooth::GuideCost cost(config.smoothing.cost, mesh.mesh(), mesh.space(), kRadius, 0.6);
+      const smooth::GuideCost cost(config.smoothing.cost, mesh.mesh(), mesh.space(), kRadius);
       const double gain = cost.of(other) - cost.of(path);
       if (path.size() < 3 || !std::isfinite(gain)) continue;  // straight, or an end off the mesh
       ++paths;

@@ -31,10 +31,10 @@ std::optional<PlanAnswer> Worker::take() {
   return std::nullopt;
 }
 
-std::optional<Plan> Worker::ask(Point start, Point goal, double tolerance, double patience) {
+std::optional<Plan> Worker::ask(Point start, Point goal, double patience) {
   const std::unique_lock<std::timed_mutex> lock(busy_, std::chrono::duration<double>(patience));
   if (!lock) return std::nullopt;
-  return planner_.plan_near(start, goal, tolerance);
+  return planner_.plan(start, goal);
 }
 
 }  // namespace navvi_nav::plan

@@ -22,9 +22,9 @@ class Worker {
   void start(PlanRequest request);
   /// An answer, once.
   [[nodiscard]] std::optional<PlanAnswer> take();
-  /// Plans in the caller's thread, as Planner::plan_near. \returns nullopt if a request kept the
-  /// planner busy for longer than `patience` (s)
-  [[nodiscard]] std::optional<Plan> ask(Point start, Point goal, double tolerance, double patience);
+  /// Plans in the caller's thread, as Planner::plan. \returns nullopt if a request kept the planner
+  /// busy for longer than `patience` (s)
+  [[nodiscard]] std::optional<Plan> ask(Point start, Point goal, double patience);
 
  private:
   const std::function<void()> done_;

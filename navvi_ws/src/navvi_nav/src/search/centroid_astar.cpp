@@ -32,6 +32,21 @@ bool lies_on(Point point, const mesh::Interval& portal) {
   return distance(nearest_on_segment(point, portal.right, portal.left), point) < kTouch;
 }
 
+/// The portals that the parents of the goal's polygon lead through, from the start on.
+std::vector<mesh::Interval> portals_to(int goal, int start, const std::vector<Node>& nodes,
+                                       const mesh::Mesh& mesh) {
+  std::vector<mesh::Interval> out;
+  for (int index = goal; index != start;) {
+    const Node& node = nodes[static_cast<std::size_t>(index)];
+    const mesh::Portal& portal =
+        mesh.polygon(node.parent).portals[static_cast<std::size_t>(node.portal)];
+    out.push_back({mesh.at(portal.right), mesh.at(portal.left)});
+    index = node.parent;
+  }
+  std::reverse(out.begin(), out.end());
+  return out;
+}
+
 }  // namespace
 
 Found centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
@@ -74,15 +89,7 @@ Found centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
     }
   }
   if (!out.found) return out;
-  std::vector<mesh::Interval> portals;
-  for (int index = goal.polygon; index != start.polygon; index = at(index).parent) {
-    const Node& node = at(index);
-    const mesh::Portal& portal =
-        mesh.polygon(node.parent).portals[static_cast<std::size_t>(node.portal)];
-    portals.push_back({mesh.at(portal.right), mesh.at(portal.left)});
-  }
-  std::reverse(portals.begin(), portals.end());
-  out.path = funnel(start.point, goal.point, portals);
+  out.path = funnel(start.point, goal.point, portals_to(goal.polygon, start.polygon, nodes, mesh));
   out.length = length_of(out.path);
   return out;
 }

@@ -115,14 +115,6 @@ void Polyanya::expand(const SearchNode& node) {
   const Point root = at(node.root);
   const double right_extent = extent(node.right);
   const double left_extent = extent(node.left);
-  // An end of a portal, and its side of the right and of the left border. Most portals begin where
-  // the one before ended.
-  struct End {
-    int vertex;
-    Point ahead;
-    int right;
-    int left;
-  };
   const auto end = [&](int vertex) {
     const Point ahead = mesh_->at(vertex) - root;
     if (vertex == node.root) return End{vertex, ahead, 0, 0};
@@ -134,37 +126,45 @@ void Polyanya::expand(const SearchNode& node) {
   for (const mesh::Portal& portal : mesh_->polygon(node.polygon).portals) {
     if (portal.right == node.portal_left && portal.left == node.portal_right) continue;
     __builtin_prefetch(&mesh_->polygon(portal.to));  // large meshes are slow to read
+    // Most portals begin where the one before ended.
     const End c = portal.right == d.vertex ? d : end(portal.right);
     d = end(portal.left);
-    // If the node is 180 degrees wide, both borders lie on one line.
-    if (d.right < 0 || (d.right == 0 && d.vertex != node.root && dot(node.right, d.ahead) > 0.0)) {
-      if (node.right_end) turn(node, portal, true, true);
-      continue;
-    }
-    if (c.left > 0 || (c.left == 0 && c.vertex != node.root && dot(node.left, c.ahead) > 0.0)) {
-      if (node.left_end) turn(node, portal, false, true);
-      continue;
-    }
-    const bool right_in = c.right >= 0;
-    const bool left_in = d.left <= 0;
-    const bool right_end = right_in && c.vertex != node.root;
-    const bool left_end = left_in && d.vertex != node.root;
-    if (right_end && left_end && side(c.ahead, d.ahead) <= 0) {
-      enter_collinear(portal, node.root, node.cost);
-      continue;
-    }
-    // The first root that sees a corner becomes its parent and is followed from there. A root that
-    // sees it along a border does not: its node covers one side of the corner only.
-    if (c.right > 0 && is_corner(c.vertex))
-      reach(c.vertex, node.root, node.cost + norm(c.ahead) + price_.turn);
-    if (d.left < 0 && is_corner(d.vertex))
-      reach(d.vertex, node.root, node.cost + norm(d.ahead) + price_.turn);
-    add({node.cost, right_end ? c.ahead : node.right, left_end ? d.ahead : node.left, node.root,
-         portal.to, portal.right, portal.left, right_end, left_end},
-        mesh_->at(portal.right), mesh_->at(portal.left));
-    if (!right_in && node.right_end) turn(node, portal, true, false);
-    if (!left_in && node.left_end) turn(node, portal, false, false);
+    enter(node, portal, c, d);
   }
+}
+
+/// Goes on through a portal between the ends `c` and `d`: straight as far as the root sees it, and
+/// by turns into the rest.
+void Polyanya::enter(const SearchNode& node, const mesh::Portal& portal, const End& c,
+                     const End& d) {
+  // If the node is 180 degrees wide, both borders lie on one line.
+  if (d.right < 0 || (d.right == 0 && d.vertex != node.root && dot(node.right, d.ahead) > 0.0)) {
+    if (node.right_end) turn(node, portal, true, true);
+    return;
+  }
+  if (c.left > 0 || (c.left == 0 && c.vertex != node.root && dot(node.left, c.ahead) > 0.0)) {
+    if (node.left_end) turn(node, portal, false, true);
+    return;
+  }
+  const bool right_in = c.right >= 0;
+  const bool left_in = d.left <= 0;
+  const bool right_end = right_in && c.vertex != node.root;
+  const bool left_end = left_in && d.vertex != node.root;
+  if (right_end && left_end && side(c.ahead, d.ahead) <= 0) {
+    enter_collinear(portal, node.root, node.cost);
+    return;
+  }
+  // The first root that sees a corner becomes its parent and is followed from there. A root that
+  // sees it along a border does not: its node covers one side of the corner only.
+  if (c.right > 0 && is_corner(c.vertex))
+    reach(c.vertex, node.root, node.cost + norm(c.ahead) + price_.turn);
+  if (d.left < 0 && is_corner(d.vertex))
+    reach(d.vertex, node.root, node.cost + norm(d.ahead) + price_.turn);
+  add({node.cost, right_end ? c.ahead : node.right, left_end ? d.ahead : node.left, node.root,
+       portal.to, portal.right, portal.left, right_end, left_end},
+      mesh_->at(portal.right), mesh_->at(portal.left));
+  if (!right_in && node.right_end) turn(node, portal, true, false);
+  if (!left_in && node.left_end) turn(node, portal, false, false);
 }
 
 /// A portal in line with the root can only be entered by a turn at its near end.

@@ -37,10 +37,18 @@ class Polyanya {
     int parent = -1;  ///< the root before it
     std::uint32_t query = 0;
   };
+  /// An end of a portal, and its side of the right and of the left border of a node.
+  struct End {
+    int vertex;
+    Point ahead;  ///< from the node's root
+    int right;
+    int left;
+  };
 
   void begin(const mesh::Mesh& mesh, const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal);
   void expand_start();
   void expand(const SearchNode& node);
+  void enter(const SearchNode& node, const mesh::Portal& portal, const End& c, const End& d);
   void see_goal(const SearchNode& node);
   void enter_collinear(const mesh::Portal& portal, int root, double cost);
   void turn(const SearchNode& node, const mesh::Portal& portal, bool to_right, bool whole);

@@ -10,6 +10,7 @@ namespace {
 constexpr double kTouch = 1e-9;  // m, a point so near to the lines of a polygon is in it
 constexpr double kNear = 10.0 * kTouch;
 constexpr double kOnMesh = 1e-6;     // m, and an end so near to the mesh on it
+constexpr double kShortLeg = 2.0;    // m, a shorter leg between corners costs up to a turn more
 constexpr double kSample = 0.3;      // m, between places where clearance is measured
 constexpr std::size_t kKept = 1024;  // legs, and points
 
@@ -81,8 +82,8 @@ void GuideCostConfig::describe(navvi_config::Visitor& visit) {
   visit(turn_price, "turn_price", Range{0.0, 20.0}, "m",
         "length a path may gain to save a turn by 90 degrees; half of it for a slight turn, 1.5 "
         "for one back");
-  visit(short_leg, "short_leg", Range{0.1, 10.0}, "m",
-        "a leg between corners shorter than this costs up to one turn_price more");
+  visit(preferred_clearance, "preferred_clearance", Range{0.0, 2.0}, "m",
+        "room a guide path leaves beyond the robot's radius where there is room");
   visit(clearance_weight, "clearance_weight", Range{0.0, 100.0}, "",
         "how much dearer a metre without any preferred clearance is");
   visit(tight, "tight", Range{0.01, 2.0}, "m",
@@ -129,14 +130,13 @@ std::optional<int> covers(const mesh::Mesh& mesh, int polygon, Point a, Point b)
 }
 
 GuideCost::GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, const map::Space& space,
-                     double radius, double preferred)
+                     double radius)
     : config_(config),
       mesh_(mesh),
       space_(space),
       radius_(radius),
-      preferred_(preferred),
-      wide_(static_cast<int>(
-          std::ceil(std::pow((radius + preferred) / space.floor->cell_size(), 2.0)))),
+      wide_(static_cast<int>(std::ceil(
+          std::pow((radius + config.preferred_clearance) / space.floor->cell_size(), 2.0)))),
       cylinders_(*space.cylinders),
       legs_(kKept, {kNowhere, kNowhere, 0.0}),
       placed_(kKept, {kNowhere, std::nullopt}) {
@@ -174,12 +174,13 @@ double GuideCost::gap(Point at) const { return gap_in(space_, at); }
 template <typename Visit>
 void GuideCost::along(Point a, Point b, const Visit& visit) const {
   near_.clear();
-  const double far = widest_ + radius_ + preferred_;
+  const double far = widest_ + radius_ + preferred();
   const auto first = std::partition_point(
       cylinders_.begin(), cylinders_.end(),
       [&](const Cylinder& cylinder) { return cylinder.center.x < std::min(a.x, b.x) - far; });
   for (auto i = first; i != cylinders_.end() && i->center.x <= std::max(a.x, b.x) + far; ++i) {
-    if (distance(i->center, nearest_on_segment(i->center, a, b)) < i->radius + radius_ + preferred_)
+    if (distance(i->center, nearest_on_segment(i->center, a, b)) <
+        i->radius + radius_ + preferred())
       near_.push_back(*i);
   }
   const int samples = samples_of(a, b);
@@ -187,7 +188,7 @@ void GuideCost::along(Point a, Point b, const Visit& visit) const {
   for (int i = 0; i < samples; ++i) {
     const Point at = a + ((i + 0.5) / samples) * (b - a);
     const bool wide = near_.empty() && gap2_in(*space_.floor, at) >= wide_;
-    if (!visit(wide ? preferred_ : std::max(0.0, gap_in(near, at) - radius_))) return;
+    if (!visit(wide ? preferred() : std::max(0.0, gap_in(near, at) - radius_))) return;
   }
 }
 
@@ -198,8 +199,8 @@ double GuideCost::measure(Point a, Point b, double most) const {
   left_ -= 1.0;
   along(a, b, [&](double spare) {
     left_ -= step;
-    if (spare >= preferred_) return true;
-    const double missing = 1.0 - spare / preferred_;
+    if (spare >= preferred()) return true;
+    const double missing = 1.0 - spare / preferred();
     cost += step * (config_.clearance_weight * missing * missing + tight_price(spare));
     return cost <= most;
   });
@@ -209,9 +210,9 @@ double GuideCost::measure(Point a, Point b, double most) const {
 std::vector<double> GuideCost::near_places(Point a, Point b) const {
   const int samples = samples_of(a, b);
   int i = 0, first = -1, least = 0, last = 0;
-  double nearest = preferred_;
+  double nearest = preferred();
   along(a, b, [&](double spare) {
-    if (spare < preferred_) {
+    if (spare < preferred()) {
       if (first < 0) first = i;
       last = i;
       if (spare < nearest) {
@@ -239,7 +240,7 @@ double GuideCost::tight(const Path& path) const {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double step = distance(path[i - 1], path[i]) / samples_of(path[i - 1], path[i]);
     along(path[i - 1], path[i], [&](double spare) {
-      if (spare < preferred_) sum += step * tight_price(spare);
+      if (spare < preferred()) sum += step * tight_price(spare);
       return true;
     });
   }
@@ -260,7 +261,7 @@ double GuideCost::turn(Point before, Point at, Point after) const {
 }
 
 double GuideCost::haste(Point a, Point b) const {
-  return config_.turn_price * std::max(0.0, 1.0 - distance(a, b) / config_.short_leg);
+  return config_.turn_price * std::max(0.0, 1.0 - distance(a, b) / kShortLeg);
 }
 
 double GuideCost::at_corners(const Path& path) const {

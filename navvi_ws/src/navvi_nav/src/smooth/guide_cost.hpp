@@ -14,7 +14,7 @@ namespace navvi_nav::smooth {
 /// chosen, moved and kept.
 struct GuideCostConfig {
   double turn_price = 2.0;
-  double short_leg = 2.0;
+  double preferred_clearance = 0.6;
   double clearance_weight = 3.0;
   double tight = 0.2;
   double tight_weight = 20.0;
@@ -33,9 +33,8 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();  // m,
 class GuideCost {
  public:
   /// \param space  what clearance is measured in \param radius  of the robot, m
-  /// \param preferred  m, of clearance beyond the radius
   GuideCost(const GuideCostConfig& config, const mesh::Mesh& mesh, const map::Space& space,
-            double radius, double preferred);
+            double radius);
 
   /// m: the length, each metre dearer the less clearance it keeps; infinite for a leg that leaves
   /// the mesh, or costs more than `most` (m).
@@ -61,7 +60,7 @@ class GuideCost {
   [[nodiscard]] bool spent() const { return left_ <= 0.0; }
 
   [[nodiscard]] const GuideCostConfig& config() const { return config_; }
-  [[nodiscard]] double preferred() const { return preferred_; }
+  [[nodiscard]] double preferred() const { return config_.preferred_clearance; }
   /// m, between the point and what is nearest; at least, and to half a cell.
   [[nodiscard]] double gap(Point at) const;
 
@@ -92,7 +91,6 @@ class GuideCost {
   const mesh::Mesh& mesh_;
   map::Space space_;
   double radius_;
-  double preferred_;
   int wide_;                         // cells squared, from which on nothing fixed is near
   std::vector<Cylinder> cylinders_;  // by x
   double widest_ = 0.0;              // m, radius of a cylinder

@@ -12,7 +12,7 @@ class GuideCosts : public testing::Test {
   GuideCosts() {
     world_.room(14, 10).box(4, 3, 0, 9, 6, 1.0);
     EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
-    cost_.emplace(GuideCostConfig{}, mesh_.mesh(), mesh_.space(), 0.35, 0.6);
+    cost_.emplace(GuideCostConfig{}, mesh_.mesh(), mesh_.space(), 0.35);
     cost_->allow(1e9);
   }
   SmallWorld world_;
@@ -41,7 +41,7 @@ TEST_F(GuideCosts, of_a_leg_off_the_mesh_is_infinite) {
 
 TEST_F(GuideCosts, of_a_turn_grows_with_its_angle_and_is_less_than_that_of_two_halves) {
   const auto turn = [this](double degrees) {
-    const double angle = degrees / 180.0 * M_PI;
+    const double angle = navvi_types::radians(degrees);
     return cost_->turn({0, 0}, {1, 0}, {1 + 2 * std::cos(angle), 2 * std::sin(angle)});
   };
   for (int degrees = 5; degrees <= 180; degrees += 5) {
@@ -64,7 +64,7 @@ TEST_F(GuideCosts, stop_being_measured_when_the_allowance_is_spent) {
   const Path path{{1.5, 8}, {12, 8}};
   EXPECT_TRUE(cost_->less(path, 11.0));
   EXPECT_FALSE(cost_->less(path, 10.0));
-  const GuideCost poor(GuideCostConfig{}, mesh_.mesh(), mesh_.space(), 0.35, 0.6);
+  const GuideCost poor(GuideCostConfig{}, mesh_.mesh(), mesh_.space(), 0.35);
   EXPECT_FALSE(poor.less(path, 11.0));
   poor.allow(1.0);
   EXPECT_TRUE(poor.less(path, 11.0));

@@ -23,7 +23,7 @@ class Smoothing : public testing::Test {
     EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
   }
   [[nodiscard]] GuideCost cost() const {
-    GuideCost cost(config_.cost, mesh_.mesh(), mesh_.space(), 0.35, 0.6);
+    GuideCost cost(config_.cost, mesh_.mesh(), mesh_.space(), 0.35);
     return cost;
   }
   [[nodiscard]] Path smoothed(const Path& path) const { return smooth(path, cost(), config_); }
@@ -115,7 +115,7 @@ TEST(SmoothingSeeds, are_cheaper_on_the_mesh_and_dearer_without_ompl) {
       const Path shortest = search.find(mesh, *from, *to).path;
       if (shortest.size() < 4) continue;  // OMPL has corners to choose from
       ++paths;
-      const GuideCost cost(config.cost, mesh, nav_mesh.space(), 0.35, 0.6);
+      const GuideCost cost(config.cost, mesh, nav_mesh.space(), 0.35);
       const Path path = smooth(shortest, cost, config);
       EXPECT_EQ(path.front(), shortest.front());
       EXPECT_EQ(path.back(), shortest.back());

@@ -8,7 +8,7 @@
 namespace navvi_nav::smooth {
 
 /// The change of course, rad, below which a corner is a bend: it is followed, not announced.
-inline constexpr double kBend = 15.0 / 180.0 * M_PI;
+inline constexpr double kBend = navvi_types::radians(15.0);
 
 /// What a person meets as one change of course: corners of a path that follow each other closely.
 struct Turn {

@@ -24,9 +24,9 @@ TEST(Turns, join_corners_that_are_close_and_leave_out_bends) {
   EXPECT_EQ(turns[0].at, 2U);
   EXPECT_NEAR(turns[0].angle, -std::atan2(4, 1), 1e-12);
   EXPECT_EQ(turns[1].at, 3U);
-  EXPECT_NEAR(turns[1].angle, M_PI / 2, 1e-12);
+  EXPECT_NEAR(turns[1].angle, kPi / 2, 1e-12);
   EXPECT_EQ(turns[2].at, 5U);  // the path's end is not joined with it
-  EXPECT_NEAR(turns[2].angle, -M_PI / 2, 1e-12);
+  EXPECT_NEAR(turns[2].angle, -kPi / 2, 1e-12);
   EXPECT_EQ(turns[3].at, 6U);
   EXPECT_EQ(turns_of(path, 0.0).size(), 6U);
 }
@@ -35,8 +35,8 @@ TEST(Turns, make_a_swerve_that_comes_back_at_once_none_and_end_at_half_a_turn) {
   EXPECT_EQ(turns_of({{0, 0}, {4, 0}, {4.5, 0.5}, {9, 0.5}}, kTogether).size(), 1U);
   const std::vector<Turn> back =
       turns_of({{0, 0}, {4, 0}, {4.3, 0.5}, {4, 0.9}, {2, 0.5}, {0, -1}}, kTogether);
-  EXPECT_NEAR(back[0].angle, -M_PI, 0.1);
-  EXPECT_GE(back[0].angle, -M_PI);
+  EXPECT_NEAR(back[0].angle, -kPi, 0.1);
+  EXPECT_GE(back[0].angle, -kPi);
 }
 
 }  // namespace

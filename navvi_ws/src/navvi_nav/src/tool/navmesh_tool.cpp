@@ -221,55 +221,84 @@ void tell(std::string sentence) {
   std::cerr << "navmesh: " << sentence << '\n';
 }
 
-int run(const Options& options) {
+guide::NavigatorConfig config_of(const Options& options) {
   guide::NavigatorConfig config;
   if (!options.config.empty())
     navvi_config::read(config, navvi_config::load_yaml(options.config), options.config);
   navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
+  if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
+  return config;
+}
+
+/// ms since the last lap.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto before = std::exchange(last_, std::chrono::steady_clock::now());
+    return std::chrono::duration<double, std::milli>(last_ - before).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// The map's mesh with its holes, as far as the stage asks for; prints it in numbers.
+plan::Planner planner_on_map(const Options& options, const plan::PlannerConfig& config,
+                             JsonFields& fields) {
+  Stopwatch watch;
+  const map::MapSurvey survey = map::survey_file(options.map, plan::survey_config(config.mesh));
+  if (!survey.error.empty()) throw UsageError(survey.error);
+  const double surveyed = watch.lap();
+  plan::Planner planner(config);
+  const plan::MeshUpdate update = planner.set_map(survey);
+  if (!update.error.empty()) throw UsageError(options.map + ": " + update.error);
+  const double baked = watch.lap();
+  if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
+  const double carved = watch.lap();
+  fields = print_mesh(survey.source, planner.nav_mesh(), update);
+  std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
+              surveyed, baked, carved);
+  return planner;
+}
+
+PictureOf picture_of(const Options& options, const plan::NavMesh& nav_mesh) {
+  PictureOf out;
+  out.floor = nav_mesh.shared_floor().get();
+  if (options.stage >= Stage::bake) out.mesh = &nav_mesh.mesh();
+  if (options.stage >= Stage::mesh) out.cylinders = options.cylinders;
+  return out;
+}
+
+/// Prints the path and puts it into the picture. \returns why there is none; empty: there is one
+std::string plan_into(PictureOf& picture, plan::Planner& planner, const Options& options,
+                      double one_turn, JsonFields& fields) {
+  Stopwatch watch;
+  const plan::Plan plan = planner.plan(*options.from, *options.to);
+  const double planned = watch.lap();
+  if (plan.status != plan::PlanStatus::found)
+    return plan.detail.empty() ? "there is no route" : plan.detail;
+  picture.path = plan.path;
+  for (const smooth::Turn turn : smooth::turns_of(plan.path, one_turn))
+    picture.turns.push_back(plan.path[turn.at]);
+  if (!picture.turns.empty()) picture.turns.pop_back();  // the goal
+  print_plan(plan, picture.turns, planned, fields);
+  return {};
+}
+
+int run(const Options& options) {
+  const guide::NavigatorConfig config = config_of(options);
   std::ofstream file;
   if (!options.picture.empty()) {
     file.open(options.picture);
     if (!file) throw UsageError(options.picture + ": the picture cannot be written");
   }
-  if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
-  auto lap = [last = std::chrono::steady_clock::now()]() mutable {  // ms since the last
-    const auto before = std::exchange(last, std::chrono::steady_clock::now());
-    return std::chrono::duration<double, std::milli>(last - before).count();
-  };
-  const map::MapSurvey survey =
-      map::survey_file(options.map, plan::survey_config(config.planner.mesh));
-  if (!survey.error.empty()) throw UsageError(survey.error);
-  const double surveyed = lap();
-  plan::Planner planner(config.planner);
-  const plan::MeshUpdate update = planner.set_map(survey);
-  if (!update.error.empty()) throw UsageError(options.map + ": " + update.error);
-  const double baked = lap();
-  if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
-  const double carved = lap();
-  JsonFields fields = print_mesh(survey.source, planner.nav_mesh(), update);
-  std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
-              surveyed, baked, carved);
-
-  PictureOf picture;
-  picture.floor = planner.nav_mesh().shared_floor().get();
-  if (options.stage >= Stage::bake) picture.mesh = &planner.nav_mesh().mesh();
-  if (options.stage >= Stage::mesh) picture.cylinders = options.cylinders;
+  JsonFields fields;
+  plan::Planner planner = planner_on_map(options, config.planner, fields);
+  PictureOf picture = picture_of(options, planner.nav_mesh());
   std::string refusal;
-  if (options.from && options.stage >= Stage::search) {
-    (void)lap();
-    const plan::Plan plan = planner.plan(*options.from, *options.to);
-    const double planned = lap();
-    if (plan.status == plan::PlanStatus::found) {
-      picture.path = plan.path;
-      for (const smooth::Turn turn : smooth::turns_of(plan.path, config.path.guidance.one_turn))
-        picture.turns.push_back(plan.path[turn.at]);
-      if (!picture.turns.empty()) picture.turns.pop_back();  // the goal
-      print_plan(plan, picture.turns, planned, fields);
-    } else {
-      refusal = plan.detail.empty() ? "there is no route" : plan.detail;
-      fields.emplace_back("refusal", navvi_config::json_text(refusal));
-    }
-  }
+  if (options.from && options.stage >= Stage::search)
+    refusal = plan_into(picture, planner, options, config.path.guidance.one_turn, fields);
+  if (!refusal.empty()) fields.emplace_back("refusal", navvi_config::json_text(refusal));
   if (!options.picture.empty()) {
     file << svg_of(picture);
     if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");

@@ -1,0 +1,104 @@
+#include "plan/route.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "plan/escape.hpp"
+
+namespace navvi_nav::plan {
+namespace {
+
+constexpr double kLatticeError = 4.0;  // cells, of a mesh's border besides contour_error
+
+const char* sentence_of(Guidance::Refusal refusal) {
+  switch (refusal) {
+    case Guidance::Refusal::not_finite:
+      return "the goal is not a finite point";
+    case Guidance::Refusal::off_the_map:
+      return "the map shows no floor at the goal";
+    case Guidance::Refusal::unreachable:
+      return "no floor joins the goal with the robot";
+    default:
+      return "the goal is within the robot's radius of an obstacle";
+  }
+}
+
+bool share(const std::set<int>& a, const std::set<int>& b) {
+  return std::any_of(a.begin(), a.end(), [&b](int item) { return b.count(item) > 0; });
+}
+
+}  // namespace
+
+Route RouteFinder::find(Point start, Point goal) {
+  if (nav_mesh_.empty()) return {no_plan(PlanStatus::no_map, "there is no map yet")};
+  if (const std::optional<Plan> no = refused(start, goal)) return {*no};
+  if (!begin(start, goal, std::nullopt).place)
+    return {no_plan(PlanStatus::off_mesh, "the robot stands where no path can begin")};
+  const Anchor to = anchor(goal, near_goal(), std::nullopt);
+  if (!to.place || !to.joined)
+    return {no_plan(PlanStatus::no_route, "a moving thing stands on the goal")};
+  const Anchor from = begin(start, goal, nav_mesh_.mesh().polygon(to.place->polygon).component);
+  if (!from.place)
+    return {no_plan(PlanStatus::no_route, "nothing joins the robot with the goal now")};
+  return between(from, *to.place, start, goal);
+}
+
+Route RouteFinder::between(const Anchor& from, const mesh::Mesh::Place& to, Point start,
+                           Point goal) {
+  const search::Found& found = search_.find(nav_mesh_.mesh(), *from.place, to);
+  Route out;
+  out.plan.nodes_expanded = found.nodes_expanded;
+  out.plan.status = found.found ? PlanStatus::found : PlanStatus::no_route;
+  if (!found.found) return out;
+  out.plan.path = found.path;
+  out.from = *from.place;
+  out.to = to;
+  if (from.joined && !(from.place->point == start)) out.start = start;
+  if (!(to.point == goal)) out.goal = goal;
+  out.leaves_hole = from.leaves_hole;
+  return out;
+}
+
+std::optional<Plan> RouteFinder::refused(Point start, Point goal) const {
+  Guidance::Refusal refusal = refusal_of(goal);
+  if (refusal == Guidance::Refusal::none) refusal = not_joined(start, goal);
+  if (refusal == Guidance::Refusal::none) return std::nullopt;
+  return no_plan(PlanStatus::refused, sentence_of(refusal), refusal);
+}
+
+Guidance::Refusal RouteFinder::refusal_of(Point goal) const {
+  if (!finite(goal)) return Guidance::Refusal::not_finite;
+  const map::Floor& floor = *nav_mesh_.shared_floor();
+  if (floor.ground(floor.cell_at(goal)) == map::Ground::none) return Guidance::Refusal::off_the_map;
+  if (!floor.segment_clear(goal, goal, radius())) return Guidance::Refusal::inside_obstacle;
+  return Guidance::Refusal::none;
+}
+
+Guidance::Refusal RouteFinder::not_joined(Point start, Point goal) const {
+  const std::set<int> at_goal = nav_mesh_.floor_components(goal, near_goal());
+  const std::set<int> at_start = nav_mesh_.floor_components(start, start_snap_);
+  if (at_goal.empty()) return Guidance::Refusal::inside_obstacle;
+  if (!at_start.empty() && !share(at_start, at_goal)) return Guidance::Refusal::unreachable;
+  return Guidance::Refusal::none;
+}
+
+double RouteFinder::near_goal() const {
+  return (nav_mesh_.config().contour_error + kLatticeError) * nav_mesh_.shared_floor()->cell_size();
+}
+
+Anchor RouteFinder::anchor(Point point, double within, std::optional<int> part) const {
+  Anchor out;
+  out.place = nav_mesh_.mesh().locate(point, within, part);
+  if (out.place) out.joined = nav_mesh_.space().segment_clear(point, out.place->point, radius());
+  return out;
+}
+
+Anchor RouteFinder::begin(Point start, Point goal, std::optional<int> part) const {
+  if (!in_a_hole(start, nav_mesh_.space(), radius())) return anchor(start, start_snap_, part);
+  Anchor out;
+  out.place = escape(nav_mesh_.mesh(), nav_mesh_.space(), start, radius(), part, goal);
+  out.joined = out.leaves_hole = out.place.has_value();
+  return out;
+}
+
+}  // namespace navvi_nav::plan
