@@ -5,7 +5,7 @@
 #include <string>
 
 #include "generate/layout_source.hpp"
-#include "navvi_sim/read/world_source.hpp"
+#include "navvi_sim/read/loaded_world.hpp"
 
 namespace navvi_sim::read {
 

@@ -15,6 +15,13 @@ struct LoadedWorld {
   std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
 };
 
+/// What the workers of a layout do (R-SIM-2).
+enum class Workers {
+  as_laid_out,  ///< as many walk and stand as the layout says
+  standing,     ///< all stand; walking ones where their routes begin
+  walking,      ///< all walk
+};
+
 /// What becomes of a piece of an SDF world, such as a model or a shape, that is missing or wrong.
 enum class Missing {
   refuse,     ///< the world is refused, with all that is wrong

@@ -9,13 +9,6 @@
 
 namespace navvi_sim::read {
 
-/// What the workers of a layout do (R-SIM-2).
-enum class Workers {
-  as_laid_out,  ///< as many walk and stand as the layout says
-  standing,     ///< all stand; walking ones where their routes begin
-  walking,      ///< all walk
-};
-
 /// Which world is wanted.
 struct WorldRequest {
   /// A layout by the name of a preset (layout_config.hpp), or a file by its ending: .yaml / .yml
