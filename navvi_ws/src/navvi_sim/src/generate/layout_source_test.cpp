@@ -43,8 +43,7 @@ class LayoutFile : public testing::Test {
 
 TEST_F(LayoutFile, starts_from_its_preset_and_changes_what_it_names) {
   const LayoutSource source =
-      read_layout(write("name: my hall\npreset: busy\nlayout:\n  length: 70\n  forklifts: 3\n"))
-          .value();
+      read_layout(write("name: my hall\npreset: busy\nlayout:\n  length: 70\n  forklifts: 3\n"));
   EXPECT_EQ(source.name, "my hall");
   EXPECT_EQ(source.config.length, 70.0);
   EXPECT_EQ(source.config.forklifts, 3);
