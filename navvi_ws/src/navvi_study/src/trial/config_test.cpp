@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <navvi_config/reader.hpp>
 
-#include "people/simulated_operator.hpp"
 #include "trial/trial_node_config.hpp"
 
 namespace navvi_study::trial {
@@ -25,15 +24,6 @@ TEST(Config, refuses_what_it_does_not_know) {
   for (const char* text : {"limits: 1", "limit: -1", "require: [smell]", "once: maybe"}) {
     EXPECT_THROW(navvi_config::read(config, YAML::Load(text), "a test"), navvi_config::ConfigError)
         << text;
-  }
-}
-
-TEST(Config, every_default_lies_in_its_own_range) {
-  for (const auto& row : navvi_config::table<people::SimulatedOperatorConfig>()) {
-    people::SimulatedOperatorConfig config;
-    EXPECT_NO_THROW(navvi_config::read(config, YAML::Load(row.key + ": " + row.default_value),
-                                       "its own default"))
-        << row.key;
   }
 }
 
