@@ -62,7 +62,7 @@ def done(tmp_path_factory):
     assert study.run("freeze")[0] == 0
     # Killed while the first trial runs: the session goes on without a terminal, nobody drives sub-01 meanwhile, and it is taken over.
     first = study.begin("next", "sub-01")
-    study.wait_for(lambda: "TRIAL_START" in "".join(path.read_text() for path in study.folder.glob("sub-01/*/trial-*/journal.csv")))
+    study.wait_for(lambda: "TRIAL_START" in "".join(path.read_text() for path in study.folder.glob("sub-01/*/trial-*/journal.csv")), 500)
     os.kill(first.pid, signal.SIGKILL)
     first.wait()
     code, said = study.run("next", "sub-01")

@@ -116,8 +116,8 @@ class Analysis:
 
 
 def interval(values):
-    """95 % of the mean, by bootstrap of the participants; None for fewer than LEAST."""
-    if len(values) < LEAST:
+    """95 % of the mean, by bootstrap of the participants; None for fewer than LEAST, or where all are alike: these tell of no spread."""
+    if len(values) < LEAST or np.ptp(values) == 0:
         return None, None
     source = np.random.default_rng(SEED)
     means = values[source.integers(0, len(values), (RESAMPLES, len(values)))].mean(axis=1)

@@ -14,9 +14,10 @@ constexpr const char* kNewer[] = {"parameters",    "version",       "started_utc
 
 /// Of TRIAL_START: where the trial stands in a study, and on what it ran. Older summaries lack
 /// them.
-constexpr const char* kSettings[] = {
-    "study",   "plan",     "group", "condition", "condition_order", "phase", "session", "repeat",
-    "attempt", "replaces", "cpu",   "compiler",  "audio_device",    "voice", "pad_name"};
+constexpr const char* kSettings[] = {"study",           "plan",         "group",   "condition",
+                                     "condition_order", "phase",        "session", "repeat",
+                                     "attempt",         "replaces",     "cpu",     "compiler",
+                                     "bullet",          "audio_device", "voice",   "pad_name"};
 
 std::string seconds(std::int64_t from, std::int64_t to) {
   std::array<char, 40> text{};

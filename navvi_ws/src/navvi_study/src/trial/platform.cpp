@@ -26,4 +26,6 @@ std::string compiler() {
 #endif
 }
 
+std::string bullet() { return BULLET_VERSION; }
+
 }  // namespace navvi_study::trial

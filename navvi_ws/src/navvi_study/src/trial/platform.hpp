@@ -8,5 +8,7 @@ namespace navvi_study::trial {
 [[nodiscard]] std::string processor();
 /// That made this program, with its version.
 [[nodiscard]] std::string compiler();
+/// Version of the Bullet that the simulator was built with.
+[[nodiscard]] std::string bullet();
 
 }  // namespace navvi_study::trial

@@ -279,6 +279,7 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("pad_firmware", readiness_.trait("pad", "firmware"));
   fields.set("audio_device", readiness_.trait("audio", "device"));
   fields.set("cpu", processor()).set("compiler", compiler());
+  fields.set("bullet", bullet());
   set_study(fields, config_.study);
   fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
   fields.set("limit", config_.limit);
@@ -372,6 +373,8 @@ bool TrialKeeper::record(const Event& event) {
   record::Fields fields = event.fields;
   // By the monotonic clock from the start on: a clock that is set meanwhile changes no order.
   fields.set("utc", record::calendar(began_.utc_ns + now_.mono_ns - began_.mono_ns));
+  // Once a second also as it stands, so that all clocks can be brought together.
+  if (event.type == "PROGRESS") fields.set("calendar", record::calendar(now_.utc_ns));
   const auto row = journal_->append(
       event.type, fields, event.sim_ns, now_.mono_ns,
       event.essential ? record::Durability::essential : record::Durability::relaxed);

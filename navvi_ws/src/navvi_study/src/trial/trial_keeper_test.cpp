@@ -260,6 +260,7 @@ TEST_F(Trials, of_a_study_name_their_place_in_it_and_on_what_they_ran) {
       << journal;
   EXPECT_NE(journal.find(";audio_device="), std::string::npos);
   EXPECT_NE(journal.find(";compiler=GCC"), std::string::npos);
+  EXPECT_NE(journal.find(";bullet=3."), std::string::npos);
   live(1.0, State::following, kScenario.goal);
   live(9.0, State::arrived, kScenario.goal);
   EXPECT_NE(content("summary.csv").find(",condition,condition_order,"), std::string::npos);
@@ -319,6 +320,8 @@ TEST_F(Trials, S5_keep_the_order_of_their_hours_when_the_clock_is_set) {
     if (at != line.npos) hours.push_back(line.substr(at, 24));
   }
   EXPECT_GT(hours.size(), 5U);
+  EXPECT_NE(content("journal.csv").find(";calendar=2023-11-14T21:13:"), std::string::npos)
+      << "the clock as it was set";
   EXPECT_TRUE(std::is_sorted(hours.begin(), hours.end())) << content("events.csv");
 }
 
