@@ -3,6 +3,7 @@ import collections
 import html.parser
 import itertools
 import json
+import math
 import multiprocessing
 import os
 import shutil
@@ -510,3 +511,35 @@ def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
     nothing = Contrast("collisions", "a", "b")
     MODELS["count"](nothing, shuffled.assign(value=values["count"].astype(float)), None)
     assert nothing.p > 0.01
+
+
+# The export.
+
+def test_a_way_is_resampled_at_an_even_rate_and_turns_the_short_way_round():
+    from navvi_study.export import resampled
+    rows = resampled([(10.0, 0.0, 0.0, 3.0), (10.2, 1.0, 0.0, -3.0), (10.3, 1.0, 2.0, -3.0)], 10.0)
+    assert [(round(x, 6), round(y, 6)) for x, y, _ in rows] == [(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 2.0)]
+    assert rows[1][2] == pytest.approx(math.pi, abs=1e-6) or rows[1][2] == pytest.approx(-math.pi, abs=1e-6)
+    assert resampled([], 10.0) == []
+
+
+def test_an_export_has_the_names_of_bids_no_date_and_the_same_bytes_twice(work):
+    from navvi_study import export
+    rest(work())
+    state = work.study.progress()
+    for attempt in state.person("sub-01").attempts:
+        trial = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
+        (trial / "journal.csv").write_text("t,1,10000000000,5,TRIAL_START,x=1,00\nt,2,30000000000,9,TRIAL_END,x=1,00\n")
+        (trial / "events.csv").write_text("onset_s,duration_s,trial_type,robot_x_m,robot_y_m,detail\n2.5,0,goal reached,1.0,2.0,n/a\n")
+
+    def way(path):
+        return [(9.0 + step, float(step), 0.0, 0.0) for step in range(30)]
+    folder = export.write(work.study, state, way)
+    first = {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert {path.relative_to(folder): path.read_bytes() for path in export.write(work.study, state, way).rglob("*") if path.is_file()} == first
+    motion = folder / "sub-01/ses-1/motion"
+    names = sorted(path.name for path in motion.iterdir())
+    assert len(names) == 2 * 5 and "sub-01_ses-1_task-drive_tracksys-odometry_acq-plain_run-01_motion.tsv" in names
+    lines = next(motion.glob("*_motion.tsv")).read_text().splitlines()
+    assert len(lines) == 20 * 20 + 1 and lines[0].split("\t")[0] == "1.0000"  # from the begin of the trial on, 20 s at 20 Hz
+    assert not any(b"2026" in content for content in first.values())

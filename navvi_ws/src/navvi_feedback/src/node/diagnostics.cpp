@@ -88,7 +88,7 @@ DiagnosticStatus audio_status(const devices::Mixer::Status& mixer) {
       break;
   }
   if (!mixer.detail.empty()) result.message += " " + mixer.detail;
-  add(result, "device", mixer.name);
+  add(result, "device", mixer.name.empty() ? "none" : mixer.name);
   add(result, "state", state);
   add(result, "hrtf", mixer.two_ears ? "on" : "off");
   return result;

@@ -213,6 +213,27 @@ class Table:
             print(f"navvi: written: {path}")
 
 
+class Export:
+    """Write the study as a data set of Motion-BIDS: each trial's way and events.
+
+    The folder bids of the study is written anew. Nothing in it has a date.
+
+    Exit codes
+    0: written. 2: a wrong plan, or a record that cannot be read.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        parser.add_argument("--bids", action="store_true", help="the form, the one there is.")
+
+    @staticmethod
+    def run(args):
+        from . import export
+        study = opened(args)
+        print(f"navvi: written: {export.write(study, study.progress(), export.way_of_bag)}")
+
+
 class Report:
     """Write the study's report, one HTML file, besides its tables.
 
@@ -283,4 +304,4 @@ def _reason(words):
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
 
 
-ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Status, Exclude, Withdraw, Table, Report, Rehearse)}
+ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Status, Exclude, Withdraw, Table, Export, Report, Rehearse)}

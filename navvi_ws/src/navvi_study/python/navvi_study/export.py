@@ -1,0 +1,128 @@
+"""The study as a data set of Motion-BIDS (https://bids.neuroimaging.io): the robot's way and the events of each trial that counts.
+
+Nothing in it has a date. The same study gives the same bytes."""
+import csv
+import io
+import json
+import math
+import re
+import shutil
+
+from . import table
+from .study import write_safely
+
+RATE = 20.0  # Hz, of the way; odometry comes at another, even rate
+VERSION = "1.10.0"
+CHANNELS = (("x", "POS", "x", "m"), ("y", "POS", "y", "m"), ("yaw", "ORNT", "z", "rad"))
+TRACKING = "odometry"
+PARTICIPANTS = {"group": {"Description": "group of the plan"}}
+EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Units": "s"}, "duration": {"Units": "s"},
+          "trial_type": {"Description": "what happened, as navvi_study/README.md lists it"}}
+
+
+def write(study, progress, read_way):
+    """\\param read_way  takes a bag's path and returns rows of (s, x, y, yaw)
+    Returns the folder, which is written anew."""
+    folder = study.folder / "bids"
+    shutil.rmtree(folder, ignore_errors=True)
+    plan = progress.plan
+    _json(folder / "dataset_description.json", {"Name": plan.title, "BIDSVersion": VERSION, "DatasetType": "raw",
+                                                "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
+    write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "
+                 f"The acquisition (acq) is the condition. Plan: {plan.hash()}\n")
+    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes"]
+    people = sorted({(row["participant"], row["group"]) for row in rows})
+    _tsv(folder / "participants.tsv", ["participant_id", "group"], [[_subject(name), group] for name, group in people])
+    _json(folder / "participants.json", PARTICIPANTS)
+    runs = {}
+    for row in rows:
+        key = (row["participant"], row["session"], row["condition"])
+        runs[key] = runs.get(key, 0) + 1
+        attempt = next(one for one in progress.people[row["participant"]].attempts if one.trial == row["trial"] and str(one.number) == row["attempt"]
+                       and one.step in _steps(progress, row))
+        _trial(folder, row, attempt, runs[key], study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial, read_way)
+    return folder
+
+
+def _steps(progress, row):
+    return [step.name for step in progress.people[row["participant"]].steps
+            if (step.condition, str(step.repeat), step.kind) == (row["condition"], row["repeat"], row["phase"])]
+
+
+def _trial(folder, row, attempt, run, trial, read_way):
+    subject = _subject(row["participant"])
+    place = folder / subject / f"ses-{row['session']}" / "motion"
+    name = f"{subject}_ses-{row['session']}_task-drive"
+    end = f"acq-{_label(row['condition'])}_run-{run:02d}"
+    track = f"{name}_tracksys-{TRACKING}_{end}"
+    begun, ended = times_of(trial / "journal.csv")
+    way = resampled([place for place in read_way(trial / "trial.bag") if begun <= place[0] <= ended], RATE)
+    _tsv(place / f"{track}_motion.tsv", None, [[f"{value:.4f}" for value in values] for values in way])
+    _tsv(place / f"{track}_channels.tsv", ["name", "component", "type", "tracked_point", "units"],
+         [[channel, component, kind, "base_link", unit] for channel, kind, component, unit in CHANNELS])
+    _json(place / f"{track}_motion.json", {
+        "TaskName": "drive", "TaskDescription": f"Drive to the goal in world {attempt.world}, seed {attempt.seed}, condition {row['condition']}.",
+        "SamplingFrequency": RATE, "TrackingSystemName": TRACKING, "MotionChannelCount": len(CHANNELS), "TrackedPointsCount": 1,
+        "POSChannelCount": 2, "ORNTChannelCount": 1, "RecordingDuration": round(len(way) / RATE, 3), "RecordingType": "continuous",
+        "SpatialAxes": "FLS", "RotationRule": "right-hand", "RotationOrder": "XYZ", "ManufacturersModelName": "navvi_sim",
+        "SoftwareVersions": row.get("version", "n/a")})
+    with open(trial / "events.csv", newline="", encoding="utf-8") as file:
+        events = [[event["onset_s"], event["duration_s"], event["trial_type"], event["robot_x_m"], event["robot_y_m"], event["detail"]]
+                  for event in csv.DictReader(file)]
+    _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"],
+         sorted(events, key=lambda event: float(event[0])))
+    _json(place / f"{name}_{end}_events.json", {**EVENTS, **{f"robot_{axis}": {"Description": "of the robot in map", "Units": "m"} for axis in "xy"},
+                                                "detail": {"Description": "kind of a cue, or reason, state, device or result"}})
+
+
+def resampled(way, rate):
+    """Rows of (x, y, yaw) at an even rate from the first time on. \\param way  rows of (s, x, y, yaw), s rising"""
+    rows, at = [], 0
+    for step in range(int((way[-1][0] - way[0][0]) * rate) + 1 if way else 0):
+        time = way[0][0] + step / rate
+        while at + 2 < len(way) and way[at + 1][0] <= time:
+            at += 1
+        before, after = way[at], way[min(at + 1, len(way) - 1)]
+        share = 0.0 if after[0] <= before[0] else min(1.0, (time - before[0]) / (after[0] - before[0]))
+        turn = math.remainder(after[3] - before[3], 2 * math.pi)
+        rows.append((before[1] + share * (after[1] - before[1]), before[2] + share * (after[2] - before[2]),
+                     math.remainder(before[3] + share * turn, 2 * math.pi)))
+    return rows
+
+
+def times_of(journal):
+    """s of ROS time, when the trial began and ended; events count from the former, as the way does."""
+    rows = [line.split(",") for line in journal.read_text(encoding="utf-8").splitlines()]
+    times = {row[4]: int(row[2]) / 1e9 for row in rows if len(row) > 5 and row[4] in ("TRIAL_START", "TRIAL_END")}
+    return times["TRIAL_START"], times["TRIAL_END"]
+
+
+def way_of_bag(path):
+    """Rows of (s, x, y, yaw) in odom, which in the simulator is map."""
+    import rosbag  # of ROS, which only this needs
+    rows = []
+    with rosbag.Bag(str(path)) as bag:
+        for _, message, _ in bag.read_messages(topics=["/odom"]):
+            pose, time = message.pose.pose, message.header.stamp.to_sec()
+            if not rows or time > rows[-1][0]:
+                rows.append((time, pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)))
+    return rows
+
+
+def _subject(participant):
+    return "sub-" + _label(re.sub("^sub-", "", participant))
+
+
+def _label(name):
+    return re.sub("[^A-Za-z0-9]", "", name)
+
+
+def _json(path, values):
+    write_safely(path, json.dumps(values, indent=1) + "\n")
+
+
+def _tsv(path, columns, rows):
+    text = io.StringIO()
+    writer = csv.writer(text, delimiter="\t", lineterminator="\n")
+    writer.writerows(([columns] if columns else []) + rows)
+    write_safely(path, text.getvalue())
