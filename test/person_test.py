@@ -10,7 +10,7 @@ import yaml
 from navvi_msgs.msg import Cue
 from sensor_msgs.msg import Joy
 
-UP, DOWN, LEFT, RIGHT = 11, 12, 13, 14
+SELECT, START, UP, DOWN, LEFT, RIGHT = 4, 6, 11, 12, 13, 14
 
 
 class Session:
@@ -125,3 +125,33 @@ def test_a_setting_that_cannot_be_written_is_said_and_holds(session, tmp_path):
     assert pad.press(DOWN, RIGHT, RIGHT, DOWN) == "speed of speech 200"
     pad.until(lambda: "the settings cannot be saved" in pad.said)
     assert (tmp_path / "anna.yaml").read_text() == "a file where a folder should be"
+
+
+def test_a_questionnaire_is_answered_by_the_pad_and_each_answer_is_saved_at_once(session, tmp_path):
+    questions, record = tmp_path / "asked.yaml", tmp_path / "answers.csv"
+    questions.write_text("items:\n"
+                         "  - {name: hard, ask: How hard was it, values: [\"0\", \"50\", \"100\"], spoken: [\"0, easy\", \"50\", \"100, hard\"]}\n"
+                         "  - {name: again, ask: Would you drive again, values: [\"no\", \"yes\"], spoken: [\"no\", \"yes\"]}\n")
+    pad = session("_lesson:=questionnaire", f"_questions:={questions}", f"_record:={record}")
+
+    def tap(button, heard):
+        pad.down = button
+        time.sleep(0.1)
+        pad.down = None
+        pad.until(lambda: pad.said[-1:] == [heard])
+
+    def answers():
+        return [line.split(",")[:2] for line in record.read_text().splitlines()[1:]] if record.exists() else []
+    pad.until(lambda: pad.said[-1:] == ["How hard was it"])
+    tap(UP, "50")
+    tap(UP, "100, hard")
+    tap(START, "Would you drive again")
+    pad.until(lambda: answers() == [["hard", "100"]])
+    tap(LEFT, "100, hard")
+    tap(DOWN, "50")
+    tap(START, "Would you drive again")
+    pad.until(lambda: answers() == [["hard", "50"]])
+    tap(SELECT, "arrow left to go back")
+    assert answers() == [["hard", "50"], ["again", "declined"]]
+    tap(START, "thank you")
+    assert pad.node.wait(20) == 0

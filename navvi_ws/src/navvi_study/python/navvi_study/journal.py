@@ -9,7 +9,6 @@ import getpass
 import hashlib
 import json
 import os
-import socket
 import time
 from pathlib import Path
 
@@ -32,7 +31,7 @@ class Journal:
         """Returns the row, once it is on the disk."""
         with self._locked() as file:
             rows = self._read(file)
-            row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": f"{getpass.getuser()}@{socket.gethostname()}",
+            row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
                    "type": kind, **fields, "before": rows[-1]["hash"] if rows else BEGIN}
             row["hash"] = hash_of(row)
             line = (json.dumps(row, ensure_ascii=False) + "\n").encode()
