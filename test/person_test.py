@@ -139,6 +139,7 @@ def test_a_questionnaire_is_answered_by_the_pad_and_each_answer_is_saved_at_once
         time.sleep(0.1)
         pad.down = None
         pad.until(lambda: pad.said[-1:] == [heard])
+        time.sleep(0.1)
 
     def answers():
         return [line.split(",")[:2] for line in record.read_text().splitlines()[1:]] if record.exists() else []
