@@ -5,8 +5,6 @@
 namespace navvi_feedback::cues {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
 /// Where an hour's span has its middle, in degrees beyond the hour's own angle.
 double middle(Rounding rounding) { return rounding == Rounding::floor ? kHourDegrees / 2.0 : 0.0; }
 

@@ -6,6 +6,8 @@ namespace navvi_feedback::cues {
 
 /// Degrees of an hour, and of what an hour reaches to either side when rounded.
 constexpr double kHourDegrees = 30.0;
+constexpr double kDegree = 3.14159265358979323846 / 180.0;  ///< rad
+constexpr double kHour = kHourDegrees * kDegree;            ///< rad
 
 enum class Rounding {
   nearest,  ///< 12 is [-15, 15) degrees

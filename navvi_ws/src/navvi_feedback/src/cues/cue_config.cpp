@@ -16,6 +16,15 @@ void WordingConfig::describe(navvi_config::Visitor& visit) {
   visit(near, "near", Any{}, "", "false: what is near is not said; a word to stop always is");
 }
 
+void StrayConfig::describe(navvi_config::Visitor& visit) {
+  visit(wrong_way_degrees, "wrong_way_degrees", Range{30.0, 180.0}, "deg",
+        "driving farther than this away from where to steer is the wrong way");
+  visit(off_path, "off_path", Range{0.1, 10.0}, "m", "farther than this from the path is off it");
+  visit(on_path, "on_path", Range{0.0, 10.0}, "m", "nearer than this to the path is on it again");
+  visit(after, "after", Range{0.0, 10.0}, "s", "straying for so long is announced");
+  visit(repeat, "repeat", Range{1.0, 60.0}, "s", "repeats while the robot strays");
+}
+
 void RouteConfig::describe(navvi_config::Visitor& visit) {
   visit(rounding, "rounding", OneOf{{"nearest", "floor"}}, "", "how an angle becomes an hour");
   visit(hysteresis_degrees, "hysteresis_degrees", Range{0.0, 14.0}, "deg",
@@ -43,8 +52,23 @@ void RouteConfig::describe(navvi_config::Visitor& visit) {
         "no correction while the robot heads to pass the way-point within this distance");
   visit(at_hand, "at_hand", Range{0.0, 5.0}, "m",
         "nearer than this a way-point roughly ahead needs no more directions");
+  visit(worse_degrees, "worse_degrees", Range{1.0, 90.0}, "deg",
+        "facing elsewhere by so much more than when it was told needs the direction again");
+  visit(spot_radius, "spot_radius", Range{0.0, 5.0}, "m",
+        "turning with a smaller radius is turning on the spot");
+  visit(long_leg, "long_leg", Range{0.0, 100.0}, "m",
+        "where a sound leads, a shorter leg needs no words");
+  visit(next_turn, "next_turn", Range{0.0, 20.0}, "m",
+        "a turn so soon after another is told with it");
+  visit(in_the_way, "in_the_way", Range{0.0, 5.0}, "m",
+        "a thing ahead with a larger gap need not be passed yet");
+  visit(coming, "coming", Range{0.0, 10.0}, "m",
+        "where a sound leads, no direction leads at what moves ahead within this gap");
+  visit(still_ahead, "still_ahead", Range{0.0, 60.0}, "s",
+        "what is ahead for so long is to be driven round");
   visit(join, "join", Any{}, "",
         "two turns in a row are one sentence, and no direction leads straight at what is ahead");
+  visit.group("stray", stray);
 }
 
 void NearConfig::describe(navvi_config::Visitor& visit) {

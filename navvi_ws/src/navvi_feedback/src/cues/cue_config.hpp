@@ -18,6 +18,17 @@ struct WordingConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
+/// A robot that drives elsewhere than it is led.
+struct StrayConfig {
+  double wrong_way_degrees = 120.0;
+  double off_path = 0.7;  ///< m
+  double on_path = 0.4;   ///< m
+  double after = 1.5;     ///< s
+  double repeat = 10.0;   ///< s
+
+  void describe(navvi_config::Visitor& visit);
+};
+
 struct RouteConfig {
   std::string rounding = "nearest";
   double hysteresis_degrees = 5.0;
@@ -34,7 +45,15 @@ struct RouteConfig {
   double idle = 5.0;              ///< s
   double reach = 0.8;             ///< m
   double at_hand = 1.0;           ///< m
+  double worse_degrees = 15.0;
+  double spot_radius = 0.5;  ///< m
+  double long_leg = 10.0;    ///< m
+  double next_turn = 3.0;    ///< m
+  double in_the_way = 1.0;   ///< m, gap
+  double coming = 2.5;       ///< m, gap
+  double still_ahead = 6.0;  ///< s
   bool join = true;
+  StrayConfig stray;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "cues/way_words.hpp"
+
 namespace navvi_feedback::cues {
 namespace {
 
@@ -87,12 +89,6 @@ bool said_once(CueKind problem) {
   return problem == CueKind::arrived || problem == CueKind::welcome || refused(problem);
 }
 
-/// That there is another route, which explains the next direction.
-bool new_route(CueKind kind) {
-  return kind == CueKind::rerouted || kind == CueKind::rerouted_blocked ||
-         kind == CueKind::new_route || kind == CueKind::way_blocked;
-}
-
 Fillings where(ThingClass thing, const Eigen::Vector2d& point) {
   return {{}, {}, thing, side_of(point)};
 }
@@ -166,8 +162,7 @@ Links CuePolicy::judge(const Situation& now, double time) {
   return {judged(links.pad), judged(links.simulator), near, judged(links.guidance), links.audio};
 }
 
-CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links,
-                                                double time) {
+Utterances CuePolicy::lost_and_found(const Situation& now, const Links& links, double time) {
   Utterances told;
   const auto say = [&](CueKind kind) { told.push_back({kind}); };
   const auto lost = [&](Link Links::*link) {
@@ -200,7 +195,7 @@ CuePolicy::Utterances CuePolicy::lost_and_found(const Situation& now, const Link
   return told;
 }
 
-CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
+Utterances CuePolicy::collisions(const Situation& now, double time) {
   for (auto hit = hit_.begin(); hit != hit_.end();)
     hit = time - hit->second >= kSameHit ? hit_.erase(hit) : std::next(hit);
   Utterances told;
@@ -215,7 +210,7 @@ CuePolicy::Utterances CuePolicy::collisions(const Situation& now, double time) {
   return told;
 }
 
-CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
+Utterances CuePolicy::release(const Situation& now, const Links& links, double time) {
   // Who has just arrived lets go of the stick anyway.
   if (links.pad != Link::alive || links.simulator != Link::alive || awaited(now) ||
       problem_ == CueKind::arrived) {
@@ -228,8 +223,7 @@ CuePolicy::Utterances CuePolicy::release(const Situation& now, const Links& link
   return {*request};
 }
 
-CuePolicy::Utterances CuePolicy::guidance_state(const Situation& now, const Links& links,
-                                                double time) {
+Utterances CuePolicy::guidance_state(const Situation& now, const Links& links, double time) {
   if (links.simulator == Link::lost) return {};
   std::optional<CueKind> problem;
   if (links.guidance == Link::lost)
@@ -280,7 +274,7 @@ Utterance CuePolicy::tell_problem(CueKind kind, const Situation& now) const {
   return told;
 }
 
-CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
+Utterances CuePolicy::near(const Situation& now, double time) {
   // To a robot that stands without a way to go, what is near is no news, but what comes is.
   const bool drives = now.measured && (std::abs(now.measured->linear) > kMoving ||
                                        std::abs(now.measured->angular) > kMoving);
@@ -292,7 +286,7 @@ CuePolicy::Utterances CuePolicy::near(const Situation& now, double time) {
   return told;
 }
 
-CuePolicy::Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
+Utterances CuePolicy::route(const Situation& now, const Links& links, double time) {
   // Without a stick no path can be followed. Its return is said first, then the direction.
   const bool steered = links.pad != Link::lost && links_.pad != Link::lost;
   const bool just_over = trial_over_ && time - *trial_over_ < kLastWords;
@@ -328,13 +322,13 @@ Utterance CuePolicy::where_am_i(const Situation& now) const {
   const bool goal = now.goal_angle && now.guidance && now.guidance->leads();
   if (goal) {
     told.fillings.distance = now.goal_straight;
-    told.fillings.hour = route_.hour_of(*now.goal_angle);
+    told.fillings.hour = clock_hour(*now.goal_angle, route_.rounding()).value_or(12);
   }
   told.kind = !goal ? CueKind::where_place : now.place ? CueKind::where : CueKind::where_goal;
   return told;
 }
 
-CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
+Utterances CuePolicy::answers(const Situation& now, double time) {
   if (now.menu) {
     Utterance label = *now.menu;
     label.asked = true;
@@ -353,9 +347,9 @@ CuePolicy::Utterances CuePolicy::answers(const Situation& now, double time) {
   } else if (question == Question::where && (now.place || (to_goal && now.goal_angle))) {
     answer = where_am_i(now);
   } else if (to_goal && question == Question::turn && !now.guidance->waypoint_is_goal) {
-    answer = route_.next_turn(*now.guidance);
+    answer = next_turn(*now.guidance, route_.rounding());
   } else if (to_goal && question == Question::goal) {
-    answer = route_.goal(CueKind::goal_info, CueKind::goal_info_distance, now);
+    answer = goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, route_.rounding());
   } else if (follows_ && halt_.halted()) {
     answer = halt_.words();
   } else if (const auto way = follows_ ? route_.ask(*now.guidance, time) : std::nullopt) {
@@ -378,8 +372,7 @@ void CuePolicy::forget(const CueEvent& event) {
   const CueKind kind = event.kind().value_or(CueKind::lesson);
   phrasing_.forget(event);
   near_.unsaid(kind);
-  if (is_way(family_of(kind))) route_.unheard();
-  if (new_route(kind)) route_.route_unheard();
+  route_.lost(kind);
   if (kind == answered_) question_ = asked_;
 }
 
@@ -401,7 +394,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     if (owed && halt_.halted()) forget(event);
   }
   for (const CueEvent& event : events) {
-    const bool cut = event.stage == CueStage::cut && event.kind() && new_route(*event.kind());
+    const bool cut = event.stage == CueStage::cut && event.kind() && tells_route(*event.kind());
     if (cut || (event.stage == CueStage::dropped && !replaced(event.kind()))) forget(event);
   }
 }

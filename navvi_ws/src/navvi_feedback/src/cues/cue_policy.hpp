@@ -37,8 +37,6 @@ class CuePolicy {
   void note(const std::vector<CueEvent>& events);
 
  private:
-  using Utterances = std::vector<Utterance>;
-
   [[nodiscard]] Links judge(const Situation& now, double time);
   [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links, double time);
   [[nodiscard]] Utterances collisions(const Situation& now, double time);

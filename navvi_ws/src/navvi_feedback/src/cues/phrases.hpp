@@ -77,6 +77,7 @@ struct Utterance {
   bool goes_on = false;                      ///< begins with the phrase go_on; of the way alone
   std::optional<Eigen::Vector2d> from = {};  ///< m, in base_link: its sound comes first, from there
 };
+using Utterances = std::vector<Utterance>;
 
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and
 /// words from the same file, put in. No text of any message can reach the voice.

@@ -406,12 +406,12 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->waypoint = {0.0, -12.0};
   EXPECT_EQ(drive.go_on().value().kind, CueKind::rerouted);
-  RouteCues unheard = drive.cues;
-  drive.cues.unsaid();
+  const RouteCues told = drive.cues;
+  drive.cues.pause();
   drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::direction});
-  drive.cues = unheard;
-  drive.cues.unheard();
+  drive.cues = told;
+  drive.cues.lost(CueKind::straight_then);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 

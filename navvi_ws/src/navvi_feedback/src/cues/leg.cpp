@@ -1,0 +1,77 @@
+#include "cues/leg.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "cues/clock_face.hpp"
+
+namespace navvi_feedback::cues {
+
+void ToldRoutes::tell(std::uint32_t reroutes) { before = std::exchange(told, reroutes); }
+
+void Leg::begin(const Guidance& guidance) {
+  news = News::none;
+  said.hour.reset();
+  routes = {guidance.reroutes, guidance.reroutes};
+}
+
+bool Leg::ends(const Guidance& guidance, double same) const {
+  return seen && (guidance.waypoint - seen->corner).norm() > same;
+}
+
+Leg::News Leg::change_to(const Guidance& guidance, const RouteConfig& config) const {
+  if (!ends(guidance, config.same_corner)) return News::none;
+  const bool rerouted = guidance.reroutes != seen->reroutes;
+  if (seen->distance <= config.turn_now && !rerouted)
+    return turn_told ? News::told_corner : News::corner;
+  // Seen from one place at one instant: only the plan can have changed the hour.
+  const double moved = std::remainder(guidance.waypoint_angle - seen->angle, 2.0 * M_PI);
+  return std::abs(moved) > kHour / 2.0 ? News::other_route : News::none;
+}
+
+void Leg::advance(const Guidance& guidance, std::optional<int> next, const RouteConfig& config) {
+  if (guidance.state != Guidance::State::make_room) room_made = false;
+  const News change = change_to(guidance, config);
+  const bool reached = change == News::corner || change == News::told_corner;
+  if (reached || (change == News::other_route && !at_corner())) news = change;
+  const bool other = ends(guidance, config.same_corner);
+  if (other && turn_told && !reached) fell_away = !next;
+  if (!seen || reached || (other && next != turn.hour)) turn_told = false;
+  seen = {guidance.waypoint, guidance.waypoint_distance, guidance.waypoint_angle,
+          guidance.steer_angle, guidance.reroutes};
+}
+
+void Leg::heard(int hour, double time) {
+  said = {hour, time, seen ? seen->steer : 0.0};
+  // A route whose way was told is not news later on.
+  if (seen) routes.tell(seen->reroutes);
+  news = News::none;
+  fell_away = false;
+  reminder.reset();
+}
+
+void Leg::announced(int hour, double time) {
+  turn = {hour, time};
+  turn_told = true;
+}
+
+void Leg::lost() {
+  said.hour.reset();
+  room_made = turn_told = false;
+  routes.told = routes.before;
+}
+
+void Leg::route_lost(bool by_sound) {
+  routes.told = routes.before;
+  news = News::other_route;
+  if (!by_sound) said.hour.reset();
+}
+
+void Leg::pause() {
+  seen.reset();
+  said.hour.reset();
+  news = News::none;
+  fell_away = room_made = false;
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cues/route_rules.hpp"
+
+namespace navvi_feedback::cues {
+
+/// The strategy where a sound leads to where to steer: words are for what it cannot tell. Each leg
+/// once, turns of more than one hour, another route, and driving astray.
+/// \return what is said now; the leg knows of it
+[[nodiscard]] Utterances sounds_lead(const Look& look, Leg& leg);
+
+}  // namespace navvi_feedback::cues

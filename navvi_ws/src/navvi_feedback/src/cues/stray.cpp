@@ -1,0 +1,35 @@
+#include "cues/stray.hpp"
+
+#include <cmath>
+
+#include "cues/clock_face.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// m/s; a slower robot is about to turn on the spot.
+constexpr double kDrives = 0.1;
+
+}  // namespace
+
+bool drives_on(const Situation& now) { return now.measured && now.measured->linear > kDrives; }
+
+std::optional<CueKind> straying(const Situation& now, std::optional<CueKind> was,
+                                const StrayConfig& config) {
+  if (drives_on(now) && std::abs(now.guidance->steer_angle) > config.wrong_way_degrees * kDegree)
+    return CueKind::wrong_way;
+  const double limit = was == CueKind::off_path ? config.on_path : config.off_path;
+  return now.guidance->path_offset > limit ? std::optional(CueKind::off_path) : std::nullopt;
+}
+
+void Stray::observe(const Situation& now, const StrayConfig& config, double time) {
+  const std::optional<CueKind> strays = straying(now, kind, config);
+  if (strays != kind) *this = {strays, time, std::nullopt};
+}
+
+bool Stray::due(const Situation& now, const StrayConfig& config, double time) const {
+  return kind && time - since >= config.after && drives_on(now) &&
+         (!said || time - *said >= config.repeat);
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,38 @@
+#include "cues/way_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_feedback::cues {
+
+std::optional<Utterance> direction(const Guidance& guidance, const Bearing& bearing) {
+  // The held hour, so that an answer agrees with what was said; a fresh one where none is.
+  const std::optional<int> hour =
+      bearing.hour() ? bearing.hour() : clock_hour(guidance.steer_angle, bearing.rounding());
+  if (!hour || !std::isfinite(guidance.waypoint_distance)) return std::nullopt;
+  Utterance way;
+  way.kind = bearing.leads_off() ? CueKind::slight
+             : *hour == 12       ? CueKind::straight
+                                 : CueKind::direction;
+  way.fillings.hour = hour;
+  way.fillings.side = *hour < 6 ? Side::right : Side::left;
+  way.fillings.distance = std::max(0.0, guidance.waypoint_distance);
+  return way;
+}
+
+Utterance next_turn(const Guidance& guidance, Rounding rounding) {
+  Utterance turn{CueKind::turn_ahead};
+  turn.fillings.hour = clock_hour(guidance.turn_angle, rounding).value_or(12);
+  turn.fillings.distance = std::max(0.0, guidance.waypoint_distance);
+  return turn;
+}
+
+Utterance goal_words(CueKind kind, CueKind without_hour, const Situation& now, Rounding rounding) {
+  Utterance goal;
+  goal.fillings.distance = std::max(0.0, now.guidance->goal_distance);
+  if (now.goal_angle) goal.fillings.hour = clock_hour(*now.goal_angle, rounding);
+  goal.kind = goal.fillings.hour ? kind : without_hour;
+  return goal;
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "cues/bearing.hpp"
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+
+namespace navvi_feedback::cues {
+
+/// The direction as of now. \return nullopt: none is known
+[[nodiscard]] std::optional<Utterance> direction(const Guidance& guidance, const Bearing& bearing);
+
+/// Where the next turn is, and where it leads.
+[[nodiscard]] Utterance next_turn(const Guidance& guidance, Rounding rounding);
+
+/// Distance and, if it is known, hour of the goal. \param without_hour  the kind if it is not
+[[nodiscard]] Utterance goal_words(CueKind kind, CueKind without_hour, const Situation& now,
+                                   Rounding rounding);
+
+}  // namespace navvi_feedback::cues
