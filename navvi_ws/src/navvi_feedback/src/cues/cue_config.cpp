@@ -101,6 +101,11 @@ void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
         "a link that never lived for so long counts as lost");
   visit(same_text, "same_text", Range{0.0, 60.0}, "s",
         "a reminder in the same words is only felt within");
+  visit(recover, "recover", Range{0.0, 10.0}, "s",
+        "from a collision or a word to stop to the next direction");
+  visit(starting, "starting", Range{0.0, 30.0}, "s",
+        "how long a start may take before it is a problem");
+  visit(last_words, "last_words", Range{0.0, 60.0}, "s", "without directions after a trial's end");
   visit.group("wording", wording);
   visit.group("route", route);
   visit.group("near", near);

@@ -80,6 +80,9 @@ struct CuePolicyConfig {
   double problem_repeat = 15.0;  ///< s
   double patience = 10.0;        ///< s
   double same_text = 10.0;       ///< s
+  double recover = 2.0;          ///< s
+  double starting = 3.0;         ///< s
+  double last_words = 10.0;      ///< s
   WordingConfig wording;
   RouteConfig route;
   NearConfig near;

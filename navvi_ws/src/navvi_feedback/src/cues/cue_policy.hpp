@@ -1,18 +1,21 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <set>
 #include <vector>
 
-#include "cues/cue_config.hpp"
+#include "cues/answers.hpp"
+#include "cues/collision_cues.hpp"
 #include "cues/halt.hpp"
 #include "cues/held_stick.hpp"
+#include "cues/link_cues.hpp"
 #include "cues/near_cues.hpp"
+#include "cues/notice_cues.hpp"
 #include "cues/phrasing.hpp"
 #include "cues/route_cues.hpp"
 #include "cues/situation.hpp"
+#include "cues/state_cues.hpp"
 #include "cues/stuck.hpp"
+#include "cues/tick.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -37,47 +40,29 @@ class CuePolicy {
   void note(const std::vector<CueEvent>& events);
 
  private:
-  [[nodiscard]] Links judge(const Situation& now, double time);
-  [[nodiscard]] Utterances lost_and_found(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterances collisions(const Situation& now, double time);
-  [[nodiscard]] Utterances release(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterances guidance_state(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterance tell_problem(CueKind kind, const Situation& now) const;
+  [[nodiscard]] Tick look(const Situation& now, double time);
+  [[nodiscard]] Utterances release(const Tick& tick, const Utterances& told);
+  [[nodiscard]] Utterances near(const Tick& tick);
+  void remind(const Tick& tick, const Utterances& told);
   void halt(const Utterances& told, const Utterances& answer, double time);
-  [[nodiscard]] Utterances near(const Situation& now, double time);
-  [[nodiscard]] Utterances route(const Situation& now, const Links& links, double time);
-  [[nodiscard]] Utterance where_am_i(const Situation& now) const;
-  [[nodiscard]] Utterances answers(const Situation& now, double time);
-  void forget(const CueEvent& event);
+  [[nodiscard]] Utterances way(const Tick& tick);
+  [[nodiscard]] std::vector<Cue> say(const Utterances& told, const Tick& tick);
+  void lost(const CueEvent& event);
 
   CuePolicyConfig config_;
-  Phrasing phrasing_;
-  RouteCues route_;
-  NearCues near_;
+  LinkCues links_;
+  NoticeCues notices_;
+  CollisionCues collisions_;
   HeldStick held_;
   Stuck stuck_;
+  StateCues state_;
+  NearCues near_;
+  Answers answers_;
   Halt halt_;
-
-  std::optional<double> first_update_;  ///< s
-  double sensed_ = 0.0;                 ///< s, when proximity was last not lost
-  double time_ = 0.0;                   ///< s, of the last update
-  Links links_;                         ///< as of the last update
-  std::optional<DriveState::State> gate_;
-  bool awaited_ = false;            ///< a trial waits for the person
-  bool follows_ = false;            ///< there is a fresh path now
-  bool leads_ = false;              ///< and no word against following it
-  std::optional<CueKind> problem_;  ///< why the guidance does not lead
-  Eigen::Vector2d problem_goal_ = Eigen::Vector2d::Zero();
-  double problem_since_ = 0.0;          ///< s
-  std::optional<double> problem_said_;  ///< s
-  bool arrival_said_ = false;
-  bool led_ = false;                     ///< there was a path to follow
-  std::optional<Question> asked_;        ///< the last that was answered
-  std::optional<CueKind> answered_;      ///< the kind of that
-  std::optional<Question> question_;     ///< to be answered anew
-  std::map<std::uint32_t, double> hit_;  ///< s, by thing
-  std::set<CueKind> noticed_;
-  std::optional<double> trial_over_;  ///< s, when that was said
+  RouteCues route_;
+  Phrasing phrasing_;
+  bool leads_ = false;  ///< there is a path, and no word against following it
+  double time_ = 0.0;   ///< s, of the last update
 };
 
 }  // namespace navvi_feedback::cues

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cues/ahead.hpp"
+
 namespace navvi_feedback::cues {
 namespace {
 
@@ -18,9 +20,7 @@ constexpr double kAside = 0.5;
 
 bool clear(const Situation& now) {
   if (now.guidance && std::abs(now.guidance->steer_angle) > kAside) return true;
-  return std::none_of(now.nearby.begin(), now.nearby.end(), [](const NearThing& thing) {
-    return thing.moving && thing.gap < kAhead && side_of_lane(thing.nearest) == Side::ahead;
-  });
+  return !mover_ahead(now.nearby, kAhead);
 }
 
 }  // namespace

@@ -22,15 +22,15 @@ bool in_vain(const Situation& now) {
 
 }  // namespace
 
-std::optional<Utterance> HeldStick::update(const Situation& now, double time) {
+Utterances HeldStick::update(const Situation& now, double time) {
   if (!in_vain(now)) {
     since_.reset();
-    return std::nullopt;
+    return {};
   }
   if (!since_) since_ = time;
-  if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return std::nullopt;
+  if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return {};
   said_ = time;
-  return Utterance{CueKind::release_stick};
+  return {{CueKind::release_stick}};
 }
 
 }  // namespace navvi_feedback::cues

@@ -12,7 +12,7 @@ namespace navvi_feedback::cues {
 class HeldStick {
  public:
   /// Call it while there is a stick, and a robot to be moved. \param time  s, monotonic
-  [[nodiscard]] std::optional<Utterance> update(const Situation& now, double time);
+  [[nodiscard]] Utterances update(const Situation& now, double time);
 
   /// Another cue has just asked for the same.
   void said(double time) { said_ = time; }

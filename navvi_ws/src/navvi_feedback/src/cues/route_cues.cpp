@@ -42,10 +42,10 @@ Utterances RouteCues::introduce_goal(const Situation& now, double time) {
   return {start};
 }
 
-std::optional<Utterance> RouteCues::go_on(const Situation& now, double time) {
+Utterances RouteCues::go_on(const Situation& now, double time) {
   const Guidance& guidance = *now.guidance;
   std::optional<Utterance> way = direction(guidance, bearing_);
-  if (!way) return std::nullopt;
+  if (!way) return {};
   const Look look{config_, now, bearing_, time};
   if (guidance.state == Guidance::State::make_room) {
     way = make_room_now(look, leg_);
@@ -62,7 +62,7 @@ std::optional<Utterance> RouteCues::go_on(const Situation& now, double time) {
   way->goes_on = true;
   way->priority = traits(CueKind::go_on).priority;
   leg_.heard(*bearing_.hour(), time);
-  return way;
+  return {*way};
 }
 
 std::optional<Utterance> RouteCues::ask(const Guidance& guidance, double time) {
@@ -71,14 +71,10 @@ std::optional<Utterance> RouteCues::ask(const Guidance& guidance, double time) {
   return answer;
 }
 
-void RouteCues::pause() {
+void RouteCues::pause(bool goal_gone) {
   leg_.pause();
   bearing_.reset();
-}
-
-void RouteCues::forget() {
-  pause();
-  goal_.reset();
+  if (goal_gone) goal_.reset();
 }
 
 void RouteCues::lost(CueKind kind) {

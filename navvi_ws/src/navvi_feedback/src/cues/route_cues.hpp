@@ -29,16 +29,15 @@ class RouteCues {
   [[nodiscard]] Utterances update(const Situation& now, bool halted, double time);
 
   /// The way as of now, with what has changed meanwhile, for a person who was told to stop and may
-  /// go on. Call it after update(). \return nullopt: no direction is known
-  [[nodiscard]] std::optional<Utterance> go_on(const Situation& now, double time);
+  /// go on; none if it is not known. Call it after update().
+  [[nodiscard]] Utterances go_on(const Situation& now, double time);
 
   /// The direction as of now, for a person who asks; it need not be said again by itself.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
 
   /// The path is gone: when there is one again, say where it leads.
-  void pause();
-  /// The goal is gone too: the next one is introduced.
-  void forget();
+  /// \param goal_gone  the goal, too: the next one is introduced
+  void pause(bool goal_gone);
   /// Words of this kind were not heard.
   void lost(CueKind kind);
   /// Something else was said that makes a person stop: say the direction again from `time` on.

@@ -52,7 +52,7 @@ class Drive {
   }
 
   /// Of a person who was told to stop.
-  std::optional<Utterance> go_on() {
+  Utterances go_on() {
     EXPECT_TRUE(cues.update(now, true, time += kTick).empty());
     return cues.go_on(now, time);
   }
@@ -335,7 +335,7 @@ TEST(RouteCues, are_silent_while_the_person_is_to_stop_and_then_say_the_directio
   drive.settle(0.0, 30.0);
   for (double end = drive.time + 10.0; drive.time < end; drive.time += kTick)
     EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time).empty());
-  EXPECT_EQ(drive.go_on().value().kind, CueKind::straight);
+  EXPECT_EQ(drive.go_on().at(0).kind, CueKind::straight);
   EXPECT_EQ(drive.pass(5.0), Kinds{}) << "it was just said";
 }
 
@@ -391,10 +391,10 @@ TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
       drive.now.guidance->reroutes = 1;
       drive.now.guidance->waypoint = {0.0, -12.0};
       drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(angle);
-      const auto on = drive.go_on();
-      ASSERT_TRUE(on);
-      EXPECT_EQ(on->kind, CueKind::rerouted);
-      EXPECT_EQ(on->fillings.hour, hour);
+      const Utterances on = drive.go_on();
+      ASSERT_EQ(on.size(), 1U);
+      EXPECT_EQ(on[0].kind, CueKind::rerouted);
+      EXPECT_EQ(on[0].fillings.hour, hour);
       EXPECT_EQ(drive.pass(2.0), Kinds{});
     }
 }
@@ -405,9 +405,9 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance = following(0.0, 3.0);
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->waypoint = {0.0, -12.0};
-  EXPECT_EQ(drive.go_on().value().kind, CueKind::rerouted);
+  EXPECT_EQ(drive.go_on().at(0).kind, CueKind::rerouted);
   const RouteCues told = drive.cues;
-  drive.cues.pause();
+  drive.cues.pause(false);
   drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::direction});
   drive.cues = told;
@@ -490,9 +490,9 @@ TEST(RouteCues, say_the_direction_again_after_a_stop) {
 TEST(RouteCues, say_the_direction_when_the_path_is_back_without_a_new_introduction) {
   Drive drive;
   drive.settle(0.0, 30.0);
-  drive.cues.pause();
+  drive.cues.pause(false);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
-  drive.cues.forget();
+  drive.cues.pause(true);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start_distance});
 }
 

@@ -29,9 +29,43 @@ bool is_free(int hour, const std::vector<NearThing>& nearby, double gap) {
   });
 }
 
+/// What holds the robot: what lies where the person wants to go rather than what is merely nearer.
+const NearThing* blocker_of(const Situation& now, double gap) {
+  const NearThing* blocker = nullptr;
+  const auto rank = [&](const NearThing& thing) {
+    const bool in_the_way = thing.nearest.x() * now.commanded.linear >= 0.0;
+    return std::make_pair(in_the_way ? 0 : 1, thing.gap);
+  };
+  for (const NearThing& thing : now.nearby)
+    if (thing.gap <= gap && (!blocker || rank(thing) < rank(*blocker))) blocker = &thing;
+  return blocker;
+}
+
+/// The free hour nearest to an angle, rad; nullopt if there is none.
+std::optional<int> free_hour(const std::vector<NearThing>& nearby, double gap, double wanted) {
+  std::optional<int> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int hour = 1; hour <= 12; ++hour) {
+    const double aside = std::abs(std::remainder(angle_of(hour) - wanted, 2.0 * M_PI));
+    if (aside >= least || !is_free(hour, nearby, gap)) continue;
+    least = aside;
+    best = hour;
+  }
+  return best;
+}
+
+Utterance boxed_in(const std::vector<NearThing>& nearby) {
+  Utterance told{CueKind::stuck_unknown};
+  const Utterance sides = around(nearby);
+  told.also = sides.also;
+  told.also.insert(told.also.begin(), sides);
+  for (Utterance& side : told.also) side.from.reset();  // words alone are sooner over
+  return told;
+}
+
 }  // namespace
 
-std::optional<Utterance> Stuck::update(const Situation& now, bool follows, double time) {
+Utterances Stuck::update(const Situation& now, bool follows, double time) {
   // Commands near the thresholds may well move the robot more slowly than these.
   const bool commanded = std::abs(now.commanded.linear) > 2.0 * config_.stuck_linear ||
                          std::abs(now.commanded.angular) > 2.0 * config_.stuck_angular;
@@ -42,41 +76,25 @@ std::optional<Utterance> Stuck::update(const Situation& now, bool follows, doubl
   if (!commanded || !still || held) {
     since_.reset();
     said_.reset();
-    return std::nullopt;
+    return {};
   }
   if (!since_) since_ = time;
-  if (time - *since_ <= config_.stuck_time) return std::nullopt;
-  if (said_ && time - *said_ < config_.stuck_repeat) return std::nullopt;
+  if (time - *since_ <= config_.stuck_time) return {};
+  if (said_ && time - *said_ < config_.stuck_repeat) return {};
   said_ = time;
+  return {words(now, follows)};
+}
 
-  // What lies where the person wants to go blocks more than what is merely nearer.
-  const NearThing* blocker = nullptr;
-  const auto rank = [&](const NearThing& thing) {
-    const bool in_the_way = thing.nearest.x() * now.commanded.linear >= 0.0;
-    return std::make_pair(in_the_way ? 0 : 1, thing.gap);
-  };
-  for (const NearThing& thing : now.nearby)
-    if (thing.gap <= config_.blocker_gap && (!blocker || rank(thing) < rank(*blocker)))
-      blocker = &thing;
-  if (!blocker) return Utterance{CueKind::stuck_unknown};
+Utterance Stuck::words(const Situation& now, bool follows) const {
+  const double gap = config_.blocker_gap;
+  const NearThing* blocker = blocker_of(now, gap);
+  if (!blocker) return {CueKind::stuck_unknown};
   Fillings fillings{{}, {}, blocker->thing_class, side_of(blocker->nearest)};
-  const auto free = [&](int hour) { return is_free(hour, now.nearby, config_.blocker_gap); };
-  if (fillings.side == Side::ahead && free(6)) return Utterance{CueKind::back_away, fillings};
-  const double wanted = follows ? now.guidance->steer_angle : 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int hour = 1; hour <= 12; ++hour) {
-    const double aside = std::abs(std::remainder(angle_of(hour) - wanted, 2.0 * M_PI));
-    if (aside >= least || !free(hour)) continue;
-    least = aside;
-    fillings.hour = hour;
-  }
-  if (fillings.hour) return Utterance{CueKind::stuck, fillings};
-  Utterance boxed_in{CueKind::stuck_unknown};
-  const Utterance sides = around(now.nearby);
-  boxed_in.also = sides.also;
-  boxed_in.also.insert(boxed_in.also.begin(), sides);
-  for (Utterance& side : boxed_in.also) side.from.reset();  // words alone are sooner over
-  return boxed_in;
+  if (fillings.side == Side::ahead && is_free(6, now.nearby, gap))
+    return {CueKind::back_away, fillings};
+  fillings.hour = free_hour(now.nearby, gap, follows ? now.guidance->steer_angle : 0.0);
+  if (fillings.hour) return {CueKind::stuck, fillings};
+  return boxed_in(now.nearby);
 }
 
 }  // namespace navvi_feedback::cues

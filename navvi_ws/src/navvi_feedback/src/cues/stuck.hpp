@@ -14,9 +14,11 @@ class Stuck {
 
   /// \param follows  the person is led along a path, so that the free way nearest to it is named
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::optional<Utterance> update(const Situation& now, bool follows, double time);
+  [[nodiscard]] Utterances update(const Situation& now, bool follows, double time);
 
  private:
+  [[nodiscard]] Utterance words(const Situation& now, bool follows) const;
+
   CuePolicyConfig config_;
   std::optional<double> since_;  ///< s, commanded without moving
   std::optional<double> said_;   ///< s

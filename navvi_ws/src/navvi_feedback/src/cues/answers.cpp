@@ -1,0 +1,99 @@
+#include "cues/answers.hpp"
+
+#include <utility>
+
+#include "cues/near_cues.hpp"
+#include "cues/problem.hpp"
+#include "cues/way_words.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s after the start, when a path may still be on its way.
+constexpr double kFirstPath = 5.0;
+
+/// All of it from the robot's nose, and as the crow flies.
+Utterance where_am_i(const Situation& now, Rounding rounding) {
+  Utterance told;
+  if (now.place) {
+    told.fillings.place = static_cast<PlaceName>(now.place->kind);
+    told.fillings.number = static_cast<int>(now.place->number);
+  }
+  const bool goal = now.goal_angle && now.guidance && now.guidance->leads();
+  if (goal) {
+    told.fillings.distance = now.goal_straight;
+    told.fillings.hour = clock_hour(*now.goal_angle, rounding).value_or(12);
+  }
+  told.kind = !goal ? CueKind::where_place : now.place ? CueKind::where : CueKind::where_goal;
+  return told;
+}
+
+/// What needs no path, or one that leads to the goal.
+std::optional<Utterance> about(Question question, const Tick& tick, Rounding rounding) {
+  const Situation& now = tick.now;
+  const bool to_goal = tick.follows && now.guidance->state == Guidance::State::following;
+  if (question == Question::around) return around(now.nearby);
+  if (question == Question::help)
+    return Utterance{now.keyboard ? CueKind::help_keys : CueKind::help_pad};
+  if (question == Question::where && (now.place || (to_goal && now.goal_angle)))
+    return where_am_i(now, rounding);
+  if (question == Question::turn && to_goal && !now.guidance->waypoint_is_goal)
+    return next_turn(*now.guidance, rounding);
+  if (question == Question::goal && to_goal)
+    return goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, rounding);
+  return std::nullopt;
+}
+
+/// The way, or why there is none. \return nullopt: it may be on its way
+std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const Halt& halt,
+                                       const StateCues& state) {
+  if (tick.follows && halt.halted()) return halt.words();
+  if (auto way = tick.follows ? route.ask(*tick.now.guidance, tick.time) : std::nullopt) {
+    way->goes_on = halt.owes();
+    return way;
+  }
+  const CueKind problem = state.problem().value_or(CueKind::welcome);
+  if (problem != CueKind::welcome) return problem_words(problem, tick.now);
+  if (tick.age < kFirstPath) return std::nullopt;
+  return problem_words(CueKind::no_goal, tick.now);
+}
+
+}  // namespace
+
+Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
+                           const StateCues& state) {
+  if (tick.now.menu) {
+    Utterance label = *tick.now.menu;
+    label.asked = true;
+    return {label};
+  }
+  const auto question =
+      tick.now.question ? tick.now.question : std::exchange(question_, std::nullopt);
+  if (!question) return {};
+  asked_ = question;
+  std::optional<Utterance> answer = about(*question, tick, route.rounding());
+  if (!answer) answer = about_the_way(tick, route, halt, state);
+  if (!answer) return {};
+  // An answer is wanted at once, whatever was said just before.
+  answer->priority = Priority::message;
+  answer->asked = true;
+  answered_ = answer->kind;
+  return {*answer};
+}
+
+void Answers::yield_to(const Utterances& way, Utterances& answer) {
+  const bool goes_on = !way.empty() && way.front().goes_on;
+  if (!goes_on || answer.empty() || family_of(answer.front().kind) != Family::halt) return;
+  answer.clear();
+  answered_.reset();
+}
+
+void Answers::heard(CueKind kind) {
+  if (kind == answered_) answered_.reset();
+}
+
+void Answers::lost(CueKind kind) {
+  if (kind == answered_) question_ = asked_;
+}
+
+}  // namespace navvi_feedback::cues

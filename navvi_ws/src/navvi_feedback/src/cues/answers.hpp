@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "cues/halt.hpp"
+#include "cues/route_cues.hpp"
+#include "cues/state_cues.hpp"
+#include "cues/tick.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Answers what the person asks by a button, and again if the answer was dropped.
+class Answers {
+ public:
+  /// \param route  knows the way, and takes note that it was told
+  /// \return the answer, if any; first of all the menu's
+  [[nodiscard]] Utterances update(const Tick& tick, RouteCues& route, const Halt& halt,
+                                  const StateCues& state);
+  /// That a wait is over is a better answer than why it was: that one is withdrawn.
+  void yield_to(const Utterances& way, Utterances& answer);
+
+  /// Words of this kind have begun.
+  void heard(CueKind kind);
+  /// They were not heard.
+  void lost(CueKind kind);
+
+ private:
+  std::optional<Question> asked_;     ///< the last that was answered
+  std::optional<CueKind> answered_;   ///< the kind of that, until it is heard
+  std::optional<Question> question_;  ///< to be answered again
+};
+
+}  // namespace navvi_feedback::cues

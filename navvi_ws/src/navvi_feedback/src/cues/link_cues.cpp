@@ -1,0 +1,46 @@
+#include "cues/link_cues.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s; what dies with the simulator may be missed by so much before it.
+constexpr double kTogether = 0.3;
+
+}  // namespace
+
+const Links& LinkCues::judge(const Situation& now, double time) {
+  if (!first_) first_ = time;
+  const bool waited = time - *first_ > patience_;
+  const auto judged = [&](Link link) { return link == Link::never && waited ? Link::lost : link; };
+  const Links& links = now.links;
+  if (links.proximity != Link::lost) sensed_ = time;
+  const bool just_lost = links.proximity == Link::lost && time - sensed_ < kTogether;
+  const Link near = just_lost ? Link::alive : judged(links.proximity);
+  last_ = links_;
+  links_ = {judged(links.pad), judged(links.simulator), near, judged(links.guidance), links.audio};
+  return links_;
+}
+
+Utterances LinkCues::update(const Situation& now) {
+  Utterances told;
+  const auto say = [&](CueKind kind) { told.push_back({kind}); };
+  const auto lost = [&](Link Links::*link) {
+    return last_.*link != Link::lost && links_.*link == Link::lost;
+  };
+  const auto back = [&](Link Links::*link) {
+    return last_.*link == Link::lost && links_.*link == Link::alive;
+  };
+  if (lost(&Links::pad)) say(now.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
+  if (back(&Links::pad)) say(now.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
+  if (lost(&Links::simulator)) say(CueKind::simulator_lost);
+  if (back(&Links::audio)) say(CueKind::audio_back);
+  const bool simulated = links_.simulator != Link::lost;
+  if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
+  const bool stopped =
+      last_gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
+  if (simulated && stopped && links_.pad != Link::lost) say(CueKind::robot_stopped);
+  last_gate_ = now.gate;
+  return told;
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Tells which link is lost, and which is back. A loss that follows from that of the simulator or
+/// the pad has no cue of its own.
+class LinkCues {
+ public:
+  /// \param patience  s, after which a link that never lived counts as lost
+  explicit LinkCues(double patience) : patience_(patience) {}
+
+  /// Call it once a tick, first. \param time  s, monotonic \return the links as judged
+  const Links& judge(const Situation& now, double time);
+  /// What has changed since the last tick.
+  [[nodiscard]] Utterances update(const Situation& now);
+
+  /// Without a stick no path can be followed; its return is said first, then the direction.
+  [[nodiscard]] bool steered() const { return links_.pad != Link::lost && last_.pad != Link::lost; }
+  /// s, since the first tick
+  [[nodiscard]] double age(double time) const { return time - first_.value_or(time); }
+
+ private:
+  double patience_;
+  std::optional<double> first_;  ///< s, of the first tick
+  double sensed_ = 0.0;          ///< s, when proximity was last not lost
+  Links links_;                  ///< now
+  Links last_;                   ///< a tick before
+  std::optional<DriveState::State> last_gate_;
+};
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,84 @@
+#include "cues/link_cues.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cue_policy_fixture.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+class LinkCuesTest : public CuePolicyTest {};
+
+TEST_F(LinkCuesTest, says_which_messages_never_came) {
+  now_ = Situation();
+  pass(9.0);
+  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "simulator lost"}));
+}
+
+TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
+  under_way();
+  now_.links.guidance = Link::lost;
+  EXPECT_EQ(pass(1.0), Texts{"guidance lost"});
+  EXPECT_EQ(pass(10.0), Texts{});
+  now_.links.guidance = Link::alive;
+  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(LinkCuesTest, names_only_the_simulator_when_all_dies_with_it) {
+  under_way();
+  now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
+  EXPECT_EQ(last_.priority, Priority::important);
+}
+
+TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_missed_first) {
+  under_way();
+  now_.links.proximity = Link::lost;
+  EXPECT_EQ(pass(0.1), Texts{});
+  now_.links.simulator = now_.links.guidance = Link::lost;
+  EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
+  now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::alive;
+  pass(5.0);
+  now_.links.proximity = Link::lost;
+  EXPECT_EQ(pass(1.0), Texts{"no obstacle sensing"}) << "where that alone is lost";
+}
+
+TEST_F(LinkCuesTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
+  under_way();
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(1.0), Texts{"robot stopped, release the stick"});
+  now_.gate = DriveState::State::running;
+  pass(5.0);
+  now_.links.pad = Link::lost;
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(1.0), Texts{"controller disconnected"});
+  now_.links.pad = Link::alive;
+  EXPECT_EQ(pass(1.0),
+            (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
+}
+
+TEST_F(LinkCuesTest, names_the_keyboard_where_the_stick_is_one) {
+  now_.keyboard = true;
+  under_way();
+  now_.links.pad = Link::lost;
+  now_.gate = DriveState::State::stopped;
+  EXPECT_EQ(pass(1.0), Texts{"the keys are off, select the keyboard window"});
+  now_.links.pad = Link::alive;
+  EXPECT_EQ(pass(1.0).front(), "the keys are on, release them first");
+}
+
+TEST_F(LinkCuesTest,
+       falls_silent_about_the_way_without_a_controller_and_says_it_anew_when_it_is_back) {
+  under_way();
+  now_.commanded = {};
+  now_.measured = Velocity{};
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
+  now_.links.pad = Link::lost;
+  EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
+  now_.links.pad = Link::alive;
+  EXPECT_EQ(pass(1.0), (Texts{"controller connected, release the stick", "3 o'clock, 20 meters"}));
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues

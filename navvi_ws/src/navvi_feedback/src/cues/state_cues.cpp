@@ -1,0 +1,86 @@
+#include "cues/state_cues.hpp"
+
+#include <utility>
+
+#include "cues/problem.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s, before a word to stop is followed by the word to wait.
+constexpr double kStopped = 3.0;
+/// s, from one word to the next on what a stick that is pushed waits for.
+constexpr double kHeldBack = 2.5;
+
+bool said_once(CueKind problem) {
+  return problem == CueKind::arrived || problem == CueKind::welcome || is_refusal(problem);
+}
+
+}  // namespace
+
+Utterances StateCues::update(const Tick& tick, bool halted, const Phrasing& phrasing) {
+  Utterances told;
+  const bool wanted = std::exchange(awaited_, awaited(tick.now).has_value());
+  if (wanted && tick.now.trial == TrialState::State::running) told = {{CueKind::trial_begins}};
+  if (tick.links.simulator == Link::lost) return told;
+  observe(tick);
+  // What is said too seldom for now is said a little later.
+  if (!problem_ || !due(tick, halted) || phrasing.too_soon(*problem_, tick.time)) return told;
+  said_ = tick.time;
+  const bool again = problem_ == CueKind::arrived && std::exchange(arrival_said_, true);
+  if (!again) told.push_back(problem_words(*problem_, tick.now));
+  return told;
+}
+
+bool StateCues::goal_gone() const {
+  return problem_ == CueKind::arrived || problem_ == CueKind::welcome || is_refusal(problem_);
+}
+
+std::optional<CueKind> StateCues::judge(const Tick& tick) const {
+  std::optional<CueKind> problem;
+  if (tick.links.guidance == Link::lost)
+    problem = CueKind::guidance_lost;
+  else if (tick.now.guidance)
+    problem = problem_of(*tick.now.guidance);
+  const bool idle = !problem || problem == CueKind::welcome || problem == CueKind::arrived;
+  const std::optional<CueKind> wanted = awaited(tick.now);
+  return idle && wanted ? wanted : problem;
+}
+
+void StateCues::observe(const Tick& tick) {
+  if (tick.follows) arrival_said_ = false;
+  led_ = led_ || tick.follows;
+  const std::optional<CueKind> problem = judge(tick);
+  const std::optional<Guidance>& guidance = tick.now.guidance;
+  const bool other_goal = is_refusal(problem) && guidance && (guidance->goal - goal_).norm() > 0.0;
+  if (problem == problem_ && !other_goal) return;
+  problem_ = problem;
+  since_ = tick.time;
+  said_.reset();
+  if (guidance) goal_ = guidance->goal;
+}
+
+bool StateCues::due(const Tick& tick, bool halted) const {
+  if (tick.time - since_ < hold(tick, halted)) return false;
+  const bool pushed = awaited_ && tick.now.stick_held_unarmed;
+  const double pause = pushed ? kHeldBack : config_.problem_repeat;
+  return !said_ || (!said_once(*problem_) && tick.time - *said_ >= pause);
+}
+
+/// s, for which it must last.
+double StateCues::hold(const Tick& tick, bool halted) const {
+  if (problem_ == CueKind::arrived || problem_ == CueKind::guidance_lost || is_refusal(problem_))
+    return 0.0;
+  if (problem_ == CueKind::blocked) {
+    // Who was just told to stop need not be told to wait as well.
+    if (halted) return kStopped;
+    const bool near = tick.now.measured && tick.now.guidance->blocked_distance <
+                                               tick.now.measured->linear * config_.near.stop_moving;
+    if (near) return 0.0;
+  }
+  const bool starting = problem_ == CueKind::welcome ||
+                        (!led_ && (problem_ == CueKind::no_map || problem_ == CueKind::pose_stale));
+  return starting ? config_.starting : config_.state_hold;
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "cues/phrasing.hpp"
+#include "cues/tick.hpp"
+#include "navvi_feedback/cues/cue_config.hpp"
+
+namespace navvi_feedback::cues {
+
+/// Tells why the guidance does not lead, or what a trial waits for, once that has lasted, and again
+/// while it lasts; and that a trial begins.
+class StateCues {
+ public:
+  explicit StateCues(const CuePolicyConfig& config) : config_(config) {}
+
+  /// \param halted  the person was told to stop
+  /// \param phrasing  knows which kinds were said too short a time ago
+  [[nodiscard]] Utterances update(const Tick& tick, bool halted, const Phrasing& phrasing);
+
+  /// As of the last update. \return nullopt: the guidance leads, or nothing is known of it
+  [[nodiscard]] std::optional<CueKind> problem() const { return problem_; }
+  /// There is nowhere to drive to.
+  [[nodiscard]] bool goal_gone() const;
+
+ private:
+  [[nodiscard]] std::optional<CueKind> judge(const Tick& tick) const;
+  void observe(const Tick& tick);
+  [[nodiscard]] bool due(const Tick& tick, bool halted) const;
+  [[nodiscard]] double hold(const Tick& tick, bool halted) const;
+
+  CuePolicyConfig config_;
+  bool awaited_ = false;                            ///< a trial waits for the person
+  std::optional<CueKind> problem_;                  ///< why the guidance does not lead
+  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();  ///< m, in map, when that began
+  double since_ = 0.0;                              ///< s
+  std::optional<double> said_;                      ///< s
+  bool arrival_said_ = false;                       ///< since there was a path to follow
+  bool led_ = false;                                ///< there was one
+};
+
+}  // namespace navvi_feedback::cues

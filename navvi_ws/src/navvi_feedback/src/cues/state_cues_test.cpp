@@ -1,0 +1,92 @@
+#include "cues/state_cues.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cue_policy_fixture.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+class StateCuesTest : public CuePolicyTest {};
+
+TEST_F(StateCuesTest, announces_the_arrival_once) {
+  under_way();
+  now_.guidance->state = Guidance::State::arrived;
+  EXPECT_EQ(pass(60.0), Texts{"You have reached your destination"});
+  now_.links.guidance = Link::lost;
+  pass(2.0);
+  now_.links.guidance = Link::alive;
+  EXPECT_EQ(pass(2.0), Texts{});
+}
+
+TEST_F(StateCuesTest, says_why_a_goal_was_refused_once_a_goal) {
+  under_way();
+  now_.guidance->state = Guidance::State::goal_refused;
+  now_.guidance->refusal = Guidance::Refusal::inside_obstacle;
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, something stands there"});
+  now_.guidance->goal = {3.0, 3.0};
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, something stands there"});
+  now_.guidance->refusal = Guidance::Refusal::unreachable;
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, it cannot be reached"});
+}
+
+TEST_F(StateCuesTest, passes_over_a_state_that_lasts_no_time) {
+  under_way();
+  now_.guidance->state = Guidance::State::off_mesh;
+  EXPECT_EQ(pass(0.3), Texts{});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+}
+
+TEST_F(StateCuesTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
+  under_way();
+  now_.guidance->blocked_distance = 5.0;
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(0.3), Texts{});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(3.0), Texts{});
+}
+
+TEST_F(StateCuesTest, says_at_once_to_wait_for_what_would_be_reached_within_seconds) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  now_.guidance->blocked_by = ThingClass::worker;
+  now_.measured = navvi_types::Velocity{0.9, 0.0};
+  now_.guidance->blocked_distance = 3.0;
+  EXPECT_EQ(pass(0.3), Texts{});
+  now_.guidance->blocked_distance = 2.0;
+  EXPECT_EQ(pass(0.02), Texts{"wait, worker in the way"});
+}
+
+TEST_F(StateCuesTest, says_that_the_map_is_too_old) {
+  under_way();
+  now_.guidance->state = Guidance::State::map_stale;
+  EXPECT_EQ(pass(5.0), Texts{"map out of date"});
+}
+
+TEST_F(StateCuesTest, reminds_of_a_problem_that_lasts) {
+  under_way();
+  now_.guidance->state = Guidance::State::no_route;
+  EXPECT_EQ(pass(31.0), Texts(3, "no route to the goal"));
+}
+
+TEST_F(StateCuesTest, has_a_kind_for_every_state_and_refusal_of_the_guidance) {
+  for (std::size_t state = 0; state < names(Guidance::State{}).size(); ++state) {
+    for (std::size_t refusal = 0; refusal < names(Guidance::Refusal{}).size(); ++refusal) {
+      now_.guidance->state = static_cast<Guidance::State>(state);
+      now_.guidance->refusal = static_cast<Guidance::Refusal>(refusal);
+      EXPECT_NO_THROW(pass(4.0)) << to_string(now_.guidance->state);
+    }
+  }
+}
+
+TEST_F(StateCuesTest, asks_nobody_to_release_the_stick_who_has_arrived) {
+  under_way();
+  now_.guidance->state = Guidance::State::arrived;
+  EXPECT_EQ(pass(0.1), Texts{"You have reached your destination"});
+  now_.stick_held_unarmed = true;  // the trial is over
+  EXPECT_EQ(pass(10.0), Texts{});
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues

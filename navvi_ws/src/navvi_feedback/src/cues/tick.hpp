@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "cues/situation.hpp"
+
+namespace navvi_feedback::cues {
+
+/// One instant, as each part of the policy sees it.
+struct Tick {
+  const Situation& now;
+  Links links;           ///< as judged
+  bool follows = false;  ///< there is a fresh path that is to be followed now
+  double time = 0.0;     ///< s, monotonic
+  double age = 0.0;      ///< s, since the first tick
+};
+
+/// The act that a trial awaits before it begins; nullopt if none.
+[[nodiscard]] inline std::optional<CueKind> awaited(const Situation& now) {
+  if (now.trial == TrialState::State::choose_goal) return CueKind::choose_goal;
+  if (now.trial != TrialState::State::ready) return std::nullopt;
+  return now.keyboard ? CueKind::press_enter : CueKind::press_start;
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include "cue_policy_fixture.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// Told to wait; then something happens, and then the way is free again.
+class WaitTest : public CuePolicyTest {
+ protected:
+  WaitTest() {
+    under_way();
+    now_.guidance->state = Guidance::State::blocked;
+    now_.guidance->blocked_by = ThingClass::worker;
+    pass(1.0);
+    now_.commanded = {};
+    now_.measured = Velocity{};
+  }
+  void follow() { now_.guidance->state = Guidance::State::following; }
+  void note(std::uint32_t id, CueStage stage) {
+    policy_.note({{id, stage, last_.kind, last_.text, last_.priority}});
+  }
+};
+
+TEST_F(WaitTest, ends_by_go_on_and_the_new_route_where_that_is_another_one) {
+  follow();
+  now_.guidance->reroutes = 1;
+  now_.guidance->reroute_reason = Guidance::Replan::waypoint_blocked;
+  now_.guidance->waypoint = {0.0, -5.0};
+  now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
+  now_.guidance->waypoint_distance = 5.0;
+  EXPECT_EQ(pass(5.0), Texts{"go on, way blocked, new route, 3 o'clock, 5 meters"});
+}
+
+TEST_F(WaitTest, ends_by_go_on_whichever_link_was_lost_meanwhile) {
+  for (Link Links::*link : {&Links::guidance, &Links::pad, &Links::simulator, &Links::proximity}) {
+    now_.guidance->state = Guidance::State::blocked;
+    pass(5.0);
+    now_.links.*link = Link::lost;
+    pass(5.0);
+    now_.links.*link = Link::alive;
+    follow();
+    EXPECT_EQ(pass(3.0).back(), "go on, straight ahead, 20 meters");
+    pass(11.0);
+  }
+}
+
+TEST_F(WaitTest, ends_by_go_on_after_any_state_in_which_nothing_leads) {
+  for (const auto state : {Guidance::State::no_route, Guidance::State::off_mesh,
+                           Guidance::State::pose_stale, Guidance::State::map_stale}) {
+    now_.guidance->state = Guidance::State::blocked;
+    pass(5.0);
+    now_.guidance->state = state;
+    pass(5.0);
+    follow();
+    EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"}) << to_string(state);
+    pass(11.0);
+  }
+}
+
+TEST_F(WaitTest, ends_by_go_on_with_the_new_goal_where_that_is_another_one) {
+  now_.guidance->state = Guidance::State::arrived;
+  pass(2.0);
+  follow();
+  now_.guidance->goal = now_.guidance->waypoint = {0.0, 7.0};
+  now_.goal_angle = -1.6;
+  now_.guidance->waypoint_distance = 3.0;
+  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 3 meters, goal 20 meters, 9 o'clock"});
+}
+
+TEST_F(WaitTest, ends_by_go_on_and_the_direction_where_ticks_lead_and_where_words_are_muted) {
+  now_.sounds.turn = true;
+  WordingConfig wording;
+  wording.way = false;
+  policy_.use(wording);
+  follow();
+  EXPECT_EQ(pass(10.0), Texts{"go on, straight ahead, 20 meters"});
+}
+
+TEST_F(WaitTest, is_not_over_before_go_on_was_heard_to_its_end) {
+  for (const CueStage lost : {CueStage::cut, CueStage::dropped}) {
+    follow();
+    EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+    note(7, CueStage::queued);
+    if (lost == CueStage::cut) note(7, CueStage::started);
+    note(7, lost);
+    EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+    note(8, CueStage::queued);
+    note(8, CueStage::started);
+    note(8, CueStage::ended);
+    EXPECT_EQ(pass(3.0), Texts{});
+    now_.guidance->state = Guidance::State::blocked;
+    pass(5.0);
+  }
+}
+
+TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
+  note(1, CueStage::started);
+  pass(15.0);  // it is said again
+  note(2, CueStage::queued);
+  note(2, CueStage::dropped);
+  follow();
+  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+}
+
+TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_then) {
+  follow();
+  Texts told;
+  while (told.empty()) {
+    now_.question = Question::way;
+    const Texts more = pass(0.02);
+    if (more != Texts{"wait, worker in the way"}) told = more;
+  }
+  EXPECT_EQ(told, Texts{"go on, straight ahead, 20 meters"});
+}
+
+TEST_F(WaitTest, ends_by_an_answer_that_comes_before_go_on_was_heard) {
+  follow();
+  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+  now_.question = Question::way;
+  EXPECT_EQ(pass(0.1), Texts{"go on, straight ahead, 20 meters"});
+}
+
+TEST_F(WaitTest, is_followed_by_a_stop_1_5_s_before_the_shelf_at_the_speed_driven) {
+  follow();
+  double gap = 0.6;
+  const auto see = [&] { now_.nearby = {{ThingClass::shelf, 3, gap, {gap + 0.35, 0.0}, false}}; };
+  see();
+  pass(4.0);
+  Texts told;
+  for (double speed = 0.0; gap > 0.0 && told.empty(); gap -= 0.02 * speed) {
+    speed = std::min(0.9, speed + 0.02 * 1.2);
+    now_.commanded.linear = now_.measured->linear = speed;
+    see();
+    told = pass(0.02);
+    if (!told.empty()) {
+      EXPECT_GE(gap / speed, 1.5);
+    }
+  }
+  EXPECT_EQ(told, Texts{"stop, shelf ahead"});
+}
+
+}  // namespace
+}  // namespace navvi_feedback::cues
