@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "cues/near_cues.hpp"
+#include "cues/near_words.hpp"
 #include "cues/problem.hpp"
 #include "cues/way_words.hpp"
 

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "cues/robot_motion.hpp"
+
 namespace navvi_feedback::cues {
 namespace {
-
-/// m/s and rad/s; slower counts as standing.
-constexpr double kMoving = 0.05;
 
 void add(Utterances& told, const Utterances& more) {
   told.insert(told.end(), more.begin(), more.end());

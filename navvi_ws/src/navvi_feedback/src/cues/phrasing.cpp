@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "cues/near_cues.hpp"
+#include "cues/near_words.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -27,11 +27,6 @@ bool muted(CueKind kind, const WordingConfig& wording) {
 }
 
 }  // namespace
-
-bool Phrasing::too_soon(CueKind kind, double time) const {
-  const auto last = last_said_.find(kind);
-  return last != last_said_.end() && time - last->second < traits(kind).min_interval;
-}
 
 /// As much of it as may be spoken at once.
 Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const {
@@ -85,7 +80,7 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
       last_text_[cue.text] = time;
       if (utterance.fillings.hour == 12) straight_said_ = time;
     }
-    last_said_[kind] = time;
+    last_said_.note(kind, time);
     cues.push_back(cue);
   }
   std::stable_sort(cues.begin(), cues.end(),
@@ -94,7 +89,7 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
 }
 
 void Phrasing::forget(const CueEvent& event) {
-  if (event.kind()) last_said_.erase(*event.kind());
+  if (event.kind()) last_said_.forget(*event.kind());
   last_text_.erase(event.text);
 }
 

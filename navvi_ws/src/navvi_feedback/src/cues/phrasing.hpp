@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cues/cue.hpp"
+#include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
 
@@ -25,7 +25,9 @@ class Phrasing {
   [[nodiscard]] std::vector<Cue> cues_of(const std::vector<Utterance>& utterances,
                                          const Situation& now, double time);
   /// One of this kind would not be said now.
-  [[nodiscard]] bool too_soon(CueKind kind, double time) const;
+  [[nodiscard]] bool too_soon(CueKind kind, double time) const {
+    return last_said_.too_soon(kind, time);
+  }
   /// s, when "straight ahead" was last said
   [[nodiscard]] double straight_said() const { return straight_said_; }
 
@@ -42,7 +44,7 @@ class Phrasing {
 
   Phrases phrases_;
   double same_text_;
-  std::map<CueKind, double> last_said_;      ///< s, by kind
+  LastSaid last_said_;
   std::map<std::string, double> last_text_;  ///< s, by text
   double straight_said_ = -1e9;              ///< s
 };

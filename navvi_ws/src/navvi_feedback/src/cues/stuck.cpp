@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cues/clock_face.hpp"
-#include "cues/near_cues.hpp"
+#include "cues/near_words.hpp"
 #include "cues/side.hpp"
 
 namespace navvi_feedback::cues {

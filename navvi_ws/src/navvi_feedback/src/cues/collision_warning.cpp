@@ -1,0 +1,106 @@
+#include "cues/collision_warning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cues/near_words.hpp"
+#include "cues/robot_motion.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s; a person who has not begun to turn by then has missed the corner.
+constexpr double kLastMoment = 1.0;
+/// s; that a thing comes is said again after so long at the earliest.
+constexpr double kComes = 10.0;
+/// s; a thing that was not about to be hit for so long is a new danger when it is.
+constexpr double kOver = 1.0;
+/// s to a collision; a person who has not kept off by then is to stop.
+constexpr double kTooLate = 0.7;
+/// s; what only turns past a robot that stands does not head for it for so long.
+constexpr double kTurns = 0.4;
+/// m/s, as a person begins to drive who was told to go on.
+constexpr double kGoesOn = 0.6;
+/// m, from a corner to what stands behind it.
+constexpr double kBehindCorner = 0.5;
+
+/// What the robot does, or is about to do.
+Velocity drives(const Situation& now) {
+  const Velocity measured = now.measured.value_or(Velocity{});
+  return std::abs(now.commanded.linear) > std::abs(measured.linear) ? now.commanded : measured;
+}
+
+}  // namespace
+
+std::optional<CollisionWarning::Warning> CollisionWarning::update(const Situation& now,
+                                                                  bool told_to_stop,
+                                                                  const LastSaid& said,
+                                                                  double time) {
+  forecast_.update(now.nearby, now.measured ? now.measured->linear : 0.0, time);
+  const std::optional<Danger> danger = soonest(now, time);
+  if (!danger) return std::nullopt;
+  const NearThing& thing = danger->thing;
+  const Side side = side_of_lane(thing.nearest);
+  const bool comes = thing.moving && !approaches(now, side);
+  const bool same = last_.of == thing.id && time - last_.time < kComes;
+  // A person who drives along a shelf is not told to stop for it again and again, but to keep off.
+  const Utterance keep_off =
+      near_words(close_kind(thing.thing_class), thing.thing_class, side, true);
+  const bool along = same && last_.stop && !thing.moving && side != Side::ahead &&
+                     danger->left > kTooLate && instead_of(keep_off, now.sounds);
+  const CueKind kind = comes   ? CueKind::obstacle_comes
+                       : along ? keep_off.kind
+                               : CueKind::obstacle_stop;
+  const bool lasts = same && last_.stop && !last_.keep_off && time - last_.danger < kOver;
+  if (same) last_.danger = time;
+  // News is another thing, one that comes after a danger that was over, or the way into it.
+  const bool came = comes && (told_to_stop || (same && !last_.stop));
+  if (said.too_soon(kind, time) || came || lasts) return std::nullopt;
+  last_ = {thing.id, time, time, !comes, along};
+  return Warning{along ? keep_off : near_words(kind, thing.thing_class, side, false), thing};
+}
+
+/// What will be hit first, if soon enough to be warned of.
+std::optional<CollisionWarning::Danger> CollisionWarning::soonest(const Situation& now,
+                                                                  double time) {
+  std::optional<Danger> first;
+  for (const NearThing& thing : now.nearby) {
+    if (thing.gap <= 0.0 || (stands(now) && !thing.moving)) continue;
+    const double left = forecast_.time_to_collision(thing, drives(now));
+    const double limit = stop_time(now, thing);
+    const bool steady = steadily(thing.id, left < limit + kTurns, time);
+    if (limit <= 0.0 || left > limit || (first && left >= first->left)) continue;
+    if (stands(now) && !steady) continue;
+    first = {thing, left};
+  }
+  return first;
+}
+
+/// s, the time to collision at which the word is to stop.
+double CollisionWarning::stop_time(const Situation& now, const NearThing& thing) const {
+  if (thing.moving) return config_.stop_moving;
+  const bool turns_off_before = now.guidance && now.guidance->is_followed() &&
+                                now.guidance->waypoint_distance < thing.gap + kBehindCorner;
+  return turns_off_before ? std::min(kLastMoment, config_.stop_standing) : config_.stop_standing;
+}
+
+/// \return whether it has headed for the robot for long enough
+bool CollisionWarning::steadily(std::uint32_t thing, bool heads, double time) {
+  if (!heads) headed_.erase(thing);
+  return heads && time - headed_.emplace(thing, time).first->second >= kTurns;
+}
+
+bool CollisionWarning::comes(const Situation& now, double time) const {
+  if (config_.stop_moving <= 0.0) return false;
+  const double steer = now.guidance ? now.guidance->steer_angle : 0.0;
+  const Eigen::Vector2d led = kGoesOn * Eigen::Vector2d(std::cos(steer), -std::sin(steer));
+  return std::any_of(now.nearby.begin(), now.nearby.end(), [&](const NearThing& thing) {
+    if (thing.gap <= 0.0) return false;
+    double left = forecast_.time_to_collision(thing, drives(now));
+    if (!thing.moving) return !stands(now) && left < config_.stop_standing + time;
+    if (stands(now)) left = std::min(left, forecast_.time_once_driven(thing, led));
+    return left < config_.stop_moving + time;
+  });
+}
+
+}  // namespace navvi_feedback::cues

@@ -1,0 +1,76 @@
+#include "cues/near_words.hpp"
+
+#include <algorithm>
+
+#include "cues/structure.hpp"
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// m, gap; what is farther is not around.
+constexpr double kAround = 3.0;
+
+}  // namespace
+
+sounds::Earcon earcon_of(ThingClass thing) {
+  using sounds::Earcon;
+  switch (thing) {
+    case ThingClass::shelf:
+    case ThingClass::wall:
+      return Earcon::shelf_near;
+    case ThingClass::worker:
+      return Earcon::worker_near;
+    case ThingClass::forklift:
+      return Earcon::forklift_near;
+    case ThingClass::pallet_robot:
+      return Earcon::pallet_robot_near;
+    default:
+      return Earcon::thing_near;
+  }
+}
+
+std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {
+  using sounds::Earcon;
+  if (!is_near(family_of(utterance.kind))) return std::nullopt;
+  const bool close = family_of(utterance.kind) == Family::close;
+  const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
+  const bool shelf = is_structure(thing);
+  if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;
+  const Earcon near = earcon_of(thing);
+  const auto earcon = close ? static_cast<Earcon>(static_cast<int>(near) + 1) : near;
+  return sounds::Play{earcon, direction_of(utterance.fillings.side.value_or(Side::ahead))};
+}
+
+Utterance around(const std::vector<NearThing>& nearby) {
+  const auto nearer = [](const NearThing* a, const NearThing* b) { return a->gap < b->gap; };
+  std::vector<const NearThing*> nearest;  // clockwise
+  for (const Side side : {Side::ahead, Side::right, Side::behind, Side::left}) {
+    const NearThing* best = nullptr;
+    for (const NearThing& thing : nearby)
+      if (thing.gap < kAround && side_of(thing.nearest) == side && (!best || nearer(&thing, best)))
+        best = &thing;
+    if (best) nearest.push_back(best);
+  }
+  if (nearest.empty()) return {CueKind::around_nothing};
+  std::rotate(nearest.begin(), std::min_element(nearest.begin(), nearest.end(), nearer),
+              nearest.end());
+  std::vector<Utterance> told;
+  for (const NearThing* thing : nearest) {
+    told.push_back({CueKind::around, {{}, {}, thing->thing_class, side_of(thing->nearest)}});
+    told.back().from = thing->nearest;
+  }
+  Utterance first = told.front();
+  first.also.assign(told.begin() + 1, told.end());
+  return first;
+}
+
+Utterance near_words(CueKind kind, ThingClass thing, Side side, bool urgent) {
+  return {kind, {{}, {}, thing, side}, urgent ? std::optional(Priority::message) : std::nullopt};
+}
+
+CueKind close_kind(ThingClass thing) {
+  if (thing == ThingClass::shelf) return CueKind::shelf_close;
+  return thing == ThingClass::wall ? CueKind::wall_close : CueKind::obstacle_close;
+}
+
+}  // namespace navvi_feedback::cues

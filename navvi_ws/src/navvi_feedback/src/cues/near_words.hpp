@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cues/phrases.hpp"
+#include "cues/situation.hpp"
+#include "navvi_feedback/sounds/earcon.hpp"
+
+namespace navvi_feedback::cues {
+
+/// The sound of what is near.
+[[nodiscard]] sounds::Earcon earcon_of(ThingClass thing);
+
+/// What is heard instead of such words, where sounds do their work.
+[[nodiscard]] std::optional<sounds::Play> instead_of(const Utterance& utterance,
+                                                     const Sounds& sounds);
+
+/// What is around: the nearest thing on each side, the nearest of all first, then clockwise, each
+/// with where it is, for a person who asks.
+[[nodiscard]] Utterance around(const std::vector<NearThing>& nearby);
+
+/// Words about a thing on a side. \param urgent  the robot drives at it
+[[nodiscard]] Utterance near_words(CueKind kind, ThingClass thing, Side side, bool urgent);
+/// The kind that tells of a thing that is all but touched.
+[[nodiscard]] CueKind close_kind(ThingClass thing);
+
+}  // namespace navvi_feedback::cues
