@@ -53,9 +53,9 @@ TEST_F(LegTest, has_another_route_as_news_only_where_the_hour_changes_and_after_
   EXPECT_EQ(leg_.news, News::other_route);
   advance(way(0.0, 1.0, 100.0));
   advance(way(10.0, 8.0));
-  EXPECT_EQ(leg_.news, News::corner);
+  EXPECT_EQ(leg_.news, News::told_corner) << "the same turn is at the other corner";
   advance(way(0.0, 8.0, 100.0));
-  EXPECT_EQ(leg_.news, News::corner) << "that is told first";
+  EXPECT_EQ(leg_.news, News::told_corner) << "that is told first";
 }
 
 TEST_F(LegTest, takes_a_new_plan_just_before_a_corner_for_another_route) {
