@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "cues/clock_face.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "cues/collision_forecast.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -1,4 +1,4 @@
-#include "navvi_feedback/cues/cue_config.hpp"
+#include "cues/cue_config.hpp"
 
 #include <gtest/gtest.h>
 

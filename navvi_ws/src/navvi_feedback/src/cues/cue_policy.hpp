@@ -4,6 +4,7 @@
 
 #include "cues/answers.hpp"
 #include "cues/collision_cues.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/halt.hpp"
 #include "cues/held_stick.hpp"
 #include "cues/link_cues.hpp"
@@ -15,7 +16,6 @@
 #include "cues/state_cues.hpp"
 #include "cues/stuck.hpp"
 #include "cues/tick.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

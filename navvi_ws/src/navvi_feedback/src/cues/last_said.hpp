@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "navvi_feedback/cues/cue.hpp"
+#include "cues/cue.hpp"
 
 namespace navvi_feedback::cues {
 

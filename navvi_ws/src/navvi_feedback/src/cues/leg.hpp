@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "cues/cue_config.hpp"
 #include "cues/situation.hpp"
 #include "cues/stray.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

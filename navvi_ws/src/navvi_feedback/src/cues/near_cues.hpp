@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "cues/collision_warning.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "cues/bearing.hpp"
+#include "cues/cue_config.hpp"
 #include "cues/leg.hpp"
 #include "cues/phrases.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "cues/cue_config.hpp"
 #include "cues/phrasing.hpp"
 #include "cues/tick.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "cues/cue_config.hpp"
 #include "cues/situation.hpp"
-#include "navvi_feedback/cues/cue_config.hpp"
 
 namespace navvi_feedback::cues {
 
