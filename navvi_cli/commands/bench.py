@@ -13,7 +13,7 @@ trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]
 with --csv a table for a program. --trace prints what happens second by second,
 between FROM and TO (s). --sensing gives guidance and feedback what a lidar, or
 a lidar and a depth camera (robot), show of the world. PART is sim, nav,
-feedback, operator or perception, with the parameters of its node, such as
+feedback, person or perception, with the parameters of its node, such as
 nav/replan/hold_time:=3 or sim/goal:=3,4.
 
 Exit codes

@@ -35,7 +35,7 @@ constexpr const char* kUsage =
     "             [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
     "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
-    "A part is sim, nav, feedback, operator or perception, with the names of its node's "
+    "A part is sim, nav, feedback, person or perception, with the names of its node's "
     "parameters, such as\n"
     "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
 

@@ -25,6 +25,7 @@ GuideConfig& GuideConfig::operator=(const GuideConfig& other) {
 GuideConfig::~GuideConfig() = default;
 
 void GuideConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
+bool GuideConfig::has_sounds() const { return values_->sounds.enabled; }
 
 struct Guide::Parts {
   Parts(const core::FeedbackConfig& config, const std::filesystem::path& phrases)

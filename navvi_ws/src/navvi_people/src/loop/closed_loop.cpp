@@ -28,8 +28,9 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
   visit.group("sim", sim);
   visit.group("nav", nav);
   visit.group("feedback", feedback);
-  visit.group("operator", person);
+  visit.group("person", person);
   visit.group("perception", perception);
+  visit(speech, "speech", navvi_config::Any{}, "", "false: nothing is spoken");
 }
 
 ClosedLoop::Setting::Setting(const ClosedLoopConfig& config)
@@ -50,7 +51,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
       gate_(config.sim.gate),
       navigation_(config.nav),
       guide_(config.feedback, phrases),
-      person_(config.person, static_cast<std::uint64_t>(config.sim.seed), phrases) {
+      person_(config.person, phrases) {
   if (!setting_.senses)
     navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
 }
@@ -143,11 +144,14 @@ void ClosedLoop::feed_back() {
   if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand_, stamp())))
     devices.hands = *hands;
   devices.speaking = time() < speaks_until_;
+  devices.words = config_.speech;
+  const bool heard = config_.speech || config_.feedback.has_sounds();
+  devices.audio = heard ? navvi_feedback::cues::Link::alive : navvi_feedback::cues::Link::never;
   devices.robot = node::from_msg(pose());
   const auto told = guide_.update(devices, time());
   if (!told) return;
   if (told->command) gate_.receive(node::from_msg(node::to_msg(*told->command)), instant());
-  if (told->rumble_due) person_.feel(told->rumble.left, told->rumble.right, time());
+  if (told->rumble_due) person_.feel({told->rumble.left, told->rumble.right}, time());
   if (told->voice.stop) speaks_until_ = time();
   if (told->voice.start) {
     const auto length = static_cast<double>(told->voice.start->size());
@@ -164,7 +168,8 @@ void ClosedLoop::feed_back() {
 
 void ClosedLoop::operate() {
   for (const navvi_msgs::Cue& cue : published_.cues)
-    if (const auto heard = node::from_msg(cue)) person_.hear(*heard, time());
+    if (const auto event = node::from_msg(cue))
+      if (const auto heard = people::heard(*event)) person_.hear(*heard, time());
   hand_ = person_.update(time(), 1.0 / kFeedbackRate);
 }
 

@@ -17,14 +17,12 @@
 namespace {
 
 struct NodeConfig {
-  int seed = 0;
   double rate = 50.0;
-  navvi_people::people::SimulatedOperatorConfig hand;
+  navvi_people::people::SimulatedOperatorConfig person;
 
   void describe(navvi_config::Visitor& visit) {
-    visit(seed, "seed", navvi_config::Range{0, 2147483647}, "", "of reaction times and errors");
     visit(rate, "rate", navvi_config::Range{10, 200}, "Hz", "of joy messages");
-    visit.group("operator", hand);
+    visit.group("person", person);
   }
 };
 
@@ -43,14 +41,14 @@ int main(int argc, char** argv) {
     if (phrases.empty())
       phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/" +
                 ros::param::param<std::string>(feedback + "/language", "en") + ".yaml";
-    navvi_people::people::SimulatedOperator person(
-        config.hand, static_cast<std::uint64_t>(config.seed), phrases);
+    navvi_people::people::SimulatedOperator person(config.person, phrases);
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);
     const ros::Subscriber cues = navvi_types::subscribe<navvi_msgs::Cue>(
-        node, "navvi/cues", 100, navvi_types::from_msg,
-        [&](const navvi_types::CueEvent& cue) { person.hear(cue, now()); });
+        node, "navvi/cues", 100, navvi_types::from_msg, [&](const navvi_types::CueEvent& cue) {
+          if (const auto heard = navvi_people::people::heard(cue)) person.hear(*heard, now());
+        });
     ros::Subscriber rumble = node.subscribe<sensor_msgs::JoyFeedbackArray>(
         "joy/set_feedback", 10, [&](const sensor_msgs::JoyFeedbackArray::ConstPtr& msg) {
           for (const auto& motor : msg->array) {
@@ -58,7 +56,7 @@ int main(int argc, char** argv) {
             if (!std::isfinite(motor.intensity)) continue;
             (motor.id == 0 ? left : right) = std::clamp<double>(motor.intensity, 0.0, 1.0);
           }
-          person.feel(left, right, now());
+          person.feel({left, right}, now());
         });
     // The timer beats by the wall clock, but a turn is as long as the world's time says, also where
     // a busy machine slows the world down.

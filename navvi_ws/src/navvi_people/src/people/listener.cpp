@@ -2,111 +2,176 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cctype>
 #include <navvi_config/reader.hpp>
-#include <regex>
-#include <set>
 
 namespace navvi_people::people {
 namespace {
 
 constexpr double kFoot = 0.3048;  // m
 
-std::string literal(const std::string& text) {
-  static const std::regex special(R"([.^$|()\[\]{}*+?\\])");
-  return std::regex_replace(text, special, R"(\$&)");
+std::string first_of(const std::string& text) {
+  return text.substr(0, std::min(text.find_first_of(" ,"), text.size()));
 }
 
-}  // namespace
-
-Listener::Listener(const std::filesystem::path& phrases) {
-  const YAML::Node root = navvi_config::load_yaml(phrases);
-  for (const char* section : {"phrases", "again", "clock", "brief", "full"})
-    for (const auto& item : root[section])
-      if (const auto kind = navvi_types::from_word<CueKind>(item.first.Scalar()))
-        phrases_.emplace(*kind, item.second.Scalar());
-  for (const auto& item : root["words"])
-    words_.emplace_back(item.second.Scalar(), item.first.Scalar());
-  const auto go_on = phrases_.find(CueKind::go_on);
-  if (go_on != phrases_.end()) go_on_ = go_on->second;
+bool starts(std::string_view text, std::string_view with) {
+  return text.substr(0, with.size()) == with;
 }
 
-std::vector<Instruction> Listener::understand(std::optional<CueKind> kind,
-                                              const std::string& text) const {
-  std::vector<Instruction> heard;
-  if (kind) {
-    (void)parse(*kind, text, heard);
-    return heard;
-  }
-  for (auto known = phrases_.begin(); known != phrases_.end();
-       known = phrases_.upper_bound(known->first))
-    if (heard.clear(); parse(known->first, text, heard) && heard.front().asks != Ask::nothing)
-      break;
-  return heard;
+/// Letters of a number such as 12 or 1.5 at the beginning.
+std::size_t digits(std::string_view text) {
+  const auto run = [&](std::size_t at) {
+    while (at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0) ++at;
+    return at;
+  };
+  const std::size_t whole = run(0);
+  if (whole == 0 || whole >= text.size() || text[whole] != '.') return whole;
+  const std::size_t all = run(whole + 1);
+  return all > whole + 1 ? all : whole;
 }
 
-bool Listener::startles(CueKind kind, const std::string& text, double letters) const {
-  using Family = navvi_types::CueFamily;
-  const Family family = family_of(kind);
-  const bool stops = family == Family::halt || family == Family::hit || family == Family::stuck;
-  return stops && letters >= static_cast<double>(std::min(text.find_first_of(" ,"), text.size()));
+/// What a word, by its key, adds.
+void fill(Instruction& told, const std::string& placeholder, const std::string& key,
+          std::string_view number) {
+  using Side = Instruction::Side;
+  static const std::map<std::string, Side> sides = {{"ahead", Side::ahead},
+                                                    {"left", Side::left},
+                                                    {"behind", Side::behind},
+                                                    {"right", Side::right}};
+  const std::string end = key.substr(key.rfind('_') + 1);
+  if (placeholder == "direction" || placeholder == "way") told.hour = std::stoi(end);
+  if (placeholder == "side" || placeholder == "where") told.side = sides.at(end);
+  if (placeholder == "distance")
+    told.distance = std::stod(std::string(number)) * (key.front() == 'f' ? kFoot : 1.0);
 }
 
-bool Listener::parse(CueKind kind, const std::string& text, std::vector<Instruction>& heard) const {
-  const std::string go_on = go_on_ + ", ";
-  const bool goes_on = text.rfind(go_on, 0) == 0;
-  const std::string told = goes_on ? text.substr(go_on.size()) : text;
-  const auto [begin, end] = phrases_.equal_range(kind);
-  const bool known = std::any_of(
-      begin, end, [&](const auto& phrase) { return parse(kind, phrase.second, told, heard); });
-  if (known && goes_on) heard.front().goes_on = true;
-  return known;
-}
-
-bool Listener::parse(CueKind kind, const std::string& phrase, const std::string& text,
-                     std::vector<Instruction>& heard) const {
-  static const std::regex placeholder(R"(\{(\w+)\})");
-  std::string pattern;
-  std::vector<std::string> slots;
-  std::size_t at = 0;
-  for (std::sregex_iterator slot(phrase.begin(), phrase.end(), placeholder), none; slot != none;
-       ++slot) {
-    const auto begin = static_cast<std::size_t>(slot->position());
-    pattern += literal(phrase.substr(at, begin - at));
-    at = begin + static_cast<std::size_t>(slot->length());
-    slots.push_back((*slot)[1]);
-    const bool numbered = slots.back() == "distance";
-    pattern += numbered ? R"((\d+(?:\.\d+)?) ()" : "()(";
-    const char* bar = "";
-    for (const auto& [word, key] : possible(slots.back())) {
-      pattern += bar + literal(word);
-      bar = "|";
-    }
-    pattern += slots.back() == "place" ? R"()(?: \d+)?)" : ")";
-  }
-  pattern += literal(phrase.substr(at)) + "(?:, (.*))?";
-  std::smatch match;
-  if (!std::regex_match(text, match, std::regex(pattern))) return false;
-  Instruction told;
+/// What its kind makes of it.
+void conclude(Instruction& told, CueKind kind) {
   told.asks = traits(kind).ask;
-  for (std::size_t i = 0; i < slots.size(); ++i)
-    fill(told, slots[i], match[2 * i + 2], match[2 * i + 1]);
   told.slight = kind == CueKind::slight;
   told.very_close = family_of(kind) == navvi_types::CueFamily::close;
+  told.holds = family_of(kind) == navvi_types::CueFamily::halt;
   if (told.slight) told.hour = told.side == Instruction::Side::left ? 11 : 1;
   if (told.asks == Ask::turn && told.hour == 12) told.asks = Ask::go;
   // What comes after it is told again at the corner.
   if (told.asks == Ask::go) told.hour = 12;
-  std::vector<Instruction> parts = {told};
-  const std::string rest = match[match.size() - 1];
+}
+
+}  // namespace
+
+Instruction mirrored(Instruction told) {
+  using Side = Instruction::Side;
+  told.hour = told.hour == 12 ? 12 : 12 - told.hour;
+  if (told.side == Side::left || told.side == Side::right)
+    told.side = told.side == Side::left ? Side::right : Side::left;
+  return told;
+}
+
+Listener::Listener(const std::filesystem::path& phrases) {
+  using Family = navvi_types::CueFamily;
+  const YAML::Node root = navvi_config::load_yaml(phrases);
+  for (const auto& item : root["words"])
+    words_.emplace_back(item.second.Scalar(), item.first.Scalar());
+  for (const char* section : {"phrases", "again", "clock", "brief", "full"})
+    for (const auto& item : root[section]) {
+      const auto kind = navvi_types::from_word<CueKind>(item.first.Scalar());
+      if (!kind) continue;
+      const std::string text = item.second.Scalar();
+      add(*kind, text);
+      const Family family = family_of(*kind);
+      if (family == Family::halt) holding_.insert(first_of(text));
+      if (family == Family::halt || family == Family::hit || family == Family::stuck)
+        startling_.insert(first_of(text));
+      if (*kind == CueKind::go_on && go_on_.empty()) go_on_ = text;
+    }
+}
+
+void Listener::add(CueKind kind, const std::string& phrase) {
+  Phrase made{kind, {}};
+  std::size_t at = 0;
+  while (at < phrase.size()) {
+    const std::size_t open = std::min(phrase.find('{', at), phrase.size());
+    if (open > at) made.pieces.push_back({phrase.substr(at, open - at), {}, {}});
+    if (open == phrase.size()) break;
+    const std::size_t close = phrase.find('}', open);
+    const std::string slot = phrase.substr(open + 1, close - open - 1);
+    made.pieces.push_back({{}, slot, possible(slot)});
+    at = close + 1;
+  }
+  phrases_[kind].push_back(std::move(made));
+}
+
+std::vector<Instruction> Listener::understand(CueKind kind, const std::string& text) const {
+  std::vector<Instruction> heard;
+  (void)parse(kind, text, heard);
+  return heard;
+}
+
+std::vector<Instruction> Listener::understand(const std::string& text) const {
+  std::vector<Instruction> heard;
+  for (const auto& [kind, phrases] : phrases_)
+    if (traits(kind).ask != Ask::nothing && parse(kind, text, heard)) break;
+  return heard;
+}
+
+Listener::FirstWord Listener::first_word(const std::string& text, double letters) const {
+  const std::string word = first_of(text);
+  if (letters < static_cast<double>(word.size())) return {};
+  return {startling_.count(word) > 0, holding_.count(word) > 0};
+}
+
+bool Listener::parse(CueKind kind, std::string_view text, std::vector<Instruction>& heard) const {
+  const std::string go_on = go_on_ + ", ";
+  const bool goes_on = starts(text, go_on);
+  const std::string_view told = goes_on ? text.substr(go_on.size()) : text;
+  const auto phrases = phrases_.find(kind);
+  if (phrases == phrases_.end()) return false;
+  const bool known = std::any_of(phrases->second.begin(), phrases->second.end(),
+                                 [&](const Phrase& phrase) { return parse(phrase, told, heard); });
+  if (known && goes_on) heard.front().goes_on = true;
+  return known;
+}
+
+bool Listener::parse(const Phrase& phrase, std::string_view text,
+                     std::vector<Instruction>& heard) const {
+  return match(phrase, 0, text, {}, heard);
+}
+
+bool Listener::match(const Phrase& phrase, std::size_t piece, std::string_view text,
+                     Instruction told, std::vector<Instruction>& heard) const {
+  if (piece == phrase.pieces.size()) {
+    conclude(told, phrase.kind);
+    std::vector<Instruction> parts = {told};
+    if (!text.empty() && !(starts(text, ", ") && follow_up(text.substr(2), parts))) return false;
+    heard.insert(heard.end(), parts.begin(), parts.end());
+    return true;
+  }
+  const Piece& next = phrase.pieces[piece];
+  if (next.slot.empty())
+    return starts(text, next.literal) &&
+           match(phrase, piece + 1, text.substr(next.literal.size()), told, heard);
+  const std::size_t number = next.slot == "distance" ? digits(text) : 0;
+  if (next.slot == "distance" && (number == 0 || text.substr(number, 1) != " ")) return false;
+  const std::string_view words = number > 0 ? text.substr(number + 1) : text;
+  return std::any_of(next.words.begin(), next.words.end(), [&](const auto& word) {
+    if (!starts(words, word.first)) return false;
+    std::string_view rest = words.substr(word.first.size());
+    if (next.slot == "place" && starts(rest, " ")) {
+      const std::size_t length = digits(rest.substr(1));
+      if (length > 0) rest = rest.substr(1 + length);
+    }
+    Instruction more = told;
+    fill(more, next.slot, word.second, text.substr(0, number));
+    return match(phrase, piece + 1, rest, more, heard);
+  });
+}
+
+bool Listener::follow_up(std::string_view rest, std::vector<Instruction>& heard) const {
   static constexpr std::array kWay = {
       CueKind::direction, CueKind::slight,    CueKind::straight,          CueKind::turn_ahead,
       CueKind::around,    CueKind::goal_info, CueKind::goal_info_distance};
-  const bool known = rest.empty() || std::any_of(kWay.begin(), kWay.end(), [&](CueKind more) {
-                       return parse(more, rest, parts);
-                     });
-  if (known) heard.insert(heard.end(), parts.begin(), parts.end());
-  return known;
+  return std::any_of(kWay.begin(), kWay.end(),
+                     [&](CueKind more) { return parse(more, rest, heard); });
 }
 
 Listener::Words Listener::possible(const std::string& placeholder) const {
@@ -128,25 +193,6 @@ Listener::Words Listener::possible(const std::string& placeholder) const {
     if (fits) words.emplace_back(word, key);
   }
   return words;
-}
-
-void Listener::fill(Instruction& told, const std::string& placeholder, const std::string& word,
-                    const std::string& number) const {
-  using Side = Instruction::Side;
-  static const std::map<std::string, Side> sides = {{"ahead", Side::ahead},
-                                                    {"left", Side::left},
-                                                    {"behind", Side::behind},
-                                                    {"right", Side::right}};
-  const Words words = possible(placeholder);
-  const auto known = std::find_if(words.begin(), words.end(),
-                                  [&](const auto& entry) { return entry.first == word; });
-  if (known == words.end()) return;
-  const std::string& key = known->second;
-  const std::string end = key.substr(key.rfind('_') + 1);
-  if (placeholder == "direction" || placeholder == "way") told.hour = std::stoi(end);
-  if (placeholder == "side" || placeholder == "where") told.side = sides.at(end);
-  if (placeholder == "distance")
-    told.distance = std::stod(number) * (key.front() == 'f' ? kFoot : 1.0);
 }
 
 }  // namespace navvi_people::people

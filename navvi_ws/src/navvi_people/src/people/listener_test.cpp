@@ -7,7 +7,7 @@ namespace {
 
 TEST(Listener, understands_the_sentences_of_the_voice) {
   const auto understand = [listener = Listener(NAVVI_PHRASES)](const std::string& text) {
-    const auto parts = listener.understand(std::nullopt, text);
+    const auto parts = listener.understand(text);
     return parts.empty() ? Instruction{} : parts.front();
   };
   const std::vector<std::pair<const char*, Ask>> sentences = {
@@ -96,9 +96,37 @@ TEST(Listener, speaks_spanish) {
 
 TEST(Listener, lets_go_at_the_first_word_of_what_startles) {
   const Listener listener(NAVVI_PHRASES);
-  EXPECT_FALSE(listener.startles(CueKind::obstacle_stop, "stop, worker ahead", 3.0));
-  EXPECT_TRUE(listener.startles(CueKind::obstacle_stop, "stop, worker ahead", 4.0));
-  EXPECT_FALSE(listener.startles(CueKind::obstacle_near, "worker ahead", 10.0));
+  EXPECT_FALSE(listener.first_word("stop, worker ahead", 3.0).startles);
+  EXPECT_TRUE(listener.first_word("stop, worker ahead", 4.0).startles);
+  EXPECT_TRUE(listener.first_word("stop, worker ahead", 4.0).holds);
+  EXPECT_TRUE(listener.first_word("hit a shelf ahead", 10.0).startles);
+  EXPECT_FALSE(listener.first_word("hit a shelf ahead", 10.0).holds);
+  EXPECT_FALSE(listener.first_word("worker ahead", 10.0).startles);
+}
+
+TEST(Listener, makes_the_same_of_words_alone_as_of_words_whose_kind_it_knows) {
+  const Listener listener(NAVVI_PHRASES);
+  const std::vector<std::pair<CueKind, const char*>> sentences = {
+      {CueKind::direction, "2 o'clock, 5 meters"},
+      {CueKind::obstacle_stop, "stop, worker ahead"},
+      {CueKind::blocked, "wait, pallet robot in the way"},
+      {CueKind::shelf_close, "shelf very close, on the left"},
+      {CueKind::collision_wall, "hit again, wall ahead"},
+      {CueKind::slight, "more to the left, 3 meters"},
+      {CueKind::around, "shelf left"},
+      {CueKind::goal_info, "goal 18 meters, 10 o'clock"}};
+  for (const auto& [kind, text] : sentences) {
+    const auto known = listener.understand(kind, text);
+    const auto alone = listener.understand(text);
+    ASSERT_FALSE(known.empty()) << text;
+    const Instruction first = alone.empty() ? Instruction{} : alone.front();
+    EXPECT_EQ(first.asks, known.front().asks) << text;
+    EXPECT_EQ(first.very_close, known.front().very_close) << text;
+    EXPECT_EQ(first.holds, known.front().holds) << text;
+    if (alone.empty()) continue;
+    EXPECT_EQ(first.hour, known.front().hour) << text;
+    EXPECT_EQ(first.side, known.front().side) << text;
+  }
 }
 
 }  // namespace

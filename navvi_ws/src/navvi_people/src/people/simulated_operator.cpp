@@ -5,24 +5,29 @@
 #include <cmath>
 #include <cstdio>
 
+#include "navvi_people/people/traits.hpp"
+
 namespace navvi_people::people {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kNeutralAtStart = 1.0;      // s
-constexpr double kPress = 0.15;              // s, a button is held
-constexpr double kSameBump = 15.0;           // s
-constexpr double kBackOff = 0.7;             // s
-constexpr double kCareful = 5.0;             // s, one goes slowly after hearing of something near
-constexpr double kCharactersPerSecond = 14;  // at which a sentence without an end is over
-constexpr double kNearTheEnd = 1.5;          // m to where one expects to stop
-constexpr double kListenFirst = 2.5;         // m, likewise
-constexpr double kOneSided = 0.8;            // of one motor over the other: very near at a side
-constexpr double kTicksOver = 1.2;           // s; ticks that paused for so long are over
-constexpr double kMuchForce = 0.6;           // of the motor that attracts: much is left to turn
-constexpr double kSlowTicks = 0.28;          // s, between two: much is left to turn
-constexpr std::uint64_t kEar = 0x9e3779b97f4a7c15;  // so that the ear draws numbers of its own
-constexpr double kBlindTurn = 3.0;  // m to drive after "turn now", which has no distance
+constexpr double kNeutralAtStart = 1.0;   // s
+constexpr double kPress = 0.15;           // s, a button is held
+constexpr double kSameBump = 15.0;        // s
+constexpr double kBackOff = 0.7;          // s
+constexpr double kCareful = 5.0;          // s, one goes slowly after hearing of something near
+constexpr double kLettersPerSecond = 14;  // at which a sentence without an end is over
+constexpr double kNearTheEnd = 1.5;       // m to where one expects to stop
+constexpr double kListenFirst = 2.5;      // m, likewise
+constexpr double kOneSided = 0.8;         // of one motor over the other: very near at a side
+constexpr double kTicksOver = 1.2;        // s; ticks that paused for so long are over
+constexpr double kMuchForce = 0.6;        // of the motor that attracts: much is left to turn
+constexpr double kSlowTicks = 0.28;       // s, between two: much is left to turn
+constexpr double kShortly = 5.0;          // s; what is told after a turn is the rest of it
+constexpr double kLeansAway = 0.07;       // rad, from what is felt at a side
+constexpr double kTriesAfter = 1.0;       // s, without an answer
+constexpr double kStartled = 0.4;         // s, from a word to the hand
+constexpr double kBlindTurn = 3.0;        // m to drive after "turn now", which has no distance
 
 /// rad, clockwise, to an hour on the clock face.
 /// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
@@ -35,87 +40,98 @@ double angle_of(int hour, bool slight, bool from_straight) {
   return angle > kPi + 1e-9 ? angle - 2.0 * kPi : angle;
 }
 
-/// nullopt where the words alone tell what they are.
-std::optional<CueKind> label(CueKind kind) {
-  return kind == CueKind::lesson ? std::nullopt : std::optional(kind);
+/// Each part draws numbers of its own, so that none shifts those of another.
+std::uint64_t stream(const SimulatedOperatorConfig& config, std::uint64_t part) {
+  Random mix((static_cast<std::uint64_t>(config.seed) << 8U) + part);
+  return mix.next();
+}
+
+HearingConfig practised(HearingConfig config, double factor) {
+  config.word_reaction *= factor;
+  config.sound_reaction *= factor;
+  return config;
+}
+
+TurningConfig practised(TurningConfig config, double factor) {
+  config.over_slight *= factor;
+  config.over_ample *= factor;
+  config.stop_delay *= factor;
+  return config;
+}
+
+FeelingConfig practised(FeelingConfig config, double factor) {
+  config.delay *= factor;
+  return config;
 }
 
 }  // namespace
 
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(min_reaction, "min_reaction", Range{0.0, 5.0}, "s",
-        "quickest from the end of a sentence to the hand");
-  visit(max_reaction, "max_reaction", Range{0.0, 5.0}, "s", "slowest; not below min_reaction");
-  visit(turn_rate, "turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick");
-  visit(full_speed, "full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick");
-  visit(dead_zone, "dead_zone", Range{0.0, 0.5}, "", "believed, of the stick");
-  visit(expo, "expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic");
-  visit(gain_error, "gain_error", Range{0.0, 0.5}, "",
-        "standard deviation of how wrong these beliefs are");
-  visit(turn_error, "turn_error", Range{0.0, 1.0}, "rad", "standard deviation of each turn");
-  visit(cruise, "cruise", Range{0.05, 1.0}, "", "stick on a straight way");
-  visit(slow, "slow", Range{0.05, 1.0}, "", "stick when something is near");
-  visit(patience, "patience", Range{1.0, 60.0}, "s", "of silence while driving before asking");
-  visit(idle_patience, "idle_patience", Range{0.5, 60.0}, "s",
-        "of silence while waiting before asking");
-  visit(strong_rumble, "strong_rumble", Range{0.0, 1.0}, "",
-        "motors above this on both sides slow the hand");
-  visit(touch, "touch", navvi_config::OneOf{{"repulsive", "attractive"}}, "",
-        "what the person was told that a motor means, as feedback/haptics/steer");
-  visit(min_sound_reaction, "min_sound_reaction", Range{0.0, 2.0}, "s",
-        "of the quickest person, from a short sound to the hand; assumed");
-  visit(max_sound_reaction, "max_sound_reaction", Range{0.0, 2.0}, "s", "of the slowest; assumed");
-  visit(missed_sounds, "missed_sounds", Range{0.0, 1.0}, "", "share of short sounds; assumed");
-  visit(trust, "trust", Range{1.0, 100.0}, "m",
+  const std::string type_before = type;
+  const int seed_before = seed;
+  visit(seed, "seed", navvi_config::Range{0, 2147483647}, "", "of what the person does");
+  visit(type, "type", navvi_config::OneOf{person_types()}, "",
+        "sets the traits of doc/people.md; drawn: from the seed");
+  // What is set besides is laid over the type.
+  if (type != type_before || (type == "drawn" && seed != seed_before)) become(*this, type, seed);
+  visit.group("hearing", hearing);
+  visit.group("turning", turning);
+  visit.group("driving", driving);
+  visit.group("feeling", feeling);
+  visit.group("memory", memory);
+  visit.group("attention", attention);
+  visit.group("learning", learning);
+  visit(trust, "trust", navvi_config::Range{1.0, 100.0}, "m",
         "driven on without a word after a turn that a sound has ended; assumed");
   visit(obeys, "obeys", navvi_config::Any{}, "",
         "true: after \"stop\" and \"wait\" nothing but \"go on\" moves the hand, as is taught");
 }
 
-SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, std::uint64_t seed,
+SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
                                      const std::filesystem::path& phrases)
-    : config_(config), listener_(phrases), random_(seed), ear_random_(seed ^ kEar) {
-  const double share = std::uniform_real_distribution<double>(0.0, 1.0)(ear_random_);
-  sound_reaction_ = config_.min_sound_reaction +
-                    share * std::max(0.0, config_.max_sound_reaction - config_.min_sound_reaction);
-  std::normal_distribution<double> error(0.0, config_.gain_error);
-  turn_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
-  speed_gain_ = 1.0 + std::clamp(error(random_), -0.3, 0.3);
+    : config_(config),
+      listener_(phrases),
+      learning_(config.learning),
+      hearing_(practised(config.hearing, learning_.factor()), stream(config, 1)),
+      turning_(practised(config.turning, learning_.factor()), stream(config, 2)),
+      driving_(config.driving, stream(config, 3)),
+      feeling_(practised(config.feeling, learning_.factor()), stream(config, 4)),
+      memory_(config.memory, stream(config, 5)),
+      attention_(config.attention, stream(config, 6)) {}
+
+void SimulatedOperator::hear(const Heard& heard, double time) {
+  if (const auto* const sound = std::get_if<Sound>(&heard))
+    hear_sound(*sound, time);
+  else
+    hear_words(std::get<Speech>(heard), time);
 }
 
-void SimulatedOperator::hear(const CueEvent& cue, double time) {
-  using navvi_types::CueStage;
-  if (const auto* const earcon = std::get_if<Earcon>(&cue.what))
-    return hear_sound(*earcon, cue.left, cue.right, time);
-  const auto* const spoken = std::get_if<navvi_types::Spoken>(&cue.what);
-  if (spoken == nullptr) return;
-  if (cue.stage == CueStage::started) {
-    hearing_[cue.id] = {spoken->kind, cue.text, heading_, odometer_, time, time};
-  } else if (cue.stage == CueStage::cut) {
-    hearing_.erase(cue.id);
-  } else if (cue.stage == CueStage::ended) {
-    understood(cue.id, time);
+void SimulatedOperator::hear_words(const Speech& speech, double time) {
+  if (!config_.hearing.words) return;
+  switch (speech.moment) {
+    case Speech::Moment::begins:
+      spoken_to_ = true;
+      sentences_[speech.id] = {speech.text, heading_, odometer_, time, time};
+      return;
+    case Speech::Moment::breaks_off:
+      sentences_.erase(speech.id);
+      return;
+    case Speech::Moment::ends:
+      return understood(speech.id, time);
   }
 }
 
-void SimulatedOperator::hear_sound(Earcon earcon, double left, double right, double time) {
-  using Side = Instruction::Side;
-  if (std::uniform_real_distribution<double>(0.0, 1.0)(ear_random_) < config_.missed_sounds) return;
-  const double lean = left - right;
-  const bool aside = std::abs(lean) > 0.3 * (left + right);
-  heard_.push_back({earcon,
-                    !aside       ? Side::ahead
-                    : lean > 0.0 ? Side::left
-                                 : Side::right,
-                    time + sound_reaction_});
+void SimulatedOperator::hear_sound(const Sound& sound, double time) {
+  const auto tone = hearing_.sound(sound, !sentences_.empty(), time);
+  if (!tone || attention_.elsewhere(time)) return;
+  tones_.push_back({sound.earcon, tone->side, time + tone->reaction});
 }
 
-void SimulatedOperator::follow(const Heard& sound, double time) {
-  switch (sound.earcon) {
+void SimulatedOperator::follow(const Tone& tone, double time) {
+  switch (tone.earcon) {
     case Earcon::turn:
     case Earcon::turn_click:
-      return follow_tick(sound, time);
+      return follow_tick(tone, time);
     case Earcon::on_course:
       last_news_ = time;
       stop_at_ = std::max(stop_at_, odometer_ + 0.5 * config_.trust);
@@ -131,13 +147,13 @@ void SimulatedOperator::follow(const Heard& sound, double time) {
     case Earcon::forklift_near:
     case Earcon::pallet_robot_near:
     case Earcon::thing_near:
-      return shy_away({Ask::beware, 12, {}, sound.side}, time);
+      return shy_away({Ask::beware, 12, {}, tone.side}, time);
     case Earcon::shelf_close:
     case Earcon::worker_close:
     case Earcon::forklift_close:
     case Earcon::pallet_robot_close:
     case Earcon::thing_close:
-      return shy_away({Ask::beware, 12, {}, sound.side, true}, time);
+      return shy_away({Ask::beware, 12, {}, tone.side, true}, time);
     case Earcon::arrived:
     case Earcon::beacon:
     case Earcon::sonar:
@@ -145,7 +161,7 @@ void SimulatedOperator::follow(const Heard& sound, double time) {
   }
 }
 
-void SimulatedOperator::follow_tick(const Heard& tick, double time) {
+void SimulatedOperator::follow_tick(const Tone& tick, double time) {
   last_news_ = time;
   const bool same = ticks_ && ticks_->side == tick.side;
   const bool slow = !same || time - ticks_->last > kSlowTicks;
@@ -161,7 +177,7 @@ void SimulatedOperator::stop_turn(double time) {
   target_ = heading_;
   straight_before_ = true;
   stop_at_ = std::max(stop_at_, odometer_ + config_.trust);
-  speed_ = config_.cruise;
+  speed_ = config_.driving.cruise;
 }
 
 /// A large turn is made on the spot, a small one on the way.
@@ -171,60 +187,102 @@ StickAndButtons SimulatedOperator::turn_by_ear(double time) const {
   const bool large = ticks_->much;
   hand.left = side * (large ? 1.0 : 0.55);
   if (large || odometer_ >= stop_at_) return hand;
-  hand.forward = time < careful_until_ ? 0.5 * config_.slow : 0.7 * config_.slow;
+  hand.forward = time < careful_until_ ? 0.5 * config_.driving.slow : 0.7 * config_.driving.slow;
   return hand;
 }
 
-void SimulatedOperator::feel(double left, double right, double time) {
+void SimulatedOperator::feel(const Felt& felt, double time) { feeling_.feel(felt, time); }
+
+void SimulatedOperator::touch(double time) {
+  const Feeling::Now now = feeling_.update(time);
+  felt_ = now.force;
+  if (attention_.elsewhere(time)) return;
+  if (config_.feeling.touch == "attractive") follow_pull(now.force, time);
+  follow(now.meaning, time);
+}
+
+/// Two motors are a pattern; one is the side to turn to.
+void SimulatedOperator::follow_pull(const Felt& force, double time) {
   using Side = Instruction::Side;
-  if (config_.touch == "attractive") {
-    // Two motors are a pattern; one is the side to turn to.
-    const bool pulled = (left > 0.0) != (right > 0.0);
-    const double reaction = time + sound_reaction_;
-    if (pulled)
-      heard_.push_back({Earcon::turn, left > 0.0 ? Side::left : Side::right, reaction,
-                        std::max(left, right) > kMuchForce});
-    else if (left == 0.0 && ticks_)
-      heard_.push_back({Earcon::turn_stop, Side::none, reaction});
-    return;
+  const bool pulls = (force.left > 0.0) != (force.right > 0.0);
+  if (pulls)
+    follow_tick({Earcon::turn, force.left > 0.0 ? Side::left : Side::right, time,
+                 std::max(force.left, force.right) > kMuchForce},
+                time);
+  else if (pulled_ && force.left == 0.0)
+    stop_turn(time);
+  pulled_ = pulls;
+}
+
+void SimulatedOperator::follow(Meaning meaning, double time) {
+  if (mode_ == Mode::arrived) return;
+  switch (meaning) {
+    case Meaning::none:
+    case Meaning::stuck:
+      return;
+    case Meaning::ready:
+      pressed_ = time;
+      return;
+    case Meaning::begun:
+      told_to_halt_ = false;
+      last_news_ = time;
+      return;
+    case Meaning::new_way:
+      // The old direction no longer holds; there is a word or a pull to wait for.
+      if (mode_ == Mode::driving) stop_at_ = std::min(stop_at_, odometer_ + kNearTheEnd);
+      return;
+    case Meaning::halt:
+    case Meaning::stop:
+    case Meaning::hit:
+      if (mode_ != Mode::backing) mode_ = Mode::waiting;
+      careful_until_ = time + kCareful;
+      return;
+    case Meaning::arrived:
+      mode_ = Mode::arrived;
+      return;
   }
-  left_motor_ = left;
-  right_motor_ = right;
 }
 
 void SimulatedOperator::understood(std::uint32_t id, double time) {
-  const auto found = hearing_.find(id);
-  if (found == hearing_.end()) return;
+  const auto found = sentences_.find(id);
+  if (found == sentences_.end()) return;
   Sentence sentence = found->second;
-  hearing_.erase(found);
-  const double unit = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
-  sentence.time = time + config_.min_reaction +
-                  unit * std::max(0.0, config_.max_reaction - config_.min_reaction);
+  sentences_.erase(found);
+  const auto ear = hearing_.words(sentence.text, time - sentence.begun);
+  if (!ear || attention_.elsewhere(time)) return;
+  sentence.time = time + ear->reaction;
+  sentence.parts = Hearing::as_heard(*ear, listener_.understand(sentence.text));
   understood_.push_back(sentence);
   // A thing nearby, or a later turn, is no news while waiting for a direction.
-  const std::vector<Instruction> told = listener_.understand(label(sentence.kind), sentence.text);
   const auto idle = [](const Instruction& part) {
     return part.asks == Ask::beware || part.asks == Ask::turn_ahead;
   };
-  if (mode_ != Mode::waiting || !std::all_of(told.begin(), told.end(), idle)) last_news_ = time;
+  if (mode_ != Mode::waiting || !std::all_of(sentence.parts.begin(), sentence.parts.end(), idle))
+    last_news_ = time;
 }
 
-void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction) {
-  const double error = std::normal_distribution<double>(0.0, config_.turn_error)(random_);
+void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction,
+                                double time) {
   const double angle = angle_of(instruction.hour, instruction.slight, straight_before_);
-  target_ = sentence.heading - angle * turn_gain_ + std::clamp(error, -0.5, 0.5);
+  if (turned_to_ && sentence.begun > turned_at_ && sentence.begun - turned_at_ < kShortly)
+    learning_.turned(*turned_to_, angle);
+  turned_to_ = angle;
+  turned_at_ = time;
+  const double learnt = std::copysign(learning_.bias(), angle);
+  target_ = sentence.heading - turning_.made((angle + learnt) * driving_.turn_gain());
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;
-  turn_speed_ = std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.slow * 0.7 : 0.0;
+  turn_speed_ =
+      std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.driving.slow * 0.7 : 0.0;
   mode_ = Mode::turning;
   go_for(sentence, instruction);
-  speed_ = std::min(speed_, 0.5 * (config_.slow + config_.cruise));
+  speed_ = std::min(speed_, 0.5 * (config_.driving.slow + config_.driving.cruise));
 }
 
 void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
   const double distance = instruction.distance.value_or(kBlindTurn);
   const double begun = mode_ == Mode::turning ? odometer_ : sentence.odometer;
   stop_at_ = std::max(begun + distance, odometer_ + 0.6);
-  speed_ = stop_at_ - odometer_ > 3.0 ? config_.cruise : config_.slow;
+  speed_ = stop_at_ - odometer_ > 3.0 ? config_.driving.cruise : config_.driving.slow;
 }
 
 void SimulatedOperator::veer(Instruction::Side side, double angle, double until) {
@@ -249,7 +307,9 @@ void SimulatedOperator::back_off(Instruction::Side side, double time) {
   }
 }
 
-void SimulatedOperator::ask_soon(double time) { last_news_ = time - config_.idle_patience + 0.4; }
+void SimulatedOperator::ask_soon(double time) {
+  last_news_ = time - config_.attention.idle_patience + 0.4;
+}
 
 void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
   careful_until_ = std::max(careful_until_, time + kCareful);
@@ -262,26 +322,24 @@ void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
 
 /// Some first words are enough.
 void SimulatedOperator::be_startled(double time) {
-  for (const auto& [id, sentence] : hearing_) {
-    const double heard = (time - sentence.time - config_.min_reaction) * kCharactersPerSecond;
-    if (mode_ == Mode::arrived || heard <= 0.0 ||
-        !listener_.startles(sentence.kind, sentence.text, heard))
-      continue;
+  for (const auto& [id, sentence] : sentences_) {
+    const double heard = (time - sentence.begun - kStartled) * kLettersPerSecond;
+    const Listener::FirstWord word = listener_.first_word(sentence.text, heard);
+    if (mode_ == Mode::arrived || heard <= 0.0 || !word.startles) continue;
     mode_ = Mode::waiting;
-    wait_for_go_on(sentence);
+    wait_for_go_on(sentence, word.holds);
   }
 }
 
-void SimulatedOperator::wait_for_go_on(const Sentence& sentence) {
-  const bool stops = family_of(sentence.kind) == navvi_types::CueFamily::halt;
-  if (!config_.obeys || !stops) return;
+void SimulatedOperator::wait_for_go_on(const Sentence& sentence, bool holds) {
+  if (!config_.obeys || !holds) return;
   waits_ = std::max(waits_.value_or(sentence.begun), sentence.begun);
   told_to_halt_ = true;
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
-  wait_for_go_on(sentence);
-  const auto parts = listener_.understand(label(sentence.kind), sentence.text);
+  const std::vector<Instruction>& parts = sentence.parts;
+  wait_for_go_on(sentence, !parts.empty() && parts.front().holds);
   if (!parts.empty() && parts.front().goes_on && waits_ && sentence.begun > *waits_) waits_.reset();
   for (const Instruction& part : parts) {
     const bool leads = part.asks == Ask::turn || part.asks == Ask::go;
@@ -300,7 +358,9 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
     case Ask::ready:
       break;
     case Ask::turn:
-      turn_to(sentence, instruction);
+      // A sound that leads this turn leads it whether or not the words are kept in mind.
+      if (!memory_.keeps(config_.driving.cruise, time)) break;
+      turn_to(sentence, instruction, time);
       straight_before_ = false;
       break;
     case Ask::go:
@@ -314,7 +374,7 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
     case Ask::turn_ahead:
       if (mode_ == Mode::driving) {
         stop_at_ = sentence.odometer + instruction.distance.value_or(kBlindTurn);
-        if (stop_at_ - odometer_ < 3.0) speed_ = std::min(speed_, config_.slow);
+        if (stop_at_ - odometer_ < 3.0) speed_ = std::min(speed_, config_.driving.slow);
       }
       break;
     case Ask::beware:
@@ -339,28 +399,22 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
   }
 }
 
-double SimulatedOperator::shaped(double stick) const {
-  const double beyond = (std::abs(stick) - config_.dead_zone) / (1.0 - config_.dead_zone);
-  if (beyond <= 0.0) return 0.0;
-  const double curved = (1.0 - config_.expo) * beyond + config_.expo * beyond * beyond * beyond;
-  return std::copysign(curved, stick);
-}
-
 StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
   // Near a corner the hand waits for the end of a sentence.
-  const bool listening = !hearing_.empty() || !understood_.empty();
+  const bool listening = !sentences_.empty() || !understood_.empty();
   if (listening && stop_at_ - odometer_ < kListenFirst) return hand;
-  double speed = time < careful_until_ ? std::min(speed_, config_.slow) : speed_;
-  if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, config_.slow);
-  if (left_motor_ > config_.strong_rumble && right_motor_ > config_.strong_rumble) {
-    const double excess = (std::min(left_motor_, right_motor_) - config_.strong_rumble) /
-                          std::max(0.05, 1.0 - config_.strong_rumble);
-    speed = std::min(speed, config_.slow * (1.0 - 0.15 * excess));
-  }
+  const double slow = config_.driving.slow;
+  double speed = time < careful_until_ ? std::min(speed_, slow) : speed_;
+  if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, slow);
+  const bool repulsive = config_.feeling.touch == "repulsive";
+  const double both = std::min(felt_.left, felt_.right);
+  const double strong = config_.feeling.strong;
+  if (repulsive && both > strong)
+    speed = std::min(speed, slow * (1.0 - 0.5 * (both - strong) / std::max(0.05, 1.0 - strong)));
   double aim = target_ + (time < veer_until_ ? veer_ : 0.0);
-  const double lean = left_motor_ - right_motor_;
-  if (std::abs(lean) > kOneSided) aim += lean > 0.0 ? -0.07 : 0.07;
+  const double lean = felt_.left - felt_.right;
+  if (repulsive && std::abs(lean) > kOneSided) aim += lean > 0.0 ? -kLeansAway : kLeansAway;
   hand.forward = speed;
   const double error = aim - heading_;
   if (std::abs(error) > 0.04) {
@@ -384,7 +438,7 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
   }
   if (mode_ == Mode::turning) {
     const double error = target_ - heading_;
-    if (std::abs(error) < std::max(0.02, 0.6 * config_.turn_rate * dt)) {
+    if (std::abs(error) < std::max(0.02, 0.6 * config_.driving.turn_rate * dt)) {
       mode_ = Mode::driving;
     } else {
       hand.left = std::copysign(1.0, error);
@@ -399,6 +453,9 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
       hand = drive(time);
     }
   }
+  if (mode_ == Mode::waiting && !spoken_to_ && !told_to_halt_ && time - asked_ > kTriesAfter &&
+      asked_ > start_)
+    go_ahead();
   if (mode_ == Mode::backing) {
     hand.forward = -1.0;
     if (time >= back_until_) {
@@ -409,9 +466,18 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
   return hand;
 }
 
+/// Where nobody speaks, one tries.
+void SimulatedOperator::go_ahead() {
+  mode_ = Mode::driving;
+  target_ = heading_;
+  stop_at_ = odometer_ + 0.5 * config_.trust;
+  speed_ = config_.driving.slow;
+}
+
 void SimulatedOperator::ask_when_lost(double time) {
-  if (mode_ == Mode::arrived || !hearing_.empty() || !understood_.empty()) return;
-  const double patience = mode_ == Mode::waiting ? config_.idle_patience : config_.patience;
+  if (mode_ == Mode::arrived || !sentences_.empty() || !understood_.empty()) return;
+  const double patience =
+      mode_ == Mode::waiting ? config_.attention.idle_patience : config_.attention.patience;
   if (time - last_news_ >= patience && time - asked_ >= patience + kPress) asked_ = time;
 }
 
@@ -436,36 +502,63 @@ std::string SimulatedOperator::doing() const {
   return "";
 }
 
-StickAndButtons SimulatedOperator::update(double time, double dt) {
-  if (!started_) {
-    started_ = true;
-    start_ = last_news_ = time;
-  }
+void SimulatedOperator::forget_sentences_without_end(double time) {
   std::vector<std::uint32_t> over;
-  for (const auto& [id, sentence] : hearing_) {
-    const double length = 1.0 + static_cast<double>(sentence.text.size()) / kCharactersPerSecond;
-    if (time - sentence.time > length) over.push_back(id);
+  for (const auto& [id, sentence] : sentences_) {
+    const double length = 1.0 + static_cast<double>(sentence.text.size()) / kLettersPerSecond;
+    if (time - sentence.begun > length) over.push_back(id);
   }
   for (const auto id : over) understood(id, time);
-  // What the ear took in first the hand does first, however long either took.
+}
+
+/// What the ear took in first the hand does first, however long either took.
+void SimulatedOperator::follow_what_is_due(double time) {
   while (!understood_.empty() && understood_.front().time <= time) {
     const Sentence sentence = understood_.front();
     understood_.erase(understood_.begin());
     follow(sentence, time);
   }
-  while (!heard_.empty() && heard_.front().time <= time) {
-    const Heard sound = heard_.front();
-    heard_.pop_front();
-    follow(sound, time);
+  while (!tones_.empty() && tones_.front().time <= time) {
+    Tone tone = tones_.front();
+    tones_.pop_front();
+    if (tone.earcon == Earcon::turn_stop && !tone.much) {
+      // Decided; the hand lets go a moment later.
+      tone.much = false;
+      tone.time = time + turning_.stop_delay();
+      tones_.push_front(tone);
+      continue;
+    }
+    follow(tone, time);
   }
+}
+
+void SimulatedOperator::believe(const StickAndButtons& hand, double dt) {
+  const DrivingConfig& driving = config_.driving;
+  const double driven = driving_.shaped(hand.forward) * driving.full_speed * dt;
+  heading_ += driving_.shaped(hand.left) * driving.turn_rate * dt;
+  if (mode_ == Mode::driving && hand.forward > 0.0) heading_ += driving_.veered(driven);
+  odometer_ += driven * driving_.speed_gain();
+}
+
+StickAndButtons SimulatedOperator::update(double time, double dt) {
+  if (!started_) {
+    started_ = true;
+    start_ = last_news_ = time;
+  }
+  forget_sentences_without_end(time);
+  follow_what_is_due(time);
+  touch(time);
   if (time - start_ < kNeutralAtStart) return {};
   be_startled(time);
   StickAndButtons hand = act(time, dt);
+  attention_.update(hand.forward != 0.0 || hand.left != 0.0, time, dt);
+  if (gave_up()) return {};
   ask_when_lost(time);
   hand.repeat = time - asked_ < kPress;
   hand.start = time - pressed_ < kPress;
-  heading_ += shaped(hand.left) * config_.turn_rate * dt;
-  odometer_ += shaped(hand.forward) * config_.full_speed * speed_gain_ * dt;
+  believe(hand, dt);
+  hand.left = driving_.trembling(hand.left, dt);
+  hand.forward = driving_.trembling(hand.forward, dt);
   return hand;
 }
 

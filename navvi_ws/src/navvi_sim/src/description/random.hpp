@@ -1,42 +1,7 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <utility>
-#include <vector>
+#include <navvi_types/random.hpp>
 
 namespace navvi_sim {
-
-/// SplitMix64 (Steele, Lea and Flood, 2014): the same numbers from the same seed with every
-/// compiler and standard library, which std's distributions do not promise.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  /// In [low, high).
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(next() >> 11) * 0x1.0p-53);
-  }
-  /// In [0, count); count > 0. The bias is below count / 2^64.
-  std::size_t below(std::size_t count) { return static_cast<std::size_t>(next() % count); }
-  /// A generator with this seed continues this one.
-  [[nodiscard]] std::uint64_t state() const { return state_; }
-  /// Into an order drawn at random (Fisher and Yates, 1938).
-  template <typename Item>
-  void shuffle(std::vector<Item>& items) {
-    for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[below(i)]);
-  }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-
- private:
-  std::uint64_t state_;
-};
-
+using navvi_types::Random;
 }  // namespace navvi_sim

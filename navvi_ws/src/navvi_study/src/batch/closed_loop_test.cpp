@@ -258,7 +258,7 @@ TEST(APersonWhoObeysWhatIsTaught,
   config.sim.world = "warehouse";
   config.sim.seed = 7;
   config.person.obeys = true;
-  config.person.patience = config.person.idle_patience = 60.0;
+  config.person.attention.patience = config.person.attention.idle_patience = 60.0;
   ClosedLoop loop(config, NAVVI_PHRASES);
   LoopFigures figures(400.0);
   std::ostringstream text;

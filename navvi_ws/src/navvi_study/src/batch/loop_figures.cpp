@@ -101,6 +101,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   stand(loop);
   push(loop);
   if (monitor_.reached()) result_ = "reached";
+  if (loop.person().gave_up()) result_ = "gave_up";
   if (monitor_.refused()) result_ = "refused: " + *monitor_.refused();
   return result_ == "timeout" && time_ < limit_;
 }

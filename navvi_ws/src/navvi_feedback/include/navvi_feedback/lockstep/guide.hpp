@@ -34,6 +34,8 @@ class GuideConfig {
   ~GuideConfig();
 
   void describe(navvi_config::Visitor& visit);
+  /// Short sounds are played.
+  [[nodiscard]] bool has_sounds() const;
 
   /// Known to this package alone.
   struct Values;

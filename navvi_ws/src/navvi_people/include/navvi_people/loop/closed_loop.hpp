@@ -30,6 +30,7 @@ struct ClosedLoopConfig {
   people::SimulatedOperatorConfig person;
   navvi_perception::see::PerceptionConfig
       perception;  ///< used where sim's sensing is not the truth
+  bool speech = true;
 
   /// As in live.launch: the simulated robot climbs neither steps nor ramps.
   ClosedLoopConfig();

@@ -18,6 +18,10 @@ struct Instruction {
   bool very_close = false;  ///< of what is near
   bool slight = false;      ///< a turn of less than half an hour
   bool goes_on = false;     ///< after "go on"
+  bool holds = false;       ///< until "go on"
 };
+
+/// Left for right.
+[[nodiscard]] Instruction mirrored(Instruction told);
 
 }  // namespace navvi_people::people

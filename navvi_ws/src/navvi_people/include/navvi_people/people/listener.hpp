@@ -4,7 +4,9 @@
 #include <map>
 #include <navvi_types/cue_kind.hpp>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,37 +16,55 @@ namespace navvi_people::people {
 
 using navvi_types::CueKind;
 
-/// Understands whatever a catalogue of phrases can say, in each of its wordings, as a person does
-/// who speaks its language: by the words that were heard and the kind of sentence that they make.
+/// Understands all that a catalogue of phrases can say, in each of its wordings, as a person does
+/// who speaks its language: by the words alone.
 class Listener {
  public:
   /// \param phrases  file, as feedback_node's
   /// \throws navvi_config::ConfigError if it cannot be read
   explicit Listener(const std::filesystem::path& phrases);
 
-  /// \param kind  of the cue; nullopt: told by the words
-  /// \return one for each part of the sentence, in order; none for words that the catalogue lacks
-  [[nodiscard]] std::vector<Instruction> understand(std::optional<CueKind> kind,
-                                                    const std::string& text) const;
+  /// \return one for each part of the sentence, in order; none for words that ask for nothing, or
+  /// that the catalogue lacks
+  [[nodiscard]] std::vector<Instruction> understand(const std::string& text) const;
+  /// The same of a sentence whose kind is known, for those who judge what was said.
+  [[nodiscard]] std::vector<Instruction> understand(CueKind kind, const std::string& text) const;
 
-  /// Whether what was heard of a sentence is enough to let go of the stick.
+  /// What the first word of a sentence is enough for.
+  struct FirstWord {
+    bool startles = false;  ///< lets go of the stick
+    bool holds = false;     ///< until "go on"
+  };
   /// \param letters  heard so far
-  [[nodiscard]] bool startles(CueKind kind, const std::string& text, double letters) const;
+  [[nodiscard]] FirstWord first_word(const std::string& text, double letters) const;
 
  private:
   using Words = std::vector<std::pair<std::string, std::string>>;  ///< word, its key
+  /// A literal, or a place for one of several words.
+  struct Piece {
+    std::string literal;
+    std::string slot;  ///< name of the placeholder; empty: a literal
+    Words words;       ///< that may stand in it
+  };
+  struct Phrase {
+    CueKind kind;
+    std::vector<Piece> pieces;
+  };
 
-  [[nodiscard]] bool parse(CueKind kind, const std::string& text,
+  void add(CueKind kind, const std::string& phrase);
+  [[nodiscard]] bool parse(CueKind kind, std::string_view text,
                            std::vector<Instruction>& heard) const;
-  [[nodiscard]] bool parse(CueKind kind, const std::string& phrase, const std::string& text,
+  [[nodiscard]] bool parse(const Phrase& phrase, std::string_view text,
                            std::vector<Instruction>& heard) const;
+  [[nodiscard]] bool match(const Phrase& phrase, std::size_t piece, std::string_view text,
+                           Instruction told, std::vector<Instruction>& heard) const;
+  [[nodiscard]] bool follow_up(std::string_view rest, std::vector<Instruction>& heard) const;
   [[nodiscard]] Words possible(const std::string& placeholder) const;
-  void fill(Instruction& told, const std::string& placeholder, const std::string& word,
-            const std::string& number) const;
 
-  std::multimap<CueKind, std::string> phrases_;  ///< by kind, in all wordings
+  std::map<CueKind, std::vector<Phrase>> phrases_;  ///< in all wordings
   Words words_;
   std::string go_on_;
+  std::set<std::string> startling_, holding_;  ///< first words
 };
 
 }  // namespace navvi_people::people

@@ -1,0 +1,62 @@
+#include "navvi_people/people/driving.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_people::people {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kTremor = 0.3;  // s, over which the noise of a hand is alike
+
+}  // namespace
+
+void DrivingConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit(faults, "faults", navvi_config::Any{}, "",
+        "false: the hand is steady, holds its heading and knows the robot exactly");
+  visit(cruise, "cruise", Range{0.05, 1.0}, "", "stick on a straight way: the speed that is liked");
+  visit(slow, "slow", Range{0.05, 1.0}, "", "stick when something is near");
+  visit(turn_rate, "turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick");
+  visit(full_speed, "full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick");
+  visit(dead_zone, "dead_zone", Range{0.0, 0.5}, "", "believed, of the stick");
+  visit(expo, "expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic");
+  visit(gain_error, "gain_error", Range{0.0, 0.5}, "",
+        "standard deviation, over people, of how wrong these beliefs are");
+  visit(noise, "noise", Range{0.0, 0.5}, "", "standard deviation of a stick that is held");
+  visit(veer, "veer", Range{0.0, 20.0}, "deg/m", "to one side, the same all the way");
+  visit(veer_spread, "veer_spread", Range{0.0, 20.0}, "deg",
+        "standard deviation, over a metre, of what comes besides");
+}
+
+Driving::Driving(const DrivingConfig& config, std::uint64_t seed) : config_(config), random_(seed) {
+  const double turn = random_.normal();
+  const double speed = random_.normal();
+  const bool left = random_.chance(0.5);
+  if (!config_.faults) return;
+  turn_gain_ = 1.0 + std::clamp(config_.gain_error * turn, -0.3, 0.3);
+  speed_gain_ = 1.0 + std::clamp(config_.gain_error * speed, -0.3, 0.3);
+  bias_ = (left ? 1.0 : -1.0) * kDegree * config_.veer;
+}
+
+double Driving::shaped(double stick) const {
+  const double beyond = (std::abs(stick) - config_.dead_zone) / (1.0 - config_.dead_zone);
+  if (beyond <= 0.0) return 0.0;
+  const double curved = (1.0 - config_.expo) * beyond + config_.expo * beyond * beyond * beyond;
+  return std::copysign(curved, stick);
+}
+
+double Driving::trembling(double stick, double dt) {
+  const double keeps = std::exp(-dt / kTremor);
+  tremor_ = keeps * tremor_ + std::sqrt(1.0 - keeps * keeps) * config_.noise * random_.normal();
+  if (!config_.faults || stick == 0.0) return stick;
+  return std::clamp(stick + tremor_, -1.0, 1.0);
+}
+
+double Driving::veered(double driven) {
+  const double error = random_.normal() * std::sqrt(std::abs(driven));
+  if (!config_.faults) return 0.0;
+  return bias_ * driven + kDegree * config_.veer_spread * error;
+}
+
+}  // namespace navvi_people::people
