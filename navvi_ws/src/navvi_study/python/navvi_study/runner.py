@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import zlib
 
 from . import questionnaire
 from .errors import StudyError
@@ -38,7 +39,7 @@ class LiveRunner:
                  "world": str(plan.world_file(attempt) or attempt.world), "seed": attempt.seed, "limit": f"{plan.limit:g}", "once": "true",
                  "out": folder, "feedback/locked": "true", "trial/locked": "true", **self._learnt(participant, attempt)}
         if simulated:
-            words.update(rviz="false", **person_of(participant, "operator/operator/"))
+            words.update(rviz="false", **person_of(participant, "operator/person/"))
         else:
             words["speech"] = "true"
         about = {"name": plan.study, "plan": plan.hash()[:12], "group": group.name, "condition": step.condition, "order": step.order,
@@ -138,8 +139,8 @@ class LoopRunner:
         command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={plan.limit:.0f}",
                    f"--profile={words.pop('profile')}", "--csv"]
         words.pop("rviz")
-        words.update(person_of(participant, "operator/"))
-        parts = ("sim/", "nav/", "feedback/", "operator/", "perception/")
+        words.update(person_of(participant, "person/"))
+        parts = ("sim/", "nav/", "feedback/", "person/", "perception/")
         command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]
         result = subprocess.run(command, capture_output=True, text=True, check=False, pass_fds=(lock,))
         rows = list(csv.DictReader(result.stdout.splitlines()))
@@ -224,10 +225,5 @@ def simulate_answers(participant, step, items, answered):
 
 
 def person_of(participant, part):
-    """A simulated person: traits drawn from the code, within what is assumed of people. \\param part  what its parameters stand below"""
-    source = drawn(participant)
-    least = source.uniform(0.3, 0.8)
-    sound = source.uniform(0.2, 0.5)
-    traits = {"min_reaction": least, "max_reaction": least + 0.6, "min_sound_reaction": sound, "max_sound_reaction": sound + 0.3,
-              "gain_error": source.uniform(0.05, 0.2), "cruise": source.uniform(0.6, 0.95), "missed_sounds": source.uniform(0.0, 0.1)}
-    return {part + name: shown(round(value, 3)) for name, value in traits.items()}
+    """A simulated person, drawn by the code. \\param part  what its parameters stand below"""
+    return {part + "type": "drawn", part + "seed": str(zlib.crc32(participant.encode()) % 1_000_000)}
