@@ -1,8 +1,12 @@
-"""The README's topic table names functions that exist, and its links lead somewhere."""
+"""The documents agree with the code: topics, functions, rooms, commands, links."""
 import re
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
+
+from rooms_test import PACKAGES as ROOMS, rooms_of
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "navvi_ws" / "src"
@@ -10,44 +14,108 @@ CODE = "\n".join(path.read_text() for path in SOURCES.rglob("*.[ch]pp"))
 
 
 def topic_rows():
-    text = (ROOT / "README.md").read_text()
-    table = text[text.index("## Topics"):text.index("## A session")]
-    return [line for line in table.splitlines() if line.startswith("| /")]
+    """The cells of each row that begins with a topic."""
+    text = (ROOT / "doc/topics.md").read_text()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("| /")]
+
+
+def bodies_of_classes():
+    found = {}
+    for match in re.finditer(r"^(?:class|struct) (\w+)[^;{]*{", CODE, re.M):
+        found.setdefault(match[1], []).append(CODE[match.end():CODE.find("\n};", match.end())])
+    return found
+
+
+CLASSES = bodies_of_classes()
 
 
 def exists(name):
+    """A class, a function, or a function of just this class."""
     owner, _, function = name.rpartition("::")
-    defined = re.search(rf"\b{re.escape(function)}\b", CODE)
-    return bool(defined and (not owner or re.search(rf"\b(?:class|struct) {re.escape(owner)}\b", CODE)))
+    if not owner:
+        return bool(re.search(rf"{function}\b", CODE))
+    return f"{owner}::{function}(" in CODE or any(re.search(rf"\b{function}\(", body) for body in CLASSES.get(owner, []))
 
 
-def test_every_function_of_the_topic_table_exists():
-    names = {name for row in topic_rows() for name in re.findall(r"`([A-Za-z_:]+)`", row.split("|")[-2])}
+def test_every_function_of_the_topic_tables_exists():
+    rows = topic_rows()
+    assert all(len(row) == 5 for row in rows)
+    names = {name for row in rows for cell in row[3:] for name in re.findall(r"`([A-Za-z_:]+)`", cell)}
     assert len(names) > 20
-    assert sorted(name for name in names if name != "tick" and not exists(name)) == []
+    assert sorted(name for name in names if not exists(name)) == []
+    assert not exists("Planner::fly") and not exists("Outlets::diagnose")
 
 
 def test_every_topic_of_the_table_is_named_in_the_code():
-    topics = {topic for row in topic_rows() for topic in re.findall(r"/([a-z_/]+)", row.split("|")[1])}
+    topics = {topic for row in topic_rows() for topic in re.findall(r"/([a-z_/]+)", row[0])}
     missing = [topic for topic in topics if topic not in ("tf", "tf_static") and f'"{topic}"' not in CODE and f'"/{topic}"' not in CODE]
     assert sorted(missing) == []
 
 
+def test_every_topic_that_a_node_publishes_is_in_one_row():
+    rows = [topic for row in topic_rows() for topic in re.findall(r"/([a-z_/]+)", row[0])]
+    assert sorted(set(rows)) == sorted(rows)
+    product = "\n".join(path.read_text() for path in SOURCES.glob("*/src/**/*.cpp") if not path.name.endswith("_test.cpp"))
+    published = set(re.findall(r'advertise<[\w:]+>\(\s*"/?([a-z_/]+)"', product))
+    assert len(published) > 25
+    assert sorted(published - set(rows) - {"robot/cmd_vel"}) == []
+
+
 def test_rostopic_can_show_every_topic():
-    types = {found for row in topic_rows() for found in re.findall(r"\b([a-z0-9_]+_msgs)/([A-Z][A-Za-z0-9]+)", row)}
+    text = (ROOT / "doc/topics.md").read_text()
+    types = set(re.findall(r"\b([a-z0-9_]+_msgs)/([A-Z][A-Za-z0-9]+)", text)) - {("nav_msgs", "GetPlan")}  # a service
+    assert len(types) > 20
     assert ("tf2_msgs", "TFMessage") in types
     lines = [f"from {package}.msg import {name}" for package, name in sorted(types)]
     found = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, timeout=60)
     assert found.returncode == 0, found.stderr
 
 
-def test_links_of_the_documents_lead_to_files():
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("doc/**/*.md"), *SOURCES.glob("*/README.md")])
+
+
+def anchors_of(page):
+    """As GitHub forms them of headings."""
+    text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+    heads = re.findall(r"^#+ (.*)$", text, re.M)
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
+def test_links_of_the_documents_lead_to_files_and_headings():
     lost = []
-    for page in [*ROOT.glob("*.md"), *ROOT.glob("doc/*.md"), *SOURCES.glob("*/README.md")]:
-        for target in re.findall(r"\]\((?!https?:)([^)#]+)\)", page.read_text()):
-            if not (page.parent / target).exists():
+    for page in PAGES:
+        text = page.read_text()
+        for target in [*re.findall(r"\]\((?!https?:)([^)]+)\)", text), *re.findall(r'<img src="([^"]+)"', text)]:
+            name, _, anchor = target.partition("#")
+            file = page.parent / name if name else page
+            if not file.exists() or (anchor and anchor not in anchors_of(file)):
                 lost.append(f"{page.relative_to(ROOT)}: {target}")
     assert lost == []
+
+
+def test_the_readme_is_short_and_each_package_has_one():
+    assert len((ROOT / "README.md").read_text().split()) <= 1200
+    ours = {path.parent.name for path in SOURCES.glob("navvi_*/CMakeLists.txt")} - {"navvi_msgs", "navvi_build"}
+    assert sorted(name for name in ours if not (SOURCES / name / "README.md").exists()) == []
+
+
+@pytest.mark.parametrize("package", ROOMS)
+def test_the_readme_of_a_package_names_its_rooms(package):
+    text = (SOURCES / package / "README.md").read_text()
+    assert [room for room in rooms_of(package) if f"`{room}`" not in text] == []
+
+
+def test_the_readme_of_the_simulator_has_a_row_a_room_in_the_order_of_cmake():
+    text = (SOURCES / "navvi_sim/README.md").read_text()
+    assert re.findall(r"^\| \d+ \| `(\w+)`", text, re.M) == list(rooms_of("navvi_sim"))
+
+
+def test_each_command_that_a_document_names_exists():
+    commands = {path.stem for path in (ROOT / "navvi_cli/commands").glob("*.py")}
+    named = {(page.relative_to(ROOT).as_posix(), word) for page in PAGES if page.name != "CHANGELOG.md"
+             for word in re.findall(r"\./navvi ([a-z]+)", page.read_text())}
+    assert len({word for _, word in named}) > 15
+    assert sorted((page, word) for page, word in named if word not in commands) == []
 
 
 def test_each_test_of_the_fault_matrix_exists():
