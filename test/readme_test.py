@@ -118,6 +118,14 @@ def test_each_command_that_a_document_names_exists():
     assert sorted((page, word) for page, word in named if word not in commands) == []
 
 
+def test_entries_of_the_changelog_are_of_one_line():
+    text = (ROOT / "CHANGELOG.md").read_text()
+    entries = text[text.index("## [Unreleased]"):text.index("\n## [", text.index("## [Unreleased]") + 1)].splitlines()[1:]
+    assert [line for line in entries if line and not line.startswith(("- ", "### "))] == []
+    assert [line for line in entries if len(line) > 160] == []
+    assert len(set(entries) - {""}) == len([line for line in entries if line])
+
+
 def test_each_test_of_the_fault_matrix_exists():
     tests = "\n".join(path.read_text() for path in [*SOURCES.rglob("*_test.cpp"), *(ROOT / "test").glob("*_test.py")])
     cells = [line.rsplit("|", 2)[1] for line in (ROOT / "doc/faults.md").read_text().splitlines() if line.startswith("| ")]
