@@ -91,7 +91,7 @@ class Feedback {
   void take(const TrialState& state, double time);
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
   void take(const Scenario& scenario, double time);
-  /// Whoever has set it. \param goal  m, in map
+  /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   void take(const Contact& contact) { contacts_.push_back(contact); }
   /// What another program wants to be felt, until it is stale.

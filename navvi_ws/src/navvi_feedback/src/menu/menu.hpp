@@ -40,7 +40,7 @@ class Menu {
   void lock(bool locked) { locked_ = locked; }
   void take(const Scenario& scenario) { scenario_ = scenario; }
   void take(const TrialState& trial) { trial_ = trial.state; }
-  /// Whoever has set it. \param goal  m, in map
+  /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   /// What can be set. \param values  by the key of each setting, as parameters have them
   void take_settings(std::map<std::string, std::string> values) {

@@ -42,8 +42,7 @@ class LocalMap {
   enum class Known { nothing, clear, standing };
 
   /// \param prior  may be without cells. What it shows is kept for good, each occupied cell from
-  /// the
-  ///               floor up to `high`
+  /// the floor up to `high`
   explicit LocalMap(const MapConfig& config, const sight::Prior& prior = {});
   ~LocalMap();
 

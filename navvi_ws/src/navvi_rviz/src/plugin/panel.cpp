@@ -91,7 +91,7 @@ QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
 QPushButton* Panel::add_button(QHBoxLayout* row, const Named& named,
                                const std::function<void()>& action, QWidget* scope) {
   auto* button = new QPushButton;
-  button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys to who drives
+  button->setFocusPolicy(Qt::TabFocus);  // a click must not take the focus from the keys that drive
   connect(button, &QPushButton::clicked, this, action);
   auto* shortcut = new QShortcut(named.key, scope);
   shortcut->setContext(Qt::ApplicationShortcut);

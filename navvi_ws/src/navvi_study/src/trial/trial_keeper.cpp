@@ -331,8 +331,8 @@ Signs TrialKeeper::signs() const {
   return signs;
 }
 
-/// A guide that is silent for a second is told and recorded, by who still lives; it may come back,
-/// as on a machine with much to do, and only its loss ends the trial.
+/// If feedback_node is silent for 1 s, warns and journals it. It may come back, as on a busy
+/// machine; only its loss ends the trial.
 void TrialKeeper::watch_feedback(double silence) {
   if (feedback_silent_ == (silence > kSilent)) return;
   feedback_silent_ = !feedback_silent_;

@@ -126,8 +126,8 @@ class TrialMonitor {
   /// Where the robot is, as fields.
   [[nodiscard]] record::Fields place() const;
   /// The figures that no single event carries: path_length, cues_spoken, sounds_played,
-  /// patterns_felt, missed_messages, and the
-  /// last state of the world by step and hash (n/a where there is no simulator).
+  /// patterns_felt, missed_messages, and the last state of the world by step and hash (n/a where
+  /// there is no simulator).
   [[nodiscard]] record::Fields tally_fields() const;
   /// These, and how long the person waited for what was felt and heard, as far as it is known.
   [[nodiscard]] record::Fields end_fields() const;

@@ -36,8 +36,8 @@ struct OccupancyConfig {
 [[nodiscard]] OccupancyMap occupancy_of(const WorldDescription& world,
                                         const OccupancyConfig& config);
 
-/// The map with the free space that a mapper marks who has been everywhere: all that is not
-/// occupied within the bounds of what stands still, from the floor to 3.2 m above it.
+/// The map with free space as after complete exploration: all that is not occupied within the
+/// bounds of what stands still, from the floor to 3.2 m above it.
 [[nodiscard]] OccupancyMap with_free_space(const OccupancyMap& map, const WorldDescription& world);
 
 }  // namespace navvi_sim::occupancy

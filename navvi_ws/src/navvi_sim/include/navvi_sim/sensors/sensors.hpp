@@ -50,7 +50,8 @@ struct Reading {
   std::vector<float> ranges;  ///< m, along each of Sensor::rays(); as in REP-117 NaN where nothing
                               ///< was measured, infinity where nothing was met
   std::vector<std::uint32_t> movers;  ///< the thing that each ray truly met, if it has a route,
-                                      ///< else kNoMover; for who judges, not for who senses
+                                      ///< else kNoMover: ground truth for evaluation, not
+                                      ///< visible to perception
   static constexpr std::uint32_t kNoMover = 0xffffffffU;
 };
 
