@@ -17,7 +17,7 @@ def arguments(parser):
     variant.add_argument("--asan", dest="variant", action="store_const", const="--asan",
                          help="build with the address and undefined-behaviour sanitizers.")
     variant.add_argument("--odr", dest="variant", action="store_const", const="--odr",
-                         help="only compare the types of all libraries; two that share a name are an error that no compiler sees.")
+                         help="only compare the types of all libraries; two that share a name are an error that compilers do not diagnose.")
 
 
 def run(args):
