@@ -7,6 +7,7 @@ namespace navvi_people::people {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kEndStop = 0.99;
 constexpr double kTremor = 0.3;  // s, over which the noise of a hand is alike
 
 }  // namespace
@@ -49,7 +50,8 @@ double Driving::shaped(double stick) const {
 double Driving::trembling(double stick, double dt) {
   const double keeps = std::exp(-dt / kTremor);
   tremor_ = keeps * tremor_ + std::sqrt(1.0 - keeps * keeps) * config_.noise * random_.normal();
-  if (!config_.faults || stick == 0.0) return stick;
+  // At its end stop a stick is as steady as where it is let go.
+  if (!config_.faults || stick == 0.0 || std::abs(stick) >= kEndStop) return stick;
   return std::clamp(stick + tremor_, -1.0, 1.0);
 }
 

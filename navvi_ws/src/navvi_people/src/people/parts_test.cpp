@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "navvi_config/reader.hpp"
-#include "navvi_people/people/traits.hpp"
+#include "people/traits.hpp"
 
 namespace navvi_people::people {
 namespace {
@@ -150,6 +150,7 @@ TEST(Driving, trembles_and_veers_by_a_bias_and_a_larger_variable_error) {
   EXPECT_NEAR(stick.mean, 0.5, 0.02);
   EXPECT_NEAR(stick.deviation, config.noise, 0.02);
   EXPECT_EQ(hand.trembling(0.0, 0.1), 0.0) << "a stick that is let go";
+  EXPECT_EQ(hand.trembling(-1.0, 0.1), -1.0) << "a stick at its end stop";
   const Moments veer = moments([&] { return hand.veered(1.0) / kDegree; });
   EXPECT_NEAR(std::abs(veer.mean), config.veer, 0.1);
   EXPECT_NEAR(veer.deviation, config.veer_spread, 0.1);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "navvi_people/people/traits.hpp"
+#include "people/traits.hpp"
 
 namespace navvi_people::people {
 namespace {
@@ -24,10 +24,11 @@ constexpr double kTicksOver = 1.2;        // s; ticks that paused for so long ar
 constexpr double kMuchForce = 0.6;        // of the motor that attracts: much is left to turn
 constexpr double kSlowTicks = 0.28;       // s, between two: much is left to turn
 constexpr double kShortly = 5.0;          // s; what is told after a turn is the rest of it
-constexpr double kLeansAway = 0.07;       // rad, from what is felt at a side
-constexpr double kTriesAfter = 1.0;       // s, without an answer
-constexpr double kStartled = 0.4;         // s, from a word to the hand
-constexpr double kBlindTurn = 3.0;        // m to drive after "turn now", which has no distance
+constexpr double kBackAgain = 0.6;
+constexpr double kLeansAway = 0.07;  // rad, from what is felt at a side
+constexpr double kTriesAfter = 1.0;  // s, without an answer
+constexpr double kStartled = 0.4;    // s, from a word to the hand
+constexpr double kBlindTurn = 3.0;   // m to drive after "turn now", which has no distance
 
 /// rad, clockwise, to an hour on the clock face.
 /// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
@@ -263,11 +264,14 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
 
 void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction,
                                 double time) {
-  const double angle = angle_of(instruction.hour, instruction.slight, straight_before_);
+  double angle = angle_of(instruction.hour, instruction.slight, straight_before_);
   if (turned_to_ && sentence.begun > turned_at_ && sentence.begun - turned_at_ < kShortly)
     learning_.turned(*turned_to_, angle);
+  // Sent back from where one has just turned, one turns back by less.
+  const bool back = turned_to_ && angle * *turned_to_ < 0.0 && time - turned_at_ < kShortly;
   turned_to_ = angle;
   turned_at_ = time;
+  if (back) angle *= kBackAgain;
   const double learnt = std::copysign(learning_.bias(), angle);
   target_ = sentence.heading - turning_.made((angle + learnt) * driving_.turn_gain());
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;

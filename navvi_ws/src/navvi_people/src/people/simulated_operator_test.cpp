@@ -95,6 +95,8 @@ class Loop {
   }
 
   void speak(bool repeat) {
+    // What is said refers to where the robot points when it is said: it has to be done by then.
+    if (time < speaking_until_ + 1.5) return;
     if (next_ + 1 == corners_.size() && distance() < 1.0) {
       return say("You have reached your destination");
     }

@@ -1,4 +1,4 @@
-#include "navvi_people/people/traits.hpp"
+#include "people/traits.hpp"
 
 #include <algorithm>
 #include <array>

@@ -139,6 +139,45 @@ TEST_F(ClosedLoopIn, everyLanguageAndWordingLeadsToTheGoalByWordsAlone) {
       }
 }
 
+/// What came through a channel in a session of 20 s.
+struct Played {
+  int spoken = 0, sounded = 0;
+  bool moved = false;
+};
+
+TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPlayed) {
+  config_.sim.world = (folder_ / "room.yaml").string();
+  std::ofstream(config_.sim.world) << kRoom;
+  for (int channels = 0; channels < 8; ++channels) {
+    SCOPED_TRACE(channels);
+    config_.speech = (channels & 1) != 0;
+    config_.feedback.sounds.enabled = (channels & 2) != 0;
+    config_.feedback.haptics.enabled = (channels & 4) != 0;
+    config_.feedback.haptics.steer = "attractive";
+    config_.person.feeling.touch = "attractive";
+    ClosedLoop loop(config_, phrases_);
+    Played played;
+    while (loop.time() < 20.0) {
+      ASSERT_TRUE(loop.step());
+      for (const navvi_msgs::Cue& cue : loop.told().cues)
+        ++(cue.modality == navvi_msgs::Cue::SPEECH ? played.spoken : played.sounded);
+      played.moved |= loop.hand().forward != 0.0;
+    }
+    EXPECT_EQ(played.spoken > 0, config_.speech);
+    if (!config_.feedback.sounds.enabled) EXPECT_EQ(played.sounded, 0);
+    EXPECT_TRUE(played.moved);
+  }
+}
+
+TEST_F(ClosedLoopIn, aPersonIsNotAWorld) {
+  config_.person.seed = 5;
+  const record::Fields first = play(kRoom, 60.0);
+  EXPECT_EQ(play(kRoom, 60.0), first);
+  config_.person.seed = 6;
+  EXPECT_NE(play(kRoom, 60.0).get("hash"), first.get("hash")) << "another person in the same world";
+  EXPECT_EQ(play(kRoom, 60.0).get("shortest"), first.get("shortest"));
+}
+
 TEST_F(ClosedLoopIn, theSameSeedGivesTheSameTrialAndAnotherSeedAnotherOne) {
   const record::Fields first = play(kRoom, 60.0);
   const std::string trace = trace_.str();

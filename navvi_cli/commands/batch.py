@@ -1,0 +1,287 @@
+"""Run many simulated trials, each a row of a table.
+
+Each world, seed, person and condition makes a trial; all persons and conditions
+meet the same worlds. Whoever is killed goes on where it stopped when called
+again with the same arguments: no trial is lost or counted twice. With all
+trials run, DIR holds trials.csv, a row a trial, and trials.json, what each
+column means. Its bytes are the same for every --jobs and --shard.
+
+Several machines, or processes, each run a part of the trials: --shard=1/3,
+--shard=2/3 and --shard=3/3 with a DIR that all can write. The last one writes
+the table.
+
+A person is able, typical, struggling, hard_of_hearing, no_touch or drawn, with
+seeds if wanted, such as drawn:1-20. A condition is default, sounds_off,
+touch_off, words_off, words_alone, attractive or brief, or a name of your own
+with its parameters: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
+
+Exit codes
+0: done. 1: trials failed, or other shards are not done. 2: a wrong argument.
+
+Examples
+./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy
+./navvi batch --worlds=busy --seeds=1-20 --shard=2/4 --out=/shared/busy
+"""
+import concurrent.futures
+import csv
+import fcntl
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from navvi_cli.say import aside, fail
+
+PEOPLE = ("able", "typical", "struggling", "hard_of_hearing", "no_touch", "drawn")
+CONDITIONS = {
+    "default": [],
+    "sounds_off": ["feedback/sounds/enabled:=false"],
+    "touch_off": ["feedback/haptics/enabled:=false"],
+    "words_off": ["speech:=false"],
+    "words_alone": ["feedback/sounds/enabled:=false", "feedback/haptics/enabled:=false"],
+    "attractive": ["feedback/haptics/steer:=attractive", "person/feeling/touch:=attractive"],
+    "brief": ["feedback/cues/wording/verbosity:=brief"],
+}
+MOST_TRIALS = 1000000
+# What each column means; of a person's and a condition's, the command's help and doc/people.md tell more.
+UNITS = {
+    "trial": "number of the trial in the batch, from 0", "world": "name or file", "seed": "of the world", "person": "type",
+    "person_seed": "of the person", "condition": "name", "contacts": "number of contacts", "spl":
+    "shortest over driven way where the goal was reached, else 0", "result": "reached, timeout, gave_up or refused",
+    "time": "s since the goal was set", "driven": "m", "shortest": "m, of the first path", "reroutes": "number", "churn_mean": "m/min",
+    "churn_max": "m/min", "turns": "1/min, changes of the announced hour", "flips": "number", "reversed": "number", "misled": "number",
+    "cues": "1/min, sentences", "words": "1/min", "talk": "share of the time", "repeats": "number", "at_odds": "number", "waits": "number",
+    "hasty": "number", "speechless": "number of pushes in vain without a word", "following": "s", "blocked": "s", "make_room": "s",
+    "no_route": "s", "off_mesh": "s", "other": "s", "still": "s, the longest stay within 0.3 m", "still_at": "s", "hits":
+    "contacts by class", "passed": "number", "missed": "number", "ghosts": "number", "lag": "s", "late": "number", "warned":
+    "s felt/told before each contact with a mover", "why": "what was about at the end of the longest stay",
+}
+
+
+class Trial(NamedTuple):
+    number: int
+    world: str
+    seed: int
+    person: str
+    person_seed: int
+    condition: str
+    parameters: tuple
+
+    def words(self, limit):
+        return [f"--world={self.world}", f"--seeds={self.seed}", f"--limit={limit}", "--csv", f"person/type:={self.person}",
+                f"person/seed:={self.person_seed}", *self.parameters]
+
+
+def span(text, option):
+    found = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
+    if not found or int(found[2] or found[1]) < int(found[1]):
+        fail(f"{option} has \"{text}\"; allowed are a number, or two such as 1-20.", 2)
+    return range(int(found[1]), int(found[2] or found[1]) + 1)
+
+
+def person_of(text):
+    name, _, seeds = text.partition(":")
+    if name not in PEOPLE:
+        fail(f"--people has \"{text}\"; allowed are: {' '.join(PEOPLE)}, each with seeds if wanted, such as drawn:1-20.", 2)
+    return [(name, seed) for seed in span(seeds or "1", "--people")]
+
+
+def condition_of(text):
+    name, equals, words = text.partition("=")
+    if equals:
+        return name, tuple(words.split("+"))
+    if name not in CONDITIONS:
+        fail(f"--conditions has \"{text}\"; allowed are: {' '.join(CONDITIONS)}, or NAME=PART/NAME:=VALUE+...", 2)
+    return name, tuple(CONDITIONS[name])
+
+
+def trials_of(args):
+    people = [each for text in args.people.split(",") for each in person_of(text)]
+    conditions = [condition_of(text) for text in args.conditions.split(",")]
+    cells = [(world, seed, *person, *condition) for world in args.worlds.split(",") for seed in span(args.seeds, "--seeds")
+             for person in people for condition in conditions]
+    if len(cells) > MOST_TRIALS:
+        fail(f"these make {len(cells)} trials; allowed are {MOST_TRIALS}.", 2)
+    return [Trial(number, *cell) for number, cell in enumerate(cells)]
+
+
+def shard_of(text):
+    found = re.fullmatch(r"(\d+)/(\d+)", text)
+    if not found or not 1 <= int(found[1]) <= int(found[2]):
+        fail(f"--shard has \"{text}\"; allowed is K/N with K from 1 to N, such as 1/4.", 2)
+    return int(found[1]), int(found[2])
+
+
+class Rows:
+    """The rows of a shard: whole lines, each on the disk before the next begins. What a kill has torn is cut off."""
+
+    def __init__(self, path):
+        self.file = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+        try:
+            fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            fail(f"{path} is being written by another process; one shard is run once at a time.", 2)
+        whole = read(path).rpartition("\n")[0]
+        os.ftruncate(self.file, len(whole.encode()) + 1 if whole else 0)
+        os.lseek(self.file, 0, os.SEEK_END)
+
+    def append(self, line):
+        data = line.encode()
+        while data:
+            data = data[os.write(self.file, data):]
+        os.fsync(self.file)
+
+    def close(self):
+        os.close(self.file)
+
+
+def read(path):
+    return Path(path).read_bytes().decode()
+
+
+def number_of(line):
+    return int(line.partition(",")[0])
+
+
+def done_in(folder):
+    """The rows of all shards, by number."""
+    rows = {}
+    for path in sorted(folder.glob("rows-*.csv")):
+        for line in read(path).splitlines(keepends=True):
+            if line.endswith("\n"):
+                rows.setdefault(number_of(line), line)
+    return rows
+
+
+def replace(path, text):
+    """As a whole, and on the disk."""
+    part = path.with_name(f".{path.name}.{os.getpid()}")
+    with open(part, "w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(part, path)
+
+
+def line_of(values):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(values)
+    return text.getvalue()
+
+
+def row_of(trial, titles, cells):
+    row = dict(zip(titles, cells))
+    contacts = sum(int(word) for word in row["hits"].split() if word.isdigit())
+    driven, shortest = float(row["driven"]), float(row["shortest"])
+    spl = shortest / max(driven, shortest) if row["result"] == "reached" and shortest > 0.0 else 0.0
+    head = (trial.number, trial.world, trial.seed, trial.person, trial.person_seed, trial.condition, contacts, f"{spl:.3f}")
+    return head, {name: value for name, value in row.items() if name not in ("world", "seed")}
+
+
+def simulate(program, trial, limit):
+    """(trial, titles, line); without a line where it failed, and then the reason in place of the titles."""
+    result = subprocess.run([program, *trial.words(limit)], capture_output=True, text=True, check=False)
+    table = list(csv.reader(io.StringIO(result.stdout)))
+    if result.returncode or len(table) != 2:
+        return trial, (result.stderr.strip().splitlines() or [f"exit code {result.returncode}"])[-1], None
+    head, row = row_of(trial, *table)
+    titles = ["trial", "world", "seed", "person", "person_seed", "condition", "contacts", "spl", *row]
+    return trial, titles, line_of([*head, *row.values()])
+
+
+def same_batch(folder, args, trials):
+    """Keeps what the batch is, and refuses another one in its folder."""
+    mine = {"worlds": args.worlds, "seeds": args.seeds, "people": args.people, "conditions": args.conditions, "limit": args.limit,
+            "trials": len(trials)}
+    file = folder / "batch.json"
+    if not file.exists():
+        replace(file, json.dumps(mine, indent=1) + "\n")
+    elif json.loads(read(file)) != mine:
+        fail(f"{folder} holds another batch, {file} names it; choose another --out.", 2)
+
+
+def time_left(seconds):
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
+
+
+def run_all(program, trials, args, rows):
+    """Appends a row a trial. \\return the titles, and how many trials failed"""
+    titles, failed, finished, since, told = None, 0, 0, time.monotonic(), 0.0
+    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+        for answer in concurrent.futures.as_completed([pool.submit(simulate, program, trial, args.limit) for trial in trials]):
+            trial, said, line = answer.result()
+            finished += 1
+            if line is None:
+                failed += 1
+                aside(f"trial {trial.number} failed ({trial.world}, seed {trial.seed}, {trial.person}, {trial.condition}): {said}")
+            else:
+                titles = said
+                rows.append(line)
+            now = time.monotonic()
+            if now - told > args.tell or finished == len(trials):
+                told = now
+                left = (now - since) / finished * (len(trials) - finished)
+                print(f"{finished} of {len(trials)} trials, {time_left(left)} left", file=sys.stderr, flush=True)
+    return titles, failed
+
+
+def finish(folder, trials):
+    """Writes the table once every row is there. \\return how many are missing"""
+    rows = done_in(folder)
+    missing = sum(1 for trial in trials if trial.number not in rows)
+    titles = folder / "titles.csv"
+    if not missing:
+        names = next(csv.reader([read(titles)]))
+        replace(folder / "trials.json", json.dumps({name: UNITS.get(name, "") for name in names}, indent=1) + "\n")
+        replace(folder / "trials.csv", read(titles) + "".join(rows[trial.number] for trial in trials))
+    return missing
+
+
+def run_batch(program, args):
+    trials = trials_of(args)
+    shard, shards = shard_of(args.shard)
+    folder = Path(args.out)
+    folder.mkdir(parents=True, exist_ok=True)
+    same_batch(folder, args, trials)
+    rows = Rows(folder / f"rows-{shard}-of-{shards}.csv")
+    try:
+        done = done_in(folder)
+        todo = [trial for trial in trials if trial.number % shards == shard - 1 and trial.number not in done]
+        # Of a batch that is done for this shard, one trial tells the titles, should they be lost.
+        titles, failed = run_all(program, todo, args, rows)
+        if titles:
+            replace(folder / "titles.csv", line_of(titles))
+        elif not (folder / "titles.csv").exists() and done:
+            replace(folder / "titles.csv", line_of(simulate(program, trials[0], args.limit)[1]))
+    finally:
+        rows.close()
+    missing = finish(folder, trials)
+    if missing:
+        aside(f"{missing} trials are missing, of this shard {failed} that failed; the table is written when all are there.")
+        return 1
+    aside(f"{len(trials)} trials are in {folder / 'trials.csv'}.")
+    return 0
+
+
+def arguments(parser):
+    parser.add_argument("--worlds", default="busy", metavar="NAME,...", help="names or files of worlds. Default: busy.")
+    parser.add_argument("--seeds", default="1-10", metavar="1-10", help="of the worlds.")
+    parser.add_argument("--people", default="typical", metavar="TYPE[:SEEDS],...", help="who drives. Default: typical.")
+    parser.add_argument("--conditions", default="default", metavar="NAME,...", help="what is played. Default: default.")
+    parser.add_argument("--limit", type=int, default=600, metavar="S", help="s of a trial. Default: 600.")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="trials at a time. Default: 1.")
+    parser.add_argument("--shard", default="1/1", metavar="K/N", help="the part of the trials to run.")
+    parser.add_argument("--tell", type=float, default=10.0, metavar="S", help="s between two lines of progress. Default: 10.")
+    parser.add_argument("--out", required=True, metavar="DIR", help="folder of the tables.")
+
+
+def run(args):
+    from navvi_cli.workspace import enter, tool
+    program = tool("navvi_study", "trials_bench")
+    enter()
+    return run_batch(program, args)

@@ -1,0 +1,257 @@
+// people_bench [TYPE]: published effects of guidance on people, beside what the simulated person
+// shows: `./navvi bench people`. A row whose sign differs, or whose size is off by more than half
+// where one is published, says so. A disagreement is a finding about the person, not a failure.
+
+#include <ros/package.h>
+
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <functional>
+#include <navvi_config/reader.hpp>
+#include <string>
+#include <vector>
+
+#include "navvi_people/loop/closed_loop.hpp"
+
+namespace {
+
+using namespace navvi_people;
+using people::SimulatedOperatorConfig;
+
+constexpr double kStep = 0.02;  // s
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr int kPeople = 60;
+constexpr int kTrials = 8;
+constexpr double kLimit = 300.0;  // s
+
+std::string phrases() {
+  return ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
+}
+
+SimulatedOperatorConfig person(const std::string& type, int seed) {
+  SimulatedOperatorConfig config;
+  navvi_config::read(config,
+                     navvi_config::read_words({"type:=" + type, "seed:=" + std::to_string(seed)}),
+                     "bench");
+  return config;
+}
+
+/// A robot without inertia on an empty floor, and its stick some time late.
+class Rig {
+ public:
+  explicit Rig(const SimulatedOperatorConfig& config, double late = 0.0)
+      : person_(config, phrases()),
+        hands_(static_cast<std::size_t>(std::lround(late / kStep)) + 1) {}
+
+  void step() {
+    time_ += kStep;
+    hands_.push_back(person_.update(time_, kStep));
+    const people::StickAndButtons hand = hands_.front();
+    hands_.pop_front();
+    rate_ = 1.2 * shaped(hand.left);
+    yaw_ += rate_ * kStep;
+  }
+  void wait(double seconds) {
+    for (const double end = time_ + seconds; time_ < end;) step();
+  }
+  void say(const std::string& text) {
+    person_.hear(people::Speech{++id_, people::Speech::Moment::begins, text}, time_);
+    wait(0.15 + static_cast<double>(text.size()) / 18.0);
+    person_.hear(people::Speech{id_, people::Speech::Moment::ends}, time_);
+  }
+  void sound(navvi_types::Earcon earcon, double left, double right) {
+    person_.hear(people::Sound{earcon, left, right}, time_);
+  }
+  [[nodiscard]] double yaw() const { return yaw_; }
+  [[nodiscard]] double rate() const { return rate_; }
+
+ private:
+  static double shaped(double stick) {
+    const double beyond = std::max(0.0, (std::abs(stick) - 0.12) / 0.88);
+    return std::copysign(0.7 * beyond + 0.3 * beyond * beyond * beyond, stick);
+  }
+
+  people::SimulatedOperator person_;
+  std::deque<people::StickAndButtons> hands_;
+  std::uint32_t id_ = 0;
+  double time_ = 100.0;
+  double yaw_ = 0.0;
+  double rate_ = 0.0;
+};
+
+/// deg, turned too far to the right by words.
+double over_by_words(SimulatedOperatorConfig config, int hour) {
+  config.hearing.faults = false;  // those who were measured had heard it
+  Rig rig(config);
+  rig.wait(2.0);
+  rig.say(std::to_string(hour) + " o'clock, 1 meter");
+  rig.wait(6.0);
+  return -rig.yaw() / kDegree - 30.0 * hour;
+}
+
+/// How early the sound to stop comes: by an angle, or by a time at the present rate.
+struct Stop {
+  double angle = 0.0;  ///< rad
+  double delay = 0.0;  ///< s
+};
+
+/// deg, turned too far to the left by ticks that end in a sound to stop.
+double over_by_ticks(const SimulatedOperatorConfig& config, double angle, Stop stop,
+                     double late = 0.0) {
+  using navvi_types::Earcon;
+  Rig rig(config, late);
+  rig.say("straight ahead, 9 meters");
+  rig.wait(3.0);
+  const double target = rig.yaw() + angle;
+  bool told = false;
+  for (int i = 0; i < 400; ++i) {
+    const double left = target - rig.yaw() - stop.angle - rig.rate() * stop.delay;
+    if (!told && left <= 0.0) {
+      told = true;
+      rig.sound(Earcon::turn_stop, 0.3, 0.3);
+    }
+    // As the guide's: the faster, the less is left.
+    const int every = left > 1.0 ? 20 : left > 0.5 ? 12 : 8;
+    if (!told && i % every == 0) rig.sound(Earcon::turn, 0.6, 0.0);
+    rig.step();
+  }
+  return (rig.yaw() - target) / kDegree;
+}
+
+/// The mean over people, each with a seed.
+double mean(const std::string& type, const std::function<double(SimulatedOperatorConfig)>& of) {
+  double sum = 0.0;
+  for (int seed = 1; seed <= kPeople; ++seed) sum += of(person(type, seed));
+  return sum / kPeople;
+}
+
+/// s that the person takes from the sound to the stop, on the mean: what a guide would learn.
+double delay_of(const std::string& type) {
+  return mean(type, [](auto who) { return over_by_ticks(who, 1.5, {}) * kDegree; }) / 1.2;
+}
+
+/// A whole session: s, and how far from the path on the mean, m.
+struct Way {
+  double time = 0.0;
+  double offset = 0.0;
+};
+Way drive(const std::string& type, const std::vector<std::string>& words) {
+  Way all;
+  for (int seed = 1; seed <= kTrials; ++seed) {
+    loop::ClosedLoopConfig config;
+    std::vector<std::string> set = words;
+    set.insert(set.end(), {"sim/world:=easy", "sim/seed:=" + std::to_string(seed),
+                           "person/type:=" + type, "person/seed:=" + std::to_string(seed)});
+    navvi_config::read(config, navvi_config::read_words(set), "bench");
+    loop::ClosedLoop trial(config, phrases());
+    double offset = 0.0;
+    int guidances = 0;
+    const auto goal = [&] {
+      return (trial.session().world().now().robot.position - trial.scenario().goal).norm();
+    };
+    while (trial.time() < kLimit && goal() > 1.0 && trial.step()) {
+      if (!trial.told().guidance) continue;
+      offset += std::abs(trial.told().guidance->path_offset);
+      ++guidances;
+    }
+    all.time += trial.time() / kTrials;
+    all.offset += guidances > 0 ? offset / guidances / kTrials : 0.0;
+  }
+  return all;
+}
+
+/// \param published  0: only its sign is
+void row(const char* effect, const char* source, double published, double here, bool sign) {
+  const bool size = published == 0.0 || std::abs(here / published - 1.0) <= 0.5;
+  char known[32] = "sign";
+  if (published != 0.0) std::snprintf(known, sizeof known, "%.1f", published);
+  std::printf("| %s | %s | %s | %.2f | %s |\n", effect, source, known, here,
+              !sign  ? "DISAGREES in sign"
+              : size ? "agrees"
+                     : "agrees in sign, DISAGREES in size");
+  std::fflush(stdout);
+}
+
+void turns(const std::string& type) {
+  const double delay = delay_of(type);
+  const auto error = [&](double angle, Stop stop, double late = 0.0) {
+    return mean(type, [=](auto who) { return std::abs(over_by_ticks(who, angle, stop, late)); });
+  };
+  const double words = mean(type, [](auto who) { return std::abs(over_by_words(who, 3)); });
+  const double ticks = error(1.5, {0.0, delay});
+  row("error of turns by words over that by a turn sound", "PerCom'19, 28 people", 3.5,
+      words / ticks, words > ticks);
+  const double slight = mean(type, [](auto who) { return over_by_words(who, 1); });
+  const double ample = mean(type, [](auto who) { return over_by_words(who, 3); });
+  row("slight turns over-rotated more than ample ones, deg", "ASSETS'18, 11 people", 4.0,
+      slight - ample, slight > ample);
+  double fixed = 0.0, anticipated = 0.0;
+  for (const double angle : {0.5, 1.0, 1.5, 2.5}) {
+    fixed += error(angle, {1.2 * delay, 0.0}) / 4.0;
+    anticipated += error(angle, {0.0, delay}) / 4.0;
+  }
+  row("a stop at a fixed angle errs more than an anticipated one, deg", "TACCESS'19, 11 people",
+      0.0, fixed - anticipated, fixed > anticipated);
+  const double base = error(1.5, {0.0, delay});
+  // The guide does not know of it.
+  const double short_delay = error(1.5, {0.0, delay}, 0.1) - base;
+  const double long_delay = error(1.5, {0.0, delay}, 0.5) - base;
+  row("500 ms between stick and robot add to the error of turns, deg",
+      "arXiv 2508.18074, 10 people", 0.0, long_delay, long_delay > 0.0);
+  row("100 ms do not, as a share of that", "arXiv 2508.18074, 10 people", 0.0,
+      short_delay / long_delay, short_delay < 0.25 * long_delay);
+}
+
+void second_turns(const std::string& type) {
+  const auto missed = [&](double speed) {
+    return mean(type, [=](SimulatedOperatorConfig who) {
+      who.driving.cruise = speed;
+      Rig rig(who);
+      rig.wait(2.0);
+      rig.say("3 o'clock");
+      rig.say("9 o'clock");
+      rig.wait(8.0);
+      return rig.yaw() < -45.0 * kDegree ? 1.0 : 0.0;
+    });
+  };
+  const double quick = missed(1.0), slow = missed(0.6);
+  row("the quick miss a second turn soon after the first more often, share", "IMWUT'18, 12 people",
+      0.0, quick - slow, quick > slow);
+}
+
+void ways(const std::string& type) {
+  const std::string deaf = "feedback/sounds/enabled:=false";
+  const std::string numb = "feedback/haptics/enabled:=false";
+  const Way speech = drive(type, {deaf, numb});
+  const Way spatial = drive(type, {numb});
+  const Way beacon =
+      drive(type, {numb, "feedback/sounds/turn/on:=false", "feedback/sounds/beacon/on:=true"});
+  const Way touch = drive(type, {deaf, "speech:=false", "feedback/haptics/steer:=attractive",
+                                 "person/feeling/touch:=attractive"});
+  row("sounds from the side to turn to are quicker than speech, s", "Loomis 1998, Marston 2006",
+      0.0, speech.time - spatial.time, speech.time > spatial.time);
+  row("a beacon is quicker than speech, s", "Marston 2006, 8 people", 0.0,
+      speech.time - beacon.time, speech.time > beacon.time);
+  row("touch alone is slower than speech, s", "ToH 2015, 10 people", 0.0, touch.time - speech.time,
+      touch.time > speech.time);
+  row("touch alone is closer to the path than speech, m", "ToH 2015, 10 people", 0.0,
+      speech.offset - touch.offset, touch.offset < speech.offset);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const std::string type = argc > 1 ? argv[1] : "typical";
+    std::printf("| effect, %s | published | size | here | |\n|---|---|---|---|---|\n",
+                type.c_str());
+    turns(type);
+    second_turns(type);
+    ways(type);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "navvi: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,119 @@
+"""A batch of trials: no row lost or doubled, and the same bytes however it was run. The trials themselves are played by a stand-in."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+from navvi_cli.commands import batch  # noqa: E402
+from navvi_cli.say import Failure  # noqa: E402
+
+STAND_IN = """#!/bin/sh
+# The row is a function of all that the trial is.
+sum=$(echo "$@" | cksum)
+sum=${{sum%% *}}
+for word in "$@"; do
+  case $word in
+    --world=*) world=${{word#*=}} ;;
+    --seeds=*) seed=${{word#*=}} ;;
+  esac
+done
+sleep {seconds}
+[ "$seed" != {broken} ] || {{ echo "the trial crashed" >&2; exit 2; }}
+echo world,seed,result,time,driven,shortest,hits,why
+echo "$world,$seed,\\"reached\\",\\"$sum\\",\\"20.0\\",\\"18.0\\",\\"shelf 2 worker 1\\",\\"following, shelf\\""
+"""
+
+
+def stand_in(folder, seconds=0.0, broken="none"):
+    program = folder / f"stand_in_{seconds}_{broken}"
+    program.write_text(STAND_IN.format(seconds=seconds, broken=broken))
+    program.chmod(0o755)
+    return program
+
+
+def args_of(out, **more):
+    values = {"worlds": "easy,busy", "seeds": "1-3", "people": "able,drawn:1-2", "conditions": "default,words_alone", "limit": 60,
+              "jobs": 1, "shard": "1/1", "tell": 100.0, "out": str(out)}
+    return SimpleNamespace(**{**values, **more})
+
+
+def test_a_batch_has_a_row_for_each_world_seed_person_and_condition(tmp_path):
+    assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a")) == 0
+    lines = (tmp_path / "a/trials.csv").read_text().splitlines()
+    assert len(lines) == 1 + 2 * 3 * 3 * 2
+    assert lines[0].startswith("trial,world,seed,person,person_seed,condition,contacts,spl,result,time")
+    assert [line.split(",")[0] for line in lines[1:]] == [str(number) for number in range(36)]
+    assert lines[1].split(",")[6:8] == ["3", "0.900"]
+    units = json.loads((tmp_path / "a/trials.json").read_text())
+    assert list(units) == lines[0].split(",") and all(units.values())
+
+
+def test_jobs_and_shards_change_no_byte(tmp_path):
+    program = stand_in(tmp_path)
+    assert batch.run_batch(program, args_of(tmp_path / "one")) == 0
+    assert batch.run_batch(program, args_of(tmp_path / "jobs", jobs=4)) == 0
+    for shard in ("2/3", "3/3"):
+        assert batch.run_batch(program, args_of(tmp_path / "shards", shard=shard)) == 1, "others are missing"
+    assert batch.run_batch(program, args_of(tmp_path / "shards", shard="1/3")) == 0
+    for folder in ("jobs", "shards"):
+        for name in ("trials.csv", "trials.json"):
+            assert (tmp_path / folder / name).read_bytes() == (tmp_path / "one" / name).read_bytes()
+
+
+def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
+    program = stand_in(tmp_path, 0.02)
+    code = ("import sys; sys.path[:0] = [%r, %r]; import batch_test; from navvi_cli.commands import batch; "
+            "batch.run_batch(%r, batch_test.args_of(%r, jobs=2))" % (str(ROOT), str(ROOT / "test"), str(program), str(tmp_path / "killed")))
+    rows = tmp_path / "killed/rows-1-of-1.csv"
+    for least in (5, 15):
+        process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
+        while not rows.exists() or rows.read_bytes().count(b"\n") < least:
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    with open(rows, "ab") as file:
+        file.write(b"35,busy,3,dra")  # torn
+    before = rows.read_bytes().rpartition(b"\n")[0]
+    assert batch.run_batch(program, args_of(tmp_path / "killed")) == 0
+    assert rows.read_bytes().startswith(before)
+    assert batch.run_batch(program, args_of(tmp_path / "whole")) == 0
+    assert (tmp_path / "killed/trials.csv").read_bytes() == (tmp_path / "whole/trials.csv").read_bytes()
+    assert rows.read_bytes().count(b"\n") == 36
+
+
+def test_a_trial_that_fails_is_named_and_run_again_next_time(tmp_path, capsys):
+    out = tmp_path / "out"
+    assert batch.run_batch(stand_in(tmp_path, broken="3"), args_of(out)) == 1
+    assert "seed 3" in capsys.readouterr().err and not (out / "trials.csv").exists()
+    assert batch.run_batch(stand_in(tmp_path), args_of(out)) == 0
+
+
+def test_another_batch_in_the_same_folder_and_bad_words_are_refused_by_a_sentence(tmp_path):
+    program = stand_in(tmp_path)
+    assert batch.run_batch(program, args_of(tmp_path / "a", seeds="1-2")) == 0
+    for more in ({"seeds": "1-3"}, {"out": str(tmp_path / "b"), "people": "tired"}, {"out": str(tmp_path / "b"), "conditions": "dark"},
+                 {"out": str(tmp_path / "b"), "shard": "3/2"}, {"out": str(tmp_path / "b"), "seeds": "9-1"}):
+        with pytest.raises(Failure, match="allowed|another"):
+            batch.run_batch(program, args_of(more.pop("out", tmp_path / "a"), **more))
+
+
+def test_one_shard_is_written_by_one_process_at_a_time(tmp_path):
+    rows = batch.Rows(tmp_path / "rows.csv")
+    child = os.fork()
+    if child == 0:
+        try:
+            batch.Rows(tmp_path / "rows.csv")
+        except Failure:
+            os._exit(3)
+        os._exit(0)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 3
+    rows.close()
