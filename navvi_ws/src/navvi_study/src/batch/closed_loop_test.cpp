@@ -164,7 +164,9 @@ TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPla
       played.moved |= loop.hand().forward != 0.0;
     }
     EXPECT_EQ(played.spoken > 0, config_.speech);
-    if (!config_.feedback.sounds.enabled) EXPECT_EQ(played.sounded, 0);
+    if (!config_.feedback.sounds.enabled) {
+      EXPECT_EQ(played.sounded, 0);
+    }
     EXPECT_TRUE(played.moved);
   }
 }
