@@ -53,8 +53,8 @@ UNITS = {
     "trial": "number of the trial in the batch, from 0", "world": "name or file", "seed": "of the world", "person": "type",
     "person_seed": "of the person", "condition": "name", "contacts": "number of contacts", "spl":
     "shortest over driven way where the goal was reached, else 0", "result": "reached, timeout, gave_up or refused",
-    "time": "s since the goal was set", "driven": "m", "shortest": "m, of the first path", "reroutes": "number", "churn_mean": "m/min",
-    "churn_max": "m/min", "turns": "1/min, changes of the announced hour", "flips": "number", "reversed": "number", "misled": "number",
+    "time": "s since the goal was set", "driven": "m", "shortest": "m, of the first path", "reroutes": "number",
+    "turns": "1/min, changes of the announced hour", "flips": "number", "reversed": "number", "misled": "number",
     "cues": "1/min, sentences", "words": "1/min", "talk": "share of the time", "repeats": "number", "at_odds": "number", "waits": "number",
     "hasty": "number", "speechless": "number of pushes in vain without a word", "following": "s", "blocked": "s", "make_room": "s",
     "no_route": "s", "off_mesh": "s", "other": "s", "still": "s, the longest stay within 0.3 m", "still_at": "s", "hits":

@@ -14,6 +14,8 @@ between FROM and TO (s). --sensing gives guidance and feedback what a lidar, or
 a lidar and a depth camera (robot), show of the world. PART is sim, nav,
 feedback, person or perception, with the parameters of its node, such as
 nav/replan/hold_time:=3 or sim/goal:=3,4.
+people [TYPE] prints published effects of guidance on people beside those of the
+simulated person; guidance DIR the tables of a batch, person by person.
 
 Exit codes
 0: done. 1: one failed. 2: a wrong argument.
