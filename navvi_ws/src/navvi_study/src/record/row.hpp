@@ -42,7 +42,7 @@ struct Row {
   std::uint32_t seq = 0;     ///< 1 for the first row, no gaps
   std::int64_t sim_ns = 0;   ///< ns, ROS time of the event
   std::int64_t mono_ns = 0;  ///< ns, monotonic clock when it was written
-  std::string type;          ///< [A-Z_]+, see the README
+  std::string type;          ///< [A-Z_]+, see doc/record.md
   Fields fields;
 
   bool operator==(const Row& other) const;
