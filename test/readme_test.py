@@ -110,6 +110,23 @@ def test_the_readme_of_the_simulator_has_a_row_a_room_in_the_order_of_cmake():
     assert re.findall(r"^\| \d+ \| `(\w+)`", text, re.M) == list(rooms_of("navvi_sim"))
 
 
+def test_contributing_names_rooms_files_and_classes_that_exist():
+    rows = [line.split("|")[2] for line in (ROOT / "CONTRIBUTING.md").read_text().splitlines() if line.startswith("| ")]
+    words = {word for row in rows for word in re.findall(r"`([^`]+)`", row)}
+    places = {word for word in words if re.fullmatch(r"navvi_[\w/.]+", word)}
+    assert len(places) > 30
+
+    def stands(place):
+        package, _, rest = place.partition("/")
+        homes = [ROOT / place, SOURCES / place, SOURCES / package / "src" / rest, SOURCES / package / "include" / package / rest]
+        return any(home.exists() for home in homes)
+
+    assert sorted(place for place in places if not stands(place.replace("NAME", "run"))) == []
+    classes = {word for word in words if re.fullmatch(r"[A-Z]\w+(::\w+)?", word) and not word.isupper()}
+    assert len(classes) > 25
+    assert sorted(name for name in classes if not exists(name)) == []
+
+
 def test_each_command_that_a_document_names_exists():
     commands = {path.stem for path in (ROOT / "navvi_cli/commands").glob("*.py")}
     named = {(page.relative_to(ROOT).as_posix(), word) for page in PAGES if page.name != "CHANGELOG.md"
