@@ -338,9 +338,9 @@ def test_what_is_felt_or_sounds_is_said_too():
     import yaml
     source = ROOT / "navvi_ws/src/navvi_feedback"
     phrases = yaml.safe_load((source / "config/phrases/en.yaml").read_text())["phrases"]
-    for header in "haptics/pattern.hpp", "sounds/earcon.hpp":
-        text = (source / "include/navvi_feedback" / header).read_text()
-        names = re.findall(r"^  (\w+),", text[text.index("enum class"):text.index("};")], re.M)
+    signals = (ROOT / "navvi_ws/src/navvi_types/include/navvi_types/signal.hpp").read_text()
+    for kind in "Pattern", "Earcon":
+        names = re.findall(r"^  (\w+),", re.search(rf"enum class {kind} .*?}};", signals, re.S)[0], re.M)
         assert len(names) > 5
         for name in names:
             near = re.fullmatch(r"(\w+?)_(near|close)", name)
