@@ -185,7 +185,7 @@ TEST_F(ClosedLoopIn, theSameSeedGivesTheSameTrialAndAnotherSeedAnotherOne) {
   const std::string trace = trace_.str();
   EXPECT_EQ(play(kRoom, 60.0), first);
   EXPECT_EQ(trace_.str(), trace);
-  config_.sim.seed = 2;
+  config_.person.seed = 2;
   EXPECT_NE(play(kRoom, 60.0).get("hash"), first.get("hash"));
 }
 
