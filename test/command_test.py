@@ -301,3 +301,10 @@ def test_however_much_is_to_build_it_is_seen(steps, answer, tmp_path):
     script = (f"set -euo pipefail; source {ROOT}/navvi_cli/shell/workspace.bash; is_configured() {{ true; }}; PATH={tmp_path}:$PATH; "
               "if is_built x y; then echo up to date; else echo to build; fi")
     assert subprocess.check_output(["bash", "-c", script], text=True) == answer + "\n"
+
+
+def test_the_version_needs_no_git(monkeypatch):
+    from navvi_cli import version
+    monkeypatch.setenv("PATH", "/nonexistent")
+    assert "+" not in version.version()
+

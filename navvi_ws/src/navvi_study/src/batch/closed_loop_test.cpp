@@ -151,9 +151,13 @@ TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPla
   for (int channels = 0; channels < 8; ++channels) {
     SCOPED_TRACE(channels);
     config_.speech = (channels & 1) != 0;
-    config_.feedback.sounds.enabled = (channels & 2) != 0;
-    config_.feedback.haptics.enabled = (channels & 4) != 0;
-    config_.feedback.haptics.steer = "attractive";
+    const auto shown = [](bool on) { return on ? std::string("true") : std::string("false"); };
+    const bool sounds = (channels & 2) != 0;
+    navvi_config::read(config_.feedback,
+                       navvi_config::read_words({"sounds/enabled:=" + shown(sounds),
+                                                 "haptics/enabled:=" + shown((channels & 4) != 0),
+                                                 "haptics/steer:=attractive"}),
+                       "the test");
     config_.person.feeling.touch = "attractive";
     ClosedLoop loop(config_, phrases_);
     Played played;
@@ -164,7 +168,7 @@ TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPla
       played.moved |= loop.hand().forward != 0.0;
     }
     EXPECT_EQ(played.spoken > 0, config_.speech);
-    if (!config_.feedback.sounds.enabled) {
+    if (!sounds) {
       EXPECT_EQ(played.sounded, 0);
     }
     EXPECT_TRUE(played.moved);
