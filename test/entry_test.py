@@ -67,7 +67,7 @@ def test_shell_scripts_are_clean():
     (["parameters", "--xml"], "allowed is: ./navvi parameters [FILTER] [--csv]"),
     (["parameters", "nope"], "allowed are parts of: cue_player feedback_node"),
     (["world"], "missing: ACTION"),
-    (["world", "lst"], "allowed are: list check show write map"),
+    (["world", "lst"], "allowed are: list check show write"),
     (["world", "show"], "missing: NAME|FILE"),
     (["world", "write", "training"], "writes one file"),
     (["bench", "foo"], "allowed are parts of: build/build_bench nav/nav_bench"),

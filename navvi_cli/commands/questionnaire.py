@@ -1,4 +1,4 @@
-"""Ask a questionnaire by voice, and take the answers by stick and buttons.
+"""Ask a questionnaire by voice, and take answers by stick and buttons.
 
 Arrow up and down, or the stick, find the answer, start confirms it, the left
 arrow goes back, the lower button repeats, select is for "rather not say"; on
@@ -10,7 +10,7 @@ Exit codes
 display for the keyboard.
 
 Example
-./navvi questionnaire feedback/questions:=asked.yaml feedback/record:=answers.csv
+./navvi questionnaire feedback/questions:=asked.yaml feedback/record:=told.csv
 """
 from navvi_cli.lessons import give, lesson_arguments
 from navvi_cli.say import fail

@@ -1,6 +1,9 @@
 """Plan a study, run it with participants, and report it.
 
 doc/study.md shows how, from plan to report.
+
+Exit codes
+0: it is done. 1: it broke off. 2: a wrong argument, or a wrong plan.
 """
 import sys
 

@@ -10,8 +10,8 @@ namespace {
 TEST(PersonConfig, every_default_lies_in_its_own_range) {
   for (const auto& row : navvi_config::table<SimulatedOperatorConfig>()) {
     SimulatedOperatorConfig config;
-    EXPECT_NO_THROW(navvi_config::read(config, YAML::Load(row.key + ": " + row.default_value),
-                                       "its own default"))
+    EXPECT_NO_THROW(navvi_config::read(
+        config, navvi_config::read_words({row.key + ":=" + row.default_value}), "its own default"))
         << row.key;
   }
 }

@@ -222,7 +222,8 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
     case Meaning::stuck:
       return;
     case Meaning::ready:
-      pressed_ = time;
+      // Once under way, what feels like it is something else.
+      if (odometer_ == 0.0) pressed_ = time;
       return;
     case Meaning::begun:
       told_to_halt_ = false;

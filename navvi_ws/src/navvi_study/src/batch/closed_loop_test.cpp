@@ -20,37 +20,59 @@ namespace {
 namespace fs = std::filesystem;
 using navvi_people::loop::ClosedLoopConfig;
 
-const std::string kRoom = R"(name: room
-things:
-  - {name: ground, class: floor, shapes: [{box: [12, 6, 0.1], pose: [0, 0, -0.05]}]}
-)";
-/// Right across the room.
-const std::string kWall =
-    "  - {name: wall, class: wall, pose: [0, 0, 1], shapes: [{box: [0.2, 6, 2]}]}\n";
-/// The same with a door of 1.2 m, and a pallet robot that has stopped in it for good.
-const std::string kDoor = R"(
-  - {name: left, class: wall, pose: [0, 1.8, 1], shapes: [{box: [0.2, 2.4, 2]}]}
-  - {name: right, class: wall, pose: [0, -1.8, 1], shapes: [{box: [0.2, 2.4, 2]}]}
-  - name: mover
-    class: pallet_robot
-    pose: [0.2, 0, 0]
-    shapes: [{box: [0.8, 0.6, 0.4], pose: [0, 0, 0.25]}]
-    route: {waypoints: [[0.2, 0], [1.5, 0]], speed: 0.5, delay: 3600}
-)";
+/// A thing of one box, which stands still. \param at  m, its centre: x y z
+std::string box(const std::string& name, const std::string& word, const std::string& size,
+                const std::string& at) {
+  return "<model name='" + name + "'><static>true</static><navvi:class>" + word +
+         "</navvi:class><pose>" + at +
+         " 0 0 0</pose><link name='l'><collision name='c'><geometry><box><size>" + size +
+         "</size></box></geometry></collision></link></model>\n";
+}
 
+/// A pallet robot on its way to and fro. \param begin, end  m: x y; \param pause  s, at both
+std::string pallet_robot(const std::string& begin, const std::string& yaw, const std::string& end,
+                         const std::string& delay, const std::string& pause) {
+  const std::string waypoint = "<navvi:waypoint speed='0' pause='" + pause + "'>";
+  return "<model name='mover'><static>true</static><navvi:class>pallet_robot</navvi:class><pose>" +
+         begin + " 0 0 0 " + yaw + "</pose><navvi:route speed='0.5' loop='true' delay='" + delay +
+         "' yields='true'>" + waypoint + begin + "</navvi:waypoint>" + waypoint + end +
+         "</navvi:waypoint></navvi:route><link name='l'><collision name='c'>"
+         "<pose>0 0 0.25 0 0 0</pose><geometry><box><size>0.8 0.6 0.4</size></box></geometry>"
+         "</collision></link></model>\n";
+}
+
+/// A worker who crosses the room.
+const std::string kWorker =
+    "<model name='worker'><static>true</static><navvi:class>worker</navvi:class>"
+    "<pose>1.5 -2.4 0 0 0 0</pose><navvi:route speed='0.8' loop='true' delay='0' yields='true'>"
+    "<navvi:waypoint speed='0' pause='0'>1.5 -2.4</navvi:waypoint>"
+    "<navvi:waypoint speed='0' pause='0'>1.5 2.4</navvi:waypoint></navvi:route>"
+    "<link name='l'><collision name='c'><pose>0 0 0.725 0 0 0</pose>"
+    "<geometry><box><size>0.4 0.4 1.45</size></box></geometry></collision></link></model>\n";
+
+std::string world(const std::string& things) {
+  return "<sdf version='1.7' xmlns:navvi='navvi'><world name='w'>\n" + things + "</world></sdf>";
+}
+
+const std::string kFloor = box("ground", "floor", "12 6 0.1", "0 0 -0.05");
+const std::string kRoom = world(kFloor);
+/// A wall right across the room.
+const std::string kCut = world(kFloor + box("wall", "wall", "0.2 6 2", "0 0 1"));
+/// A wall with a door of 1.2 m, and a pallet robot that has stopped in it for good.
+const std::string kDoor =
+    world(kFloor + box("left", "wall", "0.2 2.4 2", "0 1.8 1") +
+          box("right", "wall", "0.2 2.4 2", "0 -1.8 1") +
+          pallet_robot("0.2 0", "0", "1.5 0", "3600", "0"));
 /// An aisle of 1.8 m with a niche, and a pallet robot that comes along it.
-const std::string kNiche = R"(name: niche
-things:
-  - {name: ground, class: floor, shapes: [{box: [20, 6, 0.1], pose: [0, 0, -0.05]}]}
-  - {name: south, class: wall, pose: [0, -1.95, 1], shapes: [{box: [10, 2.1, 2]}]}
-  - {name: west, class: wall, pose: [-3.5, 1.95, 1], shapes: [{box: [3, 2.1, 2]}]}
-  - {name: east, class: wall, pose: [2.25, 1.95, 1], shapes: [{box: [5.5, 2.1, 2]}]}
-  - name: mover
-    class: pallet_robot
-    pose: [6, 0, 0, 0, 0, 3.14159]
-    shapes: [{box: [0.8, 0.6, 0.4], pose: [0, 0, 0.25]}]
-    route: {waypoints: [[6, 0], [-8.5, 0]], speed: 0.5, pause: 200}
-)";
+const std::string kNiche =
+    world(box("ground", "floor", "20 6 0.1", "0 0 -0.05") +
+          box("south", "wall", "10 2.1 2", "0 -1.95 1") +
+          box("west", "wall", "3 2.1 2", "-3.5 1.95 1") +
+          box("east", "wall", "5.5 2.1 2", "2.25 1.95 1") +
+          pallet_robot("6 0", "3.14159", "-8.5 0", "0", "200"));
+/// A worker, and a pedestal too low for the lidar's plane on the straight way.
+const std::string kCrossing =
+    world(kFloor + box("pedestal", "pedestal", "0.6 0.6 0.1", "-1 0.1 0.05") + kWorker);
 
 class ClosedLoopIn : public testing::Test {
  protected:
@@ -64,7 +86,7 @@ class ClosedLoopIn : public testing::Test {
 
   /// The row of a trial of at most `limit` s.
   record::Fields play(const std::string& world, double limit,
-                      const std::string& name = "world.yaml") {
+                      const std::string& name = "room.world") {
     config_.sim.world = (folder_ / name).string();
     std::ofstream(config_.sim.world) << world;
     ClosedLoop loop(config_, phrases_);
@@ -98,7 +120,7 @@ TEST_F(ClosedLoopIn, anEmptyRoomReachesItsGoalWithoutDetourOrContact) {
 }
 
 TEST_F(ClosedLoopIn, aWorldWithASlabOnItsPlaneIsDrivenOnTheSlab) {
-  const auto box = [](const std::string& name, const std::string& size, const std::string& pose) {
+  const auto slab = [](const std::string& name, const std::string& size, const std::string& pose) {
     return "<model name='" + name + "'><static>1</static><pose>" + pose +
            " 0 0 0</pose><link name='l'><collision name='c'><geometry><box><size>" + size +
            "</size></box></geometry></collision></link></model>";
@@ -108,11 +130,11 @@ TEST_F(ClosedLoopIn, aWorldWithASlabOnItsPlaneIsDrivenOnTheSlab) {
       "<model name='ground_plane'><static>1</static><link name='l'><collision name='c'><geometry>"
       "<plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
       "</model>";
-  const std::string boxes = box("b", "0.5 0.5 1", "2 2 0.55") + box("c", "0.5 0.5 1", "-2 2 0.55");
+  const std::string boxes = slab("b", "0.5 0.5 1", "2 2 0.55") + slab("c", "0.5 0.5 1", "-2 2 0.55");
   config_.sim.start = "-3,-1,0";
   config_.sim.goal = "3,-1";
-  for (const std::string& things : {box("asphalt_plane", "8 8 0.1", "0 0 0") + boxes,
-                                    box("asphalt_plane", "20 20 0.1", "0 0 0")}) {
+  for (const std::string& things : {slab("asphalt_plane", "8 8 0.1", "0 0 0") + boxes,
+                                    slab("asphalt_plane", "20 20 0.1", "0 0 0")}) {
     const record::Fields row = play(begin + plane + things + end, 60.0, "slab.world");
     EXPECT_EQ(row.get("result"), "reached") << trace_.str();
     EXPECT_EQ(row.get("hits"), "-");
@@ -146,7 +168,7 @@ struct Played {
 };
 
 TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPlayed) {
-  config_.sim.world = (folder_ / "room.yaml").string();
+  config_.sim.world = (folder_ / "room.world").string();
   std::ofstream(config_.sim.world) << kRoom;
   for (int channels = 0; channels < 8; ++channels) {
     SCOPED_TRACE(channels);
@@ -194,13 +216,13 @@ TEST_F(ClosedLoopIn, theSameSeedGivesTheSameTrialAndAnotherSeedAnotherOne) {
 }
 
 TEST_F(ClosedLoopIn, aRoomCutInTwoHasItsGoalRefused) {
-  const record::Fields row = play(kRoom + kWall, 60.0);
+  const record::Fields row = play(kCut, 60.0);
   EXPECT_EQ(row.get("result"), "refused: unreachable");
   EXPECT_LT(row.number("time").value(), 2.0);
 }
 
 TEST_F(ClosedLoopIn, aDoorThatSomethingStandsInIsToldAndNotDrivenInto) {
-  const record::Fields row = play(kRoom + kDoor, 40.0);
+  const record::Fields row = play(kDoor, 40.0);
   EXPECT_EQ(row.get("result"), "timeout");
   EXPECT_EQ(row.get("hits"), "-");
   EXPECT_GT(row.number("no_route").value() + row.number("blocked").value(), 30.0);
@@ -220,19 +242,9 @@ TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHa
       << trace_.str();
 }
 
-/// A worker who crosses the room, and a pedestal too low for the lidar's plane on the straight way.
-const std::string kCrossing = R"(
-  - {name: pedestal, class: pedestal, pose: [-1, 0.1, 0.05], shapes: [{box: [0.6, 0.6, 0.1]}]}
-  - name: worker
-    class: worker
-    pose: [1.5, -2, 0]
-    shapes: [{box: [0.4, 0.4, 1.45], pose: [0, 0, 0.725]}]
-    route: {waypoints: [[1.5, -2.4], [1.5, 2.4]], speed: 0.8}
-)";
-
 TEST_F(ClosedLoopIn, aRobotsOwnSensorsLeadPastAWorkerAndACameraPastWhatIsTooLowForTheLidar) {
   config_.sim.sensing = "robot";
-  const record::Fields row = play(kRoom + kCrossing, 120.0);
+  const record::Fields row = play(kCrossing, 120.0);
   EXPECT_EQ(row.get("result"), "reached") << trace_.str();
   EXPECT_EQ(row.get("hits"), "-") << trace_.str();
   EXPECT_GE(row.number("passed").value(), 1.0);
@@ -240,10 +252,10 @@ TEST_F(ClosedLoopIn, aRobotsOwnSensorsLeadPastAWorkerAndACameraPastWhatIsTooLowF
   EXPECT_LE(row.number("ghosts").value(), 1.0);
   EXPECT_LT(row.number("lag").value(), 1.0);
   const std::string trace = trace_.str();
-  EXPECT_EQ(play(kRoom + kCrossing, 120.0), row);
+  EXPECT_EQ(play(kCrossing, 120.0), row);
   EXPECT_EQ(trace_.str(), trace);
   config_.sim.sensing = "lidar";
-  EXPECT_NE(play(kRoom + kCrossing, 30.0).get("hits").find("pedestal"), std::string::npos)
+  EXPECT_NE(play(kCrossing, 30.0).get("hits").find("pedestal"), std::string::npos)
       << "the known limit of a lidar alone";
 }
 
