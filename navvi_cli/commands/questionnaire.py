@@ -1,4 +1,4 @@
-"""Ask a questionnaire by voice, and take answers by stick and buttons.
+"""Ask questions by voice, and take answers by stick and buttons.
 
 Arrow up and down, or the stick, find the answer, start confirms it, the left
 arrow goes back, the lower button repeats, select is for "rather not say"; on
