@@ -149,6 +149,24 @@ TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
   }));
 }
 
+TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_follow) {
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  geometry_msgs::TransformStamped ahead;
+  ahead.header.stamp = ros::Time::now() + ros::Duration(1e6);
+  ahead.header.frame_id = "map";
+  ahead.child_frame_id = "base_link";
+  ahead.transform.translation.x = 14.0;
+  ahead.transform.rotation.w = 1.0;
+  broadcaster_.sendTransform(ahead);
+  // What was seen before it may still be under way.
+  const ros::WallTime sent = ros::WallTime::now();
+  until([&] { return (ros::WallTime::now() - sent).toSec() > 1.0; });
+  obstacles_.reset();
+  disc_y_ = -2.0;
+  ASSERT_TRUE(until([this] { return obstacles_ && !obstacles_->obstacles.empty(); }));
+  EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3) << "from where the robot is";
+}
+
 TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_on_after_them) {
   ASSERT_TRUE(until([this] { return near_.has_value(); }));
   const std::vector<std::function<void(sensor_msgs::LaserScan&)>> faults = {

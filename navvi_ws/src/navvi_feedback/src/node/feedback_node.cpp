@@ -4,13 +4,13 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_msgs/String.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <csignal>
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
+#include <navvi_types/transform_listener.hpp>
 
 #include "navvi_feedback/lockstep/guide.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
@@ -37,6 +37,7 @@ volatile std::sig_atomic_t g_stop = 0;
 
 constexpr double kTick = 0.02;      // s
 constexpr double kReport = 0.25;    // s; trial_node knows within a second that this node hangs
+constexpr double kMostAhead = 0.3;  // s, that a pose may be stamped ahead of ROS time
 constexpr double kLate = 0.1;       // s between two ticks; below it hands and ears notice nothing
 constexpr double kLastWords = 3.0;  // s, that the end of a session waits for them at most
 
@@ -229,7 +230,9 @@ class FeedbackNode {
   /// base_link in map
   [[nodiscard]] std::optional<navvi_types::Pose2> robot() const {
     try {
-      return from_msg(tf_.lookupTransform("map", "base_link", ros::Time(0)).transform);
+      const auto found = tf_.lookupTransform("map", "base_link", ros::Time(0));
+      if ((found.header.stamp - ros::Time::now()).toSec() > kMostAhead) return std::nullopt;
+      return from_msg(found.transform);
     } catch (const tf2::TransformException&) {
       return std::nullopt;
     }
@@ -262,7 +265,7 @@ class FeedbackNode {
   ros::NodeHandle node_;
   Outlets outlets_;
   tf2_ros::Buffer tf_;
-  tf2_ros::TransformListener tf_listener_{tf_};
+  navvi_types::TransformListener tf_listener_{tf_};
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 

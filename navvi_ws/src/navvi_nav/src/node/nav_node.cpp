@@ -4,12 +4,12 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
+#include <navvi_types/transform_listener.hpp>
 
 #include "guide/navigator.hpp"
 #include "guide/publish_throttle.hpp"
@@ -24,9 +24,8 @@ using navvi_types::Pose2;
 
 constexpr double kServicePatience = 1.0;  // s
 constexpr double kMeshPeriod =
-    0.5;                         // s, between two pictures of the mesh; a large one waits longer
-constexpr double kBeat = 0.05;   // s, where nothing wakes the node sooner
-constexpr double kForget = 1.0;  // s, between two fresh starts of the transforms
+    0.5;                        // s, between two pictures of the mesh; a large one waits longer
+constexpr double kBeat = 0.05;  // s, where nothing wakes the node sooner
 
 /// Work for the node's own thread, from any other.
 class Wake : public ros::CallbackInterface {
@@ -200,22 +199,10 @@ class NavNode {
       const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform);
       if (pose && !navigator_.set_pose(*pose, transform.transform.translation.z,
                                        transform.header.stamp.toSec(), now))
-        forget_transforms("the robot's pose is stamped ahead of this clock", now);
-    } catch (const tf2::ExtrapolationException&) {
-      // One transform of the chain is so far ahead that none of the others is as late.
-      if (!navigator_.pose(now) && now - forgot_ > kForget)
-        forget_transforms("its transforms have no time in common", now);
+        ROS_WARN_THROTTLE(5.0, "The robot's pose is stamped ahead of this clock and is dropped.");
     } catch (const tf2::TransformException&) {
       // The age of the pose shows it.
     }
-  }
-
-  /// tf2 drops what is older than the latest by 10 s or more: one stamp from the future would keep
-  /// out all that come after it.
-  void forget_transforms(const char* why, double now) {
-    ROS_WARN_THROTTLE(5.0, "The robot's place is not known: %s. The transforms start afresh.", why);
-    buffer_.clear();
-    forgot_ = now;
   }
 
   /// At least at 20 Hz; at once when obstacles or a finished plan come.
@@ -223,8 +210,6 @@ class NavNode {
     const double now = ros::Time::now().toSec();
     if (now < last_time_) {
       ROS_WARN("Time jumped back; poses and obstacles start afresh.");
-      buffer_.clear();
-      forgot_ = 0.0;
       navigator_.reset_times();
     }
     last_time_ = now;
@@ -284,7 +269,7 @@ class NavNode {
   guide::Navigator navigator_;
   plan::Worker worker_;
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_{buffer_};
+  navvi_types::TransformListener listener_{buffer_};
   std::optional<tf2_ros::StaticTransformBroadcaster> frames_;
   ros::Publisher path_;
   ros::Publisher guidance_;
@@ -297,7 +282,6 @@ class NavNode {
   guide::PublishThrottle throttle_;
   guide::MeshThrottle mesh_throttle_;
   double last_time_ = 0.0;
-  double forgot_ = 0.0;  ///< s, when the transforms last started afresh
   std::uint32_t seq_ = 0;
   unsigned bad_goals_ = 0;
 };

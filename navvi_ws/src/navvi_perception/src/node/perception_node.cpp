@@ -4,13 +4,13 @@
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
 #include <tf2_ros/message_filter.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <cmath>
 #include <memory>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
+#include <navvi_types/transform_listener.hpp>
 
 #include "navvi_perception/see/perception.hpp"
 #include "node/msg_conversion.hpp"
@@ -233,7 +233,7 @@ class PerceptionNode {
   sight::Prior prior_;
   std::unique_ptr<see::Perception> perception_;
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_{buffer_};
+  navvi_types::TransformListener listener_{buffer_};
   tf2_ros::MessageFilter<LaserScan> scans_{buffer_, config_.map_frame, kWaiting, nullptr};
   tf2_ros::MessageFilter<PointCloud2> clouds_{buffer_, config_.map_frame, kWaiting, nullptr};
   laser_geometry::LaserProjection projector_;

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <ros/console.h>
+#include <ros/node_handle.h>
+#include <tf2_msgs/TFMessage.h>
+#include <tf2_ros/buffer.h>
+
+#include <string>
+
+namespace navvi_types {
+
+/// Fills a buffer from /tf and /tf_static, as tf2_ros::TransformListener does, and besides rejects
+/// transforms stamped more than 2 s ahead of ROS time: tf2 drops all that are 10 s older than the
+/// latest, so that a single one keeps out all that follow. Localizers stamp map -> odom up to 1 s
+/// ahead. A jump back of ROS time empties the buffer. Lives in the thread of the global queue.
+class TransformListener {
+ public:
+  explicit TransformListener(tf2_ros::Buffer& buffer) : buffer_(buffer) {
+    const auto listen = [this](const char* topic, bool fixed) {
+      const boost::function<void(const Event&)> take = [this, fixed](const Event& event) {
+        receive(event, fixed);
+      };
+      return node_.subscribe<tf2_msgs::TFMessage>(topic, kQueue, take, ros::VoidConstPtr(),
+                                                  ros::TransportHints().tcpNoDelay());
+    };
+    moving_ = listen("/tf", false);
+    fixed_ = listen("/tf_static", true);
+  }
+  TransformListener(const TransformListener&) = delete;
+  TransformListener& operator=(const TransformListener&) = delete;
+
+ private:
+  using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
+
+  void receive(const Event& event, bool fixed) {
+    const ros::Time now = ros::Time::now();
+    if (now < last_) buffer_.clear();
+    last_ = now;
+    const std::string publisher = event.getPublisherName();
+    for (const geometry_msgs::TransformStamped& one : event.getConstMessage()->transforms) {
+      const double ahead = (one.header.stamp - now).toSec();
+      if (!fixed && ahead > kMostAhead) {
+        ROS_WARN_THROTTLE(5.0, "A transform from %s to %s by %s was dropped: it is %.1f s ahead.",
+                          one.header.frame_id.c_str(), one.child_frame_id.c_str(),
+                          publisher.c_str(), ahead);
+        continue;
+      }
+      try {
+        buffer_.setTransform(one, publisher, fixed);
+      } catch (const tf2::TransformException& error) {
+        ROS_WARN_THROTTLE(5.0, "A transform by %s was dropped: %s", publisher.c_str(),
+                          error.what());
+      }
+    }
+  }
+
+  static constexpr std::uint32_t kQueue = 100;
+  static constexpr double kMostAhead = 2.0;  // s
+
+  tf2_ros::Buffer& buffer_;
+  ros::NodeHandle node_;
+  ros::Subscriber moving_, fixed_;
+  ros::Time last_;
+};
+
+}  // namespace navvi_types
