@@ -31,10 +31,10 @@ class AuditoryDisplay {
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::vector<sounds::Play> update(std::vector<cues::Cue>& cues, const SoundsNow& now,
                                                  double time);
-  /// As Soundscape::stopping_delay().
-  [[nodiscard]] std::optional<double> stopping_delay() const {
-    return soundscape_.stopping_delay();
-  }
+  /// As Soundscape::learnt().
+  [[nodiscard]] std::optional<sounds::Learnt> learnt() const { return soundscape_.learnt(); }
+  /// As TurnSound::most_rate().
+  [[nodiscard]] std::optional<double> most_rate() const { return soundscape_.most_rate(); }
   /// One of the chosen loudness, from ahead.
   [[nodiscard]] sounds::Play sample(sounds::Earcon earcon) const;
 

@@ -148,7 +148,11 @@ double Feedback::assist(std::optional<Velocity>& command, double time) const {
   const double share = deciders_->assistance.share(
       *command, nearby_.value.value_or(std::vector<NearThing>{}), fresh);
   command->linear *= share;
-  return share;
+  const double turning = std::abs(command->angular);
+  const double most = deciders_->sounds.most_rate().value_or(turning);
+  if (turning <= most) return share;
+  command->angular *= most / turning;
+  return std::min(share, most / turning);
 }
 
 std::optional<double> Feedback::off_course(double time) const {
@@ -185,9 +189,7 @@ SoundsNow Feedback::sounds_now(const Input& input, double time) const {
   return {input.sounds, input.voice_busy, contacts_, taught, now};
 }
 
-std::optional<double> Feedback::stopping_delay() const {
-  return deciders_->sounds.stopping_delay();
-}
+std::optional<sounds::Learnt> Feedback::learnt() const { return deciders_->sounds.learnt(); }
 
 void Feedback::take(const TrialState& state, double time) {
   trial_repeats_ = trial_time_ && state.state == trial_.state;

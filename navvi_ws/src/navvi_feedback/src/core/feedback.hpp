@@ -20,6 +20,7 @@
 #include "navvi_feedback/cues/link.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
+#include "navvi_feedback/sounds/learnt.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Contact;
@@ -106,9 +107,8 @@ class Feedback {
   /// As CuePolicy::note().
   void note(const std::vector<CueEvent>& events);
 
-  /// s, that this person and robot take to stop a turn, as learnt so far; nullopt where turns have
-  /// no sound
-  [[nodiscard]] std::optional<double> stopping_delay() const;
+  /// nullopt where turns have no sound
+  [[nodiscard]] std::optional<sounds::Learnt> learnt() const;
   /// The latest guidance, however old.
   [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
   [[nodiscard]] bool guidance_fresh(double time) const {

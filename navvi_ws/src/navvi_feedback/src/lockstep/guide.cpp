@@ -188,7 +188,7 @@ Told Guide::finish(const Devices& devices) {
 
 CueEvent Guide::event_of(const sounds::Play& play) { return sound_event(play, ++parts_->sounds); }
 
-std::optional<double> Guide::stopping_delay() const { return parts_->feedback.stopping_delay(); }
+std::optional<sounds::Learnt> Guide::learnt() const { return parts_->feedback.learnt(); }
 
 const std::optional<navvi_types::Guidance>& Guide::guidance() const {
   return parts_->feedback.guidance();

@@ -116,7 +116,7 @@ DiagnosticStatus beat_status(const Beat& beat) {
 }
 
 DiagnosticStatus latency_status(const devices::Latencies& latencies,
-                                std::optional<double> stopping_delay) {
+                                const std::optional<sounds::Learnt>& learnt) {
   DiagnosticStatus result = status("navvi/latency", DiagnosticStatus::OK, "In ms.");
   for (std::size_t i = 0; i < names(devices::Chain{}).size(); ++i) {
     const auto chain = static_cast<devices::Chain>(i);
@@ -133,10 +133,14 @@ DiagnosticStatus latency_status(const devices::Latencies& latencies,
     add(result, navvi_types::to_string(chain) + std::string("_count"),
         std::to_string(figures.count));
   }
-  if (stopping_delay) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3f", *stopping_delay);
-    add(result, "stopping_delay_s", text.data());
+  if (learnt) {
+    const auto put = [&](const char* name, double value) {
+      std::array<char, 32> text{};
+      std::snprintf(text.data(), text.size(), "%.3f", value);
+      add(result, name, text.data());
+    };
+    put("stopping_delay_s", learnt->stopping_delay);
+    put("turn_error_rad", learnt->turn_error);
   }
   return result;
 }

@@ -10,6 +10,7 @@
 #include "devices/gamepad.hpp"
 #include "devices/latencies.hpp"
 #include "devices/speaker.hpp"
+#include "navvi_feedback/sounds/learnt.hpp"
 #include "node/beat.hpp"
 
 namespace navvi_feedback::node {
@@ -30,9 +31,9 @@ using navvi_types::CueKind;
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus speech_status(
     const devices::Speaker::Status& speaker, const std::string& voice);
 /// What a person waited for: "motors p50_ms" and so on; a chain that was never seen has no values.
-/// \param stopping_delay  s, of the person, as learnt so far
+/// \param learnt  of the person, if turns have a sound
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus latency_status(
-    const devices::Latencies& latencies, std::optional<double> stopping_delay);
+    const devices::Latencies& latencies, const std::optional<sounds::Learnt>& learnt);
 
 /// Whether this node is woken in time: "longest_ms" between two beats.
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus beat_status(const Beat& beat);

@@ -244,11 +244,11 @@ class FeedbackNode {
     const auto pad = devices_.pad();
     if (const auto notice = pad ? heartbeat_.notice(*pad, now()) : std::nullopt)
       ROS_WARN("%s", notice->c_str());
-    array.status = {
-        pad_status(pad, devices::to_string(devices_.source().kind()), live_,
-                   config_.feedback->haptics.enabled),
-        audio_status(devices_.audio()), speech_status(devices_.voice(), config_.speaker.voice),
-        latency_status(devices_.latencies(), guide_.stopping_delay()), beat_status(beat_)};
+    array.status = {pad_status(pad, devices::to_string(devices_.source().kind()), live_,
+                               config_.feedback->haptics.enabled),
+                    audio_status(devices_.audio()),
+                    speech_status(devices_.voice(), config_.speaker.voice),
+                    latency_status(devices_.latencies(), guide_.learnt()), beat_status(beat_)};
     outlets_.send(array);
     if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
   }

@@ -17,6 +17,10 @@ void TurnConfig::describe(navvi_config::Visitor& visit) {
   visit(stopping_delay, "stopping_delay", Range{0.0, 2.0}, "s",
         "how much earlier it ends: what the person and the robot take to stop a turn");
   visit(learn, "learn", Any{}, "", "correct stopping_delay by each turn that was stopped");
+  visit(
+      slow_down, "slow_down", Range{0.0, 5.0}, "s",
+      "while it counts down, the robot turns no faster than what is left over this time, so that a "
+      "late hand does little; 0: as fast as the stick says");
   visit(on_course, "on_course", Range{0.0, 60.0}, "s",
         "between two soft sounds while the robot drives on as it should; 0: none");
 }

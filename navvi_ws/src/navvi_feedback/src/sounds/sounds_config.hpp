@@ -18,6 +18,7 @@ struct TurnConfig : FamilyConfig {
   double done = 4.0;            ///< deg
   double stopping_delay = 0.4;  ///< s
   bool learn = true;
+  double slow_down = 2.0;  ///< s
   double on_course = 4.0;  ///< s
 
   void describe(navvi_config::Visitor& visit);

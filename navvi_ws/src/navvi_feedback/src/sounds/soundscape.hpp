@@ -32,11 +32,13 @@ class Soundscape {
 
   /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::vector<Play> update(const Input& now, double time);
-  /// s, of this person and robot, as learnt so far; nullopt where turns do not sound
-  [[nodiscard]] std::optional<double> stopping_delay() const {
+  /// Of this person and robot; nullopt where turns do not sound.
+  [[nodiscard]] std::optional<Learnt> learnt() const {
     if (!config_.enabled || !config_.turn.on) return std::nullopt;
-    return turn_.stopping_delay();
+    return turn_.learnt();
   }
+  /// As TurnSound::most_rate().
+  [[nodiscard]] std::optional<double> most_rate() const { return turn_.most_rate(); }
 
  private:
   SoundsConfig config_;

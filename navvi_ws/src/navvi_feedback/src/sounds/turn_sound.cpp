@@ -24,6 +24,8 @@ constexpr double kDriving = 0.1;
 constexpr double kObeys = 1.5;
 /// Of what a turn teaches.
 constexpr double kWeight = 0.3;
+/// rad/s, the least that slowing down leaves.
+constexpr double kLeast = 0.35;
 
 double interval(double off) {
   return kFastest + (kSlowest - kFastest) * std::min(1.0, std::abs(off) / kMost);
@@ -34,7 +36,7 @@ double interval(double off) {
 std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, const Velocity& motion,
                                       double time) {
   const double rate = motion.angular;
-  learn(rate, time);
+  learn(off, rate, time);
   if (!off) {
     counting_ = false;
     off_since_.reset();
@@ -53,11 +55,13 @@ std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, cons
     off_since_.reset();
     ticked_.reset();
   }
+  left_ = std::abs(*off);
   // Turning counter-clockwise makes what lies ahead wander clockwise.
-  const double left = *off + rate * delay_;
+  const double left = *off + rate * learnt_.stopping_delay;
   if (std::abs(left) <= config_.done * kDegree || left * *off < 0.0) {
     counting_ = false;
     if (std::abs(rate) > kStill) stopping_ = Stopping{time, rate, 0.0};
+    left_ = 0.0;
     heard_ = time;
     return Play{Earcon::turn_stop, Eigen::Vector2d::UnitX(), config_.volume};
   }
@@ -73,7 +77,7 @@ std::optional<Play> TurnSound::on_course(const Velocity& motion, double time) {
   return Play{Earcon::on_course, Eigen::Vector2d::UnitX(), 0.5 * config_.volume};
 }
 
-void TurnSound::learn(double rate, double time) {
+void TurnSound::learn(std::optional<double> off, double rate, double time) {
   const double dt = time - time_;
   time_ = time;
   if (!stopping_) return;
@@ -83,9 +87,17 @@ void TurnSound::learn(double rate, double time) {
   if (!stopped && obeyed) return;
   if (config_.learn && obeyed && std::abs(stopping_->rate) > kTurning) {
     const double took = std::clamp(stopping_->angle / stopping_->rate, 0.0, 1.0);
-    delay_ += kWeight * (took - delay_);
+    learnt_.stopping_delay += kWeight * (took - learnt_.stopping_delay);
   }
+  // The first turns count alike, later ones the less the older they are.
+  if (off)
+    learnt_.turn_error += std::max(kWeight, 1.0 / ++turns_) * (std::abs(*off) - learnt_.turn_error);
   stopping_.reset();
+}
+
+std::optional<double> TurnSound::most_rate() const {
+  if (config_.slow_down <= 0.0 || (!counting_ && !stopping_)) return std::nullopt;
+  return std::max(kLeast, left_ / config_.slow_down);
 }
 
 }  // namespace navvi_feedback::sounds

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "navvi_feedback/sounds/earcon.hpp"
+#include "navvi_feedback/sounds/learnt.hpp"
 #include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback {
@@ -17,7 +18,8 @@ namespace navvi_feedback::sounds {
 /// one now and then while the robot drives where it should: silence could be a fault.
 class TurnSound {
  public:
-  explicit TurnSound(const TurnConfig& config) : config_(config), delay_(config.stopping_delay) {}
+  explicit TurnSound(const TurnConfig& config)
+      : config_(config), learnt_{config.stopping_delay, 0.0} {}
 
   /// From now on.
   void use(const TurnConfig& config) { config_ = config; }
@@ -32,8 +34,9 @@ class TurnSound {
 
   /// It is counting now.
   [[nodiscard]] bool sounds() const { return counting_; }
-  /// s, as learnt so far
-  [[nodiscard]] double stopping_delay() const { return delay_; }
+  /// rad/s, that the robot is to turn at most, so that a late hand does little; nullopt: no limit
+  [[nodiscard]] std::optional<double> most_rate() const;
+  [[nodiscard]] const Learnt& learnt() const { return learnt_; }
 
  private:
   /// The turn that was told to end.
@@ -44,15 +47,17 @@ class TurnSound {
   };
 
   [[nodiscard]] std::optional<Play> on_course(const Velocity& motion, double time);
-  void learn(double rate, double time);
+  void learn(std::optional<double> off, double rate, double time);
 
   TurnConfig config_;
-  double delay_;  ///< s
+  Learnt learnt_;
   bool counting_ = false;
   std::optional<double> ticked_;  ///< s
   double heard_ = 0.0;            ///< s, when any of its sounds began last
   std::optional<double> off_since_;
   std::optional<Stopping> stopping_;
+  int turns_ = 0;      ///< that it has led
+  double left_ = 0.0;  ///< rad, of the turn that is counted down
   double time_ = 0.0;  ///< s, of the last update
 };
 

@@ -97,14 +97,41 @@ TEST(TurnSound, learns_how_long_a_person_takes_to_stop) {
   config.stopping_delay = 0.2;
   Turner person{config};
   for (int i = 0; i < 15; ++i) person.turn(i % 2 == 0 ? 80.0 : -80.0, 0.6);
-  EXPECT_NEAR(person.sound_.stopping_delay(), 0.6, 0.07);
+  EXPECT_NEAR(person.sound_.learnt().stopping_delay, 0.6, 0.07);
   EXPECT_NEAR(person.turn(80.0, 0.6), 0.0, 6.0);
 }
 
 TEST(TurnSound, does_not_learn_from_who_turns_on) {
   Turner person{TurnConfig{}};
   person.turn(80.0, 3.0);
-  EXPECT_EQ(person.sound_.stopping_delay(), TurnConfig{}.stopping_delay);
+  EXPECT_EQ(person.sound_.learnt().stopping_delay, TurnConfig{}.stopping_delay);
+}
+
+TEST(TurnSound, learns_what_is_left_of_turns) {
+  Turner late{TurnConfig{}};
+  (void)late.turn(80.0, 0.8);
+  EXPECT_NEAR(late.sound_.learnt().turn_error, 0.4 * 1.2, 0.1) << "0.4 s late, at 1.2 rad/s";
+}
+
+TEST(TurnSound, slows_the_robot_down_towards_the_end_of_a_turn_and_until_it_stands) {
+  TurnSound sound{TurnConfig{}};
+  double time = 0.0;
+  const auto most_at = [&](double off, double rate) {
+    for (int i = 0; i < 20; ++i)
+      (void)sound.update(off * kDegree, false, {0.0, rate}, time += kTick);
+    return sound.most_rate();
+  };
+  EXPECT_FALSE(most_at(0.0, 1.2)) << "nothing to turn";
+  EXPECT_NEAR(most_at(90.0, -0.5).value(), M_PI / 4.0, 0.01) << "half a right angle a second";
+  EXPECT_NEAR(most_at(45.0, -0.5).value(), M_PI / 8.0, 0.01);
+  EXPECT_NEAR(most_at(10.0, -0.3).value(), 0.35, 0.01);
+  EXPECT_NEAR(most_at(-5.0, -0.3).value(), 0.35, 0.01) << "told to stop, and turns on";
+  EXPECT_FALSE(most_at(-8.0, 0.0));
+  TurnConfig plain;
+  plain.slow_down = 0.0;
+  TurnSound free{plain};
+  for (int i = 0; i < 20; ++i) (void)free.update(1.0, false, {}, i * kTick);
+  EXPECT_FALSE(free.most_rate());
 }
 
 TEST(TurnSound, tells_now_and_then_that_a_robot_drives_where_it_should) {

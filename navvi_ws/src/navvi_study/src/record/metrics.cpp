@@ -214,6 +214,7 @@ std::vector<std::string> latency_columns() {
 std::vector<std::string> reported_columns() {
   std::vector<std::string> names = latency_columns();
   names.push_back("stopping_delay_s");
+  names.push_back("turn_error_rad");
   return names;
 }
 

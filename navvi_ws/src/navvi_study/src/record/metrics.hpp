@@ -21,12 +21,13 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Summary summarize(const std::vector<Row>& rows);
 
 /// ms, how long the person waited: p50, p99 and max of each chain of feedback_node, from
-/// sensing to its message, from that to the motors, a contact to its pattern, a cue to its first sample, a button
-/// to the answer, and the end of words to silence.
+/// sensing to its message, from that to the motors, a contact to its pattern, a cue to its first
+/// sample, a button to the answer, and the end of words to silence.
 [[nodiscard]] std::vector<std::string> latency_columns();
 
 /// These, and what else feedback_node reports with them and the record keeps of the end of a trial:
-/// stopping_delay_s, s, that the person was last found to take to stop a turn.
+/// stopping_delay_s, s, that the person was last found to take to stop a turn, and turn_error_rad,
+/// rad, what was left of turns that a sound led, mean of the latest.
 [[nodiscard]] std::vector<std::string> reported_columns();
 
 /// A header and one row.

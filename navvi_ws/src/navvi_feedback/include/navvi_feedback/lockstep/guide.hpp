@@ -22,6 +22,7 @@
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/rumble.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
+#include "navvi_feedback/sounds/learnt.hpp"
 
 namespace navvi_feedback::lockstep {
 
@@ -134,9 +135,8 @@ class Guide {
   /// Numbered for the record: a sound that was played.
   [[nodiscard]] navvi_types::CueEvent event_of(const sounds::Play& play);
 
-  /// s, that this person and robot take to stop a turn, as learnt so far; nullopt where turns have
-  /// no sound
-  [[nodiscard]] std::optional<double> stopping_delay() const;
+  /// nullopt where turns have no sound
+  [[nodiscard]] std::optional<sounds::Learnt> learnt() const;
   /// The latest, however old.
   [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const;
   [[nodiscard]] bool guidance_fresh(double time) const;
