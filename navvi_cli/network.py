@@ -75,8 +75,8 @@ class Network:
     @staticmethod
     def preload():
         """Nodes would also open a port on every interface, which this library prevents; it also ends rosmaster, rosout and RViz with
-        roslaunch."""
-        return str(DEVEL / "lib" / "libnavvi_loopback.so")
+        roslaunch. Libraries that the user preloads stay."""
+        return ":".join(filter(None, [str(DEVEL / "lib" / "libnavvi_loopback.so"), os.environ.get("LD_PRELOAD")]))
 
     def second_terminal(self):
         setup = DEVEL / "setup.bash"

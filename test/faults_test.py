@@ -1,11 +1,13 @@
 """Rows of doc/faults.md that need a whole session: programs are killed, and what is left is looked at from outside."""
 import csv
+import datetime
 import os
 import pathlib
 import re
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import tempfile
 import threading
@@ -20,9 +22,9 @@ WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 class Run:
     """`./navvi run` with a simulated person, and the processes that belong to it."""
 
-    def __init__(self, folder, *words):
+    def __init__(self, folder, *words, **variables):
         self.folder, self.output, self.uri = folder, [], ""
-        env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")} | variables
         self.process = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", f"world:={WORLD}", "seed:=3",
                                          f"out:={folder}", *words], env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                         start_new_session=True)
@@ -84,7 +86,7 @@ def test_L5_where_roslaunch_is_killed_nothing_lives_on_and_the_record_is_whole(r
     run.kill("/roslaunch")
     run.wait_for(lambda: not run.processes(), 20, "all programs of the session have ended")
     run.process.wait(30)
-    assert run.summary()["result"] == "aborted" and run.summary()["bag"] == "ok", run.summary()
+    assert (run.summary()["result"], run.summary()["reason"], run.summary()["bag"]) == ("aborted", "launcher_lost", "ok"), run.summary()
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         probe.bind(("127.0.0.1", int(run.uri.strip("/").rsplit(":", 1)[1])))
@@ -105,6 +107,38 @@ def test_a_stop_by_hand_is_recorded_as_one(run):
     os.killpg(run.process.pid, signal.SIGINT)
     run.process.wait(40)
     assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", "stopped_by_signal"), run.text()[-2000:]
+
+
+def driven(folder):
+    """m that the robot has driven in the trial, by its journal."""
+    rows = "".join(journal.read_text() for journal in folder.glob("trial-*/journal.csv"))
+    return max(map(float, re.findall(r",PROGRESS,.*path_length=([0-9.]+)", rows)), default=0.0)
+
+
+def test_S5_a_clock_that_is_set_by_an_hour_and_back_changes_no_motion_and_no_row(tmp_path):
+    library, clock = tmp_path / "set_clock.so", tmp_path / "clock"
+    subprocess.run(["g++", "-shared", "-fPIC", "-O1", "-o", str(library), str(ROOT / "test/set_clock.cpp"), "-ldl"], check=True)
+    clock.write_bytes(struct.pack("=q", 0))
+    session = Run(tmp_path, LD_PRELOAD=str(library), SET_CLOCK=str(clock))
+    try:
+        for metres, hours in ((0.5, 1), (2.5, -1)):
+            session.wait_for(lambda: driven(tmp_path) > metres, 120, f"the robot has driven {metres} m")
+            with open(clock, "r+b") as file:  # the programs have it mapped
+                file.write(struct.pack("=q", 3600 * hours))
+        session.process.wait(60)
+    finally:
+        session.close()
+    result = session.summary()
+    assert (result["result"], result["bag"], result["safe_stop_count"], result["missed_messages"]) == ("reached", "ok", "0", "0"), result
+    folder = next(tmp_path.glob("trial-*"))
+    with open(folder / "journal.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["seq"]) for row in rows] == list(range(1, len(rows) + 1))
+    calendar = [datetime.datetime.fromisoformat(text) for row in rows for text in re.findall("calendar=([0-9T:-]+)", row["fields"])]
+    assert max(calendar) - min(calendar) > datetime.timedelta(hours=1.9), "the clock of trial_node was not set"
+    with open(folder / "events.csv", newline="") as file:
+        onsets = [float(row["onset_s"]) for row in csv.DictReader(file)]
+    assert onsets == sorted(onsets)
 
 
 def test_A1_a_guide_that_does_not_stay_alive_ends_the_session_before_any_trial(master, tmp_path):

@@ -10,11 +10,13 @@
 
 #include <cerrno>
 #include <memory>
+#include <navvi_config/launcher.hpp>
 
 namespace navvi_study::node {
 namespace {
 
-constexpr int kPatience = 300;  // ms
+constexpr int kPatience = 300;              // ms
+constexpr int kThreads = 10, kThread = 10;  // looks, and ms between two of them
 
 /// The host says that nobody listens there. One that is only slow does not say so.
 bool nobody_listens(const std::string& host, std::uint32_t port) {
@@ -49,6 +51,11 @@ bool crashed(const char* node) {
 }  // namespace
 
 std::string crashed_part() {
+  // The signal may come when the first of roslaunch's threads has ended, and the last has not yet.
+  for (int i = 0; i < kThreads; ++i) {
+    if (navvi_config::parent_has_ended()) return "launcher_lost";
+    ::poll(nullptr, 0, kThread);
+  }
   if (nobody_listens(ros::master::getHost(), ros::master::getPort())) return "master_lost";
   if (crashed("/sim_node")) return "simulator_lost";
   if (crashed("/perception_node")) return "perception_lost";

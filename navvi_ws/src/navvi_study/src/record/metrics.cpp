@@ -186,7 +186,8 @@ Summary summarize(const std::vector<Row>& rows) {
   add("reroute_count", tally ? tally->fields.get("reroutes") : nothing);
   // Wheels that had not turned yet were held, not stopped.
   add("safe_stop_count", std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row& row) {
-        return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes";
+        return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes" &&
+               row.fields.get("held", "no") == "no";
       })));
   add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
   // A simulated person knows of sounds by message, also where no device plays them.

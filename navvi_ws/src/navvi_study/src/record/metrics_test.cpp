@@ -164,6 +164,8 @@ TEST(Summary, wheels_that_were_held_before_they_turned_are_no_safe_stop) {
   EXPECT_EQ(std::stoi(columns(rows)["safe_stop_count"]), before);
   rows.back().fields = Fields().set("reason", "command_lost").set("moved", "yes");
   EXPECT_EQ(std::stoi(columns(rows)["safe_stop_count"]), before + 1);
+  rows.back().fields = Fields().set("reason", "clock_jumped").set("held", "yes").set("moved", "yes");
+  EXPECT_EQ(std::stoi(columns(rows)["safe_stop_count"]), before) << "they stood already";
 }
 
 }  // namespace

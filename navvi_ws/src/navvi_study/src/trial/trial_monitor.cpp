@@ -369,17 +369,19 @@ std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
 
 std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   const bool inside = counts(drive.stamp);
-  const bool stopped = drive.state == DriveState::State::stopped;
-  const bool stopped_before = std::exchange(stopped_, stopped);
+  const DriveState::Reason reason =
+      drive.state == DriveState::State::stopped ? drive.reason : DriveState::Reason::none;
+  const DriveState::Reason before = std::exchange(stopped_for_, reason);
   const std::string intruder_before = std::exchange(intruder_, drive.intruder);
   std::vector<Event> events;
   if (!inside) return events;
   if (drive.intruder != intruder_before)
     events.push_back({"INTRUDER", place().set("node", drive.intruder), drive.stamp});
-  if (drive.reason == DriveState::Reason::none || !stopped || stopped_before) return events;
+  if (reason == DriveState::Reason::none || reason == before) return events;
   record::Fields fields = place();
-  fields.set("reason", to_string(drive.reason))
-      .set("moved", tally_.path_length > kMoved || tally_.turned > kTurned ? "yes" : "no");
+  fields.set("reason", to_string(reason));
+  if (before != DriveState::Reason::none) fields.set("held", "yes");
+  fields.set("moved", tally_.path_length > kMoved || tally_.turned > kTurned ? "yes" : "no");
   events.push_back({"SAFE_STOP", fields, drive.stamp, true});
   return events;
 }

@@ -180,9 +180,10 @@ class TrialMonitor {
   std::uint32_t reroutes_ = 0;               ///< of the guidance, likewise
   std::set<std::uint32_t> stuck_cues_;
   std::map<navvi_types::Modality, std::string>
-      playing_;           ///< kind of the last cue that is no speech
-  bool stopped_ = false;  ///< by the last stage before the wheels
-  std::string intruder_;  ///< that stage ignores this node
+      playing_;  ///< kind of the last cue that is no speech
+  DriveState::Reason stopped_for_ =
+      DriveState::Reason::none;  ///< by the last stage before the wheels
+  std::string intruder_;         ///< that stage ignores this node
   std::map<std::string, DeviceState> devices_;
   std::vector<DeviceReport> latencies_;   ///< the last ones, as an end may be told after it
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end

@@ -345,6 +345,17 @@ TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
             Names{"DEVICE_BACK"});
 }
 
+TEST_F(Monitor, T1_records_a_clock_that_jumps_while_the_wheels_stand_for_another_reason) {
+  ASSERT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
+  DriveState jumped = stopped(12);
+  jumped.reason = DriveState::Reason::clock_jumped;
+  const auto events = monitor_.observe(jumped);
+  ASSERT_EQ(types(events), Names{"SAFE_STOP"});
+  EXPECT_EQ(events[0].fields.get("reason"), "clock_jumped");
+  EXPECT_EQ(events[0].fields.get("held"), "yes");
+  EXPECT_TRUE(monitor_.observe(jumped).empty());
+}
+
 TEST_F(Monitor, counts_sounds_and_felt_patterns_and_keeps_how_long_the_person_waited) {
   const auto played = [&](navvi_types::Modality modality, const char* word, int second) {
     CueEvent cue;
