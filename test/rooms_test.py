@@ -106,3 +106,12 @@ def test_each_file_of_tests_is_in_one_tier():
     named = [name for names in re.findall(r"navvi_system_tests\(\w+ ([^)$]*)\)", text) for name in names.split()]
     there = [path.name.removesuffix("_test.py") for path in Path(__file__).parent.glob("*_test.py")]
     assert sorted(named) == sorted(there)
+
+
+def test_a_prefix_of_pkg_config_means_the_same_modules_in_all_packages():
+    """All packages share one CMake cache: with two meanings, the second configuration gives one package what another asked for."""
+    meanings = {}
+    for path in SOURCES.glob("*/CMakeLists.txt"):
+        for prefix, words in re.findall(r"pkg_(?:check_modules|search_module)\((\w+) ([^)]*)\)", path.read_text()):
+            meanings.setdefault(prefix, set()).add(tuple(word for word in words.split() if not word.isupper()))
+    assert [prefix for prefix, modules in meanings.items() if len(modules) > 1] == []

@@ -11,6 +11,10 @@
 
 namespace navvi_sim::physics {
 
+static_assert(sizeof(btScalar) == sizeof(double),
+              "The Bullet that was found has single precision; NavVI needs the module "
+              "bullet-float64, by which all machines record the same worlds.");
+
 inline btVector3 to_bt(const Eigen::Vector3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
