@@ -32,12 +32,12 @@ class CuePolicyTest : public testing::Test {
   Texts pass(double seconds) {
     Texts texts;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
-      for (const Cue& cue : policy_.update(now_, time_)) {
+      for (const Cue& cue : policy_.update(now_, asked_, time_)) {
         texts.push_back(cue.text);
         last_ = cue;
       }
       now_.contacts.clear();
-      now_.question.reset();
+      asked_ = {};
     }
     return texts;
   }
@@ -49,7 +49,8 @@ class CuePolicyTest : public testing::Test {
   }
 
   CuePolicy policy_{CuePolicyConfig{}, Phrases(kEnglish)};
-  Situation now_;
+  Observation now_;
+  Asked asked_;
   Cue last_;
   double time_ = 50.0;
 };

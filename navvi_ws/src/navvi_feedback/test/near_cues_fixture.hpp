@@ -35,7 +35,7 @@ class NearCuesTest : public testing::Test {
   }
 
   NearCues cues_{NearConfig{}};
-  Situation now_;
+  Observation now_;
   Utterance last_;
   double time_ = 10.0;
 };

@@ -57,7 +57,7 @@ class Drive {
   }
 
   RouteCues cues;
-  Situation now;
+  Observation now;
   Utterance last;
   double time = 100.0;
 };

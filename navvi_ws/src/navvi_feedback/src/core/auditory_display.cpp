@@ -18,15 +18,16 @@ sounds::Play AuditoryDisplay::sample(Earcon earcon) const {
 }
 
 std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
-                                                  const SoundsNow& now, double time) {
+                                                  const Observation& now,
+                                                  const sounds::Soundscape::Lead& lead,
+                                                  const lessons::Taught& taught, double time) {
   std::vector<sounds::Play> plays;
-  const bool audible = config_.enabled && now.audible;
   for (cues::Cue& cue : cues)
     for (sounds::Play& play : cue.scan) {
       const sounds::FamilyConfig& family = config_.family_of(play.earcon);
-      play.volume = audible && family.on ? family.volume : 0.0;
+      play.volume = now.audible && family.on ? family.volume : 0.0;
     }
-  if (!audible) return plays;
+  if (!now.audible) return plays;
   const auto add = [&](Earcon earcon, const Eigen::Vector2d& from) {
     const sounds::FamilyConfig& family = config_.family_of(earcon);
     if (family.on) plays.push_back({earcon, from, family.volume});
@@ -42,8 +43,8 @@ std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
   cues.erase(std::remove_if(cues.begin(), cues.end(),
                             [](const cues::Cue& cue) { return cue.sound.has_value(); }),
              cues.end());
-  plays.insert(plays.end(), now.taught.plays.begin(), now.taught.plays.end());
-  const std::vector<sounds::Play> recurring = soundscape_.update(now.recurring, time);
+  plays.insert(plays.end(), taught.plays.begin(), taught.plays.end());
+  const std::vector<sounds::Play> recurring = soundscape_.update(now, lead, time);
   plays.insert(plays.end(), recurring.begin(), recurring.end());
   // Words win, and yet a turn is counted down. What was hit is as loud as ever.
   for (sounds::Play& play : plays) {

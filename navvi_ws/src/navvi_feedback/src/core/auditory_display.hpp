@@ -3,20 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "core/feedback.hpp"
+#include "cues/cue.hpp"
 #include "lessons/lesson.hpp"
+#include "senses/observation.hpp"
 #include "sounds/soundscape.hpp"
 
 namespace navvi_feedback::core {
-
-/// What the sounds of one instant are decided from.
-struct SoundsNow {
-  bool audible = true;      ///< short sounds can be heard
-  bool voice_busy = false;  ///< something is being spoken or waits for it
-  const std::vector<Contact>& contacts;
-  const lessons::Taught& taught;
-  sounds::Soundscape::Input recurring;
-};
 
 /// What is heard besides words.
 class AuditoryDisplay {
@@ -29,8 +21,10 @@ class AuditoryDisplay {
 
   /// Takes what sounds out of what is to be said, and adds what sounds besides.
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<sounds::Play> update(std::vector<cues::Cue>& cues, const SoundsNow& now,
-                                                 double time);
+  [[nodiscard]] std::vector<sounds::Play> update(std::vector<cues::Cue>& cues,
+                                                 const Observation& now,
+                                                 const sounds::Soundscape::Lead& lead,
+                                                 const lessons::Taught& taught, double time);
   /// As Soundscape::learnt().
   [[nodiscard]] std::optional<sounds::Learnt> learnt() const { return soundscape_.learnt(); }
   /// As TurnSound::most_rate().

@@ -29,7 +29,7 @@ class FeedbackTest : public testing::Test {
   Feedback::Output pass(double seconds) {
     Feedback::Output output;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
-      output = feedback_.update(input_, time_);
+      output = feedback_.update(input_, voice_busy_, time_);
       for (const cues::Cue& cue : output.cues) kinds_.push_back(cue.kind);
       plays_.insert(plays_.end(), output.plays.begin(), output.plays.end());
     }
@@ -70,7 +70,8 @@ class FeedbackTest : public testing::Test {
   }
 
   Feedback feedback_{FeedbackConfig{}, kEnglish};
-  Feedback::Input input_;
+  Devices input_;
+  bool voice_busy_ = false;
   double time_ = 10.0;
   std::vector<CueKind> kinds_;
   std::vector<sounds::Play> plays_;
@@ -137,7 +138,7 @@ class Driven : public FeedbackTest {
       input_.hands.buttons = buttons;
       if (gap_)
         feedback.take(Proximity{0, {{ThingClass::shelf, 1, *gap_, {0.8, 0.0}, false}}}, time_);
-      output = feedback.update(input_, time_);
+      output = feedback.update(input_, voice_busy_, time_);
     }
     share_ = output.share;
     return output.command.value().linear;
@@ -339,7 +340,7 @@ TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
 }
 
 TEST_F(FeedbackTest, the_motors_report_a_missing_audio_device_once_there_are_some) {
-  for (const cues::Link missing : {cues::Link::never, cues::Link::lost}) {
+  for (const Link missing : {Link::never, Link::lost}) {
     input_.audio = missing;
     input_.motors = false;
     EXPECT_EQ(strongest(1.0), 0.0) << "no pad yet";
@@ -348,7 +349,7 @@ TEST_F(FeedbackTest, the_motors_report_a_missing_audio_device_once_there_are_som
     EXPECT_GT(strongest(2.0), 0.1);
     EXPECT_EQ(alarms_, 1);
     EXPECT_EQ(strongest(1.0), 0.0) << "told once";
-    input_.audio = cues::Link::alive;
+    input_.audio = Link::alive;
     EXPECT_EQ(strongest(0.5), 0.0);
     EXPECT_EQ(std::exchange(alarms_, 0), 1);
   }
@@ -356,11 +357,11 @@ TEST_F(FeedbackTest, the_motors_report_a_missing_audio_device_once_there_are_som
 
 TEST_F(FeedbackTest,
        an_alarm_ends_at_once_when_the_device_is_there_and_comes_again_when_it_is_lost) {
-  input_.audio = cues::Link::never;
+  input_.audio = Link::never;
   EXPECT_GT(strongest(0.3), 0.0);
-  input_.audio = cues::Link::alive;
+  input_.audio = Link::alive;
   EXPECT_EQ(strongest(0.02), 0.0);
-  input_.audio = cues::Link::lost;
+  input_.audio = Link::lost;
   EXPECT_GT(strongest(5.0), 0.1);
   EXPECT_EQ(alarms_, 2);
 }
@@ -413,7 +414,7 @@ TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
 }
 
 TEST_F(FeedbackTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_still_counted) {
-  input_.voice_busy = true;
+  voice_busy_ = true;
   feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
   for (int i = 0; i < 4; ++i) {
     lead(0.9);
@@ -445,7 +446,7 @@ TEST_F(FeedbackTest, patterns_are_left_out_where_touch_is_not_wanted) {
     navvi_config::read(config, YAML::Load(text), "test");
     Feedback feedback(config, kEnglish);
     feedback.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
-    EXPECT_FALSE(feedback.update(input_, time_).pattern) << text;
+    EXPECT_FALSE(feedback.update(input_, voice_busy_, time_).pattern) << text;
   }
 }
 
@@ -501,7 +502,7 @@ TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
   FeedbackConfig config;
   config.haptics.pads = {"abc 0.05 0.05 0.5"};
   Feedback feedback(config, kEnglish);
-  Feedback::Input input;
+  Devices input;
   input.hands.live = true;
   double time = 10.0;
   for (const auto& [pad, most] : {std::pair("abc", 0.5), std::pair("other", 1.0)}) {
@@ -510,7 +511,7 @@ TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
     for (int i = 0; i < 100; ++i, time += 0.02) {
       feedback.take(Odometry{}, time);
       feedback.take(Proximity{0, {{ThingClass::box, 1, 0.0, {0.4, 0.0}}}}, time);
-      output = feedback.update(input, time);
+      output = feedback.update(input, false, time);
     }
     EXPECT_NEAR(output.rumble.left, most, 1e-6) << pad;
   }
@@ -532,17 +533,18 @@ class Learner {
   }
   void learn(double seconds, const std::function<void(const Feedback::Output&)>& note) {
     for (const double end = time_ + seconds; time_ < end; time_ += 0.02) {
-      input_.voice_busy = time_ < speaks_until_;
+      voice_busy_ = time_ < speaks_until_;
       const double silent = time_ - speaks_until_;
       input_.hands.buttons[12] = silent > 4.0 && silent < 4.1;
-      const Feedback::Output output = feedback_.update(input_, time_);
+      const Feedback::Output output = feedback_.update(input_, voice_busy_, time_);
       if (!output.cues.empty()) speaks_until_ = time_ + 0.5;
       note(output);
     }
   }
 
   Feedback feedback_;
-  Feedback::Input input_;
+  Devices input_;
+  bool voice_busy_ = false;
   double time_ = 10.0;
   double speaks_until_ = 0.0;
 };

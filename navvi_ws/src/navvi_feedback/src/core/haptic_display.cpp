@@ -44,9 +44,9 @@ void HapticDisplay::use_pad(const std::string& pad) {
   if (std::exchange(pad_, pad) != pad) near_.use_pad(pad);
 }
 
-bool HapticDisplay::report(cues::Link audio, bool motors) {
-  deaf_ = config_.instead_of_words && audio != cues::Link::alive;
-  if (audio == cues::Link::alive) {
+bool HapticDisplay::report(Link audio, bool motors) {
+  deaf_ = config_.instead_of_words && audio != Link::alive;
+  if (audio == Link::alive) {
     if (std::exchange(alarmed_, false) && playing() == haptics::Pattern::no_sound) patterns_.stop();
     return false;
   }
@@ -68,18 +68,23 @@ void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const std::vector<
   }
 }
 
-haptics::Rumble HapticDisplay::update(const NearNow& near, const lessons::Taught& taught,
-                                      bool urgent, double dt) {
+bool HapticDisplay::feels_near(const Observation& now) const {
+  return now.links.proximity == Link::alive && now.links.simulator != Link::lost &&
+         !(now.arrived() && config_.rest_at_goal);
+}
+
+haptics::Rumble HapticDisplay::update(const Observation& now, std::optional<double> off,
+                                      const lessons::Taught& taught, bool urgent, double dt) {
   if (taught.rumble) return *taught.rumble;
-  const haptics::Rumble felt =
-      taught.near.empty() ? near_.update(near.things, near.fresh, dt, near.off_course, deaf_)
-                          : near_.update(taught.near, true, dt);
+  const haptics::Rumble felt = taught.near.empty()
+                                   ? near_.update(now.nearby, feels_near(now), dt, off, deaf_)
+                                   : near_.update(taught.near, true, dt);
   if (const auto pattern = patterns_.update(dt))
     return {config_.strength * pattern->left, config_.strength * pattern->right};
   const double share = urgent ? config_.duck : 1.0;
   const double others = config_.enabled ? config_.strength : 0.0;
-  return {share * std::max(felt.left, others * near.others.left),
-          share * std::max(felt.right, others * near.others.right)};
+  return {share * std::max(felt.left, others * now.others.left),
+          share * std::max(felt.right, others * now.others.right)};
 }
 
 }  // namespace navvi_feedback::core

@@ -4,18 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/feedback.hpp"
+#include "cues/cue.hpp"
+#include "haptics/haptics.hpp"
+#include "haptics/pattern.hpp"
 #include "lessons/lesson.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::core {
-
-/// What is near at one instant.
-struct NearNow {
-  std::vector<NearThing> things;
-  bool fresh = false;                ///< they are known, and to be felt
-  std::optional<double> off_course;  ///< rad, clockwise from the nose to where to steer
-  haptics::Rumble others;            ///< what other programs want to be felt
-};
 
 /// What the hands feel: what is near, and patterns above it.
 class HapticDisplay {
@@ -28,18 +23,22 @@ class HapticDisplay {
   void use_pad(const std::string& pad);
   /// The motors report a missing audio device (safety rule 3), once there are any.
   /// \return true if they begin to
-  bool report(cues::Link audio, bool motors);
+  bool report(Link audio, bool motors);
   void begin(haptics::Pattern pattern) { patterns_.begin(pattern); }
   /// The patterns of what is said, was touched and is taught.
   void begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
              const lessons::Taught& taught);
 
+  /// \param off  rad, clockwise from the nose to where to steer, if the person is led
   /// \param urgent  a safety phrase is being spoken
-  [[nodiscard]] haptics::Rumble update(const NearNow& near, const lessons::Taught& taught,
-                                       bool urgent, double dt);
+  [[nodiscard]] haptics::Rumble update(const Observation& now, std::optional<double> off,
+                                       const lessons::Taught& taught, bool urgent, double dt);
   [[nodiscard]] std::optional<haptics::Pattern> playing() const { return patterns_.playing(); }
 
  private:
+  /// What is near is known, and to be felt.
+  [[nodiscard]] bool feels_near(const Observation& now) const;
+
   haptics::HapticsConfig config_;
   haptics::Haptics near_;
   haptics::PatternPlayer patterns_;

@@ -4,7 +4,7 @@
 #include <functional>
 #include <random>
 
-#include "core/session_judge.hpp"
+#include "session_judge.hpp"
 
 namespace navvi_feedback::core {
 namespace {

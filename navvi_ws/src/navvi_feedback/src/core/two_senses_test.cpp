@@ -19,7 +19,7 @@ struct Signals {
   double right = 0.0;
 };
 
-using Happens = std::function<void(Feedback&, Feedback::Input&, double)>;
+using Happens = std::function<void(Feedback&, Devices&, double)>;
 
 /// A family of cues: what happens, and its signal for each sense. An empty name: none is wanted.
 struct Family {
@@ -55,19 +55,19 @@ bool once(double time) { return time > kThen + 0.005 && time < kThen + 0.025; }
 
 const std::vector<Family> kFamilies = {
     {"a shelf is hit on the left",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        drive(feedback, time);
        if (once(time)) feedback.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
      },
      "collision_shelf", "hit_shelf", "hit_shelf", "hit_shelf"},
     {"a worker is hit on the left",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        drive(feedback, time);
        if (once(time)) feedback.take(Contact{ThingClass::worker, {0.0, 0.4}, 7});
      },
      "collision_obstacle", "hit_obstacle", "hit_obstacle", "hit_obstacle"},
     {"the robot is stopped",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        drive(feedback, time);
        DriveState state;
        state.state = time < kThen ? DriveState::State::running : DriveState::State::stopped;
@@ -75,10 +75,10 @@ const std::vector<Family> kFamilies = {
      },
      "robot_stopped", "", "stopped", "stopped"},
     {"the robot is stuck",
-     [](Feedback& feedback, Feedback::Input&, double time) { drive(feedback, time, 0.0, 0.0); },
+     [](Feedback& feedback, Devices&, double time) { drive(feedback, time, 0.0, 0.0); },
      "stuck_unknown", "", "stuck", "stuck"},
     {"the goal is reached",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        drive(feedback, time);
        Guidance guidance = following(0.0);
        if (time > kThen) guidance.state = Guidance::State::arrived;
@@ -86,14 +86,14 @@ const std::vector<Family> kFamilies = {
      },
      "arrived", "arrived", "arrived", "arrived"},
     {"a mover is about to be hit",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        drive(feedback, time);
        const double gap = std::max(0.3, 5.0 - 0.9 * (time - 10.0));
        feedback.take(Proximity{0, {{ThingClass::forklift, 1, gap, {gap + 0.35, 0.0}, true}}}, time);
      },
      "obstacle_stop", "", "halt", "halt"},
     {"something stands in the way for a while",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        drive(feedback, time);
        Guidance guidance = following(0.0);
        if (time > kThen) guidance.state = Guidance::State::blocked;
@@ -103,34 +103,34 @@ const std::vector<Family> kFamilies = {
      },
      "blocked", "", "halt", "halt"},
     {"the guidance is lost",
-     [](Feedback& feedback, Feedback::Input&, double time) {
+     [](Feedback& feedback, Devices&, double time) {
        feedback.take(Odometry{0, {}, {0.5, 0.0}}, time);
        feedback.take(Proximity{}, time);
        if (time < kThen) feedback.take(following(0.0), time);
      },
      "guidance_lost", "", "", "stopped"},
     {"the way leads to the right",
-     [](Feedback& feedback, Feedback::Input&, double time) { drive(feedback, time, 1.5); }, "",
-     "turn", "", ""},
+     [](Feedback& feedback, Devices&, double time) { drive(feedback, time, 1.5); }, "", "turn", "",
+     ""},
 };
 
 enum class Lost { nothing, sound, motors };
 
 Signals signals(const Family& family, Lost lost) {
   Feedback feedback(FeedbackConfig{}, kEnglish);
-  Feedback::Input input;
+  Devices input;
   input.hands.live = true;
   input.hands.buttons = {false, false};
   input.motors = lost != Lost::motors;
   if (lost == Lost::sound) {
-    input.audio = cues::Link::lost;
+    input.audio = Link::lost;
     input.sounds = false;
   }
   Signals result;
   for (double time = 10.0; time < 18.0; time += 0.02) {
     input.hands.axes = {0.0, time < 10.5 ? 0.0 : 1.0};
     family.happens(feedback, input, time);
-    const Feedback::Output out = feedback.update(input, time);
+    const Feedback::Output out = feedback.update(input, false, time);
     if (lost != Lost::sound) {
       for (const cues::Cue& cue : out.cues) result.said.insert(to_string(cue.kind));
       for (const sounds::Play& play : out.plays)
@@ -177,11 +177,11 @@ TEST(TwoSenses, the_motors_lead_the_way_where_no_word_can) {
 
 TEST(TwoSenses, motors_that_cannot_be_felt_are_told) {
   Feedback feedback(FeedbackConfig{}, kEnglish);
-  Feedback::Input input;
+  Devices input;
   input.hands.live = true;
   input.hands.axes = {0.0, 0.0};
-  input.notices = {CueKind::no_rumble};
-  const std::vector<cues::Cue> cues = feedback.update(input, 10.0).cues;
+  input.states = {CueKind::no_rumble};
+  const std::vector<cues::Cue> cues = feedback.update(input, false, 10.0).cues;
   ASSERT_FALSE(cues.empty());
   EXPECT_EQ(cues[0].kind, CueKind::no_rumble);
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cues/side.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 

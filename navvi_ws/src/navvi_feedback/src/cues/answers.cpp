@@ -13,7 +13,7 @@ namespace {
 constexpr double kFirstPath = 5.0;
 
 /// All of it from the robot's nose, and as the crow flies.
-Utterance where_am_i(const Situation& now, Rounding rounding) {
+Utterance where_am_i(const Observation& now, Rounding rounding) {
   Utterance told;
   if (now.place) {
     told.fillings.place = static_cast<PlaceName>(now.place->kind);
@@ -30,11 +30,11 @@ Utterance where_am_i(const Situation& now, Rounding rounding) {
 
 /// What needs no path, or one that leads to the goal.
 std::optional<Utterance> about(Question question, const Tick& tick, Rounding rounding) {
-  const Situation& now = tick.now;
+  const Observation& now = tick.now;
   const bool to_goal = tick.follows && now.guidance->state == Guidance::State::following;
   if (question == Question::around) return around(now.nearby);
   if (question == Question::help)
-    return Utterance{now.keyboard ? CueKind::help_keys : CueKind::help_pad};
+    return Utterance{now.devices.keyboard ? CueKind::help_keys : CueKind::help_pad};
   if (question == Question::where && (now.place || (to_goal && now.goal_angle)))
     return where_am_i(now, rounding);
   if (question == Question::turn && to_goal && !now.guidance->waypoint_is_goal)
@@ -62,13 +62,13 @@ std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const
 
 Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
                            const StateCues& state) {
-  if (tick.now.menu) {
-    Utterance label = *tick.now.menu;
+  if (tick.asked.menu) {
+    Utterance label = *tick.asked.menu;
     label.asked = true;
     return {label};
   }
   const auto question =
-      tick.now.question ? tick.now.question : std::exchange(question_, std::nullopt);
+      tick.asked.question ? tick.asked.question : std::exchange(question_, std::nullopt);
   if (!question) return {};
   asked_ = question;
   std::optional<Utterance> answer = about(*question, tick, route.rounding());

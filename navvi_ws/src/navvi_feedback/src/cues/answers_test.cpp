@@ -12,21 +12,21 @@ class AnswersTest : public CuePolicyTest {};
 TEST_F(AnswersTest, answers_a_question_at_once) {
   under_way();
   now_.voice_busy = true;
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"});
   EXPECT_EQ(last_.priority, Priority::message);
   now_.goal_angle = -1.6;
-  now_.question = Question::goal;
+  asked_.question = Question::goal;
   EXPECT_EQ(pass(0.1), Texts{"goal 20 meters, 9 o'clock"});
   now_.guidance.reset();
   pass(3.0);
-  now_.question = Question::goal;
+  asked_.question = Question::goal;
   EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
 }
 
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
   const auto ask = [this](Question question) {
-    now_.question = question;
+    asked_.question = question;
     return pass(0.1);
   };
   under_way();
@@ -44,23 +44,23 @@ TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
 
 TEST_F(AnswersTest, tells_the_next_turn_and_what_the_buttons_do) {
   under_way();
-  now_.question = Question::turn;
+  asked_.question = Question::turn;
   EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"}) << "there is none before the goal";
   now_.guidance->waypoint_is_goal = false;
   now_.guidance->turn_angle = 1.6;
   now_.guidance->waypoint_distance = 18.0;
-  now_.question = Question::turn;
+  asked_.question = Question::turn;
   EXPECT_EQ(pass(0.1), Texts{"in 18 meters, turn to 3 o'clock"});
-  now_.question = Question::help;
+  asked_.question = Question::help;
   EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "lower repeats");
-  now_.keyboard = true;
-  now_.question = Question::help;
+  now_.devices.keyboard = true;
+  asked_.question = Question::help;
   EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "space repeats");
 }
 
 TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   now_.guidance.reset();
-  now_.question = Question::around;
+  asked_.question = Question::around;
   EXPECT_EQ(pass(0.1), Texts{"nothing near"});
   now_.nearby = {{ThingClass::wall, 1, 0.5, {0.0, 0.9}, false},
                  {ThingClass::worker, 2, 1.0, {-1.4, 0.0}, true},
@@ -68,8 +68,8 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
                  {ThingClass::box, 4, 1.2, {0.2, -1.6}, false},
                  {ThingClass::forklift, 5, 2.9, {3.3, 0.0}, true},
                  {ThingClass::pallet_robot, 6, 3.1, {0.0, 3.5}, true}};
-  now_.question = Question::around;
-  const std::vector<Cue> told = policy_.update(now_, time_);
+  asked_.question = Question::around;
+  const std::vector<Cue> told = policy_.update(now_, asked_, time_);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].text, "wall left, forklift ahead, shelf right, worker behind");
   ASSERT_EQ(told[0].scan.size(), 4U);
@@ -79,7 +79,7 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
 
 TEST_F(AnswersTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {
   now_.guidance.reset();
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(4.0), Texts{});
 }
 
@@ -88,7 +88,7 @@ TEST_F(AnswersTest, an_answer_that_was_heard_is_not_given_again_for_a_later_cue_
   now_.guidance->state = Guidance::State::blocked;
   now_.guidance->blocked_by = ThingClass::forklift;
   pass(1.0);
-  now_.question = Question::way;
+  asked_.question = Question::way;
   pass(0.1);
   policy_.note({{2, CueStage::started, last_.kind, last_.text}});
   policy_.note({{3, CueStage::dropped, last_.kind, last_.text}});

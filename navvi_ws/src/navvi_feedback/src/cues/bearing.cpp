@@ -24,7 +24,7 @@ Bearing::Bearing(const RouteConfig& config)
       steady_(rounding_, rounding_ == Rounding::floor ? 0.0 : config.hysteresis_degrees * kDegree) {
 }
 
-void Bearing::observe(const Situation& now, bool halted, double time) {
+void Bearing::observe(const Observation& now, bool halted, double time) {
   hour_ = steady_.update(now.guidance->steer_angle);
   const bool ahead = hour_ == 12 && rounding_ == Rounding::nearest;
   if (ahead) hour_ = lead_off(now, config_.in_the_way, leads_off_ || halted);

@@ -4,7 +4,8 @@
 
 #include "cues/clock_face.hpp"
 #include "cues/cue_config.hpp"
-#include "cues/situation.hpp"
+#include "cues/phrases.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -16,7 +17,7 @@ class Bearing {
   /// Call it at each look. \param now  with a guidance
   /// \param halted  the person waits for "go on", and is led off a thing sooner
   /// \param time  s, monotonic
-  void observe(const Situation& now, bool halted, double time);
+  void observe(const Observation& now, bool halted, double time);
   /// What was held was the direction to another corner.
   void begin_leg() { steady_.reset(); }
   /// The path is gone.

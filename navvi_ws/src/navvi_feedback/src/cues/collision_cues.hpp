@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 

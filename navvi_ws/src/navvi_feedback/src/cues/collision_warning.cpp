@@ -25,14 +25,14 @@ constexpr double kGoesOn = 0.6;
 constexpr double kBehindCorner = 0.5;
 
 /// What the robot does, or is about to do.
-Velocity drives(const Situation& now) {
+Velocity drives(const Observation& now) {
   const Velocity measured = now.measured.value_or(Velocity{});
   return std::abs(now.commanded.linear) > std::abs(measured.linear) ? now.commanded : measured;
 }
 
 }  // namespace
 
-std::optional<CollisionWarning::Warning> CollisionWarning::update(const Situation& now,
+std::optional<CollisionWarning::Warning> CollisionWarning::update(const Observation& now,
                                                                   bool told_to_stop,
                                                                   const LastSaid& said,
                                                                   double time) {
@@ -61,7 +61,7 @@ std::optional<CollisionWarning::Warning> CollisionWarning::update(const Situatio
 }
 
 /// What will be hit first, if soon enough to be warned of.
-std::optional<CollisionWarning::Danger> CollisionWarning::soonest(const Situation& now,
+std::optional<CollisionWarning::Danger> CollisionWarning::soonest(const Observation& now,
                                                                   double time) {
   std::optional<Danger> first;
   for (const NearThing& thing : now.nearby) {
@@ -77,7 +77,7 @@ std::optional<CollisionWarning::Danger> CollisionWarning::soonest(const Situatio
 }
 
 /// s, the time to collision at which the word is to stop.
-double CollisionWarning::stop_time(const Situation& now, const NearThing& thing) const {
+double CollisionWarning::stop_time(const Observation& now, const NearThing& thing) const {
   if (thing.moving) return config_.stop_moving;
   const bool turns_off_before = now.guidance && now.guidance->is_followed() &&
                                 now.guidance->waypoint_distance < thing.gap + kBehindCorner;
@@ -90,7 +90,7 @@ bool CollisionWarning::steadily(std::uint32_t thing, bool heads, double time) {
   return heads && time - headed_.emplace(thing, time).first->second >= kTurns;
 }
 
-bool CollisionWarning::comes(const Situation& now, double time) const {
+bool CollisionWarning::comes(const Observation& now, double time) const {
   if (config_.stop_moving <= 0.0) return false;
   const double steer = now.guidance ? now.guidance->steer_angle : 0.0;
   const Eigen::Vector2d led = kGoesOn * Eigen::Vector2d(std::cos(steer), -std::sin(steer));

@@ -8,7 +8,7 @@
 #include "cues/cue_config.hpp"
 #include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -26,12 +26,12 @@ class CollisionWarning {
   /// \param told_to_stop  just now: that something comes is no news
   /// \param said  when kinds were said: one that would come too soon waits
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::optional<Warning> update(const Situation& now, bool told_to_stop,
+  [[nodiscard]] std::optional<Warning> update(const Observation& now, bool told_to_stop,
                                               const LastSaid& said, double time);
 
   /// \return whether anything would be to stop for within `time` (s), be it that the robot goes on
   /// as it does, or, of what moves about, that it drives where it is led
-  [[nodiscard]] bool comes(const Situation& now, double time) const;
+  [[nodiscard]] bool comes(const Observation& now, double time) const;
 
   /// The warning was not heard.
   void lost() { last_.of.reset(); }
@@ -49,8 +49,8 @@ class CollisionWarning {
     NearThing thing;
     double left;  ///< s
   };
-  [[nodiscard]] std::optional<Danger> soonest(const Situation& now, double time);
-  [[nodiscard]] double stop_time(const Situation& now, const NearThing& thing) const;
+  [[nodiscard]] std::optional<Danger> soonest(const Observation& now, double time);
+  [[nodiscard]] double stop_time(const Observation& now, const NearThing& thing) const;
   [[nodiscard]] bool steadily(std::uint32_t thing, bool heads, double time);
 
   NearConfig config_;

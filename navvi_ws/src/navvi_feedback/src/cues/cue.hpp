@@ -19,7 +19,6 @@ namespace navvi_feedback::cues {
 
 using Family = navvi_types::CueFamily;
 
-struct Situation;  // what cues are decided from
 struct Utterance;  // what is to be told, before it is put into words
 
 /// One spoken message, before it is spoken.

@@ -37,10 +37,10 @@ CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
       route_(config.route),
       phrasing_(std::move(phrases), config.same_text) {}
 
-std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
-  const Tick tick = look(now, time);
+std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, double time) {
+  const Tick tick = look(now, asked, time);
   Utterances told = links_.update(now);
-  add(told, notices_.update(now, time));
+  add(told, notices_.update(tick));
   add(told, collisions_.update(now.contacts, time));
   add(told, release(tick, told));
   add(told, stuck_.update(now, tick.follows, time));
@@ -56,12 +56,12 @@ std::vector<Cue> CuePolicy::update(const Situation& now, double time) {
   return say(told, tick);
 }
 
-Tick CuePolicy::look(const Situation& now, double time) {
+Tick CuePolicy::look(const Observation& now, const Asked& asked, double time) {
   const Links& links = links_.judge(now, time);
   const bool follows = now.guidance && now.guidance->is_followed() &&
                        links.guidance == Link::alive && links.simulator != Link::lost &&
                        !awaited(now);
-  return {now, links, follows, time, links_.age(time)};
+  return {now, asked, links, follows, time, links_.age(time)};
 }
 
 Utterances CuePolicy::release(const Tick& tick, const Utterances& told) {

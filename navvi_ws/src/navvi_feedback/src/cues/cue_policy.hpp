@@ -10,23 +10,25 @@
 #include "cues/link_cues.hpp"
 #include "cues/near_cues.hpp"
 #include "cues/notice_cues.hpp"
+#include "cues/phrases.hpp"
 #include "cues/phrasing.hpp"
 #include "cues/route_cues.hpp"
-#include "cues/situation.hpp"
 #include "cues/state_cues.hpp"
 #include "cues/stuck.hpp"
 #include "cues/tick.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
-/// Decides what is said, and when. Pure: the same situations at the same times give the same cues.
+/// Decides what is said, and when. Pure: the same observations at the same times give the same
+/// cues.
 class CuePolicy {
  public:
   CuePolicy(const CuePolicyConfig& config, Phrases phrases);
 
   /// \param time  s, of a monotonic wall clock, so that a paused simulation is noticed
   /// \return the cues decided now, most urgent first
-  [[nodiscard]] std::vector<Cue> update(const Situation& now, double time);
+  [[nodiscard]] std::vector<Cue> update(const Observation& now, const Asked& asked, double time);
 
   /// From now on.
   void use(const WordingConfig& wording) { phrasing_.use(wording); }
@@ -40,7 +42,7 @@ class CuePolicy {
   void note(const std::vector<CueEvent>& events);
 
  private:
-  [[nodiscard]] Tick look(const Situation& now, double time);
+  [[nodiscard]] Tick look(const Observation& now, const Asked& asked, double time);
   [[nodiscard]] Utterances release(const Tick& tick, const Utterances& told);
   [[nodiscard]] Utterances near(const Tick& tick);
   void remind(const Tick& tick, const Utterances& told);

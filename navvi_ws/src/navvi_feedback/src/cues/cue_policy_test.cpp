@@ -11,7 +11,7 @@ namespace navvi_feedback::cues {
 namespace {
 
 TEST_F(CuePolicyTest, says_nothing_before_anything_is_known) {
-  now_ = Situation();
+  now_ = Observation();
   EXPECT_EQ(pass(5.0), Texts{});
 }
 
@@ -71,7 +71,7 @@ TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_
   EXPECT_EQ(go_on, "go on, straight ahead, 20 meters");
   for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
     policy_.note({{9, stage, CueKind::straight, go_on}});
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
 }
 
@@ -80,7 +80,7 @@ TEST_F(CuePolicyTest, words_things_otherwise_as_soon_as_it_is_wanted) {
   WordingConfig wording;
   wording.verbosity = "brief";
   policy_.use(wording);
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(0.5), Texts{"straight"});
 }
 
@@ -160,11 +160,11 @@ TEST_F(CuePolicyTest, speaks_what_can_be_spoken_in_any_situation) {
     if (draw(30) == 0)
       now_.contacts = {{static_cast<ThingClass>(1 + draw(8)), {number(1), number(1)}}};
     now_.voice_busy = draw(2) == 0;
-    now_.question.reset();
-    if (draw(50) == 0) now_.question = static_cast<Question>(draw(3));
+    asked_.question.reset();
+    if (draw(50) == 0) asked_.question = static_cast<Question>(draw(3));
     now_.stick_held_unarmed = draw(2) == 0;
     time_ += 0.02;
-    for (const Cue& cue : policy_.update(now_, time_)) {
+    for (const Cue& cue : policy_.update(now_, asked_, time_)) {
       EXPECT_TRUE(speakable(cue.text));
     }
     now_.contacts.clear();

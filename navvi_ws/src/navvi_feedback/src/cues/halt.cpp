@@ -18,7 +18,7 @@ constexpr double kAhead = 1.0;
 /// rad; who turns by so much does not drive at what is ahead.
 constexpr double kAside = 0.5;
 
-bool clear(const Situation& now) {
+bool clear(const Observation& now) {
   if (now.guidance && std::abs(now.guidance->steer_angle) > kAside) return true;
   return !mover_ahead(now.nearby, kAhead);
 }
@@ -66,7 +66,7 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
   if (event.stage == CueStage::dropped && !replaced && !heard_) state_ = State::free;
 }
 
-bool Halt::over(const Situation& now, bool follows, bool comes, double time) {
+bool Halt::over(const Observation& now, bool follows, bool comes, double time) {
   if (!halted() || !follows) led_since_.reset();
   if (halted() && follows && !led_since_) led_since_ = time;
   const bool long_led = led_since_ && time - std::max(said_, *led_since_) > kLongest;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -29,7 +29,7 @@ class Halt {
   /// Call it at each update. \param follows  there is a path to be followed now
   /// \param comes  something would soon reach the robot
   /// \return whether "go on" is due
-  [[nodiscard]] bool over(const Situation& now, bool follows, bool comes, double time);
+  [[nodiscard]] bool over(const Observation& now, bool follows, bool comes, double time);
 
   [[nodiscard]] bool halted() const { return state_ == State::waiting; }
   /// The person has not heard "go on" to its end.

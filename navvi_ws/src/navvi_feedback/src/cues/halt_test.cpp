@@ -38,7 +38,7 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   heard();
   now_.guidance->state = Guidance::State::following;
   pass(1.0);
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(0.1), Texts{"wait, worker in the way"});
   heard();
   EXPECT_EQ(pass(1.8), Texts{}) << "what was just called in the way";
@@ -49,7 +49,7 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   now_.guidance->state = Guidance::State::following;
   heard();
   for (int i = 0; i < 12 && last_.kind == CueKind::blocked; ++i) {
-    now_.question = Question::way;
+    asked_.question = Question::way;
     pass(1.0);
     heard();
   }
@@ -107,7 +107,7 @@ TEST_F(HaltTest, an_answer_to_wait_is_a_wait_that_ends_by_go_on) {
   now_.guidance->state = Guidance::State::blocked;
   now_.guidance->blocked_by = ThingClass::worker;
   now_.guidance->blocked_distance = 5.0;
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(0.2), Texts{"wait, worker in the way"});
   now_.guidance->state = Guidance::State::following;
   EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
@@ -147,7 +147,7 @@ TEST_F(HaltTest, a_question_during_a_wait_is_answered_by_it_however_often) {
   now_.guidance->blocked_by = ThingClass::forklift;
   pass(1.0);
   for (int i = 0; i < 3; ++i) {
-    now_.question = Question::way;
+    asked_.question = Question::way;
     EXPECT_EQ(pass(0.5), Texts{"wait, forklift in the way"});
   }
 }

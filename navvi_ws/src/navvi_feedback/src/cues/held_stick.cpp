@@ -12,7 +12,7 @@ constexpr double kRepeat = 2.5;
 /// m/s and rad/s; a command below these is neutral.
 constexpr double kNeutral = 0.02;
 
-bool in_vain(const Situation& now) {
+bool in_vain(const Observation& now) {
   if (now.stick_held_unarmed) return true;
   const bool shut =
       now.gate == DriveState::State::waiting || now.gate == DriveState::State::stopped;
@@ -22,7 +22,7 @@ bool in_vain(const Situation& now) {
 
 }  // namespace
 
-Utterances HeldStick::update(const Situation& now, double time) {
+Utterances HeldStick::update(const Observation& now, double time) {
   if (!in_vain(now)) {
     since_.reset();
     return {};

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -12,7 +12,7 @@ namespace navvi_feedback::cues {
 class HeldStick {
  public:
   /// Call it while there is a stick, and a robot to be moved. \param time  s, monotonic
-  [[nodiscard]] Utterances update(const Situation& now, double time);
+  [[nodiscard]] Utterances update(const Observation& now, double time);
 
   /// Another cue has just asked for the same.
   void said(double time) { said_ = time; }

@@ -18,7 +18,7 @@ class HeldStickTest : public testing::Test {
   }
 
   HeldStick held_;
-  Situation now_;
+  Observation now_;
   double time_ = 10.0;
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cues/clock_face.hpp"
+#include "cues/side.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kBeside = 0.5;
 constexpr double kKept = 0.1;
 
 /// The hour away from a thing beside the robot that is all but touched.
-std::optional<int> away_from_touched(const Situation& now, bool held) {
+std::optional<int> away_from_touched(const Observation& now, bool held) {
   const double touched = held ? 2.0 * kTouching : kTouching;
   for (const NearThing& thing : now.nearby) {
     const Side side = side_of(thing.nearest);
@@ -35,7 +36,7 @@ std::optional<int> away_from_touched(const Situation& now, bool held) {
 
 }  // namespace
 
-int lead_off(const Situation& now, double in_the_way, bool held) {
+int lead_off(const Observation& now, double in_the_way, bool held) {
   if (const auto hour = away_from_touched(now, held)) return *hour;
   const double angle = now.guidance->steer_angle;
   if (std::abs(angle) < (held ? 0.5 : 1.0) * kWorthSaying) return 12;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -11,6 +11,6 @@ namespace navvi_feedback::cues {
 /// \param in_the_way  m, gap; a thing farther ahead need not be passed yet
 /// \param held  the last answer led off, so that it takes more to lead ahead again
 /// \return 12, or 1 or 11
-[[nodiscard]] int lead_off(const Situation& now, double in_the_way, bool held);
+[[nodiscard]] int lead_off(const Observation& now, double in_the_way, bool held);
 
 }  // namespace navvi_feedback::cues

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "cues/cue_config.hpp"
-#include "cues/situation.hpp"
 #include "cues/stray.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -8,11 +8,12 @@ constexpr double kTogether = 0.3;
 
 }  // namespace
 
-const Links& LinkCues::judge(const Situation& now, double time) {
+const Links& LinkCues::judge(const Observation& now, double time) {
   if (!first_) first_ = time;
   const bool waited = time - *first_ > patience_;
   const auto judged = [&](Link link) { return link == Link::never && waited ? Link::lost : link; };
-  const Links& links = now.links;
+  Links links = now.links;
+  if (now.robotless) links = {links.pad, Link::alive, Link::alive, Link::alive, links.audio};
   if (links.proximity != Link::lost) sensed_ = time;
   const bool just_lost = links.proximity == Link::lost && time - sensed_ < kTogether;
   const Link near = just_lost ? Link::alive : judged(links.proximity);
@@ -21,7 +22,7 @@ const Links& LinkCues::judge(const Situation& now, double time) {
   return links_;
 }
 
-Utterances LinkCues::update(const Situation& now) {
+Utterances LinkCues::update(const Observation& now) {
   Utterances told;
   const auto say = [&](CueKind kind) { told.push_back({kind}); };
   const auto lost = [&](Link Links::*link) {
@@ -30,8 +31,8 @@ Utterances LinkCues::update(const Situation& now) {
   const auto back = [&](Link Links::*link) {
     return last_.*link == Link::lost && links_.*link == Link::alive;
   };
-  if (lost(&Links::pad)) say(now.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
-  if (back(&Links::pad)) say(now.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
+  if (lost(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
+  if (back(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
   if (lost(&Links::simulator)) say(CueKind::simulator_lost);
   if (back(&Links::audio)) say(CueKind::audio_back);
   const bool simulated = links_.simulator != Link::lost;

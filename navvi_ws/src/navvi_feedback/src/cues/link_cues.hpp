@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -15,9 +15,9 @@ class LinkCues {
   explicit LinkCues(double patience) : patience_(patience) {}
 
   /// Call it once a tick, first. \param time  s, monotonic \return the links as judged
-  const Links& judge(const Situation& now, double time);
+  const Links& judge(const Observation& now, double time);
   /// What has changed since the last tick.
-  [[nodiscard]] Utterances update(const Situation& now);
+  [[nodiscard]] Utterances update(const Observation& now);
 
   /// Without a stick no path can be followed; its return is said first, then the direction.
   [[nodiscard]] bool steered() const { return links_.pad != Link::lost && last_.pad != Link::lost; }

@@ -10,7 +10,7 @@ namespace {
 class LinkCuesTest : public CuePolicyTest {};
 
 TEST_F(LinkCuesTest, says_which_messages_never_came) {
-  now_ = Situation();
+  now_ = Observation();
   pass(9.0);
   EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "simulator lost"}));
 }
@@ -59,7 +59,7 @@ TEST_F(LinkCuesTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
 }
 
 TEST_F(LinkCuesTest, names_the_keyboard_where_the_stick_is_one) {
-  now_.keyboard = true;
+  now_.devices.keyboard = true;
   under_way();
   now_.links.pad = Link::lost;
   now_.gate = DriveState::State::stopped;

@@ -12,7 +12,7 @@ namespace navvi_feedback::cues {
 namespace {
 
 /// In the lane that the robot drives along, or, of what it may brush, beside it.
-bool in_the_way(const Situation& now, const Eigen::Vector2d& point, bool close) {
+bool in_the_way(const Observation& now, const Eigen::Vector2d& point, bool close) {
   if (!now.measured || stands(now)) return false;
   const double forward = std::copysign(point.x(), point.x() * now.measured->linear);
   return forward >= 0.0 && (close || std::abs(point.y()) <= kHalfLane);
@@ -34,7 +34,7 @@ NearCues::Level NearCues::observe(Watch& watch, double gap, double time) const {
   return reached;
 }
 
-Utterances NearCues::update(const Situation& now, bool all, Hold hold, double time) {
+Utterances NearCues::update(const Observation& now, bool all, Hold hold, double time) {
   if (const auto warning = warning_.update(now, hold.comes, said_, time)) {
     const NearThing& thing = warning->thing;
     // A side of which this was said needs no more words, either.
@@ -57,7 +57,7 @@ void NearCues::unsaid(CueKind kind) {
   if (kind == CueKind::obstacle_stop || kind == CueKind::obstacle_comes) warning_.lost();
 }
 
-void NearCues::consider_sides(const Situation& now, bool straight, double time,
+void NearCues::consider_sides(const Observation& now, bool straight, double time,
                               std::optional<Candidate>& best) {
   std::map<std::pair<ThingClass, Side>, double> gaps;
   for (const ThingClass thing : {ThingClass::shelf, ThingClass::wall})
@@ -90,7 +90,7 @@ void NearCues::consider_sides(const Situation& now, bool straight, double time,
   }
 }
 
-void NearCues::consider_things(const Situation& now, bool straight, double time,
+void NearCues::consider_things(const Observation& now, bool straight, double time,
                                std::optional<Candidate>& best) {
   for (const Contact& contact : now.contacts) things_[contact.id] = {Level::close, time};
   for (auto thing = things_.begin(); thing != things_.end();)

@@ -9,7 +9,7 @@
 #include "cues/cue_config.hpp"
 #include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -30,10 +30,10 @@ class NearCues {
   /// \param hold  what was just said: to go straight ahead, so that what is there waits, unless it
   /// will be hit; or to stop, so that what comes waits
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] Utterances update(const Situation& now, bool all, Hold hold, double time);
+  [[nodiscard]] Utterances update(const Observation& now, bool all, Hold hold, double time);
 
   /// As CollisionWarning::comes().
-  [[nodiscard]] bool comes(const Situation& now, double time) const {
+  [[nodiscard]] bool comes(const Observation& now, double time) const {
     return warning_.comes(now, time);
   }
 
@@ -57,9 +57,9 @@ class NearCues {
 
   [[nodiscard]] Level level(double gap, Level said) const;
   /// \param straight  that was just said: what is ahead waits
-  void consider_sides(const Situation& now, bool straight, double time,
+  void consider_sides(const Observation& now, bool straight, double time,
                       std::optional<Candidate>& best);
-  void consider_things(const Situation& now, bool straight, double time,
+  void consider_things(const Observation& now, bool straight, double time,
                        std::optional<Candidate>& best);
   /// Brings a watch up to date. \return what its thing has reached
   Level observe(Watch& watch, double gap, double time) const;

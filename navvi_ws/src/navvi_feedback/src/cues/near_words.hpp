@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 

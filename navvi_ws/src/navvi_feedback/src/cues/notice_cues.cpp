@@ -2,14 +2,15 @@
 
 namespace navvi_feedback::cues {
 
-Utterances NoticeCues::update(const Situation& now, double time) {
+Utterances NoticeCues::update(const Tick& tick) {
   Utterances told;
-  const std::set<CueKind> notices(now.notices.begin(), now.notices.end());
+  std::set<CueKind> notices(tick.now.notices.begin(), tick.now.notices.end());
+  if (tick.asked.menu_closed) notices.insert(CueKind::menu_closed);
   for (const CueKind notice : notices) {
     if (noticed_.count(notice) > 0) continue;
     told.push_back({notice});
-    told.back().fillings.person = now.person;
-    if (family_of(notice) == Family::trial_end) trial_over_ = time;
+    told.back().fillings.person = tick.now.devices.person;
+    if (family_of(notice) == Family::trial_end) trial_over_ = tick.time;
   }
   noticed_ = notices;
   return told;

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "cues/tick.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -14,8 +14,7 @@ class NoticeCues {
   /// \param last_words  s, without directions after the end of a trial
   explicit NoticeCues(double last_words) : last_words_(last_words) {}
 
-  /// \param time  s, monotonic
-  [[nodiscard]] Utterances update(const Situation& now, double time);
+  [[nodiscard]] Utterances update(const Tick& tick);
 
   /// The end of a trial was said.
   [[nodiscard]] bool trial_over() const { return trial_over_.has_value(); }

@@ -21,7 +21,7 @@ TEST_F(NoticeCuesTest, says_a_notice_once) {
 
 TEST_F(NoticeCuesTest, names_the_person_whose_settings_are_used) {
   under_way();
-  now_.person = "sub-01_b";
+  now_.devices.person = "sub-01_b";
   now_.notices = {CueKind::settings_of};
   EXPECT_EQ(pass(1.0), Texts{"settings of sub-01 b"});
 }

@@ -48,11 +48,11 @@ Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const 
   return told;
 }
 
-std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, const Situation& now,
+std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, const Observation& now,
                                    double time) {
   std::vector<Cue> cues;
   for (Utterance utterance : utterances) {
-    utterance.fillings.keys = now.keyboard;
+    utterance.fillings.keys = now.devices.keyboard;
     const CueKind kind = utterance.kind;
     const navvi_types::CueTraits& usual = traits(kind);
     // An answer, and the end of a wait, are always said.

@@ -6,7 +6,7 @@
 
 #include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -23,7 +23,7 @@ class Phrasing {
 
   /// \return the most urgent first
   [[nodiscard]] std::vector<Cue> cues_of(const std::vector<Utterance>& utterances,
-                                         const Situation& now, double time);
+                                         const Observation& now, double time);
   /// One of this kind would not be said now.
   [[nodiscard]] bool too_soon(CueKind kind, double time) const {
     return last_said_.too_soon(kind, time);

@@ -49,7 +49,7 @@ std::optional<CueKind> problem_of(const Guidance& guidance) {
   return std::nullopt;
 }
 
-Utterance problem_words(CueKind problem, const Situation& now) {
+Utterance problem_words(CueKind problem, const Observation& now) {
   Utterance told{problem};
   if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
   return told;

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -11,7 +11,7 @@ namespace navvi_feedback::cues {
 [[nodiscard]] std::optional<CueKind> problem_of(const Guidance& guidance);
 
 /// That, with the thing that is in the way.
-[[nodiscard]] Utterance problem_words(CueKind problem, const Situation& now);
+[[nodiscard]] Utterance problem_words(CueKind problem, const Observation& now);
 
 /// A goal was refused, for whatever reason.
 [[nodiscard]] inline bool is_refusal(std::optional<CueKind> problem) {

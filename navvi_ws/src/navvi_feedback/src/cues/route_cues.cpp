@@ -15,7 +15,7 @@ constexpr double kSameGoal = 0.5;
 
 }  // namespace
 
-Utterances RouteCues::update(const Situation& now, bool halted, double time) {
+Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   const Guidance& guidance = *now.guidance;
   by_sound_ = now.sounds.turn;
   if (leg_.ends(guidance, config_.same_corner)) bearing_.begin_leg();
@@ -31,7 +31,7 @@ Utterances RouteCues::update(const Situation& now, bool halted, double time) {
   return by_sound_ ? sounds_lead(look, leg_) : words_lead(look, leg_);
 }
 
-Utterances RouteCues::introduce_goal(const Situation& now, double time) {
+Utterances RouteCues::introduce_goal(const Observation& now, double time) {
   goal_ = now.guidance->goal;
   leg_.begin(*now.guidance);
   Utterance start = goal_words(CueKind::start, CueKind::start_distance, now, bearing_.rounding());
@@ -42,7 +42,7 @@ Utterances RouteCues::introduce_goal(const Situation& now, double time) {
   return {start};
 }
 
-Utterances RouteCues::go_on(const Situation& now, double time) {
+Utterances RouteCues::go_on(const Observation& now, double time) {
   const Guidance& guidance = *now.guidance;
   std::optional<Utterance> way = direction(guidance, bearing_);
   if (!way) return {};

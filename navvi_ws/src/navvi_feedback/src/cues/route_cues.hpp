@@ -5,7 +5,7 @@
 #include "cues/bearing.hpp"
 #include "cues/leg.hpp"
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -26,11 +26,11 @@ class RouteCues {
   /// Call it while the guidance is fresh and leads along a path.
   /// \param halted  the person was told to stop: nothing is said until they may go on
   /// \param time  s, monotonic
-  [[nodiscard]] Utterances update(const Situation& now, bool halted, double time);
+  [[nodiscard]] Utterances update(const Observation& now, bool halted, double time);
 
   /// The way as of now, with what has changed meanwhile, for a person who was told to stop and may
   /// go on; none if it is not known. Call it after update().
-  [[nodiscard]] Utterances go_on(const Situation& now, double time);
+  [[nodiscard]] Utterances go_on(const Observation& now, double time);
 
   /// The direction as of now, for a person who asks; it need not be said again by itself.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
@@ -49,7 +49,7 @@ class RouteCues {
   [[nodiscard]] Rounding rounding() const { return bearing_.rounding(); }
 
  private:
-  [[nodiscard]] Utterances introduce_goal(const Situation& now, double time);
+  [[nodiscard]] Utterances introduce_goal(const Observation& now, double time);
   [[nodiscard]] bool is_new_goal(const Guidance& guidance) const;
 
   RouteConfig config_;

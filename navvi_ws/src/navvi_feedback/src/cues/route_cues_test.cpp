@@ -160,7 +160,7 @@ void lead(const RouteConfig& config, double error) {
   Eigen::Vector2d position(0.0, 0.0);
   double heading = 2.5;
   std::size_t next = 0;
-  Situation now;
+  Observation now;
   now.measured.emplace();
   double time = 0.0;
   for (; time < 120.0; time += kTick) {

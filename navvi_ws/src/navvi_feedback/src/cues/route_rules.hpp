@@ -7,14 +7,14 @@
 #include "cues/cue_config.hpp"
 #include "cues/leg.hpp"
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
 /// One look at a way that leads on: its guidance is fresh, and the hour to where to steer is known.
 struct Look {
   const RouteConfig& config;
-  const Situation& now;
+  const Observation& now;
   const Bearing& bearing;
   double time;  ///< s, monotonic
 

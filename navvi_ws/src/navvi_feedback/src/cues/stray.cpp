@@ -12,9 +12,9 @@ constexpr double kDrives = 0.1;
 
 }  // namespace
 
-bool drives_on(const Situation& now) { return now.measured && now.measured->linear > kDrives; }
+bool drives_on(const Observation& now) { return now.measured && now.measured->linear > kDrives; }
 
-std::optional<CueKind> straying(const Situation& now, std::optional<CueKind> was,
+std::optional<CueKind> straying(const Observation& now, std::optional<CueKind> was,
                                 const StrayConfig& config) {
   if (drives_on(now) && std::abs(now.guidance->steer_angle) > config.wrong_way_degrees * kDegree)
     return CueKind::wrong_way;
@@ -22,12 +22,12 @@ std::optional<CueKind> straying(const Situation& now, std::optional<CueKind> was
   return now.guidance->path_offset > limit ? std::optional(CueKind::off_path) : std::nullopt;
 }
 
-void Stray::observe(const Situation& now, const StrayConfig& config, double time) {
+void Stray::observe(const Observation& now, const StrayConfig& config, double time) {
   const std::optional<CueKind> strays = straying(now, kind, config);
   if (strays != kind) *this = {strays, time, std::nullopt};
 }
 
-bool Stray::due(const Situation& now, const StrayConfig& config, double time) const {
+bool Stray::due(const Observation& now, const StrayConfig& config, double time) const {
   return kind && time - since >= config.after && drives_on(now) &&
          (!said || time - *said >= config.repeat);
 }

@@ -7,8 +7,8 @@
 namespace navvi_feedback::cues {
 namespace {
 
-Situation drives(double linear, double degrees, double offset) {
-  Situation now;
+Observation drives(double linear, double degrees, double offset) {
+  Observation now;
   now.guidance.emplace();
   now.guidance->steer_angle = degrees * kDegree;
   now.guidance->path_offset = offset;
@@ -34,7 +34,7 @@ TEST(Straying, is_off_the_path_until_it_is_clearly_on_it) {
 
 TEST(Stray, is_due_once_it_has_lasted_and_again_while_it_lasts) {
   const StrayConfig config;
-  const Situation off = drives(0.5, 0.0, 1.0);
+  const Observation off = drives(0.5, 0.0, 1.0);
   Stray stray;
   stray.observe(off, config, 10.0);
   EXPECT_FALSE(stray.due(off, config, 11.4));

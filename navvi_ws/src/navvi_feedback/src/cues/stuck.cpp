@@ -30,7 +30,7 @@ bool is_free(int hour, const std::vector<NearThing>& nearby, double gap) {
 }
 
 /// What holds the robot: what lies where the person wants to go rather than what is merely nearer.
-const NearThing* blocker_of(const Situation& now, double gap) {
+const NearThing* blocker_of(const Observation& now, double gap) {
   const NearThing* blocker = nullptr;
   const auto rank = [&](const NearThing& thing) {
     const bool in_the_way = thing.nearest.x() * now.commanded.linear >= 0.0;
@@ -65,7 +65,7 @@ Utterance boxed_in(const std::vector<NearThing>& nearby) {
 
 }  // namespace
 
-Utterances Stuck::update(const Situation& now, bool follows, double time) {
+Utterances Stuck::update(const Observation& now, bool follows, double time) {
   // Commands near the thresholds may well move the robot more slowly than these.
   const bool commanded = std::abs(now.commanded.linear) > 2.0 * config_.stuck_linear ||
                          std::abs(now.commanded.angular) > 2.0 * config_.stuck_angular;
@@ -85,7 +85,7 @@ Utterances Stuck::update(const Situation& now, bool follows, double time) {
   return {words(now, follows)};
 }
 
-Utterance Stuck::words(const Situation& now, bool follows) const {
+Utterance Stuck::words(const Observation& now, bool follows) const {
   const double gap = config_.blocker_gap;
   const NearThing* blocker = blocker_of(now, gap);
   if (!blocker) return {CueKind::stuck_unknown};

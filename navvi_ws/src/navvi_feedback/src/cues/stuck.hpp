@@ -3,7 +3,8 @@
 #include <optional>
 
 #include "cues/cue_config.hpp"
-#include "cues/situation.hpp"
+#include "cues/phrases.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -14,10 +15,10 @@ class Stuck {
 
   /// \param follows  the person is led along a path, so that the free way nearest to it is named
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] Utterances update(const Situation& now, bool follows, double time);
+  [[nodiscard]] Utterances update(const Observation& now, bool follows, double time);
 
  private:
-  [[nodiscard]] Utterance words(const Situation& now, bool follows) const;
+  [[nodiscard]] Utterance words(const Observation& now, bool follows) const;
 
   CuePolicyConfig config_;
   std::optional<double> since_;  ///< s, commanded without moving

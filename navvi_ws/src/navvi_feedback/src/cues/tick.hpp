@@ -2,13 +2,15 @@
 
 #include <optional>
 
-#include "cues/situation.hpp"
+#include "cues/asked.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
 /// One instant, as each part of the policy sees it.
 struct Tick {
-  const Situation& now;
+  const Observation& now;
+  const Asked& asked;
   Links links;           ///< as judged
   bool follows = false;  ///< there is a fresh path that is to be followed now
   double time = 0.0;     ///< s, monotonic
@@ -16,10 +18,10 @@ struct Tick {
 };
 
 /// The act that a trial awaits before it begins; nullopt if none.
-[[nodiscard]] inline std::optional<CueKind> awaited(const Situation& now) {
+[[nodiscard]] inline std::optional<CueKind> awaited(const Observation& now) {
   if (now.trial == TrialState::State::choose_goal) return CueKind::choose_goal;
   if (now.trial != TrialState::State::ready) return std::nullopt;
-  return now.keyboard ? CueKind::press_enter : CueKind::press_start;
+  return now.devices.keyboard ? CueKind::press_enter : CueKind::press_start;
 }
 
 }  // namespace navvi_feedback::cues

@@ -107,7 +107,7 @@ TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_th
   follow();
   Texts told;
   while (told.empty()) {
-    now_.question = Question::way;
+    asked_.question = Question::way;
     const Texts more = pass(0.02);
     if (more != Texts{"wait, worker in the way"}) told = more;
   }
@@ -117,7 +117,7 @@ TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_th
 TEST_F(WaitTest, ends_by_an_answer_that_comes_before_go_on_was_heard) {
   follow();
   EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
-  now_.question = Question::way;
+  asked_.question = Question::way;
   EXPECT_EQ(pass(0.1), Texts{"go on, straight ahead, 20 meters"});
 }
 

@@ -27,7 +27,8 @@ Utterance next_turn(const Guidance& guidance, Rounding rounding) {
   return turn;
 }
 
-Utterance goal_words(CueKind kind, CueKind without_hour, const Situation& now, Rounding rounding) {
+Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,
+                     Rounding rounding) {
   Utterance goal;
   goal.fillings.distance = std::max(0.0, now.guidance->goal_distance);
   if (now.goal_angle) goal.fillings.hour = clock_hour(*now.goal_angle, rounding);

@@ -4,7 +4,7 @@
 
 #include "cues/bearing.hpp"
 #include "cues/phrases.hpp"
-#include "cues/situation.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -15,7 +15,7 @@ namespace navvi_feedback::cues {
 [[nodiscard]] Utterance next_turn(const Guidance& guidance, Rounding rounding);
 
 /// Distance and, if it is known, hour of the goal. \param without_hour  the kind if it is not
-[[nodiscard]] Utterance goal_words(CueKind kind, CueKind without_hour, const Situation& now,
+[[nodiscard]] Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,
                                    Rounding rounding);
 
 }  // namespace navvi_feedback::cues

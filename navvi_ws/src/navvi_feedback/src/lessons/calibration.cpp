@@ -21,7 +21,7 @@ constexpr double kLate = 1.5;        // s
 
 std::string key(const char* name) { return std::string("calibrate_") + name; }
 
-bool pressed(const Seen& seen, Button button) {
+bool pressed(const Observation& seen, Button button) {
   return std::find(seen.pressed.begin(), seen.pressed.end(), button) != seen.pressed.end();
 }
 
@@ -51,7 +51,7 @@ Calibration::Calibration(const cues::Phrases& phrases, const drive::ButtonsConfi
 /// s; no two in succession are alike.
 double Calibration::pause() { return 1.0 + 0.37 * (++signals_ * 3 % 5); }
 
-void Calibration::enter(Stage stage, const Seen& seen) {
+void Calibration::enter(Stage stage, const Observation& seen) {
   if (!seen.motors && stage < Stage::halt) {
     teller_.then(key("no_motors"));
     stage = Stage::halt;
@@ -65,21 +65,21 @@ void Calibration::enter(Stage stage, const Seen& seen) {
   teller_.then(key(texts[static_cast<std::size_t>(stage)]));
 }
 
-Taught Calibration::update(const Seen& seen, double time) {
+Taught Calibration::update(const Observation& seen, double time) {
   Taught taught;
   time_ = time;
-  teller_.hands(seen.keyboard);
+  teller_.hands(seen.devices.keyboard);
   if (!begun_) {
     begun_ = true;
     teller_.tell(key("welcome"));
-    if (seen.keyboard) teller_.then("tutorial_keys");
+    if (seen.devices.keyboard) teller_.then("tutorial_keys");
     enter(Stage::left, seen);
   }
   if (pressed(seen, Button::end) && stage_ != Stage::end) {
     stage_ = Stage::end;
     teller_.tell(key("end"));
   }
-  if (teller_.done() && seen.quiet) {
+  if (teller_.done() && !seen.voice_busy) {
     switch (stage_) {
       case Stage::left:
       case Stage::right:
@@ -100,11 +100,11 @@ Taught Calibration::update(const Seen& seen, double time) {
     due_.reset();
     signalled_.reset();
   }
-  taught.cues = teller_.update(seen.quiet);
+  taught.cues = teller_.update(!seen.voice_busy);
   return taught;
 }
 
-void Calibration::feel(const Seen& seen, Taught& taught) {
+void Calibration::feel(const Observation& seen, Taught& taught) {
   if (!due_) due_ = time_ + pause();
   const double since = time_ - *due_;
   const bool felt = pressed(seen, Button::repeat);
@@ -125,7 +125,7 @@ void Calibration::feel(const Seen& seen, Taught& taught) {
   enter(stage_ == Stage::left ? Stage::right : Stage::comfort, seen);
 }
 
-void Calibration::choose(const Seen& seen, Taught& taught) {
+void Calibration::choose(const Observation& seen, Taught& taught) {
   if (pressed(seen, Button::previous)) gain_ = std::min(1.0, gain_ + kStep);
   if (pressed(seen, Button::next)) gain_ = std::max(kLeastGain, gain_ - kStep);
   if (pressed(seen, Button::previous) || pressed(seen, Button::next) || !due_) due_ = time_;
@@ -134,7 +134,7 @@ void Calibration::choose(const Seen& seen, Taught& taught) {
     if (pressed(seen, button)) return enter(Stage::halt, seen);
 }
 
-void Calibration::halt(const Seen& seen, Taught& taught) {
+void Calibration::halt(const Observation& seen, Taught& taught) {
   const bool held = std::max(std::abs(seen.stick.x), std::abs(seen.stick.y)) > kDeflected;
   const bool let_go = seen.stick.x == 0.0 && seen.stick.y == 0.0;
   if (signalled_) {
@@ -159,7 +159,7 @@ void Calibration::halt(const Seen& seen, Taught& taught) {
   } else if (time_ >= *due_) {
     signalled_ = time_;
     taught.plays.push_back({sounds::Earcon::turn_stop, Eigen::Vector2d::UnitX(), 1.0});
-    if (!seen.sounds) taught.rumble = haptics::Rumble{gain_, gain_};
+    if (!seen.audible) taught.rumble = haptics::Rumble{gain_, gain_};
   }
 }
 

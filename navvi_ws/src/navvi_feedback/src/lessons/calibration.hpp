@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "lessons/lesson.hpp"
 #include "lessons/staircase.hpp"
 #include "lessons/teller.hpp"
-#include "lessons/lesson.hpp"
 
 namespace navvi_feedback::lessons {
 
@@ -21,7 +21,7 @@ class Calibration : public Lesson {
   Calibration(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
               const haptics::HapticsConfig& haptics, std::string pad, double robot_delay);
 
-  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] Taught update(const Observation& seen, double time) override;
   [[nodiscard]] bool over() const override { return over_; }
   [[nodiscard]] std::vector<std::string> settings() const override;
 
@@ -31,10 +31,10 @@ class Calibration : public Lesson {
  private:
   enum class Stage { left, right, comfort, halt, end };
 
-  void enter(Stage stage, const Seen& seen);
-  void feel(const Seen& seen, Taught& taught);
-  void choose(const Seen& seen, Taught& taught);
-  void halt(const Seen& seen, Taught& taught);
+  void enter(Stage stage, const Observation& seen);
+  void feel(const Observation& seen, Taught& taught);
+  void choose(const Observation& seen, Taught& taught);
+  void halt(const Observation& seen, Taught& taught);
   [[nodiscard]] double pause();
 
   haptics::HapticsConfig haptics_;

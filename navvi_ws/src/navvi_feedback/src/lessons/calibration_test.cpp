@@ -20,24 +20,24 @@ struct Person {
 
   /// \return the settings
   std::vector<std::string> calibrate(Calibration& calibration) {
-    Seen seen;
+    Observation seen;
     seen.motors = motors;
     double speaks_until = 0.0;
     std::optional<double> felt;
     double go = 1e9;  ///< s, when the stick is let go
     for (double time = 10.0; time < 600.0 && !calibration.over(); time += 0.02) {
-      seen.quiet = time >= speaks_until;
+      seen.voice_busy = time < speaks_until;
       seen.pressed.clear();
       if (felt && time >= *felt) {
         seen.pressed = {Button::repeat};
         felt.reset();
       }
-      if (kind == "calibrate_comfort" && seen.quiet && strength > 0.0) {
+      if (kind == "calibrate_comfort" && !seen.voice_busy && strength > 0.0) {
         seen.pressed = {strength > likes + 0.01 ? Button::next : Button::start};
       }
       const bool stick =
           kind == "calibrate_halt" || kind == "calibrate_once_more" || kind == "calibrate_late";
-      seen.stick.y = stick && seen.quiet && time < go ? 1.0 : 0.0;
+      seen.stick.y = stick && !seen.voice_busy && time < go ? 1.0 : 0.0;
       if (time >= go + 0.1) go = 1e9;
       const Taught taught = calibration.update(seen, time);
       for (const cues::Cue& cue : taught.cues) {
@@ -111,7 +111,7 @@ TEST(Calibration, measures_the_stick_alone_where_there_are_no_motors) {
 
 TEST(Calibration, saves_nothing_if_it_is_ended_or_a_motor_is_not_felt) {
   Calibration lesson = calibration();
-  Seen seen;
+  Observation seen;
   (void)lesson.update(seen, 0.0);
   seen.pressed = {Button::end};
   (void)lesson.update(seen, 0.1);

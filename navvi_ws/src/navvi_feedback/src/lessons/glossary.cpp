@@ -62,15 +62,15 @@ Glossary::Glossary(const cues::Phrases& phrases, const drive::ButtonsConfig& but
       teller_(phrases, buttons, texts()) {}
 
 /// What a session does not give is not in its glossary.
-bool Glossary::given(const Entry& entry, const Seen& seen) const {
+bool Glossary::given(const Entry& entry, const Observation& seen) const {
   if (entry.hour > 0) return clock_;
   if (entry.near) return seen.motors && haptics_.enabled && haptics_.near;
   if (entry.pattern) return seen.motors && haptics_.enabled && haptics_.patterns;
-  if (entry.earcon) return seen.sounds && sounds_.enabled && sounds_.family_of(*entry.earcon).on;
+  if (entry.earcon) return seen.audible && sounds_.enabled && sounds_.family_of(*entry.earcon).on;
   return true;
 }
 
-void Glossary::go(int steps, const Seen& seen) {
+void Glossary::go(int steps, const Observation& seen) {
   const int step = steps < 0 ? -1 : 1;
   int at = static_cast<int>(at_);
   const int count = static_cast<int>(entries_.size());
@@ -93,9 +93,9 @@ void Glossary::begin() {
   reminded_ = false;
 }
 
-Taught Glossary::update(const Seen& seen, double time) {
+Taught Glossary::update(const Observation& seen, double time) {
   Taught taught;
-  teller_.hands(seen.keyboard);
+  teller_.hands(seen.devices.keyboard);
   if (!welcomed_) {
     welcomed_ = true;
     teller_.tell("glossary_welcome");
@@ -115,8 +115,8 @@ Taught Glossary::update(const Seen& seen, double time) {
     }
     if (button == Button::help) teller_.tell("glossary_buttons");
   }
-  taught.cues = teller_.update(seen.quiet);
-  if (!teller_.done() || !taught.cues.empty() || (!seen.quiet && !given_)) return taught;
+  taught.cues = teller_.update(!seen.voice_busy);
+  if (!teller_.done() || !taught.cues.empty() || (seen.voice_busy && !given_)) return taught;
   if (leaving_) {
     over_ = true;
     return taught;

@@ -19,7 +19,7 @@ class Glossary : public Lesson {
   Glossary(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
            const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds);
 
-  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] Taught update(const Observation& seen, double time) override;
   [[nodiscard]] bool over() const override { return over_; }
 
   /// The keys of all texts.
@@ -36,8 +36,8 @@ class Glossary : public Lesson {
     int hour = 0;                         ///< of that phrase
   };
   [[nodiscard]] static std::vector<Entry> all();
-  [[nodiscard]] bool given(const Entry& entry, const Seen& seen) const;
-  void go(int steps, const Seen& seen);
+  [[nodiscard]] bool given(const Entry& entry, const Observation& seen) const;
+  void go(int steps, const Observation& seen);
   void begin();
   void give(const Entry& entry, double since, Taught& taught);
   void beat(const Entry& entry, Taught& taught);

@@ -26,7 +26,7 @@ class GlossaryTest : public testing::Test {
     seen_.pressed = button ? std::vector{*button} : std::vector<Button>{};
     silent_ = 0.0;
     while (!glossary_.over() && silent_ < 4.0) {
-      seen_.quiet = time_ >= speaks_until_;
+      seen_.voice_busy = time_ < speaks_until_;
       const Taught taught = glossary_.update(seen_, time_);
       seen_.pressed.clear();
       for (const cues::Cue& cue : taught.cues) {
@@ -38,7 +38,7 @@ class GlossaryTest : public testing::Test {
       near_ += taught.near.empty() ? 0 : 1;
       for (const sounds::Play& play : taught.plays) heard_.insert(play.earcon);
       const bool nothing = taught.cues.empty() && !taught.pattern && taught.near.empty() &&
-                           taught.plays.empty() && seen_.quiet;
+                           taught.plays.empty() && !seen_.voice_busy;
       silent_ = nothing ? silent_ + 0.02 : 0.0;
       time_ += 0.02;
     }
@@ -50,7 +50,7 @@ class GlossaryTest : public testing::Test {
     return all;
   }();
   Glossary glossary_{phrases(), {}, {}, sounds_};
-  Seen seen_;
+  Observation seen_;
   double time_ = 10.0;
   double silent_ = 0.0;
   double speaks_until_ = 0.0;
@@ -89,7 +89,7 @@ TEST_F(GlossaryTest, goes_on_back_again_and_ends_by_buttons) {
 }
 
 TEST_F(GlossaryTest, leaves_out_what_cannot_be_felt_or_heard_here) {
-  seen_.motors = seen_.sounds = false;
+  seen_.motors = seen_.audible = false;
   for (int i = 0; i < 100 && !glossary_.over(); ++i)
     hear(i > 0 ? std::optional(Button::next) : std::nullopt);
   EXPECT_TRUE(glossary_.over());
@@ -127,7 +127,7 @@ TEST(Lessons, teach_no_hours_to_who_hears_no_hours) {
   cues::Phrases degrees = phrases();
   degrees.use({"degrees"});
   Glossary glossary(degrees, {}, {}, {});
-  Seen seen;
+  Observation seen;
   for (double time = 0.0; time < 100.0 && !glossary.over(); time += 0.02) {
     seen.pressed = {Button::next};
     for (const cues::Cue& cue : glossary.update(seen, time).cues)

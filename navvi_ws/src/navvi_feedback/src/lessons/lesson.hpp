@@ -1,8 +1,5 @@
 #pragma once
 
-#include <navvi_types/guidance.hpp>
-#include <navvi_types/thing.hpp>
-#include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,25 +10,9 @@
 #include "haptics/haptics.hpp"
 #include "haptics/pattern.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
+#include "senses/observation.hpp"
 
 namespace navvi_feedback::lessons {
-
-/// What a lesson knows of the person and the robot at one instant.
-struct Seen {
-  std::vector<drive::Button> pressed;  ///< since the last update
-  std::vector<std::string> begun;      ///< keys of its texts that began to be heard since then
-  bool hands = true;                   ///< there is something to press and to push
-  drive::Stick stick;                  ///< without its dead zone; neutral where there is none
-  bool keyboard = false;
-  std::string pad = {};  ///< what identifies the motors, without spaces
-  bool quiet = true;     ///< nothing is spoken or waits for it
-  bool motors = true;    ///< they can be felt
-  bool sounds = true;    ///< short sounds can be heard
-  bool hit = false;      ///< something was touched since the last update
-  Velocity motion;       ///< of the robot
-  bool arrived = false;
-  navvi_types::TrialState::State trial = navvi_types::TrialState::State::free;
-};
 
 /// What a lesson wants to be heard and felt, by the ways of a session.
 struct Taught {
@@ -51,7 +32,7 @@ class Lesson {
   virtual ~Lesson() = default;
 
   /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
-  [[nodiscard]] virtual Taught update(const Seen& seen, double time) = 0;
+  [[nodiscard]] virtual Taught update(const Observation& seen, double time) = 0;
   /// Nothing more comes.
   [[nodiscard]] virtual bool over() const = 0;
   /// The stick moves the robot.

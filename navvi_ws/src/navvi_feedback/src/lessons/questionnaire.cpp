@@ -101,9 +101,9 @@ Questionnaire::Questionnaire(const cues::Phrases& phrases, const drive::ButtonsC
       answers_(questions_.size()),
       teller_(phrases, buttons, texts()) {}
 
-Taught Questionnaire::update(const Seen& seen, double time) {
+Taught Questionnaire::update(const Observation& seen, double time) {
   time_ = time;
-  teller_.hands(seen.keyboard);
+  teller_.hands(seen.devices.keyboard);
   if (!begun_) {
     begun_ = true;
     teller_.tell(key("welcome"));
@@ -114,8 +114,8 @@ Taught Questionnaire::update(const Seen& seen, double time) {
     lean(seen.stick);
   }
   Taught taught;
-  taught.cues = teller_.update(seen.quiet);
-  over_ = finished_ && teller_.done() && seen.quiet && taught.cues.empty();
+  taught.cues = teller_.update(!seen.voice_busy);
+  over_ = finished_ && teller_.done() && !seen.voice_busy && taught.cues.empty();
   return taught;
 }
 

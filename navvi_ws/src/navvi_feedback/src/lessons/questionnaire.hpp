@@ -34,7 +34,7 @@ class Questionnaire : public Lesson {
   Questionnaire(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons,
                 std::vector<Question> questions);
 
-  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] Taught update(const Observation& seen, double time) override;
   [[nodiscard]] bool over() const override { return over_; }
   /// item,answer,seconds: s from the question's beginning to its last answer.
   [[nodiscard]] std::string record() const override;

@@ -26,10 +26,10 @@ class QuestionnaireTest : public testing::Test {
                                 double forward = 0.0) {
     std::vector<std::string> said;
     for (const double end = time_ + seconds; time_ < end && !asked_.over(); time_ += 0.02) {
-      Seen seen;
+      Observation seen;
       seen.pressed = std::exchange(pressed, {});
       seen.stick.y = forward;
-      seen.quiet = time_ >= speaks_until_;
+      seen.voice_busy = time_ < speaks_until_;
       for (const cues::Cue& cue : asked_.update(seen, time_).cues) {
         said.push_back(cue.text);
         speaks_until_ = time_ + 0.5;

@@ -43,10 +43,10 @@ void Teacher::begin(const std::string& lesson, const std::string& pad) {
   }
 }
 
-void Teacher::update(const Seen& seen, double time) {
+void Teacher::update(const Observation& seen, double time) {
   taught_ = {};
   // A pad may be found a little later, and has motors or not.
-  if (!lesson_ && seen.hands) begin(first_, seen.pad);
+  if (!lesson_ && seen.devices.hands.live) begin(first_, seen.devices.pad);
   if (first_ == "none" && seen.trial == TrialState::State::running) lesson_.reset();
   if (teaching()) taught_ = lesson_->update(seen, time);
 }

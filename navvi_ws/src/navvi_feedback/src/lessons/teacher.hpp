@@ -31,7 +31,7 @@ class Teacher {
   void begin(const std::string& lesson, const std::string& pad);
   /// Call it at 50 Hz. The first lesson begins as soon as there are hands; one that was chosen ends
   /// with the beginning of a trial. \param time  s, of a clock that does not run backwards
-  void update(const Seen& seen, double time);
+  void update(const Observation& seen, double time);
 
   /// A lesson is given now.
   [[nodiscard]] bool teaching() const { return lesson_ && !lesson_->over(); }

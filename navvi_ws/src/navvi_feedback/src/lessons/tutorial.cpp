@@ -26,9 +26,9 @@ constexpr double kLongestTick = 0.1;  // s
 
 bool neutral(const drive::Stick& stick) { return stick.x == 0.0 && stick.y == 0.0; }
 
-bool stands(const Seen& seen) {
-  return neutral(seen.stick) && std::abs(seen.motion.linear) < kStill &&
-         std::abs(seen.motion.angular) < kStill;
+bool stands(const Observation& seen) {
+  return neutral(seen.stick) && std::abs(seen.motion().linear) < kStill &&
+         std::abs(seen.motion().angular) < kStill;
 }
 
 std::string key(const std::string& name) { return "tutorial_" + name; }
@@ -157,7 +157,7 @@ std::optional<std::size_t> Tutorial::weakest() const {
   return static_cast<std::size_t>(found - steps().begin());
 }
 
-void Tutorial::buttons(const Seen& seen) {
+void Tutorial::buttons(const Observation& seen) {
   for (const Button button : seen.pressed) {
     if (!takes(button) || phase_ == Phase::leaving) continue;
     if (button == Button::end) {
@@ -173,15 +173,15 @@ void Tutorial::buttons(const Seen& seen) {
   }
 }
 
-Taught Tutorial::update(const Seen& seen, double time) {
+Taught Tutorial::update(const Observation& seen, double time) {
   const double dt = std::clamp(time - time_, 0.0, kLongestTick);
   time_ = time;
   trial_ = seen.trial;
-  teller_.hands(seen.keyboard);
+  teller_.hands(seen.devices.keyboard);
   if (results_.empty()) {
     teller_.tell(key("welcome"));
     teller_.then(key("buttons"));
-    if (seen.keyboard) teller_.then(key("keys"));
+    if (seen.devices.keyboard) teller_.then(key("keys"));
     begin(0);
   }
   buttons(seen);
@@ -191,11 +191,11 @@ Taught Tutorial::update(const Seen& seen, double time) {
     attempt();  // begun before the last word
   }
   Taught taught;
-  taught.cues = teller_.update(seen.quiet);
+  taught.cues = teller_.update(!seen.voice_busy);
   if (phase_ == Phase::doing)
     act(seen, dt, taught);
   else if (phase_ == Phase::leaving)
-    over_ = over_ || (teller_.done() && taught.cues.empty() && seen.quiet);
+    over_ = over_ || (teller_.done() && taught.cues.empty() && !seen.voice_busy);
   // Who knows what to do does not wait for the last word. What is still in motion is no try.
   else if (teller_.done() && stands(seen))
     attempt();
@@ -206,9 +206,9 @@ Taught Tutorial::update(const Seen& seen, double time) {
 bool Tutorial::settled() const { return still_ && time_ - *still_ >= kSettled; }
 
 /// A try.
-void Tutorial::act(const Seen& seen, double dt, Taught& taught) {
-  driven_ += seen.motion.linear * dt;
-  turned_ += seen.motion.angular * dt;
+void Tutorial::act(const Observation& seen, double dt, Taught& taught) {
+  driven_ += seen.motion().linear * dt;
+  turned_ += seen.motion().angular * dt;
   if (!stands(seen))
     still_.reset();
   else if (!still_)
@@ -231,8 +231,8 @@ void Tutorial::act(const Seen& seen, double dt, Taught& taught) {
   }
 }
 
-Tutorial::Verdict Tutorial::judge(const Seen& seen, Taught& taught) {
-  if (seen.hit && step().task != Task::goal) return {false, "hit"};
+Tutorial::Verdict Tutorial::judge(const Observation& seen, Taught& taught) {
+  if (!seen.contacts.empty() && step().task != Task::goal) return {false, "hit"};
   switch (step().task) {
     case Task::drive:
       return judge_drive(seen);
@@ -250,7 +250,7 @@ Tutorial::Verdict Tutorial::judge(const Seen& seen, Taught& taught) {
   return judge_goal(seen);
 }
 
-Tutorial::Verdict Tutorial::judge_drive(const Seen& seen) {
+Tutorial::Verdict Tutorial::judge_drive(const Observation& seen) {
   if (std::abs(turned_) > kAstray) return {false, "crooked"};
   if (driven_ < -0.1) return {false, "back"};
   if (step().amount > 1.0 && driven_ >= step().amount && !neutral(seen.stick) && !told_) {
@@ -261,9 +261,9 @@ Tutorial::Verdict Tutorial::judge_drive(const Seen& seen) {
   return driven_ >= step().amount ? Verdict{true} : Verdict{false, "short"};
 }
 
-Tutorial::Verdict Tutorial::judge_halt(const Seen& seen) {
+Tutorial::Verdict Tutorial::judge_halt(const Observation& seen) {
   if (driven_ < -0.1) return {false, "back"};
-  if (seen.motion.linear < kHaltSpeed)
+  if (seen.motion().linear < kHaltSpeed)
     moving_.reset();
   else if (!moving_)
     moving_ = time_;
@@ -280,14 +280,14 @@ Tutorial::Verdict Tutorial::judge_halt(const Seen& seen) {
   return time_ - *heard_ > step().amount ? Verdict{false, "late"} : Verdict{};
 }
 
-Tutorial::Verdict Tutorial::judge_turn(const Seen& seen, Taught& taught) {
+Tutorial::Verdict Tutorial::judge_turn(const Observation& seen, Taught& taught) {
   const double target = step().amount * kDegree;
   const double off = target + turned_;
   taught.off = off;
   if (std::abs(driven_) > 0.5) return {false, "driven"};
   if (turned_ * target > 0.0 && std::abs(turned_) > kAstray) return {false, "side"};
   // Where no ticks are heard, a word does their work.
-  if (!seen.sounds && !told_ && off * target < 0.3 * target * target) {
+  if (!seen.audible && !told_ && off * target < 0.3 * target * target) {
     told_ = true;
     teller_.tell(key("stop"));
   }
@@ -296,8 +296,8 @@ Tutorial::Verdict Tutorial::judge_turn(const Seen& seen, Taught& taught) {
   return {false, off * target < 0.0 ? "too_far" : "too_little"};
 }
 
-Tutorial::Verdict Tutorial::judge_side(const Seen& seen, Taught& taught) {
-  if (!clicked_ && !seen.quiet) return {};
+Tutorial::Verdict Tutorial::judge_side(const Observation& seen, Taught& taught) {
+  if (!clicked_ && seen.voice_busy) return {};
   const cues::Side side = step().side;
   navvi_types::NearThing thing;
   thing.thing_class = navvi_types::ThingClass::box;
@@ -306,7 +306,7 @@ Tutorial::Verdict Tutorial::judge_side(const Seen& seen, Taught& taught) {
   taught.near.push_back(thing);
   if (!clicked_ || time_ - *clicked_ > kClick) {
     clicked_ = time_;
-    if (seen.sounds)
+    if (seen.audible)
       taught.plays.push_back({sounds::Earcon::shelf_near, cues::direction_of(side), 0.8});
   }
   if (std::max(std::abs(seen.stick.x), std::abs(seen.stick.y)) < kDeflected) return {};
@@ -316,17 +316,17 @@ Tutorial::Verdict Tutorial::judge_side(const Seen& seen, Taught& taught) {
                                              : "was_ahead"};
 }
 
-Tutorial::Verdict Tutorial::judge_press(const Seen& seen) const {
+Tutorial::Verdict Tutorial::judge_press(const Observation& seen) const {
   for (const Button button : seen.pressed)
     if (button <= Button::help && button != Button::repeat)
       return button == step().button ? Verdict{true} : Verdict{false, "button"};
   return {};
 }
 
-Tutorial::Verdict Tutorial::judge_goal(const Seen& seen) {
+Tutorial::Verdict Tutorial::judge_goal(const Observation& seen) {
   const bool runs = seen.trial == TrialState::State::running;
   in_trial_ = in_trial_ || runs;
-  if (in_trial_ && seen.arrived) return {true};
+  if (in_trial_ && seen.arrived()) return {true};
   return in_trial_ && !runs ? Verdict{false, "no_goal"} : Verdict{};
 }
 

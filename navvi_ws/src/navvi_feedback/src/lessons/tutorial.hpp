@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "lessons/teller.hpp"
 #include "lessons/lesson.hpp"
+#include "lessons/teller.hpp"
 
 namespace navvi_feedback::lessons {
 
@@ -46,7 +46,7 @@ class Tutorial : public Lesson {
   /// \throws navvi_config::ConfigError if the phrases lack a text
   Tutorial(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons);
 
-  [[nodiscard]] Taught update(const Seen& seen, double time) override;
+  [[nodiscard]] Taught update(const Observation& seen, double time) override;
   [[nodiscard]] bool over() const override { return over_; }
   [[nodiscard]] bool drives() const override;
   [[nodiscard]] bool speaks() const override { return !in_trial_; }
@@ -62,21 +62,21 @@ class Tutorial : public Lesson {
     std::string wrong = {};
   };
 
-  void buttons(const Seen& seen);
+  void buttons(const Observation& seen);
   void begin(std::size_t step);
   void attempt();
-  void act(const Seen& seen, double dt, Taught& taught);
+  void act(const Observation& seen, double dt, Taught& taught);
   void leave(const std::string& key, const Teller::Fillings& fillings = {});
   void finish(bool passed);
   void next();
   [[nodiscard]] std::optional<std::size_t> weakest() const;
-  [[nodiscard]] Verdict judge(const Seen& seen, Taught& taught);
-  [[nodiscard]] Verdict judge_drive(const Seen& seen);
-  [[nodiscard]] Verdict judge_halt(const Seen& seen);
-  [[nodiscard]] Verdict judge_turn(const Seen& seen, Taught& taught);
-  [[nodiscard]] Verdict judge_side(const Seen& seen, Taught& taught);
-  [[nodiscard]] Verdict judge_press(const Seen& seen) const;
-  [[nodiscard]] Verdict judge_goal(const Seen& seen);
+  [[nodiscard]] Verdict judge(const Observation& seen, Taught& taught);
+  [[nodiscard]] Verdict judge_drive(const Observation& seen);
+  [[nodiscard]] Verdict judge_halt(const Observation& seen);
+  [[nodiscard]] Verdict judge_turn(const Observation& seen, Taught& taught);
+  [[nodiscard]] Verdict judge_side(const Observation& seen, Taught& taught);
+  [[nodiscard]] Verdict judge_press(const Observation& seen) const;
+  [[nodiscard]] Verdict judge_goal(const Observation& seen);
   [[nodiscard]] const Step& step() const { return steps()[at_]; }
   [[nodiscard]] bool settled() const;
 

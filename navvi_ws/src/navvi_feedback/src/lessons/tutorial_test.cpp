@@ -43,7 +43,11 @@ class TutorialTest : public testing::Test {
     seen_.trial = since < 1.0   ? TrialState::State::ready
                   : since < 6.0 ? TrialState::State::running
                                 : TrialState::State::choose_goal;
-    seen_.arrived = since > 5.9;
+    arrive(since > 5.9);
+  }
+  void arrive(bool arrived) {
+    seen_.guidance.emplace();
+    if (arrived) seen_.guidance->state = Guidance::State::arrived;
   }
   [[nodiscard]] bool said(const std::string& name) const {
     return last_ == "tutorial_" + name || heard_.count("tutorial_" + name) > 0;
@@ -58,7 +62,7 @@ class TutorialTest : public testing::Test {
     for (const double end = time_ + most; time_ < end && !tutorial_.over(); time_ += 0.02) tick();
   }
   void tick() {
-    seen_.quiet = time_ >= speaks_until_;
+    seen_.voice_busy = time_ < speaks_until_;
     seen_.pressed = std::exchange(presses_, {});
     const std::string step = tutorial_.results().empty() ? "" : tutorial_.results().back().step;
     if (step != step_ || tries_ != told_) {
@@ -72,7 +76,7 @@ class TutorialTest : public testing::Test {
     if (last_ == "tutorial_" + step && time_ > speaks_until_ + 0.3 && !acts_since_)
       acts_since_ = time_;
     if (acts_since_) hands_.at(step)(time_ - *acts_since_);
-    seen_.motion =
+    seen_.measured =
         tutorial_.drives() ? Velocity{0.8 * seen_.stick.y, 1.2 * seen_.stick.x} : Velocity{};
     const Taught taught = tutorial_.update(seen_, time_);
     seen_.begun.clear();
@@ -98,7 +102,7 @@ class TutorialTest : public testing::Test {
   Tutorial tutorial_{cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"),
                      {}};
   std::map<std::string, Hand> hands_;
-  Seen seen_;
+  Observation seen_;
   std::vector<Button> presses_;
   double time_ = 10.0;
   double speaks_until_ = 0.0;
@@ -187,7 +191,7 @@ TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
           Tutorial(cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"), {});
       step_ = last_ = "";
       seen_.trial = TrialState::State::free;
-      seen_.arrived = false;
+      arrive(false);
     }
 }
 
@@ -210,7 +214,7 @@ TEST_F(TutorialTest,
   for (; time_ < 300.0 && step_ != "goal"; time_ += 0.02) tick();
   seen_.trial = TrialState::State::running;
   seen_.stick.y = 1.0;
-  seen_.motion.linear = 0.5;
+  seen_.measured = Velocity{0.5, 0.0};
   for (int i = 0; i < 3; ++i) (void)tutorial_.update(seen_, time_ += 0.02);
   EXPECT_FALSE(tutorial_.speaks());
   EXPECT_TRUE(tutorial_.update(seen_, time_ += 0.02).cues.empty());

@@ -56,24 +56,6 @@ struct Guide::Parts {
 
 namespace {
 
-Feedback::Input input_of(const Devices& devices, std::vector<CueKind> news, bool voice_busy) {
-  Feedback::Input input;
-  input.hands = devices.hands;
-  input.keyboard = devices.keyboard;
-  input.audio = devices.audio;
-  input.sounds = devices.sounds;
-  input.motors = devices.motors;
-  input.felt = devices.felt;
-  input.pad = devices.pad;
-  input.voice_busy = voice_busy;
-  input.robot = devices.robot;
-  input.asked = devices.asked;
-  input.notices = devices.states;
-  input.notices.insert(input.notices.end(), news.begin(), news.end());
-  input.person = devices.person;
-  return input;
-}
-
 /// All but what is said and felt.
 Told told_of(Feedback::Output& output) {
   Told told;
@@ -150,8 +132,10 @@ void Guide::end_trial(std::optional<CueKind> words) {
 
 std::optional<Told> Guide::update(const Devices& devices, double time) {
   if (parts_->stall.catches_up(time)) return std::nullopt;
-  Feedback::Output output = parts_->feedback.update(
-      input_of(devices, std::exchange(parts_->news, {}), !parts_->queue.empty()), time);
+  Devices now = devices;
+  now.states.insert(now.states.end(), parts_->news.begin(), parts_->news.end());
+  parts_->news.clear();
+  Feedback::Output output = parts_->feedback.update(now, !parts_->queue.empty(), time);
   Told told = told_of(output);
   parts_->move_motors(output.rumble, output.pattern, devices.felt, time, told);
   const cues::CueQueue::Step step = parts_->queue.update(output.cues, devices.speaking, time);

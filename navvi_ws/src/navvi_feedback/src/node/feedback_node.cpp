@@ -189,7 +189,7 @@ class FeedbackNode {
       welcomes_ = false;
       guide_.announce(CueKind::settings_of);
     }
-    lockstep::Devices devices = devices_.read(time);
+    senses::Devices devices = devices_.read(time);
     devices.robot = robot();
     devices.asked = asked_;
     if (twin_) devices.states.push_back(CueKind::two_drivers);

@@ -25,7 +25,7 @@ TEST(OthersRumble, is_felt_on_our_own_pad_until_it_is_stale_and_below_a_pattern)
     // A deadline for the pad's thread; the decisions have a clock of their own.
     const auto becomes = [&](const std::function<bool()>& felt) {
       for (int tick = 0; tick < 2000; ++tick, time += 0.02) {
-        gamepad.rumble(feedback.update({}, time).rumble);
+        gamepad.rumble(feedback.update({}, false, time).rumble);
         if (felt()) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }

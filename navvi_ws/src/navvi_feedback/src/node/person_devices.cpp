@@ -8,17 +8,17 @@ namespace {
 using devices::InputSource;
 using Sound = devices::Mixer::Status::Device;
 
-cues::Link link_of(Sound device) {
+senses::Link link_of(Sound device) {
   switch (device) {
     case Sound::missing:
-      return cues::Link::never;
+      return senses::Link::never;
     case Sound::lost:
-      return cues::Link::lost;
+      return senses::Link::lost;
     case Sound::open:
     case Sound::off:
       break;
   }
-  return cues::Link::alive;
+  return senses::Link::alive;
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ bool PersonDevices::felt() const {
   return own ? own->connected && own->has_rumble : source_.kind() == InputSource::Kind::topic;
 }
 
-lockstep::Devices PersonDevices::read(double time) {
+senses::Devices PersonDevices::read(double time) {
   const auto own = pad();
-  lockstep::Devices now;
+  senses::Devices now;
   now.hands = source_.read(time);
   now.keyboard = source_.kind() == InputSource::Kind::keyboard;
   now.audio = link_of(mixer_.status().device);

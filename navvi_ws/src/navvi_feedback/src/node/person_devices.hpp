@@ -11,6 +11,7 @@
 #include "devices/mixer.hpp"
 #include "devices/speech_channel.hpp"
 #include "navvi_feedback/lockstep/guide.hpp"
+#include "navvi_feedback/senses/devices.hpp"
 #include "node/node_config.hpp"
 
 namespace navvi_feedback::node {
@@ -22,7 +23,7 @@ class PersonDevices {
   explicit PersonDevices(const NodeConfig& config);
 
   /// Without the robot's place. \param time  s, of a clock that does not run backwards
-  [[nodiscard]] lockstep::Devices read(double time);
+  [[nodiscard]] senses::Devices read(double time);
   /// From the next text on. \param volume  of all that is heard, [0, 1]
   void use(int rate, double volume);
 

@@ -1,6 +1,7 @@
 #include "sounds/soundscape.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace navvi_feedback::sounds {
 namespace {
@@ -18,19 +19,28 @@ bool due(std::optional<double>& last, double distance, double range, double time
   return true;
 }
 
+/// m, in base_link: where to go next.
+std::optional<Eigen::Vector2d> waypoint(const Observation& now, const Soundscape::Lead& lead) {
+  if (!lead.off || !now.guidance || now.guidance->waypoint_distance <= 0.0) return std::nullopt;
+  const double angle = now.guidance->waypoint_angle + now.turned;
+  return now.guidance->waypoint_distance * Eigen::Vector2d(std::cos(angle), -std::sin(angle));
+}
+
 }  // namespace
 
-std::vector<Play> Soundscape::update(const Input& now, double time) {
+std::vector<Play> Soundscape::update(const Observation& now, const Lead& lead, double time) {
   std::vector<Play> plays;
   const auto turn =
-      turn_.update(config_.turn.on ? now.off : std::nullopt, now.fine, now.motion, time);
+      turn_.update(config_.turn.on ? lead.off : std::nullopt, lead.fine, lead.motion, time);
   if (turn) plays.push_back(*turn);
-  if (config_.beacon.on && now.waypoint && now.waypoint->norm() > config_.capture_radius &&
-      due(beacon_, now.waypoint->norm(), kFar, time))
-    plays.push_back({Earcon::beacon, *now.waypoint, config_.beacon.volume});
-  if (config_.sonar.on && now.nearest && now.gap < kSonarRange &&
-      due(sonar_, now.gap, kSonarRange, time))
-    plays.push_back({Earcon::sonar, *now.nearest, config_.sonar.volume});
+  const auto next = waypoint(now, lead);
+  if (config_.beacon.on && next && next->norm() > config_.capture_radius &&
+      due(beacon_, next->norm(), kFar, time))
+    plays.push_back({Earcon::beacon, *next, config_.beacon.volume});
+  const NearThing* const nearest = now.nearby.empty() ? nullptr : &now.nearby.front();
+  if (config_.sonar.on && nearest && nearest->gap < kSonarRange &&
+      due(sonar_, nearest->gap, kSonarRange, time))
+    plays.push_back({Earcon::sonar, nearest->nearest, config_.sonar.volume});
   return plays;
 }
 

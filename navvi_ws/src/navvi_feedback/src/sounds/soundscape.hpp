@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "navvi_feedback/sounds/earcon.hpp"
+#include "senses/observation.hpp"
 #include "sounds/sounds_config.hpp"
 #include "sounds/turn_sound.hpp"
 
@@ -12,14 +13,11 @@ namespace navvi_feedback::sounds {
 /// What is heard besides words: decides each short sound that comes again and again.
 class Soundscape {
  public:
-  /// All that it is decided from. Points are m, in base_link.
-  struct Input {
-    std::optional<double> off;                ///< as TurnSound takes it
-    bool fine = false;                        ///< likewise
-    Velocity motion;                          ///< likewise
-    std::optional<Eigen::Vector2d> waypoint;  ///< if there is one to go to
-    std::optional<Eigen::Vector2d> nearest;   ///< point of the nearest thing
-    double gap = 0.0;                         ///< m, to it
+  /// To where the person is led now, each as TurnSound takes it.
+  struct Lead {
+    std::optional<double> off;
+    bool fine = false;
+    Velocity motion;
   };
 
   explicit Soundscape(const SoundsConfig& config) : config_(config), turn_(config.turn) {}
@@ -31,7 +29,7 @@ class Soundscape {
   }
 
   /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<Play> update(const Input& now, double time);
+  [[nodiscard]] std::vector<Play> update(const Observation& now, const Lead& lead, double time);
   /// Of this person and robot; nullopt where turns do not sound.
   [[nodiscard]] std::optional<Learnt> learnt() const {
     if (!config_.enabled || !config_.turn.on) return std::nullopt;

@@ -5,26 +5,28 @@
 namespace navvi_feedback::sounds {
 namespace {
 
+using navvi_types::ThingClass;
+
 /// How often it sounds in 10 s.
-int count(const SoundsConfig& config, Earcon earcon, const Soundscape::Input& now) {
+int count(const SoundsConfig& config, Earcon earcon, const Observation& now) {
   Soundscape soundscape(config);
   int times = 0;
   for (int i = 0; i < 500; ++i)
-    for (const Play& play : soundscape.update(now, i * 0.02))
+    for (const Play& play : soundscape.update(now, {0.0, false, {}}, i * 0.02))
       times += play.earcon == earcon ? 1 : 0;
   return times;
 }
 
-Soundscape::Input with_waypoint_in(double distance) {
-  Soundscape::Input now;
-  now.waypoint = Eigen::Vector2d(distance, 0.0);
+Observation with_waypoint_in(double distance) {
+  Observation now;
+  now.guidance.emplace();
+  now.guidance->waypoint_distance = distance;
   return now;
 }
 
-Soundscape::Input with_thing_in(double gap) {
-  Soundscape::Input now;
-  now.nearest = Eigen::Vector2d(0.0, gap + 0.4);
-  now.gap = gap;
+Observation with_thing_in(double gap) {
+  Observation now;
+  now.nearby = {{ThingClass::shelf, 1, gap, {0.0, gap + 0.4}}};
   return now;
 }
 

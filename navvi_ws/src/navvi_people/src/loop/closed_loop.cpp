@@ -140,13 +140,13 @@ void ClosedLoop::navigate() {
 }
 
 void ClosedLoop::feed_back() {
-  navvi_feedback::lockstep::Devices devices;
+  navvi_feedback::senses::Devices devices;
   if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand_, stamp())))
     devices.hands = *hands;
   devices.speaking = time() < speaks_until_;
   devices.words = config_.speech;
   const bool heard = config_.speech || config_.feedback.has_sounds();
-  devices.audio = heard ? navvi_feedback::cues::Link::alive : navvi_feedback::cues::Link::never;
+  devices.audio = heard ? navvi_feedback::senses::Link::alive : navvi_feedback::senses::Link::never;
   devices.robot = node::from_msg(pose());
   const auto told = guide_.update(devices, time());
   if (!told) return;

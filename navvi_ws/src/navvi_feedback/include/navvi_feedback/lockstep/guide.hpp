@@ -16,15 +16,15 @@
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/link.hpp"
 #include "navvi_feedback/cues/voice_order.hpp"
-#include "navvi_feedback/drive/button.hpp"
-#include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/haptics/rumble.hpp"
+#include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 
 namespace navvi_feedback::lockstep {
+
+using senses::Devices;
 
 /// The parameters of feedback_node's core.
 class GuideConfig {
@@ -45,23 +45,6 @@ class GuideConfig {
 
  private:
   std::unique_ptr<Values> values_;
-};
-
-/// The devices of a person at one instant, and the robot's place.
-struct Devices {
-  drive::InputState hands;
-  bool keyboard = false;                     ///< the hands are on the arrow keys
-  cues::Link audio = cues::Link::alive;      ///< the sound device
-  bool words = true;                         ///< words are wanted; false: none is ever heard
-  bool sounds = true;                        ///< words and short sounds reach somebody
-  bool motors = true;                        ///< false if our own pad is not connected
-  bool felt = true;                          ///< there are motors that somebody feels
-  std::string pad;                           ///< identifies the motors, without spaces
-  bool speaking = false;                     ///< the voice still speaks the last text
-  std::optional<navvi_types::Pose2> robot;   ///< base_link in map, if known
-  std::vector<drive::Button> asked;          ///< by other means than the hands, since the last beat
-  std::vector<navvi_types::CueKind> states;  ///< said when they begin, such as no_rumble
-  std::string person;                        ///< whose settings are used, if anybody's
 };
 
 /// What goes to the wheels, to the person and to other nodes after one beat.

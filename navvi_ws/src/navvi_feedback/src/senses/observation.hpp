@@ -1,0 +1,98 @@
+#pragma once
+
+#include <navvi_types/cue_kind.hpp>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
+#include <navvi_types/motion.hpp>
+#include <navvi_types/scenario.hpp>
+#include <navvi_types/thing.hpp>
+#include <navvi_types/trial.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_feedback/drive/button.hpp"
+#include "navvi_feedback/drive/input_state.hpp"
+#include "navvi_feedback/haptics/rumble.hpp"
+#include "navvi_feedback/senses/devices.hpp"
+
+namespace navvi_feedback {
+using navvi_types::Contact;
+using navvi_types::CueKind;
+using navvi_types::DriveState;
+using navvi_types::Guidance;
+using navvi_types::NearThing;
+using navvi_types::TrialState;
+using navvi_types::Velocity;
+}  // namespace navvi_feedback
+
+namespace navvi_feedback::senses {
+
+/// All that a person depends on.
+struct Links {
+  Link pad = Link::never;
+  Link simulator = Link::never;  ///< /clock or, on a robot, the odometry
+  Link proximity = Link::never;
+  Link guidance = Link::never;
+  Link audio = Link::never;
+};
+
+/// Which sounds are heard, and do the work of words.
+struct Sounds {
+  bool turn = false;   ///< to where to steer
+  bool shelf = false;  ///< a shelf or a wall that is near
+  bool near = false;   ///< any other thing that is near
+};
+
+/// All that is known at one instant. It is built once a tick, and every decision of that tick is
+/// made from it. Every number is finite.
+struct Observation {
+  // The person
+  Devices devices;
+  std::vector<drive::Button> pressed;  ///< since the last tick
+  drive::Stick stick;                  ///< without its dead zone; neutral where there is none
+  bool stick_held_unarmed = false;     ///< held since before it was neutral, so nothing is sent
+  bool voice_busy = false;             ///< something is being spoken or waits for it
+  std::vector<std::string> begun;      ///< texts of a lesson that began to be heard since then
+
+  // What reaches the person: the device is there, and it is wanted
+  bool motors = true;   ///< anything by the motors
+  bool touch = false;   ///< what is said is felt, too, and so may do without the words
+  bool audible = true;  ///< short sounds
+  Sounds sounds;
+
+  // The robot
+  Links links;
+  bool robotless = false;                 ///< a lesson that wants no robot: none of it is missed
+  Velocity commanded;                     ///< what was last sent to it
+  std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale
+  Velocity last_measured;                 ///< the latest, however old
+  std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
+  std::vector<NearThing> nearby;          ///< the latest; empty if stale
+  std::vector<Contact> contacts;          ///< begun since the last tick
+  haptics::Rumble others;                 ///< what other programs want to be felt
+
+  // The way
+  std::optional<Guidance> guidance;         ///< the latest, however old
+  double turned = 0.0;                      ///< rad, counter-clockwise, since that came
+  std::optional<double> goal_angle;         ///< rad, clockwise from the nose, if it is known
+  double goal_straight = 0.0;               ///< m, as the crow flies, where that is known
+  std::optional<navvi_types::Place> place;  ///< the smallest that the robot is in
+  TrialState::State trial = TrialState::State::free;
+  std::vector<CueKind> notices;  ///< to be said when they come, such as no_rumble
+
+  /// At rest as far as nothing else is known.
+  [[nodiscard]] Velocity motion() const { return measured.value_or(Velocity{}); }
+  [[nodiscard]] bool arrived() const {
+    return guidance && guidance->state == Guidance::State::arrived;
+  }
+};
+
+}  // namespace navvi_feedback::senses
+
+namespace navvi_feedback {
+using senses::Link;
+using senses::Links;
+using senses::Observation;
+using senses::Sounds;
+}  // namespace navvi_feedback

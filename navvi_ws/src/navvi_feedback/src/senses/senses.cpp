@@ -1,0 +1,80 @@
+#include "senses/senses.hpp"
+
+#include <utility>
+
+namespace navvi_feedback::senses {
+namespace {
+
+constexpr double kRecordLost = 2.0;  // s; a slow disk holds trial_node up for less
+
+/// The smallest place that holds the point.
+std::optional<navvi_types::Place> place_at(const navvi_types::Scenario& scenario,
+                                           const Eigen::Vector2d& point) {
+  std::optional<navvi_types::Place> found;
+  for (const navvi_types::Place& place : scenario.places)
+    if (place.area.contains(point) && (!found || place.area.volume() < found->area.volume()))
+      found = place;
+  return found;
+}
+
+}  // namespace
+
+void Senses::take(const Guidance& guidance, double time) {
+  guidance_ = {guidance, time};
+  turned_ = 0.0;
+}
+
+void Senses::take(const DriveState& state) {
+  gate_ = state.state;
+  intruder_ = !state.intruder.empty();
+}
+
+void Senses::take(const TrialState& state, double time) {
+  trial_repeats_ = trial_time_ && state.state == trial_.state;
+  trial_time_ = time;
+  trial_ = state;
+}
+
+Observation Senses::observe(const Devices& devices, double dt, double time) {
+  Observation now;
+  now.devices = devices;
+  seen_hands_ = seen_hands_ || devices.hands.live;
+  if (motion_.value) turned_ += motion_.value->angular * dt;
+  now.links = links(devices, time);
+  if (now.links.simulator == Link::alive) now.measured = motion_.value;
+  now.last_measured = motion_.value.value_or(Velocity{});
+  now.gate = gate_;
+  if (now.links.proximity == Link::alive) now.nearby = *nearby_.value;
+  now.contacts = std::exchange(contacts_, {});
+  if (others_.link(time, stale_) == Link::alive) now.others = *others_.value;
+  now.guidance = guidance_.value;
+  now.turned = turned_;
+  if (devices.robot) locate(now);
+  now.trial = trial_.state;
+  now.notices = devices.states;
+  if (intruder_) now.notices.push_back(CueKind::intruder);
+  if (record_lost(time)) now.notices.push_back(CueKind::record_lost);
+  return now;
+}
+
+Links Senses::links(const Devices& devices, double time) const {
+  const Link pad = devices.hands.live ? Link::alive : seen_hands_ ? Link::lost : Link::never;
+  return {pad, motion_.link(time, stale_), nearby_.link(time, stale_), guidance_.link(time, stale_),
+          devices.audio};
+}
+
+bool Senses::record_lost(double time) const {
+  return trial_.state == TrialState::State::running && trial_repeats_ &&
+         time - *trial_time_ > kRecordLost;
+}
+
+/// Place and goal as the robot has them about it.
+void Senses::locate(Observation& now) const {
+  const navvi_types::Pose2& robot = *now.devices.robot;
+  if (scenario_) now.place = place_at(*scenario_, robot.position);
+  if (!now.guidance || !now.guidance->leads()) return;
+  now.goal_angle = navvi_types::clockwise_angle(robot, now.guidance->goal);
+  now.goal_straight = (now.guidance->goal - robot.position).norm();
+}
+
+}  // namespace navvi_feedback::senses

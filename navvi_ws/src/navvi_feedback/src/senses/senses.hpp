@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <navvi_types/drive_state.hpp>
+#include <navvi_types/guidance.hpp>
+#include <navvi_types/motion.hpp>
+#include <navvi_types/scenario.hpp>
+#include <navvi_types/thing.hpp>
+#include <navvi_types/trial.hpp>
+#include <optional>
+#include <vector>
+
+#include "senses/observation.hpp"
+
+namespace navvi_feedback::senses {
+
+/// Keeps the latest message of each kind, and makes the observation of a tick of them. Times are s
+/// of one clock that does not run backwards.
+class Senses {
+ public:
+  /// \param stale  s; guidance, proximity or odometry older than this is lost
+  explicit Senses(double stale) : stale_(stale) {}
+
+  void take(const navvi_types::Proximity& proximity, double time) {
+    nearby_ = {proximity.things, time};
+  }
+  void take(const Guidance& guidance, double time);
+  void take(const DriveState& state);
+  /// A trial_node that repeats its state, and then is silent while a trial runs, records no more.
+  void take(const TrialState& state, double time);
+  void take(const navvi_types::Odometry& odometry, double time) {
+    motion_ = {odometry.velocity, time};
+  }
+  void take(const navvi_types::Scenario& scenario) { scenario_ = scenario; }
+  void take(const Contact& contact) { contacts_.push_back(contact); }
+  /// What another program wants to be felt, until it is stale.
+  void take(const haptics::Rumble& others, double time) { others_ = {others, time}; }
+
+  /// \param devices  now
+  /// \param dt  s, since the last observation
+  /// \return all that messages and devices tell
+  [[nodiscard]] Observation observe(const Devices& devices, double dt, double time);
+
+  /// The latest, however old.
+  [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
+  [[nodiscard]] bool guidance_fresh(double time) const {
+    return guidance_.link(time, stale_) == Link::alive;
+  }
+  [[nodiscard]] const TrialState& trial() const { return trial_; }
+
+ private:
+  /// The latest message of a kind, and when it came.
+  template <typename T>
+  struct Latest {
+    std::optional<T> value;
+    std::optional<double> time;
+
+    [[nodiscard]] Link link(double now, double stale) const {
+      if (!time) return Link::never;
+      return now - *time <= stale ? Link::alive : Link::lost;
+    }
+  };
+
+  [[nodiscard]] Links links(const Devices& devices, double time) const;
+  [[nodiscard]] bool record_lost(double time) const;
+  void locate(Observation& now) const;
+
+  double stale_;
+  Latest<std::vector<NearThing>> nearby_;
+  Latest<Guidance> guidance_;
+  Latest<haptics::Rumble> others_;
+  Latest<Velocity> motion_;
+  double turned_ = 0.0;  ///< rad, counter-clockwise, since that guidance
+  std::optional<DriveState::State> gate_;
+  bool intruder_ = false;  ///< that gate ignores another node's commands
+  TrialState trial_;
+  std::optional<double> trial_time_;  ///< when it came
+  bool trial_repeats_ = false;        ///< the same state has come again
+  std::optional<navvi_types::Scenario> scenario_;
+  std::vector<Contact> contacts_;  ///< since the last observation
+  bool seen_hands_ = false;        ///< there were live ones
+};
+
+}  // namespace navvi_feedback::senses
