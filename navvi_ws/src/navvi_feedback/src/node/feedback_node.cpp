@@ -3,24 +3,21 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <std_msgs/String.h>
 
 #include <csignal>
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_types/msg_conversion.hpp>
-#include <navvi_types/subscribe.hpp>
-#include <navvi_types/transform_listener.hpp>
 
 #include "navvi_feedback/lockstep/guide.hpp"
-#include "navvi_feedback/node/msg_conversion.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
 #include "node/heartbeat_notice.hpp"
+#include "node/inlets.hpp"
 #include "node/node_config.hpp"
 #include "node/outlets.hpp"
 #include "node/person_devices.hpp"
 #include "node/settings.hpp"
+#include "node/wall_time.hpp"
 
 namespace navvi_feedback::node {
 
@@ -28,8 +25,6 @@ using devices::Chain;
 using devices::InputSource;
 using devices::Latencies;
 using lockstep::Told;
-using navvi_types::from_msg;
-using navvi_types::to_ns;
 
 namespace {
 
@@ -37,12 +32,8 @@ volatile std::sig_atomic_t g_stop = 0;
 
 constexpr double kTick = 0.02;      // s
 constexpr double kReport = 0.25;    // s; trial_node knows within a second that this node hangs
-constexpr double kMostAhead = 0.3;  // s, that a pose may be stamped ahead of ROS time
 constexpr double kLate = 0.1;       // s between two ticks; below it hands and ears notice nothing
 constexpr double kLastWords = 3.0;  // s, that the end of a session waits for them at most
-
-/// Wall time, so that the person hears of a simulation that has stopped.
-double now() { return ros::SteadyTime::now().toSec(); }
 
 /// Topics in, one beat of the guide, topics out.
 class FeedbackNode {
@@ -54,15 +45,14 @@ class FeedbackNode {
         guide_(config.feedback, config.phrases_file()),
         plates_(config.phrases_file(), config.plates()),
         devices_(config),
-        outlets_(node_, config, devices_.source().kind() != InputSource::Kind::topic) {
+        outlets_(node_, config, devices_.source().kind() != InputSource::Kind::topic),
+        inlets_(node_, config, guide_, devices_,
+                [this](std::optional<Chain> caused) { tick(caused); }) {
     config_.speaker = config.voice();  // for the record
     // The picture speaks the language of the session.
     ros::param::set("navvi/phrases", config.phrases_file().string());
     guide_.offer(settings_.values());
     ROS_INFO("The stick comes from the %s.", devices::to_string(devices_.source().kind()));
-    subscribe_to_hands();
-    subscribe_to_robot();
-    subscribe_to_trials();
     tick_timer_ =
         node_.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) {
           if (now() - last_tick_ >= 0.9 * kTick) tick();
@@ -86,91 +76,6 @@ class FeedbackNode {
   }
 
  private:
-  template <typename Msg, typename Take>
-  void listen(const std::string& topic, std::uint32_t queue, Take take) {
-    subscribers_.push_back(navvi_types::subscribe<Msg>(node_, topic, queue, from_msg, take));
-  }
-
-  /// Without delay, and with the name of the publisher.
-  template <typename Msg>
-  void listen_at_once(const std::string& topic, std::uint32_t queue,
-                      const boost::function<void(const ros::MessageEvent<const Msg>&)>& take) {
-    subscribers_.push_back(node_.subscribe<Msg>(topic, queue, take, ros::VoidConstPtr(),
-                                                ros::TransportHints().tcpNoDelay()));
-  }
-
-  void subscribe_to_hands() {
-    InputSource& source = devices_.source();
-    if (source.kind() == InputSource::Kind::topic)
-      listen<sensor_msgs::Joy>(
-          "joy", 1, [&source](const drive::InputState& joy) { source.receive(joy, now()); });
-    // Without a stick in it, the keys are lost. Each message counts: a short press is two.
-    if (source.kind() == InputSource::Kind::keyboard)
-      listen_at_once<sensor_msgs::Joy>(
-          "navvi/keys", 100, [&source](const ros::MessageEvent<const sensor_msgs::Joy>& event) {
-            source.receive(from_msg(*event.getConstMessage()).value_or(drive::InputState{}), now());
-          });
-    if (config_.others_rumble && source.pad() != nullptr)
-      listen_at_once<sensor_msgs::JoyFeedbackArray>(
-          "joy/set_feedback", 10,
-          [this](const ros::MessageEvent<const sensor_msgs::JoyFeedbackArray>& wish) {
-            if (wish.getPublisherName() == ros::this_node::getName()) return;
-            if (const auto rumble = from_msg(*wish.getConstMessage(), config_.motors))
-              guide_.take(*rumble, now());
-            else
-              ROS_WARN_THROTTLE(5.0, "A message on joy/set_feedback is malformed and was dropped.");
-          });
-    subscribers_.push_back(node_.subscribe<std_msgs::String>(
-        "navvi/ask", 10, [this](const std_msgs::String::ConstPtr& msg) {
-          if (const auto button = navvi_types::from_word<drive::Button>(msg->data))
-            asked_.push_back(*button);
-        }));
-  }
-
-  void subscribe_to_robot() {
-    // A thing that is felt, hit or to be obeyed does not wait for the next beat.
-    listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const auto& proximity) {
-      const std::chrono::nanoseconds age(to_ns(ros::Time::now()) - proximity.stamp);
-      devices_.latencies().add(Chain::sensed, Latencies::Clock::now() - age);
-      guide_.take(proximity, now());
-      tick(Chain::motors);
-    });
-    listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const auto& contact) {
-      guide_.take(contact);
-      tick(Chain::pattern);
-    });
-    listen<navvi_msgs::Guidance>("navvi/guidance", 1, [this](const auto& guidance) {
-      const bool news = !guide_.guidance() || guide_.guidance()->state != guidance.state;
-      guide_.take(guidance, now());
-      if (news) tick();
-    });
-    listen<navvi_msgs::DriveState>("navvi/drive_state", 1, [this](navvi_types::DriveState state) {
-      twin_ = state.intruder == ros::this_node::getName();
-      if (twin_) state.intruder.clear();
-      guide_.take(state, now());
-    });
-    listen<nav_msgs::Odometry>("odom", 1,
-                               [this](const auto& odometry) { guide_.take(odometry, now()); });
-    listen<nav_msgs::Path>("navvi/path", 1, [this](const auto& path) { path_ = path; });
-  }
-
-  void subscribe_to_trials() {
-    listen<navvi_msgs::TrialState>("navvi/trial_state", 1, [this](const auto& state) {
-      const bool runs = state.state == navvi_types::TrialState::State::running;
-      if (runs && !std::exchange(runs_, runs)) devices_.latencies().clear();
-      runs_ = runs;
-      guide_.take(state, now());
-    });
-    listen<navvi_msgs::Scenario>("navvi/scenario", 1,
-                                 [this](const auto& scenario) { guide_.take(scenario, now()); });
-    listen<geometry_msgs::PoseStamped>("move_base_simple/goal", 10,
-                                       [this](const auto& goal) { guide_.take_goal(goal); });
-    subscribers_.push_back(node_.subscribe<navvi_msgs::TrialEvent>(
-        "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& msg) {
-          if (msg->type == "TRIAL_END") guide_.end_trial(last_words(*msg));
-        }));
-  }
-
   /// At 50 Hz or more. \param caused  the chain that a message begins which has just come
   void tick(std::optional<Chain> caused = std::nullopt) {
     const auto begun = Latencies::Clock::now();
@@ -190,17 +95,15 @@ class FeedbackNode {
       guide_.announce(CueKind::settings_of);
     }
     senses::Devices devices = devices_.read(time);
-    devices.robot = robot();
-    devices.asked = asked_;
-    if (twin_) devices.states.push_back(CueKind::two_drivers);
+    inlets_.complete(devices);
     const auto told = guide_.update(devices, time);
     if (!told) return;
-    asked_.clear();
+    inlets_.forget_buttons();
     live_ = devices.hands.live;
     if (live_) outlets_.send(devices.hands);
     tell(*told, called);
-    outlets_.show(guide_.guidance_fresh(time) ? guide_.guidance() : std::nullopt, path_, plates_,
-                  time);
+    outlets_.show(guide_.guidance_fresh(time) ? guide_.guidance() : std::nullopt, inlets_.path(),
+                  plates_, time);
   }
 
   void tell(const Told& told, const std::function<void()>& called) {
@@ -225,17 +128,6 @@ class FeedbackNode {
     guide_.use(config_.feedback);
     plates_.use(config_.plates());
     devices_.use(config_.speaker.rate, config_.mixer.volume);
-  }
-
-  /// base_link in map
-  [[nodiscard]] std::optional<navvi_types::Pose2> robot() const {
-    try {
-      const auto found = tf_.lookupTransform("map", "base_link", ros::Time(0));
-      if ((found.header.stamp - ros::Time::now()).toSec() > kMostAhead) return std::nullopt;
-      return from_msg(found.transform);
-    } catch (const tf2::TransformException&) {
-      return std::nullopt;
-    }
   }
 
   void diagnose() {
@@ -264,17 +156,11 @@ class FeedbackNode {
 
   ros::NodeHandle node_;
   Outlets outlets_;
-  tf2_ros::Buffer tf_;
-  navvi_types::TransformListener tf_listener_{tf_};
-  std::vector<ros::Subscriber> subscribers_;
+  Inlets inlets_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
-  std::vector<Eigen::Vector2d> path_;  ///< m, in map
-  std::vector<drive::Button> asked_;   ///< by topic, not answered yet
-  bool twin_ = false;                  ///< another node drives under the name of this one
-  bool runs_ = false;                  ///< a trial
-  bool live_ = false;                  ///< the stick, at the last beat
-  double last_tick_ = 0.0;             // s, of now()
+  bool live_ = false;       ///< the stick, at the last beat
+  double last_tick_ = 0.0;  // s, of now()
 };
 
 /// roscpp waits for the master where no signal reaches it; so wait here first.

@@ -1,0 +1,136 @@
+#include "node/inlets.hpp"
+
+#include <std_msgs/String.h>
+
+#include <navvi_types/msg_conversion.hpp>
+#include <utility>
+
+#include "navvi_feedback/node/msg_conversion.hpp"
+#include "node/wall_time.hpp"
+
+namespace navvi_feedback::node {
+
+using devices::Chain;
+using devices::InputSource;
+using devices::Latencies;
+using navvi_types::from_msg;
+using navvi_types::to_ns;
+
+namespace {
+
+constexpr double kMostAhead = 0.3;  // s, that a pose may be stamped ahead of ROS time
+
+}  // namespace
+
+Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
+               PersonDevices& devices, Beat beat)
+    : node_(node), guide_(guide), devices_(devices), beat_(std::move(beat)) {
+  subscribe_to_hands(config);
+  subscribe_to_robot();
+  subscribe_to_trials();
+}
+
+void Inlets::complete(senses::Devices& devices) const {
+  devices.robot = robot();
+  devices.asked = asked_;
+  if (twin_) devices.states.push_back(CueKind::two_drivers);
+}
+
+template <typename Msg, typename Take>
+void Inlets::listen(const std::string& topic, std::uint32_t queue, Take take) {
+  subscribers_.push_back(navvi_types::subscribe<Msg>(node_, topic, queue, from_msg, take));
+}
+
+template <typename Msg>
+void Inlets::listen_at_once(
+    const std::string& topic, std::uint32_t queue,
+    const boost::function<void(const ros::MessageEvent<const Msg>&)>& take) {
+  subscribers_.push_back(node_.subscribe<Msg>(topic, queue, take, ros::VoidConstPtr(),
+                                              ros::TransportHints().tcpNoDelay()));
+}
+
+void Inlets::subscribe_to_hands(const NodeConfig& config) {
+  InputSource& source = devices_.source();
+  if (source.kind() == InputSource::Kind::topic)
+    listen<sensor_msgs::Joy>(
+        "joy", 1, [&source](const drive::InputState& joy) { source.receive(joy, now()); });
+  // Without a stick in it, the keys are lost. Each message counts: a short press is two.
+  if (source.kind() == InputSource::Kind::keyboard)
+    listen_at_once<sensor_msgs::Joy>(
+        "navvi/keys", 100, [&source](const ros::MessageEvent<const sensor_msgs::Joy>& event) {
+          source.receive(from_msg(*event.getConstMessage()).value_or(drive::InputState{}), now());
+        });
+  if (config.others_rumble && source.pad() != nullptr)
+    listen_at_once<sensor_msgs::JoyFeedbackArray>(
+        "joy/set_feedback", 10,
+        [this, motors = config.motors](
+            const ros::MessageEvent<const sensor_msgs::JoyFeedbackArray>& wish) {
+          if (wish.getPublisherName() == ros::this_node::getName()) return;
+          if (const auto rumble = from_msg(*wish.getConstMessage(), motors))
+            guide_.take(*rumble, now());
+          else
+            ROS_WARN_THROTTLE(5.0, "A message on joy/set_feedback is malformed and was dropped.");
+        });
+  subscribers_.push_back(node_.subscribe<std_msgs::String>(
+      "navvi/ask", 10, [this](const std_msgs::String::ConstPtr& msg) {
+        if (const auto button = navvi_types::from_word<drive::Button>(msg->data))
+          asked_.push_back(*button);
+      }));
+}
+
+void Inlets::subscribe_to_robot() {
+  // A thing that is felt, hit or to be obeyed does not wait for the next beat.
+  listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const auto& proximity) {
+    const std::chrono::nanoseconds age(to_ns(ros::Time::now()) - proximity.stamp);
+    devices_.latencies().add(Chain::sensed, Latencies::Clock::now() - age);
+    guide_.take(proximity, now());
+    beat_(Chain::motors);
+  });
+  listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const auto& contact) {
+    guide_.take(contact);
+    beat_(Chain::pattern);
+  });
+  listen<navvi_msgs::Guidance>("navvi/guidance", 1, [this](const auto& guidance) {
+    const bool news = !guide_.guidance() || guide_.guidance()->state != guidance.state;
+    guide_.take(guidance, now());
+    if (news) beat_(std::nullopt);
+  });
+  listen<navvi_msgs::DriveState>("navvi/drive_state", 1, [this](navvi_types::DriveState state) {
+    twin_ = state.intruder == ros::this_node::getName();
+    if (twin_) state.intruder.clear();
+    guide_.take(state, now());
+  });
+  listen<nav_msgs::Odometry>("odom", 1,
+                             [this](const auto& odometry) { guide_.take(odometry, now()); });
+  listen<nav_msgs::Path>("navvi/path", 1, [this](const auto& path) { path_ = path; });
+}
+
+void Inlets::subscribe_to_trials() {
+  listen<navvi_msgs::TrialState>("navvi/trial_state", 1, [this](const auto& state) {
+    const bool runs = state.state == navvi_types::TrialState::State::running;
+    if (runs && !std::exchange(runs_, runs)) devices_.latencies().clear();
+    runs_ = runs;
+    guide_.take(state, now());
+  });
+  listen<navvi_msgs::Scenario>("navvi/scenario", 1,
+                               [this](const auto& scenario) { guide_.take(scenario, now()); });
+  listen<geometry_msgs::PoseStamped>("move_base_simple/goal", 10,
+                                     [this](const auto& goal) { guide_.take_goal(goal); });
+  subscribers_.push_back(node_.subscribe<navvi_msgs::TrialEvent>(
+      "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& msg) {
+        if (msg->type == "TRIAL_END") guide_.end_trial(last_words(*msg));
+      }));
+}
+
+/// base_link in map
+std::optional<navvi_types::Pose2> Inlets::robot() const {
+  try {
+    const auto found = tf_.lookupTransform("map", "base_link", ros::Time(0));
+    if ((found.header.stamp - ros::Time::now()).toSec() > kMostAhead) return std::nullopt;
+    return from_msg(found.transform);
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace navvi_feedback::node

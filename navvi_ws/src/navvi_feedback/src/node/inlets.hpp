@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <functional>
+#include <navvi_types/subscribe.hpp>
+#include <navvi_types/transform_listener.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/latencies.hpp"
+#include "navvi_feedback/lockstep/guide.hpp"
+#include "node/node_config.hpp"
+#include "node/person_devices.hpp"
+
+namespace navvi_feedback::node {
+
+/// The topics that feedback_node reads. What they bring goes to the guide, the stick or the next
+/// beat; bad messages are dropped and counted.
+class Inlets {
+ public:
+  /// A beat before its time. \param caused  the chain that a message begins which has just come
+  using Beat = std::function<void(std::optional<devices::Chain> caused)>;
+
+  /// \param guide, devices  outlive this
+  Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
+         PersonDevices& devices, Beat beat);
+
+  /// Adds to the person's devices what topics say: the robot's place, and buttons by name.
+  void complete(senses::Devices& devices) const;
+  /// Those buttons were taken.
+  void forget_buttons() { asked_.clear(); }
+  /// m, in map
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& path() const { return path_; }
+
+ private:
+  template <typename Msg, typename Take>
+  void listen(const std::string& topic, std::uint32_t queue, Take take);
+  /// Without delay, and with the name of the publisher.
+  template <typename Msg>
+  void listen_at_once(const std::string& topic, std::uint32_t queue,
+                      const boost::function<void(const ros::MessageEvent<const Msg>&)>& take);
+  void subscribe_to_hands(const NodeConfig& config);
+  void subscribe_to_robot();
+  void subscribe_to_trials();
+  [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
+
+  ros::NodeHandle& node_;
+  lockstep::Guide& guide_;
+  PersonDevices& devices_;
+  Beat beat_;
+  tf2_ros::Buffer tf_;
+  navvi_types::TransformListener tf_listener_{tf_};
+  std::vector<Eigen::Vector2d> path_;  ///< m, in map
+  std::vector<drive::Button> asked_;   ///< by topic, not answered yet
+  bool twin_ = false;                  ///< another node drives under the name of this one
+  bool runs_ = false;                  ///< a trial
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace navvi_feedback::node
