@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <navvi_types/names.hpp>
+#include <navvi_types/voice_model.hpp>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,7 +15,7 @@
 namespace navvi_feedback::core {
 
 /// For tests: a robot, its world and a voice about one Feedback, and a judge of what is told. The
-/// voice speaks 18 letters a second, and the queue is the true one.
+/// voice is navvi_types' model, and the queue is the true one.
 class SessionJudge {
  public:
   /// All that may happen to a person; steady until it is changed.
@@ -104,7 +105,7 @@ class SessionJudge {
     for (const sounds::Play& play : out.plays) played.insert(navvi_types::to_string(play.earcon));
     const cues::CueQueue::Step step = queue_.update(out.cues, time < speaks_until_, time);
     if (step.stop) speaks_until_ = time;
-    if (step.start) speaks_until_ = time + 0.15 + static_cast<double>(step.start->size()) / 18.0;
+    if (step.start) speaks_until_ = navvi_types::spoken_at(time, step.start->size());
     feedback_.note(step.events);
     judge(out.cues, step.events);
     expect_what_matters();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 #include "navvi_types/limits.hpp"
 
@@ -213,7 +214,7 @@ std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg) {
       within({msg.blocked_distance, msg.waypoint_distance, msg.goal_distance, msg.shortest_length,
               msg.path_offset},
              0.0, kLongest) &&
-      within({msg.waypoint_angle, msg.steer_angle, msg.turn_angle}, M_PI + kRounding);
+      within({msg.waypoint_angle, msg.steer_angle, msg.turn_angle}, kPi + kRounding);
   if (!sound) return std::nullopt;
   Guidance guidance;
   copy_guidance(msg, guidance);

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <navvi_types/angles.hpp>
 #include <optional>
 
 namespace navvi_feedback::cues {
 
 /// Degrees of an hour, and of what an hour reaches to either side when rounded.
 constexpr double kHourDegrees = 30.0;
-constexpr double kDegree = 3.14159265358979323846 / 180.0;  ///< rad
-constexpr double kHour = kHourDegrees * kDegree;            ///< rad
+constexpr double kDegree = navvi_types::radians(1.0);
+constexpr double kHour = kHourDegrees * kDegree;  ///< rad
 
 enum class Rounding {
   nearest,  ///< 12 is [-15, 15) degrees

@@ -1,6 +1,7 @@
 #include "cues/leg.hpp"
 
 #include <cmath>
+#include <navvi_types/angles.hpp>
 #include <utility>
 
 #include "cues/clock_face.hpp"
@@ -25,7 +26,7 @@ Leg::News Leg::change_to(const Guidance& guidance, const RouteConfig& config) co
   if (seen->distance <= config.turn_now && !rerouted)
     return turn_told ? News::told_corner : News::corner;
   // Seen from one place at one instant: only the plan can have changed the hour.
-  const double moved = std::remainder(guidance.waypoint_angle - seen->angle, 2.0 * M_PI);
+  const double moved = navvi_types::wrap(guidance.waypoint_angle - seen->angle);
   return std::abs(moved) > kHour / 2.0 ? News::other_route : News::none;
 }
 

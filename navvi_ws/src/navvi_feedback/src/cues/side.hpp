@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::cues {
 
@@ -16,7 +17,7 @@ enum class Side { ahead, left, behind, right };
 
 /// The middle of that quarter, in base_link.
 [[nodiscard]] inline Eigen::Vector2d direction_of(Side side) {
-  const double angle = static_cast<int>(side) * M_PI / 2.0;
+  const double angle = static_cast<int>(side) * navvi_types::kPi / 2.0;
   return {std::cos(angle), std::sin(angle)};
 }
 

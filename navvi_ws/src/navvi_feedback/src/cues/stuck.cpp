@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <navvi_types/angles.hpp>
 #include <utility>
 
 #include "cues/clock_face.hpp"
@@ -16,7 +17,7 @@ namespace {
 constexpr double kBeside = 0.05;
 
 /// rad, clockwise from the nose
-double angle_of(int hour) { return hour * kHourDegrees * M_PI / 180.0; }
+double angle_of(int hour) { return hour * kHourDegrees * navvi_types::kPi / 180.0; }
 
 /// Whether a robot that turned there could drive on.
 bool is_free(int hour, const std::vector<NearThing>& nearby, double gap) {
@@ -46,7 +47,7 @@ std::optional<int> free_hour(const std::vector<NearThing>& nearby, double gap, d
   std::optional<int> best;
   double least = std::numeric_limits<double>::infinity();
   for (int hour = 1; hour <= 12; ++hour) {
-    const double aside = std::abs(std::remainder(angle_of(hour) - wanted, 2.0 * M_PI));
+    const double aside = std::abs(navvi_types::wrap(angle_of(hour) - wanted));
     if (aside >= least || !is_free(hour, nearby, gap)) continue;
     least = aside;
     best = hour;

@@ -1,6 +1,7 @@
 #include "cues/words_lead.hpp"
 
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 #include "cues/way_words.hpp"
 
@@ -8,7 +9,7 @@ namespace navvi_feedback::cues {
 namespace {
 
 /// rad to both sides; a robot that has the corner farther aside does not pass it soon.
-constexpr double kRoughlyAhead = M_PI / 3.0;
+constexpr double kRoughlyAhead = navvi_types::kPi / 3.0;
 
 /// The robot turns, and will soon face where to steer.
 bool about_to_face(const Look& look, const Leg& leg) {
@@ -19,7 +20,7 @@ bool about_to_face(const Look& look, const Leg& leg) {
   const double angle = look.guidance().steer_angle;
   // Turning left makes what lies ahead wander clockwise.
   const double soon = angle + look.now.measured->angular * look.config.straight_lead;
-  const bool faces = std::abs(std::remainder(soon, 2.0 * M_PI)) <= kHour / 2.0;
+  const bool faces = std::abs(navvi_types::wrap(soon)) <= kHour / 2.0;
   const bool crosses = angle * soon < 0.0;
   // A person who hears it more than an hour too early stops short and needs another cue.
   return std::abs(angle) <= kHour && (faces || crosses);

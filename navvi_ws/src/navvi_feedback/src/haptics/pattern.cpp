@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 #include <vector>
 
 namespace navvi_feedback::haptics {
@@ -63,7 +64,7 @@ std::optional<Rumble> PatternPlayer::update(double dt) {
     begins += beat.seconds;
     if (within >= beat.seconds) continue;
     since_ += dt;
-    const double force = beat.soft ? std::sin(M_PI * within / beat.seconds) : 1.0;
+    const double force = beat.soft ? std::sin(navvi_types::kPi * within / beat.seconds) : 1.0;
     return Rumble{side_ == Zone::right ? 0.0 : force * beat.left,
                   side_ == Zone::left ? 0.0 : force * beat.right};
   }

@@ -1,6 +1,7 @@
 #include "lessons/glossary.hpp"
 
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::lessons {
 namespace {
@@ -9,7 +10,7 @@ using drive::Button;
 using haptics::Pattern;
 using sounds::Earcon;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = navvi_types::radians(1.0);
 /// s, from one beat of what is given several times to the next.
 constexpr double kBeat = 0.9;
 /// s, of what is felt or counted continuously.

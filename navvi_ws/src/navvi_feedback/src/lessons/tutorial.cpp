@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::lessons {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using drive::Button;
 using navvi_types::TrialState;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = navvi_types::radians(1.0);
 constexpr double kStill = 0.03;             // m/s and rad/s
 constexpr double kSettled = 0.4;            // s, of standing, before a try is judged
 constexpr double kAstray = 25.0 * kDegree;  // from straight on

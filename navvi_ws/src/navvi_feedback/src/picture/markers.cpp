@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 #include <string>
 
 #include "cues/clock_face.hpp"
@@ -74,7 +75,7 @@ Marker label(int id, const std::string& text, const Eigen::Vector2d& place, doub
 std::vector<Eigen::Vector2d> ring(const Eigen::Vector2d& center, double radius) {
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i <= kRingPoints; ++i) {
-    const double angle = 2.0 * M_PI * i / kRingPoints;
+    const double angle = 2.0 * navvi_types::kPi * i / kRingPoints;
     places.push_back(center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return places;

@@ -4,6 +4,7 @@
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/voice_model.hpp>
 #include <utility>
 
 #include "node/msg_conversion.hpp"
@@ -15,8 +16,6 @@ constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the 
 constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
 constexpr double kGoalAt = 1.0;           // s; trial_node sets the goal when every part is there
 // espeak-ng at 220 words a minute, measured over NavVI's phrases.
-constexpr double kVoiceStarts = 0.15;  // s
-constexpr double kCharactersPerSecond = 18.0;
 
 }  // namespace
 
@@ -153,10 +152,7 @@ void ClosedLoop::feed_back() {
   if (told->command) gate_.receive(node::from_msg(node::to_msg(*told->command)), instant());
   if (told->rumble_due) person_.feel({told->rumble.left, told->rumble.right}, time());
   if (told->voice.stop) speaks_until_ = time();
-  if (told->voice.start) {
-    const auto length = static_cast<double>(told->voice.start->size());
-    speaks_until_ = time() + kVoiceStarts + length / kCharactersPerSecond;
-  }
+  if (told->voice.start) speaks_until_ = navvi_types::spoken_at(time(), told->voice.start->size());
   std::vector<CueEvent> events = told->said;
   for (const navvi_feedback::sounds::Play& play : told->plays)
     events.push_back(guide_.event_of(play));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_rviz::look {
 namespace {
@@ -239,7 +240,7 @@ class Dresser {
     Marker list = triangles(marker);
     const double radius = 0.5 * marker.scale.x, half = 0.5 * marker.scale.z;
     const auto at = [&](int i, double r, double z) {
-      const double angle = 2.0 * M_PI * i / kCorners;
+      const double angle = 2.0 * navvi_types::kPi * i / kCorners;
       return point(r * std::cos(angle), r * std::sin(angle), z);
     };
     const auto band = [&](double low, double high, const Color& color) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 #include "look/solids.hpp"
 #include "plugin/chosen.hpp"
@@ -294,9 +295,9 @@ void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, double t
 }
 
 Plate& CaptionsDisplay::arrow(const std::string& name, double angle, int size) {
-  const int degrees = 10 * static_cast<int>(std::lround(angle * 18.0 / M_PI));
+  const int degrees = 10 * static_cast<int>(std::lround(angle * 18.0 / navvi_types::kPi));
   return painted(name, std::to_string(degrees) + "/" + std::to_string(size), [&] {
-    return paint_arrow(degrees * M_PI / 180.0, size, Chosen::shared().vision());
+    return paint_arrow(degrees * navvi_types::kPi / 180.0, size, Chosen::shared().vision());
   });
 }
 

@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <QPolygonF>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_rviz::plugin {
 
@@ -42,7 +43,7 @@ QImage paint_arrow(double angle, int size, const look::Vision& vision) {
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.translate(0.5 * size, 0.5 * size);
-  painter.rotate(-angle * 180.0 / M_PI);
+  painter.rotate(-angle * 180.0 / navvi_types::kPi);
   const double s = 0.4 * size;
   const QPolygonF arrow({{-s, -0.35 * s},
                          {0.1 * s, -0.35 * s},

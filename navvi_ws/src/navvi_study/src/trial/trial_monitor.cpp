@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 #include <utility>
 
 #include "record/metrics.hpp"
@@ -149,7 +150,7 @@ std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   if (odometry_) {
     const Eigen::Vector2d moved = odometry.pose.position - odometry_->pose.position;
     tally_.path_length += std::hypot(moved.x(), moved.y());
-    const double turned = std::remainder(odometry.pose.yaw - first_yaw_, 2.0 * M_PI);
+    const double turned = navvi_types::wrap(odometry.pose.yaw - first_yaw_);
     tally_.turned = std::max(tally_.turned, std::abs(turned));
   } else {
     first_yaw_ = odometry.pose.yaw;
