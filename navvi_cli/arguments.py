@@ -112,7 +112,7 @@ def words_for(launch, words, choices=()):
 def parameter(word):
     """The argument type of name:=value, whose names a program knows."""
     if not re.fullmatch(r"[^:=]+:=.*", word, re.S):
-        fail(f"\"{word}\" is too much; only parameters are allowed beside the rest, and look like name:=value.", 2)
+        fail(f"unexpected argument \"{word}\"; only parameters are allowed beside the rest, and look like name:=value.", 2)
     return word
 
 

@@ -71,7 +71,7 @@ def test_shell_scripts_are_clean():
     (["world", "show"], "missing: NAME|FILE"),
     (["world", "write", "training"], "writes one file"),
     (["bench", "foo"], "allowed are parts of: build/build_bench nav/nav_bench"),
-    (["test", "quick", "a", "b"], "is too much"),
+    (["test", "quick", "a", "b"], "unexpected argument"),
     (["completion", "fish"], "allowed are: bash zsh"),
     (["show"], "missing: TRIAL"),
     (["show", "/nonexistent"], "holds no summary.csv"),

@@ -33,7 +33,7 @@ def run(args):
     words = list(args.words)
     tier = words.pop(0) if words and words[0] in TIERS and not args.asan else None
     if len(words) > 1 or (args.slowest and args.words):
-        fail(f"\"{words[-1] if words else tier}\" is too much; allowed are a tier and one part of a test's name.", 2)
+        fail(f"unexpected argument \"{words[-1] if words else tier}\"; allowed are a tier and one part of a test's name.", 2)
     if args.slowest:
         shell("slowest")
     elif args.asan:

@@ -53,7 +53,7 @@ const Scenery& crowded(int cells, std::size_t shelves, std::size_t movers) {
   return scenery;
 }
 
-/// Simulated seconds a second: how many times faster than life.
+/// Simulated seconds a second: how many times faster than real time.
 void count_steps(benchmark::State& state, double step) {
   using benchmark::Counter;
   state.counters["steps/s"] = Counter(1.0, Counter::kIsIterationInvariantRate);

@@ -1,4 +1,4 @@
-// loop_bench [WORLD ...]: how many times faster than life whole sessions without ROS are, set-up
+// loop_bench [WORLD ...]: the real-time factor of whole sessions without ROS, set-up
 // included, and what takes the time. Seconds are those of the processor, of all threads.
 
 #include <ros/package.h>

@@ -128,7 +128,7 @@ Options read_options(const std::vector<std::string>& words) {
     } else if (out.map.empty()) {
       out.map = word;
     } else {
-      throw UsageError("one map is enough: \"" + word + "\" is too much");
+      throw UsageError("unexpected argument \"" + word + "\"; one map is enough");
     }
   }
   if (out.map.empty() && !out.help) throw UsageError("no map is named");

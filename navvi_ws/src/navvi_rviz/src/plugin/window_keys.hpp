@@ -11,7 +11,7 @@ namespace navvi_rviz::plugin {
 /// The keys that drive and ask, as a pad has them.
 struct Typed {
   std::array<float, 2> axes = {};     ///< [-1, 1]: left positive, forward positive
-  std::array<bool, 16> buttons = {};  ///< in the places of a pad's, and escape after them
+  std::array<bool, 16> buttons = {};  ///< laid out like a gamepad's, and escape after them
 };
 
 /// Reads the keys that are typed into a window, by a connection to the X server and a thread of its

@@ -210,7 +210,8 @@ std::vector<Eigen::Vector2d> points_in(const std::string& text) {
   char comma = 0;
   for (double x = 0.0, y = 0.0; stream >> x >> comma >> y && comma == ',';)
     points.emplace_back(x, y);
-  if (!stream.eof()) throw UsageError("\"" + text + "\" are no points such as \"1.5,2 3,-4\"");
+  if (!stream.eof())
+    throw UsageError("cannot parse \"" + text + "\" as points; expected e.g. \"1.5,2 3,-4\"");
   return points;
 }
 
@@ -276,8 +277,8 @@ void run(const Words& words) {
   for (const Command& command : kCommands) {
     if (name != command.name) continue;
     if (words.plain.size() > command.words)
-      throw UsageError("\"" + words.plain[command.words] +
-                       "\" is too much; parameters look like name:=value");
+      throw UsageError("unexpected argument \"" + words.plain[command.words] +
+                       "\"; parameters look like name:=value");
     if (words.plain.size() == command.words) return command.run(words);
   }
   throw UsageError(std::string("allowed are:\n") + kUsage);

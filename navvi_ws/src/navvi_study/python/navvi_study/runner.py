@@ -128,7 +128,7 @@ class Desk:
 
 
 class LoopRunner:
-    """Simulated people without ROS, many times faster than life. It proves the pipeline, nothing about people."""
+    """Simulated people without ROS, many times faster than real time. It proves the pipeline, nothing about people."""
 
     def __init__(self, study, trials_bench):
         self.study, self.program = study, str(trials_bench)
