@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -240,6 +241,35 @@ void check_phrase(const Section& section, const std::string& key, const std::str
         section.fail(key, "cannot be spoken when it is filled in. " + limits());
 }
 
+/// Sections whose phrases stand in for those of the section phrases.
+constexpr const char* kInstead[] = {"again", "clock", "brief", "full"};
+
+void check_sections(const std::string& name, const YAML::Node& root) {
+  if (!root.IsMap()) throw ConfigError(name + ": it must be a map of sections.");
+  for (const auto& item : root)
+    if (const std::string key = item.first.Scalar();
+        key != "voice" && key != "phrases" && key != "words" && key != "picture" &&
+        key != "lessons" &&
+        std::find(std::begin(kInstead), std::end(kInstead), key) == std::end(kInstead))
+      throw ConfigError(
+          name + ", line " + std::to_string(item.first.Mark().line + 1) +
+          ": there is no section \"" + key +
+          "\"; there are voice, phrases, again, clock, brief, full, words, picture and lessons.");
+}
+
+/// Whatever leads on may have to end a wait.
+void check_ends_of_waits(const std::string& name, const YAML::Node& root,
+                         const std::map<std::string, std::map<CueKind, std::string>>& phrases,
+                         const std::map<std::string, std::string>& words) {
+  for (const auto& [which, texts] : phrases)
+    for (const auto& [kind, text] : texts)
+      for (const auto& ends : phrases)
+        if (const auto go_on = ends.second.find(CueKind::go_on);
+            is_way(family_of(kind)) && go_on != ends.second.end())
+          check_phrase(Section(name, root, which), to_string(kind), go_on->second + ", " + text,
+                       words);
+}
+
 }  // namespace
 
 std::vector<CueKind> phrase_kinds() {
@@ -269,16 +299,7 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
     : wording_(wording) {
   const YAML::Node root = navvi_config::load_yaml(file);
   const std::string name = file.string();
-  if (!root.IsMap()) throw ConfigError(name + ": it must be a map of sections.");
-  const std::vector<std::string> instead = {"again", "clock", "brief", "full"};
-  for (const auto& item : root)
-    if (const std::string key = item.first.Scalar();
-        key != "voice" && key != "phrases" && key != "words" && key != "picture" &&
-        key != "lessons" && std::find(instead.begin(), instead.end(), key) == instead.end())
-      throw ConfigError(
-          name + ", line " + std::to_string(item.first.Mark().line + 1) +
-          ": there is no section \"" + key +
-          "\"; there are voice, phrases, again, clock, brief, full, words, picture and lessons.");
+  check_sections(name, root);
   if (!root["voice"] || !root["voice"].IsScalar())
     throw ConfigError(name + ": \"voice\" is missing or no text; it names a voice of espeak-ng.");
   voice_ = root["voice"].Scalar();
@@ -308,19 +329,12 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   for (const CueKind kind : phrase_kinds())
     if (phrases_["phrases"].count(kind) == 0) phrases.fail(to_string(kind), "is missing");
 
-  for (const std::string& which : instead) {
+  for (const char* which : kInstead) {
     Section section(name, root, which);
     read_phrases(section, which);
   }
 
-  // Whatever leads on may have to end a wait.
-  for (const auto& [which, texts] : phrases_)
-    for (const auto& [kind, text] : texts)
-      for (const auto& ends : phrases_)
-        if (const auto go_on = ends.second.find(CueKind::go_on);
-            is_way(family_of(kind)) && go_on != ends.second.end())
-          check_phrase(Section(name, root, which), to_string(kind), go_on->second + ", " + text,
-                       words_);
+  check_ends_of_waits(name, root, phrases_, words_);
 }
 
 std::string Phrases::say(CueKind kind, const Fillings& fillings, bool again) const {

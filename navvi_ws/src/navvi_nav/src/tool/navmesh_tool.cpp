@@ -136,6 +136,39 @@ Options read_options(const std::vector<std::string>& words) {
   return out;
 }
 
+struct MeshFigures {
+  double area = 0.0;     ///< m^2
+  double largest = 0.0;  ///< m^2, of the components
+  std::size_t polygons = 0, portals = 0, components = 0;
+  std::size_t bytes = 0;  ///< of memory
+};
+
+MeshFigures figures_of(const mesh::Mesh& mesh) {
+  MeshFigures out;
+  out.bytes =
+      mesh.vertices.size() * sizeof(mesh::Vertex) + mesh.polygons.size() * sizeof(mesh::Polygon);
+  std::map<int, double> components;  // m^2
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    const mesh::Polygon& polygon = mesh.polygons[i];
+    if (polygon.corners.empty()) continue;
+    ++out.polygons;
+    out.portals += polygon.portals.size();
+    out.bytes +=
+        polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
+    const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      components[polygon.component] +=
+          cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
+  }
+  for (const auto& [component, its] : components) {
+    out.area += its;
+    out.largest = std::max(out.largest, its);
+  }
+  out.components = components.size();
+  out.portals /= 2;  // each is one of both its polygons
+  return out;
+}
+
 /// What a program reads; print_mesh() and print_plan() print the same for people.
 using navvi_config::JsonFields;
 
@@ -143,27 +176,7 @@ JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
                       const plan::MeshUpdate& update) {
   const map::Floor& floor = *nav_mesh.shared_floor();
   const mesh::Mesh& mesh = nav_mesh.mesh();
-  double area = 0.0;  // m^2
-  std::size_t polygons = 0, portals = 0;
-  std::size_t bytes =
-      mesh.vertices.size() * sizeof(mesh::Vertex) + mesh.polygons.size() * sizeof(mesh::Polygon);
-  std::map<int, double> components;  // m^2
-  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
-    const mesh::Polygon& polygon = mesh.polygons[i];
-    if (polygon.corners.empty()) continue;
-    ++polygons;
-    portals += polygon.portals.size();
-    bytes += polygon.corners.size() * sizeof(int) + polygon.portals.size() * sizeof(mesh::Portal);
-    const std::vector<Point> corners = mesh.outline(static_cast<int>(i));
-    for (std::size_t k = 2; k < corners.size(); ++k)
-      components[polygon.component] +=
-          cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2.0;
-  }
-  double largest = 0.0;  // m^2
-  for (const auto& [component, its] : components) {
-    area += its;
-    largest = std::max(largest, its);
-  }
+  const MeshFigures is = figures_of(mesh);
   if (!source.empty()) std::printf("map         %s\n", source.c_str());
   std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
               floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
@@ -172,23 +185,24 @@ JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
       "mesh        %.1f m^2, %zu polygons, %zu vertices, %zu portals, %d tiles, %zu components, "
       "the "
       "largest of %.1f m^2\n",
-      area, polygons, mesh.vertices.size(), portals / 2, update.tiles, components.size(), largest);
-  std::printf("memory      %zu bytes, %.1f a square metre\n", bytes,
-              static_cast<double>(bytes) / area);
+      is.area, is.polygons, mesh.vertices.size(), is.portals, update.tiles, is.components,
+      is.largest);
+  std::printf("memory      %zu bytes, %.1f a square metre\n", is.bytes,
+              static_cast<double>(is.bytes) / is.area);
   using navvi_config::json_number;
   return {{"map", navvi_config::json_text(source)},
           {"floor length m", json_number(floor.columns() * floor.cell_size(), 2)},
           {"floor width m", json_number(floor.rows() * floor.cell_size(), 2)},
           {"cell m", json_number(floor.cell_size(), 3)},
           {"floor z m", json_number(floor.height(), 2)},
-          {"mesh m^2", json_number(area, 1)},
-          {"polygons", std::to_string(polygons)},
+          {"mesh m^2", json_number(is.area, 1)},
+          {"polygons", std::to_string(is.polygons)},
           {"vertices", std::to_string(mesh.vertices.size())},
-          {"portals", std::to_string(portals / 2)},
+          {"portals", std::to_string(is.portals)},
           {"tiles", std::to_string(update.tiles)},
-          {"components", std::to_string(components.size())},
-          {"largest component m^2", json_number(largest, 1)},
-          {"memory bytes", std::to_string(bytes)}};
+          {"components", std::to_string(is.components)},
+          {"largest component m^2", json_number(is.largest, 1)},
+          {"memory bytes", std::to_string(is.bytes)}};
 }
 
 std::string json_of(const Path& path) {
