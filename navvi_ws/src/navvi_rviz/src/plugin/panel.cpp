@@ -48,27 +48,20 @@ void set_words(QLabel* label, const QString& words, QAccessible::Event event) {
 }  // namespace
 
 Panel::Panel()
-    : words_row_(new QHBoxLayout),
-      numbers_row_(new QHBoxLayout),
-      questions_row_(new QHBoxLayout),
-      view_row_(new QHBoxLayout),
-      offer_row_(new QHBoxLayout),
-      menu_row_(new QHBoxLayout),
-      state_(add_label(words_row_, "state", 1)),
-      instruction_(add_label(words_row_, "instruction", 1)),
-      distance_(add_label(numbers_row_, "distance", 1)),
-      speed_(add_label(numbers_row_, "speed", 1)),
-      clock_(add_label(numbers_row_, "time", 0)),
-      menu_(add_label(offer_row_, "menu", 1)),
+    : rows_{new QHBoxLayout, new QHBoxLayout, new QHBoxLayout,
+            new QHBoxLayout, new QHBoxLayout, new QHBoxLayout},
+      labels_{add_label(rows_.words, "state", 1),      add_label(rows_.words, "instruction", 1),
+              add_label(rows_.numbers, "distance", 1), add_label(rows_.numbers, "speed", 1),
+              add_label(rows_.numbers, "time", 0),     add_label(rows_.offer, "menu", 1)},
       pages_(new QStackedWidget) {
   setAttribute(Qt::WA_StyledBackground);
-  menu_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  labels_.menu->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* rows = new QVBoxLayout(this);
-  rows->addLayout(words_row_);
-  rows->addLayout(numbers_row_);
+  rows->addLayout(rows_.words);
+  rows->addLayout(rows_.numbers);
   rows->addWidget(pages_);
   for (const auto& [upper, lower] :
-       {std::pair{questions_row_, view_row_}, {offer_row_, menu_row_}}) {
+       {std::pair{rows_.questions, rows_.view}, {rows_.offer, rows_.menu}}) {
     auto* page = new QWidget;
     auto* both = new QVBoxLayout(page);
     both->setContentsMargins(0, 0, 0, 0);
@@ -83,7 +76,7 @@ QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
   label->setObjectName(name);
   label->setAccessibleDescription(name);
   label->setFocusPolicy(Qt::TabFocus);
-  label->setWordWrap(row == words_row_);
+  label->setWordWrap(row == rows_.words);
   row->addWidget(label, stretch);
   return label;
 }
@@ -144,7 +137,7 @@ void Panel::onInitialize() {
 void Panel::add_questions() {
   using Request = navvi_msgs::TrialRequest;
   const auto add = [&](const Named& named, const std::function<void()>& action) {
-    add_button(questions_row_, named, action, this);
+    add_button(rows_.questions, named, action, this);
   };
   add({nullptr, "begin", Qt::Key_F5, "key_6"}, [this] { request(Request::BEGIN); });
   add({nullptr, "end", Qt::Key_F8, ""}, [this] { ask("end"); });
@@ -158,7 +151,7 @@ void Panel::add_menu() {
   const auto add = [&](const char* words, const QKeySequence& key, const char* spoken,
                        const char* question) {
     return add_button(
-        menu_row_, {nullptr, words, key, spoken}, [this, question] { ask(question); }, page);
+        rows_.menu, {nullptr, words, key, spoken}, [this, question] { ask(question); }, page);
   };
   down_ = add("down", Qt::Key_PageDown, "key_12", "next");
   add("up", Qt::Key_PageUp, "key_11", "previous");
@@ -174,12 +167,12 @@ void Panel::add_views() {
       {"chase", "Chase"}, {"top", "Top"}, {"forward", "Forward"}};
   for (int i = 0; i < 3; ++i)
     add_button(
-        view_row_, {nullptr, views[i].first, QKeySequence(Qt::Key_1 + i), ""},
+        rows_.view, {nullptr, views[i].first, QKeySequence(Qt::Key_1 + i), ""},
         [this, view = views[i].second] { choose_view(*vis_manager_, view); }, this);
   add_button(
-      view_row_, {nullptr, "rviz", Qt::Key_F2, ""}, [this] { show_chrome(!chrome_); }, this);
+      rows_.view, {nullptr, "rviz", Qt::Key_F2, ""}, [this] { show_chrome(!chrome_); }, this);
   settings_ = add_button(
-      view_row_, {nullptr, "settings", Qt::Key_F3, ""}, [this] { ask("settings"); }, this);
+      rows_.view, {nullptr, "settings", Qt::Key_F3, ""}, [this] { ask("settings"); }, this);
 
   visions_ = new QComboBox;
   visions_->setFocusPolicy(Qt::TabFocus);
@@ -192,8 +185,8 @@ void Panel::add_views() {
   vision_ = new QLabel;
   vision_->setBuddy(visions_);
   vision_->setObjectName("vision");
-  view_row_->addWidget(vision_);
-  view_row_->addWidget(visions_);
+  rows_.view->addWidget(vision_);
+  rows_.view->addWidget(visions_);
 }
 
 void Panel::ask(const std::string& question) {
@@ -266,7 +259,7 @@ void Panel::style() {
 }
 
 void Panel::show_menu(const QString& words) {
-  set_words(menu_, words, QAccessible::Alert);
+  set_words(labels_.menu, words, QAccessible::Alert);
   QWidget* const page = pages_->widget(words.isEmpty() ? 0 : 1);
   QWidget* const last = pages_->currentWidget();
   if (page == last) return;
@@ -281,20 +274,22 @@ void Panel::refresh() {
   name_all();
   show_menu(QString::fromStdString(shown.menu));
   const bool alarm = shown.tone == status::Shown::Tone::alarm && !shown.banner.empty();
-  if (state_->property("alarm").toBool() != alarm) {
-    state_->setProperty("alarm", alarm);
+  if (labels_.state->property("alarm").toBool() != alarm) {
+    labels_.state->setProperty("alarm", alarm);
     style();
   }
   const std::string calm = words.of(shown.sound ? "picture/drive" : "picture/drive_no_sound");
-  set_words(state_, QString::fromStdString(shown.banner.empty() ? calm : shown.banner),
+  set_words(labels_.state, QString::fromStdString(shown.banner.empty() ? calm : shown.banner),
             QAccessible::Alert);
-  set_words(instruction_, QString::fromStdString(shown.instruction), QAccessible::NameChanged);
-  const std::string to_go = words.of("picture/to_go");
-  set_words(distance_, shown.distance ? number(*shown.distance, 0, to_go.c_str()) : "",
+  set_words(labels_.instruction, QString::fromStdString(shown.instruction),
             QAccessible::NameChanged);
-  set_words(speed_, number(shown.speed, 1, "m/s"), QAccessible::NameChanged);
+  const std::string to_go = words.of("picture/to_go");
+  set_words(labels_.distance, shown.distance ? number(*shown.distance, 0, to_go.c_str()) : "",
+            QAccessible::NameChanged);
+  set_words(labels_.speed, number(shown.speed, 1, "m/s"), QAccessible::NameChanged);
   const int seconds = static_cast<int>(shown.clock.value_or(0.0));
-  set_words(clock_, QString("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0')),
+  set_words(labels_.clock,
+            QString("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0')),
             QAccessible::NameChanged);
 }
 

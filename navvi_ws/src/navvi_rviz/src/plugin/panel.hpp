@@ -58,8 +58,12 @@ class Panel : public rviz::Panel {
   Keys keys_{*this};
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
-  QHBoxLayout *words_row_, *numbers_row_, *questions_row_, *view_row_, *offer_row_, *menu_row_;
-  QLabel *state_, *instruction_, *distance_, *speed_, *clock_, *menu_;
+  struct {
+    QHBoxLayout *words, *numbers, *questions, *view, *offer, *menu;
+  } rows_;
+  struct {
+    QLabel *state, *instruction, *distance, *speed, *clock, *menu;
+  } labels_;
   QStackedWidget* pages_;  ///< the buttons; in their place the spoken menu's while it is open
   QPushButton *settings_ = nullptr, *down_ = nullptr;
   QComboBox* visions_ = nullptr;

@@ -84,16 +84,16 @@ void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
   readiness_.saw(guidance, now.wall());
   const bool refused = guidance.state == Guidance::State::goal_refused;
-  if (phase_ == Phase::armed && refused && next_goal_ &&
-      (guidance.goal - *next_goal_).norm() < kSame)
-    next_goal_.reset();
+  if (phase_ == Phase::armed && refused && goals_.next &&
+      (guidance.goal - *goals_.next).norm() < kSame)
+    goals_.next.reset();
   observe(guidance);
 }
 
 /// From now on it is sent until the guidance shows it.
 void TrialKeeper::change_goal(const Eigen::Vector2d& goal) {
-  goal_ = goal;
-  goal_tries_ = {};
+  goals_.now = goal;
+  goals_.tries = {};
   record(monitor_.change_goal(goal, std::max(now_.ros_ns, monitor_.latest())));
 }
 
@@ -105,8 +105,8 @@ void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
 
 void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
   now_ = now;
-  scenario_ = scenario;
-  if (!active()) scenario_played_ = false;
+  offered_.scenario = scenario;
+  if (!active()) offered_.played = false;
 }
 
 void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
@@ -120,15 +120,15 @@ void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
 
 void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
   now_ = now;
-  if (phase_ == Phase::armed && (!scenario_ || scenario_played_ || config_.press_to_start)) {
-    scenario_played_ = true;
-    next_goal_ = goal;
+  if (phase_ == Phase::armed && (!offered_.scenario || offered_.played || config_.press_to_start)) {
+    offered_.played = true;
+    goals_.next = goal;
     if (!config_.press_to_start) start(goal);
   } else if (phase_ == Phase::running) {
     if (config_.locked) return end({"aborted", "goal_changed", monitor_.latest()});
-    if (monitor_.goal_taken()) goal_before_ = goal_;
+    if (monitor_.goal_taken()) goals_.before = goals_.now;
     change_goal(goal);
-    goal_tries_.sent_elsewhere(now.wall());
+    goals_.tries.sent_elsewhere(now.wall());
   }
 }
 
@@ -137,8 +137,8 @@ std::vector<std::string> TrialKeeper::missing() const {
 }
 
 bool TrialKeeper::may_say(double pause) {
-  if (now_.wall() - said_ < pause) return false;
-  said_ = now_.wall();
+  if (now_.wall() - shown_.said < pause) return false;
+  shown_.said = now_.wall();
   return true;
 }
 
@@ -170,15 +170,15 @@ TrialState::State TrialKeeper::state() {
   using State = TrialState::State;
   if (phase_ == Phase::running) return State::running;
   if (!config_.press_to_start) return active() ? State::running : State::free;
-  if (phase_ != Phase::armed || !bag_.ready(now_.wall()) || !missing().empty())
+  if (phase_ != Phase::armed || !kept_.bag.ready(now_.wall()) || !missing().empty())
     return State::preparing;
-  return next_goal_ ? State::ready : State::choose_goal;
+  return goals_.next ? State::ready : State::choose_goal;
 }
 
 void TrialKeeper::show_state() {
   const TrialState::State now = state();
-  if (shown_ == now) return;
-  shown_ = now;
+  if (shown_.state == now) return;
+  shown_.state = now;
   outlets_.show(now);
 }
 
@@ -197,27 +197,27 @@ void TrialKeeper::wait() {
 
 void TrialKeeper::arm() {
   try {
-    folder_ = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
-    journal_ = std::make_unique<record::Journal>(folder_, folder_.filename().string(),
-                                                 record::Journal::kMinFree, calls_);
+    kept_.folder = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
+    kept_.journal = std::make_unique<record::Journal>(
+        kept_.folder, kept_.folder.filename().string(), record::Journal::kMinFree, calls_);
   } catch (const std::runtime_error& error) {
     tell(Tone::fatal, error.what());
     return leave(3);
   }
-  bag_ = BagWatch(config_.record ? outlets_.start_recorder(folder_ / "trial.bag") : nullptr,
-                  now_.wall());
-  bag_lost_ = false;
+  kept_.bag = BagWatch(
+      config_.record ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr, now_.wall());
+  kept_.bag_lost = false;
   enter(Phase::armed);
-  said_ = phase_since_;
+  shown_.said = phase_since_;
 }
 
 void TrialKeeper::try_to_start() {
-  if (!bag_.ready(now_.wall())) return;
-  if (scenario_ && !scenario_played_) {
-    scenario_played_ = true;
-    next_goal_ = scenario_->goal;
+  if (!kept_.bag.ready(now_.wall())) return;
+  if (offered_.scenario && !offered_.played) {
+    offered_.played = true;
+    goals_.next = offered_.scenario->goal;
   }
-  if (!next_goal_) {
+  if (!goals_.next) {
     if (may_say(6 * kSayAgain)) tell(Tone::info, "Ready for a trial: waiting for a goal.");
     return;
   }
@@ -226,7 +226,7 @@ void TrialKeeper::try_to_start() {
       tell(Tone::warning, "No trial yet: waiting for " + list_of(words) + ".");
     return;
   }
-  if (!config_.press_to_start || pressed_) return start(*next_goal_);
+  if (!config_.press_to_start || pressed_) return start(*goals_.next);
   const double waited = now_.wall() - phase_since_;
   if (simulated() && config_.patience > 0.0 && waited > config_.patience) {
     tell(Tone::fatal, "No trial: the simulated operator has not begun it.");
@@ -236,19 +236,19 @@ void TrialKeeper::try_to_start() {
 }
 
 void TrialKeeper::start(const Eigen::Vector2d& goal) {
-  next_goal_.reset();
-  goal_before_.reset();
-  goal_ = goal;
+  goals_.next.reset();
+  goals_.before.reset();
+  goals_.now = goal;
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);
   flow_.start(beginning.stamp);
   if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
   began_ = now_;
   ending_ = Ending();
-  goal_tries_ = GoalTries();
+  goals_.tries = GoalTries();
   enter(Phase::running);
   operator_seen_ = phase_since_;
-  bag_.expect_growth(phase_since_);
+  kept_.bag.expect_growth(phase_since_);
   feedback_silent_ = false;
   if (!record({"TRIAL_START", conditions(beginning), beginning.stamp})) return;
   record::Fields where = monitor_.place();
@@ -256,15 +256,15 @@ void TrialKeeper::start(const Eigen::Vector2d& goal) {
   if (!record({"GOAL_SET", where, beginning.stamp})) return;
   show_state();
   tell(Tone::info,
-       "Trial " + folder_.filename().string() + " has begun: goal at " + place_of(goal) + ".");
+       "Trial " + kept_.folder.filename().string() + " has begun: goal at " + place_of(goal) + ".");
   ask_for_goal();
 }
 
 record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   record::Fields fields = monitor_.place();
-  fields.set("world", scenario_ ? scenario_->world : "n/a");
-  fields.set("world_hash", scenario_ ? scenario_->world_hash : "n/a");
-  fields.set("seed", scenario_ ? std::to_string(scenario_->seed) : "n/a");
+  fields.set("world", offered_.scenario ? offered_.scenario->world : "n/a");
+  fields.set("world_hash", offered_.scenario ? offered_.scenario->world_hash : "n/a");
+  fields.set("seed", offered_.scenario ? std::to_string(offered_.scenario->seed) : "n/a");
   fields.set("operator", config_.operator_kind).set("participant", config_.participant);
   fields.set("profile", config_.profile).set("version", config_.version);
   fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
@@ -298,11 +298,11 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
 }
 
 void TrialKeeper::ask_for_goal() {
-  switch (goal_tries_.next(monitor_.goal_taken(), now_.wall())) {
+  switch (goals_.tries.next(monitor_.goal_taken(), now_.wall())) {
     case GoalTries::Next::wait:
       return;
     case GoalTries::Next::send:
-      return outlets_.set_goal(goal_);
+      return outlets_.set_goal(goals_.now);
     case GoalTries::Next::give_up:
       tell(Tone::error, "The goal was set several times, but the guidance does not show it.");
       return end({"aborted", "goal_not_taken", monitor_.latest()});
@@ -322,7 +322,7 @@ Signs TrialKeeper::signs() const {
   Signs signs;
   signs.now = now_.ros_ns;
   signs.latest = monitor_.latest();
-  signs.disk_full = journal_->full();
+  signs.disk_full = kept_.journal->full();
   signs.world_restarted = monitor_.world_restarted();
   signs.odometry_silence = readiness_.silence(now_.wall());
   signs.guidance_silence = readiness_.guidance_silence(now_.wall());
@@ -343,8 +343,8 @@ void TrialKeeper::watch_feedback(double silence) {
 }
 
 void TrialKeeper::watch_bag() {
-  if (bag_lost_ || bag_.growing(now_.wall())) return;
-  bag_lost_ = true;
+  if (kept_.bag_lost || kept_.bag.growing(now_.wall())) return;
+  kept_.bag_lost = true;
   tell(Tone::error, "The bag does not grow. The trial goes on; its summary says bag=bad.");
   record({"BAG_LOST", record::Fields(), monitor_.latest()});
 }
@@ -360,7 +360,7 @@ void TrialKeeper::end(const Ending& ending) {
 
 void TrialKeeper::write_end() {
   // The goal may have been reached just before the end that was called first.
-  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), journal_->full());
+  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), kept_.journal->full());
   record::Fields fields = monitor_.end_fields();
   fields.set("result", ending_.result).set("reason", ending_.reason);
   enter(Phase::closing);
@@ -369,82 +369,82 @@ void TrialKeeper::write_end() {
 }
 
 bool TrialKeeper::record(const Event& event) {
-  if (journal_->broken()) return false;
+  if (kept_.journal->broken()) return false;
   record::Fields fields = event.fields;
   // By the monotonic clock from the start on: a clock that is set meanwhile changes no order.
   fields.set("utc", record::calendar(began_.utc_ns + now_.mono_ns - began_.mono_ns));
   // Once a second also as it stands, so that all clocks can be brought together.
   if (event.type == "PROGRESS") fields.set("calendar", record::calendar(now_.utc_ns));
-  const auto row = journal_->append(
+  const auto row = kept_.journal->append(
       event.type, fields, event.sim_ns, now_.mono_ns,
       event.essential ? record::Durability::essential : record::Durability::relaxed);
   if (row) {
     outlets_.publish(*row);
     return true;
   }
-  tell(Tone::fatal, journal_->problem() + ". The trial is invalid.");
-  exit_code_ = 4;
+  tell(Tone::fatal, kept_.journal->problem() + ". The trial is invalid.");
+  exit_.code = 4;
   enter(Phase::closing);
   write_summary();
   return false;
 }
 
 void TrialKeeper::write_summary() {
-  auto rows = journal_->rows();
-  if (journal_->broken()) {
+  auto rows = kept_.journal->rows();
+  if (kept_.journal->broken()) {
     record::Row last =
-        rows.empty() ? record::Row{folder_.filename().string(), 0, 0, 0, "", {}} : rows.back();
+        rows.empty() ? record::Row{kept_.folder.filename().string(), 0, 0, 0, "", {}} : rows.back();
     last.type = "TRIAL_END";
     last.fields = record::Fields().set("result", "invalid").set("reason", "journal_broken");
     rows.push_back(last);
   }
-  if (const auto problem = record::write_results(folder_, rows)) {
+  if (const auto problem = record::write_results(kept_.folder, rows)) {
     tell(Tone::error, *problem);
-    exit_code_ = 4;
+    exit_.code = 4;
   }
 }
 
 void TrialKeeper::close() {
-  if (stopped_ && now_.wall() - *stopped_ > kHurry) bag_.kill();
-  const double tail = stopped_ ? kDrain : std::max(kDrain, config_.tail);
-  if (bag_.close(now_.wall() - phase_since_, tail)) finish();
+  if (exit_.asked && now_.wall() - *exit_.asked > kHurry) kept_.bag.kill();
+  const double tail = exit_.asked ? kDrain : std::max(kDrain, config_.tail);
+  if (kept_.bag.close(now_.wall() - phase_since_, tail)) finish();
 }
 
 void TrialKeeper::finish() {
-  const std::string bag = bag_.verdict();
-  bag_ = BagWatch();
-  if (!journal_->broken()) {
+  const std::string bag = kept_.bag.verdict();
+  kept_.bag = BagWatch();
+  if (!kept_.journal->broken()) {
     record({"BAG_CLOSED", record::Fields().set("state", bag), ending_.stamp});
     write_summary();
   }
-  std::string screen = "Trial ended: " + folder_.string();
-  for (const auto& [name, cell] : record::summarize(journal_->rows()))
+  std::string screen = "Trial ended: " + kept_.folder.string();
+  for (const auto& [name, cell] : record::summarize(kept_.journal->rows()))
     screen += "\n  " + name + ": " + cell;
   tell(Tone::info, screen);
-  journal_.reset();
+  kept_.journal.reset();
   enter(Phase::waiting);
-  said_ = phase_since_;
-  if (config_.once || stopped_ || exit_code_ != 0) leave(exit_code_);
+  shown_.said = phase_since_;
+  if (config_.once || exit_.asked || exit_.code != 0) leave(exit_.code);
 }
 
 void TrialKeeper::leave(int exit_code) {
-  exit_code_ = exit_code;
+  exit_.code = exit_code;
   enter(Phase::done);
 }
 
 /// No trial has begun: nothing is lost.
 void TrialKeeper::abandon(int exit_code) {
-  bag_ = BagWatch();
-  journal_.reset();
+  kept_.bag = BagWatch();
+  kept_.journal.reset();
   std::error_code error;
-  fs::remove_all(folder_, error);
+  fs::remove_all(kept_.folder, error);
   leave(exit_code);
 }
 
 void TrialKeeper::stop(const Moment& now, const std::string& crashed) {
   now_ = now;
-  if (!stopped_) stopped_ = now.wall();
-  if (phase_ == Phase::waiting) return leave(exit_code_);
+  if (!exit_.asked) exit_.asked = now.wall();
+  if (phase_ == Phase::waiting) return leave(exit_.code);
   if (phase_ == Phase::armed) return abandon(0);
   if (phase_ != Phase::running) return;
   const std::string reason = crashed.empty() ? TrialFlow::reason_of_stop(signs()) : crashed;

@@ -69,7 +69,7 @@ class TrialKeeper {
   /// A simulated operator has moved its hands.
   void saw_operator(const Moment& now) { operator_seen_ = now.wall(); }
   /// The bag's recorder listens.
-  void recorder_listens(const Moment& now) { bag_.hears(now.wall()); }
+  void recorder_listens(const Moment& now) { kept_.bag.hears(now.wall()); }
 
   /// Goes on; to be called every 50 ms or so.
   void step(const Moment& now);
@@ -80,10 +80,36 @@ class TrialKeeper {
   /// There will be no other trial.
   [[nodiscard]] bool done() const { return phase_ == Phase::done; }
   /// What the process is to return once all is done.
-  [[nodiscard]] int exit_code() const { return exit_code_; }
+  [[nodiscard]] int exit_code() const { return exit_.code; }
 
  private:
   enum class Phase { waiting, armed, running, draining, closing, done };
+
+  /// The record of a trial.
+  struct Kept {
+    std::filesystem::path folder;
+    std::unique_ptr<record::Journal> journal;
+    BagWatch bag;
+    bool bag_lost = false;  ///< and journalled
+  };
+  struct Goals {
+    std::optional<Eigen::Vector2d> next;  ///< of the trial that is to begin
+    Eigen::Vector2d now = Eigen::Vector2d::Zero();
+    std::optional<Eigen::Vector2d> before;  ///< that was taken, if a later one is refused
+    GoalTries tries;
+  };
+  struct Offered {
+    std::optional<Scenario> scenario;
+    bool played = false;
+  };
+  struct Exit {
+    std::optional<double> asked;  ///< s, when it was asked to stop
+    int code = 0;
+  };
+  struct Shown {
+    double said = 0.0;  ///< s, when a sentence was last on the screen
+    std::optional<TrialState::State> state;
+  };
 
   template <typename Report>
   void observe(const Report& report);
@@ -132,26 +158,17 @@ class TrialKeeper {
   Phase phase_ = Phase::waiting;
   double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
   navvi_types::StallGuard stall_{{1.0, 0.5, 3.0}};
-  double said_ = 0.0;
-  std::optional<Scenario> scenario_;
-  bool scenario_played_ = false;
-  std::optional<Eigen::Vector2d> next_goal_;  ///< of the trial that is to begin
-  std::optional<std::int64_t> pressed_;       ///< ns, ROS time, when the person began it
-  std::optional<TrialState::State> shown_;
+  Shown shown_;
+  Offered offered_;
+  std::optional<std::int64_t> pressed_;  ///< ns, ROS time, when the person began it
 
-  std::filesystem::path folder_;
-  std::unique_ptr<record::Journal> journal_;
-  BagWatch bag_;
-  bool bag_lost_ = false;         ///< and journalled
-  bool feedback_silent_ = false;  ///< likewise
-  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector2d> goal_before_;  ///< that was taken, if a later one is refused
-  GoalTries goal_tries_;
+  Kept kept_;
+  bool feedback_silent_ = false;  ///< and journalled
+  Goals goals_;
   TrialFlow flow_;
   double operator_seen_ = 0.0;  ///< when a simulated one last moved its hands
   Ending ending_;
-  std::optional<double> stopped_;  ///< when it was asked to stop
-  int exit_code_ = 0;
+  Exit exit_;
 };
 
 template <typename Report>
@@ -166,8 +183,8 @@ void TrialKeeper::observe(const Report& report) {
   } else if (monitor_.arrived_elsewhere()) {
     end({"invalid", "arrived_elsewhere", monitor_.latest()});
   } else if (const auto why = monitor_.refused()) {
-    if (!goal_before_) return end({"refused", *why, monitor_.latest()});
-    return change_goal(*std::exchange(goal_before_, std::nullopt));
+    if (!goals_.before) return end({"refused", *why, monitor_.latest()});
+    return change_goal(*std::exchange(goals_.before, std::nullopt));
   }
 }
 

@@ -68,41 +68,42 @@ bool TrialMonitor::counts(std::int64_t stamp) {
 }
 
 TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const {
-  return {std::max(stamp, latest_), goal, contact_seq_, shelf_count_, obstacle_count_};
+  return {std::max(stamp, latest_), goal, hits_.contact_seq, hits_.shelf_count,
+          hits_.obstacle_count};
 }
 
 void TrialMonitor::start(const TrialStart& start) {
   start_ = start;
   end_.reset();
   tally_ = Tally();
-  next_progress_ = start.stamp;
-  contact_seq_ = start.contact_seq;
-  shelf_count_ = start.shelf_count;
-  obstacle_count_ = start.obstacle_count;
+  driven_.next_progress = start.stamp;
+  hits_.contact_seq = start.contact_seq;
+  hits_.shelf_count = start.shelf_count;
+  hits_.obstacle_count = start.obstacle_count;
   inside_.clear();
-  odometry_.reset();
-  guidance_before_ = guidance_;
-  guidance_.reset();
-  plans_.reset();
-  reroutes_ = 0;
+  driven_.odometry.reset();
+  guided_.before = guided_.guidance;
+  guided_.guidance.reset();
+  guided_.plans.reset();
+  guided_.reroutes = 0;
   playing_.clear();
   latencies_.clear();
   stuck_cues_.clear();
-  goal_taken_ = false;
-  state_.reset();
-  reached_.reset();
-  arrived_elsewhere_ = false;
-  refused_.reset();
+  goal_.taken = false;
+  guided_.state.reset();
+  goal_.reached.reset();
+  goal_.arrived_elsewhere = false;
+  goal_.refused.reset();
   world_restarted_ = false;
 }
 
 Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp) {
   start_->goal = goal;
-  guidance_before_ = guidance_ ? guidance_ : guidance_before_;
-  goal_taken_ = false;
-  reached_.reset();
-  arrived_elsewhere_ = false;
-  refused_.reset();
+  guided_.before = guided_.guidance ? guided_.guidance : guided_.before;
+  goal_.taken = false;
+  goal_.reached.reset();
+  goal_.arrived_elsewhere = false;
+  goal_.refused.reset();
   return {"GOAL_SET", place().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp, true};
 }
 
@@ -110,7 +111,7 @@ void TrialMonitor::end(std::int64_t stamp) { end_ = end_ ? std::min(*end_, stamp
 
 record::Fields TrialMonitor::place() const {
   record::Fields fields;
-  const auto& last = odometry_ ? odometry_ : seen_;
+  const auto& last = driven_.odometry ? driven_.odometry : driven_.seen;
   if (!last) return fields.set("x", "n/a").set("y", "n/a");
   const Eigen::Vector2d& at = last->pose.position;
   return fields.set("x", at.x()).set("y", at.y());
@@ -144,20 +145,20 @@ record::Fields TrialMonitor::end_fields() const {
 }
 
 std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
-  seen_ = odometry;
+  driven_.seen = odometry;
   if (!counts(odometry.stamp)) return {};
-  if (odometry_ && odometry.stamp <= odometry_->stamp) return {};
-  if (odometry_) {
-    const Eigen::Vector2d moved = odometry.pose.position - odometry_->pose.position;
+  if (driven_.odometry && odometry.stamp <= driven_.odometry->stamp) return {};
+  if (driven_.odometry) {
+    const Eigen::Vector2d moved = odometry.pose.position - driven_.odometry->pose.position;
     tally_.path_length += std::hypot(moved.x(), moved.y());
-    const double turned = navvi_types::wrap(odometry.pose.yaw - first_yaw_);
+    const double turned = navvi_types::wrap(odometry.pose.yaw - driven_.first_yaw);
     tally_.turned = std::max(tally_.turned, std::abs(turned));
   } else {
-    first_yaw_ = odometry.pose.yaw;
+    driven_.first_yaw = odometry.pose.yaw;
   }
-  odometry_ = odometry;
-  if (odometry.stamp < next_progress_) return {};
-  next_progress_ = odometry.stamp + ns(config_.progress_period);
+  driven_.odometry = odometry;
+  if (odometry.stamp < driven_.next_progress) return {};
+  driven_.next_progress = odometry.stamp + ns(config_.progress_period);
   return {{"PROGRESS", tally_fields(), odometry.stamp, false}};
 }
 
@@ -182,16 +183,17 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
   const bool shelf = contact.thing_class == ThingClass::shelf;
   const std::uint64_t shelves = shelves_in(contact), obstacles = obstacles_in(contact);
   std::vector<Event> events;
-  if (inside && contact.seq <= contact_seq_) {
+  if (inside && contact.seq <= hits_.contact_seq) {
     if (contact.seq == 1) world_restarted_ = true;
     return {};
   }
   if (inside) {
     // Running counts that jump by more than this contact show the contacts that were lost.
-    const std::uint64_t missed_shelf = shelves - std::min(shelves, shelf_count_ + (shelf ? 1 : 0));
+    const std::uint64_t missed_shelf =
+        shelves - std::min(shelves, hits_.shelf_count + (shelf ? 1 : 0));
     const std::uint64_t missed_obstacle =
-        obstacles - std::min(obstacles, obstacle_count_ + (shelf ? 0 : 1));
-    const std::uint64_t missed = contact.seq - contact_seq_ - 1;
+        obstacles - std::min(obstacles, hits_.obstacle_count + (shelf ? 0 : 1));
+    const std::uint64_t missed = contact.seq - hits_.contact_seq - 1;
     tally_.missed_messages += missed;
     for (std::uint64_t i = 0; i < std::min(missed_shelf, missed); ++i) {
       collision(nullptr, true, contact.stamp, events);
@@ -201,9 +203,9 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
     }
     collision(&contact, shelf, contact.stamp, events);
   }
-  contact_seq_ = contact.seq;
-  shelf_count_ = shelves;
-  obstacle_count_ = obstacles;
+  hits_.contact_seq = contact.seq;
+  hits_.shelf_count = shelves;
+  hits_.obstacle_count = obstacles;
   return events;
 }
 
@@ -215,8 +217,8 @@ std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
     fields.set("kind", kind_of(thing.thing_class));
     fields.set("id", std::uint64_t{thing.id}).set("class", to_string(thing.thing_class));
     fields.set("thing", thing.name).set("gap", thing.gap).set("zone", zone(thing.nearest.y()));
-    fields.set("x", odometry_ ? odometry_->pose.position.x() : NAN);
-    fields.set("y", odometry_ ? odometry_->pose.position.y() : NAN);
+    fields.set("x", driven_.odometry ? driven_.odometry->pose.position.x() : NAN);
+    fields.set("y", driven_.odometry ? driven_.odometry->pose.position.y() : NAN);
     events.push_back({type, fields, proximity.stamp, true});
   };
   for (const auto& thing : proximity.things) {
@@ -245,55 +247,54 @@ std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
 
 bool TrialMonitor::about_this_goal(const Guidance& guidance) {
   using State = Guidance::State;
-  if (goal_taken_) return true;
+  if (goal_.taken) return true;
   const bool refused = guidance.state == State::goal_refused;
-  const bool was_refused = guidance_before_ && guidance_before_->state == State::goal_refused;
+  const bool was_refused = guided_.before && guided_.before->state == State::goal_refused;
   const bool goal_matches = same(guidance.goal, start_->goal);
   if (refused) {
     // A refusal may come with the goal that is still valid.
-    goal_taken_ = goal_matches || !was_refused;
-  } else if (goal_matches && guidance.state == State::arrived && guidance_before_ &&
-             same(guidance_before_->goal, start_->goal) &&
-             guidance_before_->plans == guidance.plans) {
-    goal_taken_ = guidance.stamp > start_->stamp + kOldNews;
+    goal_.taken = goal_matches || !was_refused;
+  } else if (goal_matches && guidance.state == State::arrived && guided_.before &&
+             same(guided_.before->goal, start_->goal) && guided_.before->plans == guidance.plans) {
+    goal_.taken = guidance.stamp > start_->stamp + kOldNews;
   } else {
-    goal_taken_ = goal_matches && (guidance.leads_to_goal() || guidance.state == State::arrived ||
+    goal_.taken = goal_matches && (guidance.leads_to_goal() || guidance.state == State::arrived ||
                                    guidance.state == State::no_route);
   }
-  return goal_taken_;
+  return goal_.taken;
 }
 
 std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
   using State = Guidance::State;
   const bool inside = counts(guidance.stamp);
-  const auto last = guidance_;
-  guidance_ = guidance;
+  const auto last = guided_.guidance;
+  guided_.guidance = guidance;
   if (!inside) return {};
   if (last && guidance.seq > last->seq) tally_.missed_messages += guidance.seq - last->seq - 1;
   if (!about_this_goal(guidance)) return {};
 
   std::vector<Event> events;
-  if (state_ != guidance.state) {
-    state_ = guidance.state;
+  if (guided_.state != guidance.state) {
+    guided_.state = guidance.state;
     events.push_back({"GUIDANCE", place().set("state", to_string(guidance.state)), guidance.stamp});
   }
   // Only a guidance that was started anew forgets a goal that it had taken.
-  if (guidance.state == State::no_goal) goal_taken_ = false;
+  if (guidance.state == State::no_goal) goal_.taken = false;
   if (guidance.leads_to_goal()) {
     if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
-    if (!plans_) {
-      plans_ = guidance.plans;
+    if (!guided_.plans) {
+      guided_.plans = guidance.plans;
       record::Fields fields = place();
       fields.set("first_path_length", guidance.goal_distance);
       events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});
     }
   }
   count_plans(guidance, events);
-  if (guidance.state == State::arrived && !reached_ && !arrived_elsewhere_)
+  if (guidance.state == State::arrived && !goal_.reached && !goal_.arrived_elsewhere)
     arrive(guidance, events);
-  if (guidance.state == State::goal_refused && !refused_) {
-    refused_ = to_string(guidance.refusal);
-    events.push_back({"GOAL_REFUSED", place().set("reason", *refused_), guidance.stamp});
+  if (guidance.state == State::goal_refused && !goal_.refused) {
+    goal_.refused = to_string(guidance.refusal);
+    events.push_back({"GOAL_REFUSED", place().set("reason", *goal_.refused), guidance.stamp});
   }
   return events;
 }
@@ -301,37 +302,37 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
 /// The guide's word alone is not enough: it may follow a false pose.
 void TrialMonitor::arrive(const Guidance& guidance, std::vector<Event>& events) {
   record::Fields fields = place();
-  const auto& robot = odometry_ ? odometry_ : seen_;
+  const auto& robot = driven_.odometry ? driven_.odometry : driven_.seen;
   const double away = robot ? (robot->pose.position - start_->goal).norm() : 0.0;
   if (away > config_.arrival_range) {
-    arrived_elsewhere_ = true;
+    goal_.arrived_elsewhere = true;
     events.push_back({"ARRIVED_ELSEWHERE", fields.set("distance", away), guidance.stamp});
     return;
   }
-  reached_ = guidance.stamp;
+  goal_.reached = guidance.stamp;
   fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
   events.push_back({"GOAL_REACHED", fields, guidance.stamp});
 }
 
 void TrialMonitor::count_plans(const Guidance& guidance, std::vector<Event>& events) {
   // A guidance that was started anew counts from 0, reroutes also with each goal.
-  if (plans_ && guidance.plans < *plans_) plans_ = 0;
-  if (plans_ && guidance.plans > *plans_) {
-    tally_.replans += guidance.plans - *plans_;
-    plans_ = guidance.plans;
+  if (guided_.plans && guidance.plans < *guided_.plans) guided_.plans = 0;
+  if (guided_.plans && guidance.plans > *guided_.plans) {
+    tally_.replans += guidance.plans - *guided_.plans;
+    guided_.plans = guidance.plans;
     record::Fields fields = place();
     fields.set("count", tally_.replans).set("reason", to_string(guidance.replan_reason));
     events.push_back(
         {"REPLAN", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp, false});
   }
-  if (guidance.reroutes < reroutes_) reroutes_ = 0;
-  if (guidance.reroutes > reroutes_) {
-    tally_.reroutes += guidance.reroutes - reroutes_;
+  if (guidance.reroutes < guided_.reroutes) guided_.reroutes = 0;
+  if (guidance.reroutes > guided_.reroutes) {
+    tally_.reroutes += guidance.reroutes - guided_.reroutes;
     record::Fields fields = place();
     fields.set("count", tally_.reroutes).set("reason", to_string(guidance.reroute_reason));
     events.push_back({"REROUTE", fields, guidance.stamp});
   }
-  reroutes_ = guidance.reroutes;
+  guided_.reroutes = guidance.reroutes;
 }
 
 std::optional<Event> TrialMonitor::row_of(const CueEvent& cue) {

@@ -132,13 +132,13 @@ class TrialMonitor {
   /// These, and how long the person waited for what was felt and heard, as far as it is known.
   [[nodiscard]] record::Fields end_fields() const;
   /// The guide shows a path to the goal, has arrived, or refused.
-  [[nodiscard]] bool goal_taken() const { return goal_taken_; }
+  [[nodiscard]] bool goal_taken() const { return goal_.taken; }
   /// ns, when the goal was reached
-  [[nodiscard]] std::optional<std::int64_t> reached() const { return reached_; }
+  [[nodiscard]] std::optional<std::int64_t> reached() const { return goal_.reached; }
   /// The guide said that the goal is reached, and by the odometry the robot is elsewhere.
-  [[nodiscard]] bool arrived_elsewhere() const { return arrived_elsewhere_; }
+  [[nodiscard]] bool arrived_elsewhere() const { return goal_.arrived_elsewhere; }
   /// why the goal was refused
-  [[nodiscard]] std::optional<std::string> refused() const { return refused_; }
+  [[nodiscard]] std::optional<std::string> refused() const { return goal_.refused; }
   /// The simulator began anew in mid trial.
   [[nodiscard]] bool world_restarted() const { return world_restarted_; }
   /// ns, the latest stamp that was seen at all
@@ -148,6 +148,32 @@ class TrialMonitor {
   struct Inside {
     std::int64_t last_inside = 0;
     NearThing thing;
+  };
+
+  struct Driven {
+    std::optional<Odometry> odometry;  ///< of the trial
+    double first_yaw = 0.0;            ///< rad, of its first odometry
+    std::optional<Odometry> seen;      ///< the last one at all
+    std::int64_t next_progress = 0;    ///< ns
+  };
+  /// Of the session, up to the last contact.
+  struct Hits {
+    std::uint32_t contact_seq = 0;
+    std::uint64_t shelf_count = 0;
+    std::uint64_t obstacle_count = 0;
+  };
+  struct Guided {
+    std::optional<Guidance> guidance;    ///< the last one
+    std::optional<Guidance> before;      ///< the last one before the goal was set
+    std::optional<std::uint32_t> plans;  ///< of the guidance, counted so far
+    std::uint32_t reroutes = 0;          ///< of the guidance, likewise
+    std::optional<Guidance::State> state;
+  };
+  struct GoalFate {
+    bool taken = false;
+    std::optional<std::int64_t> reached;
+    bool arrived_elsewhere = false;
+    std::optional<std::string> refused;
   };
 
   /// Whether a report with this stamp belongs to the trial.
@@ -166,18 +192,10 @@ class TrialMonitor {
   std::optional<std::int64_t> end_;
   std::int64_t latest_ = 0;
   Tally tally_;
-  std::optional<Odometry> odometry_;  ///< of the trial
-  double first_yaw_ = 0.0;            ///< rad, of its first odometry
-  std::optional<Odometry> seen_;      ///< the last one at all
-  std::int64_t next_progress_ = 0;
-  std::uint32_t contact_seq_ = 0;
-  std::uint64_t shelf_count_ = 0;
-  std::uint64_t obstacle_count_ = 0;
+  Driven driven_;
+  Hits hits_;
   std::map<std::uint32_t, Inside> inside_;
-  std::optional<Guidance> guidance_;         ///< the last one
-  std::optional<Guidance> guidance_before_;  ///< the last one before the goal was set
-  std::optional<std::uint32_t> plans_;       ///< of the guidance, counted so far
-  std::uint32_t reroutes_ = 0;               ///< of the guidance, likewise
+  Guided guided_;
   std::set<std::uint32_t> stuck_cues_;
   std::map<navvi_types::Modality, std::string>
       playing_;  ///< kind of the last cue that is no speech
@@ -187,11 +205,7 @@ class TrialMonitor {
   std::map<std::string, DeviceState> devices_;
   std::vector<DeviceReport> latencies_;   ///< the last ones, as an end may be told after it
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
-  bool goal_taken_ = false;
-  std::optional<Guidance::State> state_;
-  std::optional<std::int64_t> reached_;
-  bool arrived_elsewhere_ = false;
-  std::optional<std::string> refused_;
+  GoalFate goal_;
   bool world_restarted_ = false;
 };
 
