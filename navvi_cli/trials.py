@@ -40,6 +40,20 @@ def conditions(folder):
     return fields
 
 
+def times(folder, since_start=True):
+    """s of each row of the journal, by type; since the trial began, or as the ROS time it was."""
+    found = {}
+    try:
+        with open(Path(folder) / "journal.csv", newline="", errors="replace") as file:
+            for row in csv.reader(file):
+                if len(row) == 7 and row[2].isdigit():
+                    found.setdefault(row[4], []).append(int(row[2]) / 1e9)
+    except OSError:  # as in a folder that holds a bag alone
+        return {}
+    begun = found.get("TRIAL_START", [0.0])[0] if since_start else 0.0
+    return {kind: [time - begun for time in moments] for kind, moments in found.items()}
+
+
 def sentence(row):
     """How a trial ended."""
     if row["result"] != "reached":

@@ -285,6 +285,30 @@ def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_
     assert replay.recorded(tmp_path / "none") == {"speaker": "{}", "mesh": "{}"}
 
 
+def journal_of(folder, *rows):
+    folder.mkdir(exist_ok=True)
+    (folder / "journal.csv").write_text("".join(f"t,{seq},{int(time * 1e9)},0,{kind},a=b,00000000\n" for seq, (time, kind) in enumerate(rows, 1)))
+    return folder
+
+
+def test_a_replay_begins_some_seconds_before_the_event_that_is_named(tmp_path):
+    trial = journal_of(tmp_path / "t", (100.0, "TRIAL_START"), (110.0, "COLLISION"), (102.0, "CUE"), (131.5, "COLLISION"))
+    assert replay.moment(trial, "collision:2") == 26.5 and replay.moment(trial, "collision") == 5.0
+    assert replay.moment(trial, "cue:1") == 0.0 and replay.moment(trial, "73.5") == 73.5
+    for wrong, sentence in {"collision:3": "has 2 of these", "colision": "collision, cue, trial_start", "collision:0": "allowed are", "-3": "allowed are"}.items():
+        with pytest.raises(Failure) as found:
+            replay.moment(trial, wrong)
+        assert found.value.code == 2 and sentence in found.value.sentence
+
+
+def test_a_replay_is_paused_and_stepped_by_keys(capsys):
+    calls = []
+    keys = replay.Keys(1000.0, calls.append)
+    keys.read(["p\n", "p\n", "s\n", "p\n", "\n", "what\n"])
+    assert calls == [True, False, False, True, False]
+    assert "is paused" in capsys.readouterr().out
+
+
 def test_points_and_tables_are_for_programs(capsys):
     worlds.table(["what", "value"], {"6 \"x\"": 1, "start": [1.5, 2, 0], "path": [[1.0, 2.0], [3, 4]], "none": []}.items())
     assert list(csv.reader(capsys.readouterr().out.splitlines())) == [

@@ -417,6 +417,30 @@ def test_marks_and_interventions_stand_in_the_table(work):
     assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot"]
 
 
+def write_record(folder, end=30.0):
+    """A journal from 10 s of ROS time on, whose monotonic clock stands at 1000 s then and runs half as fast, and the events of it."""
+    rows = [(10.0, 1000.0, "TRIAL_START", "x=0;y=0"), (15.0, 1002.5, "PROGRESS", "x=1;y=0"), (end, 1000.0 + (end - 10.0) / 2, "TRIAL_END", "x=2;y=0")]
+    (folder / "journal.csv").write_text("trial,seq,sim_ns,mono_ns,type,fields,crc32\n" + "".join(
+        f"t,{seq},{int(sim * 1e9)},{int(mono * 1e9)},{kind},{fields},00000000\n" for seq, (sim, mono, kind, fields) in enumerate(rows, 1)))
+    (folder / "events.csv").write_text("onset_s,duration_s,trial,trial_type,robot_x_m,robot_y_m,detail\n2.500,0,t,goal reached,1.0,2.0,n/a\n")
+
+
+def test_marks_stand_among_the_events_of_their_trial_at_its_own_time(work):
+    begun = work()
+    begun.next("sub-01")
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    write_record(work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial)
+    for mono, kind, text in ((1002.0, "mark", ""), (1000.5, "note", "the door opened"), (1012.0, "intervention", "late")):
+        work.study.note("sub-01", attempt, {"utc": "2026-01-01T00:00:00Z", "mono_ns": int(mono * 1e9), "type": kind, "text": text})
+    rows = table.events(work.study, work.study.progress())
+    assert [(row["onset_s"], row["trial_type"], row["detail"]) for row in rows] == [
+        ("1.000", "note", "the door opened"), ("2.500", "goal reached", "n/a"), ("4.000", "mark", "n/a"), ("22.000", "intervention", "late")]
+    assert all(row["participant"] == "sub-01" and row["counts"] == "yes" and row["trial"] == attempt.trial for row in rows)
+    files = table.write(work.study, work.study.progress())
+    described = json.loads((work.study.folder / "events.json").read_text())
+    assert described["onset_s"]["Units"] == "s" and work.study.folder / "events.csv" in files
+
+
 def test_nothing_of_a_study_names_a_person_but_by_code(work):
     rest(work())
     shutil.rmtree(work.study.home("sub-01"))
@@ -530,8 +554,7 @@ def test_an_export_has_the_names_of_bids_no_date_and_the_same_bytes_twice(work):
     state = work.study.progress()
     for attempt in state.person("sub-01").attempts:
         trial = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
-        (trial / "journal.csv").write_text("t,1,10000000000,5,TRIAL_START,x=1,00\nt,2,30000000000,9,TRIAL_END,x=1,00\n")
-        (trial / "events.csv").write_text("onset_s,duration_s,trial_type,robot_x_m,robot_y_m,detail\n2.5,0,goal reached,1.0,2.0,n/a\n")
+        write_record(trial)
 
     def way(path):
         return [(9.0 + step, float(step), 0.0, 0.0) for step in range(30)]

@@ -3,7 +3,7 @@
 run_packages=(
   rviz libqt5svg5 rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
-  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-tf2-msgs
+  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-std-srvs python3-tf2-msgs
   python3-argcomplete python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
   at-spi2-core dbus-bin x11-utils
 )

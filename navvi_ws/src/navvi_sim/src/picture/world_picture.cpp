@@ -254,6 +254,12 @@ void draw_legend(MapCanvas& canvas, const WorldDescription& world, bool has_scen
   canvas.text({x + 42.0, y}, 14.0, guided ? "guide path, and a turn" : "a way with room");
 }
 
+/// What the map shows, for programs that draw over it: least x and y, greatest x and y, m.
+std::string area_of(const Eigen::AlignedBox2d& bounds) {
+  return svg_number(bounds.min().x()) + " " + svg_number(bounds.min().y()) + " " +
+         svg_number(bounds.max().x()) + " " + svg_number(bounds.max().y());
+}
+
 }  // namespace
 
 std::string world_picture(const WorldDescription& world,
@@ -268,7 +274,8 @@ std::string world_picture(const WorldDescription& world,
   const double height = kHead + std::max(map.y(), 15.0 * kLegendLine) + kFrame + 50.0;
   canvas.svg() << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << svg_number(width)
                << "\" height=\"" << svg_number(height) << "\" viewBox=\"0 0 " << svg_number(width)
-               << ' ' << svg_number(height) << "\" font-family=\"sans-serif\">\n"
+               << ' ' << svg_number(height) << "\" font-family=\"sans-serif\" data-area=\""
+               << area_of(outlines.bounds) << "\">\n"
                << "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   canvas.text({kFrame, 30.0}, 22.0, world.name);
   const std::string far = outlines.beyond == 0   ? ""

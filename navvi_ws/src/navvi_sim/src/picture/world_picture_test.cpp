@@ -28,6 +28,7 @@ TEST(WorldPicture, names_the_world_its_classes_start_goal_and_scale) {
                            "route, and a stop", "a way with room", "</svg>"})
     EXPECT_NE(svg.find(word), std::string::npos) << word;
   EXPECT_EQ(count(svg, "<svg"), 1u);
+  EXPECT_EQ(count(svg, "data-area=\""), 1u);
 }
 
 TEST(WorldPicture, draws_the_guide_path_and_its_turns_instead_of_its_own_way) {

@@ -9,6 +9,7 @@ import re
 import shutil
 
 from . import table
+from .record import Record
 from .study import write_safely
 
 RATE = 20.0  # Hz, of the way; odometry comes at another, even rate
@@ -17,7 +18,7 @@ CHANNELS = (("x", "POS", "x", "m"), ("y", "POS", "y", "m"), ("yaw", "ORNT", "z",
 TRACKING = "odometry"
 PARTICIPANTS = {"group": {"Description": "group of the plan"}}
 EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Units": "s"}, "duration": {"Units": "s"},
-          "trial_type": {"Description": "what happened, as navvi_study/README.md lists it"}}
+          "trial_type": {"Description": "what happened, as doc/record.md lists it, or the experimenter's mark, note, intervention or abort"}}
 
 
 def write(study, progress, read_way):
@@ -38,24 +39,19 @@ def write(study, progress, read_way):
     for row in rows:
         key = (row["participant"], row["session"], row["condition"])
         runs[key] = runs.get(key, 0) + 1
-        attempt = next(one for one in progress.people[row["participant"]].attempts if one.trial == row["trial"] and str(one.number) == row["attempt"]
-                       and one.step in _steps(progress, row))
-        _trial(folder, row, attempt, runs[key], study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial, read_way)
+        _trial(folder, row, table.attempt_of(progress, row), runs[key], study, read_way)
     return folder
 
 
-def _steps(progress, row):
-    return [step.name for step in progress.people[row["participant"]].steps
-            if (step.condition, str(step.repeat), step.kind) == (row["condition"], row["repeat"], row["phase"])]
-
-
-def _trial(folder, row, attempt, run, trial, read_way):
+def _trial(folder, row, attempt, run, study, read_way):
+    trial = study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial
     subject = _subject(row["participant"])
     place = folder / subject / f"ses-{row['session']}" / "motion"
     name = f"{subject}_ses-{row['session']}_task-drive"
     end = f"acq-{_label(row['condition'])}_run-{run:02d}"
     track = f"{name}_tracksys-{TRACKING}_{end}"
-    begun, ended = times_of(trial / "journal.csv")
+    record = Record(trial)
+    begun, ended = (record.first(kind).sim_ns / 1e9 for kind in ("TRIAL_START", "TRIAL_END"))
     way = resampled([place for place in read_way(trial / "trial.bag") if begun <= place[0] <= ended], RATE)
     _tsv(place / f"{track}_motion.tsv", None, [[f"{value:.4f}" for value in values] for values in way])
     _tsv(place / f"{track}_channels.tsv", ["name", "component", "type", "tracked_point", "units"],
@@ -66,11 +62,9 @@ def _trial(folder, row, attempt, run, trial, read_way):
         "POSChannelCount": 2, "ORNTChannelCount": 1, "RecordingDuration": round(len(way) / RATE, 3), "RecordingType": "continuous",
         "SpatialAxes": "FLS", "RotationRule": "right-hand", "RotationOrder": "XYZ", "ManufacturersModelName": "navvi_sim",
         "SoftwareVersions": row.get("version", "n/a")})
-    with open(trial / "events.csv", newline="", encoding="utf-8") as file:
-        events = [[event["onset_s"], event["duration_s"], event["trial_type"], event["robot_x_m"], event["robot_y_m"], event["detail"]]
-                  for event in csv.DictReader(file)]
-    _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"],
-         sorted(events, key=lambda event: float(event[0])))
+    events = [[event["onset_s"], event["duration_s"], event["trial_type"], event.get("robot_x_m", "n/a"), event.get("robot_y_m", "n/a"), event["detail"]]
+              for event in table.events_of(study, row["participant"], attempt)]
+    _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"], events)
     _json(place / f"{name}_{end}_events.json", {**EVENTS, **{f"robot_{axis}": {"Description": "of the robot in map", "Units": "m"} for axis in "xy"},
                                                 "detail": {"Description": "kind of a cue, or reason, state, device or result"}})
 
@@ -88,13 +82,6 @@ def resampled(way, rate):
         rows.append((before[1] + share * (after[1] - before[1]), before[2] + share * (after[2] - before[2]),
                      math.remainder(before[3] + share * turn, 2 * math.pi)))
     return rows
-
-
-def times_of(journal):
-    """s of ROS time, when the trial began and ended; events count from the former, as the way does."""
-    rows = [line.split(",") for line in journal.read_text(encoding="utf-8").splitlines()]
-    times = {row[4]: int(row[2]) / 1e9 for row in rows if len(row) > 5 and row[4] in ("TRIAL_START", "TRIAL_END")}
-    return times["TRIAL_START"], times["TRIAL_END"]
 
 
 def way_of_bag(path):

@@ -3,6 +3,7 @@ import csv
 import io
 import json
 
+from .record import Record
 from .study import write_safely
 
 # Set by the study; the others are those of each trial's summary.csv.
@@ -15,6 +16,16 @@ COLUMNS = {
 }
 NOT_OURS = {"participant", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
 UNITS = {"_s": "s", "_m": "m", "_ms": "ms"}
+# Of each row of events.csv, before what the trial's own events.csv holds.
+WHOSE = ("participant", "group", "session", "order", "condition", "phase", "repeat", "attempt", "counts", "trial")
+EVENTS = {
+    "onset_s": "since the trial began, simulated time", "duration_s": "simulated time; n/a where it is not known",
+    "trial_type": "what happened, as doc/record.md lists it; mark, note, intervention and abort are the experimenter's, by key",
+    "wall_clock_utc": "ISO 8601", "obstacle_position": "left, right or center", "elapsed_s": "simulated time, when the goal is reached",
+    "robot_x_m": "of the robot in map", "robot_y_m": "of the robot in map", "goal_x_m": "of the goal in map", "goal_y_m": "of the goal in map",
+    "thing_class": "of what came near or was hit", "thing": "its name", "spoken": "words of a cue",
+    "detail": "kind of a cue, or reason, state, device, result, or the experimenter's words",
+}
 DESCRIBED = {
     "trial": "name of its folder", "world": "name or file", "world_hash": "of the world that was built", "seed": "draws the world, start and goal",
     "result": "reached, timeout, refused, aborted or invalid", "reason": "of the result", "elapsed_s": "simulated time from start to goal, or to the end",
@@ -44,6 +55,34 @@ def trials(study, progress):
             row.update({name: cell for name, cell in summary.items() if name not in NOT_OURS})
             rows.append({name: str(cell) for name, cell in row.items()})
     return rows
+
+
+def events(study, progress):
+    """Rows by column name: what happened in each trial of trials(), with what the experimenter marked."""
+    rows = []
+    for row in trials(study, progress):
+        whose = {name: row[name] for name in WHOSE}
+        for event in events_of(study, row["participant"], attempt_of(progress, row)):
+            rows.append({**whose, **{name: cell for name, cell in event.items() if name not in WHOSE}})
+    return rows
+
+
+def events_of(study, participant, attempt):
+    """Of one trial, in the order of their onsets."""
+    record = Record(study.attempt_folder(participant, attempt.step, attempt.number) / attempt.trial)
+    found = record.events()
+    for note in study.notes(participant):
+        if (note["step"], note["attempt"]) == (attempt.step, attempt.number) and (onset := record.onset_of(note["mono_ns"])) is not None:
+            found.append({"onset_s": f"{onset:.3f}", "duration_s": "0", "wall_clock_utc": note["utc"], "trial_type": note["type"],
+                          "detail": note["text"] or "n/a"})
+    return sorted(found, key=lambda event: float(event["onset_s"]))
+
+
+def attempt_of(progress, row):
+    """The attempt that a row of trials() is about."""
+    person = progress.people[row["participant"]]
+    steps = [step.name for step in person.steps if (step.condition, str(step.repeat), step.kind) == (row["condition"], row["repeat"], row["phase"])]
+    return next(one for one in person.attempts if one.trial == row["trial"] and str(one.number) == row["attempt"] and one.step in steps)
 
 
 def answers(study, progress):
@@ -76,8 +115,8 @@ def scores(study, progress):
 def write(study, progress):
     """Returns the files that were written."""
     files = []
-    for name, rows in (("trials", trials(study, progress)), ("answers", answers(study, progress))):
-        columns = list(dict.fromkeys(column for row in rows for column in row))
+    for name, rows in (("trials", trials(study, progress)), ("answers", answers(study, progress)), ("events", events(study, progress))):
+        columns = list(dict.fromkeys(column for row in rows for column in row)) or list(WHOSE)
         for path, content in ((study.folder / f"{name}.csv", as_csv(columns, rows)), (study.folder / f"{name}.json", described(columns))):
             write_safely(path, content)
             files.append(path)
@@ -96,7 +135,7 @@ def described(columns):
     """A column's meaning and unit, in the form of BIDS."""
     entries = {}
     for column in columns:
-        entry = {"Description": COLUMNS.get(column) or DESCRIBED.get(column) or column.replace("_", " ")}
+        entry = {"Description": COLUMNS.get(column) or EVENTS.get(column) or DESCRIBED.get(column) or column.replace("_", " ")}
         unit = next((unit for end, unit in UNITS.items() if column.endswith(end)), None)
         entries[column] = dict(entry, Units=unit) if unit else entry
     return json.dumps(entries, indent=1) + "\n"

@@ -1,0 +1,81 @@
+"""One trial's own record, as trial_node left it: doc/record.md defines its rows."""
+import bisect
+import csv
+from dataclasses import dataclass
+from urllib.parse import unquote
+
+
+@dataclass(frozen=True)
+class Row:
+    type: str
+    sim_ns: int
+    mono_ns: int
+    fields: dict
+
+    def number(self, name):
+        """None where the row has no such number."""
+        try:
+            return float(self.fields[name])
+        except (KeyError, ValueError):
+            return None
+
+
+class Record:
+    """\\param folder  of the trial; a record that cannot be read has no rows"""
+
+    def __init__(self, folder):
+        self.folder = folder
+        try:
+            lines = (folder / "journal.csv").read_text(encoding="utf-8", errors="replace").splitlines()
+        except OSError:
+            lines = []
+        self.rows = [row for row in map(_row, lines) if row]
+
+    def first(self, kind):
+        return next((row for row in self.rows if row.type == kind), None)
+
+    def of(self, kind):
+        return [row for row in self.rows if row.type == kind]
+
+    def onset(self, row):
+        """s of simulated time since the trial began."""
+        return (row.sim_ns - self.first("TRIAL_START").sim_ns) / 1e9
+
+    def onset_of(self, mono_ns):
+        """The same for a time of the monotonic clock, such as a mark's, by the rows before and after it; None without a trial."""
+        start = self.first("TRIAL_START")
+        if not start:
+            return None
+        rows = sorted((row for row in self.rows if row.mono_ns), key=lambda row: row.mono_ns)
+        at = bisect.bisect_right([row.mono_ns for row in rows], mono_ns)
+        if at in (0, len(rows)):  # before the first row, or after the last, both clocks run alike
+            near = rows[min(at, len(rows) - 1)]
+            return (near.sim_ns + mono_ns - near.mono_ns - start.sim_ns) / 1e9
+        before, after = rows[at - 1], rows[at]
+        share = (mono_ns - before.mono_ns) / max(1, after.mono_ns - before.mono_ns)
+        return (before.sim_ns + share * (after.sim_ns - before.sim_ns) - start.sim_ns) / 1e9
+
+    def way(self):
+        """(s, x, y) in map, once a second."""
+        places = [(self.onset(row), row.number("x"), row.number("y")) for row in self.rows if row.type in ("TRIAL_START", "PROGRESS", "TRIAL_END")]
+        return [place for place in places if None not in place]
+
+    def cues(self):
+        """(s, modality, kind, text) of each that was spoken, played or felt."""
+        return [(self.onset(row), row.fields.get("modality", "n/a"), row.fields.get("kind", "n/a"), row.fields.get("text", "")) for row in self.of("CUE")]
+
+    def events(self):
+        """Rows of events.csv, by column; none where there is no such file."""
+        try:
+            with open(self.folder / "events.csv", newline="", encoding="utf-8") as file:
+                return list(csv.DictReader(file))
+        except OSError:
+            return []
+
+
+def _row(line):
+    cells = line.split(",")
+    if len(cells) != 7 or not cells[2].lstrip("-").isdigit():
+        return None
+    fields = dict(pair.split("=", 1) for pair in cells[5].split(";") if "=" in pair)
+    return Row(cells[4], int(cells[2]), int(cells[3]), {name: unquote(value) for name, value in fields.items()})
