@@ -190,6 +190,10 @@ def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
     tlx = questionnaire.find("tlx", EXAMPLE.parent)
     assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}) == 25.0
     assert tlx.scored({item.name: "declined" for item in tlx.items}) is None
+    for name in ("tlx", "sus"):  # another language asks the same, and is compared with it
+        first, other = (questionnaire.find(word, EXAMPLE.parent) for word in (name, name + "_es"))
+        assert other.measured == name and other.score == first.score
+        assert [(item.name, item.values()) for item in other.items] == [(item.name, item.values()) for item in first.items]
 
 
 def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
@@ -371,6 +375,71 @@ def test_a_full_disk_begins_nothing(work, monkeypatch):
     assert rest(begun)[0] == "s1-c1-trial-1"
 
 
+def rehearsed(folder, trials_bench, said):
+    from navvi_study import rehearsal
+    planned = plan_file.load(folder / "small.yaml")
+    return rehearsal.rehearse(planned, trials_bench, "test", said.append)
+
+
+@pytest.fixture
+def bench(tmp_path):
+    """Instead of trials_bench: a row a trial, and it waits where a file says so."""
+    small(tmp_path)
+    path = tmp_path / "trials_bench"
+    path.write_text(f"""#!/bin/sh
+echo "$@" >> {tmp_path}/calls
+if test -e {tmp_path}/wait && test $(wc -l < {tmp_path}/calls) -gt 3; then touch {tmp_path}/there; sleep 30; fi
+echo world,seed,result,time,driven,shortest,reroutes,hits
+echo easy,1,reached,20.0,12.0,10.0,0,shelf 1
+""")
+    path.chmod(0o755)
+    return path
+
+
+def test_a_rehearsal_that_was_killed_goes_on_and_ends_with_the_same_table(tmp_path, bench):
+    whole = rehearsed(tmp_path, bench, [])
+    wanted = [(row["participant"], row["condition"], row["elapsed_s"]) for row in table.trials(whole, whole.progress())]
+    shutil.rmtree(whole.folder)
+    (tmp_path / "calls").unlink()
+    (tmp_path / "wait").touch()
+    process = multiprocessing.Process(target=lambda: (os.setsid(), rehearsed(tmp_path, bench, [])))
+    process.start()
+    deadline = time.monotonic() + 20
+    while not (tmp_path / "there").exists():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.join()
+    (tmp_path / "wait").unlink()
+    said = []
+    again = rehearsed(tmp_path, bench, said)
+    assert "goes on" in said[0]
+    assert [(row["participant"], row["condition"], row["elapsed_s"]) for row in table.trials(again, again.progress())] == wanted
+    assert len(again.progress().freezes) == 1
+    said.clear()
+    rehearsed(tmp_path, bench, said)
+    assert "goes on" not in said[0], "it was done, and begins anew"
+
+
+def test_a_rehearsal_on_a_full_disk_is_a_sentence_and_goes_on_once_there_is_room(tmp_path, bench, monkeypatch):
+    real, left = os.fsync, [40]
+
+    def fsync(file):
+        left[0] -= 1
+        if left[0] < 0:
+            raise OSError(28, "No space left on device")
+        real(file)
+    monkeypatch.setattr(os, "fsync", fsync)
+    with pytest.raises(StudyError, match="No space left"):
+        rehearsed(tmp_path, bench, [])
+    monkeypatch.undo()
+    said = []
+    kept = rehearsed(tmp_path, bench, said)
+    assert "goes on" in said[0]
+    counted = [(row["participant"], row["condition"]) for row in table.trials(kept, kept.progress()) if row["counts"] == "yes"]
+    assert len(counted) == len(set(counted)) == 8
+
+
 # The tables.
 
 def test_tables_describe_each_column_and_the_same_study_gives_the_same_bytes(work):
@@ -382,6 +451,26 @@ def test_tables_describe_each_column_and_the_same_study_gives_the_same_bytes(wor
     described = json.loads(files[1].read_text())
     assert list(described) == header and described["elapsed_s"]["Units"] == "s"
     assert len(files[2].read_text().splitlines()) == 1 + 2 * 6
+
+
+def test_journal_bag_and_table_are_held_against_each_other(work, tmp_path):
+    from navvi_study import verify
+    rest(work())
+    state = work.study.progress()
+    programs = []
+    for name, code in (("good", 0), ("bad", 1)):
+        (tmp_path / name).write_text(f"#!/bin/sh\necho elapsed_s is 1 in the summary and 2 in the recount\nexit {code}\n")
+        (tmp_path / name).chmod(0o755)
+        programs.append(tmp_path / name)
+    good, bad = programs
+    assert verify.verify(work.study, state, bad, bad)[1] == 0, "nothing is counted where there is neither journal nor bag"
+    attempt = state.person("sub-01").attempts[0]
+    trial = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
+    write_record(trial)
+    (trial / "trial.bag").touch()
+    assert verify.verify(work.study, state, good, good)[1] == 0
+    sentences, differ = verify.verify(work.study, state, good, bad)
+    assert differ == 1 and "bag differs: elapsed_s is 1 in the summary and 2 in the recount" in sentences[0] and "journal equal" in sentences[0]
 
 
 def test_answers_that_were_given_are_not_asked_again(work):
@@ -407,14 +496,15 @@ def test_marks_and_interventions_stand_in_the_table(work):
 
     def trial(participant, step, attempt, folder, lock):
         desk = runner.Desk(None, lambda row: work.study.note(participant, attempt, row))
-        for line in ("m", "n the door opened", "i led the robot", "what", ""):
+        for line in ("m", "n the door opened", "i led the robot", "what", "", "p"):
             desk.obey(line)
+        assert desk.paused
         drive(participant, step, attempt, folder, lock)
     begun.runner.trial = trial
     begun.next("sub-01")
     row = table.trials(work.study, work.study.progress())[0]
     assert (row["marks"], row["interventions"]) == ("2", "1")
-    assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot"]
+    assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot", ""]
 
 
 def write_record(folder, end=30.0):
@@ -536,6 +626,31 @@ def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
     nothing = Contrast("collisions", "a", "b")
     MODELS["count"](nothing, shuffled.assign(value=values["count"].astype(float)), None)
     assert nothing.p > 0.01
+
+
+@pytest.mark.parametrize("kind", ["count", "share"])
+def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(kind):
+    import warnings
+
+    import numpy as np
+    import pandas as pd
+    from navvi_study.analysis import MODELS, Contrast
+    found, tried = 0, 0
+    for seed in range(100):
+        source = np.random.default_rng(seed)
+        rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True,
+                 "value": float(source.poisson(2.0 * ability) if kind == "count" else source.random() < ability / (1 + ability))}
+                for person in range(12) for ability in [source.gamma(4.0, 1 / 4.0)] for second in (0, 1) for _ in range(2)]
+        one = Contrast(kind, "a", "b")
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                MODELS[kind](one, pd.DataFrame(rows), None)
+        except (ValueError, np.linalg.LinAlgError):
+            continue
+        tried += 1
+        found += one.p < 0.05
+    assert tried > 75 and found / tried < 0.08, f"{found} of {tried}"
 
 
 # The export.

@@ -39,6 +39,7 @@ class Check:
     def arguments(parser):
         plan_argument(parser)
         parser.add_argument("--no-worlds", action="store_true", help="leave the worlds out, which takes some seconds each.")
+        parser.add_argument("--pictures", action="store_true", help="draw each world from above, as SVG in the folder worlds of the study.")
 
     @staticmethod
     def run(args):
@@ -49,6 +50,8 @@ class Check:
             return 0
         lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
         print("\n".join(["", *lines]))
+        for picture in worlds.draw(planned, TOOLS["navvi"]) if args.pictures else []:
+            print(f"navvi: written: {picture}")
         return 0 if alike else 1
 
 
@@ -82,7 +85,8 @@ class Next:
     Consent, calibration, practice, a trial, a questionnaire or a break: what comes
     next by plan and record. After a crash, a break or a trial that does not count
     it goes on from there. While a trial runs, lines typed here are recorded: m for
-    a mark, n TEXT for a note, i TEXT for an intervention, a to end the trial.
+    a mark, n TEXT for a note, i TEXT for an intervention, p to pause after this
+    step, a to end the trial.
 
     Exit codes
     0: done. 1: broken off. 2: not allowed, and why. 3: nothing is left to do.
@@ -114,6 +118,7 @@ class Next:
                 return 1
             if not args.session or step.kind == "session_end":
                 return 0
+            runner.pause()
 
 
 class Status:
@@ -213,6 +218,27 @@ class Table:
             print(f"navvi: written: {path}")
 
 
+class Verify:
+    """Count each trial's summary again, from its journal and from its bag.
+
+    A line a trial: whether journal, bag and the row of trials.csv are equal.
+
+    Exit codes
+    0: all are equal. 1: some differ. 2: a wrong plan, or a damaged record.
+    """
+
+    arguments = staticmethod(plan_argument)
+
+    @staticmethod
+    def run(args):
+        from . import verify
+        study = opened(args)
+        programs = (TOOLS["tool"]("navvi_study", name) for name in ("summary_from_journal", "summary_from_bag"))
+        sentences, bad = verify.verify(study, study.progress(), *programs)
+        print("\n".join([*sentences, f"{len(sentences)} trials, {bad} differ."]))
+        return 1 if bad else 0
+
+
 class Export:
     """Write the study as a data set of Motion-BIDS: each trial's way and events.
 
@@ -260,7 +286,7 @@ class Rehearse:
 
     It proves that plan, record, tables and report work, in minutes; nothing is said
     by it about people. Trials and report are kept in the folder rehearsal of the
-    study, which is begun anew each time.
+    study; a rehearsal that broke off goes on, one that is done begins anew.
 
     Exit codes
     0: done. 2: the plan cannot be run, and why.
@@ -304,4 +330,4 @@ def _reason(words):
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
 
 
-ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Status, Exclude, Withdraw, Table, Export, Report, Rehearse)}
+ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}

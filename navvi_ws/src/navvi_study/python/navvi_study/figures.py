@@ -40,6 +40,7 @@ def _draw(panel, rows, values):
         panel.scatter([at + 0.15], [row["mean"]], marker="s", s=48, color="black", zorder=4)
     panel.set_xticks(range(len(names)), names, rotation=20 if max(map(len, names)) * len(names) > 30 else 0)
     panel.set_xlim(-0.4, len(names) - 0.5)
-    panel.set_ylim(bottom=min(0, panel.get_ylim()[0]))
+    # Nothing counted is a line at the bottom, not in the middle of an axis around it.
+    panel.set_ylim(min(0.0, values["value"].min()), max(panel.get_ylim()[1], 1.0 if values["value"].max() <= 1.0 else 0.0))
     panel.grid(axis="y", color="#dddddd")
     panel.set_axisbelow(True)

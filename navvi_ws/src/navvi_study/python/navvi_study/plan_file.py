@@ -169,7 +169,7 @@ def _check(root, plan):
         if not any({question.first, question.second} <= set(group.conditions) for group in plan.groups):
             raise root.error("outcomes", f"compares {question.first} and {question.second}, which no group has both; allowed are two conditions of a group")
         asked = measures.MEASURES[question.measure].questionnaire
-        if asked and asked not in [one.name for one in (*plan.after_condition, *plan.at_end)]:
+        if asked and asked not in [one.measured for one in (*plan.after_condition, *plan.at_end)]:
             raise root.error("outcomes", f"has the measure {question.measure}, and the plan does not ask {asked}; allowed is a questionnaire of the plan")
 
 

@@ -43,6 +43,12 @@ class Questionnaire:
     intro: str
     items: tuple
     score: str  # none, mean or sus
+    same_as: str = ""  # the questionnaire that it is in another language
+
+    @property
+    def measured(self):
+        """Under which name its score is compared."""
+        return self.same_as or self.name
 
     def scored(self, answers):
         """\\param answers  by item's name, as text. None where one is missing or declined."""
@@ -70,7 +76,7 @@ def load(path):
     root = checked.load(path)
     items = tuple(_item(part) for part in root.items("items"))
     one = Questionnaire(Path(path).stem, str(path), root.take("title", text), root.take("intro", text, ""), items,
-                        root.take("score", one_of("none", "mean", "sus"), "none"))
+                        root.take("score", one_of("none", "mean", "sus"), "none"), root.take("same_as", code, ""))
     root.done()
     names = [item.name for item in items]
     if len(set(names)) < len(names):

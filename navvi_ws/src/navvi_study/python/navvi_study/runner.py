@@ -1,6 +1,7 @@
 """How a trial is driven and a questionnaire asked: live by ./navvi, or without ROS by simulated people."""
 import csv
 import hashlib
+import io
 import os
 import random
 import select
@@ -16,7 +17,7 @@ from .journal import utc_now
 from .plan import shown
 from .study import write_safely
 
-DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; a: end the trial now."
+DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; p: pause after this step; a: end the trial now."
 
 
 class LiveRunner:
@@ -24,6 +25,7 @@ class LiveRunner:
 
     def __init__(self, study, navvi, close_trials, typed=False):
         self.study, self.navvi, self.close_trials, self.typed = study, str(navvi), str(close_trials), typed
+        self.paused = False  # by the experimenter: nothing begins until a line comes
 
     def trial(self, participant, step, attempt, folder, lock):
         """Returns when the session has ended, in whatever way."""
@@ -75,6 +77,13 @@ class LiveRunner:
                    f"operator:={self.study.plan.operator}"], participant, lock)
         keep_answers(record, items, answered)
 
+    def pause(self):
+        """Waits for the experimenter where a pause was asked for."""
+        if self.paused:
+            print("navvi: paused; Enter goes on.", flush=True)
+            sys.stdin.readline()
+        self.paused = False
+
     def calibrate(self, participant, lock):
         if self.study.plan.operator != "simulated":
             self._run(["calibrate", f"person:={participant}"], participant, lock)
@@ -93,6 +102,7 @@ class LiveRunner:
             desk = Desk(process, note)
             while process.poll() is None:
                 desk.listen(0.2)
+            self.paused = self.paused or desk.paused
         finally:
             signal.signal(signal.SIGINT, before)
 
@@ -101,7 +111,7 @@ class Desk:
     """The experimenter's lines while a session runs."""
 
     def __init__(self, process, note):
-        self.process, self.note, self.open = process, note, note is not None
+        self.process, self.note, self.open, self.paused = process, note, note is not None, False
 
     def listen(self, seconds):
         if not self.open:
@@ -115,7 +125,7 @@ class Desk:
 
     def obey(self, line):
         key, _, words = line.partition(" ")
-        kinds = {"m": "mark", "n": "note", "i": "intervention", "a": "abort"}
+        kinds = {"m": "mark", "n": "note", "i": "intervention", "p": "pause", "a": "abort"}
         if not line:
             return
         if key not in kinds or (key in "n" and not words):
@@ -123,6 +133,7 @@ class Desk:
             return
         self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
         print(f"navvi: {kinds[key]} written.")
+        self.paused = self.paused or key == "p"
         if key == "a":
             os.killpg(self.process.pid, signal.SIGINT)
 
@@ -159,11 +170,11 @@ class LoopRunner:
                    "started_utc": utc_now(), "result": row["result"], "reason": "n/a", "elapsed_s": row["time"] if reached else f"{plan.limit:g}",
                    "shelf_collision_count": shelves, "obstacle_collision_count": sum(counts.values()), "path_length_m": row["driven"],
                    "first_path_length_m": row["shortest"], "reroute_count": row["reroutes"], "missed_messages": 0}
-        folder.mkdir(parents=True, exist_ok=True)
-        with open(folder / "summary.csv", "w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, summary)
-            writer.writeheader()
-            writer.writerow(summary)
+        text = io.StringIO()
+        writer = csv.DictWriter(text, summary, lineterminator="\n")
+        writer.writeheader()
+        writer.writerow(summary)
+        write_safely(folder / "summary.csv", text.getvalue())
 
     def ask(self, participant, step, items, answered, lock):
         simulate_answers(participant, step, items, answered)

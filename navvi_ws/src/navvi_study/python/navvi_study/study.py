@@ -133,14 +133,17 @@ def read_summary(folder):
 
 def write_safely(path, content):
     """The old file or the new one, as a whole."""
-    path.parent.mkdir(parents=True, exist_ok=True)
     aside = path.with_name(path.name + ".new")
-    with open(aside, "w", encoding="utf-8", newline="") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(aside, path)
-    sync_folder(path.parent)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(aside, "w", encoding="utf-8", newline="") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(aside, path)
+        sync_folder(path.parent)
+    except OSError as problem:
+        raise StudyError(f"{path} cannot be written: {problem.strerror}; mend that and give the same command again.") from None
 
 
 def differences(before, now, path=""):

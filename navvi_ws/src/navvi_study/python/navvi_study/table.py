@@ -108,7 +108,7 @@ def scores(study, progress):
             continue
         score = asked[first["questionnaire"]].scored({row["item"]: row["answer"] for row in items})
         rows.append({"participant": participant, "group": first["group"], "condition": first["condition"], "order": first["order"],
-                     "questionnaire": first["questionnaire"], "score": score})
+                     "questionnaire": asked[first["questionnaire"]].measured, "score": score})
     return rows
 
 

@@ -2,6 +2,7 @@
 import csv
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 from .errors import StudyError
 
@@ -24,17 +25,38 @@ def drive(plan, trials_bench, jobs=2):
         return dict(zip(worlds, pool.map(one, worlds)))
 
 
+def draw(plan, navvi):
+    """Pictures of all worlds from above, with the path and its turns. Returns their files. Raises StudyError."""
+    files = []
+    for world in [world for worlds in (*plan.sets, plan.reserve, plan.practice.worlds if plan.practice else ()) for world in worlds]:
+        file = plan.folder / "worlds" / f"{Path(world.world).stem}-{world.seed}.svg"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        command = [str(navvi), "world", "show", str(plan.world_file(world) or world.world), f"seed:={world.seed}", "-o", str(file)]
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            raise StudyError(f"{plan.file}: {world} cannot be drawn: {(result.stderr or result.stdout).strip()}")
+        files.append(file)
+    return files
+
+
+def _turns(row):
+    """Of a row of the bench, which has them a minute."""
+    return float(row["turns"]) * float(row["time"]) / 60
+
+
 def compared(plan, driven):
     """Lines on the worlds, and whether the sets are alike."""
-    lines, ways = ["The reference driver, way in m, turns a minute, time in s:"], {}
+    lines, ways = ["The reference driver: way in m, turns that were told, movers met within 5 m, time in s:"], {}
     for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
                          ("practice", plan.practice.worlds if plan.practice else ())]:
         for world in worlds:
             row = driven[world]
-            lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {row['turns']}, time {row['time']}.")
+            lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {_turns(row):.0f}, movers {row['passed']}, time {row['time']}.")
         if name.startswith("set"):
             ways[name] = sum(float(driven[world]["shortest"]) for world in worlds)
-            lines.append(f"  {name}: all together way {ways[name]:.1f}, time {sum(float(driven[world]['time']) for world in worlds):.1f}.")
+            rows = [driven[world] for world in worlds]
+            lines.append(f"  {name}: all together way {ways[name]:.1f}, turns {sum(map(_turns, rows)):.0f}, "
+                         f"movers {sum(float(row['passed']) for row in rows):.0f}, time {sum(float(row['time']) for row in rows):.1f}.")
     short, long = min(ways, key=ways.get), max(ways, key=ways.get)
     ratio = ways[long] / max(ways[short], 0.1)
     lines.append(f"The ways of {long} are {ratio:.2f} times those of {short}; " + ("alike enough." if ratio <= LIKE else f"other seeds would be better, {LIKE} times is alike."))
