@@ -602,6 +602,33 @@ def test_a_report_is_read_without_eyes_and_without_a_network(reported):
     assert f"./navvi study report {kept.plan.file} --only time" in page.text
 
 
+def test_ways_lie_over_the_map_where_they_were_driven():
+    from navvi_study import ways
+    picture = '<svg data-area="-5 -2 15 8"><clipPath id="map"><rect x="10" y="20" width="200" height="100"/></clipPath></svg>'
+    drawn = ways.over_map(picture, [("b", [(-5.0, 8.0), (15.0, -2.0), (5.0, 3.0)])], ["a", "b"], ["#111111", "#222222"])
+    assert 'points="10.0,20.0 210.0,120.0 110.0,70.0" fill="none" stroke="#222222"' in drawn and 'stroke-dasharray="9 4"' in drawn
+    assert ways.over_map("<svg></svg>", [], [], []) is None
+    assert ways.length([(0.0, 0.0), (3.0, 4.0), (3.0, 5.0)]) == 6.0
+
+
+def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
+    from navvi_study import report
+    rest(work())
+    for attempt in work.study.progress().person("sub-01").attempts:
+        folder = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
+        write_record(folder)
+        lines = (folder / "journal.csv").read_text().splitlines(keepends=True)
+        cue = "t,9,12000000000,1001000000000,CUE,id=1;modality=speech;kind=turn;text=turn left,00000000\n"
+        (folder / "journal.csv").write_text("".join([*lines[:2], cue, *lines[2:]]))
+    asked = []
+    text = report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: asked.append(world))
+    page = Page(text)
+    assert "Cues a minute" in page.text and "The map of this world could not be drawn." in page.text
+    assert any("3 sentences, 0 sounds and 0 felt patterns a minute" in part.get("alt", "") for _, part in page.parts)
+    assert asked == [("n/a", "n/a")]
+    assert report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: None) == text
+
+
 def test_the_same_study_gives_the_same_report(reported):
     from navvi_study import report
     kept, text = reported
@@ -651,6 +678,35 @@ def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(
         tried += 1
         found += one.p < 0.05
     assert tried > 75 and found / tried < 0.08, f"{found} of {tried}"
+
+
+# The paper.
+
+def paper_bench():
+    import importlib.machinery
+    import importlib.util
+    loader = importlib.machinery.SourceFileLoader("paper_bench", str(PACKAGE / "scripts/paper_bench"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("paper_bench", loader))
+    loader.exec_module(module)
+    return module
+
+
+def test_each_claim_of_the_paper_names_a_test_that_is_there(capsys):
+    bench = paper_bench()
+    assert bench.claims() == 0
+    bench.CLAIMS.append(("a claim", "Nothing.that_" + "is_tested"))
+    assert bench.claims() == 1 and "THERE IS NO SUCH TEST" in capsys.readouterr().out
+
+
+def test_a_constant_of_the_paper_that_differs_is_counted(capsys, monkeypatch):
+    bench = paper_bench()
+    printed = {part: {} for part in bench.NODES}
+    for _, _, value, part, name in bench.CONSTANTS:
+        printed[part][name] = value
+    monkeypatch.setattr(bench, "parameters", printed.get)
+    assert bench.constants() == 0
+    printed["nav"]["alpha"] = 2.0
+    assert bench.constants() == 1 and "alpha of the heuristic: 1.0, 2.0, 2.0  DIFFERS" in capsys.readouterr().out
 
 
 # The export.

@@ -14,6 +14,8 @@ between FROM and TO (s). --sensing gives guidance and feedback what a lidar, or
 a lidar and a depth camera (robot), show of the world. PART is sim, nav,
 feedback, person or perception, with the parameters of its node, such as
 nav/replan/hold_time:=3 or sim/goal:=3,4.
+paper [--seeds=1-6] [--world=busy] [TRIAL] prints what the paper prints, with
+NavVI's own beside it, and why some of it cannot be repeated.
 people [TYPE] prints published effects of guidance on people beside those of the
 simulated person; guidance DIR the tables of a batch, person by person.
 
@@ -30,6 +32,10 @@ import re
 from navvi_cli.places import WORKSPACE, program
 from navvi_cli.say import fail
 from navvi_cli.workspace import build, enter, shell, show
+
+
+# Programs that a script runs, besides those of a session.
+NEEDS = {"study/paper_bench": ["trials_bench"]}
 
 
 def benchmarks():
@@ -54,7 +60,7 @@ def run(args):
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
     shell("install_packages", "all")
-    build("session", *(path.stem for path in chosen.values() if path.suffix == ".cpp"))
+    build("session", *(path.stem for path in chosen.values() if path.suffix == ".cpp"), *(target for name in chosen for target in NEEDS.get(name, [])))
     enter()
     failed = 0
     for name, path in sorted(chosen.items(), key=lambda item: item[1].suffix != ".cpp"):

@@ -305,14 +305,14 @@ class Rehearse:
 
 
 def _write_report(study, only, rehearsed):
-    from . import figures, report, table
+    from . import figures, report, table, worlds
     from .analysis import Analysis
     from .measures import MEASURES
     from .study import write_safely
     progress = study.progress()
     files = table.write(study, progress)
     if not only:
-        files.append(report.write(study, progress, rehearsed))
+        files.append(report.write(study, progress, rehearsed, worlds.picture_for(study.plan, TOOLS["navvi"])))
     elif only not in MEASURES or only not in (measured := Analysis(study, progress)).asked():
         raise StudyError(f"--only is \"{only}\"; allowed is a measure with values, of: {', '.join(MEASURES)}.")
     else:

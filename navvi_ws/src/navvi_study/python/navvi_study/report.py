@@ -6,7 +6,7 @@ from pathlib import Path
 
 import jinja2
 
-from . import figures, table
+from . import figures, table, ways
 from .analysis import RESAMPLES, Analysis
 from .measures import MEASURES, number
 from .overview import question, why_nothing
@@ -16,23 +16,26 @@ from .study import write_safely
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
-def write(study, progress, rehearsed):
+def write(study, progress, rehearsed, picture=lambda world, seed: None):
     """Returns the file."""
     path = study.folder / "report.html"
-    write_safely(path, page(study, progress, rehearsed))
+    write_safely(path, page(study, progress, rehearsed, picture))
     return path
 
 
-def page(study, progress, rehearsed):
+def page(study, progress, rehearsed, picture=lambda world, seed: None):
+    """\\param picture  the SVG of a world and seed; None where it cannot be drawn"""
     analysis = Analysis(study, progress)
     command = f"./navvi study {'rehearse' if rehearsed else 'report'} {progress.plan.file}"
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests["number_like"] = lambda cell: number(str(cell).split(" ")[0]) is not None
     primary, secondary = analysis.confirmatory()
+    found = ways.records(study, progress)
     return environment.get_template("report.html.j2").render(
         plan=progress.plan, rehearsed=rehearsed, opening=opening(progress), flow=flow(progress), people=people(progress), trials=trials(progress),
         excluded=excluded(progress), resamples=RESAMPLES, primary=contrast_row(primary), secondary=list(map(contrast_row, secondary)),
         figures=[measure_part(analysis, name, command) for name in analysis.asked()], questionnaires=answered(study, progress),
+        maps=maps(found, progress.plan, picture, command), lines=time_lines(found, progress.plan, command),
         exploratory=list(map(contrast_row, analysis.exploratory())), quality=quality(study, progress),
         changes=[f"{row['utc']}, {row['reason']}: {change}" for row in progress.freezes for change in row["changes"]], command=command)
 
@@ -116,6 +119,32 @@ def measure_part(analysis, name, command):
         "rows": [[f"{row['group']}, {row['condition']}", row["participants"], row["trials"], with_interval(row["mean"], row["low"], row["high"]),
                   shown(row["sd"]), shown(row["median"]), shown(row["least"]), shown(row["most"])] + ([row["unfinished"]] if censored else []) for row in rows],
         "pairs": [[f"{one.second} against {one.first}", one.participants, with_interval(one.difference, one.low, one.high)] for one in compared]}
+
+
+def maps(found, plan, picture, command):
+    """A map a world, with the ways of all its trials."""
+    conditions, parts = [condition.name for condition in plan.conditions], []
+    for (world, seed), driven in ways.by_world(found).items():
+        base = picture(world, seed)
+        drawn = base and ways.over_map(base, driven, conditions, figures.COLOURS)
+        rows = [[name, len(lengths), shown(statistics.mean(lengths)), shown(min(lengths)), shown(max(lengths))] for name in conditions
+                if (lengths := [ways.length(way) for condition, way in driven if condition == name])]
+        words = "; ".join(f"{row[0]}: {row[1]} ways, {row[2]} m on average" for row in rows)
+        parts.append({"world": f"{world} {seed}", "svg": base64.b64encode(drawn.encode()).decode() if drawn else "", "rows": rows, "command": command,
+                      "alt": f"The map of world {world}, seed {seed}, with the ways that were driven in it. {words}. The table below has their lengths."})
+    return parts
+
+
+def time_lines(found, plan, command):
+    """One figure, and a table of cues a minute; None where no trial has a journal."""
+    cues = ways.cues_by_condition(found, [condition.name for condition in plan.conditions])
+    if not cues:
+        return None
+    rows = [[condition, len(trials), *[shown(sum(one == modality for trial in trials for _, one in trial) / minutes if minutes else None)
+                                       for modality in ways.MODALITIES]] for condition, (trials, minutes) in cues.items()]
+    words = ". ".join(f"{row[0]}: {row[2]} sentences, {row[3]} sounds and {row[4]} felt patterns a minute" for row in rows)
+    return {"svg": base64.b64encode(figures.time_lines(cues).encode()).decode(), "rows": rows, "command": command,
+            "alt": f"When something was said, played or felt, a line a trial, by condition. {words}. The table below has the same."}
 
 
 def alt(measure, rows):

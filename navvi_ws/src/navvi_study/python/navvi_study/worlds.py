@@ -27,16 +27,29 @@ def drive(plan, trials_bench, jobs=2):
 
 def draw(plan, navvi):
     """Pictures of all worlds from above, with the path and its turns. Returns their files. Raises StudyError."""
-    files = []
-    for world in [world for worlds in (*plan.sets, plan.reserve, plan.practice.worlds if plan.practice else ()) for world in worlds]:
-        file = plan.folder / "worlds" / f"{Path(world.world).stem}-{world.seed}.svg"
-        file.parent.mkdir(parents=True, exist_ok=True)
-        command = [str(navvi), "world", "show", str(plan.world_file(world) or world.world), f"seed:={world.seed}", "-o", str(file)]
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-        if result.returncode != 0:
-            raise StudyError(f"{plan.file}: {world} cannot be drawn: {(result.stderr or result.stdout).strip()}")
-        files.append(file)
-    return files
+    return [drawing_of(plan, navvi, world) for worlds in (*plan.sets, plan.reserve, plan.practice.worlds if plan.practice else ()) for world in worlds]
+
+
+def drawing_of(plan, navvi, world):
+    """The file of the picture of one world. Raises StudyError."""
+    file = plan.folder / "worlds" / f"{Path(world.world).stem}-{world.seed}.svg"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    command = [str(navvi), "world", "show", str(plan.world_file(world) or world.world), f"seed:={world.seed}", "-o", str(file)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise StudyError(f"{plan.file}: {world} cannot be drawn: {(result.stderr or result.stdout).strip()}")
+    return file
+
+
+def picture_for(plan, navvi):
+    """A function of world and seed as they stand in the record: the picture's text, None where it cannot be drawn."""
+    def picture(world, seed):
+        known = [one for worlds in (*plan.sets, plan.reserve) for one in worlds if str(one.seed) == seed and Path(one.world).stem == Path(world).stem]
+        try:
+            return drawing_of(plan, navvi, known[0]).read_text(encoding="utf-8") if known else None
+        except (StudyError, OSError):
+            return None
+    return picture
 
 
 def _turns(row):
