@@ -27,6 +27,8 @@ class AuditoryDisplay {
                                                  const lessons::Taught& taught, double time);
   /// As Soundscape::learnt().
   [[nodiscard]] std::optional<sounds::Learnt> learnt() const { return soundscape_.learnt(); }
+  /// As TurnSound::leads().
+  [[nodiscard]] bool leads() const { return soundscape_.leads(); }
   /// As TurnSound::most_rate().
   [[nodiscard]] std::optional<double> most_rate() const { return soundscape_.most_rate(); }
   /// One of the chosen loudness, from ahead.

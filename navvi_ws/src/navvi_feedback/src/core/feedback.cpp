@@ -138,7 +138,8 @@ Observation Feedback::observe(const Devices& devices, bool voice_busy, double dt
   now.touch = devices.motors && haptics.enabled && haptics.patterns;
   const sounds::SoundsConfig& sounds = config_.sounds;
   now.audible = devices.sounds && sounds.enabled;
-  if (now.audible) now.sounds = {sounds.turn.on, sounds.shelf.on, sounds.near.on};
+  if (now.audible)
+    now.sounds = {sounds.turn.on && deciders_->sounds.leads(), sounds.shelf.on, sounds.near.on};
   return now;
 }
 

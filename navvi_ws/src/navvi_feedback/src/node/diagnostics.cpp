@@ -140,7 +140,9 @@ DiagnosticStatus latency_status(const devices::Latencies& latencies,
       add(result, name, text.data());
     };
     put("stopping_delay_s", learnt->stopping_delay);
+    put("stopping_spread_s", learnt->stopping_spread);
     put("turn_error_rad", learnt->turn_error);
+    add(result, "words_lead", learnt->words_lead ? "yes" : "no");
   }
   return result;
 }

@@ -42,15 +42,19 @@ TEST(Diagnostics, tell_how_long_the_person_waited_for_what_was_seen) {
   latencies.add(devices::Chain::motors,
                 devices::Latencies::Clock::now() - std::chrono::milliseconds(20));
   const diagnostic_msgs::DiagnosticStatus status =
-      latency_status(latencies, sounds::Learnt{0.4375, 0.25});
-  ASSERT_EQ(status.values.size(), 6U);
+      latency_status(latencies, sounds::Learnt{0.4375, 0.5, 0.25, true});
+  ASSERT_EQ(status.values.size(), 8U);
   EXPECT_EQ(status.values[0].key, "motors_p50_ms");
   EXPECT_GE(std::stod(status.values[0].value), 20.0);
   EXPECT_EQ(status.values[3].value, "1");
   EXPECT_EQ(status.values[4].key, "stopping_delay_s");
   EXPECT_EQ(status.values[4].value.rfind("0.43", 0), 0U);
-  EXPECT_EQ(status.values[5].key, "turn_error_rad");
-  EXPECT_EQ(status.values[5].value, "0.250");
+  EXPECT_EQ(status.values[5].key, "stopping_spread_s");
+  EXPECT_EQ(status.values[5].value, "0.500");
+  EXPECT_EQ(status.values[6].key, "turn_error_rad");
+  EXPECT_EQ(status.values[6].value, "0.250");
+  EXPECT_EQ(status.values[7].key, "words_lead");
+  EXPECT_EQ(status.values[7].value, "yes");
 }
 
 TEST(Diagnostics, tell_sound_that_is_off_from_sound_that_is_missing) {

@@ -16,7 +16,12 @@ void TurnConfig::describe(navvi_config::Visitor& visit) {
   visit(done, "done", Range{1.0, 30.0}, "deg", "it ends with a sound of its own at this angle");
   visit(stopping_delay, "stopping_delay", Range{0.0, 2.0}, "s",
         "how much earlier it ends: what the person and the robot take to stop a turn");
-  visit(learn, "learn", Any{}, "", "correct stopping_delay by each turn that was stopped");
+  visit(stopping_spread, "stopping_spread", Range{0.0, 2.0}, "s",
+        "standard deviation of that, from turn to turn: the larger, the slower a turn ends");
+  visit(
+      learn, "learn", Any{}, "",
+      "correct both by each turn that was stopped, and let words lead where turns by sounds leave "
+      "too much");
   visit(
       slow_down, "slow_down", Range{0.0, 5.0}, "s",
       "while it counts down, the robot turns no faster than what is left over this time, so that a "

@@ -35,6 +35,8 @@ class Soundscape {
     if (!config_.enabled || !config_.turn.on) return std::nullopt;
     return turn_.learnt();
   }
+  /// As TurnSound::leads().
+  [[nodiscard]] bool leads() const { return turn_.leads(); }
   /// As TurnSound::most_rate().
   [[nodiscard]] std::optional<double> most_rate() const { return turn_.most_rate(); }
 

@@ -7,8 +7,9 @@ namespace navvi_feedback::sounds {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/// s, between two ticks: at next to nothing left, and at a right angle or more.
-constexpr double kFastest = 0.10;
+/// s, between two ticks: at next to nothing left, and at a right angle or more. Of sounds that
+/// follow each other sooner one masks the other.
+constexpr double kFastest = 0.20;
 constexpr double kSlowest = 0.50;
 constexpr double kMost = 90.0 * kDegree;
 /// Of what a turn otherwise begins at.
@@ -17,15 +18,20 @@ constexpr double kFine = 0.5;
 constexpr double kHold = 0.2;
 /// rad/s; slower counts as not turning, and teaches nothing.
 constexpr double kStill = 0.1;
-constexpr double kTurning = 0.3;
+constexpr double kTurning = 0.15;
 /// m/s; slower counts as standing.
 constexpr double kDriving = 0.1;
 /// s; who turns on for so long does not obey.
-constexpr double kObeys = 1.5;
-/// Of what a turn teaches.
-constexpr double kWeight = 0.3;
-/// rad/s, the least that slowing down leaves.
-constexpr double kLeast = 0.35;
+constexpr double kObeys = 2.5;
+/// s, between two sounds to stop at.
+constexpr double kStopAgain = 0.35;
+/// s; who has not begun to turn by then has missed the ticks.
+constexpr double kMissed = 5.0;
+/// rad, that stops may differ by from turn to turn: the end of a turn is led so slowly.
+constexpr double kAlike = 5.0 * kDegree;
+/// rad/s, the least that slowing down leaves before where the turn is to end, and beyond.
+constexpr double kLeast = 0.2;
+constexpr double kCrawl = 0.15;
 
 double interval(double off) {
   return kFastest + (kSlowest - kFastest) * std::min(1.0, std::abs(off) / kMost);
@@ -35,39 +41,63 @@ double interval(double off) {
 
 std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, const Velocity& motion,
                                       double time) {
-  const double rate = motion.angular;
-  learn(off, rate, time);
-  if (!off) {
-    counting_ = false;
+  learn(off, motion.angular, time);
+  if (!leads()) watch_words(off, motion.angular);
+  if (!off || !leads()) {
+    counting_.reset();
     off_since_.reset();
     return std::nullopt;
   }
-  const Eigen::Vector2d side(0.0, *off > 0.0 ? -1.0 : 1.0);
-  if (!counting_) {
-    const double begin = fine ? std::max(kFine * config_.begin, config_.done) : config_.begin;
-    if (std::abs(*off) <= begin * kDegree || stopping_)
-      off_since_.reset();
-    else if (!off_since_)
-      off_since_ = time;
-    if (!off_since_) return on_course(motion, time);
-    if (time - *off_since_ < kHold) return std::nullopt;
-    counting_ = true;
+  if (stopping_) return stop_again(time);
+  if (!counting_ && !begins(*off, fine, time))
+    return off_since_ ? std::nullopt : on_course(motion, time);
+  return count(*off, motion.angular, time);
+}
+
+bool TurnSound::begins(double off, bool fine, double time) {
+  const double begin = fine ? std::max(kFine * config_.begin, config_.done) : config_.begin;
+  if (std::abs(off) <= begin * kDegree) {
     off_since_.reset();
-    ticked_.reset();
+    return false;
   }
-  left_ = std::abs(*off);
+  if (!off_since_) off_since_ = time;
+  if (time - *off_since_ < kHold) return false;
+  counting_ = Counting{time, false, std::nullopt};
+  off_since_.reset();
+  return true;
+}
+
+std::optional<Play> TurnSound::count(double off, double rate, double time) {
+  left_ = std::abs(off);
+  const bool turns = std::abs(rate) > kTurning && rate * off < 0.0;
+  if (turns) counting_->turned = true;
+  if (!counting_->turned && time - counting_->since > kMissed) {
+    learning_.led_by_sounds(left_);
+    counting_->since = time;
+    if (!leads()) return std::nullopt;
+  }
   // Turning counter-clockwise makes what lies ahead wander clockwise.
-  const double left = *off + rate * learnt_.stopping_delay;
-  if (std::abs(left) <= config_.done * kDegree || left * *off < 0.0) {
-    counting_ = false;
-    if (std::abs(rate) > kStill) stopping_ = Stopping{time, rate, 0.0};
-    left_ = 0.0;
+  const double left = off + rate * learnt().stopping_delay;
+  if (std::abs(left) <= config_.done * kDegree || left * off < 0.0) {
+    counting_.reset();
+    if (std::abs(rate) > kStill) stopping_ = Stopping{time, rate, time, 0.0};
     heard_ = time;
     return Play{Earcon::turn_stop, Eigen::Vector2d::UnitX(), config_.volume};
   }
-  if (ticked_ && time - *ticked_ < interval(*off)) return std::nullopt;
-  ticked_ = heard_ = time;
+  if (counting_->ticked && time - *counting_->ticked < interval(off)) return std::nullopt;
+  // Just before the sound to stop at a tick would mask it.
+  if (turns && std::abs(left) - config_.done * kDegree < std::abs(rate) * kFastest)
+    return std::nullopt;
+  counting_->ticked = heard_ = time;
+  const Eigen::Vector2d side(0.0, off > 0.0 ? -1.0 : 1.0);
   return Play{Earcon::turn, side, config_.volume};
+}
+
+/// Who missed it turns on.
+std::optional<Play> TurnSound::stop_again(double time) {
+  if (time - stopping_->told < kStopAgain) return std::nullopt;
+  stopping_->told = heard_ = time;
+  return Play{Earcon::turn_stop, Eigen::Vector2d::UnitX(), config_.volume};
 }
 
 std::optional<Play> TurnSound::on_course(const Velocity& motion, double time) {
@@ -82,22 +112,32 @@ void TurnSound::learn(std::optional<double> off, double rate, double time) {
   time_ = time;
   if (!stopping_) return;
   stopping_->angle += rate * dt;
+  // Turning counter-clockwise, what is left lies counter-clockwise.
+  if (off) left_ = stopping_->rate > 0.0 ? -*off : *off;
   const bool stopped = std::abs(rate) < kStill || rate * stopping_->rate < 0.0;
   const bool obeyed = time - stopping_->since < kObeys;
   if (!stopped && obeyed) return;
-  if (config_.learn && obeyed && std::abs(stopping_->rate) > kTurning) {
-    const double took = std::clamp(stopping_->angle / stopping_->rate, 0.0, 1.0);
-    learnt_.stopping_delay += kWeight * (took - learnt_.stopping_delay);
-  }
-  // The first turns count alike, later ones the less the older they are.
-  if (off)
-    learnt_.turn_error += std::max(kWeight, 1.0 / ++turns_) * (std::abs(*off) - learnt_.turn_error);
+  if (obeyed && std::abs(stopping_->rate) > kTurning)
+    learning_.stopped(stopping_->angle / stopping_->rate);
+  if (off) learning_.led_by_sounds(std::abs(*off));
   stopping_.reset();
+}
+
+void TurnSound::watch_words(std::optional<double> off, double rate) {
+  if (std::abs(rate) > kTurning) turns_by_words_ = true;
+  if (!turns_by_words_ || std::abs(rate) > kStill) return;
+  turns_by_words_ = false;
+  if (off) learning_.led_by_words(std::abs(*off));
+}
+
+double TurnSound::least_rate() const {
+  return std::max(kLeast, kAlike / std::max(0.01, learnt().stopping_spread));
 }
 
 std::optional<double> TurnSound::most_rate() const {
   if (config_.slow_down <= 0.0 || (!counting_ && !stopping_)) return std::nullopt;
-  return std::max(kLeast, left_ / config_.slow_down);
+  if (stopping_ && left_ < 0.0) return std::min(kCrawl, least_rate());
+  return std::max(least_rate(), left_ / config_.slow_down);
 }
 
 }  // namespace navvi_feedback::sounds

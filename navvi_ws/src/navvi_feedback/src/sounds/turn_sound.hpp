@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "navvi_feedback/sounds/earcon.hpp"
-#include "navvi_feedback/sounds/learnt.hpp"
 #include "sounds/sounds_config.hpp"
+#include "sounds/turn_learning.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Velocity;
@@ -14,15 +14,20 @@ using navvi_types::Velocity;
 namespace navvi_feedback::sounds {
 
 /// Counts a rotation down: while the heading is off, ticks from the side to turn to, the faster the
-/// less is left; then a sound to stop at, early by what this person and robot take to stop. A soft
-/// one now and then while the robot drives where it should: silence could be a fault.
+/// less is left; then a sound to stop at, early by what this person and robot take to stop, and
+/// again while the robot turns on. Meanwhile the robot turns the slower the less is left, and
+/// towards the end the slower the less alike this person's stops are. A soft one now and then while
+/// the robot drives where it should: silence could be a fault. Where turns by sounds leave too much
+/// it is silent, and words lead.
 class TurnSound {
  public:
-  explicit TurnSound(const TurnConfig& config)
-      : config_(config), learnt_{config.stopping_delay, 0.0} {}
+  explicit TurnSound(const TurnConfig& config) : config_(config), learning_(config) {}
 
   /// From now on.
-  void use(const TurnConfig& config) { config_ = config; }
+  void use(const TurnConfig& config) {
+    config_ = config;
+    learning_.use(config);
+  }
 
   /// Call it at 50 Hz.
   /// \param off  rad, clockwise from the nose to where to steer; nullopt: nowhere
@@ -33,31 +38,43 @@ class TurnSound {
                                            const Velocity& motion, double time);
 
   /// It is counting now.
-  [[nodiscard]] bool sounds() const { return counting_; }
+  [[nodiscard]] bool sounds() const { return counting_.has_value(); }
+  /// It does so where there is something to turn.
+  [[nodiscard]] bool leads() const { return !learnt().words_lead; }
   /// rad/s, that the robot is to turn at most, so that a late hand does little; nullopt: no limit
   [[nodiscard]] std::optional<double> most_rate() const;
-  [[nodiscard]] const Learnt& learnt() const { return learnt_; }
+  [[nodiscard]] const Learnt& learnt() const { return learning_.learnt(); }
 
  private:
+  struct Counting {
+    double since = 0.0;            ///< s
+    bool turned = false;           ///< the robot has, to the side of the ticks
+    std::optional<double> ticked;  ///< s
+  };
   /// The turn that was told to end.
   struct Stopping {
     double since = 0.0;  ///< s
     double rate = 0.0;   ///< rad/s, at that moment
-    double angle = 0.0;  ///< rad, turned since then
+    double told = 0.0;   ///< s, when it was told last
+    double angle = 0.0;  ///< rad, turned since the first time
   };
 
+  [[nodiscard]] bool begins(double off, bool fine, double time);
+  [[nodiscard]] std::optional<Play> count(double off, double rate, double time);
+  [[nodiscard]] std::optional<Play> stop_again(double time);
   [[nodiscard]] std::optional<Play> on_course(const Velocity& motion, double time);
   void learn(std::optional<double> off, double rate, double time);
+  void watch_words(std::optional<double> off, double rate);
+  [[nodiscard]] double least_rate() const;
 
   TurnConfig config_;
-  Learnt learnt_;
-  bool counting_ = false;
-  std::optional<double> ticked_;  ///< s
-  double heard_ = 0.0;            ///< s, when any of its sounds began last
+  TurnLearning learning_;
+  std::optional<Counting> counting_;
+  double heard_ = 0.0;  ///< s, when any of its sounds began last
   std::optional<double> off_since_;
   std::optional<Stopping> stopping_;
-  int turns_ = 0;      ///< that it has led
-  double left_ = 0.0;  ///< rad, of the turn that is counted down
+  bool turns_by_words_ = false;
+  double left_ = 0.0;  ///< rad, of the turn that is counted down or stopped; negative: too far
   double time_ = 0.0;  ///< s, of the last update
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -11,13 +12,15 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kTick = 0.02;  // s
 
-/// A person at a stick who turns to the side of the ticks, and lets go some time after the stop.
+/// A person at a stick who turns to the side of the ticks, and lets go some time after the stop, on
+/// a robot that turns no faster than it is led.
 class Turner {
  public:
   explicit Turner(const TurnConfig& config) : sound_(config) {}
 
   /// Makes a turn. \param off  deg, clockwise \return deg, turned too far; negative: too little
-  double turn(double off, double delay, double rate = 1.2) {
+  /// \param missed  sounds to stop at that are not heard
+  double turn(double off, double delay, double rate = 1.2, int missed = 0) {
     const double asked = off;
     std::optional<double> let_go;
     double speed = 0.0;  // rad/s, counter-clockwise
@@ -25,18 +28,20 @@ class Turner {
     stops = 0;
     for (int i = 0; i < 500; ++i) {
       time_ += kTick;
-      const auto play = sound_.update(off * kDegree, false, {0.0, speed}, time_);
+      const auto play = sound_.update(off * kDegree, false, {0.0, rate_}, time_);
       if (play && play->earcon == Earcon::turn) {
         ticks.push_back(time_);
         side = play->from.y();
-        if (!let_go) speed = std::copysign(rate, side);
+        if (!let_go && hears_ticks) speed = std::copysign(rate, side);
       }
       if (play && play->earcon == Earcon::turn_stop) {
         ++stops;
-        if (!let_go) let_go = time_ + delay;
+        if (!let_go && stops > missed) let_go = time_ + delay;
       }
       if (let_go && time_ >= *let_go) speed = 0.0;
-      off += speed * kTick / kDegree;
+      const double most = slowed ? sound_.most_rate().value_or(rate) : rate;
+      off += std::clamp(speed, -most, most) * kTick / kDegree;
+      rate_ = std::clamp(speed, -most, most);
     }
     return asked > 0.0 ? -off : off;
   }
@@ -45,8 +50,11 @@ class Turner {
   std::vector<double> ticks;  ///< s
   int stops = 0;
   double side = 0.0;
+  bool slowed = false;  ///< by the guide
+  bool hears_ticks = true;
 
  private:
+  double rate_ = 0.0;  // rad/s
   double time_ = 0.0;  // s
 };
 
@@ -72,7 +80,7 @@ TEST(TurnSound, ticks_from_the_side_to_turn_to_and_the_faster_the_less_is_left) 
     ASSERT_GT(person.ticks.size(), 6U);
     const std::vector<double>& ticks = person.ticks;
     EXPECT_NEAR(ticks[1] - ticks[0], 0.5, 0.03);
-    EXPECT_LT(ticks.back() - ticks[ticks.size() - 2], 0.3);
+    EXPECT_LT(ticks.back() - ticks[ticks.size() - 2], 0.35);
     for (std::size_t i = 2; i < ticks.size(); ++i)
       EXPECT_LT(ticks[i] - ticks[i - 1], ticks[i - 1] - ticks[i - 2] + 0.03);
   }
@@ -84,7 +92,7 @@ TEST(TurnSound, tells_to_stop_so_early_that_the_person_stops_at_the_angle) {
     config.stopping_delay = 0.4;
     Turner person{config};
     EXPECT_NEAR(person.turn(off, 0.4), 0.0, 5.0) << off;
-    EXPECT_EQ(person.stops, 1) << off;
+    EXPECT_LE(person.stops, 2) << off << ": once more where the first was not heard yet";
     config.stopping_delay = 0.0;
     config.learn = false;
     Turner late{config};
@@ -101,9 +109,31 @@ TEST(TurnSound, learns_how_long_a_person_takes_to_stop) {
   EXPECT_NEAR(person.turn(80.0, 0.6), 0.0, 6.0);
 }
 
+TEST(TurnSound, learns_how_alike_the_stops_of_a_person_are) {
+  Turner alike{TurnConfig{}};
+  Turner unlike{TurnConfig{}};
+  for (int i = 0; i < 30; ++i) {
+    alike.turn(i % 2 == 0 ? 80.0 : -80.0, 0.6);
+    unlike.turn(i % 2 == 0 ? 80.0 : -80.0, i % 3 == 0 ? 1.1 : 0.5);
+  }
+  EXPECT_LT(alike.sound_.learnt().stopping_spread, 0.06);
+  EXPECT_NEAR(unlike.sound_.learnt().stopping_spread, 0.3, 0.1);
+}
+
+TEST(TurnSound, learns_nothing_where_it_is_not_to) {
+  TurnConfig config;
+  config.learn = false;
+  Turner late{config};
+  for (int i = 0; i < 8; ++i) late.turn(80.0, 1.5);
+  EXPECT_EQ(late.sound_.learnt().stopping_delay, config.stopping_delay);
+  EXPECT_EQ(late.sound_.learnt().stopping_spread, config.stopping_spread);
+  EXPECT_TRUE(late.sound_.leads()) << "however much was left";
+  EXPECT_GT(late.sound_.learnt().turn_error, 0.5);
+}
+
 TEST(TurnSound, does_not_learn_from_who_turns_on) {
   Turner person{TurnConfig{}};
-  person.turn(80.0, 3.0);
+  person.turn(80.0, 4.0);
   EXPECT_EQ(person.sound_.learnt().stopping_delay, TurnConfig{}.stopping_delay);
 }
 
@@ -113,8 +143,35 @@ TEST(TurnSound, learns_what_is_left_of_turns) {
   EXPECT_NEAR(late.sound_.learnt().turn_error, 0.4 * 1.2, 0.1) << "0.4 s late, at 1.2 rad/s";
 }
 
+TEST(TurnSound, sounds_to_stop_again_to_who_has_missed_it) {
+  Turner person{TurnConfig{}};
+  person.turn(80.0, 0.3, 1.2, 2);
+  EXPECT_GE(person.stops, 3);
+}
+
+TEST(TurnSound, ends_turns_the_slower_the_less_alike_the_stops_are) {
+  // deg, what is left of a turn by a person who stops now sooner, now later
+  const auto error = [](double slow_down) {
+    TurnConfig config;
+    config.slow_down = slow_down;
+    Turner person{config};
+    person.slowed = true;
+    double sum = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      const double delay = std::vector<double>{0.6, 1.0, 1.7}[static_cast<std::size_t>(i % 3)];
+      const double left = std::abs(person.turn(i % 2 == 0 ? 80.0 : -80.0, delay));
+      if (i >= 20) sum += left / 20.0;
+    }
+    return sum;
+  };
+  EXPECT_LT(error(2.0), 8.0);
+  EXPECT_GT(error(0.0), 20.0);
+}
+
 TEST(TurnSound, slows_the_robot_down_towards_the_end_of_a_turn_and_until_it_stands) {
-  TurnSound sound{TurnConfig{}};
+  TurnConfig config;
+  config.stopping_spread = 0.5;
+  TurnSound sound{config};
   double time = 0.0;
   const auto most_at = [&](double off, double rate) {
     for (int i = 0; i < 20; ++i)
@@ -124,14 +181,41 @@ TEST(TurnSound, slows_the_robot_down_towards_the_end_of_a_turn_and_until_it_stan
   EXPECT_FALSE(most_at(0.0, 1.2)) << "nothing to turn";
   EXPECT_NEAR(most_at(90.0, -0.5).value(), M_PI / 4.0, 0.01) << "half a right angle a second";
   EXPECT_NEAR(most_at(45.0, -0.5).value(), M_PI / 8.0, 0.01);
-  EXPECT_NEAR(most_at(10.0, -0.3).value(), 0.35, 0.01);
-  EXPECT_NEAR(most_at(-5.0, -0.3).value(), 0.35, 0.01) << "told to stop, and turns on";
+  EXPECT_NEAR(most_at(10.0, -0.3).value(), 0.2, 0.01);
+  EXPECT_NEAR(most_at(-5.0, -0.3).value(), 0.15, 0.01) << "told to stop, and turns on too far";
   EXPECT_FALSE(most_at(-8.0, 0.0));
   TurnConfig plain;
   plain.slow_down = 0.0;
   TurnSound free{plain};
   for (int i = 0; i < 20; ++i) (void)free.update(1.0, false, {}, i * kTick);
   EXPECT_FALSE(free.most_rate());
+}
+
+TEST(TurnSound, is_silent_where_words_lead_better_and_is_tried_again) {
+  Turner person{TurnConfig{}};
+  int turns = 0;
+  for (; person.sound_.leads() && turns < 20; ++turns) person.turn(80.0, 2.0);
+  EXPECT_GE(turns, 2) << "one that leaves more than 20 deg may happen to anybody";
+  EXPECT_LE(turns, 3);
+  EXPECT_TRUE(person.sound_.learnt().words_lead);
+  EXPECT_EQ(person.turn(80.0, 0.4), -80.0) << "in silence";
+  // Words lead it well, four times.
+  double time = 1000.0;
+  for (int turn = 0; turn < 4; ++turn) {
+    EXPECT_FALSE(person.sound_.leads());
+    for (int i = 0; i < 100; ++i)
+      (void)person.sound_.update(5.0 * kDegree, false, {0.0, i < 50 ? -1.0 : 0.0}, time += kTick);
+  }
+  EXPECT_TRUE(person.sound_.leads());
+}
+
+TEST(TurnSound, gives_way_to_words_where_nobody_turns_to_it) {
+  Turner person{TurnConfig{}};
+  person.hears_ticks = false;
+  person.turn(80.0, 0.4);
+  EXPECT_TRUE(person.sound_.leads());
+  person.turn(80.0, 0.4);
+  EXPECT_FALSE(person.sound_.leads());
 }
 
 TEST(TurnSound, tells_now_and_then_that_a_robot_drives_where_it_should) {

@@ -215,7 +215,9 @@ std::vector<std::string> latency_columns() {
 std::vector<std::string> reported_columns() {
   std::vector<std::string> names = latency_columns();
   names.push_back("stopping_delay_s");
+  names.push_back("stopping_spread_s");
   names.push_back("turn_error_rad");
+  names.push_back("words_lead");
   return names;
 }
 

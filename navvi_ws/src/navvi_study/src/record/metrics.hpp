@@ -26,8 +26,9 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::vector<std::string> latency_columns();
 
 /// These, and what else feedback_node reports with them and the record keeps of the end of a trial:
-/// stopping_delay_s, s, that the person was last found to take to stop a turn, and turn_error_rad,
-/// rad, what was left of turns that a sound led, mean of the latest.
+/// stopping_delay_s, s, that the person was last found to take to stop a turn, stopping_spread_s,
+/// s, its standard deviation, turn_error_rad, rad, what was left of turns that a sound led, mean of
+/// the latest, and words_lead, yes where words had taken over, as that was too much.
 [[nodiscard]] std::vector<std::string> reported_columns();
 
 /// A header and one row.
