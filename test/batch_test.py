@@ -1,4 +1,5 @@
 """A batch of trials: no row lost or doubled, and the same bytes however it was run. The trials themselves are played by a stand-in."""
+import csv
 import json
 import os
 import signal
@@ -49,11 +50,20 @@ def test_a_batch_has_a_row_for_each_world_seed_person_and_condition(tmp_path):
     assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a")) == 0
     lines = (tmp_path / "a/trials.csv").read_text().splitlines()
     assert len(lines) == 1 + 2 * 3 * 3 * 2
-    assert lines[0].startswith("trial,world,seed,person,person_seed,condition,contacts,spl,result,time")
+    assert lines[0].startswith("trial,world,seed,person,person_seed,condition,contacts,spl,per_100m,result,time")
     assert [line.split(",")[0] for line in lines[1:]] == [str(number) for number in range(36)]
-    assert lines[1].split(",")[6:8] == ["3", "0.900"]
+    assert lines[1].split(",")[6:9] == ["3", "0.900", "15.00"]
     units = json.loads((tmp_path / "a/trials.json").read_text())
     assert list(units) == lines[0].split(",") and all(units.values())
+
+
+def test_a_trial_is_compared_with_that_of_the_same_hand_led_by_eyes(tmp_path):
+    assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a", conditions="sighted,default")) == 0
+    with open(tmp_path / "a/trials.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    for sighted, default in zip(rows[::2], rows[1::2]):
+        assert (sighted["condition"], default["condition"]) == ("sighted", "default") and sighted["over_sighted"] == "1.000"
+        assert float(default["over_sighted"]) == pytest.approx(float(default["time"]) / float(sighted["time"]), abs=0.001)
 
 
 def test_jobs_and_shards_change_no_byte(tmp_path):

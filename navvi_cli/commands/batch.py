@@ -14,6 +14,8 @@ A person is able, typical, struggling, hard_of_hearing, no_touch or drawn, with
 seeds if wanted, such as drawn:1-20. A condition is default, sounds_off,
 touch_off, words_off, words_alone, attractive or brief, or a name of your own
 with its parameters: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
+In condition sighted the person's hand is led by eyes, which see the path and
+what moves; over_sighted compares the others with it.
 
 Exit codes
 0: done. 1: trials failed, or other shards are not done. 2: a wrong argument.
@@ -45,15 +47,21 @@ CONDITIONS = {
     "words_off": ["speech:=false"],
     "words_alone": ["feedback/sounds/enabled:=false", "feedback/haptics/enabled:=false"],
     "attractive": ["feedback/haptics/steer:=attractive", "person/feeling/touch:=attractive"],
+    # What leads by ear would only slow it down.
+    "sighted": ["driver:=sighted", "feedback/sounds/enabled:=false", "feedback/haptics/enabled:=false"],
     "brief": ["feedback/cues/wording/verbosity:=brief"],
 }
 MOST_TRIALS = 1000000
+HEAD = ("trial", "world", "seed", "person", "person_seed", "condition", "contacts", "spl", "per_100m")
 # What each column means; of a person's and a condition's, the command's help and doc/people.md tell more.
 UNITS = {
     "trial": "number of the trial in the batch, from 0", "world": "name or file", "seed": "of the world", "person": "type",
     "person_seed": "of the person", "condition": "name", "contacts": "number of contacts", "spl":
     "shortest over driven way where the goal was reached, else 0", "result": "reached, timeout, gave_up or refused",
-    "time": "s since the goal was set", "driven": "m", "shortest": "m, of the first path", "reroutes": "number",
+    "per_100m": "contacts per 100 m driven", "over_sighted": "time over that of the same hand led by eyes, where both reached the goal",
+    "led_turns": "number of turns on the spot", "residual": "deg, what they left, median", "residual_90": "deg, which a tenth of them exceed",
+    "cue_to_action": "s, median, from a cue that asks for a turn to the turn", "least_gap": "m, to anything", "motors":
+    "share of the time in which a motor turns", "time": "s since the goal was set", "driven": "m", "shortest": "m, of the first path", "reroutes": "number",
     "turns": "1/min, changes of the announced hour", "flips": "number", "reversed": "number", "misled": "number",
     "cues": "1/min, sentences", "words": "1/min", "talk": "share of the time", "repeats": "number", "at_odds": "number", "waits": "number",
     "hasty": "number", "speechless": "number of pushes in vain without a word", "following": "s", "blocked": "s", "make_room": "s",
@@ -179,7 +187,8 @@ def row_of(trial, titles, cells):
     contacts = sum(int(word) for word in row["hits"].split() if word.isdigit())
     driven, shortest = float(row["driven"]), float(row["shortest"])
     spl = shortest / max(driven, shortest) if row["result"] == "reached" and shortest > 0.0 else 0.0
-    head = (trial.number, trial.world, trial.seed, trial.person, trial.person_seed, trial.condition, contacts, f"{spl:.3f}")
+    head = (trial.number, trial.world, trial.seed, trial.person, trial.person_seed, trial.condition, contacts, f"{spl:.3f}",
+            f"{100.0 * contacts / driven if driven > 0.0 else 0.0:.2f}")
     return head, {name: value for name, value in row.items() if name not in ("world", "seed")}
 
 
@@ -190,7 +199,7 @@ def simulate(program, trial, limit):
     if result.returncode or len(table) != 2:
         return trial, (result.stderr.strip().splitlines() or [f"exit code {result.returncode}"])[-1], None
     head, row = row_of(trial, *table)
-    titles = ["trial", "world", "seed", "person", "person_seed", "condition", "contacts", "spl", *row]
+    titles = [*HEAD, *row]
     return trial, titles, line_of([*head, *row.values()])
 
 
@@ -230,6 +239,19 @@ def run_all(program, trials, args, rows):
     return titles, failed
 
 
+def beside_sighted(names, lines):
+    """The lines with one cell more, which compares a trial with that of the same hand led by eyes."""
+    rows = [dict(zip(names, cells)) for cells in csv.reader(lines)]
+
+    def key(row):
+        return tuple(row[name] for name in ("world", "seed", "person", "person_seed"))
+    sighted = {key(row): float(row["time"]) for row in rows if row["condition"] == "sighted" and row["result"] == "reached"}
+    for line, row in zip(lines, rows):
+        least = sighted.get(key(row), 0.0)
+        compared = least > 0.0 and row["result"] == "reached"
+        yield line.rstrip("\n") + "," + (f"{float(row['time']) / least:.3f}" if compared else "") + "\n"
+
+
 def finish(folder, trials):
     """Writes the table once every row is there. \\return how many are missing"""
     rows = done_in(folder)
@@ -237,8 +259,10 @@ def finish(folder, trials):
     titles = folder / "titles.csv"
     if not missing:
         names = next(csv.reader([read(titles)]))
-        replace(folder / "trials.json", json.dumps({name: UNITS.get(name, "") for name in names}, indent=1) + "\n")
-        replace(folder / "trials.csv", read(titles) + "".join(rows[trial.number] for trial in trials))
+        lines = [rows[trial.number] for trial in trials]
+        all_names = [*names, "over_sighted"]
+        replace(folder / "trials.json", json.dumps({name: UNITS.get(name, "") for name in all_names}, indent=1) + "\n")
+        replace(folder / "trials.csv", line_of(all_names) + "".join(beside_sighted(names, lines)))
     return missing
 
 

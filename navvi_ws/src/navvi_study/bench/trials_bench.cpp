@@ -198,6 +198,8 @@ const std::vector<Column>& columns() {
       {"cues/words/min talk", 20, {"cues", "words", "talk"}},
       {"repeats/odds/waits/hasty", 24, {"repeats", "at_odds", "waits", "hasty"}},
       {"speechless", 10, {"speechless"}},
+      {"turns/left/tail/acts", 20, {"led_turns", "residual", "residual_90", "cue_to_action"}},
+      {"gap/motors", 11, {"least_gap", "motors"}},
       {"follow/block/room/noroute/offmesh/other",
        39,
        {"following", "blocked", "make_room", "no_route", "off_mesh", "other"}},

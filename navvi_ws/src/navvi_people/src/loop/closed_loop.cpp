@@ -30,6 +30,8 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
   visit.group("person", person);
   visit.group("perception", perception);
   visit(speech, "speech", navvi_config::Any{}, "", "false: nothing is spoken");
+  visit(driver, "driver", navvi_config::OneOf{{"person", "sighted"}}, "",
+        "sighted: the person's hand and liking of speed, but led by eyes: the reference");
 }
 
 ClosedLoop::Setting::Setting(const ClosedLoopConfig& config)
@@ -51,12 +53,16 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
       navigation_(config.nav),
       guide_(config.feedback, phrases),
       person_(config.person, phrases) {
+  if (config.driver == "sighted")
+    sighted_.emplace(config.person.driving, static_cast<std::uint64_t>(config.person.seed));
   if (!setting_.senses)
     navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
 }
 
 bool ClosedLoop::step() {
+  const people::Felt motors = published_.motors;
   published_ = {};
+  published_.motors = motors;
   if (!turn_wheels()) return false;
   sense();
   if (session_.due(kNavigationRate) || navigation_.plan_waits()) navigate();
@@ -95,6 +101,7 @@ void ClosedLoop::sense() {
         navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
     const auto proximity = node::from_msg(*published_.proximity);
     if (proximity && !setting_.senses) guide_.take(*proximity, time());
+    if (proximity) sight_.nearby = proximity->things;
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
     published_.obstacles = navvi_types::to_msg(session_.world().obstacles());
@@ -135,6 +142,7 @@ void ClosedLoop::navigate() {
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
   guide_.take(*guidance, time());
+  sight_.guidance = *guidance;
   published_.guidance = navvi_types::to_msg(*guidance);
 }
 
@@ -150,7 +158,8 @@ void ClosedLoop::feed_back() {
   const auto told = guide_.update(devices, time());
   if (!told) return;
   if (told->command) gate_.receive(node::from_msg(node::to_msg(*told->command)), instant());
-  if (told->rumble_due) person_.feel({told->rumble.left, told->rumble.right}, time());
+  published_.motors = {told->rumble.left, told->rumble.right};
+  if (told->rumble_due) person_.feel(published_.motors, time());
   if (told->voice.stop) speaks_until_ = time();
   if (told->voice.start) speaks_until_ = navvi_types::spoken_at(time(), told->voice.start->size());
   std::vector<CueEvent> events = told->said;
@@ -166,7 +175,8 @@ void ClosedLoop::operate() {
   for (const navvi_msgs::Cue& cue : published_.cues)
     if (const auto event = node::from_msg(cue))
       if (const auto heard = people::heard(*event)) person_.hear(*heard, time());
-  hand_ = person_.update(time(), 1.0 / kFeedbackRate);
+  hand_ = sighted_ ? sighted_->update(sight_, time(), 1.0 / kFeedbackRate)
+                   : person_.update(time(), 1.0 / kFeedbackRate);
 }
 
 }  // namespace navvi_people::loop

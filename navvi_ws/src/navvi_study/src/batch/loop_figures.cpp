@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <navvi_types/angles.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_study::batch {
@@ -46,6 +47,11 @@ bool tells_new_way(CueKind kind) {
   }
 }
 
+bool asks_to_turn(const navvi_types::CueEvent& cue) {
+  if (cue.kind()) return traits(*cue.kind()).ask == navvi_types::Ask::turn;
+  return cue.word() == to_string(navvi_types::Earcon::turn);
+}
+
 /// How many hours lie between two, the shorter way round.
 int hours_between(int a, int b) {
   const int apart = std::abs(a - b) % 12;
@@ -73,6 +79,8 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
     for (const auto& thing : told.proximity->things)
       felt[thing.id] = felt_.count(thing.id) > 0 ? felt_[thing.id] : loop.time();
     felt_ = felt;
+    if (begun_ && !told.proximity->things.empty())
+      least_gap_ = std::min(least_gap_, told.proximity->things.front().gap);
     nearest_.clear();
     if (!told.proximity->things.empty() && told.proximity->things.front().gap < kNearby)
       nearest_ = told.proximity->things.front().thing_class + " at " +
@@ -85,12 +93,15 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
     if (report && begun_) speech_.hear(*report, loop.time() - asked_ < kAnswered, loop.time());
     if (!report || report->stage != navvi_types::CueStage::started) continue;
     if (begun_) listen(loop, *report);
+    if (asks_to_turn(*report)) turns_made_.ask(loop.time());
     hear(*report, loop.time());
   }
   if (told.guidance) {
     if (const auto report = navvi_types::from_msg(*told.guidance)) {
       (void)monitor_.observe(*report);
       state_ = report->state;
+      course_.reset();
+      if (report->is_followed()) course_ = robot.yaw - report->steer_angle;
     }
     if (begun_) take(*told.guidance);
   }
@@ -98,6 +109,8 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   sensing_.watch(loop);
   time_ = loop.time() - *begun_;
   states_[to_string(state_)] += loop.dt();
+  if (told.motors.left > 0.0 || told.motors.right > 0.0) felt_for_ += loop.dt();
+  judge_turns(loop);
   stand(loop);
   push(loop);
   if (monitor_.reached()) result_ = "reached";
@@ -199,6 +212,13 @@ void LoopFigures::push(const ClosedLoop& loop) {
   pushed_ = loop.time();
 }
 
+void LoopFigures::judge_turns(const ClosedLoop& loop) {
+  const navvi_sim::physics::RobotState& robot = loop.session().world().now().robot;
+  std::optional<double> off;
+  if (course_) off = navvi_types::wrap(robot.yaw - *course_);
+  turns_made_.watch(robot.turn_rate, robot.forward_speed(), off, loop.time());
+}
+
 void LoopFigures::stand(const ClosedLoop& loop) {
   const Eigen::Vector2d& at = loop.session().world().now().robot.position;
   if (time_ - stay_since_ > still_) {
@@ -241,6 +261,9 @@ record::Fields LoopFigures::row(const ClosedLoop& loop) const {
   }
   row.set("other", std::max(0.0, time_ - known), 1);
   speech_.add_to(row, time_);
+  turns_made_.add_to(row);
+  row.set("least_gap", std::max(0.0, least_gap_), 2);
+  row.set("motors", felt_for_ / std::max(time_, 1.0), 3);
   sensing_.add_to(row);
   row.set("still", still_, 1).set("still_at", still_at_, 1).set("why", why_);
   return row.set("hash", navvi_types::to_hex(loop.session().world().state_hash()));

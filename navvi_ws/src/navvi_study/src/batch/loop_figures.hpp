@@ -10,6 +10,7 @@
 
 #include "batch/sensing_figures.hpp"
 #include "batch/speech_figures.hpp"
+#include "batch/turn_figures.hpp"
 #include "trial/trial_monitor.hpp"
 
 namespace navvi_study::batch {
@@ -36,7 +37,8 @@ class LoopFigures {
   /// were felt < 3 s or told < 2 s before; `speechless` how often a stick was pushed in vain for 3
   /// s without a word or a sound; the states of the guidance in s; `still` s, the longest stay
   /// within 0.3 m, since `still_at` s, and `why`: what was about at its end; `hash` of the world's
-  /// last state; and what SpeechFigures and SensingFigures add.
+  /// last state; `least_gap` m, to anything; `motors`, the share of the time in which one turns;
+  /// and what SpeechFigures, TurnFigures and SensingFigures add.
   [[nodiscard]] record::Fields row(const ClosedLoop& loop) const;
 
  private:
@@ -52,6 +54,7 @@ class LoopFigures {
   void listen(const ClosedLoop& loop, const navvi_types::CueEvent& cue);
   void take(const navvi_msgs::Guidance& guidance);
   void stand(const ClosedLoop& loop);
+  void judge_turns(const ClosedLoop& loop);
   void judge_warning(const navvi_msgs::Contact& contact, double time);
   void hear(const navvi_types::CueEvent& cue, double time);
   void push(const ClosedLoop& loop);
@@ -61,6 +64,7 @@ class LoopFigures {
   trial::TrialMonitor monitor_;
   SpeechFigures speech_;
   SensingFigures sensing_;
+  TurnFigures turns_made_;
   std::optional<double> begun_;  ///< s
   double time_ = 0.0;            ///< s since then
   std::string result_ = "timeout";
@@ -83,6 +87,9 @@ class LoopFigures {
   double announced_until_ = 0.0;  ///< m driven, where its corner is passed
   std::map<std::string, double> states_;
   Guidance::State state_ = Guidance::State::no_goal;
+  std::optional<double> course_;  ///< rad, in map, to where to steer while there is a way
+  double least_gap_ = 1e9;        ///< m
+  double felt_for_ = 0.0;         ///< s
   std::string blocked_by_;
   std::string spoken_;
   std::string nearest_;

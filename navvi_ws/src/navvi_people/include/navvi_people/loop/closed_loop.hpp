@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "navvi_people/loop/robot_senses.hpp"
+#include "navvi_people/people/sighted_driver.hpp"
 #include "navvi_people/people/simulated_operator.hpp"
 
 namespace navvi_people::loop {
@@ -31,6 +32,7 @@ struct ClosedLoopConfig {
   navvi_perception::see::PerceptionConfig
       perception;  ///< used where sim's sensing is not the truth
   bool speech = true;
+  std::string driver = "person";  ///< person or sighted
 
   /// As in live.launch: the simulated robot climbs neither steps nor ramps.
   ClosedLoopConfig();
@@ -54,6 +56,7 @@ class ClosedLoop {
     std::optional<navvi_msgs::Obstacles> obstacles;
     std::optional<navvi_msgs::Guidance> guidance;
     std::vector<navvi_msgs::Cue> cues;  ///< spoken ones and sounds
+    people::Felt motors;                ///< as they are
   };
 
   /// \param phrases  file of the spoken phrases
@@ -116,6 +119,8 @@ class ClosedLoop {
   navvi_feedback::lockstep::Guide guide_;
   double speaks_until_ = 0.0;  ///< s
   people::SimulatedOperator person_;
+  std::optional<people::SightedDriver> sighted_;  ///< at the stick in the person's place
+  people::Sight sight_;                           ///< as it was told last
   people::StickAndButtons hand_;
   bool begun_ = false;
   Messages published_;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <navvi_types/guidance.hpp>
+#include <navvi_types/thing.hpp>
+#include <vector>
+
+#include "navvi_people/people/driving.hpp"
+#include "navvi_people/people/simulated_operator.hpp"
+
+namespace navvi_people::people {
+
+/// What eyes show: the path, and what is near.
+struct Sight {
+  navvi_types::Guidance guidance;
+  std::vector<navvi_types::NearThing> nearby;
+};
+
+/// The reference for people who are guided: the same hand on the same stick, liking the same speed,
+/// but it sees the path and what moves. It steers along the path, slows down in bends, and keeps
+/// its distance from what is ahead. No person is like it, so nothing of it is drawn or fitted.
+class SightedDriver {
+ public:
+  SightedDriver(const DrivingConfig& config, std::uint64_t seed)
+      : config_(config), driving_(config, seed) {}
+
+  /// \param time  s, not going back \param dt  s since the last update
+  [[nodiscard]] StickAndButtons update(const Sight& sight, double time, double dt);
+
+ private:
+  struct Seen {
+    double time = 0.0;  ///< s
+    Sight sight;
+  };
+  /// The stick for a share of the full speed or turn rate.
+  [[nodiscard]] double stick_for(double share) const;
+
+  DrivingConfig config_;
+  Driving driving_;
+  std::deque<Seen> seen_;
+};
+
+}  // namespace navvi_people::people
