@@ -116,6 +116,30 @@ def test_another_batch_in_the_same_folder_and_bad_words_are_refused_by_a_sentenc
             batch.run_batch(program, args_of(more.pop("out", tmp_path / "a"), **more))
 
 
+def test_a_branch_runs_a_trial_of_a_batch_again_with_and_without_a_change(tmp_path, capsys):
+    # The stand-in's row is a function of its words; --until alone changes no trial.
+    program = tmp_path / "same"
+    program.write_text(stand_in(tmp_path).read_text().replace('sum=$(echo "$@" | cksum)', 'sum=$(echo "$@" | sed "s/ --until=[0-9]*//" | cksum)'))
+    program.chmod(0o755)
+    assert batch.run_batch(program, args_of(tmp_path / "a")) == 0
+    args = args_of(tmp_path / "b", from_trial=f"{tmp_path / 'a'}:7", until=5, then="person/seed:=2")
+    assert batch.branch(program, args) == 0
+    with open(tmp_path / "b/branch.csv", encoding="utf-8", newline="") as file:
+        recorded, other = list(csv.DictReader(file))
+    assert recorded["trial"] == other["trial"] == "7" and recorded["time"] != other["time"]
+    assert (recorded["branch"], other["branch"]) == ("recorded", "person/seed:=2")
+    args.then = ""
+    assert batch.branch(program, args) == 0
+    with open(tmp_path / "b/branch.csv", encoding="utf-8", newline="") as file:
+        recorded, other = [{**row, "branch": ""} for row in csv.DictReader(file)]
+    assert recorded == other
+    with pytest.raises(Failure, match="not what it was"):
+        batch.branch(stand_in(tmp_path), args)
+    for more in ({"from_trial": "nowhere:7"}, {"from_trial": f"{tmp_path / 'a'}:77"}, {"until": None}):
+        with pytest.raises(Failure, match="allowed|no row|needs"):
+            batch.branch(program, SimpleNamespace(**{**vars(args), **more}))
+
+
 def test_one_shard_is_written_by_one_process_at_a_time(tmp_path):
     rows = batch.Rows(tmp_path / "rows.csv")
     child = os.fork()

@@ -17,12 +17,19 @@ with its parameters: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
 In condition sighted the person's hand is led by eyes, which see the path and
 what moves; over_sighted compares the others with it.
 
+--from=DIR:NUMBER --until=S --then=PART/NAME:=VALUE+... runs a trial of a batch
+again up to S s after its goal was set; then another guide or person (feedback,
+person, speech) goes on, who was told and felt the same so far. DIR/branch.csv
+in --out holds both; without --then they are equal.
+
 Exit codes
-0: done. 1: trials failed, or other shards are not done. 2: a wrong argument.
+0: done. 1: trials failed, other shards are not done, or a trial is no longer
+what it was. 2: a wrong argument.
 
 Examples
 ./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy
 ./navvi batch --worlds=busy --seeds=1-20 --shard=2/4 --out=/shared/busy
+./navvi batch --from=busy:7 --until=40 --then=feedback/sounds/enabled:=false --out=quiet
 """
 import concurrent.futures
 import csv
@@ -35,6 +42,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NamedTuple
 
 from navvi_cli.say import aside, fail
@@ -80,9 +88,9 @@ class Trial(NamedTuple):
     condition: str
     parameters: tuple
 
-    def words(self, limit):
+    def words(self, limit, more=()):
         return [f"--world={self.world}", f"--seeds={self.seed}", f"--limit={limit}", "--csv", f"person/type:={self.person}",
-                f"person/seed:={self.person_seed}", *self.parameters]
+                f"person/seed:={self.person_seed}", *self.parameters, *more]
 
 
 def span(text, option):
@@ -192,9 +200,9 @@ def row_of(trial, titles, cells):
     return head, {name: value for name, value in row.items() if name not in ("world", "seed")}
 
 
-def simulate(program, trial, limit):
+def simulate(program, trial, limit, more=()):
     """(trial, titles, line); without a line where it failed, and then the reason in place of the titles."""
-    result = subprocess.run([program, *trial.words(limit)], capture_output=True, text=True, check=False)
+    result = subprocess.run([program, *trial.words(limit, more)], capture_output=True, text=True, check=False)
     table = list(csv.reader(io.StringIO(result.stdout)))
     if result.returncode or len(table) != 2:
         return trial, (result.stderr.strip().splitlines() or [f"exit code {result.returncode}"])[-1], None
@@ -292,6 +300,35 @@ def run_batch(program, args):
     return 0
 
 
+def branch(program, args):
+    """Runs a trial of a batch again, with a change from some second on."""
+    source, colon, number = args.from_trial.rpartition(":")
+    folder = Path(source)
+    if not colon or not number.isdigit() or not (folder / "batch.json").exists():
+        fail(f"--from has \"{args.from_trial}\"; allowed is DIR:NUMBER, a folder of ./navvi batch and a trial in it, such as busy:7.", 2)
+    if args.until is None:
+        fail("--from needs --until=S, the second of the trial from which on --then counts.", 2)
+    known = json.loads(read(folder / "batch.json"))
+    trials = {trial.number: trial for trial in trials_of(SimpleNamespace(**known))}
+    recorded = done_in(folder).get(int(number))
+    if recorded is None:
+        fail(f"{folder} has no row of trial {number}; its rows are those of {folder}/rows-*.csv.", 2)
+    trial, limit = trials[int(number)], known["limit"]
+    again = simulate(program, trial, limit, (f"--until={args.until}",))
+    other = simulate(program, trial, limit, (f"--until={args.until}", f"--then={args.then}")) if args.then else again
+    for _, said, line in (again, other):
+        if line is None:
+            fail(f"trial {number} failed: {said}", 1)
+    if again[2] != recorded:
+        fail(f"trial {number} of {folder} is not what it was: the worlds, the guide or the person have changed since.", 1)
+    out = Path(args.out)
+    out.mkdir(parents=True, exist_ok=True)
+    replace(out / "branch.csv", line_of(["branch", *again[1]]) + "".join(
+        line_of([name]).rstrip("\n") + "," + line for name, line in (("recorded", again[2]), (args.then or "nothing", other[2]))))
+    print(read(out / "branch.csv"), end="")
+    return 0
+
+
 def arguments(parser):
     parser.add_argument("--worlds", default="busy", metavar="NAME,...", help="names or files of worlds. Default: busy.")
     parser.add_argument("--seeds", default="1-10", metavar="1-10", help="of the worlds.")
@@ -301,6 +338,9 @@ def arguments(parser):
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="trials at a time. Default: 1.")
     parser.add_argument("--shard", default="1/1", metavar="K/N", help="the part of the trials to run.")
     parser.add_argument("--tell", type=float, default=10.0, metavar="S", help="s between two lines of progress. Default: 10.")
+    parser.add_argument("--from", dest="from_trial", metavar="DIR:NUMBER", help="a trial to run again, with a change.")
+    parser.add_argument("--until", type=int, metavar="S", help="s after its goal was set, from which on --then counts.")
+    parser.add_argument("--then", default="", metavar="PART/NAME:=VALUE+...", help="what is other from then on.")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of the tables.")
 
 
@@ -308,4 +348,4 @@ def run(args):
     from navvi_cli.workspace import enter, tool
     program = tool("navvi_study", "trials_bench")
     enter()
-    return run_batch(program, args)
+    return branch(program, args) if args.from_trial else run_batch(program, args)

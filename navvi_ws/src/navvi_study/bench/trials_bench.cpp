@@ -32,8 +32,11 @@ using navvi_people::loop::ClosedLoopConfig;
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
     "             [--sensing=truth|lidar|robot] [--jobs=1] [--csv] [--trace[=FROM-TO]]\n"
-    "             [part/name:=value ...]\n"
+    "             [--until=S --then=part/name:=value+...] [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
+    "--then: from S s after the goal was set on another guide or person (feedback, person, "
+    "speech)\n"
+    "goes on, who has been told and has felt the same so far.\n"
     "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
     "A part is sim, nav, feedback, person or perception, with the names of its node's "
     "parameters, such as\n"
@@ -61,6 +64,8 @@ struct Options {
   int jobs = 1;
   std::optional<Span> trace;  ///< s
   std::vector<std::string> parameters;
+  std::optional<int> until;  ///< s
+  std::vector<std::string> then;
   bool csv = false;
   bool help = false;
 };
@@ -97,6 +102,20 @@ std::vector<std::string> list(const std::string& text) {
   return items;
 }
 
+/// What a branch changes, separated by "+".
+std::vector<std::string> changes(std::string text) {
+  std::replace(text.begin(), text.end(), '+', ',');
+  const std::vector<std::string> words = list(text);
+  for (const std::string& one : words)
+    if (one.rfind("feedback/", 0) != 0 && one.rfind("person/", 0) != 0 &&
+        one.rfind("speech:=", 0) != 0)
+      throw UsageError(
+          "--then has \"" + one +
+          "\"; allowed are feedback/NAME:=VALUE, person/NAME:=VALUE and speech:=VALUE, "
+          "joined by +.");
+  return words;
+}
+
 Options read_options(const std::vector<std::string>& words) {
   Options out;
   for (const std::string& word : words) {
@@ -115,6 +134,10 @@ Options read_options(const std::vector<std::string>& words) {
       out.profile = value;
     } else if (option == "--sensing") {
       out.parameters.push_back("sim/sensing:=" + value);
+    } else if (option == "--until") {
+      out.until = number(option, value, 0);
+    } else if (option == "--then") {
+      out.then = changes(word.substr(word.find('=') + 1));
     } else if (option == "--jobs") {
       out.jobs = number(option, value, 1, kMostJobs);
     } else if (option == "--trace") {
@@ -127,6 +150,7 @@ Options read_options(const std::vector<std::string>& words) {
       throw UsageError("\"" + word + "\" is no option; allowed are:\n" + kUsage);
     }
   }
+  if (!out.then.empty() && !out.until) throw UsageError("--then needs --until=S.");
   if (out.trace && out.csv) throw UsageError("--csv is for rows, --trace for what happens.");
   if (out.trace && out.jobs > 1)
     throw UsageError("--trace tells of one trial after the other: it needs --jobs=1.");
@@ -167,7 +191,12 @@ record::Fields run_trial(const Options& options, ClosedLoopConfig config,
                          const std::string& phrases, const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
-  ClosedLoop loop(config, phrases);
+  std::optional<navvi_people::loop::Branch> branch;
+  if (options.until) {
+    branch = navvi_people::loop::Branch{config, static_cast<double>(*options.until)};
+    navvi_config::read(branch->then, navvi_config::read_words(options.then), "--then");
+  }
+  ClosedLoop loop(config, phrases, branch);
   LoopFigures figures(options.limit);
   std::optional<LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);

@@ -4,7 +4,6 @@
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
-#include <navvi_types/voice_model.hpp>
 #include <utility>
 
 #include "node/msg_conversion.hpp"
@@ -15,7 +14,6 @@ namespace {
 constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the obstacles
 constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
 constexpr double kGoalAt = 1.0;           // s; trial_node sets the goal when every part is there
-// espeak-ng at 220 words a minute, measured over NavVI's phrases.
 
 }  // namespace
 
@@ -44,15 +42,21 @@ ClosedLoop::Setting::Setting(const ClosedLoopConfig& config)
     senses.emplace(config.sim, config.perception, world, occupancy);
 }
 
-ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases)
+ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
+                       const std::optional<Branch>& branch)
     : config_(config),
       setting_(config),
       session_(setting_.world, config.sim.life, setting_.scenario.start,
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav),
-      guide_(config.feedback, phrases),
-      person_(config.person, phrases) {
+      guided_(
+          std::make_unique<GuidedPerson>(config.feedback, config.person, config.speech, phrases)) {
+  if (branch) {
+    other_ = std::make_unique<GuidedPerson>(branch->then.feedback, branch->then.person,
+                                            branch->then.speech, phrases);
+    other_at_ = branch->at;
+  }
   if (config.driver == "sighted")
     sighted_.emplace(config.person.driving, static_cast<std::uint64_t>(config.person.seed));
   if (!setting_.senses)
@@ -82,25 +86,32 @@ bool ClosedLoop::turn_wheels() {
          navvi_sim::live::World::Status::running;
 }
 
+/// To all guides.
+template <typename... Values>
+void ClosedLoop::tell(const Values&... values) {
+  guided_->take(values...);
+  if (other_) other_->take(values...);
+}
+
 void ClosedLoop::sense() {
   const navvi_sim::live::Snapshot& now = session_.world().now();
   published_.odometry = navvi_types::to_msg(session_.world().odometry());
   if (const auto odometry = node::from_msg(published_.odometry)) {
-    guide_.take(*odometry, time());
+    tell(*odometry, time());
     navigation_.set_speed(odometry->velocity.linear);
   }
   if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
-    guide_.take(*gate, time());
+    tell(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
     const auto felt = node::from_msg(published_.contacts.back());
-    if (felt && !setting_.senses) guide_.take(*felt);
+    if (felt && !setting_.senses) tell(*felt);
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
     published_.proximity =
         navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
     const auto proximity = node::from_msg(*published_.proximity);
-    if (proximity && !setting_.senses) guide_.take(*proximity, time());
+    if (proximity && !setting_.senses) tell(*proximity, time());
     if (proximity) sight_.nearby = proximity->things;
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
@@ -114,10 +125,10 @@ void ClosedLoop::sense() {
 void ClosedLoop::sense_by_robot() {
   RobotSenses::News news = setting_.senses->look(session_);
   for (const navvi_types::Contact& contact : news.contacts)
-    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) guide_.take(*felt);
+    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) tell(*felt);
   if (news.proximity)
     if (const auto proximity = node::from_msg(navvi_types::to_msg(*news.proximity)))
-      guide_.take(*proximity, time());
+      tell(*proximity, time());
   perceived_ = std::nullopt;
   if (news.obstacles) perceived_ = node::from_msg(navvi_types::to_msg(*news.obstacles));
   if (perceived_) navigation_.set_obstacles(*perceived_, time());
@@ -134,6 +145,7 @@ geometry_msgs::Transform ClosedLoop::pose() const {
 void ClosedLoop::navigate() {
   if (!begun_ && navigation_.has_map() && time() >= kGoalAt) {
     begun_ = true;
+    goal_at_ = time();
     navigation_.set_goal(setting_.scenario.goal);
   }
   const geometry_msgs::Transform at = pose();
@@ -141,42 +153,32 @@ void ClosedLoop::navigate() {
   std::optional<navvi_types::Guidance> guidance = navigation_.update(time());
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
-  guide_.take(*guidance, time());
+  tell(*guidance, time());
   sight_.guidance = *guidance;
   published_.guidance = navvi_types::to_msg(*guidance);
 }
 
 void ClosedLoop::feed_back() {
-  navvi_feedback::senses::Devices devices;
-  if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand_, stamp())))
-    devices.hands = *hands;
-  devices.speaking = time() < speaks_until_;
-  devices.words = config_.speech;
-  const bool heard = config_.speech || config_.feedback.has_sounds();
-  devices.audio = heard ? navvi_feedback::senses::Link::alive : navvi_feedback::senses::Link::never;
-  devices.robot = node::from_msg(pose());
-  const auto told = guide_.update(devices, time());
-  if (!told) return;
-  if (told->command) gate_.receive(node::from_msg(node::to_msg(*told->command)), instant());
-  published_.motors = {told->rumble.left, told->rumble.right};
-  if (told->rumble_due) person_.feel(published_.motors, time());
-  if (told->voice.stop) speaks_until_ = time();
-  if (told->voice.start) speaks_until_ = navvi_types::spoken_at(time(), told->voice.start->size());
-  std::vector<CueEvent> events = told->said;
-  for (const navvi_feedback::sounds::Play& play : told->plays)
-    events.push_back(guide_.event_of(play));
-  for (CueEvent& event : events) {
-    event.stamp = navvi_types::to_ns(stamp());
-    published_.cues.push_back(node::to_msg(event));
+  if (other_ && begun_ && time() - goal_at_ >= other_at_) {
+    guided_ = std::move(other_);
   }
+  const geometry_msgs::Transform at = pose();
+  const auto command = guided_->feed_back(hand_, at, time());
+  if (other_) (void)other_->feed_back(hand_, at, time());
+  if (command) gate_.receive(node::from_msg(node::to_msg(*command)), instant());
+  published_.cues = guided_->played().cues;
+  published_.motors = guided_->played().motors;
 }
 
 void ClosedLoop::operate() {
-  for (const navvi_msgs::Cue& cue : published_.cues)
-    if (const auto event = node::from_msg(cue))
-      if (const auto heard = people::heard(*event)) person_.hear(*heard, time());
-  hand_ = sighted_ ? sighted_->update(sight_, time(), 1.0 / kFeedbackRate)
-                   : person_.update(time(), 1.0 / kFeedbackRate);
+  constexpr double kDt = 1.0 / kFeedbackRate;
+  if (sighted_) {
+    hand_ = sighted_->update(sight_, time(), kDt);
+    return;
+  }
+  hand_ = guided_->act(guided_->played(), time(), kDt);
+  // The other one hears what is played, and follows the hand that drives.
+  if (other_) (void)other_->act(guided_->played(), time(), kDt, guided_->person().meant());
 }
 
 }  // namespace navvi_people::loop

@@ -545,7 +545,9 @@ void SimulatedOperator::believe(const StickAndButtons& hand, double dt) {
   odometer_ += driven * driving_.speed_gain();
 }
 
-StickAndButtons SimulatedOperator::update(double time, double dt) {
+StickAndButtons SimulatedOperator::update(double time, double dt,
+                                          const std::optional<StickAndButtons>& held) {
+  meant_ = {};
   if (!started_) {
     started_ = true;
     start_ = last_news_ = time;
@@ -556,12 +558,14 @@ StickAndButtons SimulatedOperator::update(double time, double dt) {
   if (time - start_ < kNeutralAtStart) return {};
   be_startled(time);
   StickAndButtons hand = act(time, dt);
-  attention_.update(hand.forward != 0.0 || hand.left != 0.0, time, dt);
+  const StickAndButtons& moves = held ? *held : hand;
+  attention_.update(moves.forward != 0.0 || moves.left != 0.0, time, dt);
   if (gave_up()) return {};
   ask_when_lost(time);
   hand.repeat = time - asked_ < kPress;
   hand.start = time - pressed_ < kPress;
-  believe(hand, dt);
+  meant_ = hand;
+  believe(held.value_or(hand), dt);
   hand.left = driving_.trembling(hand.left, dt);
   hand.forward = driving_.trembling(hand.forward, dt);
   return hand;

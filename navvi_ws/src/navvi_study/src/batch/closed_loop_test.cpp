@@ -59,17 +59,15 @@ const std::string kRoom = world(kFloor);
 /// A wall right across the room.
 const std::string kCut = world(kFloor + box("wall", "wall", "0.2 6 2", "0 0 1"));
 /// A wall with a door of 1.2 m, and a pallet robot that has stopped in it for good.
-const std::string kDoor =
-    world(kFloor + box("left", "wall", "0.2 2.4 2", "0 1.8 1") +
-          box("right", "wall", "0.2 2.4 2", "0 -1.8 1") +
-          pallet_robot("0.2 0", "0", "1.5 0", "3600", "0"));
+const std::string kDoor = world(kFloor + box("left", "wall", "0.2 2.4 2", "0 1.8 1") +
+                                box("right", "wall", "0.2 2.4 2", "0 -1.8 1") +
+                                pallet_robot("0.2 0", "0", "1.5 0", "3600", "0"));
 /// An aisle of 1.8 m with a niche, and a pallet robot that comes along it.
-const std::string kNiche =
-    world(box("ground", "floor", "20 6 0.1", "0 0 -0.05") +
-          box("south", "wall", "10 2.1 2", "0 -1.95 1") +
-          box("west", "wall", "3 2.1 2", "-3.5 1.95 1") +
-          box("east", "wall", "5.5 2.1 2", "2.25 1.95 1") +
-          pallet_robot("6 0", "3.14159", "-8.5 0", "0", "200"));
+const std::string kNiche = world(box("ground", "floor", "20 6 0.1", "0 0 -0.05") +
+                                 box("south", "wall", "10 2.1 2", "0 -1.95 1") +
+                                 box("west", "wall", "3 2.1 2", "-3.5 1.95 1") +
+                                 box("east", "wall", "5.5 2.1 2", "2.25 1.95 1") +
+                                 pallet_robot("6 0", "3.14159", "-8.5 0", "0", "200"));
 /// A worker, and a pedestal too low for the lidar's plane on the straight way.
 const std::string kCrossing =
     world(kFloor + box("pedestal", "pedestal", "0.6 0.6 0.1", "-1 0.1 0.05") + kWorker);
@@ -89,7 +87,7 @@ class ClosedLoopIn : public testing::Test {
                       const std::string& name = "room.world") {
     config_.sim.world = (folder_ / name).string();
     std::ofstream(config_.sim.world) << world;
-    ClosedLoop loop(config_, phrases_);
+    ClosedLoop loop(config_, phrases_, branch_);
     LoopFigures figures(limit);
     trace_.str("");
     LoopTrace trace(trace_, 0.0, limit);
@@ -103,9 +101,36 @@ class ClosedLoopIn : public testing::Test {
 
   fs::path folder_;
   ClosedLoopConfig config_;
+  std::optional<navvi_people::loop::Branch> branch_;
   std::string phrases_ = NAVVI_PHRASES;
   std::ostringstream trace_;
 };
+
+TEST_F(ClosedLoopIn, aBranchWithoutAChangeIsTheSameTrialAndAnotherPersonMakesAnotherOne) {
+  for (const char* type : {"able", "struggling"}) {
+    navvi_config::read(config_.person, navvi_config::read_words({std::string("type:=") + type}),
+                       "test");
+    const std::string before = play(kCrossing, 60.0).format();
+    branch_ = navvi_people::loop::Branch{config_, 6.0};
+    EXPECT_EQ(play(kCrossing, 60.0).format(), before) << type;
+    branch_->then.sim = config_.sim;
+    navvi_config::read(branch_->then, navvi_config::read_words({"person/driving/cruise:=0.4"}),
+                       "test");
+    const record::Fields slow = play(kCrossing, 60.0);
+    EXPECT_GT(slow.number("time").value(),
+              record::Fields::parse(before)->number("time").value() + 1.0)
+        << type;
+    branch_.reset();
+  }
+}
+
+TEST_F(ClosedLoopIn, aBranchAfterTheEndChangesNothing) {
+  const std::string before = play(kRoom, 60.0).format();
+  branch_ = navvi_people::loop::Branch{config_, 59.0};
+  navvi_config::read(branch_->then, navvi_config::read_words({"feedback/sounds/enabled:=false"}),
+                     "test");
+  EXPECT_EQ(play(kRoom, 60.0).format(), before);
+}
 
 TEST_F(ClosedLoopIn, anEmptyRoomReachesItsGoalWithoutDetourOrContact) {
   const record::Fields row = play(kRoom, 60.0);
@@ -130,7 +155,8 @@ TEST_F(ClosedLoopIn, aWorldWithASlabOnItsPlaneIsDrivenOnTheSlab) {
       "<model name='ground_plane'><static>1</static><link name='l'><collision name='c'><geometry>"
       "<plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></collision></link>"
       "</model>";
-  const std::string boxes = slab("b", "0.5 0.5 1", "2 2 0.55") + slab("c", "0.5 0.5 1", "-2 2 0.55");
+  const std::string boxes =
+      slab("b", "0.5 0.5 1", "2 2 0.55") + slab("c", "0.5 0.5 1", "-2 2 0.55");
   config_.sim.start = "-3,-1,0";
   config_.sim.goal = "3,-1";
   for (const std::string& things : {slab("asphalt_plane", "8 8 0.1", "0 0 0") + boxes,

@@ -9,6 +9,7 @@
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
 
+#include <memory>
 #include <navvi_feedback/lockstep/guide.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
@@ -17,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "navvi_people/loop/guided_person.hpp"
 #include "navvi_people/loop/robot_senses.hpp"
 #include "navvi_people/people/sighted_driver.hpp"
 #include "navvi_people/people/simulated_operator.hpp"
@@ -37,6 +39,13 @@ struct ClosedLoopConfig {
   /// As in live.launch: the simulated robot climbs neither steps nor ramps.
   ClosedLoopConfig();
   void describe(navvi_config::Visitor& visit);
+};
+
+/// Another guide and person, who have heard, felt and seen nothing but what was played in the
+/// session so far, and then take its place.
+struct Branch {
+  ClosedLoopConfig then;  ///< of which feedback, person and speech count
+  double at = 0.0;        ///< s since the goal was set
 };
 
 /// A whole session, without ROS and without a clock: world -> navigation -> cues -> operator ->
@@ -61,7 +70,8 @@ class ClosedLoop {
 
   /// \param phrases  file of the spoken phrases
   /// \throws WorldError or ConfigError with a sentence
-  ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases);
+  ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
+             const std::optional<Branch>& branch = std::nullopt);
 
   /// One step of the world, and whatever is due after it. \return false if the world has stopped
   /// because a number in it is not finite
@@ -78,7 +88,7 @@ class ClosedLoop {
   }
   [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
   [[nodiscard]] const Messages& told() const { return published_; }
-  [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
+  [[nodiscard]] const people::SimulatedOperator& person() const { return guided_->person(); }
   [[nodiscard]] const people::StickAndButtons& hand() const { return hand_; }
   /// nullptr where the truth is told.
   [[nodiscard]] const RobotSenses* senses() const {
@@ -104,6 +114,8 @@ class ClosedLoop {
   void sense();
   void sense_by_robot();
   void navigate();
+  template <typename... Values>
+  void tell(const Values&... values);
   void feed_back();
   void operate();
   [[nodiscard]] navvi_safety::Instant instant() const { return {time(), time()}; }
@@ -116,9 +128,10 @@ class ClosedLoop {
   navvi_sim::live::Session session_;
   navvi_safety::CommandGate gate_;
   navvi_nav::lockstep::Navigation navigation_;
-  navvi_feedback::lockstep::Guide guide_;
-  double speaks_until_ = 0.0;  ///< s
-  people::SimulatedOperator person_;
+  std::unique_ptr<GuidedPerson> guided_;
+  std::unique_ptr<GuidedPerson> other_;           ///< of a branch that is to come
+  double other_at_ = 0.0;                         ///< s since the goal was set
+  double goal_at_ = 0.0;                          ///< s, when that was
   std::optional<people::SightedDriver> sighted_;  ///< at the stick in the person's place
   people::Sight sight_;                           ///< as it was told last
   people::StickAndButtons hand_;

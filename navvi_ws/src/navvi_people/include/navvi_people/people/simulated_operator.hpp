@@ -58,7 +58,12 @@ class SimulatedOperator {
   void hear(const Heard& heard, double time);
   void feel(const Felt& felt, double time);
   /// \param time  s, not going back \param dt  s since the last update
-  [[nodiscard]] StickAndButtons update(double time, double dt);
+  /// \param held  what another hand does, as meant(): this one follows, and its stick counts for
+  /// nothing
+  [[nodiscard]] StickAndButtons update(double time, double dt,
+                                       const std::optional<StickAndButtons>& held = std::nullopt);
+  /// What the hand was last meant to do; it trembles.
+  [[nodiscard]] const StickAndButtons& meant() const { return meant_; }
 
   /// What it makes of a sentence.
   [[nodiscard]] const Listener& listener() const { return listener_; }
@@ -139,6 +144,7 @@ class SimulatedOperator {
   std::map<std::uint32_t, Sentence> sentences_;
   std::vector<Sentence> understood_;
   Mode mode_ = Mode::waiting;
+  StickAndButtons meant_;
   bool started_ = false;
   double start_ = 0.0;
   double heading_ = 0.0;          ///< rad, believed, counter-clockwise

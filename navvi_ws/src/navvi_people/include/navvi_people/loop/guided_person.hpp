@@ -1,0 +1,61 @@
+#pragma once
+
+#include <geometry_msgs/Transform.h>
+#include <navvi_msgs/Cue.h>
+
+#include <navvi_feedback/lockstep/guide.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_people/people/simulated_operator.hpp"
+
+namespace navvi_people::loop {
+
+/// A guide, and the person that it guides: what the one plays the other hears and feels.
+class GuidedPerson {
+ public:
+  /// \param speech  false: nothing is spoken \param phrases  file of the spoken phrases
+  /// \throws ConfigError
+  GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
+               const people::SimulatedOperatorConfig& person, bool speech,
+               const std::string& phrases);
+
+  /// As Guide::take. \param more  a time, where that takes one
+  template <typename Value, typename... More>
+  void take(const Value& value, More... more) {
+    guide_.take(value, more...);
+  }
+
+  /// What is played at one instant.
+  struct Played {
+    std::vector<navvi_msgs::Cue> cues;
+    people::Felt motors;
+    bool motors_due = false;  ///< they are felt from now on
+  };
+  /// \param hand  on the stick \param robot  base_link in map
+  /// \return what the wheels are to do, if anything
+  std::optional<navvi_types::Velocity> feed_back(const people::StickAndButtons& hand,
+                                                 const geometry_msgs::Transform& robot,
+                                                 double time);
+  [[nodiscard]] const Played& played() const { return played_; }
+
+  /// \param played  what is heard and felt \param held  what another hand does to the stick that
+  /// this one only follows
+  /// \return the stick
+  [[nodiscard]] people::StickAndButtons act(
+      const Played& played, double time, double dt,
+      const std::optional<people::StickAndButtons>& held = std::nullopt);
+
+  [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
+
+ private:
+  navvi_feedback::lockstep::Guide guide_;
+  people::SimulatedOperator person_;
+  bool speech_;
+  bool heard_;                 ///< there is something to hear
+  double speaks_until_ = 0.0;  ///< s
+  Played played_;
+};
+
+}  // namespace navvi_people::loop

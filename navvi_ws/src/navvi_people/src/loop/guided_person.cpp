@@ -1,0 +1,58 @@
+#include "navvi_people/loop/guided_person.hpp"
+
+#include <navvi_feedback/node/msg_conversion.hpp>
+#include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/voice_model.hpp>
+
+#include "node/msg_conversion.hpp"
+
+namespace navvi_people::loop {
+
+GuidedPerson::GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
+                           const people::SimulatedOperatorConfig& person, bool speech,
+                           const std::string& phrases)
+    : guide_(guide, phrases),
+      person_(person, phrases),
+      speech_(speech),
+      heard_(speech || guide.has_sounds()) {}
+
+std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::StickAndButtons& hand,
+                                                             const geometry_msgs::Transform& robot,
+                                                             double time) {
+  const ros::Time stamp(time);
+  navvi_feedback::senses::Devices devices;
+  if (const auto hands = navvi_feedback::node::from_msg(node::to_msg(hand, stamp)))
+    devices.hands = *hands;
+  devices.speaking = time < speaks_until_;
+  devices.words = speech_;
+  devices.audio =
+      heard_ ? navvi_feedback::senses::Link::alive : navvi_feedback::senses::Link::never;
+  devices.robot = node::from_msg(robot);
+  const auto told = guide_.update(devices, time);
+  played_.cues.clear();
+  played_.motors_due = false;
+  if (!told) return std::nullopt;
+  played_.motors = {told->rumble.left, told->rumble.right};
+  played_.motors_due = told->rumble_due;
+  if (told->voice.stop) speaks_until_ = time;
+  if (told->voice.start) speaks_until_ = navvi_types::spoken_at(time, told->voice.start->size());
+  std::vector<CueEvent> events = told->said;
+  for (const navvi_feedback::sounds::Play& play : told->plays)
+    events.push_back(guide_.event_of(play));
+  for (CueEvent& event : events) {
+    event.stamp = navvi_types::to_ns(stamp);
+    played_.cues.push_back(node::to_msg(event));
+  }
+  return told->command;
+}
+
+people::StickAndButtons GuidedPerson::act(const Played& played, double time, double dt,
+                                          const std::optional<people::StickAndButtons>& held) {
+  if (played.motors_due) person_.feel(played.motors, time);
+  for (const navvi_msgs::Cue& cue : played.cues)
+    if (const auto event = node::from_msg(cue))
+      if (const auto heard = people::heard(*event)) person_.hear(*heard, time);
+  return person_.update(time, dt, held);
+}
+
+}  // namespace navvi_people::loop
