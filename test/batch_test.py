@@ -57,6 +57,13 @@ def test_a_batch_has_a_row_for_each_world_seed_person_and_condition(tmp_path):
     assert list(units) == lines[0].split(",") and all(units.values())
 
 
+def test_a_person_is_moved_by_a_trait(tmp_path):
+    trial = batch.trials_of(args_of(tmp_path, people="typical~hearing/sound_spread+1:2", seeds="5"))[0]
+    assert {"person/type:=typical", "person/moved:=hearing/sound_spread+1", "person/seed:=2"} <= set(trial.words(60))
+    with pytest.raises(Failure, match="allowed"):
+        batch.trials_of(args_of(tmp_path, people="typical~hearing"))
+
+
 def test_a_trial_is_compared_with_that_of_the_same_hand_led_by_eyes(tmp_path):
     assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a", conditions="sighted,default")) == 0
     with open(tmp_path / "a/trials.csv", encoding="utf-8", newline="") as file:

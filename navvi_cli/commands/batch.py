@@ -11,7 +11,8 @@ Several machines, or processes, each run a part of the trials: --shard=1/3,
 the table.
 
 A person is able, typical, struggling, hard_of_hearing, no_touch or drawn, with
-seeds if wanted, such as drawn:1-20. A condition is default, sounds_off,
+seeds if wanted, such as drawn:1-20; typical~hearing/sound_spread+1 has that
+trait one standard deviation up (doc/people.md). A condition is default, sounds_off,
 touch_off, words_off, words_alone, attractive or brief, or a name of your own
 with its parameters: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
 In condition sighted the person's hand is led by eyes, which see the path and
@@ -88,8 +89,12 @@ class Trial(NamedTuple):
     condition: str
     parameters: tuple
 
+    def person_words(self):
+        name, moved, trait = self.person.partition("~")
+        return [f"person/type:={name}", *([f"person/moved:={trait}"] if moved else [])]
+
     def words(self, limit, more=()):
-        return [f"--world={self.world}", f"--seeds={self.seed}", f"--limit={limit}", "--csv", f"person/type:={self.person}",
+        return [f"--world={self.world}", f"--seeds={self.seed}", f"--limit={limit}", "--csv", *self.person_words(),
                 f"person/seed:={self.person_seed}", *self.parameters, *more]
 
 
@@ -102,8 +107,10 @@ def span(text, option):
 
 def person_of(text):
     name, _, seeds = text.partition(":")
-    if name not in PEOPLE:
-        fail(f"--people has \"{text}\"; allowed are: {' '.join(PEOPLE)}, each with seeds if wanted, such as drawn:1-20.", 2)
+    kind, moved, trait = name.partition("~")
+    if kind not in PEOPLE or (moved and not re.fullmatch(r"[a-z_/]+[+-]\d+", trait)):
+        fail(f"--people has \"{text}\"; allowed are: {' '.join(PEOPLE)}, each with ~TRAIT+1 or ~TRAIT-1 and with seeds if wanted, "
+             "such as drawn:1-20.", 2)
     return [(name, seed) for seed in span(seeds or "1", "--people")]
 
 

@@ -73,8 +73,13 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit(seed, "seed", navvi_config::Range{0, 2147483647}, "", "of what the person does");
   visit(type, "type", navvi_config::OneOf{person_types()}, "",
         "sets the traits of doc/people.md; drawn: from the seed");
+  const std::string moved_before = moved;
+  visit(moved, "moved", navvi_config::Any{}, "",
+        "a trait, and by how many standard deviations between people it differs from the type's, "
+        "such as hearing/sound_spread+1; empty: none");
   // What is set besides is laid over the type.
   if (type != type_before || (type == "drawn" && seed != seed_before)) become(*this, type, seed);
+  if (moved != moved_before) move(*this, moved);
   visit.group("hearing", hearing);
   visit.group("turning", turning);
   visit.group("driving", driving);

@@ -24,6 +24,7 @@ namespace navvi_people::people {
 struct SimulatedOperatorConfig {
   int seed = 1;
   std::string type = "able";
+  std::string moved;
   HearingConfig hearing;
   TurningConfig turning;
   DrivingConfig driving;
