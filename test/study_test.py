@@ -206,6 +206,13 @@ def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
     assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
 
 
+def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
+    before = [{"stopping_delay_s": "0.5", "stopping_spread_s": "0.1"}, {"stopping_delay_s": "0.7", "stopping_spread_s": "0.2"},
+              {"stopping_delay_s": "n/a"}]
+    assert runner.learnt_before(before) == {"feedback/sounds/turn/stopping_delay": "0.7", "feedback/sounds/turn/stopping_spread": "0.2"}
+    assert runner.learnt_before([{}]) == {}
+
+
 # What comes next.
 
 def test_a_participant_is_led_through_the_plan(work):

@@ -14,7 +14,7 @@ SWITCHES = {
 }
 WORLD_FILES = (".yaml", ".sdf", ".world")
 # Given by the study itself to each session.
-OWN = {"feedback/locked", "trial/locked", "feedback/sounds/turn/learn", "feedback/sounds/turn/stopping_delay"}
+OWN = {"feedback/locked", "trial/locked", "feedback/sounds/turn/learn", "feedback/sounds/turn/stopping_delay", "feedback/sounds/turn/stopping_spread"}
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,17 @@ from .study import write_safely
 DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; p: pause after this step; a: end the trial now."
 
 
+def learnt_before(summaries):
+    """What the guide has learnt of a person's stops in the last trial that tells, for the next one."""
+    words = {}
+    for summary in summaries:
+        for name in ("stopping_delay", "stopping_spread"):
+            value = summary.get(f"{name}_s", "n/a")
+            if value != "n/a":
+                words[f"feedback/sounds/turn/{name}"] = value
+    return words
+
+
 class LiveRunner:
     """By ./navvi, with the experimenter's lines from this terminal."""
 
@@ -55,10 +66,8 @@ class LiveRunner:
             return {"feedback/sounds/turn/learn": "false"}
         if plan.learning == "reset":
             return {}
-        before = [self.study.summary(participant, other).get("stopping_delay_s", "n/a")
-                  for other in self.study.progress().person(participant).attempts if other.trial]
-        known = [delay for delay in before if delay != "n/a"]
-        return {"feedback/sounds/turn/stopping_delay": known[-1]} if known else {}
+        return learnt_before([self.study.summary(participant, other)
+                              for other in self.study.progress().person(participant).attempts if other.trial])
 
     def ask(self, participant, step, items, answered, lock):
         """Asks the items. answered(ITEM, ANSWER) keeps each at once."""
