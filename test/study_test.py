@@ -662,6 +662,53 @@ def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
     assert nothing.p > 0.01
 
 
+def test_where_all_are_quicker_in_one_condition_there_is_a_p_though_no_ratio():
+    import pandas as pd
+    import scipy.stats
+    from navvi_study.analysis import MODELS, Contrast
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True,
+             "value": 30.0 + person - 10.0 * second} for person in range(12) for second in (0, 1)]
+    one = Contrast("time", "a", "b")
+    MODELS["time"](one, pd.DataFrame(rows), None)
+    # Of each pair the first to arrive is the second condition: 12 times 1 - 1/2, with a variance of 1/4 each.
+    assert one.p == pytest.approx(scipy.stats.chi2.sf((12 * 0.5) ** 2 / (12 * 0.25), 1)) and one.estimate is None and "no ratio" in one.note
+
+
+@pytest.mark.parametrize("kind", ["count", "share"])
+def test_where_nothing_is_counted_in_one_condition_ranks_are_compared(kind):
+    import numpy as np
+    import pandas as pd
+    from navvi_study.analysis import MODELS, Contrast
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + second, "second": float(second), "reached": True,
+             "value": 0.0 if not second else float(person % 2)} for person in range(12) for second in (0, 1)]
+    values = pd.DataFrame(rows)
+    one = Contrast(kind, "a", "b")
+    MODELS[kind](one, values, np.array([float(person % 2) for person in range(12)]))
+    assert 0.0 < one.p < 0.05 and one.model == "Wilcoxon signed ranks" and "no ratio" in one.note
+
+
+def test_a_figure_shows_all_values_of_all_groups():
+    import pandas as pd
+    from navvi_study import figures
+
+    class Drawn:
+        @staticmethod
+        def by_condition(name):
+            return [{"group": group, "condition": "full", "mean": value, "low": None, "high": None} for group, value in (("a", 10.0), ("b", 90.0))]
+
+        @staticmethod
+        def values(name):
+            return pd.DataFrame([{"group": group, "participant": group, "condition": "full", "value": value} for group, value in (("a", 10.0), ("b", 90.0))])
+    limits = []
+    close = figures.plt.close
+    figures.plt.close = lambda drawing: (limits.extend(panel.get_ylim() for panel in drawing.axes), close(drawing))
+    try:
+        figures.by_condition(Drawn, "time")
+    finally:
+        figures.plt.close = close
+    assert all(low <= 0.0 and high >= 90.0 for low, high in limits) and len(limits) == 2
+
+
 @pytest.mark.parametrize("kind", ["count", "share"])
 def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(kind):
     import warnings

@@ -15,6 +15,7 @@ from .measures import MEASURES
 
 RESAMPLES = 10000
 SEED = 20260101  # of the bootstrap: the same data give the same interval
+MOST_ERROR = 5.0  # of a logarithm of a ratio, beyond which there is no estimate
 LEAST = 5  # participants, below which an interval or a test is not given
 
 
@@ -94,7 +95,8 @@ class Analysis:
                 MODELS[MEASURES[name].kind](result, values, differences)
         except (ValueError, np.linalg.LinAlgError, ZeroDivisionError, PerfectSeparationError) as problem:
             result.note = f"the model cannot be estimated: {problem}"
-        if result.p is not None and not np.isfinite([result.p, result.estimate, result.estimate_low, result.estimate_high]).all():
+        estimates = [result.p] if result.estimate is None else [result.p, result.estimate, result.estimate_low, result.estimate_high]
+        if result.p is not None and not np.isfinite(estimates).all():
             result.p = result.estimate = result.estimate_low = result.estimate_high = None
             result.note = "the model cannot be estimated from these data"
         return result
@@ -154,13 +156,14 @@ def _of_few(fit, values):
     return estimate, error, 2 * scipy.stats.t.sf(abs(estimate / error), free), scipy.stats.t.ppf(0.975, free)
 
 
-def _count(result, values, _):
+def _count(result, values, differences):
     """Negative binomial by GEE, participants as clusters; its dispersion from a plain negative binomial model first."""
     predictors = _predictors(values)
     if values["value"].sum() == 0:
         raise ValueError("nothing was counted")
     if values.groupby("second")["value"].sum().min() == 0:
-        raise ValueError("nothing was counted under one of the conditions")
+        result.note = "nothing was counted under one of the conditions, so that no ratio can be estimated"
+        return _number(result, values, differences)
     try:
         dispersion = float(sm.NegativeBinomial(values["value"], predictors).fit(disp=False).params["alpha"])
     except np.linalg.LinAlgError:
@@ -168,7 +171,7 @@ def _count(result, values, _):
     dispersion = min(max(dispersion, 1e-3), 10.0) if np.isfinite(dispersion) else 1.0
     family = sm.families.NegativeBinomial(alpha=dispersion)
     fit = sm.GEE(values["value"], predictors, groups=values["participant"], family=family, cov_struct=sm.cov_struct.Exchangeable())
-    _ratio(result, "negative binomial, GEE by participant", "rate ratio", *_of_few(fit.fit(cov_type="bias_reduced"), values))
+    return _ratio(result, "negative binomial, GEE by participant", "rate ratio", *_of_few(fit.fit(cov_type="bias_reduced"), values))
 
 
 def _time(result, values, _):
@@ -179,16 +182,29 @@ def _time(result, values, _):
     predictors = _predictors(values).drop(columns="const")
     fit = sm.PHReg(values["value"], predictors, status=reached, strata=values["participant"], ties="efron").fit()
     at = list(predictors).index("second")
-    _ratio(result, "Cox, stratified by participant, censored at the limit", "hazard ratio of arriving", fit.params[at], fit.bse[at], fit.pvalues[at])
+    if not np.isfinite([fit.params[at], fit.bse[at]]).all() or fit.bse[at] > MOST_ERROR:
+        return _log_rank(result, values, reached)
+    return _ratio(result, "Cox, stratified by participant, censored at the limit", "hazard ratio of arriving", fit.params[at], fit.bse[at], fit.pvalues[at])
 
 
-def _share(result, values, _):
+def _log_rank(result, values, reached):
+    """The stratified log-rank test, for all participants being quicker in the same condition: the ratio has no bound then, p has."""
+    model = sm.PHReg(values["value"], values[["second"]], status=reached, strata=values["participant"], ties="efron")
+    score, information = float(model.score(np.zeros(1))[0]), -float(model.hessian(np.zeros(1))[0, 0])
+    if information <= 0:
+        raise ValueError("no two times of a participant can be compared")
+    result.model, result.p = "log-rank test, stratified by participant", float(scipy.stats.chi2.sf(score ** 2 / information, 1))
+    result.note = "the times of (nearly) all participants differ in one direction, so that no ratio can be estimated"
+
+
+def _share(result, values, differences):
     """Logistic by GEE, participants as clusters."""
     if values.groupby("second")["value"].mean().isin([0.0, 1.0]).any():
-        raise ValueError("all or none under one of the conditions")
+        result.note = "all or none under one of the conditions, so that no ratio can be estimated"
+        return _number(result, values, differences)
     fit = sm.GEE(values["value"], _predictors(values), groups=values["participant"], family=sm.families.Binomial(),
                  cov_struct=sm.cov_struct.Exchangeable()).fit(cov_type="bias_reduced")
-    _ratio(result, "logistic, GEE by participant", "odds ratio", *_of_few(fit, values))
+    return _ratio(result, "logistic, GEE by participant", "odds ratio", *_of_few(fit, values))
 
 
 def _number(result, values, differences):

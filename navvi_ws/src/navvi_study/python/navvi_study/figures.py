@@ -20,6 +20,9 @@ def by_condition(analysis, name):
         for group, panel in zip(groups, panels[0]):
             _draw(panel, [row for row in rows if row["group"] == group], values[values["group"] == group])
             panel.set_title(group)
+        # The panels share it. Nothing counted is a line at the bottom, not in the middle of an axis around it.
+        least, most = min(0.0, values["value"].min()), max(1.0, values["value"].max())
+        panels[0][0].set_ylim(least, least + 1.05 * (most - least))
         panels[0][0].set_ylabel(f"{measure.label}\n({measure.unit})")
         text = io.StringIO()
         drawing.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
@@ -65,7 +68,5 @@ def _draw(panel, rows, values):
         panel.scatter([at + 0.15], [row["mean"]], marker="s", s=48, color="black", zorder=4)
     panel.set_xticks(range(len(names)), names, rotation=20 if max(map(len, names)) * len(names) > 30 else 0)
     panel.set_xlim(-0.4, len(names) - 0.5)
-    # Nothing counted is a line at the bottom, not in the middle of an axis around it.
-    panel.set_ylim(min(0.0, values["value"].min()), max(panel.get_ylim()[1], 1.0 if values["value"].max() <= 1.0 else 0.0))
     panel.grid(axis="y", color="#dddddd")
     panel.set_axisbelow(True)

@@ -41,14 +41,13 @@ def over_map(picture, ways, conditions, colours):
     left, _, right, top = map(float, area[1].split())
     x0, y0, width, _ = map(float, frame.groups())
     scale = width / (right - left)
-    lines = ""
+    edges, lines = "", ""  # white ones below, so that a way is seen on all that it crosses
     for condition, way in ways:
         at = conditions.index(condition)
         points = " ".join(f"{x0 + (x - left) * scale:.1f},{y0 + (top - y) * scale:.1f}" for x, y in way)
-        for colour, thick in (("#ffffff", 5), (colours[at % len(colours)], 2.5)):
-            dashes = DASHES[at % len(DASHES)] if thick < 5 else "none"
-            lines += f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="{thick}" stroke-dasharray="{dashes}" opacity="0.9"/>\n'
-    return picture.replace("</svg>", lines + "</svg>")
+        edges += f'<polyline points="{points}" fill="none" stroke="#ffffff" stroke-width="6"/>\n'
+        lines += f'<polyline points="{points}" fill="none" stroke="{colours[at % len(colours)]}" stroke-width="3" stroke-dasharray="{DASHES[at % len(DASHES)]}"/>\n'
+    return picture.replace("</svg>", edges + lines + "</svg>")
 
 
 def length(way):
