@@ -99,3 +99,40 @@ def test_each_trial_names_its_place_in_the_study_in_its_own_record(done):
 def test_the_report_has_both_conditions(done):
     text = (done.folder / "report.html").read_text()
     assert "all, full" in text and "all, plain" in text and "fewer than 5 participants" in text
+    assert "Cues a minute" in text and text.count("The map of world training") == 2
+
+
+def test_journal_bag_and_table_are_equal(done):
+    code, said = done.run("verify")
+    assert code == 0 and "4 trials, 0 differ." in said, said
+    assert said.count("journal equal, bag equal, table equal.") == 4
+
+
+def test_the_figures_of_a_trial_are_those_that_are_counted_in_its_journal(done):
+    """By the rows alone, without any of the programs that write them."""
+    for row in done.table():
+        folder = next(done.folder.glob(f"{row['participant']}/*/{row['trial']}"))
+        with open(folder / "journal.csv", newline="") as file:
+            rows = [(int(line["sim_ns"]), line["type"], dict(pair.split("=", 1) for pair in line["fields"].split(";"))) for line in csv.DictReader(file)]
+        start = next(sim for sim, kind, _ in rows if kind == "TRIAL_START")
+        reached = next(sim for sim, kind, _ in rows if kind == "GOAL_REACHED")
+        end = next(fields for _, kind, fields in rows if kind == "TRIAL_END")
+        hits = [fields["kind"] for _, kind, fields in rows if kind == "COLLISION"]
+        spoken = sum(kind == "CUE" and fields["modality"] == "speech" for _, kind, fields in rows)
+        assert float(row["elapsed_s"]) == pytest.approx((reached - start) / 1e9, abs=0.001)
+        assert (int(row["shelf_collision_count"]), int(row["obstacle_collision_count"])) == (hits.count("shelf"), len(hits) - hits.count("shelf"))
+        assert int(row["stuck_count"]) == sum(kind == "STUCK" for _, kind, _ in rows)
+        assert int(row["cues_spoken"]) == spoken and row["path_length_m"] == end["path_length"] and row["result"] == end["result"]
+        places = [(float(fields["x"]), float(fields["y"])) for _, kind, fields in rows if kind in ("TRIAL_START", "PROGRESS", "TRIAL_END")]
+        chords = sum(((x - a) ** 2 + (y - b) ** 2) ** 0.5 for (a, b), (x, y) in zip(places, places[1:]))
+        assert 0.9 * float(row["path_length_m"]) <= chords <= float(row["path_length_m"]) + 0.1
+
+
+def test_the_page_on_pandas_reads_tables_and_bag(done):
+    page = (ROOT / "doc/study.md").read_text().split("```python\n")[1].split("```")[0]
+    assert len(page.splitlines()) <= 30
+    shell = f"source {ROOT}/navvi_ws/devel/setup.bash && exec /usr/bin/python3 -c \"$1\""
+    page = page.replace('"touch_and_sounds"', json.dumps(str(done.folder)))
+    result = subprocess.run(["bash", "-c", shell, "_", page], text=True, capture_output=True, timeout=120)
+    assert result.returncode == 0, result.stderr
+    assert "path_length_m" in result.stdout and float(result.stdout.split()[-1]) > 5.0
