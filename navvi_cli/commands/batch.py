@@ -1,36 +1,22 @@
 """Run many simulated trials, each a row of a table.
 
-Each world, seed, person and condition makes a trial; all persons and conditions
-meet the same worlds. Whoever is killed goes on where it stopped when called
-again with the same arguments: no trial is lost or counted twice. With all
-trials run, DIR holds trials.csv, a row a trial, and trials.json, what each
-column means. Its bytes are the same for every --jobs and --shard.
-
-Several machines, or processes, each run a part of the trials: --shard=1/3,
---shard=2/3 and --shard=3/3 with a DIR that all can write. The last one writes
-the table.
+Each world, seed, person and condition makes a trial. A batch that was killed
+goes on when it is called again with the same words. At its end DIR holds
+trials.csv, a row a trial, with the same bytes for every --jobs and --shard, and
+trials.json, what each column means. doc/batch.md tells more.
 
 A person is able, typical, struggling, hard_of_hearing, no_touch or drawn, with
-seeds if wanted, such as drawn:1-20; typical~hearing/sound_spread+1 has that
-trait one standard deviation up (doc/people.md). A condition is default, sounds_off,
-touch_off, words_off, words_alone, attractive or brief, or a name of your own
-with its parameters: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
-In condition sighted the person's hand is led by eyes, which see the path and
-what moves; over_sighted compares the others with it.
-
---from=DIR:NUMBER --until=S --then=PART/NAME:=VALUE+... runs a trial of a batch
-again up to S s after its goal was set; then another guide or person (feedback,
-person, speech) goes on, who was told and felt the same so far. DIR/branch.csv
-in --out holds both; without --then they are equal.
+seeds if wanted, such as drawn:1-20; typical~hearing/sound_spread+1 moves a
+trait by one standard deviation. A condition is default, sounds_off, touch_off,
+words_off, words_alone, attractive, brief, sighted (the hand led by eyes), or a
+name of your own: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
 
 Exit codes
-0: done. 1: trials failed, other shards are not done, or a trial is no longer
-what it was. 2: a wrong argument.
+0: done. 1: some failed, are not done, or changed. 2: a wrong argument.
 
 Examples
 ./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy
-./navvi batch --worlds=busy --seeds=1-20 --shard=2/4 --out=/shared/busy
-./navvi batch --from=busy:7 --until=40 --then=feedback/sounds/enabled:=false --out=quiet
+./navvi batch --from=busy:7 --until=40 --then=speech:=false --out=quiet
 """
 import concurrent.futures
 import csv

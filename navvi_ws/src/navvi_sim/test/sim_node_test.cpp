@@ -47,7 +47,12 @@ class Listener {
 /// Drives and listens. The wall clock bounds every wait.
 class SimNode : public testing::Test {
  protected:
-  SimNode() : commands_(ros::NodeHandle().advertise<geometry_msgs::Twist>("cmd_vel", 1)) {}
+  /// One connection for all: a topic that is advertised again at once can end up with two, and the
+  /// wheels stand for those.
+  static void SetUpTestSuite() {
+    commands_ = ros::NodeHandle().advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  }
+  static void TearDownTestSuite() { commands_.shutdown(); }
 
   bool wait_until(const std::function<bool()>& done, double patience = kPatience) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(patience);
@@ -85,7 +90,7 @@ class SimNode : public testing::Test {
     return odom_.any() ? odom_.last().twist.twist.linear.x : 0.0;
   }
 
-  ros::Publisher commands_;
+  static inline ros::Publisher commands_;
   Listener<nav_msgs::Odometry> odom_{"odom"};
   Listener<navvi_msgs::DriveState> drive_{"navvi/drive_state"};
 };
