@@ -12,6 +12,7 @@
 #include <navvi_msgs/Scenario.h>
 #include <navvi_msgs/StateHash.h>
 #include <navvi_msgs/TrialEvent.h>
+#include <navvi_msgs/TrialState.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -94,6 +95,10 @@ class World {
     events_ = node_.subscribe<navvi_msgs::TrialEvent>(
         "navvi/events", 1000,
         [this](const navvi_msgs::TrialEvent::ConstPtr& msg) { events.push_back(*msg); });
+    trial_ = node_.subscribe<navvi_msgs::TrialState>(
+        "navvi/trial_state", 100, [this](const navvi_msgs::TrialState::ConstPtr& msg) {
+          if (msg->state == navvi_msgs::TrialState::RUNNING) running.push_back(msg->header.stamp);
+        });
     navvi_msgs::DriveState state;
     state.header.stamp = stamp();
     state.state = navvi_msgs::DriveState::RUNNING;
@@ -150,6 +155,7 @@ class World {
 
   bool moving = true;
   std::vector<navvi_msgs::TrialEvent> events;
+  std::vector<ros::Time> running;  ///< the stamp of each message that says so
 
  private:
   [[nodiscard]] ros::Time stamp() const { return ros::Time(10.0) + ros::Duration(0.02 * tick_); }
@@ -202,7 +208,7 @@ class World {
   ros::NodeHandle node_;
   ros::Publisher clock_, odom_, guidance_, proximity_, contacts_, cues_, drive_, scenario_, state_,
       devices_;
-  ros::Subscriber goal_, events_;
+  ros::Subscriber goal_, events_, trial_;
   int tick_ = 0;
   std::uint32_t seq_ = 0;
   double x_ = 0.0;
@@ -300,6 +306,14 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   fs::resize_file(folder / "trial.bag", fs::file_size(folder / "trial.bag") / 2);
   const int damaged = std::system((std::string(SUMMARY_FROM_BAG) + " " + folder.string()).c_str());
   EXPECT_EQ(WEXITSTATUS(damaged), 2) << "a damaged bag is told, not guessed from";
+}
+
+TEST_F(TrialNodeProcess, the_state_is_repeated_with_the_time_at_which_the_trial_began) {
+  World world;
+  world.moving = false;
+  Process node(command({"_record:=false"}));
+  ASSERT_TRUE(run(world, [&] { return world.running.size() > 4; }));
+  EXPECT_EQ(world.running.front(), world.running.back());
 }
 
 TEST_F(TrialNodeProcess, a_signal_closes_the_trial_as_aborted_and_keeps_its_bag) {

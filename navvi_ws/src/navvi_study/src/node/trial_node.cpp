@@ -134,7 +134,7 @@ class TrialNode {
     };
     out.tell = tell;
     out.show = [this](TrialState::State state) {
-      shown_ = state;
+      shown_ = TrialState{state, navvi_types::to_ns(ros::Time::now())};
       show();
     };
     out.settings = settings_of_nodes;
@@ -149,10 +149,9 @@ class TrialNode {
     return out;
   }
 
-  /// Again and again: who listens knows by it that trials are watched over.
+  /// Repeated, with the time of the last change: listeners know by it that trials are recorded.
   void show() {
-    if (!shown_) return;
-    state_.publish(navvi_types::to_msg(TrialState{*shown_, navvi_types::to_ns(ros::Time::now())}));
+    if (shown_) state_.publish(navvi_types::to_msg(*shown_));
   }
 
   void subscribe(bool simulated, const std::string& odom_frame) {
@@ -211,7 +210,7 @@ class TrialNode {
   trial::TrialKeeper keeper_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_, beat_;
-  std::optional<TrialState::State> shown_;
+  std::optional<TrialState> shown_;
 };
 
 }  // namespace
