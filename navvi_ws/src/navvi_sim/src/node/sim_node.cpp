@@ -4,7 +4,6 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 
-#include <cmath>
 #include <csignal>
 #include <map>
 #include <navvi_config/priority.hpp>
@@ -14,6 +13,7 @@
 #include "live/pacer.hpp"
 #include "navvi_sim/live/session.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
+#include "node/clock_check.hpp"
 #include "node/robot_sensors.hpp"
 #include "node/world_outlets.hpp"
 #include "read/thing_table.hpp"
@@ -120,11 +120,11 @@ void SimNode::receive(const ros::MessageEvent<const geometry_msgs::Twist>& comma
 /// The world has one clock, its own. With another one, nothing that the guide says can be relied
 /// on.
 void SimNode::hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock) {
-  const double jump = clock.getConstMessage()->clock.toSec() - world().now().time;
-  if (std::abs(jump) <= kJump) return;
+  const double stamp = clock.getConstMessage()->clock.toSec(), now = world().now().time;
+  if (!is_another_clock(clock.getPublisherName(), ros::this_node::getName(), stamp, now)) return;
   gate_.stop(navvi_safety::CommandGate::Reason::clock_jumped);
   ROS_WARN_THROTTLE(5.0, "clock: %s publishes another time, by %.1f s; the wheels stand",
-                    clock.getPublisherName().c_str(), jump);
+                    clock.getPublisherName().c_str(), stamp - now);
 }
 
 void SimNode::tick(const ros::WallTimerEvent&) {
