@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+import find_tests
 from rooms_test import PACKAGES as ROOMS, rooms_of
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -149,3 +150,13 @@ def test_each_test_of_the_fault_matrix_exists():
     names = {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
     assert len(names) > 60
     assert sorted(name for name in names if name not in tests) == []
+
+
+def test_a_row_of_the_fault_matrix_finds_the_programs_of_its_tests():
+    rows = {match.group(1): re.findall(r"`(\w+)`", match.group(2)) for match in
+            re.finditer(r"^\| (\w\d) \|.*\| ([^|]*) \|$", (ROOT / "doc/faults.md").read_text(), re.MULTILINE)}
+    named = [row for row, tests in rows.items() if any(row + "_" in test for test in tests)]
+    assert len(named) > 15
+    assert [row for row in named if not list(find_tests.programs(row + "_"))] == []
+    assert {"navvi_safety/command_gate", "_ctest_navvi_sim_rostest_test_sim_node.test", "stop"} <= set(find_tests.programs("T1_"))
+    assert list(find_tests.programs("no_test_is_called_" + "so")) == []

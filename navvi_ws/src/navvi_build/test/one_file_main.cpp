@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 /// The names of the tests that stand in a source file, as gtest's filter; empty if there are none.
 /// \param file  the end of its path, such as "src/live/world_test.cpp"
-static std::string tests_in(const std::string& file) {
+/// \param part  of the names; empty: all
+static std::string tests_in(const std::string& file, const std::string& part) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
   for (int i = 0; i < all.total_test_suite_count(); ++i) {
@@ -14,20 +16,23 @@ static std::string tests_in(const std::string& file) {
       const testing::TestInfo& test = *suite.GetTestInfo(k);
       const std::string path = test.file();
       if (path.size() < file.size() || path.compare(path.size() - file.size(), file.size(), file)) continue;
-      filter += std::string(suite.name()) + "." + test.name() + ":";
+      const std::string name = std::string(suite.name()) + "." + test.name();
+      if (name.find(part) != std::string::npos) filter += name + ":";
     }
   }
   return filter;
 }
 
-/// Runs a package's tests: with --file=src/ROOM/NAME_test.cpp those of one source file, else all, with gtest's own options.
+/// Runs a package's tests: with --file=src/ROOM/NAME_test.cpp those of one source file (of them, those whose name contains
+/// $NAVVI_TEST_CASE), else all, with gtest's own options.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const std::string option = "--file=";
+  const char* const part = std::getenv("NAVVI_TEST_CASE");
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.compare(0, option.size(), option)) continue;
-    const std::string filter = tests_in(word.substr(option.size()));
+    const std::string filter = tests_in(word.substr(option.size()), part == nullptr ? "" : part);
     if (filter.empty()) {
       std::fprintf(stderr, "no test stands in \"%s\"\n", word.c_str() + option.size());
       return 2;

@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+"""Prints the programs of ctest that hold a test case whose name contains a word, one a line.
+
+find_tests.py WORD: from the sources, so that nothing has to be built before a wrong word is rejected. Exit code 1 where there is none.
+"""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+CASE = re.compile(r"^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)", re.MULTILINE)
+SYSTEM_CASE = re.compile(r"^ *def (test_\w+)|^ *ids=\[(.*)\]|, ids=\[(.*)\]", re.MULTILINE)
+
+
+def programs(word, root=ROOT):
+    for file in sorted((root / "navvi_ws/src").glob("*/src/**/*_test.cpp")):
+        if any(word in f"{suite}.{name}" for suite, name in CASE.findall(file.read_text())):
+            package, _, *rooms = file.relative_to(root / "navvi_ws/src").parts
+            yield f"{package}/{'/'.join(rooms)}".removesuffix("_test.cpp")
+    for file in sorted((root / "navvi_ws/src").glob("*/test/*_node_test.cpp")):
+        if any(word in f"{suite}.{name}" for suite, name in CASE.findall(file.read_text())):
+            yield f"_ctest_{file.parent.parent.name}_rostest_test_{file.name.removesuffix('_test.cpp')}.test"
+    for file in sorted((root / "test").glob("*_test.py")):
+        if any(word in "".join(names) for names in SYSTEM_CASE.findall(file.read_text())):
+            yield file.name.removesuffix("_test.py")
+
+
+if __name__ == "__main__":
+    found = list(programs(sys.argv[1]))
+    print("\n".join(found))
+    sys.exit(0 if found else 1)
