@@ -22,7 +22,7 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 15. The panel by AT-SPI: panel_test.py, test_a_screen_reader_meets_each_part_by_role_and_name and the two after it.
 16. All functions of the panel by key: panel_test.py, test_the_tab_key_goes_through_all_that_can_be_pressed, test_keys_*,
     test_the_menu_is_shown_and_driven_by_keys_and_by_a_screen_reader;
-    by_hand_test.py, test_a_goal_by_panel_and_keys_alone.
+    by_panel_test.py, test_a_goal_by_panel_and_keys_alone.
 17. Sizes of letters: panel_test.py, test_letters_are_large_and_twice_as_large_for_who_wants_that.
 18. Contrast: picture_test.py, test_each_thing_or_its_edge_stands_out_from_all_that_it_is_before.
 19. Shape, not hue: picture_test.py, test_path_goal_and_mover_are_found_in_grey_and_as_by_20_200.
@@ -30,7 +30,7 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 21. Every cue in two senses, each with its own strength and off switch: test_each_sense_has_its_strength_and_its_switch,
     test_what_is_felt_or_sounds_is_said_too, and what is said is shown: panel_test.py.
 22. Glossary and tutorial: lesson_test.py.
-23. Controls remappable, one hand, no holds: CORES, and by_hand_test.py, test_three_goals_by_pad_alone.
+23. Controls remappable, one hand, no holds: CORES, and by_pad_test.py, test_three_goals_by_pad_alone.
 24. README and reports with headings, alternative texts, table headers: test_documents_have_headings_alt_texts_and_table_headers.
 """
 import ast

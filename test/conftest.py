@@ -5,6 +5,8 @@ import time
 
 import pytest
 
+from display import Display
+
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "accessibility: a line of the checklist; `./navvi test accessibility` runs them all")
@@ -34,3 +36,17 @@ def master():
     yield env
     process.terminate()
     process.wait()
+
+
+@pytest.fixture
+def desktop(master):
+    """The environment of a display with a window manager, drawn without a graphics card."""
+    display = Display()
+    env = dict(master, DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
+    windows = subprocess.Popen(["openbox"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield env
+    finally:
+        windows.terminate()
+        windows.wait()
+        display.close()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the programs of ctest that hold a test case whose name contains a word, one a line.
 
-find_tests.py WORD: from the sources, so that nothing has to be built before a wrong word is rejected. Exit code 1 where there is none.
+find_tests.py WORD: from the sources, so that nothing has to be built before a wrong word is rejected.
 """
 import pathlib
 import re
@@ -26,6 +26,4 @@ def programs(word, root=ROOT):
 
 
 if __name__ == "__main__":
-    found = list(programs(sys.argv[1]))
-    print("\n".join(found))
-    sys.exit(0 if found else 1)
+    print("\n".join(programs(sys.argv[1])))

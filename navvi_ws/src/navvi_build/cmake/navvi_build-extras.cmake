@@ -136,7 +136,7 @@ function(navvi_tests)
     elseif(name IN_LIST TESTS_RELEASE)
       set(tier release)
     endif()
-    set_tests_properties(${PROJECT_NAME}/${name} PROPERTIES LABELS ${tier} TIMEOUT 900)
+    set_tests_properties(${PROJECT_NAME}/${name} PROPERTIES LABELS ${tier} TIMEOUT 900 PROCESSORS 2)
   endforeach()
 endfunction()
 
