@@ -15,7 +15,7 @@ struct FamilyConfig {
 
 struct TurnConfig : FamilyConfig {
   double begin = 15.0;            ///< deg
-  double done = 4.0;              ///< deg
+  double done = 2.0;              ///< deg
   double stopping_delay = 0.4;    ///< s
   double stopping_spread = 0.15;  ///< s
   bool learn = true;

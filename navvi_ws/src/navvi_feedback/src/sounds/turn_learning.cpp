@@ -7,10 +7,15 @@ namespace navvi_feedback::sounds {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/// Of what a turn teaches.
+/// Of what a turn teaches: of what it left, and of its stop.
 constexpr double kWeight = 0.3;
-constexpr double kSpreadWeight = 0.15;
+constexpr double kStopWeight = 0.15;
 constexpr double kSlowest = 2.0;  // s
+/// Standard deviations; a stop that is farther off was missed first, and teaches no more than this.
+constexpr double kFarthest = 3.0;
+constexpr double kLeastSpread = 0.05;  // s
+/// Stops that what is set counts for: the first ones teach more than later ones.
+constexpr int kBefore = 1;
 /// Standard deviation over the mean deviation, where errors are normal.
 constexpr double kNormal = 1.25;
 constexpr double kMuch = 20.0 * kDegree;
@@ -23,9 +28,10 @@ constexpr int kLongestTrial = 32;
 void TurnLearning::stopped(double took) {
   if (!learns_) return;
   took = std::clamp(took, 0.0, kSlowest);
-  const double off = took - learnt_.stopping_delay;
-  learnt_.stopping_delay += kWeight * off;
-  learnt_.stopping_spread += kSpreadWeight * (kNormal * std::abs(off) - learnt_.stopping_spread);
+  const double farthest = kFarthest * std::max(kLeastSpread, learnt_.stopping_spread);
+  const double off = std::clamp(took - learnt_.stopping_delay, -farthest, farthest);
+  learnt_.stopping_delay += std::max(kStopWeight, 1.0 / (kBefore + ++stops_)) * off;
+  learnt_.stopping_spread += kStopWeight * (kNormal * std::abs(off) - learnt_.stopping_spread);
 }
 
 void TurnLearning::led_by_sounds(double error) {

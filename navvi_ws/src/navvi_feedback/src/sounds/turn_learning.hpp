@@ -28,6 +28,7 @@ class TurnLearning {
   bool learns_;
   Learnt learnt_;
   int turns_ = 0;     ///< that sounds have led
+  int stops_ = 0;     ///< of these, where the robot was told to stop, and did
   int bad_ = 0;       ///< of the latest of them, those that left too much
   int by_words_ = 0;  ///< in a row, that words have led well
   int trial_ = 4;     ///< of these, until sounds are tried again

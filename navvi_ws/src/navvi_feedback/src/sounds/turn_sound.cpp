@@ -28,7 +28,7 @@ constexpr double kStopAgain = 0.35;
 /// s; who has not begun to turn by then has missed the ticks.
 constexpr double kMissed = 5.0;
 /// rad, that stops may differ by from turn to turn: the end of a turn is led so slowly.
-constexpr double kAlike = 5.0 * kDegree;
+constexpr double kAlike = 4.5 * kDegree;
 /// rad/s, the least that slowing down leaves before where the turn is to end, and beyond.
 constexpr double kLeast = 0.2;
 constexpr double kCrawl = 0.15;
