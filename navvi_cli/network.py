@@ -2,8 +2,9 @@
 
 The lock of a port keeps a second session that starts now from it until this one's master listens there, and `watch` finds running
 sessions by it. It is one file for all users of the machine, locked through a descriptor that only reads: the file may be another
-user's. A port whose lock cannot be opened, or on which anything listens, is not ours.
+user's. A port whose lock cannot be opened, or on which anything listens, is not ours. The end of a session removes its file.
 """
+import atexit
 import fcntl
 import os
 import re
@@ -52,10 +53,28 @@ def claim(port):
     finally:
         os.umask(mask)
     descriptor = lock(path)
-    if descriptor is not None and listeners(port):
+    if descriptor is not None and (listeners(port) or not is_at(path, descriptor)):
+        remove(path, descriptor)
         os.close(descriptor)
         return None
     return descriptor
+
+
+def is_at(path, descriptor):
+    """Whether the open file is still the one of that name: the end of another session may have removed it since it was opened."""
+    try:
+        return os.path.samestat(os.lstat(path), os.fstat(descriptor))
+    except OSError:
+        return False
+
+
+def remove(path, descriptor):
+    """Removes the lock that this process holds; another user's file stays."""
+    if is_at(path, descriptor):
+        try:
+            path.unlink()
+        except OSError:
+            pass
 
 
 class Network:
@@ -68,6 +87,7 @@ class Network:
                 break
         else:
             fail(f"no port from {PORTS[0]} to {PORTS[-1]} is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them.")
+        atexit.register(remove, lock_file(self.port), self.descriptor)
         self.uri = f"http://127.0.0.1:{self.port}"
         os.environ.update(ROS_IP="127.0.0.1", ROS_MASTER_URI=self.uri)
         os.environ.pop("ROS_HOSTNAME", None)
