@@ -17,7 +17,8 @@ nav/replan/hold_time:=3 or sim/goal:=3,4.
 paper [--seeds=1-6] [--world=busy] [TRIAL] prints what the paper prints, with
 NavVI's own beside it, and why some of it cannot be repeated.
 people [TYPE] prints published effects of guidance on people beside those of the
-simulated person; guidance DIR the tables of a batch, person by person.
+simulated person; guidance DIR the tables of a batch, guidance DIR -o FILE.md
+doc/guidance.md anew: it runs what is missing of that page's batches.
 
 Exit codes
 0: done. 1: one failed. 2: a wrong argument.
@@ -50,13 +51,15 @@ def benchmarks():
 
 def arguments(parser):
     parser.add_argument("filter", nargs="?", default="", metavar="FILTER",
-                        help="only benchmarks whose package/name contains it.").completer = lambda **_: benchmarks()
+                        help="a benchmark's name, or a part of package/name.").completer = lambda **_: benchmarks()
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="ARGUMENT ...", help="what the benchmarks take.")
 
 
 def run(args):
     known = benchmarks()
     chosen = {name: path for name, path in known.items() if args.filter in name and (not name.startswith("build/") or args.filter == "build")}
+    # That whose own name it is, not all others of its package.
+    chosen = {name: path for name, path in chosen.items() if path.stem == f"{args.filter}_bench"} or chosen
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
     shell("install_packages", "all")
