@@ -10,7 +10,7 @@ from .say import fail
 
 CHOICES = {
     "operator": ["auto", "pad", "keyboard", "simulated"], "speech": ["auto", "true", "false"], "profile": ["default", "paper"],
-    "once": ["true", "false"], "lesson": ["none", "tutorial"], "rviz": ["auto", "true", "false"], "sensing": ["truth", "lidar", "robot"],
+    "once": ["true", "false"], "lesson": ["none", "tutorial"], "rviz": ["auto", "true", "false"], "sensing": ["truth", "lidar", "robot"], "lsl": ["true", "false"],
     "vision": ["high_contrast", "yellow_on_black", "large", "color_blind", "paper"], "view": ["chase", "top", "forward"],
 }
 NUMBER = r"[0-9]+(\.[0-9]+)?", "numbers, 0 or more"

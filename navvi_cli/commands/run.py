@@ -7,6 +7,7 @@ record goes and how to stop (Ctrl-C), and ends with how it went.
 Exit codes
 0: the goal was reached. 1: it was not. 2: a wrong argument, nothing started.
 """
+import importlib.util
 import os
 import time
 from pathlib import Path
@@ -79,6 +80,9 @@ def check(words):
     if words["operator"] == "simulated" and words["speech"] == "false":
         fail("the simulated person drives by what it hears, and with speech:=false that is nothing; leave speech out, or drive yourself, "
              "such as with operator:=keyboard.", 2)
+    if words.get("lsl") == "true" and importlib.util.find_spec("pylsl") is None:
+        fail("lsl:=true needs the Python package pylsl, which Debian lacks; \"/usr/bin/python3 -m pip install --user --break-system-packages "
+             "pylsl\" installs it.", 2)
     words["out"] = Path(os.path.abspath(words["out"]))
     try:
         words["out"].mkdir(parents=True, exist_ok=True)

@@ -113,6 +113,7 @@ class Plan:
     practice: Practice
     pause: Pause
     calibrate: bool
+    lsl: bool
     consent: object  # a Questionnaire or None
     after_condition: tuple  # of Questionnaires
     at_end: tuple

@@ -30,7 +30,7 @@ def load(path):
         groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
         conditions=conditions, sets=sets, reserve=reserve,
         practice=_practice(root.section("practice"), folder), pause=_pause(root.section("break")),
-        calibrate=root.take("calibrate", flag, False),
+        calibrate=root.take("calibrate", flag, False), lsl=root.take("lsl", flag, False),
         consent=questionnaire.find(root.take("consent", text), folder) if "consent" in root else None,
         after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
         primary=_question(outcomes.section("primary", required=True), conditions),

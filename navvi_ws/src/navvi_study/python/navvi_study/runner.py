@@ -51,6 +51,8 @@ class LiveRunner:
         words = {**plan.condition(step.condition).arguments(), "operator": plan.operator, "participant": participant, "person": participant,
                  "world": str(plan.world_file(attempt) or attempt.world), "seed": attempt.seed, "limit": f"{plan.limit:g}", "once": "true",
                  "out": folder, "feedback/locked": "true", "trial/locked": "true", **self._learnt(participant, attempt)}
+        if plan.lsl:
+            words["lsl"] = "true"
         if simulated:
             words.update(rviz="false", **person_of(participant, "operator/person/"))
         else:

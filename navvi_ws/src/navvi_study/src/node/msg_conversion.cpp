@@ -1,5 +1,7 @@
 #include "node/msg_conversion.hpp"
 
+#include <algorithm>
+
 namespace navvi_study::node {
 
 using navvi_types::from_ns;
@@ -42,6 +44,14 @@ std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for
           {for_good ? trial::Correction::kForGood : to_ns(entry.header.stamp), *odom});
   }
   return corrections;
+}
+
+std::optional<trial::ClockOffset> from_msg(const sensor_msgs::TimeReference& msg) {
+  const auto letter = [](char c) { return 'a' <= c && c <= 'z'; };
+  if (msg.source.empty() || msg.source.size() > 16 ||
+      !std::all_of(msg.source.begin(), msg.source.end(), letter))
+    return std::nullopt;
+  return trial::ClockOffset{msg.source, to_ns(msg.time_ref) - to_ns(msg.header.stamp)};
 }
 
 navvi_msgs::TrialEvent to_msg(const record::Row& row) {

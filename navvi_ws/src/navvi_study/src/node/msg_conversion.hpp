@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <navvi_msgs/TrialEvent.h>
+#include <sensor_msgs/TimeReference.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <navvi_types/msg_conversion.hpp>
@@ -24,6 +25,9 @@ using navvi_types::to_msg;
 /// \param for_good  the message is one of /tf_static
 [[nodiscard]] std::vector<trial::Correction> from_msg(const tf2_msgs::TFMessage& msg, bool for_good,
                                                       const std::string& odom_frame);
+/// nullopt if the clock's name is not 1 to 16 lower-case letters.
+/// \param msg  its stamp is the monotonic clock of this computer, as the journal's mono_ns
+[[nodiscard]] std::optional<trial::ClockOffset> from_msg(const sensor_msgs::TimeReference& msg);
 
 [[nodiscard]] navvi_msgs::TrialEvent to_msg(const record::Row& row);
 /// nullopt if its fields are not in order. mono_ns is not in the message and stays 0.

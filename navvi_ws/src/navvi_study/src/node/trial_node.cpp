@@ -48,6 +48,7 @@ constexpr const char* kRecorded[] = {"/clock",
                                      "navvi/trial_state",
                                      "navvi/assistance",
                                      "navvi/trial_request",
+                                     "navvi/time_reference",
                                      "/diagnostics",
                                      "navvi/events"};
 
@@ -171,6 +172,9 @@ class TrialNode {
               keeper_.take(correction, now());
           });
     }
+    listen<sensor_msgs::TimeReference>("navvi/time_reference", [this](auto& msg) {
+      if (const auto clock = from_msg(msg)) keeper_.take(*clock, now());
+    });
     listen<diagnostic_msgs::DiagnosticArray>("/diagnostics", [this](auto& msg) {
       for (const auto& report : from_msg(msg)) keeper_.take(report, now());
     });

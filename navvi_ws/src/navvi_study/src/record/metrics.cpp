@@ -130,7 +130,9 @@ std::string events_csv(const std::vector<Row>& rows) {
   if (start == nullptr) return text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
-    if (row.type == "PROXIMITY_LEAVE" || row.type == "CUE_END" || row.type == "PROGRESS") continue;
+    if (row.type == "PROXIMITY_LEAVE" || row.type == "CUE_END" || row.type == "PROGRESS" ||
+        row.type == "CLOCK_OFFSET")
+      continue;
     const bool collision = row.type == "COLLISION";
     const bool shelf = row.fields.get("kind") == "shelf";
     const bool zoned = row.type == "PROXIMITY_ENTER" && !shelf;

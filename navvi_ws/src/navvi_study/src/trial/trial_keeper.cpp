@@ -109,6 +109,16 @@ void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
   if (!active()) offered_.played = false;
 }
 
+void TrialKeeper::take(const ClockOffset& clock, const Moment& now) {
+  now_ = now;
+  if (phase_ != Phase::running) return;
+  record({"CLOCK_OFFSET",
+          record::Fields()
+              .set("source", clock.source)
+              .set("offset_ns", std::to_string(clock.offset_ns)),
+          monitor_.latest(), false});
+}
+
 void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
   now_ = now;
   if (request.kind == TrialRequest::Kind::begin) {

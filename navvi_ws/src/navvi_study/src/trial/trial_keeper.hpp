@@ -62,6 +62,8 @@ class TrialKeeper {
   void take(const Guidance& guidance, const Moment& now);
   void take(const DeviceReport& device, const Moment& now);
   void take(const Scenario& scenario, const Moment& now);
+  /// Recorded while a trial runs, so that its rows can be found on the other clock.
+  void take(const ClockOffset& clock, const Moment& now);
   /// A request that does not fit the state of the trial has no effect.
   void take(const TrialRequest& request, const Moment& now);
   /// Another node has set a goal.

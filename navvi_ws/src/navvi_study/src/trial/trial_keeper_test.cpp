@@ -106,7 +106,7 @@ class Trials : public testing::Test {
 
   TrialNodeConfig config_;
   std::unique_ptr<TrialKeeper> keeper_;
-  double time_ = 1.0;  // s, of ROS
+  double time_ = 1.0;     // s, of ROS
   std::int64_t set_ = 0;  // ns, by which the calendar was set
   std::uint32_t guidance_ = 0;
   std::vector<std::string> events_;
@@ -115,8 +115,8 @@ class Trials : public testing::Test {
   std::vector<TrialState::State> shown_;
   bool feedback_ = true;    ///< feedback_node reports
   bool elsewhere_ = false;  ///< the robot, where the guide says that it has arrived
-  int failures_ = 0;  ///< writes of the journal that are still to fail
-  int error_ = 0;     ///< with this errno
+  int failures_ = 0;        ///< writes of the journal that are still to fail
+  int error_ = 0;           ///< with this errno
 };
 
 const Scenario kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
@@ -152,6 +152,20 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_EQ(events_.back(), "BAG_CLOSED");
   EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
   EXPECT_NE(said_.find("result: reached"), std::string::npos) << said_;
+}
+
+TEST_F(Trials, name_another_clock_while_they_run_and_leave_it_out_of_the_events) {
+  begin();
+  keeper_->take(ClockOffset{"lsl", 1}, now());
+  keeper_->take(kScenario, now());
+  live(1.0);
+  keeper_->take(ClockOffset{"lsl", -4321}, now());
+  live(1.0, State::following, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "CLOCK_OFFSET"), 1);
+  EXPECT_NE(content("journal.csv").find("source=lsl;offset_ns=-4321"), std::string::npos);
+  EXPECT_EQ(content("events.csv").find("CLOCK_OFFSET"), std::string::npos);
+  EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
 }
 
 TEST_F(Trials, T4_are_invalid_where_the_guide_arrives_and_the_robot_does_not) {

@@ -48,6 +48,13 @@ struct DeviceReport {
   std::map<std::string, std::string> traits = {};  ///< such as name, firmware, voice
 };
 
+/// How far another clock, such as that of a lab's recorder, is ahead of this computer's monotonic
+/// one.
+struct ClockOffset {
+  std::string source;  ///< its name, such as lsl
+  std::int64_t offset_ns = 0;
+};
+
 /// Something that happened in a trial; the journal makes a row of it.
 struct Event {
   std::string type;
