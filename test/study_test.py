@@ -235,6 +235,13 @@ def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_pat
     assert changed.progress().freezes[-1]["changes"] == ["limit: 60.0 is now 90.0"]
 
 
+def test_a_person_is_not_led_through_a_whole_study_at_once(tmp_path):
+    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: pad")))
+    kept.freeze("test", None)
+    with pytest.raises(StudyError, match='"pad"; study run is for simulated'):
+        actions.Run.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
+
+
 def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(work):
     begun = work("aborted")
     assert rest(begun)[:2] == ["s1-c1-trial-1", "s1-c1-trial-1"]

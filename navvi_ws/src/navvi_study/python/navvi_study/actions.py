@@ -101,24 +101,50 @@ class Next:
 
     @staticmethod
     def run(args):
-        from .runner import LiveRunner
-        from .session import Session
         study = opened(args)
         study.progress().person(args.participant)
         study.require_frozen()
-        runner = LiveRunner(study, TOOLS["navvi"], TOOLS["tool"]("navvi_study", "close_trials"), args.typed)
-        session = Session(study, runner, wait=study.plan.operator != "simulated")
+        session = _live_session(study, args.typed)
         while True:
-            left = study.progress()
-            if left.next(left.person(args.participant)) is None and not left.person(args.participant).open:
-                session.next(args.participant)
-                return 3
+            finished = _finished(study, args.participant)
             step = session.next(args.participant)
+            if finished:
+                return 3
             if step is None:
                 return 1
             if not args.session or step.kind == "session_end":
                 return 0
-            runner.pause()
+            session.runner.pause()
+
+
+class Run:
+    """Lead all simulated participants through the plan, live, to the report.
+
+    For a plan whose operator is simulated: sessions as with people, with all nodes,
+    in real time. What broke off goes on when it is called again.
+
+    Exit codes
+    0: done, and the report is written. 1: broken off. 2: not allowed, and why.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        only_argument(parser)
+
+    @staticmethod
+    def run(args):
+        study = opened(args)
+        study.require_frozen()
+        if study.plan.operator != "simulated":
+            raise StudyError(f"the operator of the plan is \"{study.plan.operator}\"; study run is for simulated, and \"study next\" leads a person.")
+        session = _live_session(study, typed=False)
+        for name in study.plan.participants:
+            while not _finished(study, name):
+                if session.next(name) is None:
+                    return 1
+        _write_report(study, args.only, rehearsed=False)
+        return 0
 
 
 class Status:
@@ -304,6 +330,19 @@ class Rehearse:
         _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
 
 
+def _live_session(study, typed):
+    from .runner import LiveRunner
+    from .session import Session
+    runner = LiveRunner(study, TOOLS["navvi"], TOOLS["tool"]("navvi_study", "close_trials"), typed)
+    return Session(study, runner, wait=study.plan.operator != "simulated")
+
+
+def _finished(study, name):
+    """Whether nothing is left that the participant could do."""
+    left = study.progress()
+    return left.next(left.person(name)) is None and not left.person(name).open
+
+
 def _write_report(study, only, rehearsed):
     from . import figures, report, table, worlds
     from .analysis import Analysis
@@ -330,4 +369,4 @@ def _reason(words):
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
 
 
-ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}
+ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Run, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}
