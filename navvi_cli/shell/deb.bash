@@ -25,12 +25,13 @@ pack() {  # FOLDER
 
 # The packages of the libraries that the programs are linked to, and what they start.
 depended_on() {  # TREE
-  local programs own
+  local programs own qt
+  read -ra qt < <(qt_packages) || return
   readarray -t programs < <(find "$1/usr/lib" -type f \( -perm /u+x -o -name '*.so' \) -exec grep -LI . {} +)
   mkdir -p "$1/debian" && printf 'Source: navvi\n\nPackage: navvi\nArchitecture: any\n' >"$1/debian/control"
   own=$(cd "$1" && dpkg-shlibdeps -O --ignore-missing-info "-l$1/usr/lib" "${programs[@]}" 2>&2) || return
   rm -r "$1/debian"
-  echo "${own#*=}$(printf ', %s' python3 "${run_packages[@]}")"
+  echo "${own#*=}$(printf ', %s' python3 "${run_packages[@]}" "${qt[@]}")"
 }
 
 control_files() {  # TREE VERSION DEPENDS

@@ -1,14 +1,14 @@
 # What NavVI needs of Debian 12 or 13, and how it gets there.
 
 run_packages=(
-  rviz libqt5svg5 rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
+  rviz rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-std-srvs python3-tf2-msgs
   python3-argcomplete python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
   at-spi2-core dbus-bin x11-utils
 )
 session_packages=(
-  build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev qtbase5-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
+  build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
   liboctomap-dev libbullet-dev libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libx11-dev libtinyxml2-dev libassimp-dev libeigen3-dev
   zlib1g-dev libpng-dev pkg-config libgtest-dev librostest-dev
   "${run_packages[@]}"
@@ -29,6 +29,14 @@ missing_packages() {  # PACKAGE...
   installed=$(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "$@" 2>/dev/null | awk '$1 == "ii" {print $2}' || true)
   comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<<"$installed")
 }
+# qt_packages [build]: what draws icons in RViz, or is also needed to build its plug-in, of the Qt that apt's RViz is linked to. Two
+# versions of Qt in one process end it by signal 11.
+qt_packages() {
+  case $(apt-cache depends rviz 2>/dev/null) in
+    *libqt6*) echo qt6-svg-plugins "${1:+qt6-base-dev}" ;;
+    *libqt5*) echo libqt5svg5 "${1:+qtbase5-dev}" ;;
+  esac
+}
 available() {  # PACKAGE...: those that apt can install
   apt-cache policy "$@" 2>/dev/null | awk '/^[^ ]/ {name = $1} /Candidate: [^(]/ {sub(":$", "", name); print name}'
 }
@@ -45,7 +53,9 @@ installed_percent() {
 # install_packages [report|all]: what a session needs, what a study's report needs as well, or the tests.
 install_packages() {
   [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
-  local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=()
+  local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=() qt=()
+  read -ra qt < <(qt_packages build) || true  # none where apt knows no RViz before its first update
+  needed+=("${qt[@]}")
   [[ ${1:-} != report ]] || needed+=("${report_packages[@]}")
   [[ ${1:-} != all ]] || needed+=("${test_packages[@]}") optional=("${optional_packages[@]}")
   command -v apt-get >/dev/null || elsewhere
@@ -74,9 +84,10 @@ install_packages() {
   aside "the packages are installed."
 }
 apt_get() {  # PACKAGE...
-  local more=()
+  local more=() qt=()
   "${as_root[@]}" dpkg --configure -a || return  # what Ctrl-C may have left behind
   "${as_root[@]}" apt-get update -q || return
   ((${#optional[@]} == 0)) || readarray -t more < <(available "${optional[@]}")
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@" "${more[@]}"
+  read -ra qt < <(qt_packages build) || true
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@" "${qt[@]}" "${more[@]}"
 }
