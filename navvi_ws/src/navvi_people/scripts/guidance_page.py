@@ -1,5 +1,6 @@
 """doc/guidance.md: runs its batches, or what is missing of them, and writes the page with its plots."""
 import datetime
+import json
 import re
 import subprocess
 import sys
@@ -28,65 +29,79 @@ besides, which no simulated person steers by; `brief`: brief words; `attractive`
 turns are announced from 10 m on instead of 6 m."""
 
 
-def batch(folder, name, jobs):
-    """\\return the rows of one of BATCHES; None where it could not be finished"""
+def run(folder, name, jobs):
+    """\\return the exit code; 0: DIR/NAME holds the whole batch"""
     words = [NAVVI, "batch", "--worlds=busy", "--limit=600", f"--jobs={jobs}", "--tell=60", *BATCHES[name], f"--out={folder / name}"]
-    done = subprocess.run(words, check=False).returncode == 0
-    return tables.read(folder / name) if done else None
+    return subprocess.run(words, check=False).returncode
 
 
-def effects():
-    """Published effects, a column a type; None where one of them could not be measured."""
+def effects(folder, measures):
+    """Published effects, a column a type. \\param measures  those that the folder does not hold are measured"""
     rows = {}
     for person in tables.TYPES:
-        result = subprocess.run([NAVVI, "bench", "people", person], stdout=subprocess.PIPE, text=True, check=False)
-        if result.returncode:
-            return None
-        for cells in re.findall(r"^\| (.+) \| (.+) \| (.+) \| (-?[\d.]+) \| (.+) \|$", result.stdout, re.M):
-            rows.setdefault(cells[:3], []).append(f"{cells[3]} {cells[4]}")
+        file = folder / f"people-{person}.md"
+        if measures and not file.exists():
+            result = subprocess.run([NAVVI, "bench", "people", person], stdout=subprocess.PIPE, text=True, check=True)
+            file.write_text(result.stdout, encoding="utf-8")
+        text = file.read_text(encoding="utf-8") if file.exists() else ""
+        for effect, source, published, here, agrees in re.findall(r"^\| (.+) \| (.+) \| (.+) \| (-?[\d.]+) \| (.+) \|$", text, re.M):
+            rows.setdefault((effect, source, published), []).append(f"{here} {agrees}")
     return [*tables.head("effect", "source", "published", *tables.TYPES), *(tables.line(*effect, *cells) for effect, cells in rows.items())]
 
 
-def command(name):
-    return "    ./navvi batch --worlds=busy --limit=600 " + " ".join(f"'{word}'" if "~" in word else word for word in BATCHES[name]) + f" --out={name}"
+def command(folder):
+    """That has made the batch."""
+    known = json.loads((folder / "batch.json").read_text(encoding="utf-8"))
+    words = [f"--{name}={known[name]}" for name in ("worlds", "seeds", "people", "conditions", "limit")]
+    return "    ./navvi batch " + " ".join(f"'{word}'" if "~" in word else word for word in words) + f" --out={folder.name}"
 
 
 def section(title, *parts):
     return [f"## {title}", *(line for part in parts for line in ([part, ""] if isinstance(part, str) else [*part, ""]))]
 
 
-def page(found, known, notes, day):
+def parts(folder, found):
     closing = found["closing"]
+    out = [*section("Goals", tables.goals(closing)),
+           *section("Closing table", command(folder / "closing"), tables.guidance(closing),
+                    "![Contacts, time and SPL with intervals, by condition; a mark a person](guidance.svg)")]
+    if "drawn" in found:
+        out += section("Drawn persons", "Persons whose traits are drawn.", command(folder / "drawn"), tables.guidance(found["drawn"]))
+    if "choices" in found:
+        out += section("Design choices", CHOICES, command(folder / "choices"), tables.flips(found["choices"]),
+                       "![Changes beside the default with intervals, by design choice; a mark a person](guidance_choices.svg)")
+    if "moved" in found:
+        out += section("One trait moved by a standard deviation", command(folder / "moved"), tables.moved(found["moved"])[1:])
+    return out + section("Failures", "In `default` of the closing table.", tables.failures(closing))
+
+
+def page(folder, found, known, notes, day):
     return "\n".join([
         "# Guidance, person by person",
-        "Simulated people ([their traits](people.md)); nobody has driven yet. All of this page but the notes is made by",
-        "`./navvi bench guidance TRIALS -o doc/guidance.md`, which runs the batches that it names, or what is missing of them.",
+        "Simulated people ([their traits](people.md)); nobody has driven yet. `./navvi bench guidance TRIALS -o doc/guidance.md` makes this page,",
+        "but for the notes: it runs its batches in the folder TRIALS, or what is missing of them; `--as-is` shows those that are there.",
         f"Measured on {day} in world `busy`, on seeds that no tuning saw, limit 600 s. Intervals hold 95 % (bootstrap); changes are beside",
         "`default` over the same worlds. `sighted` is the same hand led by eyes, and `sounds_off` leaves words and touch.", "",
-        *section("Goals", tables.goals(closing)),
-        *section("Closing table", command("closing"), tables.guidance(closing),
-                 "![Contacts, time and SPL with intervals, by condition; a mark a person](guidance.svg)"),
-        *section("Drawn persons", "Twenty persons whose traits are drawn, each in five worlds.", command("drawn"), tables.guidance(found["drawn"])),
-        *section("Design choices", CHOICES, command("choices"), tables.flips(found["choices"]),
-                 "![Changes beside the default with intervals, by design choice; a mark a person](guidance_choices.svg)"),
-        *section("One trait moved by a standard deviation", "Of the typical person.", command("moved"), tables.moved(found["moved"])[1:]),
-        *section("Failures", "In `default` of the closing table.", tables.failures(closing)),
-        *section("Published effects", "`./navvi bench people TYPE`; sessions are of 8 trials each.", known),
-        notes])
+        *parts(folder, found), *section("Published effects", "`./navvi bench people TYPE`; sessions are of 8 trials each.", known), notes])
 
 
-def make(folder, file, jobs):
-    found = {name: batch(folder, name, jobs) for name in BATCHES}
-    known = effects()
-    if known is None or any(rows is None for rows in found.values()):
-        print("navvi: a part of the page could not be measured; the same command goes on.", file=sys.stderr)
+def make(folder, file, jobs, as_is):
+    """\\param as_is  nothing is run"""
+    if not as_is and any([run(folder, name, jobs) for name in BATCHES]):
+        print("navvi: a batch of the page is not finished; the same command goes on.", file=sys.stderr)
         return 1
+    found = {name: tables.read(folder / name) for name in BATCHES if (folder / name / "trials.csv").is_file()}
+    if "closing" not in found:
+        print(f"navvi: {folder} has no closing/trials.csv, which the page begins with; without --as-is it is made.", file=sys.stderr)
+        return 2
+    known = effects(folder, not as_is)
     # What a person has written of the figures stays.
     before = file.read_text(encoding="utf-8") if file.exists() else ""
     notes = "## Notes" + before.partition("## Notes")[2] if "## Notes" in before else "## Notes\n"
     day = datetime.date.fromtimestamp((folder / "closing/trials.csv").stat().st_mtime).isoformat()
-    file.write_text(page(found, known, notes, day), encoding="utf-8")
-    three = tables.ordered(found["closing"], "condition")
-    file.with_name("guidance.svg").write_text(plots.drawn("Guidance, person by person", plots.means(found["closing"], three)), encoding="utf-8")
-    file.with_name("guidance_choices.svg").write_text(plots.drawn("Design choices", plots.changes(found["choices"])), encoding="utf-8")
+    file.write_text(page(folder, found, known, notes, day), encoding="utf-8")
+    conditions = tables.ordered(found["closing"], "condition")
+    file.with_name("guidance.svg").write_text(plots.drawn("Guidance, person by person", plots.means(found["closing"], conditions)), encoding="utf-8")
+    if "choices" in found:
+        file.with_name("guidance_choices.svg").write_text(plots.drawn("Design choices", plots.changes(found["choices"])), encoding="utf-8")
     return 0
