@@ -138,27 +138,73 @@ std::vector<int> pieces_of(const std::vector<char>& mask, int side) {
   return piece;
 }
 
-/// True if a piece of the fine cells joins open cells, or ways out of the part, that are apart.
-bool opens_a_way(const TileCells& fine, const map::Floor& floor, int parts) {
+/// A square's fine cells by what they belong to, numbered from 1 on; 0: to none.
+struct Pieces {
+  int side = 0;            // fine cells
+  std::vector<int> fine;   // pieces of the fine open cells
+  std::vector<int> whole;  // of the whole open cells
+  std::vector<int> exits;  // of the fine ones along the square's rim
+};
+
+Pieces pieces_in(const TileCells& fine, const map::Floor& floor, int parts) {
   const int side = fine.size;
-  std::vector<char> open, end;
+  std::vector<char> open, whole, rim;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      open.push_back(
-          static_cast<char>(fine.open[static_cast<std::size_t>((y + 1) * (side + 2) + x + 1)]));
-      const bool out = x == 0 || y == 0 || x == side - 1 || y == side - 1;
+      const bool on_rim = x == 0 || y == 0 || x == side - 1 || y == side - 1;
       const map::Cell cell{fine.origin.x / parts + x / parts, fine.origin.y / parts + y / parts};
-      end.push_back(static_cast<char>(open.back() != 0 && (out || floor.open(cell))));
+      open.push_back(static_cast<char>(fine.is_open(x, y)));
+      whole.push_back(static_cast<char>(floor.open(cell)));
+      rim.push_back(static_cast<char>(on_rim && fine.is_open(x, y)));
     }
   }
-  const std::vector<int> piece = pieces_of(open, side), ends = pieces_of(end, side);
-  std::vector<int> first(piece.size() + 1, 0);
-  for (std::size_t at = 0; at < piece.size(); ++at) {
-    int& known = first[static_cast<std::size_t>(piece[at])];
-    if (ends[at] != 0 && known != 0 && known != ends[at]) return true;
-    if (ends[at] != 0) known = ends[at];
+  return {side, pieces_of(open, side), pieces_of(whole, side), pieces_of(rim, side)};
+}
+
+/// For each exit whether a whole open cell of its piece lies beside it. Then what is beyond is left
+/// to the next square, which overlaps this one by two cells and so has both.
+std::vector<char> exits_at_cells(const Pieces& of, int parts) {
+  std::vector<char> out(of.exits.size() + 1, 0);
+  for (int at = 0; at < of.side * of.side; ++at) {
+    const auto i = static_cast<std::size_t>(at);
+    if (of.exits[i] == 0) continue;
+    for (const auto& [dx, dy] :
+         {std::pair{0, 0}, {-parts, 0}, {parts, 0}, {0, -parts}, {0, parts}}) {
+      const int x = at % of.side + dx, y = at / of.side + dy;
+      if (x < 0 || y < 0 || x >= of.side || y >= of.side) continue;
+      const auto beside = static_cast<std::size_t>(y * of.side + x);
+      if (of.whole[beside] != 0 && of.fine[beside] == of.fine[i])
+        out[static_cast<std::size_t>(of.exits[i])] = 1;
+    }
+  }
+  return out;
+}
+
+/// True if a piece of the fine cells joins two ends, whole cells or exits, that are apart without.
+bool opens_a_way(const TileCells& fine, const map::Floor& floor, int parts) {
+  const Pieces of = pieces_in(fine, floor, parts);
+  const std::vector<char> at_cells = exits_at_cells(of, parts);
+  const int cells = static_cast<int>(of.fine.size());
+  std::vector<int> first(of.fine.size() + 1, 0);
+  for (std::size_t at = 0; at < of.fine.size(); ++at) {
+    const int exit = of.exits[at];
+    int end = of.whole[at];
+    if (end == 0 && exit != 0 && at_cells[static_cast<std::size_t>(exit)] == 0) end = cells + exit;
+    if (of.fine[at] == 0 || end == 0) continue;
+    int& known = first[static_cast<std::size_t>(of.fine[at])];
+    if (known != 0 && known != end) return true;
+    known = end;
   }
   return false;
+}
+
+/// The square without its outermost cells, `by` fine ones wide.
+TileCells shrunk(const TileCells& fine, int by) {
+  TileCells out{{fine.origin.x + by, fine.origin.y + by}, fine.size - 2 * by, {}, {}};
+  for (int y = -kBorder; y < out.size + kBorder; ++y)
+    for (int x = -kBorder; x < out.size + kBorder; ++x)
+      out.open.push_back(static_cast<std::uint8_t>(fine.is_open(x + by, y + by)));
+  return out;
 }
 
 /// Cells of which a part is open: no wall of the cells beside them is there to be smoothed.
@@ -170,7 +216,7 @@ void mark_open(const TileCells& fine, int parts, TileCells& cells) {
       const int side = cells.size + 2;
       if (column >= 0 && row >= 0 && column < side && row < side)
         cells.open[static_cast<std::size_t>(row * side + column)] |=
-            fine.open[static_cast<std::size_t>((y + 1) * (fine.size + 2) + x + 1)];
+            static_cast<std::uint8_t>(fine.is_open(x, y));
     }
   }
 }
@@ -189,9 +235,11 @@ void add_fine_parts(TileCells& cells, const map::Floor& floor, double margin) {
   for (std::size_t at = 0; at < wanted.size(); ++at) {
     if (wanted[at] == 0) continue;
     const auto n = static_cast<int>(at);
-    fine[at] =
-        fine_cells(floor, {low.x + n % side * part, low.y + n / side * part}, part, parts, margin);
-    opens[at] = static_cast<char>(opens_a_way(fine[at], floor, parts));
+    // With a cell more around: open cells to either side of the part's border may be apart.
+    const TileCells around = fine_cells(
+        floor, {low.x + n % side * part - 1, low.y + n / side * part - 1}, part + 2, parts, margin);
+    opens[at] = static_cast<char>(opens_a_way(around, floor, parts));
+    fine[at] = shrunk(around, parts);
   }
   const auto row = static_cast<std::size_t>(side);
   for (std::size_t at = 0; at < wanted.size(); ++at) {

@@ -20,6 +20,10 @@ struct TileCells {
   /// count.
   std::vector<TileCells> fine;
 
+  /// \param x, y  from the tile's lower cell; the border's, too
+  [[nodiscard]] bool is_open(int x, int y) const {
+    return open[static_cast<std::size_t>((y + kBorder) * (size + 2 * kBorder) + x + kBorder)] != 0;
+  }
   /// Of the tile, its border left out.
   [[nodiscard]] std::int64_t count_open() const;
   [[nodiscard]] bool operator==(const TileCells& other) const {
