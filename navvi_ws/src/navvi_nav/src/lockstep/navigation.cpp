@@ -30,6 +30,7 @@ struct Navigation::Parts {
   std::optional<plan::PlanAnswer> answer = {};  ///< to the request of the last beat
   guide::PublishThrottle throttle = {};
   std::uint32_t published = 0;
+  std::string map_error = {};
 };
 
 Navigation::Navigation(const NavigationConfig& config)
@@ -55,6 +56,8 @@ void Navigation::set_goal(const Eigen::Vector2d& goal) { parts_->navigator.set_g
 
 bool Navigation::has_map() const { return parts_->navigator.has_map(); }
 
+const std::string& Navigation::map_error() const { return parts_->map_error; }
+
 std::vector<Eigen::Vector2d> Navigation::path() const {
   std::vector<Eigen::Vector2d> out;
   for (const Point point : parts_->navigator.path()) out.emplace_back(point.x, point.y);
@@ -65,8 +68,10 @@ bool Navigation::plan_waits() const { return parts_->answer.has_value(); }
 
 std::optional<navvi_types::Guidance> Navigation::update(double time) {
   guide::Navigator& navigator = parts_->navigator;
-  if (const auto answer = std::exchange(parts_->answer, std::nullopt))
+  if (const auto answer = std::exchange(parts_->answer, std::nullopt)) {
+    if (answer->map_taken || !answer->map_error.empty()) parts_->map_error = answer->map_error;
     navigator.deliver(*answer, time);
+  }
   if (const auto request = navigator.update(time))
     parts_->answer = parts_->planner.answer(*request);
   if (navigator.undecided(time)) return std::nullopt;

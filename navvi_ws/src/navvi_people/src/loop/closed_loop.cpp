@@ -4,6 +4,7 @@
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "node/msg_conversion.hpp"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the obstacles
 constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
-constexpr double kGoalAt = 1.0;           // s; trial_node sets the goal when every part is there
+constexpr double kMapBy = 30.0;  // s; a robot's own sensors have shown some floor long before
+constexpr double kGoalAt = 1.0;  // s; trial_node sets the goal when every part is there
 
 }  // namespace
 
@@ -142,6 +144,16 @@ geometry_msgs::Transform ClosedLoop::pose() const {
       .transform;
 }
 
+/// Without a map no goal is ever set, and the trial would have no end.
+void ClosedLoop::require_map() const {
+  if (navigation_.has_map()) return;
+  const std::string& why = navigation_.map_error();
+  const bool last = !setting_.senses && !why.empty();
+  if (last || time() >= kMapBy)
+    throw std::runtime_error("navigation rejects the map of " + config_.sim.world + ": " +
+                             (why.empty() ? "none came" : why));
+}
+
 void ClosedLoop::navigate() {
   if (!begun_ && navigation_.has_map() && time() >= kGoalAt) {
     begun_ = true;
@@ -151,6 +163,7 @@ void ClosedLoop::navigate() {
   const geometry_msgs::Transform at = pose();
   if (const auto robot = node::from_msg(at)) navigation_.set_pose(*robot, at.translation.z, time());
   std::optional<navvi_types::Guidance> guidance = navigation_.update(time());
+  require_map();
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
   tell(*guidance, time());

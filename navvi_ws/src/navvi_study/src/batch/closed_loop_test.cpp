@@ -124,6 +124,18 @@ TEST_F(ClosedLoopIn, aBranchWithoutAChangeIsTheSameTrialAndAnotherPersonMakesAno
   }
 }
 
+TEST_F(ClosedLoopIn, aMapThatNavigationRejectsEndsTheTrialWithTheReason) {
+  navvi_config::read(config_.nav, navvi_config::read_words({"mesh/floor_height:=1.5"}), "test");
+  try {
+    (void)play(kRoom, 5.0);
+    FAIL() << "the trial ended without a sentence";
+  } catch (const std::runtime_error& error) {
+    const std::string why = error.what();
+    EXPECT_EQ(why.rfind("navigation rejects the map of " + config_.sim.world + ": ", 0), 0U) << why;
+    EXPECT_NE(why.find("z = 0.00 m"), std::string::npos) << why;
+  }
+}
+
 TEST_F(ClosedLoopIn, aBranchAfterTheEndChangesNothing) {
   const std::string before = play(kRoom, 60.0).format();
   branch_ = navvi_people::loop::Branch{config_, 59.0};

@@ -44,6 +44,8 @@ class Navigation {
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] bool has_map() const;
+  /// A sentence if the last map was rejected, else empty.
+  [[nodiscard]] const std::string& map_error() const;
   /// From where the robot was when it was planned to the goal; empty if none is followed.
   [[nodiscard]] std::vector<Eigen::Vector2d> path() const;
 

@@ -75,6 +75,7 @@ class ClosedLoop {
 
   /// One step of the world, and whatever is due after it. \return false if the world has stopped
   /// because a number in it is not finite
+  /// \throws std::runtime_error with a sentence if navigation rejects the map
   [[nodiscard]] bool step();
 
   /// s since the world began
@@ -114,6 +115,7 @@ class ClosedLoop {
   void sense();
   void sense_by_robot();
   void navigate();
+  void require_map() const;
   template <typename... Values>
   void tell(const Values&... values);
   void feed_back();
