@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -97,7 +98,16 @@ struct Picture {
   std::string pixels;
 };
 
-/// Reads the next number of a PGM header; comments run from # to the end of the line.
+/// Takes the mean of the three colours of each pixel.
+Picture grey(Picture picture) {
+  const auto color = [&](std::size_t i) { return static_cast<unsigned char>(picture.pixels[i]); };
+  for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i)
+    picture.pixels[i] = static_cast<char>((color(3 * i) + color(3 * i + 1) + color(3 * i + 2)) / 3);
+  picture.pixels.resize(picture.pixels.size() / 3);
+  return picture;
+}
+
+/// Reads the next number of a PGM or PPM picture; comments run from # to the end of the line.
 std::optional<std::size_t> next_number(const std::string& bytes, std::size_t& at) {
   while (at < bytes.size() &&
          (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
@@ -116,22 +126,40 @@ std::optional<std::size_t> next_number(const std::string& bytes, std::size_t& at
   return value;
 }
 
-Picture read_pgm(const std::string& path, const std::string& bytes) {
+/// The numbers of a picture's pixels, from text or bytes; fewer than `count` if it ends before.
+std::string samples_of(const std::string& bytes, std::size_t at, std::size_t count, bool is_text) {
+  if (!is_text) return bytes.substr(std::min(bytes.size(), at + 1), count);  // one white space
+  std::string samples;
+  while (samples.size() < count) {
+    const auto number = next_number(bytes, at);
+    if (!number || *number > 255) break;
+    samples += static_cast<char>(*number);
+  }
+  return samples;
+}
+
+/// A picture of grey (P2, P5) or of colours (P3, P6), as text or in bytes.
+Picture read_netpbm(const std::string& path, const std::string& bytes) {
   std::size_t at = 2;
-  const bool pgm = bytes.rfind("P5", 0) == 0;
-  const auto width = pgm ? next_number(bytes, at) : std::nullopt;
-  const auto height = pgm ? next_number(bytes, at) : std::nullopt;
-  const auto white = pgm ? next_number(bytes, at) : std::nullopt;
+  const char kind = bytes.size() > 2 && bytes[0] == 'P' ? bytes[1] : ' ';
+  const bool known = kind == '2' || kind == '3' || kind == '5' || kind == '6';
+  const auto width = known ? next_number(bytes, at) : std::nullopt;
+  const auto height = known ? next_number(bytes, at) : std::nullopt;
+  const auto white = known ? next_number(bytes, at) : std::nullopt;
   if (!width || !height || !white || *white == 0 || *white > 255)
     throw FileError(path +
-                    ": this is neither a PNG picture nor a PGM picture of one byte a pixel (P5); " +
-                    "ImageMagick's convert makes one of most others");
-  ++at;  // one white space
-  if (*width == 0 || *height == 0 || *width > kMaxPictureSide || *height > kMaxPictureSide ||
-      at > bytes.size() || bytes.size() - at < *width * *height)
+                    ": this is neither a PNG picture nor a PGM or PPM picture of up to 255 levels "
+                    "(P2, P3, P5, P6); ImageMagick's convert makes one of most others");
+  const std::size_t colors = kind == '3' || kind == '6' ? 3 : 1;
+  Picture out{*width, *height, static_cast<double>(*white), {}};
+  const bool fits = *width <= kMaxPictureSide && *height <= kMaxPictureSide;
+  const std::size_t pixels = fits ? *width * *height : 0;
+  if (pixels > 0 && pixels <= bytes.size())
+    out.pixels = samples_of(bytes, at, colors * pixels, kind < '4');
+  if (pixels == 0 || out.pixels.size() < colors * pixels)
     throw FileError(path + ": the picture should have " + std::to_string(*width) + " x " +
                     std::to_string(*height) + " pixels, and it has not; 32768 a side are allowed");
-  return {*width, *height, static_cast<double>(*white), bytes.substr(at, *width * *height)};
+  return colors == 3 ? grey(std::move(out)) : out;
 }
 
 Picture read_png(const std::string& path, const std::string& bytes) {
@@ -150,16 +178,12 @@ Picture read_png(const std::string& path, const std::string& bytes) {
   std::string colors(PNG_IMAGE_SIZE(image), '\0');
   const png_color white{255, 255, 255};
   if (png_image_finish_read(&image, &white, colors.data(), 0, nullptr) == 0) fail(image.message);
-  Picture out{image.width, image.height, 255.0, std::string(colors.size() / 3, '\0')};
-  const auto color = [&](std::size_t i) { return static_cast<unsigned char>(colors[i]); };
-  for (std::size_t i = 0; i < out.pixels.size(); ++i)
-    out.pixels[i] = static_cast<char>((color(3 * i) + color(3 * i + 1) + color(3 * i + 2)) / 3);
-  return out;
+  return grey({image.width, image.height, 255.0, std::move(colors)});
 }
 
 Picture read_picture(const std::string& path) {
   const std::string bytes = load(path, kMaxPicture);
-  return bytes.rfind("\x89PNG", 0) == 0 ? read_png(path, bytes) : read_pgm(path, bytes);
+  return bytes.rfind("\x89PNG", 0) == 0 ? read_png(path, bytes) : read_netpbm(path, bytes);
 }
 
 struct GridDescription {
@@ -174,7 +198,7 @@ struct GridDescription {
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Range;
-    visit(image, "image", navvi_config::Any{}, "", "a PNG or PGM picture");
+    visit(image, "image", navvi_config::Any{}, "", "a PNG, PGM or PPM picture");
     visit(resolution, "resolution", Range{kMinResolution, kMaxResolution}, "m", "side of a pixel");
     visit(origin, "origin", navvi_config::Any{}, "m, m, rad", "lower left corner: x, y, yaw");
     visit(negate, "negate", Range{0.0, 1.0}, "", "1: white is occupied");
@@ -233,7 +257,12 @@ GridFile read_grid_file(const std::string& path) {
     if (how.occupied_thresh < how.free_thresh)
       throw FileError(path +
                       ": occupied_thresh is below free_thresh; allowed is the same or above");
-    const auto picture = std::filesystem::path(path).parent_path() / how.image;
+    auto picture = std::filesystem::path(path).parent_path() / how.image;
+    // Many maps name their picture in a folder of their author, and lie beside it.
+    std::error_code failed;
+    const auto beside = std::filesystem::path(path).parent_path() / picture.filename();
+    if (!std::filesystem::exists(picture, failed) && std::filesystem::exists(beside, failed))
+      picture = beside;
     return {{}, grid_of(how, read_picture(picture.string()))};
   } catch (const std::runtime_error& error) {  // FileError or ConfigError
     return {error.what(), {}};
