@@ -83,6 +83,7 @@ class HeightField {
   [[nodiscard]] const Lower* below(std::size_t column) const;
   void measure(const Voxels& voxels, const std::optional<Area>& wanted);
   [[nodiscard]] double columns_of_large_leaves(const Voxels& voxels) const;
+  [[nodiscard]] static double touching_runs(const Voxels& voxels);
   void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
   void add(std::uint32_t column, Packed span, std::vector<Lower>& lower);
   void sort_by_column(std::vector<Lower>& lower) const;

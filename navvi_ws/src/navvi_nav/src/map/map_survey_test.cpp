@@ -238,6 +238,25 @@ TEST(MapSurvey, takes_solid_storeys_of_a_few_large_leaves_above_each_other) {
   EXPECT_EQ(ground_at(survey, 20.01, 20.01), Ground::floor);
 }
 
+TEST(MapSurvey, takes_a_ground_of_100_m_that_is_10_m_thick) {
+  Voxels ground{"", 0.05, {}};
+  const auto fill = [&](int level, int bottom, int top) {  // 2048 voxels wide, of leaves alike
+    const int side = 2 << level;
+    for (int x = 0; x < 2048; x += side)
+      for (int y = 0; y < 2048; y += side)
+        for (int z = bottom; z < top; z += side)
+          ground.octets.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                                   static_cast<std::uint16_t>(z), static_cast<std::uint8_t>(level),
+                                   255});
+  };
+  fill(3, 32768 - 208, 32768 - 192);
+  fill(5, 32768 - 192, 32768 - 128);
+  fill(6, 32768 - 128, 32768);
+  const MapSurvey survey = survey_map(ground, {});
+  ASSERT_EQ(survey.error, "");
+  EXPECT_NEAR(survey.floor_height, 0.0, 1e-9);
+}
+
 TEST(MapSurvey, takes_a_coarse_cell_for_floor_only_if_all_of_it_is) {
   SmallWorld world;
   world.floor(0, 0, 4, 4).box(1.0, 1.0, 0, 1.05, 1.05, 0.5);
