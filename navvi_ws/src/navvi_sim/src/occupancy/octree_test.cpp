@@ -66,6 +66,9 @@ TEST(Octree, keeps_what_is_occupied_where_free_space_is_marked) {
     return found;
   };
   EXPECT_GT(marked.stream().size(), plain.stream().size());
+  EXPECT_EQ(plain.nodes(), octree_of(plain)->size());
+  EXPECT_EQ(marked.nodes(), octree_of(marked)->size());
+  EXPECT_EQ(OccupancyMap(0.05, {}).nodes(), 0U);
   EXPECT_EQ(cubes(marked), cubes(plain));
 }
 

@@ -170,15 +170,15 @@ void print(const Request& request, const scenario::StartAndGoal& scenario) {
 
 /// \param path  ends in .bt, for occupied and free alone, or .ot, for probabilities
 void write_octomap(const fs::path& path, const occupancy::OccupancyMap& map) {
-  const auto tree = occupancy::octree_of(map);
   std::ostringstream content;
   if (path.extension() == ".ot") {
-    tree->write(content);
+    occupancy::octree_of(map)->write(content);
   } else {
-    // The header of OcTree::writeBinary, which would also print " done." to the terminal.
-    content << "# Octomap OcTree binary file\nid " << tree->getTreeType() << "\nsize "
-            << tree->size() << "\nres " << tree->getResolution() << "\ndata\n";
-    tree->writeBinaryData(content);
+    // As OcTree::writeBinary, without a tree in memory: 1.4 GB for a ground of 200 x 200 m.
+    content << "# Octomap OcTree binary file\nid OcTree\nsize " << map.nodes() << "\nres "
+            << map.resolution() << "\ndata\n";
+    content.write(reinterpret_cast<const char*>(map.stream().data()),
+                  static_cast<std::streamsize>(map.stream().size()));
   }
   write_file(path, content.str());
 }

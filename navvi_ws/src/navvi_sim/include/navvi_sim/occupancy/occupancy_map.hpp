@@ -33,6 +33,15 @@ class OccupancyMap {
   [[nodiscard]] double resolution() const { return resolution_; }  ///< m
   [[nodiscard]] const std::vector<std::int8_t>& stream() const { return stream_; }
 
+  /// The number of nodes, free ones too, as OcTree::size() gives it.
+  [[nodiscard]] std::size_t nodes() const {
+    std::size_t count = stream_.empty() ? 0 : 1;
+    for (const std::int8_t children : stream_)
+      for (unsigned bits = static_cast<std::uint8_t>(children); bits != 0; bits >>= 2U)
+        count += (bits & 3U) != 0 ? 1 : 0;
+    return count;
+  }
+
   /// Calls visit(OccupiedCube, whole) for each node below the root that is not free, a node before
   /// its children: `whole` if all of the cube is occupied, and else a part, whose children are
   /// passed over unless enter(OccupiedCube).
