@@ -99,6 +99,22 @@ Mesh ellipsoid_mesh(const Eigen::Vector3d& radii) {
   return mesh;
 }
 
+Mesh cone_mesh(double radius, double height) {
+  Mesh mesh;
+  for (const double z : {-height / 2.0, height / 2.0})
+    mesh.vertices.push_back(Eigen::Vector3d(0.0, 0.0, z).cast<float>());
+  for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+    const double around = 2.0 * kPi * sector / kSectors;
+    const Eigen::Vector3d rim(radius * std::cos(around), radius * std::sin(around), -height / 2.0);
+    mesh.vertices.push_back(rim.cast<float>());
+    const std::uint32_t a = 2 + sector;
+    const std::uint32_t b = 2 + (sector + 1) % kSectors;
+    mesh.triangles.push_back({0, b, a});
+    mesh.triangles.push_back({1, a, b});
+  }
+  return mesh;
+}
+
 std::optional<Mesh> prism_mesh(Outline outline, double height) {
   if (outline.size() > kMaxCorners + 1) return std::nullopt;
   simplify(outline);

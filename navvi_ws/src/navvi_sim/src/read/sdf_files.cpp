@@ -5,6 +5,7 @@
 
 #include "description/sentence.hpp"
 #include "navvi_sim/description/world_description.hpp"
+#include "read/sdf_population.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {
@@ -99,13 +100,14 @@ void override_with(XmlElement& model, const XmlElement& include) {
 
 }  // namespace
 
-SdfFiles::SdfFiles(const fs::path& world_file, std::vector<fs::path> models)
-    : world_file_(world_file), folders_(std::move(models)) {
+SdfFiles::SdfFiles(const fs::path& world_file, ModelPlaces places)
+    : world_file_(world_file), places_(std::move(places)), folders_(places_.first) {
   const fs::path home = fs::absolute(world_file).parent_path();
   for (const fs::path& folder : {home, home.parent_path()}) {
     folders_.push_back(folder / "models");
     folders_.push_back(folder);
   }
+  folders_.insert(folders_.end(), places_.last.begin(), places_.last.end());
 }
 
 std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& from) const {
@@ -119,14 +121,17 @@ std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& f
   const std::string path = scheme == std::string::npos ? uri : uri.substr(scheme + 3);
   if (path.empty()) return std::nullopt;
   if (is_prefix("file://") && fs::path(path).is_absolute()) return existing(path);
+  if (is_prefix("https://") || is_prefix("http://")) return find_downloaded(path, places_.fuel);
   if (scheme != std::string::npos && !is_prefix("model://") && !is_prefix("file://"))
     return std::nullopt;
   if (scheme == std::string::npos) {
     if (fs::path(path).is_absolute()) return existing(path);
     if (const auto beside = existing(fs::absolute(from).parent_path() / path)) return beside;
   }
-  const fs::path inside = fs::path(path).lexically_normal();
-  if (inside.is_absolute() || *inside.begin() == "..") return std::nullopt;
+  // Gazebo joins what follows model:// to each folder, also where it begins with a slash.
+  const fs::path inside =
+      fs::path(path.substr(std::min(path.size(), path.find_first_not_of('/')))).lexically_normal();
+  if (inside.empty() || *inside.begin() == "..") return std::nullopt;
   for (const fs::path& folder : folders_)
     if (const auto found = existing(folder / inside)) return found;
   return std::nullopt;
@@ -135,8 +140,9 @@ std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& f
 std::string SdfFiles::looked_in() const {
   std::string text;
   std::error_code error;
-  for (const fs::path& folder : folders_)
-    if (fs::is_directory(folder, error)) text += (text.empty() ? "" : ", ") + folder.string();
+  for (const std::vector<fs::path>& folders : {folders_, places_.fuel})
+    for (const fs::path& folder : folders)
+      if (fs::is_directory(folder, error)) text += (text.empty() ? "" : ", ") + folder.string();
   return text;
 }
 
@@ -171,7 +177,15 @@ void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path
       });
       continue;
     }
-    if (child.name == "model") expand(child, notes, chain);
+    if (child.name == "model" || child.name == "population") expand(child, notes, chain);
+    if (child.name == "population") {
+      notes.piece(child.attribute("name"), [&] {
+        for (XmlElement& model : models_of(child)) children.push_back(std::move(model));
+        notes.add(child, "the models of <population> '" + child.attribute("name") +
+                             "' stand the same at each start");
+      });
+      continue;
+    }
     children.push_back(std::move(child));
   }
   element.children = std::move(children);

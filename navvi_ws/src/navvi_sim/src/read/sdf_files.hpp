@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "read/model_places.hpp"
 #include "read/sdf_notes.hpp"
 #include "read/xml_element.hpp"
 
@@ -14,12 +15,11 @@ namespace navvi_sim::read {
 /// Finds the files that an SDF world speaks of, and puts its models together.
 class SdfFiles {
  public:
-  /// \param models  folders of models, first come first served; the world's own folder and its
-  ///                `models` subfolder come last
-  SdfFiles(const std::filesystem::path& world_file, std::vector<std::filesystem::path> models);
+  SdfFiles(const std::filesystem::path& world_file, ModelPlaces places);
 
-  /// The file or folder of `uri`: model://..., file://..., or a path, absolute or relative to
-  /// `from` (a file). nullopt if there is none, or if a model:// leads out of the folders.
+  /// The file or folder of `uri`: model://..., file://..., the address of what was downloaded from
+  /// Fuel, or a path, absolute or relative to `from` (a file). nullopt if there is none, or if a
+  /// model:// leads out of the folders.
   [[nodiscard]] std::optional<std::filesystem::path> find(const std::string& uri,
                                                           const std::filesystem::path& from) const;
 
@@ -45,7 +45,8 @@ class SdfFiles {
   [[nodiscard]] const XmlElement& document(const std::filesystem::path& file);
 
   std::filesystem::path world_file_;
-  std::vector<std::filesystem::path> folders_;
+  ModelPlaces places_;
+  std::vector<std::filesystem::path> folders_;  ///< of models, first come first served
   std::map<std::filesystem::path, XmlElement> documents_;
   std::map<std::filesystem::path, std::filesystem::path> model_files_;  ///< by the model's folder
   std::map<std::filesystem::path, std::string> broken_;  ///< models, and what is wrong with them

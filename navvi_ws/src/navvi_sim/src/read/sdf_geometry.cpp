@@ -61,6 +61,9 @@ SdfGeometry SdfShapes::read(const XmlElement& geometry, const Eigen::Isometry3d&
       result.shapes.push_back({Sphere{length(kind, "radius") * scale.maxCoeff()}, pose});
     } else if (kind.name == "capsule") {
       for (Shape& part : capsule(kind, pose, scale)) result.shapes.push_back(std::move(part));
+    } else if (kind.name == "cone") {
+      const auto [radius, height] = cylinder(kind, scale);
+      result.shapes.push_back({std::make_shared<const Mesh>(cone_mesh(radius, height)), pose});
     } else if (kind.name == "ellipsoid") {
       result.shapes.push_back({ellipsoid(kind, scale), pose});
     } else if (kind.name == "polyline") {
@@ -75,9 +78,13 @@ SdfGeometry SdfShapes::read(const XmlElement& geometry, const Eigen::Isometry3d&
     } else if (kind.name == "plane") {
       const XmlElement* normal = kind.child("normal");
       result.planes.push_back({normal ? vector3(*normal) : Eigen::Vector3d::UnitZ(), pose});
+    } else if (kind.name == "heightmap" || kind.name == "image") {
+      refuse(kind, "<" + kind.name +
+                       "> makes hills of a picture, and the robot drives on one level; allowed are "
+                       "box, cylinder, sphere, capsule, cone, ellipsoid, polyline, mesh and plane");
     } else if (kind.name != "empty") {
       refuse(kind, "the shape <" + kind.name +
-                       "> is not known here; allowed are box, cylinder, sphere, capsule, "
+                       "> is not known here; allowed are box, cylinder, sphere, capsule, cone, "
                        "ellipsoid, polyline, mesh and plane");
     }
   }

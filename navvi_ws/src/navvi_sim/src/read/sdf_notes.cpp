@@ -32,6 +32,7 @@ const std::set<std::string> kHarmless{"animation",
                                       "particle_emitter",
                                       "physics",
                                       "projector",
+                                      "road",
                                       "scene",
                                       "sensor",
                                       "skin",
@@ -138,12 +139,32 @@ void SdfNotes::add_leftovers(const XmlElement& element) {
     if (kHarmless.count(child.name) > 0) {
       if (child.attribute("type") != "fixed") add_harmless(child);
     } else if (child.name == "plugin") {
-      add(child, "the plugin '" + child.attribute("name") + "' (" + child.attribute("filename") +
-                     ") of '" + element.attribute("name") + "' is not run");
+      add_plugin(child, element);
     } else if (kUnderstood.count(child.name) == 0 && !is_own(child)) {
       add(child, "<" + child.name + "> is not known here, and is not taken over");
     }
   }
+}
+
+/// A world's own plugins are Gazebo's systems, such as its physics.
+void SdfNotes::add_plugin(const XmlElement& plugin, const XmlElement& owner) {
+  if (owner.name == "world") {
+    add_harmless(plugin);
+    return;
+  }
+  const std::string name = "'" + shortened(owner.attribute("name")) + "'";
+  if (driven_.empty()) first_plugin_ = plugin.place();
+  if (std::find(driven_.begin(), driven_.end(), name) == driven_.end() && driven_.size() < kMost)
+    driven_.push_back(name);
+}
+
+std::string SdfNotes::driven() const {
+  std::string line = first_plugin_ + ": what plugins move in Gazebo stands still here: ";
+  for (std::size_t i = 0; i < std::min(kNotesNamed, driven_.size()); ++i)
+    line += (i == 0 ? "" : ", ") + driven_[i];
+  if (driven_.size() > kNotesNamed)
+    line += " and " + std::to_string(driven_.size() - kNotesNamed) + " more";
+  return line;
 }
 
 void SdfNotes::add_harmless(const XmlElement& element) {
@@ -156,6 +177,7 @@ std::vector<std::string> SdfNotes::sentences() const {
   std::vector<std::string> result;
   for (const std::string& line : faults_.lines(kFaultsNamed)) result.push_back("LEFT OUT: " + line);
   for (std::string& line : notes_.lines(kNotesNamed)) result.push_back(std::move(line));
+  if (!driven_.empty()) result.push_back(driven());
   if (harmless_.empty()) return result;
   std::string all;
   for (const auto& [kind, places] : harmless_) {

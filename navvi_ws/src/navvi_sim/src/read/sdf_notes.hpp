@@ -56,10 +56,15 @@ class SdfNotes {
   [[nodiscard]] std::vector<std::string> sentences() const;
 
  private:
+  void add_plugin(const XmlElement& plugin, const XmlElement& owner);
+  [[nodiscard]] std::string driven() const;
+
   Missing missing_;
   SdfSentences faults_;
   SdfSentences notes_;
   std::map<std::string, std::vector<std::string>> harmless_;  ///< names and lines by kind
+  std::vector<std::string> driven_;  ///< models, actors and links with plugins
+  std::string first_plugin_;         ///< its place
 };
 
 }  // namespace navvi_sim::read

@@ -34,6 +34,20 @@ TEST_F(SdfShapesTest, are_box_cylinder_and_sphere_as_they_are) {
       1e-9);
 }
 
+TEST_F(SdfShapesTest, make_a_cone_with_its_tip_up) {
+  const Thing cone = thing_of("<cone><radius>0.5</radius><length>2</length></cone>");
+  ASSERT_EQ(cone.shapes.size(), 1U);
+  EXPECT_NEAR(bounds(cone).max().z(), 1.0, 1e-6);
+  EXPECT_NEAR(bounds(cone).min().z(), -1.0, 1e-6);
+  EXPECT_NEAR(bounds(cone).sizes().x(), 1.0, 0.02);
+  const auto& mesh = *std::get<std::shared_ptr<const Mesh>>(cone.shapes[0].geometry);
+  double volume = 0.0;  // of a closed surface whose sides all face outwards
+  for (const auto& side : mesh.triangles)
+    volume +=
+        mesh.vertices[side[0]].cross(mesh.vertices[side[1]]).dot(mesh.vertices[side[2]]) / 6.0;
+  EXPECT_NEAR(volume, 3.14159 * 0.25 * 2.0 / 3.0, 0.02);
+}
+
 TEST_F(SdfShapesTest, make_a_capsule_of_a_cylinder_and_two_spheres) {
   const Thing pill = thing_of("<capsule><radius>0.2</radius><length>1</length></capsule>");
   EXPECT_EQ(pill.shapes.size(), 3U);

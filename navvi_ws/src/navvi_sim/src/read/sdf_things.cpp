@@ -5,6 +5,7 @@
 #include "description/aabb_tree.hpp"
 #include "description/floor_height.hpp"
 #include "description/sentence.hpp"
+#include "description/validate.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -18,6 +19,8 @@ constexpr double kLeastFloor = 4.0;      // m^2, level: a room has more, a piece
 constexpr double kFloorShare = 0.2;      // of a building's outline, that is floor in it at least
 constexpr double kFloorExcess = 3.0;     // or of what is level above, as the tops of walls are
 constexpr double kFloorDepth = 0.5;      // m, of a building below its own floor
+constexpr double kHillyFloor = 0.2;      // level share of the outlines of all floors: less is said
+constexpr double kLeastLevel = 0.02;     // and less than this is terrain
 constexpr double kHeadroom = 2.0;        // m, below another storey
 constexpr double kSlab = 0.35;           // m, between a storey's surface and the foot of its slab
 constexpr double kCarried = 0.05;        // m, between a thing and what it stands on
@@ -69,6 +72,7 @@ void SdfThings::add_planes() {
     if (bounds.isEmpty())
       bounds.extend(Eigen::Vector3d(-10, -10, 0)).extend(Eigen::Vector3d(10, 10, 0));
     const Eigen::Vector3d size = bounds.sizes() + Eigen::Vector3d::Constant(2.0 * kPlaneMargin);
+    if (size.head<2>().maxCoeff() >= WorldLimits::extent) refuse_width(size.head<2>().maxCoeff());
     Thing thing;
     thing.name = unique(names_.count(plane.name) ? plane.name + "_plane" : plane.name);
     thing.thing_class = ThingClass::floor;
@@ -81,6 +85,23 @@ void SdfThings::add_planes() {
   }
 }
 
+/// \param width  m, of the plane
+void SdfThings::refuse_width(double width) const {
+  std::size_t farthest = 0;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double reach =
+        bounds_of({loaded.world.things[i]}).center().head<2>().lpNorm<Eigen::Infinity>();
+    if (reach > distance) farthest = i;
+    distance = std::max(distance, reach);
+  }
+  throw WorldError(places_[farthest] + ": the things lie up to " + text(std::round(width)) +
+                   " m apart, such as '" + shortened(loaded.world.things[farthest].name) + "', " +
+                   text(std::round(distance)) +
+                   " m from the middle of the map; allowed is less than " +
+                   text(WorldLimits::extent) + " m");
+}
+
 void SdfThings::find_floor(const std::filesystem::path& file) {
   add_planes();
   if (!main_floor_height(loaded.world.things)) find_floor_of_buildings();
@@ -91,6 +112,7 @@ void SdfThings::find_floor(const std::filesystem::path& file) {
                      "are worlds with a ground plane: add <include><uri>model://ground_plane</uri>"
                      "</include> at the height on which things stand; it hides nothing");
   loaded.world.floor_height = *height;
+  judge_terrain(*height, file);
   const auto storey = storey_above(loaded.world.things, *height + kHeadroom);
   judge_floors(*height);
   for (const std::size_t thing : on_floor_)
@@ -119,6 +141,31 @@ void SdfThings::find_floor_of_buildings() {
     notes_.add(places_[i], "no thing is named a floor, and '" + thing.name +
                                "' has one of its own, which is taken");
   }
+}
+
+/// The robot drives on one level: hills are a floor of which it reaches a small part, or none.
+void SdfThings::judge_terrain(double height, const std::filesystem::path& file) {
+  double level = 0.0;
+  double outlines = 0.0;
+  std::string largest;
+  double most = 0.0;
+  for (const Thing& thing : loaded.world.things) {
+    if (thing.thing_class != ThingClass::floor) continue;
+    const Eigen::Vector3d size = bounds_of({thing}).sizes();
+    level += level_area(thing, height - kDrivenOver, height + kDrivenOver);
+    outlines += size.x() * size.y();
+    if (size.x() * size.y() > most) largest = thing.name;
+    most = std::max(most, size.x() * size.y());
+  }
+  if (level >= kHillyFloor * outlines) return;
+  const std::string sentence = "only " + text(std::round(1000.0 * level / outlines) / 10.0) +
+                               " % of the floor, such as '" + shortened(largest) +
+                               "', is level at " + text(height) +
+                               " m, and the robot drives on one level";
+  if (level < kLeastLevel * outlines)
+    throw WorldError(file.string() + ": " + sentence + "; allowed is a share of " +
+                     text(100.0 * kLeastLevel) + " % or more");
+  notes_.add(file.string(), sentence);
 }
 
 /// What rises above the floor and has no floor of its own is an obstacle, whatever its name.
@@ -155,10 +202,12 @@ std::vector<SdfThings::Lost> SdfThings::leave_out(
 }
 
 void SdfThings::leave_out_what_is_under(double height, const std::filesystem::path& file) {
-  const std::size_t all = places_.size();
-  const std::vector<Lost> lost = leave_out([&](const Thing& thing) {
+  const auto is_under = [&](const Thing& thing) {
     return thing.thing_class != ThingClass::floor && top_of(thing) < height;
-  });
+  };
+  leave_out_spares(height);
+  const std::size_t all = places_.size();
+  const std::vector<Lost> lost = leave_out(is_under);
   for (const Lost& one : lost)
     notes_.add(one.place, "'" + one.name + "' is not taken over: all of it lies under the floor");
   if (lost.size() > kFewLost && lost.size() > all / 10)
@@ -167,6 +216,32 @@ void SdfThings::leave_out_what_is_under(double height, const std::filesystem::pa
                      std::to_string(height) +
                      " m; allowed is a tenth. A plane, or a model that a " +
                      "class rule calls a floor, must lie where the things stand");
+}
+
+/// Models that Gazebo parks far below the floor, for plugins to fetch, where some things stand on
+/// the floor and no floor carries the spares.
+void SdfThings::leave_out_spares(double height) {
+  std::vector<Eigen::AlignedBox3d> cellars;
+  bool stands = false;
+  for (const Thing& thing : loaded.world.things) {
+    const Eigen::AlignedBox3d bounds = bounds_of({thing});
+    if (thing.thing_class != ThingClass::floor)
+      stands = stands || bounds.max().z() >= height;
+    else if (bounds.min().z() < height - kHeadroom)
+      cellars.push_back(bounds);
+  }
+  if (!stands) return;
+  const std::vector<Lost> spares = leave_out([&](const Thing& thing) {
+    Eigen::AlignedBox3d bounds = bounds_of({thing});
+    if (thing.thing_class == ThingClass::floor || bounds.max().z() >= height - kHeadroom)
+      return false;
+    bounds.min().z() -= kCarried;
+    return std::none_of(cellars.begin(), cellars.end(), [&](const Eigen::AlignedBox3d& cellar) {
+      return bounds.intersects(cellar);
+    });
+  });
+  for (const Lost& one : spares)
+    notes_.add(one.place, "'" + one.name + "' is parked far below the floor, and is left out");
 }
 
 /// No robot gets there.

@@ -64,11 +64,14 @@ class SdfThings {
   };
 
   void add_planes();
+  [[noreturn]] void refuse_width(double width) const;
   void find_floor_of_buildings();
   void judge_floors(double height);
+  void judge_terrain(double height, const std::filesystem::path& file);
   /// Takes some things out.
   std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost);
   void leave_out_what_is_under(double height, const std::filesystem::path& file);
+  void leave_out_spares(double height);
   /// With all that is above it.
   void leave_out_storey(double storey);
   void name_what_hangs();

@@ -51,6 +51,14 @@ bool has_collision(const XmlElement& model) {
                      [](const XmlElement* link) { return link->child("collision") != nullptr; });
 }
 
+/// Whether Gazebo lets everything pass through it.
+bool touches_nothing(const XmlElement& collision) {
+  const XmlElement* inner = collision.child("surface");
+  if (inner != nullptr) inner = inner->child("contact");
+  const std::string mask = inner == nullptr ? "" : inner->text_of("collide_bitmask");
+  return !mask.empty() && mask.find_first_not_of("0x") == std::string::npos;
+}
+
 std::string name_of(const XmlElement& element) { return element.attribute("name"); }
 
 class WorldReader {
@@ -273,6 +281,11 @@ class WorldReader {
       notes_.add(collision, "a collision of '" + thing.name + "' without geometry is left out");
       return;
     }
+    if (touches_nothing(collision)) {
+      notes_.add(collision, "a collision of '" + thing.name +
+                                "' with a <collide_bitmask> of 0 touches nothing, and is left out");
+      return;
+    }
     SdfGeometry read = shapes_.read(*geometry, pose, scale);
     const std::optional<ThingClass> look = own_class(collision, "look");
     for (Shape& shape : read.shapes) {
@@ -308,9 +321,9 @@ class WorldReader {
 
 }  // namespace
 
-LoadedWorld read_sdf_world(const fs::path& file, const std::vector<fs::path>& models,
-                           const ClassRules& rules, Missing missing) {
-  SdfFiles files(file, models);
+LoadedWorld read_sdf_world(const fs::path& file, const ModelPlaces& places, const ClassRules& rules,
+                           Missing missing) {
+  SdfFiles files(file, places);
   return WorldReader(file, files, rules, missing).read();
 }
 

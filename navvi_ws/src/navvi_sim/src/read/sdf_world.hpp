@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "navvi_sim/read/loaded_world.hpp"
 #include "read/class_rules.hpp"
+#include "read/model_places.hpp"
 
 // Why SDF is read by our own reader, with libsdformat only as its judge in tests. libsdformat 12
 // throws what is no std::exception at worlds that Gazebo itself saved. Ours says of everything that
@@ -16,8 +16,9 @@ namespace navvi_sim::read {
 /// Reads a world in Gazebo's SDF, 1.4 to 1.11, by its collision geometry, as sdformat.org/spec says
 /// it. One thing a top-level model; a model without shapes of its own gives one thing for each of
 /// the models in it if these are several. A thing is classed by the first of its own name and the
-/// names of the models and links in it that a rule fits. `model://` is looked for in `models`, then
-/// beside the world file. `floor_height` is that of the largest level surface of the floor things.
+/// names of the models and links in it that a rule fits. `model://` is looked for in `places`,
+/// of which Gazebo's own come after the folders beside the world file. `floor_height` is that of
+/// the largest level surface of the floor things.
 ///
 /// An actor with a script walks its trajectories, as a person where it has no collision geometry.
 /// What a plugin moves in Gazebo stands still. Models and links of a world that Gazebo saved stand
@@ -34,7 +35,7 @@ namespace navvi_sim::read {
 /// \throws WorldError, with file and line, for a file that is missing or no SDF world, for all such
 /// pieces together, and for a world without a floor or with much of it under the floor
 [[nodiscard]] LoadedWorld read_sdf_world(const std::filesystem::path& file,
-                                         const std::vector<std::filesystem::path>& models,
-                                         const ClassRules& rules, Missing missing);
+                                         const ModelPlaces& places, const ClassRules& rules,
+                                         Missing missing);
 
 }  // namespace navvi_sim::read

@@ -234,18 +234,136 @@ TEST_F(SdfWorld, lists_by_name_and_line_what_it_does_not_take_over) {
            "<joint name='hinge' type='revolute'><parent>world</parent><child>l</child></joint>\n"
            "<plugin name='opener' filename='libDoor.so'/>\n"
            "<link name='sign'><visual name='v'/></link></model>\n"
-           "<population name='crowd'/>\n<plugin name='weather' filename='libRain.so'/>");
+           "<bench name='seat'/>\n<plugin name='weather' filename='libRain.so'/>\n"
+           "<road name='street'/>");
   EXPECT_EQ(loaded.world.things.size(), 2U) << "ground and door";
   EXPECT_TRUE(has_note(loaded, {"line 3", "ghost", "no collision geometry"}));
   EXPECT_TRUE(has_note(loaded, {"line 5", "ramp", "not level"}));
-  EXPECT_TRUE(has_note(loaded, {"line 6", "cellar", "under the floor"}));
-  EXPECT_TRUE(has_note(loaded, {"line 8", "opener", "libDoor.so", "door"}));
+  EXPECT_TRUE(has_note(loaded, {"line 6", "cellar", "far below the floor"}));
+  EXPECT_TRUE(has_note(loaded, {"line 8", "plugins move", "stands still here: 'door'"}));
   EXPECT_TRUE(has_note(loaded, {"line 9", "sign", "touches nothing"}));
-  EXPECT_TRUE(has_note(loaded, {"line 10", "<population>"}));
-  EXPECT_TRUE(has_note(loaded, {"line 11", "weather", "libRain.so"}));
+  EXPECT_TRUE(has_note(loaded, {"line 10", "<bench>"}));
+  EXPECT_TRUE(has_note(loaded, {"without meaning", "'weather', line 11", "'street', line 12"}));
   EXPECT_TRUE(has_note(loaded, {"without meaning", "'lamp', line 1", "'hinge', line 7"}));
   EXPECT_TRUE(has_note(loaded, {"ghost", "1 more of the same kind: 'ramp'"}));
-  EXPECT_EQ(loaded.notes.size(), 8U);
+  EXPECT_EQ(loaded.notes.size(), 7U);
+}
+
+TEST_F(SdfWorld, names_all_that_plugins_move_in_one_line) {
+  std::string body = ground_;
+  for (const char* name : {"door", "lift", "walker"})
+    body += "<model name='" + std::string(name) + "'><static>true</static>" + cube_ +
+            "<plugin name='p' filename='lib" + name + ".so'/></model>";
+  const LoadedWorld loaded = load(body);
+  EXPECT_TRUE(has_note(loaded, {"stands still here: 'door', 'lift', 'walker'"}));
+  EXPECT_EQ(loaded.notes.size(), 1U);
+}
+
+TEST_F(SdfWorld, leaves_out_spares_that_are_parked_far_below_the_floor) {
+  std::string body = ground_ + model("box", "<box><size>1 1 1</size></box>", "3 0 0.5 0 0 0");
+  for (int i = 0; i < 3; ++i)
+    body += model("helper_" + std::to_string(i), "<box><size>1 1 1</size></box>", "0 0 -100 0 0 0");
+  const LoadedWorld loaded = load(body);
+  EXPECT_EQ(loaded.world.things.size(), 2U);
+  EXPECT_TRUE(has_note(loaded, {"'helper_0' is parked far below", "2 more of the same kind"}));
+  const std::string cellar =
+      model("floor_below", "<box><size>9 9 1</size></box>", "0 0 -101 0 0 0");
+  EXPECT_NE(sentence_of(write_world(body + cellar)).find("3 of 6 things lie under the floor"),
+            std::string::npos)
+      << "they stand on a level of their own";
+}
+
+TEST_F(SdfWorld, names_the_far_thing_that_makes_a_plane_too_wide) {
+  const std::string body = "<include><uri>model://ground_plane</uri></include>" +
+                           model("near", "<box><size>1 1 1</size></box>", "-490 0 0.5 0 0 0") +
+                           model("far", "<box><size>1 1 1</size></box>", "600 0 0.5 0 0 0");
+  const std::string sentence = sentence_of(write_world(body));
+  EXPECT_NE(sentence.find("up to 1095 m apart, such as 'far'"), std::string::npos) << sentence;
+}
+
+TEST_F(SdfWorld, tells_hills_from_floors) {
+  /// A sheet of 40 x 20 m, level up to x = `level` m and rising by 1 in 4 from there on.
+  const auto hill = [&](double level) {
+    std::ostringstream mesh;
+    for (const double x : {0.0, level, 40.0})
+      for (const double y : {0.0, 20.0})
+        mesh << "v " << x << ' ' << y << ' ' << std::max(0.0, x - level) / 4.0 << '\n';
+    mesh << "f 1 3 4\nf 1 4 2\nf 3 5 6\nf 3 6 4\n";
+    write("hill.obj", mesh.str());
+    return write_world(model("ground", "<mesh><uri>hill.obj</uri></mesh>"));
+  };
+  EXPECT_TRUE(load_world({hill(20.0)}).notes.empty());
+  EXPECT_TRUE(has_note(load_world({hill(5.0)}), {"only 12.5 % of the floor", "'ground'"}));
+  const std::string sentence = sentence_of(hill(0.5));
+  EXPECT_NE(sentence.find("only 1.3 % of the floor"), std::string::npos) << sentence;
+}
+
+TEST_F(SdfWorld, finds_a_model_with_three_slashes_as_Gazebo_does) {
+  write_model("crate", cube_);
+  const std::string include = "<include><name>c</name><uri>model:///crate</uri></include>";
+  EXPECT_NE(thing_named(load(ground_ + include).world, "c"), nullptr);
+  EXPECT_NE(sentence_of(write_world(ground_ + "<include><uri>model:////</uri></include>")), "");
+  EXPECT_NE(sentence_of(write_world(ground_ + "<include><uri>model:///../crate</uri></include>")),
+            "");
+}
+
+TEST_F(SdfWorld, may_have_comments_before_its_declaration) {
+  const std::string rest = "<sdf version='1.6'><world name='w'>" + ground_ + "</world></sdf>";
+  const std::string declaration = "<?xml version='1.0'?>\n";
+  for (const char* before : {"<!-- a -->", " <!-- a\n --> <!-- <?xml b?> -->\n", "\n"})
+    EXPECT_EQ(load_world({write("a.world", before + declaration + rest)}).world.things.size(), 1U)
+        << before;
+  EXPECT_NE(sentence_of(write("two.world", declaration + rest + declaration + rest)), "");
+  EXPECT_NE(sentence_of(write("open.world", "<!-- a " + declaration + rest)), "");
+}
+
+TEST_F(SdfWorld, sets_up_the_models_of_a_population) {
+  const auto population = [&](const std::string& distribution, const std::string& region) {
+    return "<population name='cans'><pose>1 2 0.5 0 0 0</pose><model "
+           "name='can'><static>1</static>" +
+           cube_ + "</model>" + region + "<model_count>5</model_count><distribution>" +
+           distribution + "</distribution></population>";
+  };
+  const std::string box = "<box><size>8 6 0.01</size></box>";
+  const LoadedWorld grid = load(ground_ + population("<type>grid</type><rows>2</rows><cols>3</cols>"
+                                                     "<step>2 3 0</step>",
+                                                     box));
+  EXPECT_EQ(grid.world.things.size(), 7U);
+  const auto middle = [](const LoadedWorld& loaded, const char* name) -> Eigen::Vector3d {
+    return bounds(*thing_named(loaded.world, name)).center();
+  };
+  EXPECT_LT((middle(grid, "can_0") - Eigen::Vector3d(-1.0, 0.5, 0.5)).norm(), 1e-6);
+  EXPECT_LT((middle(grid, "can_5") - Eigen::Vector3d(3.0, 3.5, 0.5)).norm(), 1e-6);
+  const LoadedWorld row = load(ground_ + population("<type>linear-y</type>", box));
+  EXPECT_LT((middle(row, "can_4") - Eigen::Vector3d(1.0, 5.0, 0.5)).norm(), 1e-6);
+  const std::string round = "<cylinder><radius>3</radius><length>0.1</length></cylinder>";
+  const LoadedWorld drawn = load(ground_ + population("<type>random</type>", round));
+  for (const char* name : {"can_0", "can_1", "can_2", "can_3", "can_4"}) {
+    EXPECT_LT((middle(drawn, name) - Eigen::Vector3d(1, 2, 0.5)).head<2>().norm(), 3.0);
+    EXPECT_LT((middle(drawn, name) -
+               middle(load(ground_ + population("<type>random</type>", round)), name))
+                  .norm(),
+              1e-12)
+        << "the same at each start";
+  }
+  EXPECT_NE(sentence_of(write_world(ground_ + population("<type>odd</type>", box))).find("odd"),
+            std::string::npos);
+  EXPECT_NE(sentence_of(write_world(ground_ + population("<type>random</type>", ""))), "");
+}
+
+TEST_F(SdfWorld, leaves_out_what_everything_passes_through) {
+  const std::string ghost =
+      "<model name='ghost'><link name='l'><collision name='c'><geometry><box><size>1 1 1</size>"
+      "</box></geometry><surface><contact><collide_bitmask>MASK</collide_bitmask></contact>"
+      "</surface></collision></link></model>";
+  const auto with = [&](const std::string& mask) {
+    std::string body = ghost;
+    return body.replace(body.find("MASK"), 4, mask);
+  };
+  const LoadedWorld loaded = load(ground_ + with("0x0"));
+  EXPECT_EQ(thing_named(loaded.world, "ghost"), nullptr);
+  EXPECT_TRUE(has_note(loaded, {"'ghost'", "touches nothing"}));
+  EXPECT_NE(thing_named(load(ground_ + with("0x01")).world, "ghost"), nullptr);
 }
 
 TEST_F(SdfWorld, is_refused_with_a_sentence_when_it_is_none) {

@@ -7,6 +7,7 @@
 #include "description/sentence.hpp"
 #include "description/validate.hpp"
 #include "read/layout_world.hpp"
+#include "read/model_places.hpp"
 #include "read/sdf_world.hpp"
 
 namespace navvi_sim::read {
@@ -60,7 +61,7 @@ LoadedWorld load(const WorldRequest& request) {
   if (const auto source = layout_source(request.spec))
     return build(*source, request.seed, request.workers);
   return read_sdf_world(
-      request.spec, folders(request.models),
+      request.spec, model_places(request.models),
       request.classes.empty() ? ClassRules::standard() : ClassRules::read(request.classes),
       request.missing);
 }
@@ -88,7 +89,9 @@ std::vector<std::filesystem::path> folders(const std::string& models) {
     }
   };
   add(models, true);
-  if (const char* path = std::getenv("GAZEBO_MODEL_PATH")) add(path, false);
+  for (const char* name :
+       {"GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH"})
+    if (const char* path = std::getenv(name)) add(path, false);
   return result;
 }
 

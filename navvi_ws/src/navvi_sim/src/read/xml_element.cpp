@@ -2,6 +2,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -49,6 +50,25 @@ XmlElement copy_of(const tinyxml2::XMLElement& source,
   return element;
 }
 
+/// Blanks a declaration that stands after comments: older readers of SDF take it there, too.
+void blank_late_declaration(std::string& content) {
+  const auto skip_space = [&](std::size_t at) {
+    return std::min(content.size(), content.find_first_not_of(" \t\r\n", at));
+  };
+  std::size_t at = skip_space(0);
+  while (content.compare(at, 4, "<!--") == 0) {
+    const std::size_t end = content.find("-->", at);
+    if (end == std::string::npos) return;
+    at = skip_space(end + 3);
+  }
+  const std::size_t end = content.find("?>", at);
+  if (at == 0 || content.compare(at, 5, "<?xml") != 0 || end == std::string::npos) return;
+  std::replace_if(
+      content.begin() + static_cast<std::ptrdiff_t>(at),
+      content.begin() + static_cast<std::ptrdiff_t>(end) + 2, [](char one) { return one != '\n'; },
+      ' ');
+}
+
 /// What tinyxml2 calls the fault, in words.
 std::string fault(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
@@ -91,7 +111,8 @@ std::string XmlElement::attribute(const std::string& key) const {
 std::string XmlElement::place() const { return *file + ", line " + std::to_string(line); }
 
 XmlElement read_xml(const std::filesystem::path& file) {
-  const std::string content = content_of(file);
+  std::string content = content_of(file);
+  blank_late_declaration(content);
   tinyxml2::XMLDocument document;
   document.Parse(content.data(), content.size());
   if (document.Error() || document.RootElement() == nullptr)

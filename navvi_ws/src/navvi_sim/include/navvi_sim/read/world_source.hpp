@@ -15,8 +15,8 @@ struct WorldRequest {
   /// for a layout (layout_source.hpp), .sdf / .world for SDF (sdf_world.hpp). A relative path is
   /// taken from the working directory.
   std::string spec;
-  /// Folders for model://, separated by colons. After these come GAZEBO_MODEL_PATH, the world's
-  /// folder, the one above it and `models` in both.
+  /// Folders for model://, separated by colons. After these come the folders of the environment
+  /// (folders()), the world's folder, the one above it and `models` in both, and Gazebo's own.
   std::string models = {};
   std::uint64_t seed = 1;                  ///< of layouts; SDF does not depend on it
   Workers workers = Workers::as_laid_out;  ///< of layouts; those of SDF do as their file says
@@ -28,7 +28,8 @@ struct WorldRequest {
 /// \throws WorldError naming the file or thing, what is wrong and what is allowed
 [[nodiscard]] LoadedWorld load_world(const WorldRequest& request);
 
-/// The folders of a colon separated list, and then those of GAZEBO_MODEL_PATH that exist.
+/// The folders of a colon separated list, and then those of GAZEBO_MODEL_PATH,
+/// GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH and SDF_PATH that exist.
 /// \throws WorldError if one of the list is no folder
 [[nodiscard]] std::vector<std::filesystem::path> folders(const std::string& models);
 
