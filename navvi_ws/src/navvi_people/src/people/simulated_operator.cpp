@@ -116,11 +116,11 @@ void SimulatedOperator::hear_words(const Speech& speech, double time) {
   if (!config_.hearing.words) return;
   switch (speech.moment) {
     case Speech::Moment::begins:
-      spoken_to_ = true;
-      sentences_[speech.id] = {speech.text, heading_, odometer_, time, time};
+      words_.spoken_to = true;
+      words_.begun[speech.id] = {speech.text, at_.heading, at_.odometer, time, time};
       return;
     case Speech::Moment::breaks_off:
-      sentences_.erase(speech.id);
+      words_.begun.erase(speech.id);
       return;
     case Speech::Moment::ends:
       return understood(speech.id, time);
@@ -128,9 +128,9 @@ void SimulatedOperator::hear_words(const Speech& speech, double time) {
 }
 
 void SimulatedOperator::hear_sound(const Sound& sound, double time) {
-  const auto tone = hearing_.sound(sound, !sentences_.empty(), time);
+  const auto tone = hearing_.sound(sound, !words_.begun.empty(), time);
   if (!tone || attention_.elsewhere(time)) return;
-  tones_.push_back({sound.earcon, tone->side, time + tone->reaction});
+  sounds_.due.push_back({sound.earcon, tone->side, time + tone->reaction});
 }
 
 void SimulatedOperator::follow(const Tone& tone, double time) {
@@ -139,8 +139,8 @@ void SimulatedOperator::follow(const Tone& tone, double time) {
     case Earcon::turn_click:
       return follow_tick(tone, time);
     case Earcon::on_course:
-      last_news_ = time;
-      stop_at_ = std::max(stop_at_, odometer_ + 0.5 * config_.trust);
+      when_.news = time;
+      course_.stop_at = std::max(course_.stop_at, at_.odometer + 0.5 * config_.trust);
       return;
     case Earcon::turn_stop:
       return stop_turn(time);
@@ -168,32 +168,33 @@ void SimulatedOperator::follow(const Tone& tone, double time) {
 }
 
 void SimulatedOperator::follow_tick(const Tone& tick, double time) {
-  last_news_ = time;
-  const bool same = ticks_ && ticks_->side == tick.side;
-  const bool slow = !same || time - ticks_->last > kSlowTicks;
-  ticks_ = Ticks{tick.side, time, tick.much.value_or(slow)};
-  if (mode_ == Mode::waiting && !told_to_halt_) mode_ = Mode::driving;
+  when_.news = time;
+  const bool same = sounds_.ticks && sounds_.ticks->side == tick.side;
+  const bool slow = !same || time - sounds_.ticks->last > kSlowTicks;
+  sounds_.ticks = Ticks{tick.side, time, tick.much.value_or(slow)};
+  if (mode_ == Mode::waiting && !words_.told_to_halt) mode_ = Mode::driving;
 }
 
 void SimulatedOperator::stop_turn(double time) {
-  last_news_ = time;
-  ticks_.reset();
+  when_.news = time;
+  sounds_.ticks.reset();
   if (mode_ != Mode::turning && mode_ != Mode::driving) return;
   mode_ = Mode::driving;
-  target_ = heading_;
-  straight_before_ = true;
-  stop_at_ = std::max(stop_at_, odometer_ + config_.trust);
-  speed_ = config_.driving.cruise;
+  course_.target = at_.heading;
+  course_.straight_before = true;
+  course_.stop_at = std::max(course_.stop_at, at_.odometer + config_.trust);
+  course_.speed = config_.driving.cruise;
 }
 
 /// A large turn is made on the spot, a small one on the way.
 StickAndButtons SimulatedOperator::turn_by_ear(double time) const {
   StickAndButtons hand;
-  const double side = ticks_->side == Instruction::Side::left ? 1.0 : -1.0;
-  const bool large = ticks_->much;
+  const double side = sounds_.ticks->side == Instruction::Side::left ? 1.0 : -1.0;
+  const bool large = sounds_.ticks->much;
   hand.left = side * (large ? 1.0 : 0.55);
-  if (large || odometer_ >= stop_at_) return hand;
-  hand.forward = time < careful_until_ ? 0.5 * config_.driving.slow : 0.7 * config_.driving.slow;
+  if (large || at_.odometer >= course_.stop_at) return hand;
+  hand.forward =
+      time < when_.careful_until ? 0.5 * config_.driving.slow : 0.7 * config_.driving.slow;
   return hand;
 }
 
@@ -201,7 +202,7 @@ void SimulatedOperator::feel(const Felt& felt, double time) { feeling_.feel(felt
 
 void SimulatedOperator::touch(double time) {
   const Feeling::Now now = feeling_.update(time);
-  felt_ = now.force;
+  pull_.felt = now.force;
   if (attention_.elsewhere(time)) return;
   if (config_.feeling.touch == "attractive") follow_pull(now.force, time);
   follow(now.meaning, time);
@@ -215,9 +216,9 @@ void SimulatedOperator::follow_pull(const Felt& force, double time) {
     follow_tick({Earcon::turn, force.left > 0.0 ? Side::left : Side::right, time,
                  std::max(force.left, force.right) > kMuchForce},
                 time);
-  else if (pulled_ && force.left == 0.0)
+  else if (pull_.held && force.left == 0.0)
     stop_turn(time);
-  pulled_ = pulls;
+  pull_.held = pulls;
 }
 
 void SimulatedOperator::follow(Meaning meaning, double time) {
@@ -228,21 +229,22 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
       return;
     case Meaning::ready:
       // Once under way, what feels like it is something else.
-      if (odometer_ == 0.0) pressed_ = time;
+      if (at_.odometer == 0.0) when_.pressed = time;
       return;
     case Meaning::begun:
-      told_to_halt_ = false;
-      last_news_ = time;
+      words_.told_to_halt = false;
+      when_.news = time;
       return;
     case Meaning::new_way:
       // The old direction no longer holds; there is a word or a pull to wait for.
-      if (mode_ == Mode::driving) stop_at_ = std::min(stop_at_, odometer_ + kNearTheEnd);
+      if (mode_ == Mode::driving)
+        course_.stop_at = std::min(course_.stop_at, at_.odometer + kNearTheEnd);
       return;
     case Meaning::halt:
     case Meaning::stop:
     case Meaning::hit:
       if (mode_ != Mode::backing) mode_ = Mode::waiting;
-      careful_until_ = time + kCareful;
+      when_.careful_until = time + kCareful;
       return;
     case Meaning::arrived:
       mode_ = Mode::arrived;
@@ -251,88 +253,89 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
 }
 
 void SimulatedOperator::understood(std::uint32_t id, double time) {
-  const auto found = sentences_.find(id);
-  if (found == sentences_.end()) return;
+  const auto found = words_.begun.find(id);
+  if (found == words_.begun.end()) return;
   Sentence sentence = found->second;
-  sentences_.erase(found);
+  words_.begun.erase(found);
   const auto ear = hearing_.words(sentence.text, time - sentence.begun);
   if (!ear || attention_.elsewhere(time)) return;
   sentence.time = time + ear->reaction;
   sentence.parts = Hearing::as_heard(*ear, listener_.understand(sentence.text));
-  understood_.push_back(sentence);
+  words_.understood.push_back(sentence);
   // A thing nearby, or a later turn, is no news while waiting for a direction.
   const auto idle = [](const Instruction& part) {
     return part.asks == Ask::beware || part.asks == Ask::turn_ahead;
   };
   if (mode_ != Mode::waiting || !std::all_of(sentence.parts.begin(), sentence.parts.end(), idle))
-    last_news_ = time;
+    when_.news = time;
 }
 
 void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& instruction,
                                 double time) {
-  double angle = angle_of(instruction.hour, instruction.slight, straight_before_);
-  if (turned_to_ && sentence.begun > turned_at_ && sentence.begun - turned_at_ < kShortly)
-    learning_.turned(*turned_to_, angle);
+  double angle = angle_of(instruction.hour, instruction.slight, course_.straight_before);
+  if (turned_.to && sentence.begun > turned_.at && sentence.begun - turned_.at < kShortly)
+    learning_.turned(*turned_.to, angle);
   // Sent back from where one has just turned, one turns back by less.
-  const bool back = turned_to_ && angle * *turned_to_ < 0.0 && time - turned_at_ < kShortly;
-  turned_to_ = angle;
-  turned_at_ = time;
+  const bool back = turned_.to && angle * *turned_.to < 0.0 && time - turned_.at < kShortly;
+  turned_.to = angle;
+  turned_.at = time;
   if (back) angle *= kBackAgain;
   const double learnt = std::copysign(learning_.bias(), angle);
-  target_ = sentence.heading - turning_.made((angle + learnt) * driving_.turn_gain());
+  course_.target = sentence.heading - turning_.made((angle + learnt) * driving_.turn_gain());
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;
-  turn_speed_ =
+  course_.turn_speed =
       std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.driving.slow * 0.7 : 0.0;
   mode_ = Mode::turning;
   go_for(sentence, instruction);
-  speed_ = std::min(speed_, 0.5 * (config_.driving.slow + config_.driving.cruise));
+  course_.speed = std::min(course_.speed, 0.5 * (config_.driving.slow + config_.driving.cruise));
 }
 
 void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
   const double distance = instruction.distance.value_or(kBlindTurn);
-  const double begun = mode_ == Mode::turning ? odometer_ : sentence.odometer;
-  stop_at_ = std::max(begun + distance, odometer_ + 0.6);
-  speed_ = stop_at_ - odometer_ > 3.0 ? config_.driving.cruise : config_.driving.slow;
+  const double begun = mode_ == Mode::turning ? at_.odometer : sentence.odometer;
+  course_.stop_at = std::max(begun + distance, at_.odometer + 0.6);
+  course_.speed =
+      course_.stop_at - at_.odometer > 3.0 ? config_.driving.cruise : config_.driving.slow;
 }
 
 void SimulatedOperator::veer(Instruction::Side side, double angle, double until) {
   if (side != Instruction::Side::left && side != Instruction::Side::right) return;
-  veer_ = side == Instruction::Side::left ? -angle : angle;
-  veer_until_ = until;
+  course_.veer = side == Instruction::Side::left ? -angle : angle;
+  course_.veer_until = until;
 }
 
 void SimulatedOperator::back_off(Instruction::Side side, double time) {
   mode_ = side == Instruction::Side::behind ? Mode::waiting : Mode::backing;
   // After a second bump into the same thing: further back, and on at an angle.
-  const bool again = time - bumped_ < kSameBump;
-  bumped_ = time;
-  careful_until_ = time + 2.0 * kCareful;
-  back_until_ = time + (again ? 2.0 : 1.0) * kBackOff;
-  target_ = heading_;
+  const bool again = time - when_.bumped < kSameBump;
+  when_.bumped = time;
+  when_.careful_until = time + 2.0 * kCareful;
+  backing_.until = time + (again ? 2.0 : 1.0) * kBackOff;
+  course_.target = at_.heading;
   if (side == Instruction::Side::left || side == Instruction::Side::right) {
     veer(side, 0.25, time + 8.0);
   } else if (again) {
-    other_side_ = !other_side_;
-    veer(other_side_ ? Instruction::Side::left : Instruction::Side::right, 0.3, time + 6.0);
+    backing_.other_side = !backing_.other_side;
+    veer(backing_.other_side ? Instruction::Side::left : Instruction::Side::right, 0.3, time + 6.0);
   }
 }
 
 void SimulatedOperator::ask_soon(double time) {
-  last_news_ = time - config_.attention.idle_patience + 0.4;
+  when_.news = time - config_.attention.idle_patience + 0.4;
 }
 
 void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
-  careful_until_ = std::max(careful_until_, time + kCareful);
+  when_.careful_until = std::max(when_.careful_until, time + kCareful);
   if (!instruction.very_close) return veer(instruction.side, 0.1, time + 1.5);
   veer(instruction.side, 0.3, time + 2.0);
   // The heading led very near to the thing, so it is not taken up again.
-  if (instruction.side == Instruction::Side::left) target_ -= 0.12;
-  if (instruction.side == Instruction::Side::right) target_ += 0.12;
+  if (instruction.side == Instruction::Side::left) course_.target -= 0.12;
+  if (instruction.side == Instruction::Side::right) course_.target += 0.12;
 }
 
 /// Some first words are enough.
 void SimulatedOperator::be_startled(double time) {
-  for (const auto& [id, sentence] : sentences_) {
+  for (const auto& [id, sentence] : words_.begun) {
     const double heard = (time - sentence.begun - kStartled) * kLettersPerSecond;
     const Listener::FirstWord word = listener_.first_word(sentence.text, heard);
     if (mode_ == Mode::arrived || heard <= 0.0 || !word.startles) continue;
@@ -343,26 +346,33 @@ void SimulatedOperator::be_startled(double time) {
 
 void SimulatedOperator::wait_for_go_on(const Sentence& sentence, bool holds) {
   if (!config_.obeys || !holds) return;
-  waits_ = std::max(waits_.value_or(sentence.begun), sentence.begun);
-  told_to_halt_ = true;
+  words_.waits = std::max(words_.waits.value_or(sentence.begun), sentence.begun);
+  words_.told_to_halt = true;
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, double time) {
   const std::vector<Instruction>& parts = sentence.parts;
   wait_for_go_on(sentence, !parts.empty() && parts.front().holds);
-  if (!parts.empty() && parts.front().goes_on && waits_ && sentence.begun > *waits_) waits_.reset();
+  if (!parts.empty() && parts.front().goes_on && words_.waits && sentence.begun > *words_.waits)
+    words_.waits.reset();
   for (const Instruction& part : parts) {
     const bool leads = part.asks == Ask::turn || part.asks == Ask::go;
-    if (!(leads && waits_)) follow(sentence, part, time);
+    if (!(leads && words_.waits)) follow(sentence, part, time);
   }
+}
+
+void SimulatedOperator::expect_turn(const Sentence& sentence, const Instruction& turn) {
+  course_.stop_at = sentence.odometer + turn.distance.value_or(kBlindTurn);
+  if (course_.stop_at - at_.odometer < 3.0)
+    course_.speed = std::min(course_.speed, config_.driving.slow);
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, const Instruction& instruction,
                                double time) {
-  if (instruction.asks == Ask::halt || instruction.asks == Ask::back) told_to_halt_ = true;
+  if (instruction.asks == Ask::halt || instruction.asks == Ask::back) words_.told_to_halt = true;
   if (instruction.asks == Ask::ready || instruction.asks == Ask::turn ||
       instruction.asks == Ask::go)
-    told_to_halt_ = false;
+    words_.told_to_halt = false;
   switch (instruction.asks) {
     case Ask::nothing:
     case Ask::ready:
@@ -371,21 +381,18 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
       // A sound that leads this turn leads it whether or not the words are kept in mind.
       if (!memory_.keeps(config_.driving.cruise, time)) break;
       turn_to(sentence, instruction, time);
-      straight_before_ = false;
+      course_.straight_before = false;
       break;
     case Ask::go:
       // A turn that a sound has led since is not turned back.
-      if (turned_by_ear_ < sentence.begun) target_ = sentence.heading;
-      turn_speed_ = 0.0;
-      mode_ = std::abs(target_ - heading_) > 0.1 ? Mode::turning : Mode::driving;
+      if (sounds_.turned < sentence.begun) course_.target = sentence.heading;
+      course_.turn_speed = 0.0;
+      mode_ = std::abs(course_.target - at_.heading) > 0.1 ? Mode::turning : Mode::driving;
       go_for(sentence, instruction);
-      straight_before_ = true;
+      course_.straight_before = true;
       break;
     case Ask::turn_ahead:
-      if (mode_ == Mode::driving) {
-        stop_at_ = sentence.odometer + instruction.distance.value_or(kBlindTurn);
-        if (stop_at_ - odometer_ < 3.0) speed_ = std::min(speed_, config_.driving.slow);
-      }
+      if (mode_ == Mode::driving) expect_turn(sentence, instruction);
       break;
     case Ask::beware:
       if (instruction.side == Instruction::Side::ahead && mode_ == Mode::driving) {
@@ -401,7 +408,7 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
       mode_ = Mode::waiting;
       break;
     case Ask::begin:
-      pressed_ = time;
+      when_.pressed = time;
       break;
     case Ask::rest:
       mode_ = Mode::arrived;
@@ -412,21 +419,21 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
 StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
   // Near a corner the hand waits for the end of a sentence.
-  const bool listening = !sentences_.empty() || !understood_.empty();
-  if (listening && stop_at_ - odometer_ < kListenFirst) return hand;
+  const bool listening = !words_.begun.empty() || !words_.understood.empty();
+  if (listening && course_.stop_at - at_.odometer < kListenFirst) return hand;
   const double slow = config_.driving.slow;
-  double speed = time < careful_until_ ? std::min(speed_, slow) : speed_;
-  if (stop_at_ - odometer_ < kNearTheEnd) speed = std::min(speed, slow);
+  double speed = time < when_.careful_until ? std::min(course_.speed, slow) : course_.speed;
+  if (course_.stop_at - at_.odometer < kNearTheEnd) speed = std::min(speed, slow);
   const bool repulsive = config_.feeling.touch == "repulsive";
-  const double both = std::min(felt_.left, felt_.right);
+  const double both = std::min(pull_.felt.left, pull_.felt.right);
   const double strong = config_.feeling.strong;
   if (repulsive && both > strong)
     speed = std::min(speed, slow * (1.0 - 0.5 * (both - strong) / std::max(0.05, 1.0 - strong)));
-  double aim = target_ + (time < veer_until_ ? veer_ : 0.0);
-  const double lean = felt_.left - felt_.right;
+  double aim = course_.target + (time < course_.veer_until ? course_.veer : 0.0);
+  const double lean = pull_.felt.left - pull_.felt.right;
   if (repulsive && std::abs(lean) > kOneSided) aim += lean > 0.0 ? -kLeansAway : kLeansAway;
   hand.forward = speed;
-  const double error = aim - heading_;
+  const double error = aim - at_.heading;
   if (std::abs(error) > 0.04) {
     hand.left = std::copysign(std::clamp(std::abs(error) * 1.5, 0.35, 0.6), error);
   }
@@ -435,40 +442,40 @@ StickAndButtons SimulatedOperator::drive(double time) const {
 
 StickAndButtons SimulatedOperator::act(double time, double dt) {
   StickAndButtons hand;
-  if (ticks_ && time - ticks_->last > kTicksOver) ticks_.reset();
-  if (waits_ && mode_ != Mode::backing && mode_ != Mode::arrived) {
+  if (sounds_.ticks && time - sounds_.ticks->last > kTicksOver) sounds_.ticks.reset();
+  if (words_.waits && mode_ != Mode::backing && mode_ != Mode::arrived) {
     mode_ = Mode::waiting;
     return hand;
   }
-  if (ticks_ && (mode_ == Mode::turning || mode_ == Mode::driving)) {
+  if (sounds_.ticks && (mode_ == Mode::turning || mode_ == Mode::driving)) {
     mode_ = Mode::driving;
-    target_ = heading_;
-    turned_by_ear_ = time;
+    course_.target = at_.heading;
+    sounds_.turned = time;
     return turn_by_ear(time);
   }
   if (mode_ == Mode::turning) {
-    const double error = target_ - heading_;
+    const double error = course_.target - at_.heading;
     if (std::abs(error) < std::max(0.02, 0.6 * config_.driving.turn_rate * dt)) {
       mode_ = Mode::driving;
     } else {
       hand.left = std::copysign(1.0, error);
-      hand.forward = turn_speed_;
+      hand.forward = course_.turn_speed;
     }
   }
   if (mode_ == Mode::driving) {
-    if (odometer_ >= stop_at_) {
+    if (at_.odometer >= course_.stop_at) {
       mode_ = Mode::waiting;
       ask_soon(time);
     } else {
       hand = drive(time);
     }
   }
-  if (mode_ == Mode::waiting && !spoken_to_ && !told_to_halt_ && time - asked_ > kTriesAfter &&
-      asked_ > start_)
+  if (mode_ == Mode::waiting && !words_.spoken_to && !words_.told_to_halt &&
+      time - when_.asked > kTriesAfter && when_.asked > when_.start)
     go_ahead();
   if (mode_ == Mode::backing) {
     hand.forward = -1.0;
-    if (time >= back_until_) {
+    if (time >= backing_.until) {
       mode_ = Mode::waiting;
       ask_soon(time);
     }
@@ -479,21 +486,21 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
 /// Where nobody speaks, one tries.
 void SimulatedOperator::go_ahead() {
   mode_ = Mode::driving;
-  target_ = heading_;
-  stop_at_ = odometer_ + 0.5 * config_.trust;
-  speed_ = config_.driving.slow;
+  course_.target = at_.heading;
+  course_.stop_at = at_.odometer + 0.5 * config_.trust;
+  course_.speed = config_.driving.slow;
 }
 
 void SimulatedOperator::ask_when_lost(double time) {
-  if (mode_ == Mode::arrived || !sentences_.empty() || !understood_.empty()) return;
+  if (mode_ == Mode::arrived || !words_.begun.empty() || !words_.understood.empty()) return;
   const double patience =
       mode_ == Mode::waiting ? config_.attention.idle_patience : config_.attention.patience;
-  if (time - last_news_ >= patience && time - asked_ >= patience + kPress) asked_ = time;
+  if (time - when_.news >= patience && time - when_.asked >= patience + kPress) when_.asked = time;
 }
 
 std::string SimulatedOperator::doing() const {
   std::array<char, 64> text{};
-  const double turn = std::remainder(heading_ - target_, 2.0 * kPi) * 180.0 / kPi;
+  const double turn = std::remainder(at_.heading - course_.target, 2.0 * kPi) * 180.0 / kPi;
   switch (mode_) {
     case Mode::waiting:
       return "waiting";
@@ -501,8 +508,8 @@ std::string SimulatedOperator::doing() const {
       std::snprintf(text.data(), text.size(), "turning %+.0f", turn);
       return text.data();
     case Mode::driving:
-      std::snprintf(text.data(), text.size(), "driving %.1f m more, %+.0f", stop_at_ - odometer_,
-                    turn);
+      std::snprintf(text.data(), text.size(), "driving %.1f m more, %+.0f",
+                    course_.stop_at - at_.odometer, turn);
       return text.data();
     case Mode::backing:
       return "backing";
@@ -514,7 +521,7 @@ std::string SimulatedOperator::doing() const {
 
 void SimulatedOperator::forget_sentences_without_end(double time) {
   std::vector<std::uint32_t> over;
-  for (const auto& [id, sentence] : sentences_) {
+  for (const auto& [id, sentence] : words_.begun) {
     const double length = 1.0 + static_cast<double>(sentence.text.size()) / kLettersPerSecond;
     if (time - sentence.begun > length) over.push_back(id);
   }
@@ -523,19 +530,19 @@ void SimulatedOperator::forget_sentences_without_end(double time) {
 
 /// What the ear took in first the hand does first, however long either took.
 void SimulatedOperator::follow_what_is_due(double time) {
-  while (!understood_.empty() && understood_.front().time <= time) {
-    const Sentence sentence = understood_.front();
-    understood_.erase(understood_.begin());
+  while (!words_.understood.empty() && words_.understood.front().time <= time) {
+    const Sentence sentence = words_.understood.front();
+    words_.understood.erase(words_.understood.begin());
     follow(sentence, time);
   }
-  while (!tones_.empty() && tones_.front().time <= time) {
-    Tone tone = tones_.front();
-    tones_.pop_front();
+  while (!sounds_.due.empty() && sounds_.due.front().time <= time) {
+    Tone tone = sounds_.due.front();
+    sounds_.due.pop_front();
     if (tone.earcon == Earcon::turn_stop && !tone.much) {
       // Decided; the hand lets go a moment later.
       tone.much = false;
       tone.time = time + turning_.stop_delay();
-      tones_.push_front(tone);
+      sounds_.due.push_front(tone);
       continue;
     }
     follow(tone, time);
@@ -545,30 +552,30 @@ void SimulatedOperator::follow_what_is_due(double time) {
 void SimulatedOperator::believe(const StickAndButtons& hand, double dt) {
   const DrivingConfig& driving = config_.driving;
   const double driven = driving_.shaped(hand.forward) * driving.full_speed * dt;
-  heading_ += driving_.shaped(hand.left) * driving.turn_rate * dt;
-  if (mode_ == Mode::driving && hand.forward > 0.0) heading_ += driving_.veered(driven);
-  odometer_ += driven * driving_.speed_gain();
+  at_.heading += driving_.shaped(hand.left) * driving.turn_rate * dt;
+  if (mode_ == Mode::driving && hand.forward > 0.0) at_.heading += driving_.veered(driven);
+  at_.odometer += driven * driving_.speed_gain();
 }
 
 StickAndButtons SimulatedOperator::update(double time, double dt,
                                           const std::optional<StickAndButtons>& held) {
   meant_ = {};
-  if (!started_) {
-    started_ = true;
-    start_ = last_news_ = time;
+  if (!when_.started) {
+    when_.started = true;
+    when_.start = when_.news = time;
   }
   forget_sentences_without_end(time);
   follow_what_is_due(time);
   touch(time);
-  if (time - start_ < kNeutralAtStart) return {};
+  if (time - when_.start < kNeutralAtStart) return {};
   be_startled(time);
   StickAndButtons hand = act(time, dt);
   const StickAndButtons& moves = held ? *held : hand;
   attention_.update(moves.forward != 0.0 || moves.left != 0.0, time, dt);
   if (gave_up()) return {};
   ask_when_lost(time);
-  hand.repeat = time - asked_ < kPress;
-  hand.start = time - pressed_ < kPress;
+  hand.repeat = time - when_.asked < kPress;
+  hand.start = time - when_.pressed < kPress;
   meant_ = hand;
   believe(held.value_or(hand), dt);
   hand.left = driving_.trembling(hand.left, dt);

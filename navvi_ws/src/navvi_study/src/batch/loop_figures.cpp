@@ -75,16 +75,7 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   }
   if (told.proximity) {
     if (const auto report = navvi_types::from_msg(*told.proximity)) (void)monitor_.observe(*report);
-    std::map<std::uint32_t, double> felt;
-    for (const auto& thing : told.proximity->things)
-      felt[thing.id] = felt_.count(thing.id) > 0 ? felt_[thing.id] : loop.time();
-    felt_ = felt;
-    if (begun_ && !told.proximity->things.empty())
-      least_gap_ = std::min(least_gap_, told.proximity->things.front().gap);
-    nearest_.clear();
-    if (!told.proximity->things.empty() && told.proximity->things.front().gap < kNearby)
-      nearest_ = told.proximity->things.front().thing_class + " at " +
-                 metres(told.proximity->things.front().gap);
+    feel(*told.proximity, loop.time());
   }
   if (loop.hand().repeat) asked_ = loop.time();
   for (const auto& cue : told.cues) {
@@ -117,6 +108,18 @@ bool LoopFigures::watch(const ClosedLoop& loop) {
   if (loop.person().gave_up()) result_ = "gave_up";
   if (monitor_.refused()) result_ = "refused: " + *monitor_.refused();
   return result_ == "timeout" && time_ < limit_;
+}
+
+void LoopFigures::feel(const navvi_msgs::Proximity& near, double time) {
+  std::map<std::uint32_t, double> felt;
+  for (const auto& thing : near.things)
+    felt[thing.id] = felt_.count(thing.id) > 0 ? felt_[thing.id] : time;
+  felt_ = felt;
+  nearest_.clear();
+  if (near.things.empty()) return;
+  const auto& nearest = near.things.front();
+  if (begun_) least_gap_ = std::min(least_gap_, nearest.gap);
+  if (nearest.gap < kNearby) nearest_ = nearest.thing_class + " at " + metres(nearest.gap);
 }
 
 void LoopFigures::begin(const ClosedLoop& loop) {

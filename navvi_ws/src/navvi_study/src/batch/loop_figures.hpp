@@ -51,6 +51,7 @@ class LoopFigures {
   };
 
   void begin(const ClosedLoop& loop);
+  void feel(const navvi_msgs::Proximity& near, double time);
   void listen(const ClosedLoop& loop, const navvi_types::CueEvent& cue);
   void take(const navvi_msgs::Guidance& guidance);
   void stand(const ClosedLoop& loop);

@@ -99,6 +99,57 @@ class SimulatedOperator {
     bool much = true;   ///< is left to turn
   };
 
+  /// The sentences of the guide.
+  struct Words {
+    std::map<std::uint32_t, Sentence> begun;  ///< by the id of their cue
+    std::vector<Sentence> understood;
+    std::optional<double> waits;  ///< s, since when for "go on"
+    bool told_to_halt = false;
+    bool spoken_to = false;
+  };
+  struct Sounds {
+    std::deque<Tone> due;
+    std::optional<Ticks> ticks;
+    double turned = -1e9;  ///< s, when they last led a turn
+  };
+  /// The place that the operator believes in.
+  struct Belief {
+    double heading = 0.0;   ///< rad, counter-clockwise
+    double odometer = 0.0;  ///< m
+  };
+  struct Course {
+    double target = 0.0;           ///< rad, heading to hold
+    double stop_at = 0.0;          ///< m on the odometer: further is guessing
+    bool straight_before = false;  ///< the last direction that was followed was 12
+    double speed = 0.0;            ///< stick
+    double turn_speed = 0.0;
+    double veer = 0.0;  ///< rad, added to the target
+    double veer_until = 0.0;
+  };
+  struct Backing {
+    double until = 0.0;
+    bool other_side = false;
+  };
+  /// s, on the clock of update().
+  struct Moments {
+    bool started = false;
+    double start = 0.0;
+    double news = 0.0;  ///< the last
+    double asked = -1e9;
+    double pressed = -1e9;  ///< start
+    double bumped = -1e9;
+    double careful_until = 0.0;
+  };
+  struct Pull {
+    Felt felt;
+    bool held = false;  ///< by one motor
+  };
+  /// The last turn by words.
+  struct Turned {
+    std::optional<double> to;  ///< rad, clockwise
+    double at = -1e9;          ///< s
+  };
+
   void hear_words(const Speech& speech, double time);
   void hear_sound(const Sound& sound, double time);
   void touch(double time);
@@ -113,6 +164,7 @@ class SimulatedOperator {
   void follow(const Sentence& sentence, const Instruction& instruction, double time);
   void turn_to(const Sentence& sentence, const Instruction& instruction, double time);
   void go_for(const Sentence& sentence, const Instruction& instruction);
+  void expect_turn(const Sentence& sentence, const Instruction& turn);
   void veer(Instruction::Side side, double angle, double until);
   [[nodiscard]] StickAndButtons act(double time, double dt);
   [[nodiscard]] StickAndButtons drive(double time) const;
@@ -136,38 +188,16 @@ class SimulatedOperator {
   Feeling feeling_;
   Memory memory_;
   Attention attention_;
-  std::deque<Tone> tones_;
-  std::optional<Ticks> ticks_;
-  double turned_by_ear_ = -1e9;  ///< s
-  bool told_to_halt_ = false;
-  bool spoken_to_ = false;
-  std::optional<double> waits_;  ///< s, since when for "go on"
-  std::map<std::uint32_t, Sentence> sentences_;
-  std::vector<Sentence> understood_;
   Mode mode_ = Mode::waiting;
   StickAndButtons meant_;
-  bool started_ = false;
-  double start_ = 0.0;
-  double heading_ = 0.0;          ///< rad, believed, counter-clockwise
-  double odometer_ = 0.0;         ///< m, believed
-  double target_ = 0.0;           ///< rad, heading to hold
-  double stop_at_ = 0.0;          ///< m on the odometer: further is guessing
-  bool straight_before_ = false;  ///< the last direction that was followed was 12
-  double speed_ = 0.0;            ///< stick
-  double turn_speed_ = 0.0;
-  double veer_ = 0.0;  ///< rad, added to the target
-  double veer_until_ = 0.0;
-  double back_until_ = 0.0;
-  double careful_until_ = 0.0;  ///< s
-  double bumped_ = -1e9;
-  bool other_side_ = false;
-  double last_news_ = 0.0;
-  double asked_ = -1e9;
-  double pressed_ = -1e9;  ///< s, start
-  Felt felt_;
-  bool pulled_ = false;
-  std::optional<double> turned_to_;  ///< rad, clockwise, by words, and
-  double turned_at_ = -1e9;          ///< s
+  Words words_;
+  Sounds sounds_;
+  Belief at_;
+  Course course_;
+  Backing backing_;
+  Moments when_;
+  Pull pull_;
+  Turned turned_;
 };
 
 }  // namespace navvi_people::people
