@@ -158,10 +158,10 @@ void SdfThings::judge_terrain(double height, const std::filesystem::path& file) 
     most = std::max(most, size.x() * size.y());
   }
   if (level >= kHillyFloor * outlines) return;
-  const std::string sentence = "only " + text(std::round(1000.0 * level / outlines) / 10.0) +
-                               " % of the floor, such as '" + shortened(largest) +
-                               "', is level at " + text(height) +
-                               " m, and the robot drives on one level";
+  const std::string sentence =
+      "only " + text(std::round(1000.0 * level / outlines) / 10.0) + " % of the floor, such as '" +
+      shortened(largest) + "', is level at " + text(std::round(1000.0 * height) / 1000.0 + 0.0) +
+      " m, and the robot drives on one level";
   if (level < kLeastLevel * outlines)
     throw WorldError(file.string() + ": " + sentence + "; allowed is a share of " +
                      text(100.0 * kLeastLevel) + " % or more");
