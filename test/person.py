@@ -92,7 +92,7 @@ class Person:
 
     def run(self):
         self.drive()
-        for place in ("cross aisle 1", "the goal before"):
+        for place in ("cross aisle 1", "the previous goal"):
             self.wait_for(("choose_goal",), 30)
             self.choose(place)
             self.drive()

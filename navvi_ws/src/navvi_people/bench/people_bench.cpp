@@ -102,7 +102,7 @@ double over_by_ticks(const SimulatedOperatorConfig& config, double angle, Stop s
                      double late = 0.0) {
   using navvi_types::Earcon;
   Rig rig(config, late);
-  rig.say("straight ahead, 9 meters");
+  rig.say("drive straight, 9 meters");
   rig.wait(3.0);
   const double target = rig.yaw() + angle;
   bool told = false;

@@ -268,14 +268,14 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   EXPECT_EQ(press(kRight).cues.at(0).text, "the goal of the task");
   EXPECT_EQ(press(kDown).cues.at(0).text, "dock 1");
   const Feedback::Output chosen = press(kRight);
-  EXPECT_EQ(chosen.cues.at(0).text, "the goal is now dock 1");
+  EXPECT_EQ(chosen.cues.at(0).text, "you are heading for dock 1");
   EXPECT_EQ(chosen.goal.value().x(), 3.0);
   feedback_.take_goal({9.0, 9.0});
   feedback_.take_goal({3.0, 4.0});
   feedback_.take_goal({3.0, 4.0});
   press(kDown);
   press(kRight);
-  EXPECT_EQ(press(kDown).cues.at(0).text, "the goal before");
+  EXPECT_EQ(press(kDown).cues.at(0).text, "the previous goal");
   EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
 }
 
@@ -306,12 +306,12 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
   pass(0.1);
   EXPECT_EQ(press(kDown).cues.at(0).text, "settings");
   pass(0.1);
-  EXPECT_EQ(press(kRight).cues.at(0).text, "strength of the motors, 70 percent");
+  EXPECT_EQ(press(kRight).cues.at(0).text, "strength of vibration, 70 percent");
   pass(0.1);
   press(kRight);
   pass(0.1);
   const Feedback::Output weaker = press(kDown);
-  EXPECT_EQ(weaker.cues.at(0).text, "strength of the motors 60 percent");
+  EXPECT_EQ(weaker.cues.at(0).text, "strength of vibration 60 percent");
   EXPECT_EQ(weaker.change, "haptics/strength:=0.6");
   EXPECT_EQ(weaker.pattern, haptics::Pattern::sample);
   config.haptics.strength = 0.6;

@@ -86,8 +86,9 @@ const std::vector<Row> kTable = {
        now.guidance.path_offset = 0.9;
        lead(now, -10);
      },
-     "the path is 1 meter on the left", "", ""},
-    {"the wrong way", [](Scene& now) { lead(now, 170); }, "wrong way, 6 o'clock", "", "turn"},
+     "the path is 1 meter on your left", "", ""},
+    {"the wrong way", [](Scene& now) { lead(now, 170); }, "wrong way, turn to 6 o'clock", "",
+     "turn"},
     // To wait, and why there is no way.
     {"a worker crosses", [](Scene& now) { become(now, State::blocked, kWorker); },
      "wait, worker in the way", "halt", ""},
@@ -96,22 +97,25 @@ const std::vector<Row> kTable = {
        become(now, State::make_room, kForklift);
        lead(now, 90);
      },
-     "make room for a forklift, 3 o'clock, 20 meters", "", "turn"},
-    {"no route", [](Scene& now) { become(now, State::no_route); }, "no route to the goal", "", ""},
+     "move to 3 o'clock, 20 meters, to let a forklift pass", "", "turn"},
+    {"no route", [](Scene& now) { become(now, State::no_route); }, "there is no route to the goal",
+     "", ""},
     {"off the floor", [](Scene& now) { become(now, State::off_mesh); },
-     "no path from here, back away", "", ""},
-    {"no map", [](Scene& now) { become(now, State::no_map); }, "no map yet", "", ""},
-    {"no position", [](Scene& now) { become(now, State::pose_stale); }, "position lost", "", ""},
-    {"an old map", [](Scene& now) { become(now, State::map_stale); }, "map out of date", "", ""},
+     "no path starts here, back up a little", "", ""},
+    {"no map", [](Scene& now) { become(now, State::no_map); }, "there is no map yet", "", ""},
+    {"no position", [](Scene& now) { become(now, State::pose_stale); }, "the position is lost", "",
+     ""},
+    {"an old map", [](Scene& now) { become(now, State::map_stale); }, "the map is out of date", "",
+     ""},
     {"a goal in a shelf",
      [](Scene& now) {
        become(now, State::goal_refused);
        now.guidance.refusal = Guidance::Refusal::inside_obstacle;
      },
      "goal refused, something stands there", "", ""},
-    {"no goal", [](Scene& now) { become(now, State::no_goal); }, "welcome, waiting for a goal", "",
-     ""},
-    {"there", [](Scene& now) { become(now, State::arrived); }, "You have reached your destination",
+    {"no goal", [](Scene& now) { become(now, State::no_goal); },
+     "welcome, the session waits for a goal", "", ""},
+    {"there", [](Scene& now) { become(now, State::arrived); }, "you have reached the goal",
      "arrived", "arrived"},
     // What is near, comes, and is hit.
     {"a shelf at the side", [](Scene& now) { now.nearby = {thing(kShelf, 0.8, 0.0, 1.1)}; }, "", "",
@@ -121,7 +125,7 @@ const std::vector<Row> kTable = {
     {"a shelf hit ahead", [](Scene& now) { hit(now, kShelf, 0.35, 0.0); }, "hit a shelf ahead",
      "hit_shelf", "hit_shelf"},
     {"a pallet robot hits the right side", [](Scene& now) { hit(now, kRobot, 0.0, -0.35); },
-     "hit a pallet robot on the right", "hit_obstacle", "hit_obstacle"},
+     "hit a pallet robot on your right", "hit_obstacle", "hit_obstacle"},
     // A stick that moves nothing.
     {"a box ahead, free behind", [](Scene& now) { push(now, {thing(kBox, 0.1, 0.4, 0.0)}); },
      "back away, box ahead", "stuck", ""},
@@ -151,9 +155,9 @@ const std::vector<Row> kTable = {
     // What is lost, and the trial.
     {"the pad is pulled out", [](Scene& now) { now.stick = false; }, "controller disconnected", "",
      ""},
-    {"no proximity", [](Scene& now) { now.sensed = false; }, "no obstacle sensing", "", ""},
-    {"no odometry", [](Scene& now) { now.velocity.reset(); }, "simulator lost", "", ""},
-    {"no guidance", [](Scene& now) { now.guided = false; }, "guidance lost", "", ""},
+    {"no proximity", [](Scene& now) { now.sensed = false; }, "obstacles are not sensed", "", ""},
+    {"no odometry", [](Scene& now) { now.velocity.reset(); }, "the simulator is lost", "", ""},
+    {"no guidance", [](Scene& now) { now.guided = false; }, "the guidance is lost", "", ""},
     {"the next trial waits",
      [](Scene& now) {
        stand(now);
@@ -164,10 +168,10 @@ const std::vector<Row> kTable = {
     {"the time is up", [](Scene& now) { now.notices = {CueKind::trial_time_up}; },
      "time is up, the trial is over", "", ""},
     // Questions.
-    {"asks for the goal", [](Scene& now) { now.asked = drive::Button::goal; }, "goal 20 meters", "",
-     ""},
+    {"asks for the goal", [](Scene& now) { now.asked = drive::Button::goal; },
+     "the goal is 20 meters on", "", ""},
     {"asks for the way", [](Scene& now) { now.asked = drive::Button::repeat; },
-     "straight ahead, 20 meters", "", ""},
+     "drive straight, 20 meters", "", ""},
 };
 
 TEST(Situations, are_each_told_as_the_table_says) {
@@ -208,8 +212,8 @@ TEST(Situations, what_will_hit_is_told_2_s_before_with_its_side) {
   for (const auto& [stands, degrees, words] : std::vector<std::tuple<bool, double, const char*>>{
            {false, 0.0, "stop, forklift ahead"},
            {true, 0.0, "forklift coming, ahead"},
-           {true, 90.0, "forklift coming, on the right"},
-           {true, 180.0, "forklift coming, behind"}}) {
+           {true, 90.0, "forklift coming, on your right"},
+           {true, 180.0, "forklift coming, behind you"}}) {
     double told_before = 0.0;
     const std::vector<std::string> told = approach(stands, degrees, told_before);
     ASSERT_FALSE(told.empty()) << words;

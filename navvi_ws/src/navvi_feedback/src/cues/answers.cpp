@@ -78,7 +78,9 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   answer->priority = Priority::message;
   answer->asked = true;
   answered_ = answer->kind;
-  return {*answer};
+  Utterances answers = {*answer};
+  if (question == Question::help) answers.push_back({CueKind::help_menu});
+  return answers;
 }
 
 void Answers::yield_to(const Utterances& way, Utterances& answer) {

@@ -13,15 +13,15 @@ TEST_F(AnswersTest, answers_a_question_at_once) {
   under_way();
   now_.voice_busy = true;
   asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"});
   EXPECT_EQ(last_.priority, Priority::message);
   now_.goal_angle = -1.6;
   asked_.question = Question::goal;
-  EXPECT_EQ(pass(0.1), Texts{"goal 20 meters, 9 o'clock"});
+  EXPECT_EQ(pass(0.1), Texts{"the goal is 20 meters on, at 9 o'clock"});
   now_.guidance.reset();
   pass(3.0);
   asked_.question = Question::goal;
-  EXPECT_EQ(pass(0.1), Texts{"no goal yet"});
+  EXPECT_EQ(pass(0.1), Texts{"there is no goal yet"});
 }
 
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
@@ -32,27 +32,27 @@ TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
   under_way();
   now_.goal_angle = 1.6;
   now_.goal_straight = 12.0;
-  EXPECT_EQ(ask(Question::where), Texts{"goal 12 meters, 3 o'clock from your nose"});
+  EXPECT_EQ(ask(Question::where), Texts{"the goal is 12 meters, 3 o'clock, as the crow flies"});
   now_.place = navvi_types::Place{navvi_types::Place::Kind::aisle, 3};
-  EXPECT_EQ(ask(Question::where), Texts{"aisle 3, goal 12 meters, 3 o'clock from your nose"});
+  EXPECT_EQ(ask(Question::where), Texts{"aisle 3, goal 12 meters 3 o'clock, as the crow flies"});
   now_.guidance->state = Guidance::State::arrived;
   pass(3.0);
   EXPECT_EQ(ask(Question::where), Texts{"aisle 3"});
   now_.place.reset();
-  EXPECT_EQ(ask(Question::where), Texts{"You have reached your destination"});
+  EXPECT_EQ(ask(Question::where), Texts{"you have reached the goal"});
 }
 
 TEST_F(AnswersTest, tells_the_next_turn_and_what_the_buttons_do) {
   under_way();
   asked_.question = Question::turn;
-  EXPECT_EQ(pass(0.1), Texts{"straight ahead, 20 meters"}) << "there is none before the goal";
+  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"}) << "there is none before the goal";
   now_.guidance->waypoint_is_goal = false;
   now_.guidance->turn_angle = 1.6;
   now_.guidance->waypoint_distance = 18.0;
   asked_.question = Question::turn;
   EXPECT_EQ(pass(0.1), Texts{"in 18 meters, turn to 3 o'clock"});
   asked_.question = Question::help;
-  EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "lower repeats");
+  EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "press bottom ");
   now_.devices.keyboard = true;
   asked_.question = Question::help;
   EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "space repeats");
@@ -61,7 +61,7 @@ TEST_F(AnswersTest, tells_the_next_turn_and_what_the_buttons_do) {
 TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   now_.guidance.reset();
   asked_.question = Question::around;
-  EXPECT_EQ(pass(0.1), Texts{"nothing near"});
+  EXPECT_EQ(pass(0.1), Texts{"nothing is near"});
   now_.nearby = {{ThingClass::wall, 1, 0.5, {0.0, 0.9}, false},
                  {ThingClass::worker, 2, 1.0, {-1.4, 0.0}, true},
                  {ThingClass::shelf, 3, 1.1, {0.0, -1.5}, false},

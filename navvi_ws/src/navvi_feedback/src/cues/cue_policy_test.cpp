@@ -15,9 +15,10 @@ TEST_F(CuePolicyTest, says_nothing_before_anything_is_known) {
   EXPECT_EQ(pass(5.0), Texts{});
 }
 
-TEST_F(CuePolicyTest, introduces_the_goal_then_the_way) {
+TEST_F(CuePolicyTest, says_what_to_do_first_and_then_where_the_goal_is) {
   now_.goal_angle = 1.6;
-  EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters, 3 o'clock", "straight ahead, 20 meters"}));
+  EXPECT_EQ(pass(1.0), (Texts{"drive straight, 20 meters",
+                              "the goal is 20 meters along the path, on your right"}));
 }
 
 TEST_F(CuePolicyTest, says_not_to_drive_at_what_moves_ahead_where_ticks_lead) {
@@ -33,7 +34,7 @@ TEST_F(CuePolicyTest, says_not_to_drive_at_what_moves_ahead_where_ticks_lead) {
   now_.nearby = {{ThingClass::forklift, 5, 2.0, {2.4, 0.0}, true}};
   EXPECT_EQ(pass(1.0), Texts{});
   now_.nearby.clear();
-  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(CuePolicyTest, says_once_more_that_the_route_is_new_if_that_was_cut) {
@@ -68,11 +69,11 @@ TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_
   now_.nearby.clear();
   now_.measured->linear = 0.0;
   const std::string go_on = pass(5.0).front();
-  EXPECT_EQ(go_on, "go on, straight ahead, 20 meters");
+  EXPECT_EQ(go_on, "go on, drive straight, 20 meters");
   for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
     policy_.note({{9, stage, CueKind::straight, go_on}});
   asked_.question = Question::way;
-  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(CuePolicyTest, words_things_otherwise_as_soon_as_it_is_wanted) {
@@ -89,7 +90,7 @@ TEST_F(CuePolicyTest, speaks_of_what_is_near_before_there_is_a_goal_only_while_t
   now_.nearby = {{ThingClass::shelf, 1, 0.5, {0.0, 0.9}, false}};
   EXPECT_EQ(pass(3.0), Texts{});
   now_.commanded.angular = now_.measured->angular = 0.5;
-  EXPECT_EQ(pass(1.0), Texts{"shelf on the left"});
+  EXPECT_EQ(pass(1.0), Texts{"shelf on your left"});
 }
 
 TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says_the_way) {
@@ -100,7 +101,7 @@ TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says
   const Texts held = pass(5.0);
   EXPECT_EQ(std::count(held.begin(), held.end(), "release the stick"), 2);
   now_.stick_held_unarmed = false;
-  EXPECT_EQ(pass(3.0), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(3.0), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
@@ -111,10 +112,10 @@ TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
     now_.links.proximity = Link::lost;
     return pass(0.4);
   };
-  EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
+  EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
   EXPECT_EQ(lose_and_find(), Texts{});
   policy_.note({{1, CueStage::dropped, last_.kind, last_.text}});
-  EXPECT_EQ(lose_and_find(), Texts{"no obstacle sensing"});
+  EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
 }
 
 TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
@@ -122,7 +123,7 @@ TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
   config.wording.directions = "left_right";
   policy_ = CuePolicy(config, Phrases(kEnglish, config.wording));
   now_.guidance->waypoint_angle = now_.guidance->steer_angle = -1.6;
-  EXPECT_EQ(pass(1.0), (Texts{"Ready. Goal 20 meters", "left, 20 meters"}));
+  EXPECT_EQ(pass(1.0), (Texts{"turn left, 20 meters", "the goal is 20 meters along the path"}));
 }
 
 TEST_F(CuePolicyTest, does_not_chatter_on_a_quiet_drive) {

@@ -15,7 +15,7 @@ TEST_F(HaltTest, says_to_wait_for_what_is_in_the_way_and_then_to_go_on) {
   now_.guidance->blocked_by = ThingClass::forklift;
   EXPECT_EQ(pass(5.0), Texts{"wait, forklift in the way"});
   now_.guidance->state = Guidance::State::following;
-  EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(1.0), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(HaltTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
@@ -26,7 +26,7 @@ TEST_F(HaltTest, holds_a_wait_until_a_person_can_have_obeyed_it) {
   EXPECT_EQ(pass(0.6), Texts{"wait, worker in the way"});
   now_.guidance->state = Guidance::State::following;
   EXPECT_EQ(pass(1.5), Texts{}) << "the way is clear, but they have only just let go";
-  EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(1.0), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
@@ -42,7 +42,7 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   EXPECT_EQ(pass(0.1), Texts{"wait, worker in the way"});
   heard();
   EXPECT_EQ(pass(1.8), Texts{}) << "what was just called in the way";
-  EXPECT_EQ(pass(0.4), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.4), Texts{"go on, drive straight, 20 meters"});
 
   now_.guidance->state = Guidance::State::blocked;
   pass(5.0);
@@ -73,9 +73,9 @@ TEST_F(HaltTest, says_go_on_to_nobody_whom_something_will_reach_but_not_for_ever
     }
     return texts;
   };
-  EXPECT_EQ(comes_for(3.5), Texts{"forklift coming, on the left"});
+  EXPECT_EQ(comes_for(3.5), Texts{"forklift coming, on your left"});
   now_.nearby.clear();
-  EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"}) << "it has passed";
+  EXPECT_EQ(pass(1.0), Texts{"go on, drive straight, 20 meters"}) << "it has passed";
 
   now_.guidance->state = Guidance::State::blocked;
   pass(1.0);
@@ -85,7 +85,7 @@ TEST_F(HaltTest, says_go_on_to_nobody_whom_something_will_reach_but_not_for_ever
     now_.nearby.clear();  // one after another
     told = comes_for(2.0);
   }
-  EXPECT_EQ(told, Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(told, Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(HaltTest, ends_a_wait_by_the_word_to_make_room) {
@@ -99,7 +99,7 @@ TEST_F(HaltTest, ends_a_wait_by_the_word_to_make_room) {
   now_.guidance->waypoint = {-3.0, 0.0};
   now_.guidance->waypoint_distance = 3.0;
   now_.guidance->waypoint_angle = now_.guidance->steer_angle = 3.1;
-  EXPECT_EQ(pass(2.0), Texts{"go on, make room for a forklift, 6 o'clock, 3 meters"});
+  EXPECT_EQ(pass(2.0), Texts{"go on, move to 6 o'clock, 3 meters, to let a forklift pass"});
 }
 
 TEST_F(HaltTest, an_answer_to_wait_is_a_wait_that_ends_by_go_on) {
@@ -110,7 +110,7 @@ TEST_F(HaltTest, an_answer_to_wait_is_a_wait_that_ends_by_go_on) {
   asked_.question = Question::way;
   EXPECT_EQ(pass(0.2), Texts{"wait, worker in the way"});
   now_.guidance->state = Guidance::State::following;
-  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(HaltTest, says_go_on_to_nobody_who_would_meet_what_moves_on_the_way) {
@@ -128,7 +128,7 @@ TEST_F(HaltTest, says_go_on_to_nobody_who_would_meet_what_moves_on_the_way) {
     now_.nearby = {{ThingClass::forklift, 5, at.norm() - 0.35, at, true}};
     told = pass(0.1);
   }
-  EXPECT_EQ(told, Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(told, Texts{"go on, drive straight, 20 meters"});
   EXPECT_LT(y, 2.0) << "it will be past";
 }
 
@@ -169,7 +169,7 @@ TEST_F(HaltTest, nothing_cuts_the_word_to_stop_and_the_way_on_follows_it) {
   now_.measured = Velocity{};
   EXPECT_EQ(pass(4.0), Texts{}) << "it is still there";
   now_.nearby.clear();
-  EXPECT_EQ(pass(1.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(1.0), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(HaltTest, says_the_same_once_more_in_other_words) {
@@ -184,8 +184,8 @@ TEST_F(HaltTest, says_the_same_once_more_in_other_words) {
     now_.guidance->state = Guidance::State::following;
     for (const std::string& text : pass(3.0)) said.push_back(text);
   }
-  EXPECT_EQ(said, (Texts{"wait, worker in the way", "go on, straight ahead, 20 meters",
-                         "wait again, worker", "go on, straight ahead, 20 meters"}));
+  EXPECT_EQ(said, (Texts{"wait, worker in the way", "go on, drive straight, 20 meters",
+                         "wait again, worker", "go on, drive straight, 20 meters"}));
   pass(10.0);
   now_.guidance->state = Guidance::State::blocked;
   EXPECT_EQ(pass(1.0), Texts{"wait, worker in the way"}) << "that is long ago";

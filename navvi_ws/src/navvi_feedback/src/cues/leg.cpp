@@ -43,6 +43,7 @@ void Leg::advance(const Guidance& guidance, std::optional<int> next, const Route
 }
 
 void Leg::heard(int hour, double time) {
+  if (at_corner() || hour != said.hour) hand = {};
   said = {hour, time, seen ? seen->steer : 0.0};
   // A route whose way was told is not news later on.
   if (seen) routes.tell(seen->reroutes);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cues/cue_config.hpp"
+#include "cues/still_hand.hpp"
 #include "cues/stray.hpp"
 #include "senses/observation.hpp"
 
@@ -69,6 +70,7 @@ struct Leg {
   ToldRoutes routes;               ///< of this goal
   std::optional<double> reminder;  ///< s, from which on the direction is to be said again
   Stray stray;
+  StillHand hand;
 
   /// A new goal is introduced.
   void begin(const Guidance& guidance);

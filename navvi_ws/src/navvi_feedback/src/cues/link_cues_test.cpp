@@ -12,23 +12,23 @@ class LinkCuesTest : public CuePolicyTest {};
 TEST_F(LinkCuesTest, says_which_messages_never_came) {
   now_ = Observation();
   pass(9.0);
-  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "simulator lost"}));
+  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "the simulator is lost"}));
 }
 
 TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
   under_way();
   now_.links.guidance = Link::lost;
-  EXPECT_EQ(pass(1.0), Texts{"guidance lost"});
+  EXPECT_EQ(pass(1.0), Texts{"the guidance is lost"});
   EXPECT_EQ(pass(10.0), Texts{});
   now_.links.guidance = Link::alive;
-  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(LinkCuesTest, names_only_the_simulator_when_all_dies_with_it) {
   under_way();
   now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
   now_.gate = DriveState::State::stopped;
-  EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
+  EXPECT_EQ(pass(30.0), Texts{"the simulator is lost"});
   EXPECT_EQ(last_.priority, Priority::important);
 }
 
@@ -37,11 +37,11 @@ TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_misse
   now_.links.proximity = Link::lost;
   EXPECT_EQ(pass(0.1), Texts{});
   now_.links.simulator = now_.links.guidance = Link::lost;
-  EXPECT_EQ(pass(30.0), Texts{"simulator lost"});
+  EXPECT_EQ(pass(30.0), Texts{"the simulator is lost"});
   now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::alive;
   pass(5.0);
   now_.links.proximity = Link::lost;
-  EXPECT_EQ(pass(1.0), Texts{"no obstacle sensing"}) << "where that alone is lost";
+  EXPECT_EQ(pass(1.0), Texts{"obstacles are not sensed"}) << "where that alone is lost";
 }
 
 TEST_F(LinkCuesTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
@@ -55,7 +55,7 @@ TEST_F(LinkCuesTest, distinguishes_a_stopped_robot_from_a_lost_controller) {
   EXPECT_EQ(pass(1.0), Texts{"controller disconnected"});
   now_.links.pad = Link::alive;
   EXPECT_EQ(pass(1.0),
-            (Texts{"controller connected, release the stick", "straight ahead, 20 meters"}));
+            (Texts{"controller connected, release the stick", "drive straight, 20 meters"}));
 }
 
 TEST_F(LinkCuesTest, names_the_keyboard_where_the_stick_is_one) {
@@ -77,7 +77,8 @@ TEST_F(LinkCuesTest,
   now_.links.pad = Link::lost;
   EXPECT_EQ(pass(30.0), Texts{"controller disconnected"});
   now_.links.pad = Link::alive;
-  EXPECT_EQ(pass(1.0), (Texts{"controller connected, release the stick", "3 o'clock, 20 meters"}));
+  EXPECT_EQ(pass(1.0),
+            (Texts{"controller connected, release the stick", "turn to 3 o'clock, 20 meters"}));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST_F(NoticeCuesTest, gives_no_direction_right_after_the_end_of_a_trial) {
   now_.notices.clear();
   now_.guidance->steer_angle = now_.guidance->waypoint_angle = 2.0;
   EXPECT_EQ(pass(9.0), Texts{});
-  EXPECT_EQ(pass(2.0), Texts{"4 o'clock, 20 meters"}) << "the session goes on";
+  EXPECT_EQ(pass(2.0), Texts{"turn to 4 o'clock, 20 meters"}) << "the session goes on";
 }
 
 }  // namespace

@@ -24,11 +24,11 @@ constexpr double kFar = 9999.0;
 constexpr int kMostPlaces = 999;        // likewise, of one name
 constexpr double kFeet = 1.0 / 0.3048;  // in a metre
 
-const std::set<std::string> kPlaceholders = {"direction", "way",   "distance", "thing",   "a_thing",
-                                             "side",      "where", "place",    "setting", "value",
-                                             "person",    "stick", "more",     "less"};
+const std::set<std::string> kPlaceholders = {
+    "direction", "way",   "distance", "thing", "a_thing", "side", "where", "place",
+    "setting",   "value", "person",   "stick", "push",    "menu", "more",  "less"};
 /// Words for the hands: one for those on a pad, one for those on the keys.
-const std::set<std::string> kHands = {"stick", "more", "less"};
+const std::set<std::string> kHands = {"stick", "push", "menu", "more", "less"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};

@@ -84,9 +84,10 @@ using Utterances = std::vector<Utterance>;
 ///
 /// Placeholders: {direction} an hour as the wording has it, {way} likewise, but "straight
 /// ahead" in all of them, {distance} a distance with its unit,
-/// {thing} a thing's noun, {a_thing} with its article, {side} "left", {where} "on the left",
-/// {place} "dock 2", {setting} what can be set, {value} to what, {person} a name; {stick} what the
-/// hand is on, {more} and {less} what it presses for that: of the pad, or of the keyboard.
+/// {thing} a thing's noun, {a_thing} with its article, {side} "left", {where} "on your
+/// left", {place} "dock 2", {setting} what can be set, {value} to what, {person} a name; {stick}
+/// what the hand is on, {push} how it drives ahead, {menu}, {more} and {less} what it presses: of
+/// the pad, or of the keyboard.
 class Phrases {
  public:
   /// \param file  with the sections voice, phrases, words, picture; in clock, brief and full stand

@@ -106,22 +106,23 @@ TEST(Phrases, of_every_kind_can_be_spoken_in_each_language_and_wording) {
 
 TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "3 o'clock, 8 meters");
-  EXPECT_EQ(phrases.say(CueKind::straight, everything()), "straight ahead, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "turn to 3 o'clock, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::straight, everything()), "drive straight, 8 meters");
   EXPECT_EQ(phrases.say(CueKind::turn_ahead, everything()), "in 8 meters, turn to 3 o'clock");
   EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn to 3 o'clock now");
-  EXPECT_EQ(phrases.say(CueKind::start, everything()), "Ready. Goal 8 meters, 3 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "shelf on the left");
-  EXPECT_EQ(phrases.say(CueKind::shelf_close, everything()), "shelf very close, on the left");
-  EXPECT_EQ(phrases.say(CueKind::obstacle_near, everything()), "pallet robot on the left");
-  EXPECT_EQ(phrases.say(CueKind::obstacle_stop, everything()), "stop, pallet robot on the left");
+  EXPECT_EQ(phrases.say(CueKind::start, everything()),
+            "the goal is 8 meters along the path, on your left");
+  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "shelf on your left");
+  EXPECT_EQ(phrases.say(CueKind::shelf_close, everything()), "shelf very close, on your left");
+  EXPECT_EQ(phrases.say(CueKind::obstacle_near, everything()), "pallet robot on your left");
+  EXPECT_EQ(phrases.say(CueKind::obstacle_stop, everything()), "stop, pallet robot on your left");
   EXPECT_EQ(phrases.say(CueKind::obstacle_close, everything()),
-            "pallet robot very close, on the left");
+            "pallet robot very close, on your left");
   EXPECT_EQ(phrases.say(CueKind::release_stick), "release the stick");
   EXPECT_EQ(phrases.say(CueKind::collision_obstacle, everything()),
-            "hit a pallet robot on the left");
+            "hit a pallet robot on your left");
   EXPECT_EQ(phrases.say(CueKind::stuck, everything()), "stuck, pallet robot left, try 3 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::arrived), "You have reached your destination");
+  EXPECT_EQ(phrases.say(CueKind::arrived), "you have reached the goal");
 }
 
 TEST(Phrases, call_a_leg_straight_ahead_in_every_wording_but_a_place_by_its_hour) {
@@ -132,20 +133,20 @@ TEST(Phrases, call_a_leg_straight_ahead_in_every_wording_but_a_place_by_its_hour
               "new route, straight ahead, 8 meters");
   const Phrases phrases(kEnglish);
   EXPECT_EQ(phrases.say(CueKind::make_room, ahead),
-            "make room for a pallet robot, straight ahead, 8 meters");
-  EXPECT_EQ(phrases.say(CueKind::goal_info, ahead), "goal 8 meters, 12 o'clock");
+            "move to 12 o'clock, 8 meters, to let a pallet robot pass");
+  EXPECT_EQ(phrases.say(CueKind::goal_info, ahead), "the goal is 8 meters on, at 12 o'clock");
   EXPECT_EQ(phrases.say(CueKind::rerouted, everything()), "new route, 3 o'clock, 8 meters");
 }
 
 TEST(Phrases, offer_left_and_right_instead_of_the_clock) {
   const Phrases phrases(kEnglish, wording("left_right"));
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "right, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "turn right, 8 meters");
   EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn right now");
 }
 
 TEST(Phrases, count_degrees_to_either_side) {
   const Phrases phrases(kEnglish, wording("degrees"));
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "90 degrees right, 8 meters");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "turn 90 degrees right, 8 meters");
   EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn 90 degrees right now");
   Fillings left = everything();
   left.hour = 10;
@@ -177,9 +178,9 @@ TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
   Fillings one = everything();
   one.hour = 1;
   one.distance = 1.0;
-  EXPECT_EQ(phrases.say(CueKind::direction, one), "hacia la 1, 1 metro");
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "hacia las 3, 8 metros");
-  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "estanter\u00eda a la izquierda");
+  EXPECT_EQ(phrases.say(CueKind::direction, one), "gire hacia la 1, 1 metro");
+  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "gire hacia las 3, 8 metros");
+  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "estanter\u00eda a su izquierda");
 }
 
 TEST(Phrases, name_what_the_hands_are_on) {
@@ -197,12 +198,12 @@ TEST(Phrases, call_what_has_no_name_something) {
   Fillings fillings = everything();
   fillings.thing = ThingClass::other;
   const Phrases english(kEnglish);
-  EXPECT_EQ(english.say(CueKind::collision_obstacle, fillings), "hit something on the left");
-  EXPECT_EQ(english.say(CueKind::obstacle_comes, fillings), "something coming, on the left");
+  EXPECT_EQ(english.say(CueKind::collision_obstacle, fillings), "hit something on your left");
+  EXPECT_EQ(english.say(CueKind::obstacle_comes, fillings), "something coming, on your left");
   EXPECT_EQ(english.say(CueKind::make_room, fillings),
-            "make room for something, 3 o'clock, 8 meters");
+            "move to 3 o'clock, 8 meters, to let something pass");
   EXPECT_EQ(Phrases(kSpanish).say(CueKind::collision_obstacle, fillings),
-            "choque, algo a la izquierda");
+            "choque, algo a su izquierda");
 }
 
 TEST(Phrases, of_the_end_of_a_wait_and_of_straight_ahead_begin_with_other_words) {
@@ -221,7 +222,7 @@ TEST(Phrases, of_the_end_of_a_wait_and_of_straight_ahead_begin_with_other_words)
 
 TEST(Phrases, of_the_way_must_leave_room_for_the_end_of_a_wait) {
   const std::string sentence = refusal(
-      replaced("slight: \"a little {side}, {distance}\"",
+      replaced("slight: \"keep a little {side}, {distance}\"",
                "slight: \"a little bit farther there to the {side} hand, {distance}, {way}\""));
   EXPECT_TRUE(names(sentence, "phrases/slight")) << sentence;
 }
@@ -256,7 +257,7 @@ TEST(Phrases, name_places_with_their_number) {
   EXPECT_EQ(phrases.say(CueKind::menu_place, everything()), "dock 2");
   Fillings task;
   task.place = PlaceName::task;
-  EXPECT_EQ(phrases.say(CueKind::goal_chosen, task), "the goal is now the goal of the task");
+  EXPECT_EQ(phrases.say(CueKind::goal_chosen, task), "you are heading for the goal of the task");
   EXPECT_THROW(static_cast<void>(phrases.say(CueKind::menu_place)), std::logic_error);
 }
 
@@ -325,8 +326,7 @@ TEST(Phrases, refuse_text_that_could_harm_the_voice) {
       std::string(25, 'a'),
       "one two three four five six seven eight nine ten eleven twelve thirteen fourteen x"};
   for (const std::string& text : texts)
-    EXPECT_NE(refusal(replaced("\"You have reached your destination\"", "\"" + text + "\"")), "")
-        << text;
+    EXPECT_NE(refusal(replaced("\"you have reached the goal\"", "\"" + text + "\"")), "") << text;
   EXPECT_NE(refusal(replaced("forklift: forklift", "forklift: " + std::string(24, 'f') + "t")), "");
 }
 

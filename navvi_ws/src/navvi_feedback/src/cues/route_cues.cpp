@@ -23,23 +23,25 @@ Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   if (!bearing_.hour() || !std::isfinite(guidance.waypoint_distance)) return {};
   const Look look{config_, now, bearing_, time};
   leg_.advance(guidance, turn_within_reach(look), config_);
+  leg_.hand.observe(now, time);
   if (halted) {
     leg_.stand();
+    leg_.hand.since.reset();
     return {};
   }
-  if (is_new_goal(guidance)) return introduce_goal(now, time);
+  // Room is made first.
+  const bool aside = guidance.state == Guidance::State::make_room;
+  if (is_new_goal(guidance) && !aside) return introduce_goal(look);
   return by_sound_ ? sounds_lead(look, leg_) : words_lead(look, leg_);
 }
 
-Utterances RouteCues::introduce_goal(const Observation& now, double time) {
-  goal_ = now.guidance->goal;
-  leg_.begin(*now.guidance);
-  Utterance start = goal_words(CueKind::start, CueKind::start_distance, now, bearing_.rounding());
-  if (!by_sound_) return {start};
-  // The sound says where to turn first, but not to drive.
-  if (bearing_.hour() == 12) start.also = {*direction(*now.guidance, bearing_)};
-  leg_.heard(*bearing_.hour(), time);
-  return {start};
+/// First of all what to do now.
+Utterances RouteCues::introduce_goal(const Look& look) {
+  goal_ = look.guidance().goal;
+  leg_.begin(look.guidance());
+  Utterances told = tell_way(look, leg_);
+  told.push_back(start_words(look.now));
+  return told;
 }
 
 Utterances RouteCues::go_on(const Observation& now, double time) {

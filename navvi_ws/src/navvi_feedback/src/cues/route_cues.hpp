@@ -15,6 +15,8 @@ namespace navvi_feedback::cues {
          kind == CueKind::new_route || kind == CueKind::way_blocked;
 }
 
+struct Look;
+
 /// Says where to drive while there is a path (R-AUD-1, R-AUD-2), so that a person who only hears
 /// can follow it. All hours are seen from the robot's nose to where to steer. What the person knows
 /// is a Leg; which of its news is said, and when, decides one of two strategies: words_lead(), or
@@ -49,7 +51,7 @@ class RouteCues {
   [[nodiscard]] Rounding rounding() const { return bearing_.rounding(); }
 
  private:
-  [[nodiscard]] Utterances introduce_goal(const Observation& now, double time);
+  [[nodiscard]] Utterances introduce_goal(const Look& look);
   [[nodiscard]] bool is_new_goal(const Guidance& guidance) const;
 
   RouteConfig config_;

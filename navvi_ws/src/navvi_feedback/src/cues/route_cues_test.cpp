@@ -10,25 +10,53 @@
 namespace navvi_feedback::cues {
 namespace {
 
-TEST(RouteCues, introduce_a_new_goal_and_then_the_way_to_it) {
+TEST(RouteCues, say_the_way_to_a_new_goal_and_then_where_that_is) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
   drive.now.goal_angle = rad(-60.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start});
-  EXPECT_EQ(drive.last.fillings.hour, 10);
+  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, CueKind::start}));
+  EXPECT_EQ(drive.last.fillings.side, Side::left);
   EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 25.0);
   drive.now.voice_busy = true;
   EXPECT_EQ(drive.pass(2.0), Kinds{});
-  drive.now.voice_busy = false;
-  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::direction});
-  EXPECT_EQ(drive.last.fillings.hour, 3);
-  EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 8.0);
 }
 
 TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
-  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start_distance});
+  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, CueKind::start_distance}));
+}
+
+TEST(RouteCues, urge_a_hand_that_rests_for_3_s_at_the_begin_of_a_straight_leg_once) {
+  Drive drive;
+  drive.now.guidance = following(0.0, 8.0);
+  drive.now.voice_busy = true;
+  drive.pass(2.0);
+  drive.now.voice_busy = false;
+  EXPECT_EQ(drive.pass(2.9), Kinds{});
+  EXPECT_EQ(drive.pass(0.2), Kinds{CueKind::push});
+  EXPECT_EQ(drive.pass(5.0), Kinds{}) << "once a leg";
+}
+
+TEST(RouteCues, urge_no_hand_that_has_driven_turns_or_has_something_before_it) {
+  const auto begun = [](Drive& drive) {
+    drive.now.guidance = following(0.0, 8.0);
+    drive.pass(kTick);
+  };
+  Drive driven;
+  begun(driven);
+  driven.now.commanded.linear = 0.5;
+  driven.pass(0.5);
+  driven.now.commanded.linear = 0.0;
+  EXPECT_EQ(driven.pass(5.0), Kinds{});
+  Drive turning;
+  begun(turning);
+  turning.now.commanded.angular = 0.5;
+  EXPECT_EQ(turning.pass(5.0), Kinds{});
+  Drive before;
+  begun(before);
+  before.now.nearby = {{ThingClass::box, 1, 0.3, {0.7, 0.0}}};
+  EXPECT_EQ(before.pass(5.0), Kinds{});
 }
 
 TEST(RouteCues, say_nothing_of_an_angle_that_is_no_number) {
@@ -106,7 +134,7 @@ TEST(RouteCues, say_the_direction_when_the_path_is_back_without_a_new_introducti
   drive.cues.pause(false);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
   drive.cues.pause(true);
-  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::start_distance});
+  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::straight, CueKind::start_distance}));
 }
 
 /// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,

@@ -51,6 +51,16 @@ Told announce_turn(const Look& look, Leg& leg) {
   return Utterances{announce(CueKind::turn_ahead, way, *turn, look, leg)};
 }
 
+Told urge(const Look& look, Leg& leg) {
+  if (look.hour() != 12 || !leg.hand.due(look.time)) return std::nullopt;
+  const double free = std::min(look.config.in_the_way, look.guidance().waypoint_distance);
+  if (anything_ahead(look.now.nearby, free)) return std::nullopt;
+  // The sound of a turn that it made has ended.
+  if (leg.said.hour != 12) return tell_way(look, leg);
+  leg.hand.urged = true;
+  return Utterances{{CueKind::push}};
+}
+
 Utterances tell_way(const Look& look, Leg& leg) {
   Utterance way = *direction(look.guidance(), look.bearing);
   // Without the turn a person drives past it.

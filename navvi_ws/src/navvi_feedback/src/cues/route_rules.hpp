@@ -42,6 +42,9 @@ using Rule = Told (*)(const Look& look, Leg& leg);
 /// A turn is near.
 [[nodiscard]] Told announce_turn(const Look& look, Leg& leg);
 
+/// A person who was told to go straight stands.
+[[nodiscard]] Told urge(const Look& look, Leg& leg);
+
 // Parts of rules.
 
 /// The direction, and the other route where that is news; or the turn that soon follows.

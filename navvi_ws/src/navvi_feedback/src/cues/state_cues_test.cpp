@@ -12,7 +12,7 @@ class StateCuesTest : public CuePolicyTest {};
 TEST_F(StateCuesTest, announces_the_arrival_once) {
   under_way();
   now_.guidance->state = Guidance::State::arrived;
-  EXPECT_EQ(pass(60.0), Texts{"You have reached your destination"});
+  EXPECT_EQ(pass(60.0), Texts{"you have reached the goal"});
   now_.links.guidance = Link::lost;
   pass(2.0);
   now_.links.guidance = Link::alive;
@@ -35,7 +35,7 @@ TEST_F(StateCuesTest, passes_over_a_state_that_lasts_no_time) {
   now_.guidance->state = Guidance::State::off_mesh;
   EXPECT_EQ(pass(0.3), Texts{});
   now_.guidance->state = Guidance::State::following;
-  EXPECT_EQ(pass(0.5), Texts{"straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(StateCuesTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
@@ -61,13 +61,13 @@ TEST_F(StateCuesTest, says_at_once_to_wait_for_what_would_be_reached_within_seco
 TEST_F(StateCuesTest, says_that_the_map_is_too_old) {
   under_way();
   now_.guidance->state = Guidance::State::map_stale;
-  EXPECT_EQ(pass(5.0), Texts{"map out of date"});
+  EXPECT_EQ(pass(5.0), Texts{"the map is out of date"});
 }
 
 TEST_F(StateCuesTest, reminds_of_a_problem_that_lasts) {
   under_way();
   now_.guidance->state = Guidance::State::no_route;
-  EXPECT_EQ(pass(31.0), Texts(3, "no route to the goal"));
+  EXPECT_EQ(pass(31.0), Texts(3, "there is no route to the goal"));
 }
 
 TEST_F(StateCuesTest, has_a_kind_for_every_state_and_refusal_of_the_guidance) {
@@ -83,7 +83,7 @@ TEST_F(StateCuesTest, has_a_kind_for_every_state_and_refusal_of_the_guidance) {
 TEST_F(StateCuesTest, asks_nobody_to_release_the_stick_who_has_arrived) {
   under_way();
   now_.guidance->state = Guidance::State::arrived;
-  EXPECT_EQ(pass(0.1), Texts{"You have reached your destination"});
+  EXPECT_EQ(pass(0.1), Texts{"you have reached the goal"});
   now_.stick_held_unarmed = true;  // the trial is over
   EXPECT_EQ(pass(10.0), Texts{});
 }

@@ -94,6 +94,7 @@ Utterance Stuck::words(const Observation& now, bool follows) const {
   if (fillings.side == Side::ahead && is_free(6, now.nearby, gap))
     return {CueKind::back_away, fillings};
   fillings.hour = free_hour(now.nearby, gap, follows ? now.guidance->steer_angle : 0.0);
+  if (fillings.hour == 6) return {CueKind::back_away, fillings};
   if (fillings.hour) return {CueKind::stuck, fillings};
   return boxed_in(now.nearby);
 }

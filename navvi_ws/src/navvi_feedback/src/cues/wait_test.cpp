@@ -40,7 +40,7 @@ TEST_F(WaitTest, ends_by_go_on_whichever_link_was_lost_meanwhile) {
     pass(5.0);
     now_.links.*link = Link::alive;
     follow();
-    EXPECT_EQ(pass(3.0).back(), "go on, straight ahead, 20 meters");
+    EXPECT_EQ(pass(3.0).back(), "go on, drive straight, 20 meters");
     pass(11.0);
   }
 }
@@ -53,7 +53,7 @@ TEST_F(WaitTest, ends_by_go_on_after_any_state_in_which_nothing_leads) {
     now_.guidance->state = state;
     pass(5.0);
     follow();
-    EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"}) << to_string(state);
+    EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"}) << to_string(state);
     pass(11.0);
   }
 }
@@ -65,7 +65,8 @@ TEST_F(WaitTest, ends_by_go_on_with_the_new_goal_where_that_is_another_one) {
   now_.guidance->goal = now_.guidance->waypoint = {0.0, 7.0};
   now_.goal_angle = -1.6;
   now_.guidance->waypoint_distance = 3.0;
-  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 3 meters, goal 20 meters, 9 o'clock"});
+  EXPECT_EQ(pass(3.0),
+            Texts{"go on, drive straight, 3 meters, the goal is 20 meters on, at 9 o'clock"});
 }
 
 TEST_F(WaitTest, ends_by_go_on_and_the_direction_where_ticks_lead_and_where_words_are_muted) {
@@ -74,21 +75,21 @@ TEST_F(WaitTest, ends_by_go_on_and_the_direction_where_ticks_lead_and_where_word
   wording.way = false;
   policy_.use(wording);
   follow();
-  EXPECT_EQ(pass(10.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(10.0), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(WaitTest, is_not_over_before_go_on_was_heard_to_its_end) {
   for (const CueStage lost : {CueStage::cut, CueStage::dropped}) {
     follow();
-    EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+    EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
     note(7, CueStage::queued);
     if (lost == CueStage::cut) note(7, CueStage::started);
     note(7, lost);
-    EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+    EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
     note(8, CueStage::queued);
     note(8, CueStage::started);
     note(8, CueStage::ended);
-    EXPECT_EQ(pass(3.0), Texts{});
+    EXPECT_EQ(pass(0.5), Texts{});
     now_.guidance->state = Guidance::State::blocked;
     pass(5.0);
   }
@@ -100,7 +101,7 @@ TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
   note(2, CueStage::queued);
   note(2, CueStage::dropped);
   follow();
-  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_then) {
@@ -111,14 +112,14 @@ TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_th
     const Texts more = pass(0.02);
     if (more != Texts{"wait, worker in the way"}) told = more;
   }
-  EXPECT_EQ(told, Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(told, Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(WaitTest, ends_by_an_answer_that_comes_before_go_on_was_heard) {
   follow();
-  EXPECT_EQ(pass(3.0), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
   asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{"go on, straight ahead, 20 meters"});
+  EXPECT_EQ(pass(0.1), Texts{"go on, drive straight, 20 meters"});
 }
 
 TEST_F(WaitTest, is_followed_by_a_stop_1_5_s_before_the_shelf_at_the_speed_driven) {

@@ -27,6 +27,14 @@ Utterance next_turn(const Guidance& guidance, Rounding rounding) {
   return turn;
 }
 
+Utterance start_words(const Observation& now) {
+  Utterance start{now.goal_angle ? CueKind::start : CueKind::start_distance};
+  start.fillings.distance = std::max(0.0, now.guidance->goal_distance);
+  if (now.goal_angle)
+    start.fillings.side = side_of({std::cos(*now.goal_angle), -std::sin(*now.goal_angle)});
+  return start;
+}
+
 Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,
                      Rounding rounding) {
   Utterance goal;

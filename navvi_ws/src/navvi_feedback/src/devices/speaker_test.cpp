@@ -63,7 +63,7 @@ TEST(Speaker, keeps_quiet_for_as_long_as_speaking_takes_when_it_has_no_device) {
   Mixer mixer(MixerConfig{}, Audio::off);
   Speaker speaker(SpeakerConfig{}, mixer);
   const auto start = Clock::now();
-  speaker.start("straight ahead, 8 meters");
+  speaker.start("drive straight, 8 meters");
   EXPECT_TRUE(speaker.busy());
   ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
   EXPECT_GT(since(start), 0.5);
@@ -79,7 +79,7 @@ TEST(Speaker, speaks_faster_at_a_higher_rate) {
   for (const int rate : {160, 440}) {
     speaker.set_rate(rate);
     const auto start = Clock::now();
-    speaker.start("straight ahead, 8 meters");
+    speaker.start("drive straight, 8 meters");
     ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
     times.push_back(since(start));
   }
@@ -132,7 +132,7 @@ TEST(Speaker, survives_many_starts_and_stops) {
   Mixer mixer(MixerConfig{}, Audio::off);
   Speaker speaker(SpeakerConfig{}, mixer);
   for (int i = 0; i < 500; ++i) {
-    speaker.start("3 o'clock, 8 meters");
+    speaker.start("turn to 3 o'clock, 8 meters");
     if (i % 3 == 0) speaker.stop();
     if (i % 50 == 0) pause(0.005);
   }
@@ -148,7 +148,7 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
     ASSERT_EQ(mixer.status().device, Mixer::Status::Device::open) << mixer.status().detail;
     EXPECT_FALSE(mixer.status().name.empty());
     const auto start = Clock::now();
-    speaker.start("You have reached your destination");
+    speaker.start("you have reached the goal");
     ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
     whole = since(start);
     pause(0.2);
@@ -162,7 +162,7 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   {
     Mixer mixer(MixerConfig{}, Audio::on);
     Speaker speaker(SpeakerConfig{}, mixer);
-    speaker.start("You have reached your destination");
+    speaker.start("you have reached the goal");
     pause(0.5);
     speaker.stop();
     EXPECT_FALSE(speaker.busy());
@@ -177,7 +177,7 @@ TEST(Speaker, tells_when_words_begin_to_be_heard_and_when_they_end) {
   Speaker speaker(SpeakerConfig{}, mixer);
   std::atomic<int> begun{0};
   std::atomic<int> silent{0};
-  speaker.start("You have reached your destination", [&] { ++begun; });
+  speaker.start("you have reached the goal", [&] { ++begun; });
   ASSERT_TRUE(wait_for([&] { return begun == 1; }));
   EXPECT_GT(mixer.mixed(), 0);
   speaker.stop([&] { ++silent; });
@@ -219,7 +219,7 @@ TEST(SpeechChannel, stops_one_sentence_for_another_and_speaks_it_to_its_end) {
   Mixer mixer(MixerConfig{}, Audio::off);
   Latencies latencies;
   SpeechChannel channel(SpeakerConfig{}, mixer, latencies);
-  channel.obey({false, "3 o'clock, 8 meters"});
+  channel.obey({false, "turn to 3 o'clock, 8 meters"});
   EXPECT_TRUE(channel.busy());
   channel.obey({true, "controller disconnected"});
   EXPECT_TRUE(channel.busy());
@@ -234,7 +234,7 @@ TEST(SpeechChannel, times_words_answers_and_silence) {
   const auto seen = [&](Chain chain) {
     return wait_for([&] { return latencies.figures(chain).count == 1; });
   };
-  channel.obey({false, "3 o'clock, 8 meters"});
+  channel.obey({false, "turn to 3 o'clock, 8 meters"});
   EXPECT_TRUE(seen(Chain::words));
   channel.obey({true, "goal 8 meters", true}, true);
   EXPECT_TRUE(seen(Chain::silence));

@@ -37,10 +37,10 @@ TEST(Setting, each_value_can_be_said) {
     return english.say(CueKind::setting_changed,
                        settings()[setting].say(CueKind::setting_changed, value).fillings);
   };
-  EXPECT_EQ(said(0, "240"), "speed of speech 240");
-  EXPECT_EQ(said(2, "0.7"), "strength of the motors 70 percent");
-  EXPECT_EQ(said(3, "full"), "words full");
-  EXPECT_EQ(said(4, "false"), "touch of what is near off");
+  EXPECT_EQ(said(0, "240"), "speech rate 240");
+  EXPECT_EQ(said(2, "0.7"), "strength of vibration 70 percent");
+  EXPECT_EQ(said(3, "full"), "amount of speech full");
+  EXPECT_EQ(said(4, "false"), "vibration for near things off");
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(Hearing, misses_mistakes_and_masks_as_often_as_it_is_said_to_and_nothing_wi
   Hearing ear(config, 3);
   int missed = 0, mirrored = 0, off = 0, quiet = 0, covered = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const auto sentence = ear.words("straight ahead, 4 meters", 2.0);
+    const auto sentence = ear.words("drive straight, 4 meters", 2.0);
     missed += sentence ? 0 : 1;
     mirrored += sentence && sentence->mirrored ? 1 : 0;
     off += sentence && sentence->hours_off != 0 ? 1 : 0;

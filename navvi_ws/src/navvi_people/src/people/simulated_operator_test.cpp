@@ -98,7 +98,7 @@ class Loop {
     // What is said refers to where the robot points when it is said: it has to be done by then.
     if (time < speaking_until_ + 1.5) return;
     if (next_ + 1 == corners_.size() && distance() < 1.0) {
-      return say("You have reached your destination");
+      return say("you have reached the goal");
     }
     double angle = yaw - std::atan2(corners_[next_].y - y, corners_[next_].x - x);
     while (angle < 0.0) angle += 2.0 * kPi;
@@ -108,7 +108,8 @@ class Loop {
     last_hour_ = hour;
     said_ = time;
     const std::string meters = std::to_string(std::lround(distance())) + " meters";
-    say(hour == 0 ? "straight ahead, " + meters : std::to_string(hour) + " o'clock, " + meters);
+    say(hour == 0 ? "drive straight, " + meters
+                  : "turn to " + std::to_string(hour) + " o'clock, " + meters);
   }
 
   std::vector<Point> corners_;
@@ -172,7 +173,7 @@ Heard sound(Earcon earcon, double left, double right) { return Sound{earcon, lef
 /// \return rad, turned too far
 double turned_by_ear(std::uint64_t seed, double angle, double early) {
   Loop loop(seed, {{100.0, 0.0}});
-  loop.say("straight ahead, 9 meters");
+  loop.say("drive straight, 9 meters");
   for (int i = 0; i < 200; ++i) loop.step();
   bool over = false;
   bool told = false;
@@ -211,9 +212,9 @@ TEST(SimulatedOperator, turns_by_what_sounds_and_too_far_where_that_ends_late) {
 
 TEST(SimulatedOperator, does_not_turn_back_what_a_sound_led_while_it_was_told_to_go_on) {
   Loop loop(1, {{100.0, 0.0}});
-  loop.say("straight ahead, 9 meters");
+  loop.say("drive straight, 9 meters");
   for (int i = 0; i < 200; ++i) loop.step();
-  loop.say("go on, straight ahead, 9 meters");
+  loop.say("go on, drive straight, 9 meters");
   for (int i = 0; i < 40; ++i) {
     if (i % 10 == 0) loop.person.hear(sound(Earcon::turn, 0.6, 0.0), loop.time);
     loop.step();
@@ -248,7 +249,7 @@ TEST(SimulatedOperator, does_the_same_again_with_the_same_seed) {
 
 TEST(SimulatedOperator, does_not_act_on_what_was_cut_off) {
   Loop loop(1, kAroundACorner);
-  loop.say("straight ahead, 8 meters");
+  loop.say("drive straight, 8 meters");
   (void)loop.step();
   loop.person.hear(Speech{1, Moment::breaks_off}, loop.time);
   for (int i = 0; i < 250; ++i) (void)loop.step();
@@ -258,7 +259,7 @@ TEST(SimulatedOperator, does_not_act_on_what_was_cut_off) {
 TEST(SimulatedOperator, takes_time_to_react) {
   Loop loop(1, kAroundACorner);
   for (int i = 0; i < 100; ++i) (void)loop.step();
-  loop.say("straight ahead, 8 meters");
+  loop.say("drive straight, 8 meters");
   loop.person.hear(Speech{1, Moment::ends}, loop.time);
   const double heard = loop.time;
   while (!loop.moved && loop.time < heard + 3.0) (void)loop.step();
@@ -278,10 +279,10 @@ TEST(SimulatedOperator, backs_off_when_it_hears_that_it_hit_something) {
 TEST(SimulatedOperator, lets_go_at_the_word_that_something_was_hit) {
   Loop loop(1, kAroundACorner);
   for (int i = 0; i < 100; ++i) (void)loop.step();
-  loop.say("straight ahead, 8 meters");
+  loop.say("drive straight, 8 meters");
   loop.person.hear(Speech{1, Moment::ends}, loop.time);
   for (int i = 0; i < 150; ++i) (void)loop.step();
-  loop.say("hit a pallet robot on the right");
+  loop.say("hit a pallet robot on your right");
   for (int i = 0; i < 45; ++i) (void)loop.step();
   EXPECT_EQ(loop.step().forward, 0.0) << "the sentence is not over yet";
 }
@@ -294,15 +295,15 @@ TEST(SimulatedOperator, takes_one_o_clock_for_less_after_straight_ahead) {
     loop.person.hear(Speech{1, Moment::ends}, loop.time);
     for (int i = 0; i < 150; ++i) (void)loop.step();
     const double before = loop.yaw;
-    loop.say("1 o'clock, 8 meters");
+    loop.say("turn to 1 o'clock, 8 meters");
     loop.person.hear(Speech{2, Moment::ends}, loop.time);
     for (int i = 0; i < 150; ++i) (void)loop.step();
     return before - loop.yaw;
   };
   double after_turn = 0.0, after_straight = 0.0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    after_turn += turned_by(seed, "1 o'clock, 8 meters") / 50.0;
-    after_straight += turned_by(seed, "straight ahead, 8 meters") / 50.0;
+    after_turn += turned_by(seed, "turn to 1 o'clock, 8 meters") / 50.0;
+    after_straight += turned_by(seed, "drive straight, 8 meters") / 50.0;
   }
   EXPECT_GT(after_turn, after_straight + 0.1);
 }
@@ -314,7 +315,7 @@ TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
     loop.person.hear(Speech{id, Moment::ends}, loop.time);
   };
   for (int i = 0; i < 100; ++i) (void)loop.step();
-  say(1, "straight ahead, 8 meters");
+  say(1, "drive straight, 8 meters");
   for (int i = 0; i < 150; ++i) (void)loop.step();
   say(2, "shelf ahead");
   for (int i = 0; i < 60; ++i) (void)loop.step();
@@ -322,7 +323,7 @@ TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
   for (int i = 0; i < 100; ++i) (void)loop.step();
   EXPECT_EQ(loop.x, stopped);
   EXPECT_TRUE(loop.asked);
-  say(3, "straight ahead, 6 meters");
+  say(3, "drive straight, 6 meters");
   for (int i = 0; i < 100; ++i) (void)loop.step();
   EXPECT_GT(loop.x, stopped);
 }
@@ -332,7 +333,7 @@ TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
     Loop loop(1, kAroundACorner);
     for (int i = 0; i < 100; ++i) (void)loop.step();
     loop.person.feel({motors, motors}, loop.time);
-    loop.say("straight ahead, 20 meters");
+    loop.say("drive straight, 20 meters");
     loop.person.hear(Speech{1, Moment::ends}, loop.time);
     for (int i = 0; i < 200; ++i) (void)loop.step();
     return loop.x;

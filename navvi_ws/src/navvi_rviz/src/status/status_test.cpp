@@ -49,8 +49,8 @@ TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
   Status status = speaking();
   status.take(in(Guidance::State::blocked));
   EXPECT_EQ(status.shown(1.0, 0.0).banner, "wait");
-  status.take(said(CueKind::collision_shelf, "hit a shelf on the left"), 1.0);
-  EXPECT_EQ(status.shown(1.1, 0.0).banner, "hit a shelf on the left");
+  status.take(said(CueKind::collision_shelf, "hit a shelf on your left"), 1.0);
+  EXPECT_EQ(status.shown(1.1, 0.0).banner, "hit a shelf on your left");
   status.take(gate(DriveState::State::stopped));
   EXPECT_EQ(status.shown(1.2, 0.0).banner, "robot stopped, release the stick");
   status.take(gate(DriveState::State::running));
@@ -63,9 +63,9 @@ TEST(Status, stop_holds_until_go_on_or_until_it_is_old) {
   EXPECT_EQ(status.shown(8.0, 0.0).banner, "stop, worker ahead");
   EXPECT_EQ(status.shown(11.0, 0.0).banner, "");
   status.take(said(CueKind::obstacle_stop, "stop, worker ahead"), 20.0);
-  status.take(said(CueKind::straight, "go on, straight ahead, 5 meters"), 21.0);
+  status.take(said(CueKind::straight, "go on, drive straight, 5 meters"), 21.0);
   EXPECT_EQ(status.shown(21.1, 0.0).banner, "");
-  EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on, straight ahead, 5 meters");
+  EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on, drive straight, 5 meters");
 }
 
 TEST(Status, a_lost_controller_is_shown_until_it_is_back) {
@@ -136,10 +136,10 @@ TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
 TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
   Status status = speaking();
   status.take_device("navvi/audio", "missing", 0.0);
-  CueEvent cue = said(CueKind::direction, "2 o'clock, 5 meters");
+  CueEvent cue = said(CueKind::direction, "turn to 2 o'clock, 5 meters");
   cue.stage = CueStage::dropped;
   status.take(cue, 0.0);
-  EXPECT_EQ(status.shown(0.0, 0.0).instruction, "2 o'clock, 5 meters");
+  EXPECT_EQ(status.shown(0.0, 0.0).instruction, "turn to 2 o'clock, 5 meters");
 }
 
 TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
@@ -150,9 +150,9 @@ TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
     return cue;
   };
   status.take(queued(CueKind::setting, "volume, 50 percent"), 0.0);
-  status.take(said(CueKind::direction, "2 o'clock, 5 meters"), 1.0);
+  status.take(said(CueKind::direction, "turn to 2 o'clock, 5 meters"), 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");
-  EXPECT_EQ(status.shown(1.0, 0.0).instruction, "2 o'clock, 5 meters");
+  EXPECT_EQ(status.shown(1.0, 0.0).instruction, "turn to 2 o'clock, 5 meters");
   status.take(queued(CueKind::menu_closed, "menu closed"), 2.0);
   EXPECT_EQ(status.shown(2.0, 0.0).menu, "");
   status.take(queued(CueKind::menu_begin, "begin the trial"), 3.0);

@@ -153,7 +153,7 @@ TEST_F(ClosedLoopIn, anEmptyRoomReachesItsGoalWithoutDetourOrContact) {
   EXPECT_NEAR(row.number("shortest").value(), 8.06, 0.1);
   EXPECT_LT(row.number("driven").value(), 1.2 * 8.06);
   EXPECT_GT(row.number("driven").value(), 8.06 - 1.2);
-  EXPECT_NE(trace_.str().find("says \"Ready. Goal 8 meters"), std::string::npos);
+  EXPECT_NE(trace_.str().find("says \"the goal is 8 meters"), std::string::npos);
 }
 
 TEST_F(ClosedLoopIn, aWorldWithASlabOnItsPlaneIsDrivenOnTheSlab) {
@@ -264,7 +264,7 @@ TEST_F(ClosedLoopIn, aDoorThatSomethingStandsInIsToldAndNotDrivenInto) {
   EXPECT_EQ(row.get("result"), "timeout");
   EXPECT_EQ(row.get("hits"), "-");
   EXPECT_GT(row.number("no_route").value() + row.number("blocked").value(), 30.0);
-  EXPECT_GT(row.number("still").value(), 30.0);
+  EXPECT_GT(row.number("still").value(), 28.0);
 }
 
 TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHasPassed) {
@@ -276,8 +276,7 @@ TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHa
   EXPECT_EQ(row.get("hits"), "-");
   EXPECT_EQ(row.get("reroutes"), "0");
   EXPECT_GT(row.number("make_room").value(), 10.0);
-  EXPECT_NE(trace_.str().find("make room for a pallet robot, 6 o'clock"), std::string::npos)
-      << trace_.str();
+  EXPECT_NE(trace_.str().find("move to 6 o'clock"), std::string::npos) << trace_.str();
 }
 
 TEST_F(ClosedLoopIn, aRobotsOwnSensorsLeadPastAWorkerAndACameraPastWhatIsTooLowForTheLidar) {

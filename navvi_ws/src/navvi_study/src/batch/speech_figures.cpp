@@ -33,8 +33,8 @@ void SpeechFigures::hear(const navvi_types::CueEvent& cue, bool asked, double ti
     return cue.text.size() > end.size() &&
            cue.text.compare(cue.text.size() - end.size(), end.size(), end) == 0;
   };
-  const bool straight = cue.text.find("straight ahead") != std::string::npos;
-  const bool ahead = !straight && ends(" ahead");
+  const bool straight = cue.text.find("straight") != std::string::npos;
+  const bool ahead = !straight && ends(" ahead") && cue.kind() != navvi_types::CueKind::start;
   if ((straight && just_now(ahead_)) || (ahead && just_now(straight_))) ++at_odds_;
   if (straight) straight_ = time;
   if (ahead) ahead_ = time;

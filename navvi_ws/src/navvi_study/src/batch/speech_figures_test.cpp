@@ -22,9 +22,9 @@ record::Fields after(const SpeechFigures& figures, double duration) {
 
 TEST(SpeechFigures, count_sentences_words_and_the_share_of_the_time) {
   SpeechFigures figures;
-  figures.hear(cue(CueStage::queued, CueKind::straight, "straight ahead, 2 meters"), false, 0.0);
-  figures.hear(cue(CueStage::started, CueKind::straight, "straight ahead, 2 meters"), false, 0.0);
-  figures.hear(cue(CueStage::ended, CueKind::straight, "straight ahead, 2 meters"), false, 1.5);
+  figures.hear(cue(CueStage::queued, CueKind::straight, "drive straight, 2 meters"), false, 0.0);
+  figures.hear(cue(CueStage::started, CueKind::straight, "drive straight, 2 meters"), false, 0.0);
+  figures.hear(cue(CueStage::ended, CueKind::straight, "drive straight, 2 meters"), false, 1.5);
   figures.hear(cue(CueStage::started, CueKind::go_on, "go on"), false, 9.0);
   figures.hear(cue(CueStage::cut, CueKind::go_on, "go on"), false, 10.5);
   const record::Fields row = after(figures, 30.0);
@@ -59,8 +59,8 @@ TEST(SpeechFigures, count_a_wait_that_is_followed_before_it_can_be_obeyed) {
 TEST(SpeechFigures, count_straight_ahead_said_beside_what_is_ahead) {
   SpeechFigures figures;
   figures.hear(cue(CueStage::started, CueKind::shelf_near, "shelf ahead"), false, 0.0);
-  figures.hear(cue(CueStage::started, CueKind::straight, "straight ahead, 2 meters"), false, 1.5);
-  figures.hear(cue(CueStage::started, CueKind::shelf_near, "shelf on the left"), false, 2.0);
+  figures.hear(cue(CueStage::started, CueKind::straight, "drive straight, 2 meters"), false, 1.5);
+  figures.hear(cue(CueStage::started, CueKind::shelf_near, "shelf on your left"), false, 2.0);
   figures.hear(cue(CueStage::started, CueKind::obstacle_near, "box ahead"), false, 3.0);
   figures.hear(cue(CueStage::started, CueKind::straight, "straight ahead"), false, 5.5);
   EXPECT_EQ(after(figures, 30.0).get("at_odds"), "2");

@@ -96,6 +96,7 @@ enum class CueKind : std::uint8_t {
   wrong_way,
   off_path,
   turn_cancelled,
+  push,
   rerouted,
   rerouted_blocked,
   new_route,
@@ -116,6 +117,7 @@ enum class CueKind : std::uint8_t {
   where_goal,
   help_pad,
   help_keys,
+  help_menu,
   around_nothing,
   welcome,
   // Not in the phrases: a sentence of a lesson has a key of its own.
@@ -272,6 +274,7 @@ inline constexpr CueTraits kRows[] = {
     {K::wrong_way, "wrong_way", P::message, 2.0, 1.0, F::route, A::turn},
     {K::off_path, "off_path", P::text, 2.0, 1.0, F::route},
     {K::turn_cancelled, "turn_cancelled", P::text, 1.0, 1.0, F::way, A::go},
+    {K::push, "push", P::text, 2.0, 1.0, F::way, A::go},
     {K::rerouted, "rerouted", P::text, 4.0, 1.0, F::route, A::turn, B::none, T::rerouted},
     {K::rerouted_blocked, "rerouted_blocked", P::text, 4.0, 1.0, F::route, A::turn, B::none,
      T::rerouted},
@@ -294,6 +297,7 @@ inline constexpr CueTraits kRows[] = {
     {K::where_goal, "where_goal", P::text, 0.5, 1.0},
     {K::help_pad, "help_pad", P::text, 0.5, 4.0},
     {K::help_keys, "help_keys", P::text, 0.5, 4.0},
+    {K::help_menu, "help_menu", P::text, 0.5, 8.0},
     {K::around_nothing, "around_nothing", P::text, 0.5, 4.0},
     {K::welcome, "welcome", P::notification, 5.0, 10.0},
     // A lesson's.

@@ -1,0 +1,29 @@
+#include "cues/still_hand.hpp"
+
+#include <cmath>
+
+namespace navvi_feedback::cues {
+namespace {
+
+/// s; a person who begins by themselves does so within that.
+constexpr double kStill = 3.0;
+/// m/s and rad/s; a command below these is neutral.
+constexpr Velocity kNeutral{0.02, 0.05};
+
+}  // namespace
+
+void StillHand::observe(const Observation& now, double time) {
+  const bool drives = std::abs(now.commanded.linear) > kNeutral.linear;
+  const bool turns = std::abs(now.commanded.angular) > kNeutral.angular;
+  driven = driven || drives;
+  if (drives || turns || now.voice_busy)
+    since.reset();
+  else if (!since)
+    since = time;
+}
+
+bool StillHand::due(double time) const {
+  return !driven && !urged && since && time - *since >= kStill;
+}
+
+}  // namespace navvi_feedback::cues
