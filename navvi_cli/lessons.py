@@ -1,5 +1,7 @@
 """What glossary and calibrate share: feedback_node alone, until it ends."""
+import os
 import tempfile
+import time
 from pathlib import Path
 
 from .arguments import LaunchFile, add_words, words_for
@@ -12,12 +14,15 @@ CHOICES = {"operator": ["auto", "pad", "keyboard"], "speech": ["true", "false"]}
 
 
 def lesson_arguments(parser, person):
-    add_words(parser, "lesson.launch", f"person:=NAME: {person}", "feedback/NAME:=VALUE: any parameter of feedback_node.", choices=CHOICES)
+    add_words(parser, "lesson.launch", f"person:=NAME: {person}", "out:=FOLDER: keeps the log there, and what was measured.", "feedback/NAME:=VALUE: any parameter of feedback_node.", choices=CHOICES)
 
 
 def give(lesson, given):
     launch_file = LaunchFile("lesson.launch")
-    words = words_for(launch_file, given, CHOICES)
+    out = next((Path(os.path.abspath(word[len("out:="):])) for word in reversed(given) if word.startswith("out:=") and word != "out:="), None)
+    kept = out and out / f"{lesson}-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}"
+    record = [f"feedback/record:={kept}.csv"] if kept and lesson == "calibrate" else []
+    words = words_for(launch_file, [word for word in given if not word.startswith("out:=")] + record, CHOICES)
     words.update({"lesson": lesson, "speech": words.get("speech", "true"), "profile": words.get("profile", "default")})
     if words.setdefault("operator", "auto") == "auto":
         words["operator"] = "pad" if has_pad() else "keyboard"
@@ -27,8 +32,19 @@ def give(lesson, given):
     prepare(words, ["feedback_node", "navvi_loopback"], [program("navvi_feedback", "feedback_node")], check_parameters)
     network = Network()
     with tempfile.TemporaryDirectory() as folder:
-        log = Path(folder) / "log"
+        if out:
+            make(out)
+        log = Path(f"{kept}.log") if kept else Path(folder) / "log"
         say(f"{lesson} begins in some seconds, with the {words['operator']}; what to press is spoken. Ctrl-C in this terminal ends it, too.")
         launch = Launch(launch_file, words, log, network)
         if not launch.run() and not launch.interrupted:
             fail(f"it broke off: {launch.log.fatal or log.read_text()[-500:]}")
+        if kept:
+            say(f"the log is {log}{f', what was measured {kept}.csv' if Path(f'{kept}.csv').exists() else ''}.")
+
+
+def make(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        fail(f"out:={folder} cannot be made: {error.strerror}; a folder that can be written is needed.", 2)

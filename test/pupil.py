@@ -175,6 +175,9 @@ class Pupil:
                 self.press("repeat")
             elif self.last == "calibrate_comfort" and feels and not felt:
                 self.press("next" if left > 0.51 else "start")
+            elif self.last == "calibrate_confirm":
+                self.press("start")
+                self.until(lambda: "calibrate_done" in self.kinds, 10, "the values are saved")
             elif self.last in ("calibrate_halt", "calibrate_once_more", "calibrate_late", "calibrate_early"):
                 self.sound = ""
                 self.push(0.0, 1.0)

@@ -17,7 +17,9 @@ constexpr double kLeastGain = 0.2;
 constexpr double kMargin = 1.2;      // what is felt half the time, times this, is felt
 constexpr std::size_t kSignals = 5;  // to let go of the stick
 constexpr double kDeflected = 0.4;   // of the stick
-constexpr double kLate = 1.5;        // s
+constexpr double kLate = 0.8;        // s; a hand that lets go later did not let go at the sound
+constexpr int kMostLate = 10;        // then it is not measured
+constexpr double kSilence = 12.0;    // s, until the prompt is told again
 
 std::string key(const char* name) { return std::string("calibrate_") + name; }
 
@@ -35,8 +37,10 @@ std::string number(double value) {
 
 std::vector<std::string> Calibration::texts() {
   std::vector<std::string> keys = {"tutorial_keys"};
-  for (const char* name : {"welcome", "no_motors", "left", "right", "only_felt", "not_felt",
-                           "comfort", "halt", "early", "late", "once_more", "done", "end"})
+  for (const char* name :
+       {"welcome", "no_motors", "left", "right", "only_felt", "not_felt", "comfort", "halt",
+        "early", "late", "once_more", "not_measured", "found_motors", "found_strength",
+        "found_delay", "found_nothing", "confirm", "done", "end"})
     keys.push_back(key(name));
   return keys;
 }
@@ -60,9 +64,33 @@ void Calibration::enter(Stage stage, const Observation& seen) {
   staircase_ = {};
   due_.reset();
   signalled_.reset();
-  complete_ = stage == Stage::end;
-  const char* const texts[] = {"left", "right", "comfort", "halt", "done"};
-  teller_.then(key(texts[static_cast<std::size_t>(stage)]));
+  silent_since_.reset();
+  if (stage == Stage::confirm) tell_found();
+  prompt();
+}
+
+void Calibration::prompt() {
+  const char* const texts[] = {"left", "right", "comfort", "halt", "confirm", "done"};
+  teller_.then(key(texts[static_cast<std::size_t>(stage_)]));
+}
+
+/// Nobody who has missed a prompt is left in silence.
+void Calibration::prompt_again(const Observation& seen) {
+  const bool signals = signalled_ || (due_ && stage_ != Stage::comfort);
+  if (!silent_since_ || !seen.pressed.empty() || signals) silent_since_ = time_;
+  using Buttons = std::vector<Button>;
+  const Buttons useful =
+      stage_ == Stage::left || stage_ == Stage::right ? Buttons{Button::repeat}
+      : stage_ == Stage::halt
+          ? Buttons{}
+          : Buttons{Button::previous, Button::next, Button::start, Button::choose, Button::repeat};
+  const bool asks = std::any_of(seen.pressed.begin(), seen.pressed.end(), [&](Button button) {
+    return std::find(useful.begin(), useful.end(), button) == useful.end();
+  });
+  if (!asks && time_ - *silent_since_ < kSilence) return;
+  silent_since_.reset();
+  due_.reset();
+  prompt();
 }
 
 Taught Calibration::update(const Observation& seen, double time) {
@@ -91,14 +119,19 @@ Taught Calibration::update(const Observation& seen, double time) {
       case Stage::halt:
         halt(seen, taught);
         break;
+      case Stage::confirm:
+        confirm(seen);
+        break;
       case Stage::end:
         over_ = true;
         break;
     }
+    if (stage_ != Stage::end && teller_.done()) prompt_again(seen);
   } else {
     // What is spoken stands between two signals.
     due_.reset();
     signalled_.reset();
+    silent_since_.reset();
   }
   taught.cues = teller_.update(!seen.voice_busy);
   return taught;
@@ -139,15 +172,7 @@ void Calibration::halt(const Observation& seen, Taught& taught) {
   const bool let_go = seen.stick.x == 0.0 && seen.stick.y == 0.0;
   if (signalled_) {
     const double delay = time_ - *signalled_;
-    if (let_go) {
-      delays_.push_back(delay);
-      signalled_.reset();
-      due_.reset();
-      if (delays_.size() >= kSignals) return enter(Stage::end, seen);
-      teller_.then(key("once_more"));
-    } else if (delay > kLate) {
-      teller_.then(key("late"));
-    }
+    if (let_go || delay > kLate) this->let_go(delay, seen);
     return;
   }
   if (!due_) {
@@ -163,6 +188,63 @@ void Calibration::halt(const Observation& seen, Taught& taught) {
   }
 }
 
+void Calibration::let_go(double delay, const Observation& seen) {
+  signalled_.reset();
+  due_.reset();
+  if (delay > kLate) {
+    if (++late_ < kMostLate) return teller_.then(key("late"));
+    teller_.then(key("not_measured"));
+    return enter(Stage::confirm, seen);
+  }
+  delays_.push_back(delay);
+  if (delays_.size() >= kSignals) return enter(Stage::confirm, seen);
+  teller_.then(key("once_more"));
+}
+
+/// s, the median. Call it where there are enough.
+double Calibration::delay() const {
+  std::vector<double> delays = delays_;
+  std::sort(delays.begin(), delays.end());
+  return delays[delays.size() / 2];
+}
+
+void Calibration::tell_found() {
+  const auto percent = [](double strength) {
+    return std::to_string(static_cast<int>(std::lround(100.0 * strength)));
+  };
+  const bool motors = left_ && right_;
+  if (motors) {
+    teller_.then(key("found_motors"), {{"count", percent(*left_)}, {"all", percent(*right_)}});
+    teller_.then(key("found_strength"), {{"count", percent(gain_)}});
+  }
+  if (delays_.size() >= kSignals) teller_.then(key("found_delay"), {{"text", number(delay())}});
+  if (!motors && delays_.size() < kSignals) teller_.then(key("found_nothing"));
+}
+
+void Calibration::confirm(const Observation& seen) {
+  if (pressed(seen, Button::start) || pressed(seen, Button::choose)) {
+    complete_ = true;
+    return enter(Stage::end, seen);
+  }
+  if (!pressed(seen, Button::repeat)) return;
+  left_.reset();
+  right_.reset();
+  delays_.clear();
+  late_ = 0;
+  enter(Stage::left, seen);
+}
+
+std::string Calibration::record() const {
+  if (stage_ != Stage::end) return "";
+  std::string rows = "measured,value\n";
+  if (left_) rows += "left_threshold," + number(*left_) + "\n";
+  if (right_) rows += "right_threshold," + number(*right_) + "\n";
+  if (left_ && right_) rows += "strength," + number(gain_) + "\n";
+  for (const double delay : delays_) rows += "delay_s," + number(delay) + "\n";
+  rows += std::string("saved,") + (complete_ ? "yes" : "no") + "\n";
+  return rows;
+}
+
 std::vector<std::string> Calibration::settings() const {
   std::vector<std::string> words;
   if (!complete_) return words;
@@ -174,12 +256,8 @@ std::vector<std::string> Calibration::settings() const {
     words.push_back("haptics/pads:=[" + pads + "\"" + pad_ + " " + start(*left_) + " " +
                     start(*right_) + " " + number(gain_) + "\"]");
   }
-  if (delays_.size() >= kSignals) {
-    std::vector<double> delays = delays_;
-    std::sort(delays.begin(), delays.end());
-    words.push_back("sounds/turn/stopping_delay:=" +
-                    number(delays[delays.size() / 2] + robot_delay_));
-  }
+  if (delays_.size() >= kSignals)
+    words.push_back("sounds/turn/stopping_delay:=" + number(delay() + robot_delay_));
   return words;
 }
 

@@ -11,7 +11,9 @@
 namespace navvi_feedback::lessons {
 
 /// Finds out, by voice and buttons, what a person feels of each motor, how strong they like it,
-/// and how long they take to let go of the stick at the sound that ends a turn.
+/// and how long they take to let go of the stick at the sound that ends a turn. Says what it found,
+/// and keeps it if the person wants. A prompt is told again after a silence, and by any button that
+/// has nothing else to do.
 class Calibration : public Lesson {
  public:
   /// \param haptics  as set so far; its `pads` are kept
@@ -24,17 +26,24 @@ class Calibration : public Lesson {
   [[nodiscard]] Taught update(const Observation& seen, double time) override;
   [[nodiscard]] bool over() const override { return over_; }
   [[nodiscard]] std::vector<std::string> settings() const override;
+  [[nodiscard]] std::string record() const override;
 
   /// The keys of all texts.
   [[nodiscard]] static std::vector<std::string> texts();
 
  private:
-  enum class Stage { left, right, comfort, halt, end };
+  enum class Stage { left, right, comfort, halt, confirm, end };
 
   void enter(Stage stage, const Observation& seen);
   void feel(const Observation& seen, Taught& taught);
   void choose(const Observation& seen, Taught& taught);
   void halt(const Observation& seen, Taught& taught);
+  void let_go(double delay, const Observation& seen);
+  void tell_found();
+  void confirm(const Observation& seen);
+  void prompt();
+  void prompt_again(const Observation& seen);
+  [[nodiscard]] double delay() const;
   [[nodiscard]] double pause();
 
   haptics::HapticsConfig haptics_;
@@ -54,6 +63,8 @@ class Calibration : public Lesson {
   std::optional<double> due_;        ///< s, of the next signal
   std::optional<double> signalled_;  ///< s, of the last one
   int signals_ = 0;
+  int late_ = 0;                        ///< answers that were none
+  std::optional<double> silent_since_;  ///< s, neither the person nor the voice has done anything
 };
 
 }  // namespace navvi_feedback::lessons

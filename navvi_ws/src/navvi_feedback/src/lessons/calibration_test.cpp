@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <navvi_config/reader.hpp>
 
 #include "sounds/sounds_config.hpp"
@@ -39,9 +40,11 @@ struct Person {
           kind == "calibrate_halt" || kind == "calibrate_once_more" || kind == "calibrate_late";
       seen.stick.y = stick && !seen.voice_busy && time < go ? 1.0 : 0.0;
       if (time >= go + 0.1) go = 1e9;
+      if (kind == "calibrate_confirm" && !seen.voice_busy) seen.pressed = {answer};
       const Taught taught = calibration.update(seen, time);
       for (const cues::Cue& cue : taught.cues) {
         kind = cue.word();
+        told.push_back(cue.text);
         speaks_until = time + 1.0;
       }
       for (std::size_t i = 0; i < taught.plays.size(); ++i) go = time + delay;
@@ -58,6 +61,8 @@ struct Person {
   bool was = false;
   double strength = 0.0;
   std::string kind;
+  std::vector<std::string> told;
+  Button answer = Button::start;  ///< to whether it is to be saved
 };
 
 Calibration calibration(const haptics::HapticsConfig& haptics = {}) {
@@ -124,6 +129,56 @@ TEST(Calibration, saves_nothing_if_it_is_ended_or_a_motor_is_not_felt) {
   Person person;
   person.right = 2.0;
   EXPECT_EQ(person.calibrate(numb).size(), 1U);
+}
+
+TEST(Calibration, says_what_it_found_and_saves_nothing_unless_that_is_wanted) {
+  Calibration lesson = calibration();
+  Person person;
+  person.answer = Button::end;
+  EXPECT_TRUE(person.calibrate(lesson).empty());
+  EXPECT_NE(lesson.record().find("strength,0.50\n"), std::string::npos) << lesson.record();
+  EXPECT_NE(lesson.record().find("saved,no\n"), std::string::npos) << lesson.record();
+  const auto told = [&](const std::string& text) {
+    return std::count(person.told.begin(), person.told.end(), text);
+  };
+  EXPECT_EQ(told("you like 50 percent of vibration"), 1);
+  EXPECT_EQ(told("you let go 0.36 seconds after the notes") +
+                told("you let go 0.34 seconds after the notes") +
+                told("you let go 0.35 seconds after the notes"),
+            1);
+}
+
+TEST(Calibration, asks_again_where_a_hand_holds_on_and_measures_nothing_from_it) {
+  Calibration lesson = calibration();
+  Person person;
+  person.motors = false;
+  person.delay = 1.0;
+  EXPECT_TRUE(person.calibrate(lesson).empty());
+  EXPECT_EQ(std::count(person.told.begin(), person.told.end(), "too late, once more"), 9);
+}
+
+TEST(Calibration, tells_a_prompt_again_after_a_silence_and_by_any_button) {
+  Calibration lesson = calibration();
+  Observation seen;
+  seen.motors = false;
+  int prompts = 0;
+  const auto pass = [&](double from, double to) {
+    for (double time = from; time < to; time += 0.02) {
+      for (const cues::Cue& cue : lesson.update(seen, time).cues)
+        prompts += cue.text == "push the stick and hold it" ? 1 : 0;
+      seen.pressed.clear();
+    }
+  };
+  pass(0.0, 5.0);
+  EXPECT_EQ(prompts, 1);
+  pass(5.0, 19.0);
+  EXPECT_EQ(prompts, 2) << "after a silence";
+  for (const Button button : {Button::repeat, Button::help, Button::next}) {
+    seen.pressed = {button};
+    const int before = prompts;
+    pass(19.0, 19.2);
+    EXPECT_EQ(prompts, before + 1);
+  }
 }
 
 TEST(Staircase, finds_what_is_felt_wherever_it_lies) {
