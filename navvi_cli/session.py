@@ -124,9 +124,11 @@ class Launch:
     def __init__(self, launch_file, words, log, network):
         self.interrupted, self.log = False, Log(log)
         env = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1", PYTHONUNBUFFERED="1", LD_PRELOAD=network.preload())
-        # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too.
+        # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too, and
+        # those of whoever began this session and may be gone before it.
+        locks = [network.descriptor, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
         self.process = subprocess.Popen(["sh", "-c", "export NAVVI_LAUNCHER=$$; exec roslaunch \"$@\"", "sh", str(launch_file.path),
-                                         *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=[network.descriptor],
+                                         *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=locks,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def run(self):

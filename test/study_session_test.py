@@ -63,7 +63,11 @@ def done(tmp_path_factory):
     # Killed while the first trial runs: the session goes on without a terminal, nobody drives sub-01 meanwhile, and it is taken over.
     first = study.begin("next", "sub-01")
     study.wait_for(lambda: "TRIAL_START" in "".join(path.read_text() for path in study.folder.glob("sub-01/*/trial-*/journal.csv")), 500)
-    os.kill(first.pid, signal.SIGKILL)
+    # So is the command that it has started; the session itself lives on and holds the lock.
+    below = [int(number) for number in Path(f"/proc/{first.pid}/task/{first.pid}/children").read_text().split()]
+    assert below
+    for number in (first.pid, *below):
+        os.kill(number, signal.SIGKILL)
     first.wait()
     code, said = study.run("next", "sub-01")
     assert code == 2 and "running still" in said

@@ -105,7 +105,7 @@ class LiveRunner:
             subprocess.run([self.close_trials, str(folder)], check=False)
 
     def _run(self, words, participant, lock, note=None):
-        env = dict(os.environ, NAVVI_PEOPLE=str(self.study.home(participant) / "settings"))
+        env = dict(os.environ, NAVVI_PEOPLE=str(self.study.home(participant) / "settings"), NAVVI_LOCKS=str(lock))
         # A group of its own: Ctrl-C goes to all of the session, and what it leaves is recorded here.
         process = subprocess.Popen([self.navvi, *map(str, words)], env=env, stdin=subprocess.DEVNULL, pass_fds=(lock,), process_group=0)
         before = signal.signal(signal.SIGINT, lambda *_: os.killpg(process.pid, signal.SIGINT))
