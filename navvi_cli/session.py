@@ -61,14 +61,18 @@ def nodes_of(words):
     return {part: next((DEVEL / "lib").glob(f"navvi_*/{part}_node"), program("navvi", f"{part}_node")) for part in parts}
 
 
+def accepted(part, node, parameters):
+    """Parameters as YAML, if the node takes them."""
+    checked = subprocess.run([str(node), "--parameters", *parameters], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if checked.returncode:
+        fail(f"{part}_node refuses this: {checked.stderr.strip()}", 2)
+    return checked.stdout.strip()
+
+
 def check_parameters(words):
     """Lets each node check its own, and hands them to the launch file as YAML."""
     for part, node in nodes_of(words).items():
-        checked = subprocess.run([str(node), "--parameters", *words.parameters_of(part)], text=True, stdout=subprocess.PIPE,
-                                 stderr=subprocess.PIPE)
-        if checked.returncode:
-            fail(f"{part}_node refuses this: {checked.stderr.strip()}", 2)
-        words[f"{part}_parameters"] = checked.stdout.strip()
+        words[f"{part}_parameters"] = accepted(part, node, words.parameters_of(part))
     words["parameters"] = " ".join(words.parameters).replace(":=", "=")  # roslaunch ignores a value with := in it
     words["version"] = version()
 

@@ -1,4 +1,5 @@
 """launch/robot.launch with a robot that NavVI has never met: here the simulator, which knows nothing of the person's side."""
+import json
 import pathlib
 import re
 import subprocess
@@ -9,6 +10,53 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 
+PLACES = {"packing table": (0.5, 0.5), "gate 4": (-0.5, 0.25)}
+# Presses buttons of the menu until the goal is chosen, by nothing but the words that follow each press.
+BY_EAR = """
+import json, queue, sys
+import rospy
+from geometry_msgs.msg import PoseStamped
+from navvi_msgs.msg import Cue
+from std_msgs.msg import String
+
+rospy.init_node("by_ear", disable_rostime=True)
+cues, goals, heard, told = queue.Queue(), queue.Queue(), [], set()
+rospy.Subscriber("/navvi/cues", Cue, cues.put)
+rospy.Subscriber("/move_base_simple/goal", PoseStamped, goals.put)
+buttons = rospy.Publisher("/navvi/ask", String, queue_size=10)
+while not buttons.get_num_connections():
+    rospy.sleep(0.1)
+
+def press(button):
+    buttons.publish(button)
+    while True:
+        cue = cues.get(timeout=20)
+        if cue.kind.startswith(("menu_", "goal_sure", "goal_chosen")) and cue.id not in told:
+            told.add(cue.id)
+            heard.append(cue.text)
+            return cue
+
+while press("next").kind != "menu_goals":
+    pass
+cue = press("choose")
+while cue.text != sys.argv[1]:
+    cue = press("next")
+while press("choose").kind != "goal_chosen":
+    pass
+while True:  # another program may go on sending its own
+    goal = goals.get(timeout=20)
+    if goal._connection_header["callerid"] == "/feedback_node":
+        break
+place = goal.pose.position
+print(json.dumps({"goal": [goal.header.frame_id, place.x, place.y], "heard": heard}))
+"""
+
+
+def places_file(folder):
+    path = folder / "places.yaml"
+    path.write_text("".join(f"- {{name: {name}, x: {x}, y: {y}, yaw: 0}}\n" for name, (x, y) in PLACES.items()))
+    return path
+
 
 class Robot:
     def __init__(self, master, folder):
@@ -17,7 +65,8 @@ class Robot:
         self.run("rosparam", "set", "use_sim_time", "true")
         self.start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", "odom:=/robot/odom", f"_world:={WORLD}")
         self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic",
-                   "speech:=false", "rviz:=false", f"out:={folder}")
+                   "speech:=false", "rviz:=false", f"out:={folder}", f"places:={places_file(folder)}",
+                   "feedback_parameters:={listener: topic}")
 
     def run(self, *words, seconds=60):
         return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=seconds)
@@ -70,6 +119,14 @@ def test_the_stick_moves_the_robot_through_the_relay(robot):
 def test_the_nodes_on_a_robot_are_those_of_the_picture(robot):
     names = set(robot.run("rosnode", "list").stdout.split())
     assert {"/nav_node", "/feedback_node", "/relay_node", "/trial_node"} <= names
+
+
+def test_a_place_of_the_file_becomes_the_goal_by_buttons_and_ears_alone(robot):
+    chosen = robot.run("/usr/bin/python3", "-c", BY_EAR, "gate 4")
+    assert chosen.returncode == 0, chosen.stderr
+    found = json.loads(chosen.stdout)
+    assert found["goal"] == ["map", *PLACES["gate 4"]], found
+    assert found["heard"][-1] == "you are heading for gate 4"
 
 
 def test_the_names_of_the_robots_frames_reach_who_reads_them():

@@ -17,9 +17,10 @@ from navvi_cli.arguments import LaunchFile, add_words, words_for
 from navvi_cli.network import Network
 from navvi_cli.places import TRIALS, config_of, program
 from navvi_cli.say import fail, say, tell
-from navvi_cli.session import Launch, check_operator, check_parameters, has_display, has_pad, prepare, resolve_rviz
+from navvi_cli.session import Launch, accepted, check_operator, check_parameters, has_display, has_pad, prepare, resolve_rviz
 from navvi_cli.worlds import Verdict
 
+FEEDBACK = program("navvi_feedback", "feedback_node")
 PERSON = ["person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
           "begins a new file.",
           "PART/NAME:=VALUE: any parameter of a node, such as feedback/speaker/rate:=300; \"./navvi parameters feedback\" lists them."]
@@ -49,7 +50,8 @@ def session(given):
     complete(words)
     check(words)
     targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else []), *(["perception_node"] if words["sensing"] != "truth" else [])]
-    prepare(words, targets, [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool")], check_by_programs)
+    checkers = [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool"), *([FEEDBACK] if words.get("places") else [])]
+    prepare(words, targets, checkers, check_by_programs)
     network = Network()
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
@@ -92,6 +94,8 @@ def check(words):
     for name in ("world", "classes"):
         if name in words and Path(words[name]).is_file():
             words[name] = Path(words[name]).resolve()
+    if words.get("places"):
+        words["places"] = Path(words["places"]).resolve()
     folders = [folder for folder in words.get("models", "").split(":") if folder]
     for folder in folders:
         if not Path(folder).is_dir():
@@ -103,6 +107,8 @@ def check(words):
 def check_by_programs(words):
     """The nodes would refuse the same, but only when all have started."""
     check_parameters(words)
+    if words.get("places"):
+        accepted("feedback", FEEDBACK, [f"places:={words['places']}"])
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], ["--config", config_of("navvi_sim", words["profile"]), *session, *words.parameters_of("sim")],
             words.parameters_of("nav"), words["profile"]).require()

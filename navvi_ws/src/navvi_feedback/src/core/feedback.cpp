@@ -43,6 +43,7 @@ struct Feedback::Deciders {
         teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
                 0.5 * config.drive.max_turn / config.drive.turn_acceleration, config.questions) {
     menu.lock(config.locked);
+    if (!config.places.empty()) menu.take(menu::read_places(config.places));
   }
 
   drive::Drive drive;

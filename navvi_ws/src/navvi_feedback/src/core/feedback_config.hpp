@@ -16,6 +16,7 @@ struct FeedbackConfig {
   std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person, as the next two
   std::string questions;        ///< path, likewise
   bool locked = false;          ///< the menu offers neither goals nor settings
+  std::string places;           ///< path of a file as menu::read_places() takes it; empty: none
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;

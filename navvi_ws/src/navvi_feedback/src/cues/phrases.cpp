@@ -19,6 +19,8 @@ using navvi_config::ConfigError;
 
 constexpr std::size_t kMaxBytes = 80;
 constexpr std::size_t kMaxWord = 24;
+constexpr std::size_t kMaxName = 40;      // of a place
+constexpr std::size_t kMaxNameWord = 20;  // a phrase may put signs beside it
 /// Of any unit; beyond it a distance is not spoken exactly, so that its length is bounded.
 constexpr double kFar = 9999.0;
 constexpr int kMostPlaces = 999;        // likewise, of one name
@@ -29,6 +31,8 @@ const std::set<std::string> kPlaceholders = {
     "setting",   "value", "person",   "stick", "push",    "menu", "more",  "less"};
 /// Words for the hands: one for those on a pad, one for those on the keys.
 const std::set<std::string> kHands = {"stick", "push", "menu", "more", "less"};
+/// Phrases whose {place} may have a name of its own: those of the menu.
+const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
@@ -227,14 +231,21 @@ void check_phrase(const Section& section, const std::string& key, const std::str
   } catch (const std::invalid_argument& error) {
     section.fail(key, error.what());
   }
+  const auto texts_of = [&](const std::string& name) {
+    std::vector<std::string> texts = possible(name, words);
+    if (name == "place" && kNaming.count(key) > 0)
+      for (const std::size_t first : {kMaxNameWord, kMaxName - 1 - kMaxNameWord})
+        texts.push_back(std::string(first, 'a') + " " + std::string(kMaxName - 1 - first, 'a'));
+    return texts;
+  };
   const auto longest = [&](const std::string& name) {
-    const auto texts = possible(name, words);
+    const auto texts = texts_of(name);
     return *std::max_element(texts.begin(), texts.end(),
                              [](const auto& a, const auto& b) { return a.size() < b.size(); });
   };
   if (used.empty() && !speakable(text)) section.fail(key, "cannot be spoken. " + limits());
   for (const std::string& tried : used)
-    for (const std::string& value : possible(tried, words))
+    for (const std::string& value : texts_of(tried))
       if (!speakable(fill_in(text, [&](const std::string& name) {
             return name == tried ? value : longest(name);
           })))
@@ -293,6 +304,18 @@ bool speakable(const std::string& text) {
     at += std::max<std::size_t>(bytes, 1);
   }
   return letters;
+}
+
+bool is_place_name(const std::string& text) {
+  if (!speakable(text) || text.size() > kMaxName) return false;
+  if (text.find_first_of(",.'-") != std::string::npos) return false;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (end == begin || end - begin > kMaxNameWord) return false;
+    begin = end + 1;
+  }
+  return true;
 }
 
 Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording)
@@ -370,6 +393,10 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     return words_.at(placeholder + "_" + kSides.at(static_cast<std::size_t>(*fillings.side)));
   }
   if (placeholder == "place") {
+    if (!fillings.place_name.empty()) {
+      if (!is_place_name(fillings.place_name)) throw missing();
+      return fillings.place_name;
+    }
     if (!fillings.place) throw missing();
     const std::string word =
         words_.at(std::string("place_") + navvi_types::to_string(*fillings.place));

@@ -53,7 +53,8 @@ enum class SettingValue { off, on, brief, normal, full };
   return {"off", "on", "brief", "normal", "full"};
 }
 
-/// What is put into a phrase: numbers, words of fixed sets, and the name of a PersonFile.
+/// What is put into a phrase: numbers, words of fixed sets, and names that a PersonFile or a file
+/// of places may hold.
 struct Fillings {
   std::optional<int> hour = {};         ///< 1..12
   std::optional<double> distance = {};  ///< m, >= 0
@@ -64,6 +65,7 @@ struct Fillings {
   std::optional<SettingName> setting = {};
   std::optional<SettingValue> value = {};  ///< of the setting, where that is no number
   std::string person = {};                 ///< letters, digits, - and _, at most 24
+  std::string place_name = {};             ///< said instead of `place`, as is_place_name() allows
   bool keys = false;                       ///< the hands are on the keyboard
 };
 
@@ -136,5 +138,9 @@ class Phrases {
 /// True if `text` may be spoken: UTF-8 of Latin, Greek or Cyrillic letters, digits and " ,.'-",
 /// with at least one of the former, at most 80 bytes in all and 24 bytes a word.
 [[nodiscard]] bool speakable(const std::string& text);
+
+/// True if a place may be called `text`: words of letters and digits as in speakable(), of at most
+/// 20 bytes, with one blank between two, at most 40 bytes in all.
+[[nodiscard]] bool is_place_name(const std::string& text);
 
 }  // namespace navvi_feedback::cues

@@ -261,6 +261,32 @@ TEST(Phrases, name_places_with_their_number) {
   EXPECT_THROW(static_cast<void>(phrases.say(CueKind::menu_place)), std::logic_error);
 }
 
+TEST(Phrases, call_a_place_by_a_name_of_its_own_and_by_no_other_text) {
+  for (const fs::path& language : {kEnglish, kSpanish})
+    for (const WordingConfig& worded : all_wordings())
+      for (const char* name : {"gate 4", "a234567890123456789a b23456789012345678b",
+                               "a23456789012345678a b234567890123456789b"})
+        for (const CueKind kind : {CueKind::menu_place, CueKind::goal_chosen, CueKind::goal_sure}) {
+          Fillings fillings;
+          fillings.place_name = name;
+          const std::string said = Phrases(language, worded).say(kind, fillings);
+          EXPECT_TRUE(names(said, name) && speakable(said)) << said;
+        }
+  Fillings fillings = everything();
+  fillings.place_name = "<audio src='x'/>";
+  EXPECT_THROW((void)Phrases(kEnglish).say(CueKind::menu_place, fillings), std::logic_error);
+}
+
+TEST(Phrases, let_a_place_be_called_by_letters_digits_and_single_blanks) {
+  for (const char* name : {"7", "packing table", "B 12", "\u00c1rea de env\u00edo",
+                           "a234567890123456789a b23456789012345678b"})
+    EXPECT_TRUE(is_place_name(name)) << name;
+  for (const char* name :
+       {"", " ", " gate", "gate ", "two  gates", "gate, left", "pick-up", "[[x]]", "<b>", "a\nb",
+        "a234567890123456789a1", "a\xc3", "a234567890123456789a b234567890123456789b"})
+    EXPECT_FALSE(is_place_name(name)) << name;
+}
+
 TEST(Phrases, round_distances_as_people_say_them) {
   const Phrases phrases(kEnglish);
   const std::vector<std::pair<double, std::string>> table = {

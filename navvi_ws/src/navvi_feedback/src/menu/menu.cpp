@@ -15,6 +15,7 @@ cues::Utterance Menu::Destination::say(CueKind kind) const {
   cues::Utterance told{kind};
   told.fillings.place = name;
   told.fillings.number = number;
+  told.fillings.place_name = called;
   return told;
 }
 
@@ -30,6 +31,8 @@ std::vector<Menu::Destination> Menu::destinations() const {
   if (locked_) return all;
   if (scenario_) all.push_back({cues::PlaceName::task, 0, scenario_->goal});
   if (goals_.size() == 2) all.push_back({cues::PlaceName::last, 0, goals_[0]});
+  for (const NamedPlace& place : places_)
+    all.push_back({cues::PlaceName::room, 0, place.at, place.name});
   if (scenario_)
     for (const navvi_types::Place& place : scenario_->places)
       all.push_back(

@@ -10,6 +10,7 @@
 
 #include "cues/phrases.hpp"
 #include "drive/buttons.hpp"
+#include "menu/places_file.hpp"
 #include "menu/setting.hpp"
 
 namespace navvi_feedback {
@@ -38,6 +39,7 @@ class Menu {
 
   /// A study has set what could be changed: neither goals nor settings are offered.
   void lock(bool locked) { locked_ = locked; }
+  void take(std::vector<NamedPlace> places) { places_ = std::move(places); }
   void take(const Scenario& scenario) { scenario_ = scenario; }
   void take(const TrialState& trial) { trial_ = trial.state; }
   /// From any source. \param goal  m, in map
@@ -59,6 +61,7 @@ class Menu {
     cues::PlaceName name = cues::PlaceName::task;
     int number = 0;                                ///< 0: there is one of that name
     Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
+    std::string called = {};                       ///< instead of name and number; empty: by these
 
     [[nodiscard]] cues::Utterance say(CueKind kind) const;
   };
@@ -88,6 +91,7 @@ class Menu {
 
   bool locked_ = false;
   std::optional<Scenario> scenario_;
+  std::vector<NamedPlace> places_;
   std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
   TrialState::State trial_ = TrialState::State::free;
   std::map<std::string, std::string> values_;

@@ -55,6 +55,7 @@ TEST_F(MenuTest, leads_to_a_goal_by_short_presses_of_one_hand) {
 TEST_F(MenuTest, offers_neither_goals_nor_settings_where_a_study_has_set_them) {
   menu_.lock(true);
   menu_.take_goal({3.0, 4.0});
+  menu_.take(std::vector<NamedPlace>{{"gate", {-3.0, 4.0}}});
   menu_.take_settings({{"haptics/strength", "0.7"}});
   trial(State::ready);
   EXPECT_EQ(heard({Button::choose}), "menu_begin");
@@ -158,6 +159,31 @@ TEST_F(MenuTest, offers_the_goal_before_the_present_one) {
   for (const double x : {7.0, 8.0, 8.0}) menu_.take_goal({x, 0.0});
   EXPECT_EQ(heard({Button::next, Button::choose, Button::next}), "menu_place");
   EXPECT_EQ(press({Button::choose}).goal.value().x(), 7.0);
+}
+
+TEST_F(MenuTest, offers_the_places_of_a_file_by_their_names) {
+  Menu menu;  // as on a robot, of which no scenario is known
+  menu.take(std::vector<NamedPlace>{{"packing table", {1.5, -2.0}}, {"gate 4", {-3.0, 4.0}}});
+  menu.take(TrialState{State::running});
+  EXPECT_EQ(menu.press(Button::next).told.value().kind, CueKind::menu_goals);
+  Menu::Step step = menu.press(Button::choose);
+  EXPECT_EQ(step.told.value().kind, CueKind::menu_place);
+  EXPECT_EQ(step.told.value().fillings.place_name, "packing table");
+  EXPECT_EQ(menu.press(Button::next).told.value().fillings.place_name, "gate 4");
+  step = menu.press(Button::choose);
+  EXPECT_EQ(step.told.value().kind, CueKind::goal_sure);
+  EXPECT_EQ(step.told.value().fillings.place_name, "gate 4");
+  step = menu.press(Button::choose);
+  EXPECT_EQ(step.goal.value(), Eigen::Vector2d(-3.0, 4.0));
+  EXPECT_EQ(step.told.value().kind, CueKind::goal_chosen);
+  EXPECT_EQ(step.told.value().fillings.place_name, "gate 4");
+}
+
+TEST_F(MenuTest, offers_the_places_of_a_file_before_those_of_the_world) {
+  menu_.take(std::vector<NamedPlace>{{"gate", {-3.0, 4.0}}});
+  EXPECT_EQ(heard({Button::next, Button::choose}), "menu_place") << "the goal of the task";
+  EXPECT_EQ(press({Button::next}).told.value().fillings.place_name, "gate");
+  EXPECT_EQ(heard({Button::next}), "menu_place 1");
 }
 
 TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {

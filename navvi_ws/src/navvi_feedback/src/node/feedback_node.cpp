@@ -8,6 +8,7 @@
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 
+#include "menu/places_file.hpp"
 #include "navvi_feedback/lockstep/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
@@ -190,6 +191,8 @@ int main(int argc, char** argv) {
   using navvi_feedback::person::PersonFile;
   if (const auto code =
           navvi_config::print_parameters<NodeConfig>(argc, argv, [](const NodeConfig& config) {
+            if (const std::string& places = config.feedback->places; !places.empty())
+              static_cast<void>(navvi_feedback::menu::read_places(places));
             return config.person.empty() ? YAML::Node(YAML::NodeType::Map)
                                          : PersonFile::of<PersonConfig>(config.person).load();
           }))

@@ -44,6 +44,8 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
   visit(feedback->questions, "questions", Any{}, "", "path of the file that a questionnaire asks");
   visit(feedback->locked, "locked", Any{}, "",
         "true: the menu offers neither goals nor settings, as a study has set them");
+  visit(feedback->places, "places", Any{}, "",
+        "path of a file with places by name that the menu offers as goals (doc/robot.md)");
   PersonConfig::describe(visit);
 }
 

@@ -1,0 +1,99 @@
+#include "menu/places_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <navvi_config/reader.hpp>
+
+namespace navvi_feedback::menu {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PlacesFileTest : public testing::Test {
+ protected:
+  PlacesFileTest() {
+    std::string name = (fs::temp_directory_path() / "places_XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~PlacesFileTest() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path file() const { return folder_ / "places.yaml"; }
+  [[nodiscard]] std::vector<NamedPlace> read(const std::string& text) const {
+    std::ofstream(file()) << text;
+    return read_places(file());
+  }
+  /// The sentence without the file, which every one names first.
+  [[nodiscard]] std::string rejected(const std::string& text) const {
+    try {
+      (void)read(text);
+    } catch (const navvi_config::ConfigError& error) {
+      const std::string sentence = error.what(), name = file().string() + ", ";
+      EXPECT_EQ(sentence.rfind(name, 0), 0U) << sentence;
+      return sentence.substr(std::min(name.size(), sentence.size()));
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(PlacesFileTest, holds_places_in_their_order) {
+  const auto places = read(
+      "- {name: packing table, x: 3.2, y: -1.5, yaw: 1.57}\n"
+      "- name: 7\n  x: 0\n  y: 1e2\n");
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_EQ(places[0].name, "packing table");
+  EXPECT_EQ(places[0].at, Eigen::Vector2d(3.2, -1.5));
+  EXPECT_EQ(places[1].name, "7");
+  EXPECT_EQ(places[1].at, Eigen::Vector2d(0.0, 100.0));
+  EXPECT_TRUE(read("[]").empty());
+}
+
+TEST_F(PlacesFileTest, names_line_key_and_what_is_allowed_where_it_is_wrong) {
+  const std::string good = "- {name: gate, x: 1, y: 2}\n";
+  const std::string number = " must be a number of ", metres = "m, -100000 to 100000.";
+  for (const auto& [text, sentence] : std::vector<std::pair<std::string, std::string>>{
+           {good + "- {name: a, x: .nan, y: 2}", "line 2: \"x\"" + number + metres},
+           {good + "- {name: a, x: 1, y: -.inf}", "line 2: \"y\"" + number + metres},
+           {good + "- {name: a, x: 1, y: 100001}", "line 2: \"y\"" + number + metres},
+           {good + "- {name: a, x: [1], y: 2}", "line 2: \"x\"" + number + metres},
+           {"- {name: a, x: 1,\n   y: two}", "line 2: \"y\"" + number + metres},
+           {"- {name: a, x: 1, y: 2, yaw: 7}",
+            "line 1: \"yaw\"" + number + "rad, -6.2832 to 6.2832."},
+           {"- {name: a, x: 1, y: 2, z: 3}",
+            "line 1: \"z\" is unknown; known are name, x, y and yaw."},
+           {"- {name: a, x: 1, x: 2, y: 3}",
+            "line 1: \"x\" is given twice in a place; once is allowed."},
+           {good + "- {name: a, x: 1}", "line 2: a place lacks \"y\"; it must have name, x and y."},
+           {good + "- gate", "line 2: a place must be a map of name, x, y and yaw."},
+           {good + "- {name: b, x: 0, y: 0}\n- {name: GATE, x: 3, y: 4}",
+            "line 3: \"name\" is \"GATE\", as in line 1; allowed are names that differ in more "
+            "than "
+            "capital letters."}})
+    EXPECT_EQ(rejected(text), sentence) << text;
+}
+
+TEST_F(PlacesFileTest, holds_no_name_that_could_be_more_than_words) {
+  for (const char* name :
+       {"''", "\"<break/>\"", "\"[[x]]\"", "\"a\\nb\"", "[a]", "\" a\"", "a234567890123456789a1"})
+    EXPECT_EQ(rejected("- {name: " + std::string(name) + ", x: 1, y: 2}")
+                  .rfind("line 1: \"name\" cannot be spoken; allowed are letters", 0),
+              0U)
+        << name;
+}
+
+TEST_F(PlacesFileTest, is_a_list_of_at_most_100_places) {
+  std::string text;
+  for (int i = 1; i <= 100; ++i) text += "- {name: place " + std::to_string(i) + ", x: 0, y: 0}\n";
+  EXPECT_EQ(read(text).size(), 100U);
+  EXPECT_EQ(rejected(text + "- {name: a, x: 0, y: 0}"),
+            "line 1: there are 101 places; allowed are 100.");
+  for (const char* other : {"name: a", "", "gate"})
+    EXPECT_NE(rejected(other).find("the file must be a list of places"), std::string::npos);
+  EXPECT_THROW((void)read_places(folder_ / "none.yaml"), navvi_config::ConfigError);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::menu
