@@ -22,6 +22,7 @@ FORMS = {
     "goal": (rf"(|{COORDINATE},{COORDINATE})", "values of the form x,y in m"),
     "participant": (r"[A-Za-z0-9_-]{1,32}|n/a", "up to 32 letters, digits, - and _, such as sub-01"),
     "person": (r"[A-Za-z0-9_-]{1,24}", "up to 24 letters, digits, - and _, such as anna"),
+    "out": (r"(?!-).*", "paths that do not begin with \"-\", which programs take for an option, such as ./-x"),
 }
 # The command itself sets these.
 INTERNAL = re.compile(r".*parameters|version|bag")

@@ -4,7 +4,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from .arguments import LaunchFile, add_words, words_for
+from .arguments import LaunchFile, Words, add_words, words_for
 from .network import Network
 from .places import program
 from .say import fail, say
@@ -19,7 +19,8 @@ def lesson_arguments(parser, person):
 
 def give(lesson, given):
     launch_file = LaunchFile("lesson.launch")
-    out = next((Path(os.path.abspath(word[len("out:="):])) for word in reversed(given) if word.startswith("out:=") and word != "out:="), None)
+    out = Words([word for word in given if word.startswith("out:=")], ["out"]).get("out")
+    out = Path(os.path.abspath(out)) if out else None
     kept = out and out / f"{lesson}-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}"
     record = [f"feedback/record:={kept}.csv"] if kept and lesson == "calibrate" else []
     words = words_for(launch_file, [word for word in given if not word.startswith("out:=")] + record, CHOICES)

@@ -138,7 +138,7 @@ def test_a_word_that_is_given_twice_is_refused(launch_file):
 @pytest.mark.parametrize("word, good", [
     ("start:=-6.5,-5,1.57", True), ("start:=1,2", False), ("start:=", True), ("goal:=0.2,-1", True), ("goal:=1e1,.5", True), ("goal:=1", False),
     ("limit:=30", True), ("limit:=-1", False), ("participant:=sub-01", True), ("participant:=Ann Smith", False), ("person:=anna", True),
-    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=1\n", False),
+    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
 ])
 def test_the_form_of_a_value_is_checked(word, good):
     check = lambda: arguments.words_for(arguments.LaunchFile("live.launch"), [word])  # noqa: E731
