@@ -46,7 +46,8 @@ void Settings::change(const std::string& word) {
 }
 
 void Settings::keep(const lockstep::Told& told) {
-  if (!config_.record.empty() && recorded_ != told.record) {
+  // The last words of a session come without a lesson, and leave its record as it is.
+  if (!config_.record.empty() && !told.record.empty() && recorded_ != told.record) {
     recorded_ = told.record;
     if (const auto problem = navvi_config::write_atomically(config_.record, told.record))
       ROS_ERROR("The results of the lesson are not kept: %s.", problem->c_str());
