@@ -80,7 +80,7 @@ Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, doubl
   last_update_ = time;
   auto& [drive, assistance, buttons, touch, sounds, cues, menu, teacher] = *deciders_;
   Output out;
-  out.command = command(devices.hands, dt);
+  out.command = command(devices, dt);
   const Observation now = observe(devices, voice_busy, dt, time);
   out.share = assist(out.command, now);
   touch.use_pad(devices.pad);
@@ -105,10 +105,12 @@ Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, doubl
   return out;
 }
 
-std::optional<Velocity> Feedback::command(const drive::InputState& hands, double dt) {
+std::optional<Velocity> Feedback::command(const Devices& devices, double dt) {
+  const drive::InputState& hands = devices.hands;
   // A device that was opened anew between two ticks was lost between them.
   const bool live = hands.live && (!last_hands_.live || hands.session == last_hands_.session);
-  const int enable = config_.drive.enable;
+  // A key that drives is itself held.
+  const int enable = devices.keyboard ? -1 : config_.drive.enable;
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
   const lessons::Teacher& teacher = deciders_->teacher;
   const bool held = teacher.teaching() ? teacher.holds() : senses_.trial().holds();
@@ -117,8 +119,9 @@ std::optional<Velocity> Feedback::command(const drive::InputState& hands, double
   const std::optional<Velocity> velocity =
       deciders_->drive.update(live ? std::optional(stick) : std::nullopt, dt);
   commanded_ = velocity.value_or(Velocity{});
-  held_unarmed_ =
-      live && enabled && !deciders_->drive.armed() && deflected(deciders_->drive.shaped(stick));
+  const bool pushed = live && deflected(deciders_->drive.shaped(stick));
+  held_unarmed_ = pushed && enabled && !deciders_->drive.armed();
+  pushed_disabled_ = pushed && !enabled && !held;
   // The last command of a lost stick is zero; none follows it.
   const bool last = std::exchange(last_hands_, hands).live;
   return velocity || last ? std::optional(commanded_) : std::nullopt;
@@ -131,6 +134,7 @@ Observation Feedback::observe(const Devices& devices, bool voice_busy, double dt
   now.stick = deciders_->drive.shaped(devices.hands.stick(config_.drive.stick == "right"));
   now.robotless = deciders_->teacher.alone();
   now.stick_held_unarmed = held_unarmed_ && !now.robotless;
+  now.stick_disabled = pushed_disabled_ && !now.robotless;
   now.commanded = commanded_;
   now.voice_busy = voice_busy;
   now.begun = std::exchange(begun_, {});

@@ -87,7 +87,7 @@ class Feedback {
  private:
   struct Deciders;
 
-  [[nodiscard]] std::optional<Velocity> command(const drive::InputState& hands, double dt);
+  [[nodiscard]] std::optional<Velocity> command(const Devices& devices, double dt);
   /// All that the decisions of this tick are made from.
   [[nodiscard]] Observation observe(const Devices& devices, bool voice_busy, double dt,
                                     double time);
@@ -110,6 +110,7 @@ class Feedback {
   Velocity commanded_;
   double idle_ = 0.0;  ///< s, since the person last drove, or had reason to
   bool held_unarmed_ = false;
+  bool pushed_disabled_ = false;
 };
 
 }  // namespace navvi_feedback::core

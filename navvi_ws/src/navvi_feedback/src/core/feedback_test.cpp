@@ -160,6 +160,11 @@ TEST_F(Driven, only_while_the_button_for_it_is_held) {
   EXPECT_GT(speed("{drive: {enable: 1}}", {0.0, 1.0}, {false, true}), 0.5);
 }
 
+TEST_F(Driven, without_that_button_by_keys) {
+  input_.keyboard = true;
+  EXPECT_GT(speed("{drive: {enable: 9}}", {0.0, 1.0}), 0.5);
+}
+
 TEST_F(Driven, more_slowly_or_not_at_all_before_a_shelf_where_that_is_wanted) {
   gap_ = 0.1;
   const double full = speed("{}", {0.0, 1.0});

@@ -12,25 +12,29 @@ constexpr double kRepeat = 2.5;
 /// m/s and rad/s; a command below these is neutral.
 constexpr double kNeutral = 0.02;
 
-bool in_vain(const Observation& now) {
-  if (now.stick_held_unarmed) return true;
+/// What a person has to do whose stick moves nothing.
+std::optional<CueKind> remedy(const Observation& now) {
+  if (now.stick_disabled) return CueKind::hold_to_drive;
+  if (now.stick_held_unarmed) return CueKind::release_stick;
   const bool shut =
       now.gate == DriveState::State::waiting || now.gate == DriveState::State::stopped;
-  return shut &&
-         (std::abs(now.commanded.linear) > kNeutral || std::abs(now.commanded.angular) > kNeutral);
+  const bool driven =
+      std::abs(now.commanded.linear) > kNeutral || std::abs(now.commanded.angular) > kNeutral;
+  return shut && driven ? std::optional(CueKind::release_stick) : std::nullopt;
 }
 
 }  // namespace
 
 Utterances HeldStick::update(const Observation& now, double time) {
-  if (!in_vain(now)) {
+  const std::optional<CueKind> needed = remedy(now);
+  if (!needed) {
     since_.reset();
     return {};
   }
   if (!since_) since_ = time;
   if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return {};
   said_ = time;
-  return {{CueKind::release_stick}};
+  return {{*needed}};
 }
 
 }  // namespace navvi_feedback::cues

@@ -7,8 +7,9 @@
 
 namespace navvi_feedback::cues {
 
-/// Says to release the stick while it is held and moves nothing: before it was neutral for the
-/// first time, or since the robot was stopped. A person cannot see that it has to be let go.
+/// Says what to do while the stick is held and moves nothing: to release it, before it was neutral
+/// for the first time, or since the robot was stopped; or to hold the button of hold-to-drive. A
+/// person cannot see that.
 class HeldStick {
  public:
   /// Call it while there is a stick, and a robot to be moved. \param time  s, monotonic

@@ -7,6 +7,8 @@
 namespace navvi_feedback::menu {
 namespace {
 
+constexpr const char* kNoButton = "-1";
+
 std::vector<std::string> range(double from, double to, double step) {
   std::vector<std::string> values;
   const int steps = static_cast<int>(std::lround((to - from) / step));
@@ -44,6 +46,7 @@ const std::vector<Setting>& settings() {
         {Name::arrival_sound, "sounds/arrival/on", off_on, false, Earcon::arrived},
         {Name::beacon, "sounds/beacon/on", off_on, false, Earcon::beacon},
         {Name::sonar, "sounds/sonar/on", off_on, false, Earcon::sonar},
+        {Name::hold, "drive/enable", {kNoButton, "9"}},
     };
   }();
   return all;
@@ -73,6 +76,8 @@ cues::Utterance Setting::say(CueKind kind, const std::string& value) const {
     if (value == navvi_types::to_string(word)) told.fillings.value = word;
   if (value == "false") told.fillings.value = cues::SettingValue::off;
   if (value == "true") told.fillings.value = cues::SettingValue::on;
+  if (name == cues::SettingName::hold)
+    told.fillings.value = value == kNoButton ? cues::SettingValue::off : cues::SettingValue::on;
   if (!told.fillings.value) {
     const double number = std::stod(value);
     const bool share = name != cues::SettingName::rate;

@@ -31,7 +31,8 @@ std::map<std::string, std::string> Settings::values() const {
   std::map<std::string, std::string> values;
   const auto describe = [this](navvi_config::Visitor& visit) { config_.describe(visit); };
   for (const navvi_config::Row& row : navvi_config::table_of(describe)) {
-    const bool in_vain = (row.key.rfind("sounds/", 0) == 0 && !config_.feedback->sounds.enabled) ||
+    const bool in_vain = (row.key == "drive/enable" && config_.input == "keyboard") ||
+                         (row.key.rfind("sounds/", 0) == 0 && !config_.feedback->sounds.enabled) ||
                          (row.key.rfind("haptics/", 0) == 0 && !config_.feedback->haptics.enabled);
     if (!in_vain) values[row.key] = row.default_value;
   }

@@ -51,6 +51,7 @@ struct Observation {
   Devices devices;
   std::vector<drive::Button> pressed;  ///< since the last tick
   drive::Stick stick;                  ///< without its dead zone; neutral where there is none
+  bool stick_disabled = false;         ///< pushed without the button of hold-to-drive
   bool stick_held_unarmed = false;     ///< held since before it was neutral, so nothing is sent
   bool voice_busy = false;             ///< something is being spoken or waits for it
   std::vector<std::string> begun;      ///< texts of a lesson that began to be heard since then
