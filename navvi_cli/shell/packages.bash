@@ -89,5 +89,5 @@ apt_get() {  # PACKAGE...
   "${as_root[@]}" apt-get update -q || return
   ((${#optional[@]} == 0)) || readarray -t more < <(available "${optional[@]}")
   read -ra qt < <(qt_packages build) || true
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o APT::Status-Fd=1 "$@" "${qt[@]}" "${more[@]}"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o Dpkg::Use-Pty=0 -o APT::Status-Fd=1 "$@" "${qt[@]}" "${more[@]}"
 }
