@@ -83,11 +83,14 @@ install_packages() {
   rm -f "$log"
   aside "the packages are installed."
 }
+# apt closes its status descriptor before dpkg, whose scripts print: so it is not standard output, as
+# on Debian 13 packages then fail with "I/O error".
 apt_get() {  # PACKAGE...
   local more=() qt=()
   "${as_root[@]}" dpkg --configure -a || return  # what Ctrl-C may have left behind
   "${as_root[@]}" apt-get update -q || return
   ((${#optional[@]} == 0)) || readarray -t more < <(available "${optional[@]}")
   read -ra qt < <(qt_packages build) || true
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o Dpkg::Use-Pty=0 -o APT::Status-Fd=1 "$@" "${qt[@]}" "${more[@]}"
+  # shellcheck disable=SC2016  # the inner shell's: sudo hands no other descriptor on
+  "${as_root[@]}" sh -c 'exec "$@" 3>&1' sh env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends -o Dpkg::Use-Pty=0 -o APT::Status-Fd=3 "$@" "${qt[@]}" "${more[@]}"
 }
