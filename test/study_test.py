@@ -487,6 +487,12 @@ def test_journal_bag_and_table_are_held_against_each_other(work, tmp_path):
     assert differ == 1 and "bag differs: elapsed_s is 1 in the summary and 2 in the recount" in sentences[0] and "journal equal" in sentences[0]
 
 
+def test_a_trial_whose_bag_is_recorded_as_bad_agrees_without_one(tmp_path):
+    from navvi_study import verify
+    assert "recorded as bad" in verify._bag(None, tmp_path, {"bag": "bad"})
+    assert verify._bag(None, tmp_path, {"bag": "ok"}) == "is missing"
+
+
 def test_answers_that_were_given_are_not_asked_again(work):
     begun = work()
     asked = []

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kSameGoal = 0.05;  // m
 constexpr double kPatience = 20.0;  // s
+constexpr double kTwice = 1.5;      // s, within which a second press of start means the first
 
 }  // namespace
 
@@ -121,6 +122,7 @@ Menu::Step Menu::change(const Setting& setting, bool up) {
 
 bool Menu::pass(double dt) {
   idle_ += dt;
+  in_state_ += dt;
   if (path_.empty() || idle_ < kPatience) return false;
   path_.clear();
   return true;
@@ -144,6 +146,8 @@ Menu::Step Menu::obey(drive::Button button) {
     step.request = TrialRequest::Kind::begin;
     return step;
   }
+  const bool just_begun = trial_ == TrialState::State::running && in_state_ < kTwice;
+  if (button == Button::start && just_begun && path_.empty()) return {};
   if (button == Button::end && !ending) {
     if (trial_ != TrialState::State::running) return {cues::Utterance{CueKind::no_trial}};
     path_ = {{}, {List::end}};

@@ -41,7 +41,10 @@ class Menu {
   void lock(bool locked) { locked_ = locked; }
   void take(std::vector<NamedPlace> places) { places_ = std::move(places); }
   void take(const Scenario& scenario) { scenario_ = scenario; }
-  void take(const TrialState& trial) { trial_ = trial.state; }
+  void take(const TrialState& trial) {
+    if (trial_ != trial.state) in_state_ = 0.0;
+    trial_ = trial.state;
+  }
   /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   /// What can be set. \param values  by the key of each setting, as parameters have them
@@ -97,6 +100,7 @@ class Menu {
   std::map<std::string, std::string> values_;
   std::vector<Level> path_;  ///< from the top; empty while closed
   double idle_ = 0.0;        ///< s, since the last press
+  double in_state_ = 0.0;    ///< s, that the trial has been in its state
 };
 
 }  // namespace navvi_feedback::menu

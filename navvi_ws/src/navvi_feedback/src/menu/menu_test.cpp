@@ -52,6 +52,18 @@ TEST_F(MenuTest, leads_to_a_goal_by_short_presses_of_one_hand) {
   EXPECT_FALSE(menu_.open());
 }
 
+TEST_F(MenuTest, takes_a_second_press_of_start_for_the_first) {
+  trial(State::ready);
+  EXPECT_TRUE(press({Button::start}).request);
+  trial(State::running);
+  EXPECT_FALSE(menu_.pass(0.4));
+  EXPECT_EQ(heard({Button::start}), "");
+  EXPECT_FALSE(menu_.open());
+  EXPECT_FALSE(menu_.pass(2.0));
+  EXPECT_NE(heard({Button::start}), "") << "later, the menu";
+  EXPECT_TRUE(menu_.open());
+}
+
 TEST_F(MenuTest, offers_neither_goals_nor_settings_where_a_study_has_set_them) {
   menu_.lock(true);
   menu_.take_goal({3.0, 4.0});

@@ -13,6 +13,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNeutralAtStart = 1.0;   // s
 constexpr double kPress = 0.15;           // s, a button is held
+constexpr double kAwaited = 3.0;          // s, that a person waits for what a press does
 constexpr double kSameBump = 15.0;        // s
 constexpr double kBackOff = 0.7;          // s
 constexpr double kCareful = 5.0;          // s, one goes slowly after hearing of something near
@@ -221,6 +222,11 @@ void SimulatedOperator::follow_pull(const Felt& force, double time) {
   pull_.held = pulls;
 }
 
+/// Words and taps ask for it at about the same time.
+void SimulatedOperator::press_start(double time) {
+  if (time - when_.pressed > kAwaited) when_.pressed = time;
+}
+
 void SimulatedOperator::follow(Meaning meaning, double time) {
   if (mode_ == Mode::arrived) return;
   switch (meaning) {
@@ -229,7 +235,7 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
       return;
     case Meaning::ready:
       // Once under way, what feels like it is something else.
-      if (at_.odometer == 0.0) when_.pressed = time;
+      if (at_.odometer == 0.0) press_start(time);
       return;
     case Meaning::begun:
       words_.told_to_halt = false;
@@ -408,7 +414,7 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
       mode_ = Mode::waiting;
       break;
     case Ask::begin:
-      when_.pressed = time;
+      press_start(time);
       break;
     case Ask::rest:
       mode_ = Mode::arrived;

@@ -159,6 +159,22 @@ TEST(SimulatedOperator, presses_start_when_it_is_told_to) {
   EXPECT_EQ(presses, 1);
 }
 
+TEST(SimulatedOperator, presses_start_once_where_words_and_taps_ask_for_it) {
+  SimulatedOperator person(steady(1), NAVVI_PHRASES);
+  int presses = 0;
+  bool down = false;
+  for (int tick = 0; tick < 300; ++tick) {
+    const double time = 0.02 * tick;
+    if (tick == 100) person.hear(Speech{1, Moment::begins, "press start to begin"}, time);
+    const bool tapped = (tick >= 125 && tick < 130) || (tick >= 135 && tick < 140);
+    person.feel(tapped ? Felt{0.5, 0.5} : Felt{}, time);
+    const bool start = person.update(time, 0.02).start;
+    presses += start && !down ? 1 : 0;
+    down = start;
+  }
+  EXPECT_EQ(presses, 1);
+}
+
 TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Loop loop(seed, kAroundACorner);

@@ -41,7 +41,7 @@ def balance(plan):
 
 def question(one):
     from .measures import MEASURES
-    return f"{MEASURES[one.measure].label.lower()}, {one.first} against {one.second}"
+    return f"{MEASURES[one.measure].label.lower()}, {one.second} against {one.first}"
 
 
 def status(study, progress):

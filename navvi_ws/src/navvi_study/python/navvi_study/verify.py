@@ -29,7 +29,8 @@ def _journal(program, folder):
 
 def _bag(program, folder, row):
     if not (folder / "trial.bag").is_file():
-        return "no bag" if row.get("bag", "n/a") in ("n/a", "none") else "is missing"
+        recorded = row.get("bag", "n/a")
+        return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
     result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[:3])
 

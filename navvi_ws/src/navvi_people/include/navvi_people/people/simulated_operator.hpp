@@ -173,6 +173,7 @@ class SimulatedOperator {
   void wait_for_go_on(const Sentence& sentence, bool holds);
   void back_off(Instruction::Side side, double time);
   void ask_soon(double time);
+  void press_start(double time);
   void go_ahead();
   void ask_when_lost(double time);
   void forget_sentences_without_end(double time);
