@@ -251,6 +251,14 @@ def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(wor
         ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
 
 
+def test_an_invalid_record_counts_in_no_plan(tmp_path):
+    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
+    kept.freeze("test", None)
+    rest(session.Session(kept, Driver(kept, "invalid"), say=lambda line: None, wait=False))
+    rows = table.trials(kept, kept.progress())
+    assert [(row["counts"], row["excluded"]) for row in rows[:2]] == [("no", "its record is not whole"), ("yes", "n/a")]
+
+
 def test_where_no_trial_began_the_same_world_comes_again(work):
     begun = work("none")
     assert begun.next("sub-01") is None

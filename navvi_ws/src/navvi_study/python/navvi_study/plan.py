@@ -88,6 +88,10 @@ class Rule:
             return False
 
 
+#: Holds in every plan: such a record has no figures that could count.
+RECORD_NOT_WHOLE = Rule("result", "its record is not whole", ("invalid",))
+
+
 @dataclass(frozen=True)
 class Question:
     """A measure compared between two conditions."""

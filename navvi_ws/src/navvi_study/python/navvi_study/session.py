@@ -2,6 +2,7 @@
 import time
 
 from .errors import StudyError
+from .plan import RECORD_NOT_WHOLE
 from .study import read_summary
 
 
@@ -80,7 +81,7 @@ class Session:
         return True
 
     def _apply_rules(self, name, attempt, trial, row):
-        for rule in self.study.plan.exclusions:
+        for rule in (*self.study.plan.exclusions, RECORD_NOT_WHOLE):
             if rule.meets(row):
                 self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
                                           reason=rule.reason, rule=True, replace=True)
