@@ -8,7 +8,6 @@ import pytest
 import yaml
 
 import hearing
-from display import Display
 
 pytestmark = pytest.mark.accessibility
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -39,20 +38,6 @@ def give(env, folder, lesson, launch, *words, **more):
 @pytest.fixture
 def env(master):
     return {key: value for key, value in master.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-
-
-@pytest.fixture
-def desktop(env):
-    """With a display and a window manager."""
-    display = Display()
-    env = dict(env, DISPLAY=display.name)
-    windows = subprocess.Popen(["openbox"], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        yield env
-    finally:
-        windows.terminate()
-        windows.wait()
-        display.close()
 
 
 def sound_of(tmp_path):
@@ -88,7 +73,7 @@ def test_the_glossary_is_given_from_the_first_signal_to_the_last(env, tmp_path):
     missing = [key for key in texts if key.startswith("glossary_") and not key.endswith("_keys") and f"'{key}'" not in kinds]
     # Off in a session unless wanted; there are motors.
     assert sorted(missing) == ["glossary_no_motors", "glossary_sound_beacon", "glossary_sound_sonar"]
-    for signal in "turn", "turn_stop", "worker_close", "hit_shelf", "stuck", "rerouted", "obstacle_stop", "go_on":
+    for signal in "turn", "turn_stop", "worker_close", "hit_shelf", "stuck", "rerouted", "obstacle_stop", "make_room", "go_on":
         assert f"'{signal}'" in kinds
 
 
@@ -101,11 +86,13 @@ def test_the_tutorial_is_passed_by_doing_and_practises_what_went_wrong(request, 
                         f"feedback_parameters:={{listener: topic, record: {record}}}")
     with open(record) as file:
         rows = list(csv.DictReader(file))
-    assert [row["passed"] for row in rows] == ["yes"] * 13
+    assert [row["passed"] for row in rows] == ["yes"] * 16
     tries = {row["step"]: int(row["tries"]) for row in rows[:-1]}
     assert tries["turn_right"] > 1 and tries["ahead"] == 1
     assert (rows[-1]["step"], rows[-1]["practice"]) == ("turn_right", "yes")
     assert "tutorial_wrong_too_far" in kinds and "tutorial_done" in kinds
+    for word in "wait", "go_on", "back_away", "make_room":
+        assert f"'tutorial_said_{word}'" in kinds
     summaries = [path.read_text() for path in tmp_path.glob("trial-*/summary.csv")]
     assert len(summaries) == 1 and "goal_reached" in summaries[0]
     # Words of the guide stand back, but for those to the goal.

@@ -12,6 +12,10 @@ from sensor_msgs.msg import Joy, JoyFeedbackArray
 
 KEYS = {"repeat": "space", "around": "a", "where": "w", "end": "F8", "help": "h", "start": "Return", "previous": "Prior", "next": "Next"}
 BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "help": 5, "start": 6, "previous": 11, "next": 12}
+# What is done about each word of the guide.
+OBEYED = {"wait": [("wait", [((0.0, 0.0), 0.5)]), ("go_on", [((0.0, 0.8), 1.5)])],
+          "back_away": [("back_away", [((0.0, -0.8), 1.0)])],
+          "make_room": [("make_room", [((0.6, 0.0), "turn_stop"), ((0.0, 0.0), 0.7), ((0.0, 0.8), 1.5)])]}
 
 
 class Pupil:
@@ -118,7 +122,7 @@ class Pupil:
             self.sound = ""
             if step in ("well", "done"):
                 break
-            if step in ("good", "practice", "buttons", "keys") or step.startswith("wrong"):
+            if step in ("good", "practice", "buttons", "keys") or step.startswith(("wrong", "said")):
                 time.sleep(0.05)
                 continue
             if step == "goal":
@@ -131,6 +135,9 @@ class Pupil:
                 left, right = self.sides if self.keys else self.motors
                 self.push(1.0 if left > 2 * right else -1.0 if right > 2 * left else 0.0, 1.0 if max(left, right) < 2 * min(left, right) else 0.0)
                 time.sleep(0.5)
+            elif step in OBEYED:
+                self.obey(*OBEYED[step])
+                continue
             elif step.startswith("turn_"):
                 self.push(-0.6 if step == "turn_right" else 0.6, 0.0)
                 self.until(lambda: self.sound == "turn_stop", 20, "the turn is to end")
@@ -143,6 +150,24 @@ class Pupil:
                 time.sleep(0.3 if wanted else 1.0)
             self.push(0.0, 0.0)
             self.until(lambda: self.last != f"tutorial_{step}", 30, f"something is told after {step}")
+
+    def obey(self, *words):
+        """Stands until each word is heard, and then makes its moves: axes of the stick, and for how long, or until what sound."""
+        for word, moves in words:
+            if word == "wait":
+                self.push(0.0, 0.8)
+            self.until(lambda: self.last == f"tutorial_said_{word}", 20, f"{word} is said")
+            time.sleep(0.3)
+            self.sound = ""
+            for axes, end in moves:
+                self.push(*axes)
+                if isinstance(end, str):
+                    self.until(lambda: self.sound == end, 20, f"{end} sounds")
+                    time.sleep(0.2)
+                else:
+                    time.sleep(end)
+            self.push(0.0, 0.0)
+        self.until(lambda: not self.last.startswith("tutorial_said"), 30, "something is told after that")
 
     def steer(self, axes):
         if self.keys:

@@ -22,6 +22,8 @@ constexpr double kFrom = 3.0;
 /// deg, and deg/s, of the turn that is counted down.
 constexpr double kTurn = 90.0;
 constexpr double kRate = 35.0;
+/// Hour, where room is made.
+constexpr int kAside = 4;
 
 bool sided(Pattern pattern) {
   return pattern == Pattern::hit_obstacle || pattern == Pattern::hit_shelf;
@@ -38,8 +40,8 @@ std::vector<Glossary::Entry> Glossary::all() {
     entries.push_back({std::string("glossary_felt_") + names(Pattern{})[i], Pattern(i)});
   for (std::size_t i = 0; i < names(Earcon{}).size(); ++i)
     entries.push_back({std::string("glossary_sound_") + names(Earcon{})[i], {}, Earcon(i)});
-  for (const CueKind kind :
-       {CueKind::obstacle_stop, CueKind::blocked, CueKind::back_away, CueKind::go_on})
+  for (const CueKind kind : {CueKind::obstacle_stop, CueKind::blocked, CueKind::back_away,
+                             CueKind::make_room, CueKind::go_on})
     entries.push_back({std::string("glossary_said_") + to_string(kind), {}, {}, {}, kind});
   for (const int hour : {12, 1, 3, 6, 9})
     entries.push_back(
@@ -177,9 +179,11 @@ void Glossary::beat(const Entry& entry, Taught& taught) {
   }
   if (entry.words) {
     cues::Fillings fillings;
-    fillings.thing = navvi_types::ThingClass::shelf;
+    fillings.thing = *entry.words == CueKind::make_room ? navvi_types::ThingClass::forklift
+                                                        : navvi_types::ThingClass::shelf;
     fillings.side = cues::Side::ahead;
-    fillings.hour = entry.hour > 0 ? std::optional(entry.hour) : std::nullopt;
+    fillings.hour = entry.hour > 0 ? entry.hour : kAside;
+    fillings.distance = 2.0;
     teller_.then_phrase(*entry.words, fillings);
   }
 }

@@ -68,6 +68,15 @@ void Teller::then_phrase(CueKind kind, const cues::Fillings& fillings) {
   push(kind, phrases_.say(kind, fillings), "");
 }
 
+void Teller::tell_phrase(const std::string& key, const cues::Utterance& words) {
+  cues::Fillings fillings = words.fillings;
+  fillings.keys = keyboard_;
+  const std::string begin = words.goes_on ? phrases_.say(CueKind::go_on) + ", " : "";
+  waiting_.clear();
+  push(CueKind::lesson, begin + phrases_.say(words.kind, fillings), key);
+  at_once_ = true;
+}
+
 void Teller::push(CueKind kind, const std::string& text, const std::string& key) {
   cues::Cue cue{kind, text, Priority::message, kPatience};
   cue.asked = true;

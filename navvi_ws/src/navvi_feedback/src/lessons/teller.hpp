@@ -32,6 +32,9 @@ class Teller {
   void forget() { waiting_.clear(); }
   /// A phrase of the guide as it is spoken in a session, after what waits.
   void then_phrase(CueKind kind, const cues::Fillings& fillings);
+  /// Likewise, but as tell() does, and known by `key`; of the utterance its kind, fillings and
+  /// goes_on count.
+  void tell_phrase(const std::string& key, const cues::Utterance& words);
 
   /// \param quiet  nothing is spoken or waits for it
   /// \return what is to be said now

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "lessons/exercise.hpp"
 #include "lessons/lesson.hpp"
 #include "lessons/teller.hpp"
 
@@ -15,21 +17,6 @@ namespace navvi_feedback::lessons {
 /// it.
 class Tutorial : public Lesson {
  public:
-  enum class Task {
-    drive,  ///< straight on, and let go
-    halt,   ///< let go at a word
-    turn,   ///< and stop in time
-    side,   ///< tell on which side something is near
-    press,  ///< a button
-    goal,   ///< a trial
-  };
-  struct Step {
-    const char* name;  ///< also in the keys of its texts
-    Task task;
-    double amount = 0.0;                           ///< m, s or deg clockwise, by the task
-    cues::Side side = cues::Side::ahead;           ///< of the thing
-    drive::Button button = drive::Button::repeat;  ///< to be pressed
-  };
   [[nodiscard]] static const std::vector<Step>& steps();
   /// The keys of all texts.
   [[nodiscard]] static std::vector<std::string> texts();
@@ -56,11 +43,6 @@ class Tutorial : public Lesson {
 
  private:
   enum class Phase { telling, doing, leaving };
-  /// What a try came to: nothing yet, well done, or the key of what went wrong.
-  struct Verdict {
-    bool passed = false;
-    std::string wrong = {};
-  };
 
   void buttons(const Observation& seen);
   void begin(std::size_t step);
@@ -70,15 +52,7 @@ class Tutorial : public Lesson {
   void finish(bool passed);
   void next();
   [[nodiscard]] std::optional<std::size_t> weakest() const;
-  [[nodiscard]] Verdict judge(const Observation& seen, Taught& taught);
-  [[nodiscard]] Verdict judge_drive(const Observation& seen);
-  [[nodiscard]] Verdict judge_halt(const Observation& seen);
-  [[nodiscard]] Verdict judge_turn(const Observation& seen, Taught& taught);
-  [[nodiscard]] Verdict judge_side(const Observation& seen, Taught& taught);
-  [[nodiscard]] Verdict judge_press(const Observation& seen) const;
-  [[nodiscard]] Verdict judge_goal(const Observation& seen);
   [[nodiscard]] const Step& step() const { return steps()[at_]; }
-  [[nodiscard]] bool settled() const;
 
   Teller teller_;
   Phase phase_ = Phase::telling;
@@ -92,14 +66,9 @@ class Tutorial : public Lesson {
   navvi_types::TrialState::State trial_ = navvi_types::TrialState::State::free;
 
   // Of one try.
-  double since_ = 0.0;            ///< s
-  double driven_ = 0.0;           ///< m, forward
-  double turned_ = 0.0;           ///< rad, counter-clockwise
-  std::optional<double> moving_;  ///< s, since when the robot is fast enough
-  bool told_ = false;             ///< the word in the midst of it
-  std::optional<double> heard_;   ///< s, when that began to be heard
-  std::optional<double> still_;   ///< s, since when the stick is let go and the robot stands
-  std::optional<double> clicked_;
+  double since_ = 0.0;  ///< s
+  Moved moved_;
+  std::unique_ptr<Exercise> exercise_;
 };
 
 }  // namespace navvi_feedback::lessons

@@ -25,8 +25,11 @@ class TutorialTest : public testing::Test {
                                                      : t < 8.0      ? 1.0
                                                                     : 0.0; }},
         {"halt", [this](double) { seen_.stick.y = heard("stop", 0.5) ? 0.0 : 1.0; }},
+        {"wait", [this](double t) { wait(t); }},
+        {"back_away", [this](double) { obey("said_back_away", -0.6, 0.0); }},
         {"turn_right", [this](double) { seen_.stick.x = off_ && *off_ > 0.2 ? -0.5 : 0.0; }},
         {"turn_left", [this](double) { seen_.stick.x = off_ && *off_ < -0.2 ? 0.5 : 0.0; }},
+        {"make_room", [this](double) { make_room(0.5); }},
         {"near_right", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? -1.0 : 0.0; }},
         {"near_ahead", [this](double t) { seen_.stick.y = t > 0.5 && near_ ? 1.0 : 0.0; }},
         {"near_left", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? 1.0 : 0.0; }},
@@ -36,6 +39,28 @@ class TutorialTest : public testing::Test {
         {"goal", [this](double t) { drive_to_goal(t); }}};
   }
 
+  /// Lets go at "wait", and drives on by a metre at "go on".
+  void wait(double since) {
+    seen_.stick.y = heard("said_go_on", 1.8)   ? 0.0
+                    : heard("said_go_on", 0.5) ? 1.0
+                    : heard("said_wait", 0.5)  ? 0.0
+                    : since < 8.0              ? 1.0
+                                               : 0.0;
+  }
+  /// Pushes for a second once that is heard.
+  void obey(const std::string& word, double forward, double left) {
+    const bool now = heard(word, 0.5) && !heard(word, 1.5);
+    seen_.stick = {now ? left : 0.0, now ? forward : 0.0};
+  }
+  /// Turns until the ticks end, then drives.
+  void make_room(double left) {
+    if (!heard("said_make_room", 0.5)) return;
+    if (off_ && *off_ * left < -0.1 && !arrives_)
+      seen_.stick.x = left;
+    else if (!arrives_)
+      arrives_ = time_ + 0.5;
+    if (arrives_ && time_ > *arrives_ && time_ < *arrives_ + 1.2) seen_.stick.y = 1.0;
+  }
   void press(Button button, double since) {
     if (since >= 0.5 && since < 0.52) seen_.pressed = {button};
   }
@@ -61,6 +86,13 @@ class TutorialTest : public testing::Test {
   void run(double most = 400.0) {
     for (const double end = time_ + most; time_ < end && !tutorial_.over(); time_ += 0.02) tick();
   }
+  void restart(const cues::Phrases& phrases) {
+    tutorial_ = Tutorial(phrases, {});
+    step_ = last_ = "";
+    acts_since_.reset();
+    seen_.trial = TrialState::State::free;
+    arrive(false);
+  }
   void tick() {
     seen_.voice_busy = time_ < speaks_until_;
     seen_.pressed = std::exchange(presses_, {});
@@ -69,6 +101,7 @@ class TutorialTest : public testing::Test {
       step_ = step;
       told_ = tries_;
       acts_since_.reset();
+      arrives_.reset();
       heard_.clear();
     }
     seen_.stick = {};
@@ -82,12 +115,14 @@ class TutorialTest : public testing::Test {
     seen_.begun.clear();
     off_ = taught.off;
     near_ = !taught.near.empty();
+    if (taught.pattern) felt_[step] = *taught.pattern;
     for (const cues::Cue& cue : taught.cues) {
       const bool goes_on = last_ == cue.word();  // with its next sentence
       last_ = cue.word();
       seen_.begun = {cue.word()};
       heard_[cue.word()] = time_;
       all_.push_back(cue.word());
+      texts_[cue.word()] = cue.text;
       speaks_until_ = time_ + 1.0;
       if (!goes_on && cue.word().rfind("tutorial_wrong", 0) == 0) ++tries_;
     }
@@ -107,9 +142,12 @@ class TutorialTest : public testing::Test {
   double time_ = 10.0;
   double speaks_until_ = 0.0;
   std::optional<double> acts_since_;
+  std::optional<double> arrives_;  // s, when the turn to the place is made
   std::string step_, last_;
   std::map<std::string, double> heard_;
   std::vector<std::string> all_;
+  std::map<std::string, std::string> texts_;      // as spoken last
+  std::map<std::string, haptics::Pattern> felt_;  // by step
   std::optional<double> off_;
   bool near_ = false;
   int tries_ = 0;
@@ -150,8 +188,9 @@ TEST_F(TutorialTest, tells_what_was_wrong_and_practises_the_weakest_step_at_the_
   run();
   ASSERT_TRUE(tutorial_.over());
   EXPECT_EQ(count("wrong_too_far"), 1);
-  EXPECT_EQ(result(4).tries, 2);
-  EXPECT_TRUE(result(4).passed);
+  EXPECT_EQ(result(6).step, "turn_left");
+  EXPECT_EQ(result(6).tries, 2);
+  EXPECT_TRUE(result(6).passed);
   EXPECT_EQ(tutorial_.results().back().step, "turn_left");
   EXPECT_TRUE(tutorial_.results().back().practice);
   EXPECT_EQ(count("done"), 1);
@@ -167,6 +206,39 @@ TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
       {"halt",
        {{"late", [this](double) { seen_.stick.y = 1.0; }},
         {"early", [this](double t) { seen_.stick.y = t < 0.5 ? 1.0 : 0.0; }}}},
+      {"wait",
+       {{"late", [this](double) { seen_.stick.y = 1.0; }},
+        {"early", [this](double t) { seen_.stick.y = t < 0.5 ? 1.0 : 0.0; }},
+        {"back", [this](double) { seen_.stick.y = -1.0; }},
+        {"moved",
+         [this](double) {
+           seen_.stick.y = heard("said_wait", 0.5) && !heard("said_wait", 1.5) ? 0.0 : 1.0;
+         }},
+        {"stood", [this](double) { seen_.stick.y = heard("said_wait", 0.5) ? 0.0 : 1.0; }},
+        {"short",
+         [this](double t) {
+           wait(t);
+           if (heard("said_go_on", 1.0)) seen_.stick.y = 0.0;
+         }},
+        {"crooked",
+         [this](double t) {
+           wait(t);
+           if (heard("said_go_on", 0.5)) seen_.stick.x = 1.0;
+         }}}},
+      {"back_away",
+       {{"soon", [this](double) { seen_.stick.y = -1.0; }},
+        {"forward", [this](double) { obey("said_back_away", 1.0, 0.0); }},
+        {"short", [this](double) { obey("said_back_away", -0.15, 0.0); }},
+        {"not_back", [this](double) { obey("said_back_away", -1.0, 1.0); }}}},
+      {"make_room",
+       {{"soon", [this](double) { seen_.stick.y = 1.0; }},
+        {"side", [this](double) { obey("said_make_room", 0.0, -1.0); }},
+        {"place", [this](double) { obey("said_make_room", 1.0, 0.0); }},
+        {"short",
+         [this](double) {
+           make_room(0.5);
+           if (seen_.stick.y > 0.0) seen_.stick.y = 0.3;
+         }}}},
       {"turn_right",
        {{"side", [this](double) { seen_.stick.x = 0.5; }},
         {"too_little", [this](double t) { seen_.stick.x = t < 1.0 ? -0.5 : 0.0; }},
@@ -187,11 +259,44 @@ TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
       EXPECT_GT(count("wrong_" + name), count_before) << step;
       EXPECT_NE(step_, step) << "and then passed";
       hands_[step] = well;
-      tutorial_ =
-          Tutorial(cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"), {});
-      step_ = last_ = "";
-      seen_.trial = TrialState::State::free;
-      arrive(false);
+      restart(cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"));
+    }
+}
+
+TEST_F(TutorialTest, says_what_the_guide_says_in_a_session_and_explains_it_by_the_same_words) {
+  for (const char* language : {"en", "es"})
+    for (const char* verbosity : {"brief", "normal", "full"}) {
+      cues::WordingConfig wording;
+      wording.verbosity = verbosity;
+      const cues::Phrases phrases(
+          std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/" + language + ".yaml", wording);
+      restart(phrases);
+      run();
+      cues::Fillings words;
+      words.hour = 12;
+      words.distance = 1.0;
+      words.side = cues::Side::ahead;
+      words.thing = navvi_types::ThingClass::forklift;
+      const std::string wait = phrases.say(CueKind::blocked, words);
+      const std::string go_on = phrases.say(CueKind::go_on);
+      EXPECT_EQ(texts_["tutorial_said_wait"], wait);
+      EXPECT_EQ(texts_["tutorial_said_go_on"],
+                go_on + ", " + phrases.say(CueKind::straight, words));
+      words.hour = 10;
+      EXPECT_EQ(texts_["tutorial_said_make_room"], phrases.say(CueKind::make_room, words));
+      words.thing = navvi_types::ThingClass::shelf;
+      const std::string back = phrases.say(CueKind::back_away, words);
+      EXPECT_EQ(texts_["tutorial_said_back_away"], back);
+      const auto first_words = [](const std::string& text) {
+        return text.substr(0, text.find(','));
+      };
+      const std::string& told = phrases.lessons().at("tutorial_wait");
+      EXPECT_NE(told.find(first_words(wait)), std::string::npos) << told;
+      EXPECT_NE(told.find(go_on), std::string::npos) << told;
+      EXPECT_NE(phrases.lessons().at("tutorial_wrong_moved").find(go_on), std::string::npos);
+      for (const char* key : {"tutorial_back_away", "tutorial_back_away_keys"})
+        EXPECT_NE(phrases.lessons().at(key).find(first_words(back)), std::string::npos) << key;
+      EXPECT_EQ(felt_["wait"], haptics::Pattern::halt);
     }
 }
 
