@@ -102,7 +102,7 @@ class TrialNode {
  public:
   /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
   explicit TrialNode(const trial::TrialNodeConfig& config)
-      : recorder_name_(name_of_recorder()), keeper_(config, outlets(), now()) {
+      : recorder_name_(name_of_recorder()), keeper_(named(config), outlets(), now()) {
     events_ = node_.advertise<navvi_msgs::TrialEvent>(
         "navvi/events", kQueue, [this](const ros::SingleSubscriberPublisher& link) {
           if (ends_with(link.getSubscriberName(), recorder_name_)) keeper_.recorder_listens(now());
@@ -127,6 +127,16 @@ class TrialNode {
   [[nodiscard]] int exit_code() const { return keeper_.exit_code(); }
 
  private:
+  /// With what topics and frames are called in this session.
+  [[nodiscard]] trial::TrialNodeConfig named(trial::TrialNodeConfig config) const {
+    config.sources = {node_.resolveName("odom"),
+                      node_.resolveName("navvi/guidance"),
+                      node_.resolveName("octomap_binary"),
+                      node_.resolveName("map"),
+                      ros::param::param<std::string>("nav_node/map_frame", "map"),
+                      ros::param::param<std::string>("nav_node/base_frame", "base_link")};
+    return config;
+  }
   [[nodiscard]] trial::TrialKeeper::Outlets outlets() {
     trial::TrialKeeper::Outlets out;
     out.publish = [this](const record::Row& row) { events_.publish(to_msg(row)); };

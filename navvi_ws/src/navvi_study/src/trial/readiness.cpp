@@ -9,21 +9,22 @@ constexpr double kFresh = 1.0;  // s, age of a message that still flows
 
 void Readiness::saw(const Guidance& guidance, double time) {
   guidance_ = time;
-  has_map_ = guidance.state != Guidance::State::no_map &&
-             guidance.state != Guidance::State::map_stale &&
-             guidance.state != Guidance::State::pose_stale;
+  state_ = guidance.state;
 }
 
 std::vector<std::string> Readiness::missing(double time, bool clock_runs) const {
   std::vector<std::string> words;
-  if (!clock_runs) words.push_back("the clock");
-  if (time - odometry_ > kFresh) words.push_back("odometry");
+  if (!clock_runs) words.push_back("the clock (/clock)");
+  if (time - odometry_ > kFresh) words.push_back("odometry (" + names_.odometry + ")");
   if (time - guidance_ > kFresh) {
-    words.push_back("guidance");
-  } else if (!has_map_) {
-    words.push_back("a map and a pose in guidance");
+    words.push_back("guidance of nav_node (" + names_.guidance + ")");
+  } else if (state_ == Guidance::State::no_map || state_ == Guidance::State::map_stale) {
+    words.push_back("a map (" + names_.octomap + " or " + names_.grid + ")");
+  } else if (state_ == Guidance::State::pose_stale) {
+    words.push_back("a pose (transforms from " + names_.map_frame + " to " + names_.base_frame +
+                    ")");
   }
-  if (feedback_ <= kNever) words.push_back("a report of feedback_node");
+  if (feedback_ <= kNever) words.push_back("a report of feedback_node (/diagnostics)");
   for (const auto& modality : modalities_) {
     const std::vector<std::string> needed = modality == "rumble"
                                                 ? std::vector<std::string>{"pad"}

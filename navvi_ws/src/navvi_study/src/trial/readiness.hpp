@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "trial/source_names.hpp"
 #include "trial/trial_monitor.hpp"
 
 namespace navvi_study::trial {
@@ -12,7 +13,9 @@ namespace navvi_study::trial {
 class Readiness {
  public:
   /// \param modalities  of the condition: speech, rumble. Without them no trial begins.
-  explicit Readiness(std::vector<std::string> modalities) : modalities_(std::move(modalities)) {}
+  /// \param names  of topics and frames, as sentences have them
+  explicit Readiness(std::vector<std::string> modalities, SourceNames names = {})
+      : modalities_(std::move(modalities)), names_(std::move(names)) {}
 
   void saw_odometry(double time) { odometry_ = time; }
   void saw(const Guidance& guidance, double time);
@@ -41,12 +44,13 @@ class Readiness {
 
  private:
   std::vector<std::string> modalities_;
+  SourceNames names_;
   static constexpr double kNever = -1e9;
 
   double odometry_ = kNever;
   double guidance_ = kNever;
   double feedback_ = kNever;
-  bool has_map_ = false;
+  Guidance::State state_ = Guidance::State::no_map;
   std::map<std::string, DeviceReport> devices_;
 };
 

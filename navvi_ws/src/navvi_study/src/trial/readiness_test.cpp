@@ -14,15 +14,16 @@ Guidance guidance(Guidance::State state) {
 }
 
 TEST(Readiness, of_nothing_misses_everything) {
-  EXPECT_EQ(Readiness({}).missing(0.0, false),
-            (Words{"the clock", "odometry", "guidance", "a report of feedback_node"}));
+  EXPECT_EQ(Readiness({}).missing(0.0, false), (Words{"the clock (/clock)", "odometry (/odom)",
+                                                      "guidance of nav_node (/navvi/guidance)",
+                                                      "a report of feedback_node (/diagnostics)"}));
 }
 
 TEST(Readiness, A1_waits_for_a_guide_that_never_starts) {
   Readiness ready({});
   ready.saw_odometry(10.0);
   ready.saw(guidance(Guidance::State::no_goal), 10.0);
-  EXPECT_EQ(ready.missing(10.5, true), Words{"a report of feedback_node"});
+  EXPECT_EQ(ready.missing(10.5, true), Words{"a report of feedback_node (/diagnostics)"});
   ready.saw({0, "audio", DeviceState::missing}, 10.0);
   EXPECT_EQ(ready.missing(10.5, true), Words{});
 }
@@ -32,11 +33,28 @@ TEST(Readiness, needs_messages_that_still_flow_and_a_map) {
   ready.saw_odometry(10.0);
   ready.saw({0, "audio", DeviceState::works}, 10.0);
   ready.saw(guidance(Guidance::State::no_map), 10.0);
-  EXPECT_EQ(ready.missing(10.5, true), Words{"a map and a pose in guidance"});
+  EXPECT_EQ(ready.missing(10.5, true), Words{"a map (/octomap_binary or /map)"});
+  ready.saw(guidance(Guidance::State::pose_stale), 10.0);
+  EXPECT_EQ(ready.missing(10.5, true), Words{"a pose (transforms from map to base_link)"});
   ready.saw(guidance(Guidance::State::no_goal), 10.0);
   EXPECT_EQ(ready.missing(10.5, true), Words{});
-  EXPECT_EQ(ready.missing(12.0, true), (Words{"odometry", "guidance"}));
+  EXPECT_EQ(ready.missing(12.0, true),
+            (Words{"odometry (/odom)", "guidance of nav_node (/navvi/guidance)"}));
   EXPECT_EQ(ready.silence(12.0), 2.0);
+}
+
+TEST(Readiness, calls_topics_and_frames_as_this_session_does) {
+  SourceNames names;
+  names.odometry = "/tb3/odom";
+  names.grid = "/tb3/map";
+  names.map_frame = "tb3/map";
+  Readiness ready({}, names);
+  EXPECT_EQ(ready.missing(0.0, true).at(0), "odometry (/tb3/odom)");
+  ready.saw_odometry(0.0);
+  ready.saw(guidance(Guidance::State::no_map), 0.0);
+  EXPECT_EQ(ready.missing(0.0, true).at(0), "a map (/octomap_binary or /tb3/map)");
+  ready.saw(guidance(Guidance::State::pose_stale), 0.0);
+  EXPECT_EQ(ready.missing(0.0, true).at(0), "a pose (transforms from tb3/map to base_link)");
 }
 
 TEST(Readiness, says_of_each_device_what_was_last_reported) {

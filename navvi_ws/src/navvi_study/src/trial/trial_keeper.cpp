@@ -55,7 +55,7 @@ TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const M
       outlets_(std::move(outlets)),
       calls_(std::move(calls)),
       now_(now),
-      readiness_(config.require),
+      readiness_(config.require, config.sources),
       monitor_(config.monitor),
       flow_(config.limit) {
   check(config_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "navvi_config/field.hpp"
+#include "trial/source_names.hpp"
 #include "trial/trial_monitor.hpp"
 
 namespace navvi_study::trial {
@@ -41,6 +42,7 @@ struct TrialNodeConfig {
   double tail = 4.0;
   std::string odom_frame = "odom";
   bool locked = false;
+  SourceNames sources;
   StudyConfig study;
   TrialMonitorConfig monitor;
 
