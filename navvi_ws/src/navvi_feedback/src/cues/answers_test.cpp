@@ -71,10 +71,16 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   asked_.question = Question::around;
   const std::vector<Cue> told = policy_.update(now_, asked_, time_);
   ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].text, "wall left, forklift ahead, shelf right, worker behind");
+  EXPECT_EQ(told[0].text,
+            "wall 0.5 meters left, forklift ahead, shelf 1 meter right, worker 1 meter behind")
+      << "four sides with their distances are too long to be spoken at once";
   ASSERT_EQ(told[0].scan.size(), 4U);
   EXPECT_EQ(told[0].scan[1].earcon, sounds::Earcon::forklift_near);
   EXPECT_EQ(told[0].scan[1].from, Eigen::Vector2d(3.3, 0.0));
+  now_.nearby = {{ThingClass::forklift, 5, 2.0, {-2.4, 0.0}, true},
+                 {ThingClass::shelf, 3, 1.1, {0.0, 1.5}, false}};
+  asked_.question = Question::around;
+  EXPECT_EQ(pass(0.1), Texts{"shelf 1 meter left, forklift 2 meters behind"});
 }
 
 TEST_F(AnswersTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {

@@ -17,7 +17,7 @@ namespace navvi_feedback::cues {
                                                      const Sounds& sounds);
 
 /// What is around: the nearest thing on each side, the nearest of all first, then clockwise, each
-/// with where it is, for a person who asks.
+/// with its gap and where it is, for a person who asks.
 [[nodiscard]] Utterance around(const std::vector<NearThing>& nearby);
 
 /// Words about a thing on a side. \param urgent  the robot drives at it

@@ -28,8 +28,29 @@ bool muted(CueKind kind, const WordingConfig& wording) {
 
 }  // namespace
 
+/// The farthest of what is around lose their distances, as far as there is no room for all.
+Utterance Phrasing::shortened(Utterance around) const {
+  std::vector<Utterance*> parts = {&around};
+  for (Utterance& more : around.also) parts.push_back(&more);
+  const auto farther = [](const Utterance* a, const Utterance* b) {
+    return a->fillings.distance.value_or(0.0) > b->fillings.distance.value_or(0.0);
+  };
+  const auto all = [&] {
+    std::string text;
+    for (const Utterance* const part : parts)
+      text += (text.empty() ? "" : ", ") + phrases_.say(part->kind, part->fillings);
+    return text;
+  };
+  std::vector<Utterance*> farthest_first = parts;
+  std::stable_sort(farthest_first.begin(), farthest_first.end(), farther);
+  for (Utterance* const part : farthest_first)
+    if (!speakable(all())) part->kind = CueKind::around_side;
+  return around;
+}
+
 /// As much of it as may be spoken at once.
-Phrasing::Sentence Phrasing::word(const Utterance& utterance, bool again) const {
+Phrasing::Sentence Phrasing::word(const Utterance& whole, bool again) const {
+  const Utterance utterance = whole.kind == CueKind::around ? shortened(whole) : whole;
   Sentence told{phrases_.say(utterance.kind, utterance.fillings, again), {}};
   const auto longer = [&](const std::string& joined) {
     const bool fits = speakable(joined);

@@ -40,7 +40,8 @@ class Phrasing {
     std::string text;
     std::vector<sounds::Play> scan;  ///< of its parts
   };
-  [[nodiscard]] Sentence word(const Utterance& utterance, bool again) const;
+  [[nodiscard]] Sentence word(const Utterance& whole, bool again) const;
+  [[nodiscard]] Utterance shortened(Utterance around) const;
 
   Phrases phrases_;
   double same_text_;

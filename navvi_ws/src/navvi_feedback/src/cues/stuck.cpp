@@ -60,7 +60,11 @@ Utterance boxed_in(const std::vector<NearThing>& nearby) {
   const Utterance sides = around(nearby);
   told.also = sides.also;
   told.also.insert(told.also.begin(), sides);
-  for (Utterance& side : told.also) side.from.reset();  // words alone are sooner over
+  for (Utterance& side : told.also) {
+    // Few words alone are sooner over.
+    side.from.reset();
+    if (side.kind == CueKind::around) side.kind = CueKind::around_side;
+  }
   return told;
 }
 

@@ -168,8 +168,8 @@ bool Listener::match(const Phrase& phrase, std::size_t piece, std::string_view t
 
 bool Listener::follow_up(std::string_view rest, std::vector<Instruction>& heard) const {
   static constexpr std::array kWay = {
-      CueKind::direction, CueKind::slight,    CueKind::straight,          CueKind::turn_ahead,
-      CueKind::around,    CueKind::goal_info, CueKind::goal_info_distance};
+      CueKind::direction, CueKind::slight,      CueKind::straight,  CueKind::turn_ahead,
+      CueKind::around,    CueKind::around_side, CueKind::goal_info, CueKind::goal_info_distance};
   return std::any_of(kWay.begin(), kWay.end(),
                      [&](CueKind more) { return parse(more, rest, heard); });
 }

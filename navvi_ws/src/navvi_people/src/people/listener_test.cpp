@@ -115,7 +115,8 @@ TEST(Listener, makes_the_same_of_words_alone_as_of_words_whose_kind_it_knows) {
       {CueKind::shelf_close, "shelf very close, on your left"},
       {CueKind::collision_wall, "hit again, wall ahead"},
       {CueKind::slight, "keep more to the left, 3 meters"},
-      {CueKind::around, "shelf left"},
+      {CueKind::around, "shelf 1 meter left"},
+      {CueKind::around_side, "shelf left"},
       {CueKind::goal_info, "the goal is 18 meters on, at 10 o'clock"}};
   for (const auto& [kind, text] : sentences) {
     const auto known = listener.understand(kind, text);

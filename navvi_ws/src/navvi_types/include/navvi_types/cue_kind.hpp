@@ -119,6 +119,7 @@ enum class CueKind : std::uint8_t {
   help_pad,
   help_keys,
   help_menu,
+  around_side,
   around_nothing,
   welcome,
   // Not in the phrases: a sentence of a lesson has a key of its own.
@@ -306,6 +307,7 @@ inline constexpr CueTraits kRows[] = {
     {K::lesson, "lesson", P::message, 0.0, 20.0},
 };
 }  // namespace cue_table
+    {K::around_side, "around_side", P::text, 0.5, 1.0},
 
 inline constexpr std::size_t kCueKinds = std::size(cue_table::kRows);
 
