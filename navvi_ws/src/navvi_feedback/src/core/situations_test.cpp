@@ -113,6 +113,12 @@ const std::vector<Row> kTable = {
        now.guidance.refusal = Guidance::Refusal::inside_obstacle;
      },
      "goal refused, something stands there", "", ""},
+    {"a goal where nothing is known",
+     [](Scene& now) {
+       become(now, State::goal_refused);
+       now.guidance.refusal = Guidance::Refusal::not_seen;
+     },
+     "goal refused, that place is not seen yet", "", ""},
     {"no goal", [](Scene& now) { become(now, State::no_goal); },
      "welcome, the session waits for a goal", "", ""},
     {"there", [](Scene& now) { become(now, State::arrived); }, "you have reached the goal",

@@ -16,6 +16,8 @@ CueKind refusal_of(Guidance::Refusal refusal) {
       return CueKind::goal_refused_off_the_map;
     case Guidance::Refusal::unreachable:
       return CueKind::goal_refused_unreachable;
+    case Guidance::Refusal::not_seen:
+      return CueKind::goal_refused_not_seen;
   }
   return CueKind::goal_refused_not_finite;
 }

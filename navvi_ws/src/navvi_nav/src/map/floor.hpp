@@ -24,6 +24,9 @@ struct Area {
 
   [[nodiscard]] int columns() const { return high.x - low.x; }
   [[nodiscard]] int rows() const { return high.y - low.y; }
+  [[nodiscard]] bool contains(Cell cell) const {
+    return cell.x >= low.x && cell.y >= low.y && cell.x < high.x && cell.y < high.y;
+  }
   [[nodiscard]] bool operator==(const Area& other) const {
     return low.x == other.low.x && low.y == other.low.y && high.x == other.high.x &&
            high.y == other.high.y;

@@ -63,6 +63,19 @@ TEST(Planner, tells_the_refusals_apart) {
   EXPECT_EQ(planner.plan({1, 1}, {5, 5}).status, PlanStatus::found);
 }
 
+TEST(Planner, calls_a_goal_not_seen_where_nothing_is_known_and_not_where_something_stands) {
+  SmallWorld world;
+  world.floor(0, 0, 6, 6).box(4, 4, 0, 5, 5, 1).floor(9, 0, 10, 6);
+  Planner planner = planner_on(world);
+  EXPECT_EQ(planner.plan({2, 2}, {7.5, 3}).refusal, Guidance::Refusal::not_seen);
+  EXPECT_EQ(planner.plan({2, 2}, {5.8, 2}).refusal, Guidance::Refusal::not_seen)
+      << "on the last floor that is seen";
+  EXPECT_EQ(planner.plan({2, 2}, {4.5, 4.5}).refusal, Guidance::Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({2, 2}, {3.8, 4.5}).refusal, Guidance::Refusal::inside_obstacle);
+  EXPECT_EQ(planner.plan({2, 2}, {40, 2}).refusal, Guidance::Refusal::off_the_map);
+  EXPECT_EQ(planner.plan({2, 2}, {5.3, 2}).status, PlanStatus::found);
+}
+
 TEST(Planner, says_off_mesh_where_no_path_can_begin) {
   SmallWorld world;
   world.room(12, 8).box(2, 2, 0, 6, 6, 1);

@@ -1,6 +1,7 @@
 #include "plan/route.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "plan/escape.hpp"
@@ -16,6 +17,8 @@ const char* sentence_of(Guidance::Refusal refusal) {
       return "the goal is not a finite point";
     case Guidance::Refusal::off_the_map:
       return "the map shows no floor at the goal";
+    case Guidance::Refusal::not_seen:
+      return "the map does not show yet all that is within the robot's radius of the goal";
     case Guidance::Refusal::unreachable:
       return "no floor joins the goal with the robot";
     default:
@@ -25,6 +28,22 @@ const char* sentence_of(Guidance::Refusal refusal) {
 
 bool share(const std::set<int>& a, const std::set<int>& b) {
   return std::any_of(a.begin(), a.end(), [&b](int item) { return b.count(item) > 0; });
+}
+
+/// Some of what is within the distance of the point, in m, is known to be an obstacle.
+bool obstacle_within(const map::Floor& floor, Point point, double distance) {
+  const map::Cell low = floor.cell_at({point.x - distance, point.y - distance});
+  const map::Cell high = floor.cell_at({point.x + distance, point.y + distance});
+  const double size = floor.cell_size();
+  const auto off = [size](double at, int cell) {
+    return std::max({0.0, cell * size - at, at - (cell + 1) * size});
+  };
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x)
+      if (floor.ground({x, y}) == map::Ground::obstacle &&
+          std::hypot(off(point.x, x), off(point.y, y)) < distance)
+        return true;
+  return false;
 }
 
 }  // namespace
@@ -69,17 +88,26 @@ std::optional<Plan> RouteFinder::refused(Point start, Point goal) const {
 Guidance::Refusal RouteFinder::refusal_of(Point goal) const {
   if (!finite(goal)) return Guidance::Refusal::not_finite;
   const map::Floor& floor = *nav_mesh_.shared_floor();
-  if (floor.ground(floor.cell_at(goal)) == map::Ground::none) return Guidance::Refusal::off_the_map;
-  if (!floor.segment_clear(goal, goal, radius())) return Guidance::Refusal::inside_obstacle;
+  const map::Cell cell = floor.cell_at(goal);
+  if (!floor.area().contains(cell)) return Guidance::Refusal::off_the_map;
+  if (floor.ground(cell) == map::Ground::none) return Guidance::Refusal::not_seen;
+  if (!floor.segment_clear(goal, goal, radius())) return too_near(goal, radius());
   return Guidance::Refusal::none;
 }
 
 Guidance::Refusal RouteFinder::not_joined(Point start, Point goal) const {
   const std::set<int> at_goal = nav_mesh_.floor_components(goal, near_goal());
   const std::set<int> at_start = nav_mesh_.floor_components(start, start_snap_);
-  if (at_goal.empty()) return Guidance::Refusal::inside_obstacle;
+  if (at_goal.empty()) return too_near(goal, radius() + near_goal());
   if (!at_start.empty() && !share(at_start, at_goal)) return Guidance::Refusal::unreachable;
   return Guidance::Refusal::none;
+}
+
+/// Of a goal that something within the distance, in m, keeps the robot from.
+Guidance::Refusal RouteFinder::too_near(Point goal, double distance) const {
+  return obstacle_within(*nav_mesh_.shared_floor(), goal, distance)
+             ? Guidance::Refusal::inside_obstacle
+             : Guidance::Refusal::not_seen;
 }
 
 double RouteFinder::near_goal() const {

@@ -47,6 +47,7 @@ class RouteFinder {
   /// Nothing, or why no path to the goal can be found whatever moves.
   [[nodiscard]] std::optional<Plan> refused(Point start, Point goal) const;
   [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
+  [[nodiscard]] Guidance::Refusal too_near(Point goal, double distance) const;
   [[nodiscard]] Guidance::Refusal not_joined(Point start, Point goal) const;
   /// m, how far from the goal the mesh may be.
   [[nodiscard]] double near_goal() const;

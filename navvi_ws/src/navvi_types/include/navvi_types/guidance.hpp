@@ -31,8 +31,9 @@ struct Guidance {
     not_finite,
     unknown_frame,
     inside_obstacle,  ///< within the robot's radius of something in the map
-    off_the_map,      ///< no floor there
+    off_the_map,      ///< beyond it
     unreachable,      ///< on the floor, but no floor joins it with the robot
+    not_seen,         ///< nothing is known of it, or of what is within the robot's radius
   };
   enum class Replan : std::uint8_t {
     none,
@@ -89,8 +90,9 @@ struct Guidance {
   return {"no_goal", "following",  "arrived",   "goal_refused", "no_route", "off_mesh",
           "no_map",  "pose_stale", "map_stale", "blocked",      "make_room"};
 }
-[[nodiscard]] constexpr std::array<const char*, 6> names(Guidance::Refusal) {
-  return {"none", "not_finite", "unknown_frame", "inside_obstacle", "off_the_map", "unreachable"};
+[[nodiscard]] constexpr std::array<const char*, 7> names(Guidance::Refusal) {
+  return {"none",        "not_finite",  "unknown_frame", "inside_obstacle",
+          "off_the_map", "unreachable", "not_seen"};
 }
 [[nodiscard]] constexpr std::array<const char*, 8> names(Guidance::Replan) {
   return {"none",   "new_goal",         "path_carved",   "too_slow",
