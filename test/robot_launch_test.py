@@ -6,12 +6,13 @@ import subprocess
 import time
 
 import pytest
+import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 
 PLACES = {"packing table": (0.5, 0.5), "gate 4": (-0.5, 0.25)}
-# Presses buttons of the menu until the goal is chosen, by nothing but the words that follow each press.
+# Presses buttons of the menu, by nothing but the words that follow each press: until a goal is chosen, or a place is remembered.
 BY_EAR = """
 import json, queue, sys
 import rospy
@@ -31,11 +32,17 @@ def press(button):
     buttons.publish(button)
     while True:
         cue = cues.get(timeout=20)
-        if cue.kind.startswith(("menu_", "goal_sure", "goal_chosen")) and cue.id not in told:
+        if cue.kind.startswith(("menu_", "goal_sure", "goal_chosen", "place_")) and cue.id not in told:
             told.add(cue.id)
             heard.append(cue.text)
             return cue
 
+if sys.argv[1] == "remember":
+    while press("previous").kind != "menu_remember":
+        pass
+    press("choose")
+    print(json.dumps({"heard": heard}))
+    sys.exit()
 while press("next").kind != "menu_goals":
     pass
 cue = press("choose")
@@ -54,18 +61,19 @@ print(json.dumps({"goal": [goal.header.frame_id, place.x, place.y], "heard": hea
 
 def places_file(folder):
     path = folder / "places.yaml"
-    path.write_text("".join(f"- {{name: {name}, x: {x}, y: {y}, yaw: 0}}\n" for name, (x, y) in PLACES.items()))
+    path.write_text("".join(f"- {{name: {name}, x: {x}, y: {y}}}\n" for name, (x, y) in PLACES.items()))
     return path
 
 
 class Robot:
     def __init__(self, master, folder):
         self.env = master
+        self.places = places_file(folder)
         self.processes = []
         self.run("rosparam", "set", "use_sim_time", "true")
         self.start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", "odom:=/robot/odom", f"_world:={WORLD}")
         self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic",
-                   "speech:=false", "rviz:=false", f"out:={folder}", f"places:={places_file(folder)}",
+                   "speech:=false", "rviz:=false", f"out:={folder}", f"places:={self.places}",
                    "feedback_parameters:={listener: topic}")
 
     def run(self, *words, seconds=60):
@@ -127,6 +135,20 @@ def test_a_place_of_the_file_becomes_the_goal_by_buttons_and_ears_alone(robot):
     found = json.loads(chosen.stdout)
     assert found["goal"] == ["map", *PLACES["gate 4"]], found
     assert found["heard"][-1] == "you are heading for gate 4"
+
+
+def test_the_robots_place_is_remembered_by_buttons_and_ears_and_another_by_a_click(robot):
+    heard = robot.run("/usr/bin/python3", "-c", BY_EAR, "remember")
+    assert heard.returncode == 0, heard.stderr
+    assert json.loads(heard.stdout)["heard"][-1] == "saved as place 1"
+    at = [robot.field("/robot/odom", f"pose/pose/position/{axis}") for axis in "xy"]
+    click = "{header: {frame_id: map}, point: {x: 0.25, y: -0.5, z: 0.1}}"
+    robot.run("rostopic", "pub", "-1", "/clicked_point", "geometry_msgs/PointStamped", click)
+    assert eventually(lambda: "place 2" in robot.places.read_text()), robot.places.read_text()
+    places = {place["name"]: (place["x"], place["y"]) for place in yaml.safe_load(robot.places.read_text())}
+    assert places.pop("place 2") == (0.25, -0.5)
+    assert places.pop("place 1") == pytest.approx(at, abs=0.05)
+    assert places == PLACES
 
 
 def test_the_names_of_the_robots_frames_reach_who_reads_them():

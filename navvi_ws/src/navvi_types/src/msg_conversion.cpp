@@ -129,6 +129,10 @@ std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PoseStamped& msg) {
   return flat(msg.pose.position);
 }
 
+std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PointStamped& msg) {
+  return valid(msg.point) ? std::optional(flat(msg.point)) : std::nullopt;
+}
+
 std::optional<Odometry> from_msg(const nav_msgs::Odometry& msg) {
   const std::optional<Velocity> velocity = from_msg(msg.twist.twist);
   if (!velocity || !valid(msg.pose.pose)) return std::nullopt;

@@ -423,6 +423,17 @@ TEST(MsgConversion, AGoalNeedsAPlaceButNoDirection) {
   }
 }
 
+TEST(MsgConversion, AClickedPointIsAPlace) {
+  using Msg = geometry_msgs::PointStamped;
+  Msg msg;
+  msg.point.x = 1.0;
+  msg.point.y = 2.0;
+  EXPECT_EQ(from_msg(msg), Eigen::Vector2d(1.0, 2.0));
+  expect_each_checked<Msg>(msg, {{LEAF(Msg, point.x), beyond(kFarthest)},
+                                 {LEAF(Msg, point.y), beyond(kFarthest)},
+                                 {LEAF(Msg, point.z), beyond(kFarthest)}});
+}
+
 TEST(MsgConversion, APathLooksAlongItselfAndWithABadPointIsDropped) {
   using Msg = nav_msgs::Path;
   const std::vector<Eigen::Vector2d> points = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 3.0}};

@@ -30,6 +30,14 @@ std::optional<cues::Question> question_of(drive::Button button) {
   return std::nullopt;
 }
 
+/// m, in map; nullopt where the robot is not known to be there now
+std::optional<Eigen::Vector2d> place_of(const Observation& now) {
+  const bool lost = !now.measured || now.links.guidance != Link::alive ||
+                    now.guidance->state == Guidance::State::pose_stale;
+  if (lost || !now.devices.robot) return std::nullopt;
+  return now.devices.robot->position;
+}
+
 }  // namespace
 
 struct Feedback::Deciders {
@@ -39,6 +47,7 @@ struct Feedback::Deciders {
         buttons(config.buttons),
         touch(config.haptics),
         sounds(config.sounds),
+        phrases(phrases),
         cues(config.cues, phrases),
         teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
                 0.5 * config.drive.max_turn / config.drive.turn_acceleration, config.questions) {
@@ -51,6 +60,7 @@ struct Feedback::Deciders {
   drive::Buttons buttons;
   HapticDisplay touch;
   AuditoryDisplay sounds;
+  cues::Phrases phrases;
   cues::CuePolicy cues;
   menu::Menu menu;
   lessons::Teacher teacher;
@@ -78,7 +88,7 @@ void Feedback::note(const std::vector<CueEvent>& events) {
 Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
   last_update_ = time;
-  auto& [drive, assistance, buttons, touch, sounds, cues, menu, teacher] = *deciders_;
+  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, menu, teacher] = *deciders_;
   Output out;
   out.command = command(devices, dt);
   const Observation now = observe(devices, voice_busy, dt, time);
@@ -162,7 +172,7 @@ double Feedback::assist(std::optional<Velocity>& command, const Observation& now
 }
 
 cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
-  auto& [drive, assistance, buttons, touch, sounds, cues, menu, teacher] = *deciders_;
+  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, menu, teacher] = *deciders_;
   std::vector<drive::Button> pressed;
   for (const drive::Button button : now.pressed)
     if (!teacher.takes(button)) pressed.push_back(button);
@@ -173,14 +183,27 @@ cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
     if (step.told) asked.menu = step.told;
     if (step.goal) out.goal = step.goal;
     if (step.request) out.request = step.request;
+    if (step.remember) asked.menu = remember(place_of(now), out);
     if (step.glossary) teacher.begin("glossary", now.devices.pad);
     if (step.change.empty()) continue;
     out.change = step.change;
     if (step.felt) touch.begin(haptics::Pattern::sample);
     if (step.heard) out.plays.push_back(sounds.sample(*step.heard));
   }
+  if (const auto at = std::exchange(shown_, std::nullopt); at && !menu.locked())
+    asked.menu = remember(at, out);
   asked.menu_closed = menu.pass(dt);
   return asked;
+}
+
+cues::Utterance Feedback::remember(const std::optional<Eigen::Vector2d>& at, Output& out) {
+  if (config_.places.empty()) return {CueKind::place_no_file};
+  if (!at) return {CueKind::place_no_pose};
+  out.place = deciders_->menu.remember(*at, deciders_->phrases);
+  if (!out.place) return {CueKind::place_not_saved};
+  cues::Utterance told{CueKind::place_saved};
+  told.fillings.place_name = out.place->name;
+  return told;
 }
 
 sounds::Soundscape::Lead Feedback::lead(const Observation& now, double dt) {

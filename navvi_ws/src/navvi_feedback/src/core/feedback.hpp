@@ -15,6 +15,7 @@
 #include "cues/asked.hpp"
 #include "cues/cue.hpp"
 #include "haptics/pattern.hpp"
+#include "navvi_feedback/menu/named_place.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
@@ -45,7 +46,8 @@ class Feedback {
     std::vector<cues::Cue> cues;              ///< to be spoken, most urgent first
     std::vector<sounds::Play> plays;          ///< to be played now
     std::optional<TrialRequest::Kind> request;
-    std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
+    std::optional<Eigen::Vector2d> goal;    ///< m, in map, that the person has chosen
+    std::optional<menu::NamedPlace> place;  ///< to be remembered
     std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
     bool lesson_over = false;           ///< of FeedbackConfig::lesson
     std::string record;                 ///< how it went so far, as a table in CSV
@@ -65,6 +67,8 @@ class Feedback {
   void take(const Scenario& scenario, double time);
   /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
+  /// A place to be remembered. \param at  m, in map
+  void take_place(const Eigen::Vector2d& at) { shown_ = at; }
   void take(const Contact& contact) { senses_.take(contact); }
   /// What another program wants to be felt, until it is stale.
   void take(const haptics::Rumble& others, double time) { senses_.take(others, time); }
@@ -94,6 +98,8 @@ class Feedback {
   [[nodiscard]] double assist(std::optional<Velocity>& command, const Observation& now) const;
   /// Carries out what lesson and menu make of the buttons. \return what is left to be answered
   cues::Asked obey(const Observation& now, double dt, Output& out);
+  /// \param at  m, in map; nullopt: it is not known \return what is told of it
+  cues::Utterance remember(const std::optional<Eigen::Vector2d>& at, Output& out);
   /// To where the person is led now.
   [[nodiscard]] sounds::Soundscape::Lead lead(const Observation& now, double dt);
   [[nodiscard]] std::optional<double> off_course(const Observation& now) const;
@@ -104,6 +110,7 @@ class Feedback {
   std::vector<std::string>
       begun_;  ///< texts of a lesson that began to be heard since the last update
 
+  std::optional<Eigen::Vector2d> shown_;  ///< m, in map: a place to be remembered
   std::optional<double> last_update_;
   drive::InputState last_hands_;
   std::optional<std::uint32_t> important_;  ///< the safety phrase that is being spoken

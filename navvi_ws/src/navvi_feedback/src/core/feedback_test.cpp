@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <memory>
 #include <navvi_config/reader.hpp>
 #include <set>
 #include <utility>
@@ -252,6 +256,91 @@ TEST_F(FeedbackTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) 
   EXPECT_EQ(ask(), "aisle 2");
   input_.robot = navvi_types::Pose2{{5.0, 3.0}, 0.0};
   EXPECT_EQ(ask(), "room 1");
+}
+
+/// With a file of places.
+class RememberTest : public FeedbackTest {
+ protected:
+  void use_file(bool locked = false) {
+    std::string name = testing::TempDir() + "/places_XXXXXX";
+    folder_ = ::mkdtemp(name.data());
+    std::ofstream(folder_ + "/places.yaml") << "- {name: gate, x: 1, y: 2}\n";
+    config_.places = folder_ + "/places.yaml";
+    config_.locked = locked;
+    restart();
+  }
+  void restart() {
+    kept_ = std::make_unique<Feedback>(config_, kEnglish);
+    stand();
+  }
+  ~RememberTest() override { std::filesystem::remove_all(folder_); }
+  /// At (3, -1), as far as all is known.
+  void stand() {
+    input_.robot = navvi_types::Pose2{{3.0, -1.0}, 0.0};
+    kept_->take(Guidance{}, time_);
+    kept_->take(Odometry{}, time_);
+  }
+  Feedback::Output beat() { return kept_->update(input_, false, time_ += 0.02); }
+  /// What is told of it.
+  std::string remember() {
+    place_.reset();
+    std::string told;
+    for (const drive::Button button :
+         {drive::Button::next, drive::Button::previous, drive::Button::choose}) {
+      input_.asked = {button};
+      const Feedback::Output output = beat();
+      input_.asked.clear();
+      if (output.place) place_ = output.place;
+      told = output.cues.empty() ? "" : output.cues.at(0).text;
+    }
+    return told;
+  }
+
+  FeedbackConfig config_;
+  std::string folder_;
+  std::unique_ptr<Feedback> kept_;
+  std::optional<menu::NamedPlace> place_;
+};
+
+TEST_F(RememberTest, saves_the_robots_place_by_name_by_presses_alone) {
+  use_file();
+  EXPECT_EQ(remember(), "saved as place 1");
+  ASSERT_TRUE(place_);
+  EXPECT_EQ(place_->name, "place 1");
+  EXPECT_EQ(place_->at, Eigen::Vector2d(3.0, -1.0));
+  EXPECT_EQ(remember(), "saved as place 2");
+}
+
+TEST_F(RememberTest, saves_nothing_without_a_file_or_a_known_place) {
+  restart();
+  EXPECT_EQ(remember(), "not saved, the session has no file of places");
+  EXPECT_FALSE(place_);
+  use_file();
+  input_.robot.reset();
+  EXPECT_EQ(remember(), "not saved, the position is not known");
+  stand();
+  Guidance lost;
+  lost.state = Guidance::State::pose_stale;
+  kept_->take(lost, time_);
+  EXPECT_EQ(remember(), "not saved, the position is not known");
+  EXPECT_FALSE(place_);
+  stand();
+  time_ += 5.0;
+  EXPECT_EQ(remember(), "not saved, the position is not known") << "the last one is old";
+}
+
+TEST_F(RememberTest, saves_what_is_clicked_but_never_in_a_study) {
+  use_file();
+  kept_->take_place({7.0, 8.0});
+  const Feedback::Output output = beat();
+  EXPECT_EQ(output.cues.at(0).text, "saved as place 1");
+  EXPECT_EQ(output.place.value().at, Eigen::Vector2d(7.0, 8.0));
+  EXPECT_FALSE(beat().place);
+  use_file(true);
+  kept_->take_place({7.0, 8.0});
+  EXPECT_FALSE(beat().place);
+  EXPECT_NE(remember().substr(0, 5), "saved");
+  EXPECT_FALSE(place_);
 }
 
 TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {

@@ -32,7 +32,7 @@ const std::set<std::string> kPlaceholders = {
 /// Words for the hands: one for those on a pad, one for those on the keys.
 const std::set<std::string> kHands = {"stick", "push", "menu", "more", "less"};
 /// Phrases whose {place} may have a name of its own: those of the menu.
-const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure"};
+const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure", "place_saved"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};

@@ -19,11 +19,11 @@ using navvi_types::ThingClass;
 
 namespace navvi_feedback::cues {
 
-/// Where a person can go: the parts of the world as in navvi_types::Place, the task's goal, and the
-/// last ones.
-enum class PlaceName { dock, aisle, cross_aisle, room, task, last };
-[[nodiscard]] constexpr std::array<const char*, 6> names(PlaceName) {
-  return {"dock", "aisle", "cross_aisle", "room", "task", "last"};
+/// Where a person can go: the parts of the world as in navvi_types::Place, the task's goal, the
+/// last ones, and those that they had remembered.
+enum class PlaceName { dock, aisle, cross_aisle, room, task, last, remembered };
+[[nodiscard]] constexpr std::array<const char*, 7> names(PlaceName) {
+  return {"dock", "aisle", "cross_aisle", "room", "task", "last", "remembered"};
 }
 
 /// What a person can set while driving, and to what, besides numbers.

@@ -67,6 +67,7 @@ Told told_of(Feedback::Output& output) {
   told.plays = std::move(output.plays);
   told.request = output.request;
   told.goal = output.goal;
+  told.place = std::move(output.place);
   told.change = std::move(output.change);
   told.lesson_over = output.lesson_over;
   told.record = std::move(output.record);
@@ -113,6 +114,7 @@ void Guide::take(const navvi_types::Scenario& scenario, double time) {
 }
 void Guide::take(const navvi_types::Contact& contact) { parts_->feedback.take(contact); }
 void Guide::take_goal(const Eigen::Vector2d& goal) { parts_->feedback.take_goal(goal); }
+void Guide::take_place(const Eigen::Vector2d& at) { parts_->feedback.take_place(at); }
 void Guide::take(const haptics::Rumble& others, double time) {
   parts_->feedback.take(others, time);
 }

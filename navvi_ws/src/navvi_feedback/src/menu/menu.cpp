@@ -27,6 +27,20 @@ void Menu::take_goal(const Eigen::Vector2d& goal) {
   if (goals_.size() > 2) goals_.erase(goals_.begin());
 }
 
+std::optional<NamedPlace> Menu::remember(const Eigen::Vector2d& at, const cues::Phrases& phrases) {
+  if (places_.size() >= kMostPlaces) return std::nullopt;
+  cues::Fillings fillings;
+  fillings.place = cues::PlaceName::remembered;
+  std::string name;
+  const auto taken = [&](const NamedPlace& place) { return sound_alike(place.name, name); };
+  do {
+    ++fillings.number;
+    name = phrases.say(CueKind::menu_place, fillings);
+  } while (std::any_of(places_.begin(), places_.end(), taken));
+  places_.push_back({name, at});
+  return places_.back();
+}
+
 std::vector<Menu::Destination> Menu::destinations() const {
   std::vector<Destination> all;
   if (locked_) return all;
@@ -52,6 +66,7 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
       if (trial_ != TrialState::State::preparing && trial_ != TrialState::State::running)
         entries.push_back({{CueKind::menu_glossary}, {}, {}, {}, nullptr, true});
       if (trial_ == TrialState::State::running) entries.push_back({{CueKind::menu_end}, List::end});
+      if (!locked_) entries.push_back({{CueKind::menu_remember}, {}, {}, {}, nullptr, false, true});
       if (entries.empty()) entries.push_back({{CueKind::menu_empty}});
       break;
     case List::goals:
@@ -99,10 +114,11 @@ Menu::Step Menu::choose(const Entry& entry) {
   Step step;
   step.request = entry.request;
   step.glossary = entry.glossary;
+  step.remember = entry.remember;
   if (entry.goal) {
     step.goal = entry.goal->at;
     step.told = entry.goal->say(CueKind::goal_chosen);
-  } else if (!entry.request && !entry.glossary) {
+  } else if (!entry.request && !entry.glossary && !entry.remember) {
     return tell();
   }
   path_.clear();

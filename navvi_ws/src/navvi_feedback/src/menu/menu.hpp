@@ -24,7 +24,8 @@ namespace navvi_feedback::menu {
 /// A spoken menu for one hand and no eyes: next, previous, choose, back, each a short press. The
 /// first press of next, previous, choose or start opens it. Nothing has to be held. It closes when
 /// none of its buttons was pressed for 20 s. It offers to begin and end the trial, goals by name,
-/// which are asked for twice while a trial runs, settings, and the glossary while no trial runs.
+/// which are asked for twice while a trial runs, settings, the glossary while no trial runs, and to
+/// remember the place where the robot is.
 class Menu {
  public:
   struct Step {
@@ -35,11 +36,17 @@ class Menu {
     bool felt = false;                         ///< an example of it is to be felt
     std::optional<sounds::Earcon> heard = {};  ///< or heard
     bool glossary = false;                     ///< is to be given
+    bool remember = false;                     ///< where the robot is
   };
 
   /// A study has set what could be changed: neither goals nor settings are offered.
   void lock(bool locked) { locked_ = locked; }
   void take(std::vector<NamedPlace> places) { places_ = std::move(places); }
+  /// Gives a place the first free name, such as "place 1", and offers it as goal from now on.
+  /// \param at  m, in map \return nullopt if there are too many
+  [[nodiscard]] std::optional<NamedPlace> remember(const Eigen::Vector2d& at,
+                                                   const cues::Phrases& phrases);
+  [[nodiscard]] bool locked() const { return locked_; }
   void take(const Scenario& scenario) { scenario_ = scenario; }
   void take(const TrialState& trial) {
     if (trial_ != trial.state) in_state_ = 0.0;
@@ -76,6 +83,7 @@ class Menu {
     std::optional<TrialRequest::Kind> request = std::nullopt;
     const Setting* setting = nullptr;
     bool glossary = false;
+    bool remember = false;
   };
   /// A list, and what was last spoken of it.
   struct Level {

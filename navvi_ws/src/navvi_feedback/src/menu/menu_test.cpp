@@ -160,8 +160,9 @@ TEST_F(MenuTest, survives_that_what_can_be_chosen_goes_away) {
 
 TEST_F(MenuTest, goes_back_to_a_list_that_has_become_shorter) {
   menu_.take_settings({{"speaker/rate", "220"}});
+  menu_.lock(true);
   trial(State::ready);
-  EXPECT_EQ(heard({Button::previous, Button::next, Button::next}), "menu_settings");
+  EXPECT_EQ(heard({Button::next, Button::next}), "menu_settings");
   press({Button::choose});
   trial(State::preparing);
   EXPECT_EQ(heard({Button::back}), "menu_settings");
@@ -198,8 +199,26 @@ TEST_F(MenuTest, offers_the_places_of_a_file_before_those_of_the_world) {
   EXPECT_EQ(heard({Button::next}), "menu_place 1");
 }
 
+TEST_F(MenuTest, remembers_places_by_the_first_free_name_and_offers_them) {
+  const cues::Phrases en(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml");
+  const cues::Phrases es(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/es.yaml");
+  menu_.take(std::vector<NamedPlace>{{"Place 1", {-3.0, 4.0}}, {"gate", {1.0, 1.0}}});
+  EXPECT_EQ(heard({Button::previous, Button::previous}), "menu_remember");
+  const Menu::Step step = press({Button::choose});
+  EXPECT_TRUE(step.remember);
+  EXPECT_FALSE(menu_.open());
+  EXPECT_EQ(menu_.remember({2.0, 3.0}, en).value().name, "place 2");
+  EXPECT_EQ(menu_.remember({2.0, 3.0}, en).value().name, "place 3");
+  EXPECT_EQ(menu_.remember({4.0, 5.0}, es).value().name, "lugar 1");
+  press({Button::next, Button::choose, Button::next, Button::next, Button::next});
+  EXPECT_EQ(press({Button::choose}).goal.value(), Eigen::Vector2d(2.0, 3.0));
+  menu_.take(std::vector<NamedPlace>(kMostPlaces));
+  EXPECT_FALSE(menu_.remember({2.0, 3.0}, en));
+}
+
 TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
   Menu menu;
+  menu.lock(true);
   menu.take(TrialState{State::preparing});
   EXPECT_EQ(menu.press(Button::next).told.value().kind, CueKind::menu_empty);
   EXPECT_EQ(menu.press(Button::choose).told.value().kind, CueKind::menu_empty);
@@ -220,7 +239,7 @@ TEST_F(MenuTest, has_the_glossary_while_no_trial_runs) {
   EXPECT_EQ(heard({Button::next, Button::next}), "menu_glossary");
   EXPECT_TRUE(press({Button::choose}).glossary);
   trial(State::running);
-  EXPECT_EQ(heard({Button::next, Button::previous}), "menu_end");
+  EXPECT_EQ(heard({Button::next, Button::previous, Button::previous}), "menu_end");
   EXPECT_EQ(heard({Button::previous}), "menu_goals");
 }
 

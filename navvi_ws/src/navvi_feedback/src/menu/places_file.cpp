@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iomanip>
 #include <map>
+#include <navvi_config/files.hpp>
 #include <navvi_types/limits.hpp>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "cues/phrases.hpp"
@@ -14,9 +18,6 @@ namespace navvi_feedback::menu {
 namespace {
 
 using navvi_config::ConfigError;
-
-constexpr std::size_t kMostPlaces = 100;  // more, one after the other, nobody listens to
-constexpr double kTurn = 6.2832;          // rad
 
 /// Where a sentence finds fault: file, line, and a key or nothing.
 class Spot {
@@ -31,12 +32,12 @@ class Spot {
   std::string file_;
 };
 
-double read_number(const Spot& spot, const YAML::Node& node, const std::string& key, double limit,
-                   const std::string& allowed) {
+/// m
+double read_coordinate(const Spot& spot, const YAML::Node& node, const std::string& key) {
   double value = 0.0;
   const bool read = node.IsScalar() && YAML::convert<double>::decode(node, value);
-  if (!read || !std::isfinite(value) || std::abs(value) > limit)
-    spot.reject(node, "\"" + key + "\" must be a number of " + allowed);
+  if (!read || !std::isfinite(value) || std::abs(value) > navvi_types::kFarthest)
+    spot.reject(node, "\"" + key + "\" must be a number of m, -100000 to 100000");
   return value;
 }
 
@@ -50,12 +51,12 @@ std::string read_name(const Spot& spot, const YAML::Node& node) {
 
 /// The values of one place by key.
 std::map<std::string, YAML::Node> keys_of(const Spot& spot, const YAML::Node& item) {
-  if (!item.IsMap()) spot.reject(item, "a place must be a map of name, x, y and yaw");
+  if (!item.IsMap()) spot.reject(item, "a place must be a map of name, x and y");
   std::map<std::string, YAML::Node> keys;
   for (const auto& entry : item) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-    if (key != "name" && key != "x" && key != "y" && key != "yaw")
-      spot.reject(entry.first, "\"" + key + "\" is unknown; known are name, x, y and yaw");
+    if (key != "name" && key != "x" && key != "y")
+      spot.reject(entry.first, "\"" + key + "\" is unknown; known are name, x and y");
     if (!keys.emplace(key, entry.second).second)
       spot.reject(entry.first, "\"" + key + "\" is given twice in a place; once is allowed");
   }
@@ -67,12 +68,8 @@ std::map<std::string, YAML::Node> keys_of(const Spot& spot, const YAML::Node& it
 
 NamedPlace read_place(const Spot& spot, const YAML::Node& item) {
   const std::map<std::string, YAML::Node> keys = keys_of(spot, item);
-  const auto coordinate = [&](const std::string& key) {
-    return read_number(spot, keys.at(key), key, navvi_types::kFarthest, "m, -100000 to 100000");
-  };
-  if (const auto yaw = keys.find("yaw"); yaw != keys.end())
-    static_cast<void>(read_number(spot, yaw->second, "yaw", kTurn, "rad, -6.2832 to 6.2832"));
-  return {read_name(spot, keys.at("name")), {coordinate("x"), coordinate("y")}};
+  return {read_name(spot, keys.at("name")),
+          {read_coordinate(spot, keys.at("x"), "x"), read_coordinate(spot, keys.at("y"), "y")}};
 }
 
 /// Names that differ in capital letters alone sound the same.
@@ -84,15 +81,12 @@ std::string sound_of(std::string name) {
   return name;
 }
 
-}  // namespace
-
-std::vector<NamedPlace> read_places(const std::filesystem::path& path) {
-  const YAML::Node root = navvi_config::load_yaml(path);
-  const Spot spot(path.string());
+std::vector<NamedPlace> places_in(const YAML::Node& root, const Spot& spot) {
+  if (root.IsNull()) return {};
   if (!root.IsSequence())
     spot.reject(root,
                 "the file must be a list of places, such as - {name: packing table, x: 3, "
-                "y: -1.5, yaw: 0}");
+                "y: -1.5}");
   if (root.size() > kMostPlaces)
     spot.reject(root, "there are " + std::to_string(root.size()) + " places; allowed are " +
                           std::to_string(kMostPlaces));
@@ -109,5 +103,51 @@ std::vector<NamedPlace> read_places(const std::filesystem::path& path) {
   }
   return places;
 }
+
+/// The text of a file with these places.
+std::string text_of(const std::vector<NamedPlace>& places) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2);
+  for (const NamedPlace& place : places)
+    text << "- {name: " << place.name << ", x: " << place.at.x() << ", y: " << place.at.y()
+         << "}\n";
+  return text.str();
+}
+
+/// Such a text holds so many places.
+bool holds(const std::string& text, std::size_t count, const Spot& spot) {
+  try {
+    return places_in(YAML::Load(text), spot).size() == count;
+  } catch (const YAML::Exception&) {
+    return false;
+  }
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::string text = navvi_config::read_file(path).value_or("");
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  return text;
+}
+
+}  // namespace
+
+std::vector<NamedPlace> read_places(const std::filesystem::path& path) {
+  return places_in(navvi_config::load_yaml(path), Spot(path.string()));
+}
+
+void add_places(const std::filesystem::path& path, const std::vector<NamedPlace>& places) {
+  std::vector<NamedPlace> all = read_places(path);
+  all.insert(all.end(), places.begin(), places.end());
+  const Spot spot(path.string());
+  std::string text = content_of(path) + text_of(places);
+  // A list in brackets, or one that is indented, cannot go on with such lines.
+  if (!holds(text, all.size(), spot)) text = text_of(all);
+  if (!holds(text, all.size(), spot))
+    throw std::runtime_error(path.string() + ": the new place makes the file unusable.");
+  if (const auto problem = navvi_config::write_atomically(path, text))
+    throw std::runtime_error("The place is not saved: " + *problem + ".");
+}
+
+bool sound_alike(const std::string& a, const std::string& b) { return sound_of(a) == sound_of(b); }
 
 }  // namespace navvi_feedback::menu

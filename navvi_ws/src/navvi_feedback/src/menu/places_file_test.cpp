@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <navvi_config/reader.hpp>
+#include <sstream>
 
 namespace navvi_feedback::menu {
 namespace {
@@ -41,14 +42,14 @@ class PlacesFileTest : public testing::Test {
 
 TEST_F(PlacesFileTest, holds_places_in_their_order) {
   const auto places = read(
-      "- {name: packing table, x: 3.2, y: -1.5, yaw: 1.57}\n"
+      "- {name: packing table, x: 3.2, y: -1.5}\n"
       "- name: 7\n  x: 0\n  y: 1e2\n");
   ASSERT_EQ(places.size(), 2U);
   EXPECT_EQ(places[0].name, "packing table");
   EXPECT_EQ(places[0].at, Eigen::Vector2d(3.2, -1.5));
   EXPECT_EQ(places[1].name, "7");
   EXPECT_EQ(places[1].at, Eigen::Vector2d(0.0, 100.0));
-  EXPECT_TRUE(read("[]").empty());
+  for (const char* none : {"[]", "", "# none yet\n"}) EXPECT_TRUE(read(none).empty()) << none;
 }
 
 TEST_F(PlacesFileTest, names_line_key_and_what_is_allowed_where_it_is_wrong) {
@@ -60,14 +61,12 @@ TEST_F(PlacesFileTest, names_line_key_and_what_is_allowed_where_it_is_wrong) {
            {good + "- {name: a, x: 1, y: 100001}", "line 2: \"y\"" + number + metres},
            {good + "- {name: a, x: [1], y: 2}", "line 2: \"x\"" + number + metres},
            {"- {name: a, x: 1,\n   y: two}", "line 2: \"y\"" + number + metres},
-           {"- {name: a, x: 1, y: 2, yaw: 7}",
-            "line 1: \"yaw\"" + number + "rad, -6.2832 to 6.2832."},
-           {"- {name: a, x: 1, y: 2, z: 3}",
-            "line 1: \"z\" is unknown; known are name, x, y and yaw."},
+           {"- {name: a, x: 1, y: 2, yaw: 3}",
+            "line 1: \"yaw\" is unknown; known are name, x and y."},
            {"- {name: a, x: 1, x: 2, y: 3}",
             "line 1: \"x\" is given twice in a place; once is allowed."},
            {good + "- {name: a, x: 1}", "line 2: a place lacks \"y\"; it must have name, x and y."},
-           {good + "- gate", "line 2: a place must be a map of name, x, y and yaw."},
+           {good + "- gate", "line 2: a place must be a map of name, x and y."},
            {good + "- {name: b, x: 0, y: 0}\n- {name: GATE, x: 3, y: 4}",
             "line 3: \"name\" is \"GATE\", as in line 1; allowed are names that differ in more "
             "than "
@@ -90,9 +89,36 @@ TEST_F(PlacesFileTest, is_a_list_of_at_most_100_places) {
   EXPECT_EQ(read(text).size(), 100U);
   EXPECT_EQ(rejected(text + "- {name: a, x: 0, y: 0}"),
             "line 1: there are 101 places; allowed are 100.");
-  for (const char* other : {"name: a", "", "gate"})
+  for (const char* other : {"name: a", "gate"})
     EXPECT_NE(rejected(other).find("the file must be a list of places"), std::string::npos);
   EXPECT_THROW((void)read_places(folder_ / "none.yaml"), navvi_config::ConfigError);
+}
+
+TEST_F(PlacesFileTest, goes_on_with_more_places_and_keeps_what_was_there) {
+  const std::string mine = "# our hall\n- name: gate  # in the north\n  x: 1\n  y: 2";
+  const std::string more = "- {name: place 1, x: 3.14, y: -0.50}\n";
+  for (const auto& [before, after] : std::vector<std::pair<std::string, std::string>>{
+           {mine, mine + "\n" + more},
+           {"", more},
+           {"[]\n", more},
+           {"[{name: gate, x: 1, y: 2}]", "- {name: gate, x: 1.00, y: 2.00}\n" + more},
+           {"  - {name: gate, x: 1, y: 2}\n", "- {name: gate, x: 1.00, y: 2.00}\n" + more}}) {
+    (void)read(before);
+    add_places(file(), {{"place 1", {3.1415, -0.5}}});
+    std::ostringstream text;
+    text << std::ifstream(file()).rdbuf();
+    EXPECT_EQ(text.str(), after);
+    EXPECT_EQ(read_places(file()).back().name, "place 1");
+  }
+}
+
+TEST_F(PlacesFileTest, holds_the_old_places_where_more_cannot_be_added) {
+  const std::string mine = "- {name: Place 1, x: 1, y: 2}\n";
+  (void)read(mine);
+  EXPECT_THROW(add_places(file(), {{"place 1", {3.0, 0.0}}}), std::runtime_error) << "named twice";
+  EXPECT_EQ(read_places(file()).size(), 1U);
+  EXPECT_THROW(add_places(folder_ / "none.yaml", {{"place 1", {3.0, 0.0}}}), std::runtime_error);
+  EXPECT_FALSE(fs::exists(folder_ / "none.yaml"));
 }
 
 }  // namespace

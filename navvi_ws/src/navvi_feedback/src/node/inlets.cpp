@@ -116,6 +116,9 @@ void Inlets::subscribe_to_trials() {
                                [this](const auto& scenario) { guide_.take(scenario, now()); });
   listen<geometry_msgs::PoseStamped>("move_base_simple/goal", 10,
                                      [this](const auto& goal) { guide_.take_goal(goal); });
+  subscribers_.push_back(navvi_types::subscribe<geometry_msgs::PointStamped>(
+      node_, "clicked_point", 10, from_msg,
+      [this](const Eigen::Vector2d& place) { guide_.take_place(place); }, "map"));
   subscribers_.push_back(node_.subscribe<navvi_msgs::TrialEvent>(
       "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& msg) {
         if (msg->type == "TRIAL_END") guide_.end_trial(last_words(*msg));

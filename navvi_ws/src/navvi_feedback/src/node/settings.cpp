@@ -13,7 +13,13 @@ std::optional<person::PersonFile> file_of(const NodeConfig& config) {
   return person::PersonFile::of<PersonConfig>(config.person);
 }
 
-std::vector<CueKind> cues_of(const std::vector<person::SettingsSaver::Failure>& failures) {
+std::vector<person::Failure> joined(std::vector<person::Failure> some,
+                                    const std::vector<person::Failure>& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
+std::vector<CueKind> cues_of(const std::vector<person::Failure>& failures) {
   std::vector<CueKind> cues;
   for (const auto& [cue, detail] : failures) {
     if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
@@ -25,7 +31,12 @@ std::vector<CueKind> cues_of(const std::vector<person::SettingsSaver::Failure>& 
 }  // namespace
 
 Settings::Settings(NodeConfig& config)
-    : config_(config), file_(file_of(config)), saver_(file_of(config)) {}
+    : config_(config),
+      file_(file_of(config)),
+      saver_(file_of(config)),
+      places_([path = config.feedback->places](
+                  const std::vector<menu::NamedPlace>& places) { menu::add_places(path, places); },
+              CueKind::place_not_saved) {}
 
 std::map<std::string, std::string> Settings::values() const {
   std::map<std::string, std::string> values;
@@ -47,6 +58,11 @@ void Settings::change(const std::string& word) {
 }
 
 void Settings::keep(const lockstep::Told& told) {
+  if (told.place) {
+    ROS_INFO("Remembered as \"%s\": %.2f, %.2f m in map, in %s.", told.place->name.c_str(),
+             told.place->at.x(), told.place->at.y(), config_.feedback->places.c_str());
+    places_.save(*told.place);
+  }
   // The last words of a session come without a lesson, and leave its record as it is.
   if (!config_.record.empty() && !told.record.empty() && recorded_ != told.record) {
     recorded_ = told.record;
@@ -59,7 +75,11 @@ void Settings::keep(const lockstep::Told& told) {
   if (file_) file_->save(found_);  // before it is said
 }
 
-std::vector<CueKind> Settings::failures() { return cues_of(saver_.update()); }
-std::vector<CueKind> Settings::finish() { return cues_of(saver_.finish()); }
+std::vector<CueKind> Settings::failures() {
+  return cues_of(joined(saver_.update(), places_.update()));
+}
+std::vector<CueKind> Settings::finish() {
+  return cues_of(joined(saver_.finish(), places_.finish()));
+}
 
 }  // namespace navvi_feedback::node

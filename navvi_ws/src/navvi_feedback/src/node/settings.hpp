@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "menu/places_file.hpp"
 #include "navvi_feedback/lockstep/guide.hpp"
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"
@@ -13,7 +14,8 @@
 namespace navvi_feedback::node {
 
 /// What a person sets while driving, and what a lesson finds for them: in force at once, kept in
-/// their file, and written where the node is started anew.
+/// their file, and written where the node is started anew. And the places that they remember, which
+/// the file of places keeps.
 class Settings {
  public:
   /// \param config  outlives this
@@ -26,7 +28,8 @@ class Settings {
 
   /// \param word  such as "speaker/rate:=240"
   void change(const std::string& word);
-  /// A lesson's results: its table goes to the parameter `record`, its settings to the file.
+  /// A place to be remembered. A lesson's results: its table goes to the parameter `record`, its
+  /// settings to the file.
   void keep(const lockstep::Told& told);
 
   /// To be called often; does not wait. \return cues that say what has failed, which is logged
@@ -38,6 +41,7 @@ class Settings {
   NodeConfig& config_;
   std::optional<person::PersonFile> file_;
   person::SettingsSaver saver_;
+  person::Saver<menu::NamedPlace> places_;
   std::string recorded_;            ///< of the lesson, as it is in the file
   std::vector<std::string> found_;  ///< by the lesson, and saved
 };

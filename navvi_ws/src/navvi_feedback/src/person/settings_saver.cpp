@@ -1,42 +1,26 @@
 #include "person/settings_saver.hpp"
 
-#include <chrono>
-#include <exception>
 #include <utility>
 
 namespace navvi_feedback::person {
 
-SettingsSaver::SettingsSaver(std::optional<PersonFile> file) : file_(std::move(file)) {}
-
-std::vector<SettingsSaver::Failure> SettingsSaver::update() {
-  std::vector<Failure> failures;
-  if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    collect(failures);
-  if (unsaved_.empty() || saving_.valid()) return failures;
-  const std::vector<std::string> words = std::exchange(unsaved_, {});
-  if (file_) {
-    saving_ = std::async(std::launch::async, [file = *file_, words] { file.save(words); });
-  } else if (!std::exchange(told_, true)) {
-    failures.push_back({CueKind::settings_not_kept, ""});
-  }
-  return failures;
+SettingsSaver::SettingsSaver(std::optional<PersonFile> file) {
+  if (file)
+    saver_.emplace([file = *file](const std::vector<std::string>& words) { file.save(words); },
+                   CueKind::settings_not_saved);
 }
 
-std::vector<SettingsSaver::Failure> SettingsSaver::finish() {
-  std::vector<Failure> failures;
-  if (saving_.valid()) collect(failures);
-  const std::vector<Failure> last = update();
-  failures.insert(failures.end(), last.begin(), last.end());
-  if (saving_.valid()) collect(failures);
-  return failures;
+void SettingsSaver::save(const std::string& word) {
+  lost_ = !saver_;
+  if (saver_) saver_->save(word);
 }
 
-void SettingsSaver::collect(std::vector<Failure>& failures) {
-  try {
-    saving_.get();
-  } catch (const std::exception& error) {
-    failures.push_back({CueKind::settings_not_saved, error.what()});
-  }
+std::vector<Failure> SettingsSaver::update() {
+  if (saver_) return saver_->update();
+  if (!lost_ || std::exchange(told_, true)) return {};
+  return {{CueKind::settings_not_kept, ""}};
 }
+
+std::vector<Failure> SettingsSaver::finish() { return saver_ ? saver_->finish() : update(); }
 
 }  // namespace navvi_feedback::person

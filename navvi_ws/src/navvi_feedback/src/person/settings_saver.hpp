@@ -1,45 +1,31 @@
 #pragma once
 
-#include <future>
-#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "person/person_file.hpp"
+#include "person/saver.hpp"
 
 namespace navvi_feedback::person {
 
-using navvi_types::CueKind;
-
-/// Saves what a person changes while driving, in a thread of its own: a disk may take seconds.
+/// Saves what a person changes while driving.
 class SettingsSaver {
  public:
-  struct Failure {
-    CueKind cue;         ///< that says so
-    std::string detail;  ///< a sentence for the log, or empty
-  };
-
   /// \param file  without one, settings hold for the session alone, which is a failure once
   explicit SettingsSaver(std::optional<PersonFile> file);
 
-  /// \param word  such as "speaker/rate:=300"; saved from the next update() on
-  void save(const std::string& word) { unsaved_.push_back(word); }
+  /// \param word  such as "speaker/rate:=300"
+  void save(const std::string& word);
 
-  /// To be called often; does not wait.
-  /// \return what has failed since the last call
+  /// As Saver's.
   [[nodiscard]] std::vector<Failure> update();
-
-  /// Waits until all is saved.
   [[nodiscard]] std::vector<Failure> finish();
 
  private:
-  void collect(std::vector<Failure>& failures);
-
-  std::optional<PersonFile> file_;
-  std::vector<std::string> unsaved_;
-  std::future<void> saving_;
-  bool told_ = false;  ///< that nothing is kept
+  std::optional<Saver<std::string>> saver_;
+  bool lost_ = false;  ///< something is not kept
+  bool told_ = false;  ///< that nothing is
 };
 
 }  // namespace navvi_feedback::person

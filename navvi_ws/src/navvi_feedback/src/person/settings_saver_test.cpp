@@ -46,7 +46,7 @@ TEST_F(SettingsSaverTest, without_a_file_says_once_that_nothing_is_kept) {
   SettingsSaver saver(std::nullopt);
   EXPECT_TRUE(saver.update().empty());
   saver.save("rate:=300");
-  const std::vector<SettingsSaver::Failure> failures = saver.update();
+  const std::vector<Failure> failures = saver.update();
   ASSERT_EQ(failures.size(), 1U);
   EXPECT_EQ(failures[0].cue, CueKind::settings_not_kept);
   saver.save("rate:=310");
@@ -58,7 +58,7 @@ TEST_F(SettingsSaverTest, tells_what_cannot_be_written) {
   std::ofstream(folder_) << "a file where the folder should be";
   SettingsSaver saver(anna());
   saver.save("rate:=300");
-  const std::vector<SettingsSaver::Failure> failures = saver.finish();
+  const std::vector<Failure> failures = saver.finish();
   ASSERT_EQ(failures.size(), 1U);
   EXPECT_EQ(failures[0].cue, CueKind::settings_not_saved);
   EXPECT_NE(failures[0].detail.find(folder_.string()), std::string::npos) << failures[0].detail;

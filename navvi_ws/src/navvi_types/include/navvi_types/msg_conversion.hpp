@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
@@ -35,6 +36,8 @@ namespace navvi_types {
 [[nodiscard]] std::optional<Pose2> from_msg(const geometry_msgs::Transform& msg);
 /// A goal is a place: its direction must be finite, but need not be a rotation. m
 [[nodiscard]] std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PoseStamped& msg);
+/// m
+[[nodiscard]] std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PointStamped& msg);
 [[nodiscard]] std::optional<Odometry> from_msg(const nav_msgs::Odometry& msg);
 /// The path's points in its frame, m.
 [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> from_msg(const nav_msgs::Path& msg);

@@ -18,6 +18,7 @@
 
 #include "navvi_feedback/cues/voice_order.hpp"
 #include "navvi_feedback/haptics/rumble.hpp"
+#include "navvi_feedback/menu/named_place.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
@@ -64,7 +65,8 @@ struct Told {
   std::vector<sounds::Play> plays;          ///< short sounds that begin now
 
   std::optional<navvi_types::TrialRequest::Kind> request;
-  std::optional<Eigen::Vector2d> goal;  ///< m, in map, that the person has chosen
+  std::optional<Eigen::Vector2d> goal;    ///< m, in map, that the person has chosen
+  std::optional<menu::NamedPlace> place;  ///< to be remembered
   std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
 
   bool lesson_over = false;
@@ -91,6 +93,8 @@ class Guide {
   void take(const navvi_types::Contact& contact);
   /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
+  /// A place to be remembered, as a click in RViz names it. \param at  m, in map
+  void take_place(const Eigen::Vector2d& at);
   /// Wanted by another program, until it is stale.
   void take(const haptics::Rumble& others, double time);
   /// Values of the parameters that the menu offers.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace navvi_feedback::menu {
+
+/// A place that the people on site have named.
+struct NamedPlace {
+  std::string name;                              ///< as cues::is_place_name() allows
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
+};
+
+}  // namespace navvi_feedback::menu
