@@ -141,7 +141,7 @@ class Pupil:
             elif step.startswith("turn_"):
                 self.push(-0.6 if step == "turn_right" else 0.6, 0.0)
                 self.until(lambda: self.sound == "turn_stop", 20, "the turn is to end")
-                time.sleep(2.0 if late else 0.2)
+                time.sleep(3.5 if late else 0.2)  # the robot crawls beyond the corner
                 late = False
             else:
                 self.push(0.0, 0.8)
