@@ -16,18 +16,22 @@
 #include <QScreen>
 #include <QShortcut>
 #include <QStatusBar>
+#include <QStyle>
 #include <QToolBar>
 #include <QVBoxLayout>
 
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
 #include "plugin/views.hpp"
+#include "plugin/words_label.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {
 
-constexpr int kRefresh = 100;  // ms
-constexpr int kPadding = 4;    // px, around words
+constexpr int kRefresh = 100;        // ms
+constexpr int kSpace = 4;            // px, between the parts
+constexpr double kShare = 0.4;       // of the window, at most: the rest is the picture's
+constexpr double kLeastZoom = 0.45;  // of letters, however small the window
 
 QString number(double value, int decimals, const char* unit) {
   return QString::number(value, 'f', decimals) + " " + QString::fromUtf8(unit);
@@ -35,10 +39,6 @@ QString number(double value, int decimals, const char* unit) {
 
 /// A screen reader says what changed by itself.
 void set_words(QLabel* label, const QString& words, QAccessible::Event event) {
-  // Docks do not ask how high wrapped words are; two lines always, or the picture changes its size.
-  if (label->wordWrap())
-    label->setMinimumHeight(std::max(2 * label->fontMetrics().lineSpacing() + 2 * kPadding,
-                                     label->heightForWidth(label->width())));
   if (label->text() == words) return;
   label->setText(words);
   QAccessibleEvent said(label, event);
@@ -48,40 +48,46 @@ void set_words(QLabel* label, const QString& words, QAccessible::Event event) {
 }  // namespace
 
 Panel::Panel()
-    : rows_{new QHBoxLayout, new QHBoxLayout, new QHBoxLayout,
-            new QHBoxLayout, new QHBoxLayout, new QHBoxLayout},
-      labels_{add_label(rows_.words, "state", 1),      add_label(rows_.words, "instruction", 1),
-              add_label(rows_.numbers, "distance", 1), add_label(rows_.numbers, "speed", 1),
-              add_label(rows_.numbers, "time", 0),     add_label(rows_.offer, "menu", 1)},
+    : rows_{new QHBoxLayout, new FlowLayout, new FlowLayout},
+      labels_{add_label(rows_.numbers, "state", 4),    new WordsLabel(2),
+              add_label(rows_.numbers, "distance", 3), add_label(rows_.numbers, "speed", 2),
+              add_label(rows_.numbers, "time", 1),     new WordsLabel(1)},
       pages_(new QStackedWidget) {
   setAttribute(Qt::WA_StyledBackground);
-  labels_.menu->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* rows = new QVBoxLayout(this);
-  rows->addLayout(rows_.words);
-  rows->addLayout(rows_.numbers);
+  rows->setContentsMargins(kSpace, kSpace, kSpace, kSpace);
+  for (QLayout* layout :
+       std::initializer_list<QLayout*>{rows, rows_.numbers, rows_.buttons, rows_.menu})
+    layout->setSpacing(kSpace);
+  name(labels_.instruction, "instruction");
+  name(labels_.menu, "menu");
+  pages_->addWidget(labels_.instruction);
+  auto* page = new QWidget;
+  auto* offer = new QVBoxLayout(page);
+  offer->setContentsMargins(0, 0, 0, 0);
+  offer->setSpacing(0);
+  offer->addWidget(labels_.menu);
+  offer->addLayout(rows_.menu);
+  pages_->addWidget(page);
   rows->addWidget(pages_);
-  for (const auto& [upper, lower] :
-       {std::pair{rows_.questions, rows_.view}, {rows_.offer, rows_.menu}}) {
-    auto* page = new QWidget;
-    auto* both = new QVBoxLayout(page);
-    both->setContentsMargins(0, 0, 0, 0);
-    both->addLayout(upper);
-    both->addLayout(lower);
-    pages_->addWidget(page);
-  }
+  rows->addLayout(rows_.numbers);
+  rows->addLayout(rows_.buttons);
 }
 
-QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
-  auto* label = new QLabel;
+void Panel::name(QLabel* label, const char* name) {
   label->setObjectName(name);
   label->setAccessibleDescription(name);
   label->setFocusPolicy(Qt::TabFocus);
-  label->setWordWrap(row == rows_.words);
+}
+
+QLabel* Panel::add_label(QHBoxLayout* row, const char* name, int stretch) {
+  auto* label = new WordsLabel(1);
+  Panel::name(label, name);
   row->addWidget(label, stretch);
   return label;
 }
 
-QPushButton* Panel::add_button(QHBoxLayout* row, const Named& named,
+QPushButton* Panel::add_button(QLayout* row, const Named& named,
                                const std::function<void()>& action, QWidget* scope) {
   auto* button = new QPushButton;
   button->setFocusPolicy(Qt::TabFocus);  // a click must not take the focus from the keys that drive
@@ -89,7 +95,7 @@ QPushButton* Panel::add_button(QHBoxLayout* row, const Named& named,
   auto* shortcut = new QShortcut(named.key, scope);
   shortcut->setContext(Qt::ApplicationShortcut);
   connect(shortcut, &QShortcut::activated, this, action);
-  row->addWidget(button, static_cast<int>(named.words.size()));
+  row->addWidget(button);
   named_.push_back(named);
   named_.back().button = button;
   return button;
@@ -107,10 +113,12 @@ void Panel::name_all() {
       named.button->setText(text);
       named.button->setAccessibleName(name);
       named.button->setAccessibleDescription(of("picture/key") + " " + key);
+      fitted_ = {};
     }
   }
   const QString vision = of("picture/vision");
   if (vision_->text() == "&" + vision) return;
+  fitted_ = {};
   vision_->setText("&" + vision);
   visions_->setAccessibleName(vision);
   visions_->setAccessibleDescription(vision);
@@ -127,8 +135,8 @@ void Panel::onInitialize() {
   add_views();
   add_menu();
   name_all();
-  Chosen::shared().on_change([this] { style(); });
-  style();
+  Chosen::shared().on_change([this] { fit(); });
+  fit();
   connect(&timer_, &QTimer::timeout, this, [this] { refresh(); });
   timer_.start(kRefresh);
   QTimer::singleShot(0, this, [this] { fill_screen(); });
@@ -137,7 +145,7 @@ void Panel::onInitialize() {
 void Panel::add_questions() {
   using Request = navvi_msgs::TrialRequest;
   const auto add = [&](const Named& named, const std::function<void()>& action) {
-    add_button(rows_.questions, named, action, this);
+    add_button(rows_.buttons, named, action, this);
   };
   add({nullptr, "begin", Qt::Key_F5, "key_6"}, [this] { request(Request::BEGIN); });
   add({nullptr, "end", Qt::Key_F8, ""}, [this] { ask("end"); });
@@ -167,12 +175,12 @@ void Panel::add_views() {
       {"chase", "Chase"}, {"top", "Top"}, {"forward", "Forward"}};
   for (int i = 0; i < 3; ++i)
     add_button(
-        rows_.view, {nullptr, views[i].first, QKeySequence(Qt::Key_1 + i), ""},
+        rows_.buttons, {nullptr, views[i].first, QKeySequence(Qt::Key_1 + i), ""},
         [this, view = views[i].second] { choose_view(*vis_manager_, view); }, this);
   add_button(
-      rows_.view, {nullptr, "rviz", Qt::Key_F2, ""}, [this] { show_chrome(!chrome_); }, this);
+      rows_.buttons, {nullptr, "rviz", Qt::Key_F2, ""}, [this] { show_chrome(!chrome_); }, this);
   settings_ = add_button(
-      rows_.view, {nullptr, "settings", Qt::Key_F3, ""}, [this] { ask("settings"); }, this);
+      rows_.buttons, {nullptr, "settings", Qt::Key_F3, ""}, [this] { ask("settings"); }, this);
 
   visions_ = new QComboBox;
   visions_->setFocusPolicy(Qt::TabFocus);
@@ -185,8 +193,12 @@ void Panel::add_views() {
   vision_ = new QLabel;
   vision_->setBuddy(visions_);
   vision_->setObjectName("vision");
-  rows_.view->addWidget(vision_);
-  rows_.view->addWidget(visions_);
+  auto* both = new QWidget;
+  auto* side_by_side = new QHBoxLayout(both);
+  side_by_side->setContentsMargins(0, 0, 0, 0);
+  side_by_side->addWidget(vision_);
+  side_by_side->addWidget(visions_, 1);
+  rows_.buttons->addWidget(both);
 }
 
 void Panel::ask(const std::string& question) {
@@ -238,24 +250,39 @@ void Panel::show_chrome(bool visible) {
     frame->setHideButtonVisibility(visible);
 }
 
-void Panel::style() {
+/// Letters are as large for the eye on any screen, but smaller where the panel would take more of
+/// the window than its share.
+void Panel::fit() {
+  const int wide = width() - 2 * kSpace;
+  double zoom = std::clamp(screen()->size().height() / 1080.0, 0.7, 2.0);
+  int said = 0, height = 0;  // px
+  for (style(zoom); zoom > kLeastZoom; style(zoom *= 0.97)) {
+    said = std::max(labels_.instruction->sizeHint().height(),
+                    labels_.menu->sizeHint().height() + rows_.menu->heightForWidth(wide));
+    height = said + labels_.state->sizeHint().height() + rows_.buttons->heightForWidth(wide) +
+             4 * kSpace;
+    if (height <= kShare * window()->height()) break;
+  }
+  pages_->setFixedHeight(said);
+  setFixedHeight(height);
+  fitted_ = window()->size();
+}
+
+/// \param zoom  times the size on a screen of 1080 rows
+void Panel::style(double zoom) {
   const look::Vision& vision = Chosen::shared().vision();
   const QString text = color(vision.text).name(), plate = color(vision.plate).name();
-  // As large for the eye on any screen, but for small ones: there the words would not fit.
-  const double zoom = std::clamp(screen()->size().height() / 1080.0, 0.7, 2.0);
   const double height = zoom * vision.text_height;
   setStyleSheet(
-      QString("QWidget { background: %2; color: %1; font: bold %3px 'DejaVu Sans'; }"
-              "QLabel { padding: %5px; }"
-              "QPushButton, QComboBox, QLabel#vision, QLabel#menu { font-size: %4px; }"
+      QString("QWidget { background: %2; color: %1; font: bold %4px 'DejaVu Sans'; }"
+              "QLabel#instruction { font-size: %3px; }"
               "QPushButton, QComboBox { border: 2px solid %1; padding: 4px; }"
               "QPushButton:pressed { background: %1; color: %2; }"
               "QLabel:focus, QPushButton:focus, QComboBox:focus { border: 5px double %1; }"
               "QLabel[alarm=\"true\"] { background: %1; color: %2; }")
           .arg(text, plate)
           .arg(font_size(height))
-          .arg(font_size(std::max(26.0 * zoom, 0.55 * height)))
-          .arg(kPadding));
+          .arg(font_size(std::max(26.0 * zoom, 0.55 * height))));
 }
 
 void Panel::show_menu(const QString& words) {
@@ -272,11 +299,13 @@ void Panel::refresh() {
   const status::Shown shown = reader_->shown();
   const status::Words& words = reader_->words();
   name_all();
+  if (fitted_ != window()->size()) fit();
   show_menu(QString::fromStdString(shown.menu));
   const bool alarm = shown.tone == status::Shown::Tone::alarm && !shown.banner.empty();
   if (labels_.state->property("alarm").toBool() != alarm) {
     labels_.state->setProperty("alarm", alarm);
-    style();
+    labels_.state->style()->unpolish(labels_.state);
+    labels_.state->style()->polish(labels_.state);
   }
   const std::string calm = words.of(shown.sound ? "picture/drive" : "picture/drive_no_sound");
   set_words(labels_.state, QString::fromStdString(shown.banner.empty() ? calm : shown.banner),

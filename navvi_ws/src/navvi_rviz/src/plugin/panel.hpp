@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin/flow_layout.hpp"
 #include "plugin/keys.hpp"
 #include "plugin/reader.hpp"
 
@@ -20,7 +21,7 @@ namespace navvi_rviz::plugin {
 
 /// What the guide says and how the trial stands, in words, below the picture; with a button and a
 /// key for each thing that can be asked for. While the spoken menu is open, what it offers and its
-/// keys are in the place of the other buttons. Buttons have names for screen readers. Makes the
+/// keys are in the place of what was said. Buttons have names for screen readers. Makes the
 /// picture as large as the screen; F2 shows what else RViz has. While a trial runs, closing the
 /// window asks the person, as the button that ends it does.
 class Panel : public rviz::Panel {
@@ -30,6 +31,7 @@ class Panel : public rviz::Panel {
   bool eventFilter(QObject* target, QEvent* event) override;
 
  private:
+  static void name(QLabel* label, const char* name);
   QLabel* add_label(QHBoxLayout* row, const char* name, int stretch);
   /// A button with its key, named in the language of the session.
   struct Named {
@@ -40,7 +42,7 @@ class Panel : public rviz::Panel {
                          ///< key of the lessons' words; empty: `key` itself
   };
   /// \param scope  the key works while this is visible
-  QPushButton* add_button(QHBoxLayout* row, const Named& named, const std::function<void()>& action,
+  QPushButton* add_button(QLayout* row, const Named& named, const std::function<void()>& action,
                           QWidget* scope);
   void name_all();
   void add_questions();
@@ -51,7 +53,8 @@ class Panel : public rviz::Panel {
   void request(std::uint8_t what);
   void fill_screen();
   void show_chrome(bool visible);
-  void style();
+  void fit();
+  void style(double zoom);
   void refresh();
 
   std::unique_ptr<Reader> reader_;
@@ -59,18 +62,20 @@ class Panel : public rviz::Panel {
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
   struct {
-    QHBoxLayout *words, *numbers, *questions, *view, *offer, *menu;
+    QHBoxLayout* numbers;
+    FlowLayout *buttons, *menu;
   } rows_;
   struct {
     QLabel *state, *instruction, *distance, *speed, *clock, *menu;
   } labels_;
-  QStackedWidget* pages_;  ///< the buttons; in their place the spoken menu's while it is open
+  QStackedWidget* pages_;  ///< what was said; in its place the spoken menu while it is open
   QPushButton *settings_ = nullptr, *down_ = nullptr;
   QComboBox* visions_ = nullptr;
   QLabel* vision_ = nullptr;
   std::vector<Named> named_;
   QTimer timer_;
   bool chrome_ = false;
+  QSize fitted_;  ///< px, of the window, for which the letters were chosen; none: they are to be
 };
 
 }  // namespace navvi_rviz::plugin
