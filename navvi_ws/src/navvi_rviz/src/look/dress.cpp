@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <navvi_types/angles.hpp>
+#include <optional>
 
 namespace navvi_rviz::look {
 namespace {
@@ -12,7 +13,8 @@ using visualization_msgs::Marker;
 constexpr std::size_t kVeryMany = 20000;  // cubes; so many are left as RViz draws them
 constexpr double kLayer = 0.01;           // m, of a colour over the one it covers
 constexpr double kHeight = 0.03;          // m, of the path above the floor
-constexpr double kEdge = 0.08;            // m, of each of the two edges of path and goal
+constexpr double kEdge = 0.08;            // m, of each of the two edges of path, goal and turn
+constexpr double kThin = 0.04;            // m, of the edge of a box
 
 geometry_msgs::Point point(double x, double y, double z) {
   geometry_msgs::Point msg;
@@ -80,9 +82,9 @@ void add_face(const Eigen::Vector3d& middle, const Eigen::Vector3d& u, const Eig
 
 Eigen::Vector3d vector(const geometry_msgs::Point& at) { return {at.x, at.y, at.z}; }
 
-/// Gives a list of triangles the dark edges of boxes: where two of them in turn make a
-/// parallelogram, it is a face.
-Marker with_edges(const Marker& marker, const Color& edge) {
+/// Gives a list of triangles the edges of boxes: where two of them in turn make a parallelogram, it
+/// is a face. Without edges a triangle is as light as they are, by half.
+Marker with_edges(const Marker& marker, const Frame& edge) {
   Marker list = marker;
   list.points.clear();
   list.colors.clear();
@@ -94,27 +96,28 @@ Marker with_edges(const Marker& marker, const Color& edge) {
                       at(i + 2) == at(i + 4) &&
                       (at(i) + at(i + 2) - at(i + 1) - at(i + 5)).norm() < 1e-6;
     if (!face) {
-      add_triangle({marker.points[i], marker.points[i + 1], marker.points[i + 2]}, fill, list);
+      add_triangle({marker.points[i], marker.points[i + 1], marker.points[i + 2]},
+                   scaled(edge.color, 0.5F), list);
       continue;
     }
     add_face(0.5 * (at(i) + at(i + 2)), 0.5 * (at(i + 1) - at(i)), 0.5 * (at(i + 2) - at(i + 1)),
-             {{0.03, edge}}, fill, list);
+             {edge}, fill, list);
     i += 3;
   }
   return list;
 }
 
-/// The six faces of a box along the axes; sides are a little darker than the top by `shade`.
+/// The six faces of a box along the axes.
 void add_box(const Eigen::Vector3d& middle, const Eigen::Vector3d& size,
-             const std::vector<Frame>& frames, const Color& fill, float shade, Marker& list) {
+             const std::vector<Frame>& frames, const Color& top, const Color& side, Marker& list) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-0.5, 0.5}) {
+    for (const double half : {-0.5, 0.5}) {
       Eigen::Vector3d out = Eigen::Vector3d::Zero(), u = out, v = out;
-      out[axis] = side * size[axis];
+      out[axis] = half * size[axis];
       u[(axis + 1) % 3] = 0.5 * size[(axis + 1) % 3];
       v[(axis + 2) % 3] = 0.5 * size[(axis + 2) % 3];
-      const float light = axis == 2 ? 1.0F : 1.0F - shade * (axis == 0 ? 1.0F : 0.5F);
-      add_face(middle + out, u, v, frames, scaled(fill, light), list);
+      const float light = axis == 0 ? 0.9F : 1.0F;
+      add_face(middle + out, u, v, frames, axis == 2 ? top : scaled(side, light), list);
     }
   }
 }
@@ -144,32 +147,37 @@ class Dresser {
     return {marker.color.r, marker.color.g, marker.color.b};
   }
 
-  /// What matters has a frame; light and shade would take its contrast away.
-  [[nodiscard]] static bool matters(const Marker& marker) {
-    return marker.ns == "box" || marker.ns == "pedestal" || marker.ns == "other";
+  /// What stands around has edges; floors and what moves have none.
+  [[nodiscard]] std::optional<Frame> edge(const Marker& marker) const {
+    const auto found = vision_.edge.find(marker.ns);
+    if (found == vision_.edge.end()) return std::nullopt;
+    const bool stumbled_over = marker.ns == "pedestal" || marker.ns == "other";
+    return Frame{stumbled_over ? 2.0 * kThin : kThin, found->second};
   }
 
   [[nodiscard]] Marker recolored(Marker marker) const {
     if (marker.type == Marker::MESH_RESOURCE) return marker;
-    const Color color = marker.ns == "robot" ? vision_.dark : fill(marker);
+    const std::optional<Frame> edge = this->edge(marker);
+    const bool cubes = edge && marker.type == Marker::CUBE_LIST;  // which cannot have edges
+    const Color color = marker.ns == "robot" ? vision_.dark : cubes ? edge->color : fill(marker);
     const float base = brightest(marker.color);
     marker.color = color_msg(color);
-    for (std_msgs::ColorRGBA& each : marker.colors) {
-      const float light = std::min(1.0F, brightest(each) / base);
-      each = color_msg(scaled(color, matters(marker) ? 0.9F + 0.1F * light : light));
-    }
-    const bool framed = marker.type == Marker::TRIANGLE_LIST && matters(marker) &&
+    for (std_msgs::ColorRGBA& each : marker.colors)
+      each = color_msg(scaled(color, std::min(1.0F, brightest(each) / base)));
+    const bool framed = edge && marker.type == Marker::TRIANGLE_LIST &&
                         marker.points.size() == 3 * marker.colors.size();
-    return framed ? with_edges(marker, vision_.dark) : marker;
+    return framed ? with_edges(marker, *edge) : marker;
   }
 
+  /// Boards and posts are so thin that their sides are their edges.
   [[nodiscard]] Marker boxes(const Marker& marker) const {
     Marker list = triangles(marker);
     const Eigen::Vector3d size(marker.scale.x, marker.scale.y, marker.scale.z);
-    std::vector<Frame> frames;
-    if (matters(marker)) frames = {{0.03, vision_.dark}};
+    const std::optional<Frame> edge = this->edge(marker);
+    const bool thin = edge && marker.ns == "shelf";
+    const std::vector<Frame> frames = edge && !thin ? std::vector{*edge} : std::vector<Frame>{};
     for (const geometry_msgs::Point& at : marker.points)
-      add_box({at.x, at.y, at.z}, size, frames, fill(marker), matters(marker) ? 0.06F : 0.25F,
+      add_box({at.x, at.y, at.z}, size, frames, fill(marker), thin ? edge->color : fill(marker),
               list);
     return list;
   }
@@ -195,7 +203,7 @@ class Dresser {
     Marker list = triangles(marker);
     const double side = 1.4 * marker.scale.x;
     add_box(Eigen::Vector3d::Zero(), {side, side, marker.scale.z},
-            {{kEdge, vision_.dark}, {kEdge, vision_.bright}}, fill(marker), 0.0F, list);
+            {{kEdge, vision_.dark}, {kEdge, vision_.bright}}, fill(marker), fill(marker), list);
     return list;
   }
 
@@ -229,8 +237,9 @@ class Dresser {
           {place(neck - more, -head), place(length + 2.0 * more, 0.0), place(neck - more, head)},
           color, list);
     };
-    add(kEdge, marker.points[0].z, vision_.dark);
-    add(0.0, marker.points[0].z + kLayer, fill(marker));
+    add(2.0 * kEdge, marker.points[0].z, vision_.dark);
+    add(kEdge, marker.points[0].z + kLayer, vision_.bright);
+    add(0.0, marker.points[0].z + 2.0 * kLayer, fill(marker));
     return list;
   }
 

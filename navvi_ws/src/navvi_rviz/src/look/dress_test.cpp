@@ -42,7 +42,7 @@ double contrast(const Color& one, const Color& other) {
   return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
 }
 
-TEST(Vision, what_surrounds_is_dark_enough_for_a_bright_edge_and_for_boxes) {
+TEST(Vision, what_surrounds_is_dark_and_each_thing_has_an_edge_that_is_seen) {
   for (const std::string& name : vision_names()) {
     const Vision& vision = *find_vision(name);
     EXPECT_GE(contrast(vision.text, vision.plate), 7.0) << name;
@@ -50,12 +50,33 @@ TEST(Vision, what_surrounds_is_dark_enough_for_a_bright_edge_and_for_boxes) {
     EXPECT_GE(contrast(vision.fill.at("path"), vision.fill.at("floor")), 7.0) << name;
     for (const char* around : {"floor", "shelf", "wall"}) {
       EXPECT_GE(contrast(vision.bright, vision.fill.at(around)), 4.5) << name << around;
-      for (const char* thing : {"box", "pedestal", "other", "robot"})
-        EXPECT_GE(contrast(vision.fill.at(thing), vision.fill.at(around)), 4.5)
+      EXPECT_GE(contrast(vision.fill.at("robot"), vision.fill.at(around)), 4.5) << name << around;
+      for (const char* thing : {"box", "pedestal", "other"})
+        EXPECT_GE(contrast(vision.edge.at(thing), vision.fill.at(around)), 4.5)
             << name << " " << thing << " " << around;
     }
+    for (const char* border : {"shelf", "wall"})
+      EXPECT_GE(contrast(vision.edge.at(border), vision.fill.at("floor")), 4.5) << name << border;
   }
   EXPECT_EQ(find_vision("none"), nullptr);
+}
+
+TEST(Vision, the_fills_of_path_and_goal_stand_out_from_the_fills_beside_them) {
+  for (const std::string& name : vision_names()) {
+    const Vision& vision = *find_vision(name);
+    for (const char* way : {"path", "goal"})
+      for (const char* beside : {"floor", "shelf", "wall", "box", "pedestal", "other"})
+        EXPECT_GE(contrast(vision.fill.at(way), vision.fill.at(beside)), 4.5)
+            << name << " " << way << " " << beside;
+  }
+}
+
+TEST(Vision, the_turn_is_apart_from_the_path_that_it_lies_on) {
+  for (const std::string& name : vision_names()) {
+    const Vision& vision = *find_vision(name);
+    EXPECT_GE(contrast(vision.fill.at("turn"), vision.fill.at("path")), 4.5) << name;
+    EXPECT_GE(contrast(vision.fill.at("turn"), vision.bright), 4.5) << name;
+  }
 }
 
 TEST(Dress, keeps_names_and_deletions_and_leaves_texts_out) {
@@ -81,7 +102,7 @@ TEST(Dress, what_is_lit_becomes_triangles_of_fixed_colours) {
   }
 }
 
-TEST(Dress, each_face_of_a_slanting_box_gets_a_dark_edge) {
+TEST(Dress, each_face_of_a_slanting_box_gets_an_edge) {
   Marker list = marker("box", Marker::TRIANGLE_LIST);
   for (const auto& [x, y] :
        {std::pair{0.0, 0.0}, {1.0, 0.5}, {0.5, 1.5}, {0.0, 0.0}, {0.5, 1.5}, {-0.5, 1.0}}) {
@@ -94,6 +115,18 @@ TEST(Dress, each_face_of_a_slanting_box_gets_a_dark_edge) {
   EXPECT_EQ(dressed(list).colors.size(), 10U) << "four edges and the fill, two triangles each";
   list.points.back().x = 0.0;
   EXPECT_EQ(dressed(list).colors.size(), 2U) << "no parallelogram";
+}
+
+TEST(Dress, the_turn_has_a_bright_edge_in_a_dark_one) {
+  Marker turn = marker("turn", Marker::ARROW);
+  turn.points.resize(2);
+  turn.points[1].x = 1.4;
+  for (const std::string& name : vision_names()) {
+    std::set<float> greens;
+    for (const auto& color : dressed(turn, name.c_str()).colors) greens.insert(color.g);
+    const Vision& vision = *find_vision(name);
+    EXPECT_EQ(greens, (std::set<float>{vision.dark.g, vision.bright.g, vision.fill.at("turn").g}));
+  }
 }
 
 TEST(Dress, so_many_cubes_that_it_would_be_slow_stay_cubes) {

@@ -11,15 +11,20 @@ Vision high_contrast() {
   Vision vision;
   vision.fill = {{"floor", {0.02F, 0.025F, 0.03F}},
                  {"floor line", {0.20F, 0.22F, 0.24F}},
-                 {"shelf", {0.29F, 0.37F, 0.47F}},
-                 {"wall", {0.35F, 0.35F, 0.35F}},
-                 {"box", kYellow},
-                 {"pedestal", {1.00F, 0.84F, 0.66F}},
-                 {"other", {0.88F, 0.88F, 0.84F}},
+                 {"shelf", {0.11F, 0.16F, 0.22F}},
+                 {"wall", {0.15F, 0.15F, 0.15F}},
+                 {"box", {0.19F, 0.16F, 0.00F}},
+                 {"pedestal", {0.20F, 0.15F, 0.08F}},
+                 {"other", {0.15F, 0.15F, 0.14F}},
                  {"robot", kWhite},
                  {"path", {0.82F, 0.45F, 1.00F}},
-                 {"goal", {1.00F, 0.15F, 0.15F}},
-                 {"turn", kWhite}};
+                 {"goal", {1.00F, 0.33F, 0.25F}},
+                 {"turn", kBlack}};
+  vision.edge = {{"shelf", {0.40F, 0.49F, 0.60F}},
+                 {"wall", {0.50F, 0.50F, 0.50F}},
+                 {"box", kYellow},
+                 {"pedestal", {1.00F, 0.84F, 0.66F}},
+                 {"other", {0.88F, 0.88F, 0.84F}}};
   vision.bright = vision.text = kWhite;
   vision.dark = vision.plate = kBlack;
   return vision;
@@ -28,9 +33,11 @@ Vision high_contrast() {
 Vision yellow_on_black() {
   Vision vision = high_contrast();
   vision.fill["floor"] = kBlack;
-  vision.fill["shelf"] = vision.fill["wall"] = {0.36F, 0.36F, 0.30F};
-  for (const char* ns : {"path", "goal", "turn"}) vision.fill[ns] = kYellow;
-  for (const char* ns : {"box", "pedestal", "other"}) vision.fill[ns] = {0.90F, 0.90F, 0.80F};
+  vision.fill["path"] = vision.fill["goal"] = kYellow;
+  vision.edge["shelf"] = vision.edge["wall"] = {0.48F, 0.48F, 0.40F};
+  for (const char* ns : {"shelf", "wall", "box", "pedestal", "other"})
+    vision.fill[ns] = {0.15F, 0.15F, 0.13F};
+  for (const char* ns : {"box", "pedestal", "other"}) vision.edge[ns] = {0.90F, 0.90F, 0.80F};
   vision.bright = vision.text = kYellow;
   return vision;
 }
@@ -47,7 +54,7 @@ Vision color_blind() {
   Vision vision = high_contrast();
   vision.fill["path"] = {0.45F, 0.78F, 1.00F};
   vision.fill["goal"] = {0.95F, 0.45F, 0.05F};
-  vision.fill["pedestal"] = {1.00F, 0.82F, 0.92F};
+  vision.edge["pedestal"] = {1.00F, 0.82F, 0.92F};
   return vision;
 }
 
