@@ -54,14 +54,14 @@ class Picture:
     """RViz with a hand-made scene on a virtual screen."""
     filled = True
 
-    def __init__(self, env, vision, view="chase"):
+    def __init__(self, env, vision, view="chase", size="1920x1080"):
         import rospy
         from geometry_msgs.msg import Point, TransformStamped
         from std_msgs.msg import ColorRGBA
         from tf2_msgs.msg import TFMessage
         from visualization_msgs.msg import Marker, MarkerArray
         self.Marker, self.Point, self.Color = Marker, Point, ColorRGBA
-        self.display = Display("1920x1080")
+        self.display = Display(size)
         self.env = dict(env, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1")
         self.processes = []
         self.furnish()
