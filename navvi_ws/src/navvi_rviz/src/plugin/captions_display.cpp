@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <navvi_types/angles.hpp>
 
 #include "look/solids.hpp"
@@ -20,12 +21,18 @@
 namespace navvi_rviz::plugin {
 namespace {
 
+constexpr int kGoal = 0;                 // of the label of the goal among feedback_node's markers
 constexpr double kAhead[] = {2.0, 4.0};  // m along the path, to where the edge arrow leads
 constexpr double kLeastText = 26.0;      // px, of capital letters
 constexpr double kMargin = 3.0;          // m, around what the view from above holds
 constexpr double kRobot = 0.3;           // m, half of what plates leave free of the robot
 constexpr double kPiece = 0.8;           // m, of the path, in which plates leave it free
-constexpr double kLargest = 60.0;        // px/m, of that view
+constexpr double kNextWay = 3.5;   // m, around the robot, in which plates never cover the path
+constexpr double kHurry = 8.0;     // m, around it, in which what moves moves the banner
+constexpr double kNear = 0.3;      // m, before the camera
+constexpr double kBanner = 0.115;  // of the picture's height: the banner's letters at most
+constexpr double kArrow = 0.2;     // of the picture's height: the arrow at its edge at most
+constexpr double kLargest = 60.0;  // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
 // Of its distance, by which RViz lifts its follower across its axis.
 constexpr double kLift = 0.2;
@@ -96,13 +103,19 @@ CaptionsDisplay::Seen CaptionsDisplay::see(const Eigen::Vector3d& place) const {
                          static_cast<float>(place.z()));
   const Ogre::Vector3 seen = camera->getViewMatrix() * at;
   Seen result{{seen.x, seen.y, seen.z}, std::nullopt};
-  if (seen.z >= 0.0F) return result;
-  const Ogre::Vector3 flat = camera->getProjectionMatrix() * seen;
-  const Ogre::Viewport* port = camera->getViewport();
-  result.pixel =
-      Eigen::Vector2d(0.5 * (1.0 + static_cast<double>(flat.x)) * port->getActualWidth(),
-                      0.5 * (1.0 - static_cast<double>(flat.y)) * port->getActualHeight());
+  if (seen.z < 0.0F) result.pixel = pixel(result.in_camera);
   return result;
+}
+
+Eigen::Vector2d CaptionsDisplay::pixel(const Eigen::Vector3d& in_camera) const {
+  const Ogre::Camera* camera = context_->getViewManager()->getCurrent()->getCamera();
+  const Ogre::Vector3 flat =
+      camera->getProjectionMatrix() * Ogre::Vector3(static_cast<float>(in_camera.x()),
+                                                    static_cast<float>(in_camera.y()),
+                                                    static_cast<float>(in_camera.z()));
+  const Ogre::Viewport* port = camera->getViewport();
+  return {0.5 * (1.0 + static_cast<double>(flat.x)) * port->getActualWidth(),
+          0.5 * (1.0 - static_cast<double>(flat.y)) * port->getActualHeight()};
 }
 
 std::optional<navvi_types::Pose2> CaptionsDisplay::robot() const {
@@ -142,48 +155,46 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
     choose_view(*context_,
                 QString::fromStdString(ros::param::param<std::string>("~view", "chase")));
   onDisable();
-  std::vector<screen::Rect> taken;
-  show_banner(picture, taken);
-  if (const auto pose = robot()) {
+  const auto pose = robot();
+  screen::Taken taken = things(pose, kHurry, picture);
+  if (pose) {
     show_from_above(*pose, picture, taken);
     show_from_behind(*pose, static_cast<double>(wall_dt));
-    show_way(*pose, picture, taken);
-    const Eigen::Vector3d at(pose->position.x(), pose->position.y(), kRobot);
-    keep_free({at.array() - kRobot, at.array() + kRobot}, picture, taken);
   }
-  for (const auto* things : {&goal_parts_, &pedestals_, &movers_})
-    for (const Eigen::AlignedBox3d& thing : *things) keep_free(thing, picture, taken);
-  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
-    const Eigen::Vector3d way = path_[i + 1] - path_[i];
-    const Eigen::Vector3d half(0.5 * kPiece, 0.5 * kPiece, 0.0);
-    for (double share = 0.0; share < 1.0; share += kPiece / std::max(kPiece, way.norm())) {
-      const Eigen::Vector3d place = path_[i] + share * way;
-      keep_free({place - half, place + half}, picture, taken);
-    }
-  }
+  show_banner(picture, taken);
+  const screen::Taken others = things(pose, std::numeric_limits<double>::infinity(), picture);
+  taken.always.insert(taken.always.end(), others.always.begin(), others.always.end());
+  if (pose) show_way(*pose, picture, taken);
   show_labels(picture, taken);
 }
 
-void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture,
-                                  std::vector<screen::Rect>& taken) {
+void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture, screen::Taken& taken) {
   const status::Shown shown = reader_->shown();
   if (shown.banner.empty()) return;
   const bool inverted = shown.tone == status::Shown::Tone::alarm;
-  int large = 2 * height_;
+  int large = static_cast<int>(
+      std::min(2.0 * height_, std::max(kBanner * picture.y(), static_cast<double>(kLeastText))));
   Plate* plate = &words("banner", shown.banner, large, inverted);
   const double width = size_of(*plate).x();
   if (width > picture.x()) {
     large = static_cast<int>(0.95 * large * picture.x() / width);
     plate = &words("banner", shown.banner, large, inverted);
   }
-  const Eigen::Vector2d corner(0.5 * (picture.x() - size_of(*plate).x()), 10.0);
+  const Eigen::Vector2d size = size_of(*plate);
+  const Eigen::Vector2d usual(0.5 * picture.x(), size.y() + 20.0);
+  std::optional<Eigen::Vector2d>& before = plates_.at("banner").place;
+  // What must not be missed is shown, whatever it covers.
+  const Eigen::Vector2d corner =
+      screen::place({{usual, size, before}}, picture, {taken.always, {}})[0].value_or(
+          Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
+  before = corner - usual;
   plate->show(corner.x(), corner.y());
-  taken.emplace_back(corner, corner + size_of(*plate));
+  taken.always.emplace_back(corner, corner + size);
 }
 
 void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
-                               std::vector<screen::Rect>& taken) {
-  const int size = 4 * height_;
+                               screen::Taken& taken) {
+  const int size = std::min(4 * height_, static_cast<int>(kArrow * picture.y()));
   std::optional<screen::EdgeArrow> arrow;
   for (const double ahead : kAhead) {
     const auto way = screen::way_ahead(path_, robot.position, ahead);
@@ -196,46 +207,86 @@ void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vec
   }
   if (!arrow) return;
   Plate& plate = this->arrow("edge", arrow->angle, size);
-  const Eigen::Vector2d corner = arrow->at - 0.5 * size_of(plate);
-  plate.show(corner.x(), corner.y());
-  taken.emplace_back(corner, corner + size_of(plate));
+  const Eigen::Vector2d low = arrow->at + Eigen::Vector2d(0.0, 0.5 * size_of(plate).y());
+  std::optional<Eigen::Vector2d>& before = plates_.at("edge").place;
+  const auto corner = screen::place({{low, size_of(plate), before}}, picture, taken)[0];
+  if (!corner) return;
+  before = *corner - low;
+  plate.show(corner->x(), corner->y());
+  taken.always.emplace_back(*corner, *corner + size_of(plate));
 }
 
-void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture,
-                                  const std::vector<screen::Rect>& taken) {
+void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, const screen::Taken& taken) {
   std::vector<screen::Plate> wanted;
   std::vector<Painted*> plates;
-  const auto add = [&](const std::string& name, const std::string& text,
-                       const Eigen::Vector3d& at) {
-    const Seen seen = see(at);
-    if (!seen.pixel || (seen.pixel->array() < 0.0).any() ||
-        (seen.pixel->array() > picture.array()).any())
-      return;
+  const screen::Rect all(Eigen::Vector2d::Zero(), picture);
+  const auto add = [&](const std::string& name, const std::string& text, const Eigen::Vector3d& at,
+                       bool from_edge) {
+    Seen seen = see(at);
+    if (!seen.pixel) return;
+    // The goal's stands at the edge where the goal is beyond it.
+    if (from_edge) seen.pixel = seen.pixel->cwiseMax(all.min()).cwiseMin(all.max());
+    if (!all.contains(*seen.pixel)) return;
     const Plate& plate = words(name, text, height_, false);
     plates.push_back(&plates_.at(name));
     wanted.push_back({*seen.pixel, size_of(plate), plates.back()->place});
   };
   for (const auto& [id, label] : labels_)
-    add("label" + std::to_string(id), label.first, label.second);
+    add("label" + std::to_string(id), label.first, label.second, id == kGoal);
   if (from_above() && start_ && !labels_.empty())
-    add("start", reader_->words().of("picture/plate_start"), {start_->x(), start_->y(), 0.0});
-  const std::vector<Eigen::Vector2d> corners = screen::place(wanted, picture, taken);
+    add("start", reader_->words().of("picture/plate_start"), {start_->x(), start_->y(), 0.0},
+        false);
+  const auto corners = screen::place(wanted, picture, taken);
   for (std::size_t i = 0; i < plates.size(); ++i) {
-    plates[i]->plate->show(corners[i].x(), corners[i].y());
-    plates[i]->place = corners[i] - wanted[i].anchor;
+    if (!corners[i]) continue;
+    plates[i]->plate->show(corners[i]->x(), corners[i]->y());
+    plates[i]->place = *corners[i] - wanted[i].anchor;
   }
 }
 
-void CaptionsDisplay::keep_free(const Eigen::AlignedBox3d& thing, const Eigen::Vector2d& picture,
-                                std::vector<screen::Rect>& taken) const {
-  if (thing.isEmpty()) return;
+screen::Rect CaptionsDisplay::seen(const Eigen::AlignedBox3d& thing) const {
   screen::Rect place;
+  if (thing.isEmpty()) return place;
   for (int corner = 0; corner < 8; ++corner) {
-    const Seen seen = see(thing.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
-    if (!seen.pixel) return;
-    place.extend(*seen.pixel);
+    Eigen::Vector3d at =
+        see(thing.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))).in_camera;
+    if (!from_above() && at.z() > -kNear) {
+      if (at.z() > kNear) continue;
+      at.z() = -kNear;
+    }
+    place.extend(pixel(at));
   }
-  if (place.intersects(screen::Rect(Eigen::Vector2d::Zero(), picture))) taken.push_back(place);
+  return place;
+}
+
+screen::Taken CaptionsDisplay::things(const std::optional<navvi_types::Pose2>& robot, double reach,
+                                      const Eigen::Vector2d& picture) const {
+  screen::Taken taken;
+  const auto add = [&](const Eigen::AlignedBox3d& thing, std::vector<screen::Rect>& to) {
+    const screen::Rect place = seen(thing);
+    if (!place.isEmpty() && place.intersects(screen::Rect(Eigen::Vector2d::Zero(), picture)))
+      to.push_back(place);
+  };
+  const auto away = [&](const Eigen::Vector3d& place) {
+    return robot ? (place.head<2>() - robot->position).norm() : 0.0;
+  };
+  if (robot) {
+    const Eigen::Vector3d at(robot->position.x(), robot->position.y(), kRobot);
+    add({at.array() - kRobot, at.array() + kRobot}, taken.always);
+  }
+  for (const Eigen::AlignedBox3d& mover : movers_)
+    if (!mover.isEmpty() && away(mover.center()) <= reach) add(mover, taken.always);
+  for (const auto* those : {&goal_parts_, &pedestals_})
+    for (const Eigen::AlignedBox3d& thing : *those) add(thing, taken.rather);
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+    const Eigen::Vector3d way = path_[i + 1] - path_[i];
+    const Eigen::Vector3d half(0.5 * kPiece, 0.5 * kPiece, 0.0);
+    for (double share = 0.0; share < 1.0; share += kPiece / std::max(kPiece, way.norm())) {
+      const Eigen::Vector3d place = path_[i] + share * way;
+      add({place - half, place + half}, away(place) <= kNextWay ? taken.always : taken.rather);
+    }
+  }
+  return taken;
 }
 
 bool CaptionsDisplay::from_above() const {
@@ -243,8 +294,7 @@ bool CaptionsDisplay::from_above() const {
 }
 
 void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
-                                      const Eigen::Vector2d& picture,
-                                      std::vector<screen::Rect>& taken) {
+                                      const Eigen::Vector2d& picture, screen::Taken& taken) {
   const auto& guidance = reader_->guidance();
   if (guidance && guidance->leads() && goal_ != guidance->goal) {
     goal_ = guidance->goal;
@@ -267,7 +317,7 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   Plate& plate = arrow("robot", robot.yaw, 3 * height_);
   const Eigen::Vector2d corner = *pixel - 0.5 * size_of(plate);
   plate.show(corner.x(), corner.y());
-  taken.emplace_back(corner, corner + size_of(plate));
+  taken.always.emplace_back(corner, corner + size_of(plate));
 }
 
 void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, double time) {

@@ -47,6 +47,8 @@ class CaptionsDisplay : public rviz::Display {
 
   void take(const visualization_msgs::MarkerArray& markers);
   [[nodiscard]] Seen see(const Eigen::Vector3d& place) const;
+  /// px \param in_camera  m, before the camera: z < 0
+  [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d& in_camera) const;
   /// base_link in the fixed frame.
   [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
   /// The plate of that name with these words on it.
@@ -57,17 +59,21 @@ class CaptionsDisplay : public rviz::Display {
   /// An arrow's plate. \param angle  rad, counter-clockwise from right
   Plate& arrow(const std::string& name, double angle, int size);
   [[nodiscard]] bool from_above() const;
-  /// Plates leave `thing` free. \param thing  m, in map
-  void keep_free(const Eigen::AlignedBox3d& thing, const Eigen::Vector2d& picture,
-                 std::vector<screen::Rect>& taken) const;
-  void show_banner(const Eigen::Vector2d& picture, std::vector<screen::Rect>& taken);
+  /// px, where a thing is in the picture, also if part of it is behind the camera; empty: nowhere
+  /// \param thing  m, in map
+  [[nodiscard]] screen::Rect seen(const Eigen::AlignedBox3d& thing) const;
+  /// What plates leave free: of what moves and of the path what is within `reach` of the robot.
+  /// \param reach  m
+  [[nodiscard]] screen::Taken things(const std::optional<navvi_types::Pose2>& robot, double reach,
+                                     const Eigen::Vector2d& picture) const;
+  void show_banner(const Eigen::Vector2d& picture, screen::Taken& taken);
   void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
-                std::vector<screen::Rect>& taken);
-  void show_labels(const Eigen::Vector2d& picture, const std::vector<screen::Rect>& taken);
+                screen::Taken& taken);
+  void show_labels(const Eigen::Vector2d& picture, const screen::Taken& taken);
   /// The view from above holds the robot, the start, the goal and the path, and shows where they
   /// are.
   void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
-                       std::vector<screen::Rect>& taken);
+                       screen::Taken& taken);
   /// The view from behind looks over what stands between it and the robot.
   /// \param time  s, since it last did so
   void show_from_behind(const navvi_types::Pose2& robot, double time);

@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <navvi_msgs/TrialEvent.h>
 #include <ros/package.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <navvi_config/reader.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -15,6 +16,8 @@ using navvi_types::from_msg;
 using navvi_types::subscribe;
 
 namespace {
+
+constexpr int kTurn = 1;  // of the label of the next turn among feedback_node's markers
 
 double now() { return ros::SteadyTime::now().toSec(); }
 
@@ -39,6 +42,16 @@ Reader::Reader() {
   keep(subscribe<nav_msgs::Odometry, navvi_types::Odometry>(
       node_, "odom", 1, from_msg,
       [this](const navvi_types::Odometry& odom) { status_.take_speed(odom.velocity.linear); }));
+  keep(subscribe<navvi_msgs::Scenario, navvi_types::Scenario>(
+      node_, "navvi/scenario", 1, from_msg,
+      [this](const navvi_types::Scenario& scenario) { goal_ = scenario.goal; }));
+  keep(node_.subscribe<visualization_msgs::MarkerArray>(
+      "navvi/markers", 1, [this](const visualization_msgs::MarkerArray::ConstPtr& markers) {
+        std::string turn;
+        for (const auto& marker : markers->markers)
+          if (marker.ns == "label" && marker.id == kTurn) turn = marker.text;
+        status_.take_turn(turn);
+      }));
   keep(node_.subscribe<navvi_msgs::TrialEvent>(
       "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& event) {
         status_.take_event(event->type, event->header.stamp.toSec());
@@ -64,6 +77,11 @@ void Reader::read_words() {
   } catch (const navvi_config::ConfigError& error) {
     ROS_WARN("The picture keeps its words: %s", error.what());
   }
+}
+
+std::optional<Eigen::Vector2d> Reader::goal_ahead() const {
+  const bool led = guidance_ && guidance_->leads();
+  return status_.trial_waits() && !led ? goal_ : std::nullopt;
 }
 
 status::Shown Reader::shown() {

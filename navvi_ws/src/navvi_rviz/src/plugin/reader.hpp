@@ -18,6 +18,8 @@ class Reader {
   [[nodiscard]] const status::Words& words() const { return status_.words(); }
   [[nodiscard]] bool keyboard() const { return status_.keyboard(); }
   [[nodiscard]] bool trial_runs() const { return status_.trial_runs(); }
+  /// The goal of the trial that waits for the person to begin it, m, in map.
+  [[nodiscard]] std::optional<Eigen::Vector2d> goal_ahead() const;
 
  private:
   void read_words();
@@ -27,6 +29,7 @@ class Reader {
   status::Status status_;
   status::SteadyBanner banner_;
   std::optional<navvi_types::Guidance> guidance_;
+  std::optional<Eigen::Vector2d> goal_;  ///< m, in map, of the scenario
   std::vector<ros::Subscriber> subscribers_;
 };
 

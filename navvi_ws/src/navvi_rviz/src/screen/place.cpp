@@ -8,7 +8,6 @@ namespace navvi_rviz::screen {
 namespace {
 
 constexpr double kGap = 8.0;  // px, between plates, and from a plate to its place
-constexpr int kSteps = 60;    // of a quarter of a plate, to each side
 constexpr double kPatience = 1.5;
 
 Rect rect_at(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) {
@@ -20,39 +19,55 @@ Eigen::Vector2d into(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
   return corner.cwiseMin(picture - size).cwiseMax(Eigen::Vector2d::Zero());
 }
 
+bool is_free(const Rect& mine, const std::vector<Rect>& used) {
+  return std::none_of(used.begin(), used.end(), [&](const Rect& other) {
+    return mine.intersects(Rect(other.min().array() - kGap, other.max().array() + kGap));
+  });
+}
+
+Eigen::Vector2d over(const Plate& plate) {
+  return plate.anchor - Eigen::Vector2d(0.5 * plate.size.x(), plate.size.y() + kGap);
+}
+
+/// The corner nearest to the one over the plate's place where it covers nothing of `used`.
+std::optional<Eigen::Vector2d> place(const Plate& plate, const Eigen::Vector2d& picture,
+                                     const std::vector<Rect>& used) {
+  const Eigen::Vector2d wish = over(plate);
+  std::optional<Eigen::Vector2d> found;
+  double best = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Eigen::Vector2d& way) {
+    if (way.norm() >= best) return;
+    const Eigen::Vector2d trial = into(wish + way, plate.size, picture);
+    if (!is_free(rect_at(trial, plate.size), used)) return;
+    best = way.norm();
+    found = trial;
+  };
+  consider(Eigen::Vector2d::Zero());
+  const Eigen::Vector2d step = 0.25 * plate.size + Eigen::Vector2d(kGap, kGap);
+  const Eigen::Vector2i most = (picture.cwiseQuotient(step).array() + 1.0).cast<int>();
+  for (int across = -most.x(); across <= most.x() && best > 0.0; ++across)
+    for (int down = -most.y(); down <= most.y(); ++down)
+      consider(step.cwiseProduct(Eigen::Vector2d(across, down)));
+  if (!plate.before || !found || best == 0.0) return found;
+  const Eigen::Vector2d stay = into(plate.anchor + *plate.before, plate.size, picture);
+  const bool near = (stay - wish).norm() <= kPatience * best;
+  return near && is_free(rect_at(stay, plate.size), used) ? stay : found;
+}
+
 }  // namespace
 
-std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates, const Eigen::Vector2d& picture,
-                                   const std::vector<Rect>& taken) {
-  std::vector<Rect> used = taken;
-  std::vector<Eigen::Vector2d> corners;
+std::vector<std::optional<Eigen::Vector2d>> place(const std::vector<Plate>& plates,
+                                                  const Eigen::Vector2d& picture,
+                                                  const Taken& taken) {
+  std::vector<Rect> always = taken.always, all = taken.always;
+  all.insert(all.end(), taken.rather.begin(), taken.rather.end());
+  std::vector<std::optional<Eigen::Vector2d>> corners;
   for (const Plate& plate : plates) {
-    const Eigen::Vector2d wish =
-        plate.anchor - Eigen::Vector2d(0.5 * plate.size.x(), plate.size.y() + kGap);
-    const auto free = [&](const Eigen::Vector2d& corner) {
-      const Rect mine = rect_at(corner, plate.size);
-      return std::none_of(used.begin(), used.end(), [&](const Rect& other) {
-        return mine.intersects(Rect(other.min().array() - kGap, other.max().array() + kGap));
-      });
-    };
-    // Aside only where there is no room above or below.
-    Eigen::Vector2d corner = into(wish, plate.size, picture);
-    double best = free(corner) ? 0.0 : std::numeric_limits<double>::infinity();
-    const Eigen::Vector2d step = 0.25 * plate.size + Eigen::Vector2d(kGap, kGap);
-    for (int across = -kSteps; across <= kSteps && best > 0.0; ++across)
-      for (int down = -kSteps; down <= kSteps; ++down) {
-        const Eigen::Vector2d way = step.cwiseProduct(Eigen::Vector2d(across, down));
-        const Eigen::Vector2d trial = into(wish + way, plate.size, picture);
-        if (way.norm() >= best || !free(trial)) continue;
-        best = way.norm();
-        corner = trial;
-      }
-    if (plate.before && best > 0.0) {
-      const Eigen::Vector2d stay = into(plate.anchor + *plate.before, plate.size, picture);
-      if ((stay - wish).norm() <= kPatience * best && free(stay)) corner = stay;
-    }
+    std::optional<Eigen::Vector2d> corner = place(plate, picture, all);
+    if (!corner) corner = place(plate, picture, always);
     corners.push_back(corner);
-    used.push_back(rect_at(corner, plate.size));
+    if (!corner) continue;
+    for (auto* used : {&always, &all}) used->push_back(rect_at(*corner, plate.size));
   }
   return corners;
 }

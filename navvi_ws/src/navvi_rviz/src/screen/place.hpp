@@ -16,13 +16,19 @@ struct Plate {
   std::optional<Eigen::Vector2d> before;
 };
 
+/// What plates leave free.
+struct Taken {
+  std::vector<Rect> always;  ///< a plate without room beside it is not drawn
+  std::vector<Rect> rather;  ///< as long as there is room elsewhere
+};
+
 /// Where plates are drawn: over their places if there is room, inside the picture, and never over
 /// each other or what is taken. The first are placed first. One that had to go aside stays where it
 /// is until there is room over its place or much nearer to it.
-/// \return the left upper corner of each, px
-[[nodiscard]] std::vector<Eigen::Vector2d> place(const std::vector<Plate>& plates,
-                                                 const Eigen::Vector2d& picture,
-                                                 const std::vector<Rect>& taken);
+/// \return the left upper corner of each, px; nullopt: there is no room
+[[nodiscard]] std::vector<std::optional<Eigen::Vector2d>> place(const std::vector<Plate>& plates,
+                                                                const Eigen::Vector2d& picture,
+                                                                const Taken& taken);
 
 /// Where on the edge of the picture an arrow to something outside is drawn.
 struct EdgeArrow {

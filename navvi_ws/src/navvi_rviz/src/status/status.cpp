@@ -118,6 +118,16 @@ std::optional<Status::Said> Status::warning(double time) const {
                                                                                 : std::nullopt;
 }
 
+/// What was said is soon no longer true: of the way the plate's words are shown at once, after all
+/// else as soon as that was read.
+std::string Status::instruction(double time) const {
+  if (!last_) return "";
+  const bool leads = guidance_ && guidance_->leads();
+  const bool read = time - last_->time >= kShown;
+  if (family_of(last_->kind) == CueFamily::way && !turn_.empty()) return turn_;
+  return leads && read ? turn_ : last_->text;
+}
+
 /// The first that applies, most urgent first.
 void Status::choose_banner(double time, Shown& shown) const {
   using Tone = Shown::Tone;
@@ -151,7 +161,7 @@ void Status::choose_banner(double time, Shown& shown) const {
 Shown Status::shown(double time, double ros_time) const {
   Shown shown;
   choose_banner(time, shown);
-  if (last_) shown.instruction = last_->text;
+  shown.instruction = instruction(time);
   shown.menu = menu_;
   if (guidance_ && guidance_->leads()) shown.distance = guidance_->goal_distance;
   shown.speed = std::abs(speed_);

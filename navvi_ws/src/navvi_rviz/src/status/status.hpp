@@ -18,7 +18,7 @@ struct Shown {
 
   std::string banner = {};  ///< what matters most now, such as "stop, worker ahead"; empty: nothing
   Tone tone = Tone::calm;   ///< of the banner
-  std::string instruction = {};         ///< what the guide said last
+  std::string instruction = {};         ///< what the guide said last; of the way: as it is now
   std::string menu = {};                ///< what the spoken menu offers; empty while it is closed
   std::optional<double> distance = {};  ///< m, left to the goal along the path
   double speed = 0.0;                   ///< m/s, >= 0
@@ -41,6 +41,10 @@ class Status {
   [[nodiscard]] bool trial_runs() const {
     return trial_ == navvi_types::TrialState::State::running;
   }
+  /// What the plate of the next turn says now; empty: there is none.
+  void take_turn(const std::string& text) { turn_ = text; }
+  /// For the person to begin it.
+  [[nodiscard]] bool trial_waits() const { return trial_ == navvi_types::TrialState::State::ready; }
   /// \param ros_time  s, of the event
   void take_event(const std::string& type, double ros_time);
   /// \param state  as in /diagnostics: works, missing, off
@@ -61,6 +65,7 @@ class Status {
     double time;
   };
 
+  [[nodiscard]] std::string instruction(double time) const;
   [[nodiscard]] std::optional<Said> warning(double time) const;
   void choose_banner(double time, Shown& shown) const;
 
@@ -72,6 +77,7 @@ class Status {
   std::optional<Said> last_, warning_;
   std::string lost_;  ///< sentence while the hands are lost
   std::string menu_;
+  std::string turn_;  ///< what its plate says
   double speed_ = 0.0;
   std::optional<double> begun_, ended_;  ///< s, ROS time
   std::optional<double> silent_;         ///< since when nothing can be heard

@@ -174,5 +174,24 @@ TEST(Status, the_clock_runs_from_the_trials_start_to_its_end) {
   EXPECT_EQ(status.shown(0.0, 99.0).clock, 4.0);
 }
 
+TEST(Status, the_panel_says_of_the_way_what_the_plate_says) {
+  Status status = speaking();
+  Guidance guidance;
+  guidance.state = Guidance::State::following;
+  status.take(guidance);
+  const auto shown = [&](double time) { return status.shown(time, 0.0).instruction; };
+  status.take(said(CueKind::turn_ahead, "in 3 meters, turn to 9 o'clock"), 0.0);
+  EXPECT_EQ(shown(0.0), "in 3 meters, turn to 9 o'clock");
+  status.take_turn("in 1.2 meters, 9 o'clock");
+  EXPECT_EQ(shown(1.0), "in 1.2 meters, 9 o'clock");
+  status.take(said(CueKind::collision_shelf, "hit, shelf on the left"), 2.0);
+  EXPECT_EQ(shown(2.0), "hit, shelf on the left") << "to be read first";
+  EXPECT_EQ(shown(7.0), "in 1.2 meters, 9 o'clock");
+  status.take(said(CueKind::straight, "drive straight, 4 meters"), 8.0);
+  status.take_turn("");
+  EXPECT_EQ(shown(8.0), "drive straight, 4 meters");
+  EXPECT_EQ(shown(13.0), "") << "it is less by now";
+}
+
 }  // namespace
 }  // namespace navvi_rviz::status
