@@ -53,6 +53,7 @@ def edge_contrast(shown, without, near):
 class Picture:
     """RViz with a hand-made scene on a virtual screen."""
     filled = True
+    words = []  # for the launch file
 
     def __init__(self, env, vision, view="chase", size="1920x1080"):
         import rospy
@@ -78,7 +79,7 @@ class Picture:
         self.frames = frames
         if self.filled:
             self.show(THINGS)
-        self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}", f"view:={view}"],
+        self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}", f"view:={view}", *self.words],
                                                env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True))
 
     def furnish(self):

@@ -103,8 +103,10 @@ class FeedbackNode {
     live_ = devices.hands.live;
     if (live_) outlets_.send(devices.hands);
     tell(*told, called);
-    outlets_.show(guide_.guidance_fresh(time) ? guide_.guidance() : std::nullopt, inlets_.path(),
-                  plates_, time);
+    const auto guidance = guide_.guidance_fresh(time) ? guide_.guidance() : std::nullopt;
+    const bool ahead = !(guidance && guidance->leads()) && inlets_.preview().size() > 1;
+    outlets_.show(ahead ? picture::preview_of(inlets_.preview()) : guidance,
+                  ahead ? inlets_.preview() : inlets_.path(), plates_, time);
   }
 
   void tell(const Told& told, const std::function<void()>& called) {

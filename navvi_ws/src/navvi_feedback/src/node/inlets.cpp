@@ -103,6 +103,7 @@ void Inlets::subscribe_to_robot() {
   listen<nav_msgs::Odometry>("odom", 1,
                              [this](const auto& odometry) { guide_.take(odometry, now()); });
   listen<nav_msgs::Path>("navvi/path", 1, [this](const auto& path) { path_ = path; });
+  listen<nav_msgs::Path>("navvi/preview", 1, [this](const auto& path) { preview_ = path; });
 }
 
 void Inlets::subscribe_to_trials() {

@@ -33,6 +33,8 @@ class Inlets {
   void forget_buttons() { asked_.clear(); }
   /// m, in map
   [[nodiscard]] const std::vector<Eigen::Vector2d>& path() const { return path_; }
+  /// Of the trial that waits to begin; m, in map
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& preview() const { return preview_; }
 
  private:
   template <typename Msg, typename Take>
@@ -52,10 +54,10 @@ class Inlets {
   Beat beat_;
   tf2_ros::Buffer tf_;
   navvi_types::TransformListener tf_listener_{tf_};
-  std::vector<Eigen::Vector2d> path_;  ///< m, in map
-  std::vector<drive::Button> asked_;   ///< by topic, not answered yet
-  bool twin_ = false;                  ///< another node drives under the name of this one
-  bool runs_ = false;                  ///< a trial
+  std::vector<Eigen::Vector2d> path_, preview_;  ///< m, in map
+  std::vector<drive::Button> asked_;             ///< by topic, not answered yet
+  bool twin_ = false;                            ///< another node drives under the name of this one
+  bool runs_ = false;                            ///< a trial
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -169,6 +169,14 @@ visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
   return array;
 }
 
+Guidance preview_of(const std::vector<Eigen::Vector2d>& path) {
+  Guidance guidance;
+  guidance.state = Guidance::State::following;
+  guidance.goal = guidance.waypoint = path.back();
+  guidance.waypoint_is_goal = true;
+  return guidance;
+}
+
 void stamp(visualization_msgs::MarkerArray& markers, const ros::Time& time) {
   for (Marker& marker : markers.markers) marker.header.stamp = time;
 }

@@ -41,6 +41,10 @@ struct MarkersConfig {
     const MarkersConfig& config, const std::optional<Guidance>& guidance,
     const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words);
 
+/// What shows a path that nobody is led along yet: its goal, and no turn.
+/// \param path  m, in map, of at least one place
+[[nodiscard]] Guidance preview_of(const std::vector<Eigen::Vector2d>& path);
+
 /// Gives every marker the time.
 void stamp(visualization_msgs::MarkerArray& markers, const ros::Time& time);
 

@@ -172,5 +172,14 @@ TEST(Markers, before_the_goal_there_is_no_turn) {
   EXPECT_EQ(find(markers_of(guidance, kPath), "label", 0)->text, "GOAL");
 }
 
+TEST(Markers, a_preview_shows_the_path_and_the_goal_and_no_turn) {
+  const MarkerArray array = markers_of(preview_of(kPath), kPath);
+  ASSERT_NE(find(array, "path", 1), nullptr);
+  EXPECT_EQ(find(array, "path", 1)->points.size(), kPath.size());
+  EXPECT_EQ(find(array, "goal", 0)->action, Marker::ADD);
+  EXPECT_DOUBLE_EQ(find(array, "goal", 0)->pose.position.y, kPath.back().y());
+  EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
+}
+
 }  // namespace
 }  // namespace navvi_feedback::picture

@@ -1,6 +1,7 @@
 #include "plugin/panel.hpp"
 
 #include <navvi_msgs/TrialRequest.h>
+#include <rviz/display.h>
 #include <rviz/render_panel.h>
 #include <rviz/visualization_frame.h>
 #include <rviz/visualization_manager.h>
@@ -35,6 +36,11 @@ constexpr double kLeastZoom = 0.45;  // of letters, however small the window
 
 QString number(double value, int decimals, const char* unit) {
   return QString::number(value, 'f', decimals) + " " + QString::fromUtf8(unit);
+}
+
+/// Of the robot's camera.
+bool shows_picture(const QDockWidget& dock) {
+  return dock.findChild<rviz::RenderPanel*>() != nullptr;
 }
 
 /// A screen reader says what changed by itself.
@@ -221,11 +227,27 @@ void Panel::fill_screen() {
   dock->setTitleBarWidget(new QWidget(dock));
   main->addDockWidget(Qt::BottomDockWidgetArea, dock);
   dock->show();
+  show_camera(*main);
   show_chrome(false);
   main->setGeometry(main->screen()->availableGeometry());
   main->showMaximized();
   main->installEventFilter(this);
   vis_manager_->getRenderPanel()->setFocus();
+}
+
+void Panel::show_camera(QMainWindow& main) {
+  if (!ros::param::param<bool>("~camera", false)) return;
+  rviz::Display* camera = vis_manager_->createDisplay("rviz/Camera", "Camera of the robot", false);
+  camera->subProp("Image Topic")->setValue("/navvi/camera/image");
+  camera->subProp("Image Rendering")->setValue("background");
+  camera->setEnabled(true);
+  for (QDockWidget* dock : main.findChildren<QDockWidget*>()) {
+    if (!shows_picture(*dock)) continue;
+    main.addDockWidget(Qt::RightDockWidgetArea, dock);
+    dock->setTitleBarWidget(new QWidget(dock));
+    dock->show();
+    main.resizeDocks({dock}, {main.screen()->size().width() / 2}, Qt::Horizontal);
+  }
 }
 
 bool Panel::eventFilter(QObject* target, QEvent* event) {
@@ -245,7 +267,7 @@ void Panel::show_chrome(bool visible) {
   main->statusBar()->setVisible(visible);
   for (QToolBar* bar : main->findChildren<QToolBar*>()) bar->setVisible(visible);
   for (QDockWidget* dock : main->findChildren<QDockWidget*>())
-    if (dock != parentWidget()) dock->setVisible(visible);
+    if (dock != parentWidget() && !shows_picture(*dock)) dock->setVisible(visible);
   if (auto* frame = dynamic_cast<rviz::VisualizationFrame*>(main))
     frame->setHideButtonVisibility(visible);
 }
@@ -298,6 +320,7 @@ void Panel::show_menu(const QString& words) {
 void Panel::refresh() {
   const status::Shown shown = reader_->shown();
   const status::Words& words = reader_->words();
+  preview_.update(reader_->goal_ahead());
   name_all();
   if (fitted_ != window()->size()) fit();
   show_menu(QString::fromStdString(shown.menu));

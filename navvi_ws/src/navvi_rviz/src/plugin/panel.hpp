@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMainWindow>
 #include <QPushButton>
 #include <QStackedWidget>
 #include <QTimer>
@@ -15,6 +16,7 @@
 
 #include "plugin/flow_layout.hpp"
 #include "plugin/keys.hpp"
+#include "plugin/preview.hpp"
 #include "plugin/reader.hpp"
 
 namespace navvi_rviz::plugin {
@@ -53,11 +55,14 @@ class Panel : public rviz::Panel {
   void request(std::uint8_t what);
   void fill_screen();
   void show_chrome(bool visible);
+  /// Beside the picture, the robot's own with what is drawn over it, if there is one.
+  void show_camera(QMainWindow& main);
   void fit();
   void style(double zoom);
   void refresh();
 
   std::unique_ptr<Reader> reader_;
+  Preview preview_;
   Keys keys_{*this};
   ros::NodeHandle node_;
   ros::Publisher questions_, requests_;
