@@ -2,10 +2,11 @@
 import glob
 import os
 import re
+import shutil
 import signal
 import subprocess
 
-from .places import DEVEL, program
+from .places import DEVEL, WORKSPACE, program
 from .say import fail
 from .version import version
 from .workspace import build, enter, is_current
@@ -48,11 +49,18 @@ def check_operator(words, also):
         fail("operator:=keyboard needs a display, and DISPLAY is not set; operator:=simulated of \"./navvi run\" needs none.", 2)
 
 
+def has_rviz():
+    """A build in the sources installs it; the package of Debian recommends it."""
+    return bool(WORKSPACE or shutil.which("rviz"))
+
+
 def resolve_rviz(words):
     if words.setdefault("rviz", "auto") == "auto":
-        words["rviz"] = "true" if has_display() else "false"
+        words["rviz"] = "true" if has_display() and has_rviz() else "false"
     elif words["rviz"] == "true" and not has_display():
         fail("rviz:=true needs a display, and DISPLAY is not set; rviz:=false needs none.", 2)
+    elif words["rviz"] == "true" and not has_rviz():
+        fail("rviz:=true needs the package rviz; \"sudo apt install rviz\" installs it, and rviz:=false needs none.", 2)
 
 
 def nodes_of(words):

@@ -69,3 +69,7 @@ def test_the_package_of_debian_is_one_that_lintian_takes(tmp_path):
     for name in "./usr/bin/navvi ", "./usr/share/man/man1/navvi.1.gz", "./usr/lib/udev/rules.d/60-navvi-pads.rules", "./usr/lib/navvi_nav/nav_node":
         assert name in names
     assert all(line.split(None, 5)[5].startswith(("./usr", "./etc")) or line.endswith(" ./") for line in names.splitlines())
+    needed, recommended = (subprocess.run(["dpkg-deb", "-f", str(package), field], text=True, stdout=subprocess.PIPE, check=True).stdout.replace(",", " ").split()
+                           for field in ("Depends", "Recommends"))
+    assert "rviz" in recommended and "speech-dispatcher" in recommended and "python3-roslaunch" in needed
+    assert not [name for name in needed if name.startswith(("rviz", "librviz", "libqt", "libogre", "speech-dispatcher"))], "a session without a picture runs"

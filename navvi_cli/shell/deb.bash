@@ -7,7 +7,7 @@ deb() {  # FOLDER
 }
 
 pack() {  # FOLDER
-  local tree=$workspace/build/deb version depends
+  local tree=$workspace/build/deb version depends recommends qt
   rm -rf "$tree" && mkdir -p "$tree/DEBIAN" || return
   DESTDIR=$tree cmake --install "$workspace/build" --prefix /usr --strip || return
   # Programs alone: no headers, nothing that finds a workspace, no Lisp.
@@ -15,26 +15,29 @@ pack() {  # FOLDER
   find "$tree/usr" -maxdepth 1 -type f -delete
   rm -rf "$tree"/usr/{include,lib/pkgconfig,share/common-lisp} "$tree"/usr/share/*/cmake
   version=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$workspace/src/navvi/package.xml")
-  depends=$(depended_on "$tree") || return
-  control_files "$tree" "$version" "$depends"
+  read -ra qt < <(qt_packages) || return
+  depends=$(linked_to "$tree" ! -name '*navvi_rviz*') || return
+  recommends=$(linked_to "$tree" -name '*navvi_rviz*') || return
+  depends+=$(printf ', %s' python3 "${run_packages[@]}")
+  recommends+=$(printf ', %s' "${comfort_packages[@]}" "${qt[@]}")
+  control_files "$tree" "$version" "$depends" "$recommends"
   documents "$tree" "$version" || return
   # Of everybody's to read, and of nobody's to write.
   chmod -R u+rwX,go+rX,go-w "$tree"
   dpkg-deb --root-owner-group --build "$tree" "$1" >&2 && echo "$1/navvi_${version}_$(dpkg --print-architecture).deb"
 }
 
-# The packages of the libraries that the programs are linked to, and what they start.
-depended_on() {  # TREE
-  local programs own qt
-  read -ra qt < <(qt_packages) || return
-  readarray -t programs < <(find "$1/usr/lib" -type f \( -perm /u+x -o -name '*.so' \) -exec grep -LI . {} +)
-  mkdir -p "$1/debian" && printf 'Source: navvi\n\nPackage: navvi\nArchitecture: any\n' >"$1/debian/control"
-  own=$(cd "$1" && dpkg-shlibdeps -O --ignore-missing-info "-l$1/usr/lib" "${programs[@]}" 2>&2) || return
-  rm -r "$1/debian"
-  echo "${own#*=}$(printf ', %s' python3 "${run_packages[@]}" "${qt[@]}")"
+# The packages of the libraries that programs are linked to.
+linked_to() {  # TREE TEST-OF-FIND...
+  local programs own tree=$1
+  readarray -t programs < <(find "$tree/usr/lib" -type f \( -perm /u+x -o -name '*.so' \) "${@:2}" -exec grep -LI . {} +)
+  mkdir -p "$tree/debian" && printf 'Source: navvi\n\nPackage: navvi\nArchitecture: any\n' >"$tree/debian/control"
+  own=$(cd "$tree" && dpkg-shlibdeps -O --ignore-missing-info "-l$tree/usr/lib" "${programs[@]}" 2>&2) || return
+  rm -r "$tree/debian"
+  echo "${own#*=}"
 }
 
-control_files() {  # TREE VERSION DEPENDS
+control_files() {  # TREE VERSION DEPENDS RECOMMENDS
   cat >"$1/DEBIAN/control" <<T
 Package: navvi
 Version: $2
@@ -42,6 +45,7 @@ Architecture: $(dpkg --print-architecture)
 Maintainer: NavVI developers <navvi@example.org>
 Installed-Size: $(du -sk "$1/usr" | cut -f1)
 Depends: $3
+Recommends: $4
 Section: science
 Priority: optional
 Description: drive a robot through a warehouse by touch, sound and what sight there is

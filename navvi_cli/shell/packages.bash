@@ -1,17 +1,22 @@
 # What NavVI needs of Debian 12 or 13, and how it gets there.
 
+# Without these no session runs.
 run_packages=(
-  rviz rosbash rosout espeak-ng-data libopenal-data libgl1-mesa-dri iproute2 librsvg2-bin python3-rosbag python3-roslaunch python3-rosnode
+  rosbash rosout espeak-ng-data libopenal-data iproute2 python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-std-srvs python3-tf2-msgs
-  python3-argcomplete python3-yaml python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
-  at-spi2-core dbus-bin x11-utils
+  python3-yaml
+)
+# Without these a session runs, but without its picture, screen readers in it, drawings, `watch speech:=true` or the Tab key.
+comfort_packages=(
+  rviz libgl1-mesa-dri at-spi2-core dbus-bin x11-utils librsvg2-bin python3-argcomplete
+  python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
 )
 session_packages=(
   build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
   liboctomap-dev libbullet-dev libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libx11-dev libtinyxml2-dev libassimp-dev libeigen3-dev
   zlib1g-dev libpng-dev pkg-config libgtest-dev librostest-dev
-  "${run_packages[@]}"
+  "${run_packages[@]}" "${comfort_packages[@]}"
 )
 # A study's report draws and counts with these; a session does not need them.
 report_packages=(python3-jinja2 python3-matplotlib python3-pandas python3-scipy python3-statsmodels)
