@@ -20,8 +20,8 @@ Vision high_contrast() {
                  {"path", {0.82F, 0.45F, 1.00F}},
                  {"goal", {1.00F, 0.33F, 0.25F}},
                  {"turn", kBlack}};
-  vision.edge = {{"shelf", {0.40F, 0.49F, 0.60F}},
-                 {"wall", {0.50F, 0.50F, 0.50F}},
+  vision.edge = {{"shelf", {0.33F, 0.41F, 0.51F}},
+                 {"wall", {0.40F, 0.40F, 0.40F}},
                  {"box", kYellow},
                  {"pedestal", {1.00F, 0.84F, 0.66F}},
                  {"other", {0.88F, 0.88F, 0.84F}}};
@@ -34,7 +34,7 @@ Vision yellow_on_black() {
   Vision vision = high_contrast();
   vision.fill["floor"] = kBlack;
   vision.fill["path"] = vision.fill["goal"] = kYellow;
-  vision.edge["shelf"] = vision.edge["wall"] = {0.48F, 0.48F, 0.40F};
+  vision.edge["shelf"] = vision.edge["wall"] = {0.40F, 0.40F, 0.34F};
   for (const char* ns : {"shelf", "wall", "box", "pedestal", "other"})
     vision.fill[ns] = {0.15F, 0.15F, 0.13F};
   for (const char* ns : {"box", "pedestal", "other"}) vision.edge[ns] = {0.90F, 0.90F, 0.80F};
