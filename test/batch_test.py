@@ -42,7 +42,7 @@ def stand_in(folder, seconds=0.0, broken="none"):
 
 def args_of(out, **more):
     values = {"worlds": "easy,busy", "seeds": "1-3", "people": "able,drawn:1-2", "conditions": "default,words_alone", "limit": 60,
-              "jobs": 1, "shard": "1/1", "tell": 100.0, "out": str(out)}
+              "jobs": 1, "shard": "1/1", "tell": 100.0, "cache": 512, "out": str(out)}
     return SimpleNamespace(**{**values, **more})
 
 
@@ -55,6 +55,15 @@ def test_a_batch_has_a_row_for_each_world_seed_person_and_condition(tmp_path):
     assert lines[1].split(",")[6:9] == ["3", "0.900", "15.00"]
     units = json.loads((tmp_path / "a/trials.json").read_text())
     assert list(units) == lines[0].split(",") and all(units.values())
+
+
+def test_trials_keep_as_much_of_worlds_as_asked_for(tmp_path):
+    program = tmp_path / "told"
+    program.write_text(stand_in(tmp_path).read_text().replace("#!/bin/sh", f'#!/bin/sh\necho "$@" >> {tmp_path}/words'))
+    program.chmod(0o755)
+    assert batch.run_batch(program, args_of(tmp_path / "a", cache=64)) == 0
+    words = (tmp_path / "words").read_text().splitlines()
+    assert len(words) == 36 and all("--cache=64" in line.split() for line in words)
 
 
 def test_a_person_is_moved_by_a_trait(tmp_path):

@@ -193,9 +193,9 @@ def row_of(trial, titles, cells):
     return head, {name: value for name, value in row.items() if name not in ("world", "seed")}
 
 
-def simulate(program, trial, limit, more=()):
+def simulate(program, trial, args, more=()):
     """(trial, titles, line); without a line where it failed, and then the reason in place of the titles."""
-    result = subprocess.run([program, *trial.words(limit, more)], capture_output=True, text=True, check=False)
+    result = subprocess.run([program, *trial.words(args.limit, (f"--cache={args.cache}", *more))], capture_output=True, text=True, check=False)
     table = list(csv.reader(io.StringIO(result.stdout)))
     if result.returncode or len(table) != 2:
         return trial, (result.stderr.strip().splitlines() or [f"exit code {result.returncode}"])[-1], None
@@ -223,7 +223,7 @@ def run_all(program, trials, args, rows):
     """Appends a row a trial. \\return the titles, and how many trials failed"""
     titles, failed, finished, since, told = None, 0, 0, time.monotonic(), 0.0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-        for answer in concurrent.futures.as_completed([pool.submit(simulate, program, trial, args.limit) for trial in trials]):
+        for answer in concurrent.futures.as_completed([pool.submit(simulate, program, trial, args) for trial in trials]):
             trial, said, line = answer.result()
             finished += 1
             if line is None:
@@ -282,7 +282,7 @@ def run_batch(program, args):
         if titles:
             replace(folder / "titles.csv", line_of(titles))
         elif not (folder / "titles.csv").exists() and done:
-            replace(folder / "titles.csv", line_of(simulate(program, trials[0], args.limit)[1]))
+            replace(folder / "titles.csv", line_of(simulate(program, trials[0], args)[1]))
     finally:
         rows.close()
     missing = finish(folder, trials)
@@ -306,9 +306,9 @@ def branch(program, args):
     recorded = done_in(folder).get(int(number))
     if recorded is None:
         fail(f"{folder} has no row of trial {number}; its rows are those of {folder}/rows-*.csv.", 2)
-    trial, limit = trials[int(number)], known["limit"]
-    again = simulate(program, trial, limit, (f"--until={args.until}",))
-    other = simulate(program, trial, limit, (f"--until={args.until}", f"--then={args.then}")) if args.then else again
+    trial, same = trials[int(number)], SimpleNamespace(limit=known["limit"], cache=args.cache)
+    again = simulate(program, trial, same, (f"--until={args.until}",))
+    other = simulate(program, trial, same, (f"--until={args.until}", f"--then={args.then}")) if args.then else again
     for _, said, line in (again, other):
         if line is None:
             fail(f"trial {number} failed: {said}", 1)
@@ -329,6 +329,7 @@ def arguments(parser):
     parser.add_argument("--conditions", default="default", metavar="NAME,...", help="what is played. Default: default.")
     parser.add_argument("--limit", type=int, default=600, metavar="S", help="s of a trial. Default: 600.")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="trials at a time. Default: 1.")
+    parser.add_argument("--cache", type=int, default=512, metavar="MB", help="of worlds that are kept for other trials. Default: 512.")
     parser.add_argument("--shard", default="1/1", metavar="K/N", help="the part of the trials to run.")
     parser.add_argument("--tell", type=float, default=10.0, metavar="S", help="s between two lines of progress. Default: 10.")
     parser.add_argument("--from", dest="from_trial", metavar="DIR:NUMBER", help="a trial to run again, with a change.")

@@ -7,9 +7,9 @@ and without the compiler's cache. latency [--rounds=10] times what a person
 waits for, with nodes as they run live. loop [WORLD ...] prints the real-time
 factor of sessions without ROS.
 trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]
-[--sensing=truth|lidar|robot] [--jobs=1] [--csv] [--trace[=FROM-TO]]
-[PART/NAME:=VALUE ...] runs sessions without ROS and prints one row a trial, or
-with --csv a table for a program. --trace prints what happens second by second,
+[--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]
+[--trace[=FROM-TO]] [PART/NAME:=VALUE ...] runs sessions without ROS and prints
+one row a trial, or with --csv a table for a program. --trace prints what happens second by second,
 between FROM and TO (s). --sensing gives guidance and feedback what a lidar, or
 a lidar and a depth camera (robot), show of the world. PART is sim, nav,
 feedback, person or perception, with the parameters of its node, such as

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 namespace navvi_config {
 namespace fs = std::filesystem;
@@ -63,8 +62,10 @@ std::optional<std::string> read_file(const fs::path& path) {
   const auto size = fs::file_size(path, error);
   if (error || size > (256u << 20)) return std::nullopt;
   std::ifstream stream(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string bytes(size, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
   if (!stream.good() && !stream.eof()) return std::nullopt;
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
   return bytes;
 }
 

@@ -19,6 +19,7 @@
 
 #include "batch/loop_figures.hpp"
 #include "batch/loop_trace.hpp"
+#include "batch/world_cache.hpp"
 #include "record/child_process.hpp"
 
 namespace navvi_study::bench {
@@ -31,19 +32,24 @@ using navvi_people::loop::ClosedLoopConfig;
 
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
-    "             [--sensing=truth|lidar|robot] [--jobs=1] [--csv] [--trace[=FROM-TO]]\n"
+    "             [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]\n"
+    "             [--trace[=FROM-TO]]\n"
     "             [--until=S --then=part/name:=value+...] [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
     "--then: from S s after the goal was set on another guide or person (feedback, person, "
     "speech)\n"
     "goes on, who has been told and has felt the same so far.\n"
     "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
+    "--cache: MB of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world "
+    "and seed\n"
+    "for other trials; 0: nothing is kept.\n"
     "A part is sim, nav, feedback, person or perception, with the names of its node's "
     "parameters, such as\n"
     "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
 
 constexpr std::int64_t kMostTrials = 100000;
 constexpr int kMostJobs = 256;
+constexpr int kMostMegabytes = 1000000;
 
 /// A sentence for who typed the command.
 class UsageError : public std::runtime_error {
@@ -62,6 +68,7 @@ struct Options {
   double limit = 300.0;
   std::string profile = "default";
   int jobs = 1;
+  int cache = 512;            ///< MB
   std::optional<Span> trace;  ///< s
   std::vector<std::string> parameters;
   std::optional<int> until;  ///< s
@@ -140,6 +147,8 @@ Options read_options(const std::vector<std::string>& words) {
       out.then = changes(word.substr(word.find('=') + 1));
     } else if (option == "--jobs") {
       out.jobs = number(option, value, 1, kMostJobs);
+    } else if (option == "--cache") {
+      out.cache = number(option, value, 0, kMostMegabytes);
     } else if (option == "--trace") {
       out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
     } else if (option == "--csv") {
@@ -188,7 +197,8 @@ struct Task {
 };
 
 record::Fields run_trial(const Options& options, ClosedLoopConfig config,
-                         const std::string& phrases, const Task& task) {
+                         const std::string& phrases, const navvi_config::Cache* cache,
+                         const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
   std::optional<navvi_people::loop::Branch> branch;
@@ -196,7 +206,7 @@ record::Fields run_trial(const Options& options, ClosedLoopConfig config,
     branch = navvi_people::loop::Branch{config, static_cast<double>(*options.until)};
     navvi_config::read(branch->then, navvi_config::read_words(options.then), "--then");
   }
-  ClosedLoop loop(config, phrases, branch);
+  ClosedLoop loop(config, phrases, branch, cache);
   LoopFigures figures(options.limit);
   std::optional<LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
@@ -324,6 +334,7 @@ class Total {
 int run(const Options& options) {
   const ClosedLoopConfig config = configured(options);
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
+  const auto cache = batch::world_cache(static_cast<std::uintmax_t>(options.cache));
   const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;
   const auto task_of = [&](std::size_t index) {
     return Task{options.worlds[index / seeds],
@@ -339,7 +350,8 @@ int run(const Options& options) {
   record::run_in_children(
       options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
       [&](std::size_t index) {
-        const std::string text = run_trial(options, config, phrases, task_of(index)).format();
+        const std::string text =
+            run_trial(options, config, phrases, cache ? &*cache : nullptr, task_of(index)).format();
         std::cout.flush();
         return text;
       },

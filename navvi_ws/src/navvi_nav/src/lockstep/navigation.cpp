@@ -22,8 +22,8 @@ NavigationConfig::~NavigationConfig() = default;
 void NavigationConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
 
 struct Navigation::Parts {
-  explicit Parts(const guide::NavigatorConfig& config)
-      : navigator(config), planner(config.planner) {}
+  Parts(const guide::NavigatorConfig& config, const navvi_config::Cache* cache)
+      : navigator(config), planner(config.planner, cache) {}
 
   guide::Navigator navigator;
   plan::Planner planner;
@@ -33,8 +33,8 @@ struct Navigation::Parts {
   std::string map_error = {};
 };
 
-Navigation::Navigation(const NavigationConfig& config)
-    : parts_(std::make_unique<Parts>(*config.values_)) {}
+Navigation::Navigation(const NavigationConfig& config, const navvi_config::Cache* cache)
+    : parts_(std::make_unique<Parts>(*config.values_, cache)) {}
 Navigation::~Navigation() = default;
 
 void Navigation::set_map(std::vector<std::int8_t> data, const std::string& id, double resolution) {

@@ -85,7 +85,8 @@ class Floor {
   [[nodiscard]] Area area() const { return {origin_, {origin_.x + columns_, origin_.y + rows_}}; }
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }
-  [[nodiscard]] double reach() const { return reach_; }  ///< m
+  [[nodiscard]] double reach() const { return reach_; }    ///< m
+  [[nodiscard]] double margin() const { return margin_; }  ///< m, of open()
 
   [[nodiscard]] Cell cell_at(Point point) const {
     static constexpr double kFarthest = 1e8;

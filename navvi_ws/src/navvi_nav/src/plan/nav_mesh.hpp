@@ -105,6 +105,7 @@ class NavMesh {
   [[nodiscard]] const std::vector<Cylinder>& carved() const { return carving_.carved(); }
   [[nodiscard]] map::Space space() const { return {floor_.get(), &carved()}; }
   [[nodiscard]] const NavMeshConfig& config() const { return config_; }
+  [[nodiscard]] double clearance() const { return clearance_; }  ///< as constructed
 
  private:
   [[nodiscard]] double margin(double cell) const;

@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "plan/kept_bake.hpp"
 #include "plan/retreat.hpp"
 
 namespace navvi_nav::plan {
@@ -30,8 +31,9 @@ void PlannerConfig::describe(navvi_config::Visitor& visit) {
   visit(start_snap, "start_snap", Range{0.0, 2.0}, "m", "how far off the mesh the robot may stand");
 }
 
-Planner::Planner(const PlannerConfig& config)
+Planner::Planner(const PlannerConfig& config, const navvi_config::Cache* cache)
     : config_(config),
+      cache_(cache),
       nav_mesh_(config.mesh, config.smoothing.cost.preferred_clearance),
       search_(config.search == "exact" ? search::SearchMethod::exact
                                        : search::SearchMethod::centroid_astar,
@@ -64,10 +66,11 @@ bake::BakedMap Planner::bake(const PlanRequest& request) const {
   try {
     if (request.grid) return nav_mesh_.bake(*request.grid);
     if (!request.map) return {};
-    const MapMessage& map = *request.map;
-    return nav_mesh_.bake(
-        map::MapBytes{map.data.data(), map.data.size(), map.binary, map.id, map.resolution},
-        request.stands_at);
+    const map::MapBytes map{request.map->data.data(), request.map->data.size(), request.map->binary,
+                            request.map->id, request.map->resolution};
+    if (cache_ != nullptr && nav_mesh_.empty())
+      return kept_bake(nav_mesh_, map, request.stands_at, *cache_);
+    return nav_mesh_.bake(map, request.stands_at);
   } catch (const std::exception& error) {
     failed.error = error.what();
   }

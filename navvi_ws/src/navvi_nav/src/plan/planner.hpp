@@ -1,5 +1,6 @@
 #pragma once
 
+#include <navvi_config/cache.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,8 @@ struct PlannerConfig {
 /// From a map and obstacles to a path: the package in one function, answer().
 class Planner {
  public:
-  explicit Planner(const PlannerConfig& config);
+  /// \param cache  of first maps; nullptr: none is kept
+  explicit Planner(const PlannerConfig& config, const navvi_config::Cache* cache = nullptr);
 
   /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
   /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
@@ -70,6 +72,7 @@ class Planner {
   [[nodiscard]] RouteFinder routes() { return {nav_mesh_, search_, config_.start_snap}; }
 
   PlannerConfig config_;
+  const navvi_config::Cache* cache_;
   NavMesh nav_mesh_;
   std::optional<std::vector<Cylinder>> uncarved_;  ///< the latest, until something needs the mesh
   search::Search search_;

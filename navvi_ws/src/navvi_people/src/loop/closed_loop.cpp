@@ -3,6 +3,7 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
+#include <navvi_sim/setup/course.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <stdexcept>
 #include <utility>
@@ -34,24 +35,24 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
         "sighted: the person's hand and liking of speed, but led by eyes: the reference");
 }
 
-ClosedLoop::Setting::Setting(const ClosedLoopConfig& config)
+ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_config::Cache* cache)
     : world(navvi_sim::setup::load_world(config.sim).world) {
-  const navvi_sim::occupancy::OccupancyMap occupancy = navvi_sim::setup::map_of(config.sim, world);
-  scenario = navvi_sim::setup::scenario_of(config.sim, world, occupancy);
+  const navvi_sim::setup::Course course = navvi_sim::setup::course_of(config.sim, world, cache);
+  scenario = course.ends;
   if (config.sim.sensing == "truth")
-    map = navvi_sim::node::to_msg(occupancy, ros::Time());
+    map = navvi_sim::node::to_msg(course.map, ros::Time());
   else
-    senses.emplace(config.sim, config.perception, world, occupancy);
+    senses.emplace(config.sim, config.perception, world, course.map);
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
-                       const std::optional<Branch>& branch)
+                       const std::optional<Branch>& branch, const navvi_config::Cache* cache)
     : config_(config),
-      setting_(config),
+      setting_(config, cache),
       session_(setting_.world, config.sim.life, setting_.scenario.start,
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
-      navigation_(config.nav),
+      navigation_(config.nav, cache),
       guided_(
           std::make_unique<GuidedPerson>(config.feedback, config.person, config.speech, phrases)) {
   if (branch) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace navvi_study::trial {
@@ -10,5 +11,8 @@ namespace navvi_study::trial {
 [[nodiscard]] std::string compiler();
 /// Version of the Bullet that the simulator was built with.
 [[nodiscard]] std::string bullet();
+/// The GNU build IDs of this program and of the libraries that it has loaded: programs with the
+/// same ones compute the same on the same processor. nullopt if one of them has none.
+[[nodiscard]] std::optional<std::string> build_ids();
 
 }  // namespace navvi_study::trial

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <navvi_config/cache.hpp>
 #include <navvi_config/field.hpp>
 #include <navvi_types/guidance.hpp>
 #include <optional>
@@ -31,7 +32,8 @@ class NavigationConfig {
 /// bit. Times are s on one clock that only goes forward; places are m, in map.
 class Navigation {
  public:
-  explicit Navigation(const NavigationConfig& config);
+  /// \param cache  of meshes of first maps, which must last as long; nullptr: none is kept
+  explicit Navigation(const NavigationConfig& config, const navvi_config::Cache* cache = nullptr);
   ~Navigation();
 
   /// \param data  of a binary OctoMap message, as are `id` and `resolution`, m

@@ -10,6 +10,7 @@
 #include <octomap_msgs/Octomap.h>
 
 #include <memory>
+#include <navvi_config/cache.hpp>
 #include <navvi_feedback/lockstep/guide.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
@@ -69,9 +70,12 @@ class ClosedLoop {
   };
 
   /// \param phrases  file of the spoken phrases
+  /// \param cache  of what is made of a world before anything moves, which must last as long;
+  /// nullptr: nothing is kept
   /// \throws WorldError or ConfigError with a sentence
   ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
-             const std::optional<Branch>& branch = std::nullopt);
+             const std::optional<Branch>& branch = std::nullopt,
+             const navvi_config::Cache* cache = nullptr);
 
   /// One step of the world, and whatever is due after it. \return false if the world has stopped
   /// because a number in it is not finite
@@ -108,7 +112,7 @@ class ClosedLoop {
     octomap_msgs::Octomap map;
     std::optional<RobotSenses> senses = {};  ///< where the truth is not told
 
-    explicit Setting(const ClosedLoopConfig& config);
+    Setting(const ClosedLoopConfig& config, const navvi_config::Cache* cache);
   };
 
   [[nodiscard]] bool turn_wheels();

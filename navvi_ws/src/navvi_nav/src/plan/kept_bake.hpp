@@ -1,0 +1,15 @@
+#pragma once
+
+#include <navvi_config/cache.hpp>
+#include <optional>
+
+#include "plan/nav_mesh.hpp"
+
+namespace navvi_nav::plan {
+
+/// NavMesh::bake of a first map, or what it once was of the same map with the same config.
+[[nodiscard]] bake::BakedMap kept_bake(const NavMesh& mesh, const map::MapBytes& map,
+                                       std::optional<double> stands_at,
+                                       const navvi_config::Cache& cache);
+
+}  // namespace navvi_nav::plan

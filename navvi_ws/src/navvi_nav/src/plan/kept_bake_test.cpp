@@ -1,0 +1,148 @@
+#include "plan/kept_bake.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "bake/baked_bytes.hpp"
+#include "small_world.hpp"
+
+namespace navvi_nav::plan {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An OctoMap as it is sent.
+struct Sent {
+  explicit Sent(SmallWorld& world) {
+    const octomap::OcTree& tree = world.tree();
+    std::ostringstream out;
+    tree.writeBinaryData(out);
+    const std::string text = out.str();
+    data.assign(text.begin(), text.end());
+    resolution = tree.getResolution();
+  }
+  [[nodiscard]] map::MapBytes bytes() const {
+    return {data.data(), data.size(), true, "OcTree", resolution};
+  }
+  std::vector<std::int8_t> data;
+  double resolution = 0.0;
+};
+
+void expect_same(const mesh::Mesh& a, const mesh::Mesh& b) {
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+    EXPECT_EQ(a.vertices[i].at, b.vertices[i].at);
+    EXPECT_EQ(a.vertices[i].corner, b.vertices[i].corner);
+  }
+  ASSERT_EQ(a.polygons.size(), b.polygons.size());
+  for (std::size_t i = 0; i < a.polygons.size(); ++i) {
+    EXPECT_EQ(a.polygons[i].corners, b.polygons[i].corners);
+    EXPECT_EQ(a.polygons[i].component, b.polygons[i].component);
+    ASSERT_EQ(a.polygons[i].portals.size(), b.polygons[i].portals.size());
+    for (std::size_t k = 0; k < a.polygons[i].portals.size(); ++k)
+      EXPECT_EQ(a.polygons[i].portals[k].to, b.polygons[i].portals[k].to);
+  }
+}
+
+void expect_same(const map::Floor& a, const map::Floor& b) {
+  ASSERT_EQ(a.area(), b.area());
+  EXPECT_EQ(a.all_ground(), b.all_ground());
+  EXPECT_EQ(a.cell_size(), b.cell_size());
+  EXPECT_EQ(a.height(), b.height());
+  EXPECT_EQ(a.reach(), b.reach());
+  EXPECT_EQ(a.grow(), b.grow());
+  for (int y = a.area().low.y; y < a.area().high.y; ++y) {
+    EXPECT_TRUE(std::equal(a.open_row(y), a.open_row(y) + a.columns(), b.open_row(y)));
+    EXPECT_TRUE(std::equal(a.gap2_row(y), a.gap2_row(y) + a.columns(), b.gap2_row(y)));
+  }
+}
+
+class KeptBake : public testing::Test {
+ protected:
+  KeptBake() {
+    std::string pattern = (fs::temp_directory_path() / "navvi_bake_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~KeptBake() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::vector<fs::path> files() const {
+    std::vector<fs::path> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_))
+      if (entry.is_regular_file()) out.push_back(entry.path());
+    return out;
+  }
+
+  fs::path folder_;
+  NavMeshConfig config_;
+};
+
+TEST_F(KeptBake, gives_the_same_mesh_and_floor_and_the_same_after_the_next_map) {
+  const navvi_config::Cache cache({folder_, 16, "build"});
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    RandomWorld world(seed);
+    const Sent sent(world.map);
+    NavMesh fresh(config_);
+    ASSERT_EQ(fresh.set_map(sent.bytes()).error, "");
+    for (const bool kept : {false, true}) {
+      NavMesh mesh(config_);
+      bake::BakedMap baked = kept_bake(mesh, sent.bytes(), std::nullopt, cache);
+      EXPECT_EQ(baked.record == nullptr, kept) << "what is read from a file has no record";
+      const MeshUpdate update = mesh.take(std::move(baked));
+      EXPECT_EQ(update.tiles_rebuilt, update.tiles);
+      expect_same(mesh.mesh(), fresh.mesh());
+      expect_same(*mesh.shared_floor(), *fresh.shared_floor());
+      RandomWorld next(seed);
+      next.map.box(2, 2, 0, 2.4, 2.4, 0.5);
+      const Sent changed(next.map);
+      ASSERT_EQ(mesh.set_map(changed.bytes()).error, "");
+      NavMesh second(config_);
+      ASSERT_EQ(second.set_map(changed.bytes()).error, "");
+      expect_same(*mesh.shared_floor(), *second.shared_floor());
+      EXPECT_EQ(mesh.mesh().polygons.size(), second.mesh().polygons.size());
+    }
+  }
+}
+
+TEST_F(KeptBake, is_another_one_for_another_map_config_clearance_or_height) {
+  const navvi_config::Cache cache({folder_, 16, "build"});
+  SmallWorld world, other;
+  world.room(6, 4);
+  other.room(6, 4.05);
+  const Sent sent(world), other_sent(other);
+  std::size_t count = 0;
+  const auto expect_new = [&](const NavMesh& mesh, const Sent& map, std::optional<double> height) {
+    for (int i = 0; i < 2; ++i) (void)kept_bake(mesh, map.bytes(), height, cache);
+    EXPECT_EQ(files().size(), ++count);
+  };
+  expect_new(NavMesh(config_), sent, std::nullopt);
+  expect_new(NavMesh(config_), other_sent, std::nullopt);
+  expect_new(NavMesh(config_), sent, 0.0);
+  expect_new(NavMesh(config_, 0.7), sent, std::nullopt);
+  config_.robot_radius = 0.4;
+  expect_new(NavMesh(config_), sent, std::nullopt);
+}
+
+TEST_F(KeptBake, keeps_no_map_that_is_rejected) {
+  const navvi_config::Cache cache({folder_, 16, "build"});
+  SmallWorld world;
+  world.box(0, 0, 0, 0.2, 0.2, 0.2);
+  const Sent sent(world);
+  EXPECT_NE(kept_bake(NavMesh(config_), sent.bytes(), std::nullopt, cache).error, "");
+  EXPECT_TRUE(files().empty());
+}
+
+TEST(BakedBytes, that_are_cut_off_are_no_map) {
+  SmallWorld world;
+  world.room(4, 3);
+  const NavMesh mesh{NavMeshConfig{}};
+  const std::string bytes = bake::to_bytes(mesh.bake(world.voxels()));
+  EXPECT_TRUE(bake::from_bytes(bytes, 1));
+  for (std::size_t size = 0; size < bytes.size(); size += 7)
+    EXPECT_FALSE(bake::from_bytes(std::string_view(bytes).substr(0, size), 1)) << size;
+}
+
+}  // namespace
+}  // namespace navvi_nav::plan

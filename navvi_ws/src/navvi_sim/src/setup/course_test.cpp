@@ -1,0 +1,72 @@
+#include "navvi_sim/setup/course.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace navvi_sim::setup {
+namespace {
+
+namespace fs = std::filesystem;
+
+void expect_same(const Course& a, const Course& b) {
+  EXPECT_EQ(a.map.resolution(), b.map.resolution());
+  EXPECT_EQ(a.map.stream(), b.map.stream());
+  EXPECT_EQ(a.ends.start.position, b.ends.start.position);
+  EXPECT_EQ(a.ends.start.yaw, b.ends.start.yaw);
+  EXPECT_EQ(a.ends.goal, b.ends.goal);
+  EXPECT_EQ(a.ends.route_length, b.ends.route_length);
+  EXPECT_EQ(a.ends.route, b.ends.route);
+  EXPECT_EQ(a.ends.note, b.ends.note);
+}
+
+class CourseOf : public testing::Test {
+ protected:
+  CourseOf() {
+    std::string pattern = (fs::temp_directory_path() / "navvi_course_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    config_.world = "easy";
+  }
+  ~CourseOf() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] Course course(const navvi_config::Cache* cache) const {
+    return course_of(config_, load_world(config_).world, cache);
+  }
+  [[nodiscard]] std::size_t kept() const {
+    std::size_t count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_))
+      count += entry.is_regular_file() ? 1 : 0;
+    return count;
+  }
+
+  fs::path folder_;
+  SimNodeConfig config_;
+};
+
+TEST_F(CourseOf, a_world_is_the_same_fresh_and_kept) {
+  const navvi_config::Cache cache({folder_, 16, "build"});
+  const Course fresh = course(nullptr);
+  expect_same(course(&cache), fresh);
+  EXPECT_EQ(kept(), 1u);
+  expect_same(course(&cache), fresh);
+  EXPECT_EQ(kept(), 1u);
+}
+
+TEST_F(CourseOf, another_seed_goal_or_map_is_another_one) {
+  const navvi_config::Cache cache({folder_, 16, "build"});
+  const Course first = course(&cache);
+  config_.seed = 2;
+  const Course other_seed = course(&cache);
+  EXPECT_NE(other_seed.ends.goal, first.ends.goal);
+  config_.seed = 1;
+  config_.goal = "1,1";
+  EXPECT_EQ(course(&cache).ends.goal, Eigen::Vector2d(1.0, 1.0));
+  config_.goal.clear();
+  config_.octomap.resolution = 0.1;
+  EXPECT_EQ(course(&cache).map.resolution(), 0.1);
+  EXPECT_EQ(kept(), 4u);
+}
+
+}  // namespace
+}  // namespace navvi_sim::setup
