@@ -24,6 +24,7 @@ BakeConfig tile_config(const MapBakeConfig& config, const map::Floor& floor) {
   out.contour_error = config.contour_error;
   out.max_edge = static_cast<int>(config.max_edge / cell);
   out.max_corners = config.max_corners;
+  out.watershed = config.watershed;
   out.merge_region = static_cast<int>(1.0 / (cell * cell));
   out.grow = floor.grow();
   return out;

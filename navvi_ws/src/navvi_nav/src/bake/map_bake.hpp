@@ -23,6 +23,7 @@ struct MapBakeConfig {
   double max_edge = 0.0;       ///< m, longer walls are split; 0: never
   int max_corners = 12;        ///< of a polygon
   bool fine_parts = true;      ///< finer cells where whole ones would close a passage
+  bool watershed = false;      ///< as BakeConfig's
   int threads = 2;             ///< that may share the work; the result is the same
 };
 

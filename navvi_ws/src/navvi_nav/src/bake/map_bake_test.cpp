@@ -37,6 +37,35 @@ TEST(MapBake, bakes_the_same_on_any_number_of_threads) {
   }
 }
 
+double area_of(const BakedMap& map) {
+  double sum = 0.0;
+  for (const auto& [tile, polygons] : map.tiles) {
+    for (const mesh::GridPolygon& polygon : polygons) {
+      const auto corners = outline_of(polygon, map.floor->cell_size());
+      for (std::size_t k = 2; k < corners.size(); ++k)
+        sum += cross(corners[k - 1] - corners[0], corners[k] - corners[0]) / 2;
+    }
+  }
+  return sum;
+}
+
+TEST(MapBake, covers_as_much_floor_by_layers_as_by_the_watershed_in_as_few_polygons) {
+  std::size_t by_layers = 0, by_watershed = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    RandomWorld world(seed);
+    MapBakeConfig config;
+    const BakedMap layers = bake_map(survey_of(world.map), config);
+    config.watershed = true;
+    const BakedMap watershed = bake_map(survey_of(world.map), config);
+    EXPECT_NE(layers.tiles, watershed.tiles) << seed;
+    // A wall is smoothed within a region, so the borders between them count a little.
+    EXPECT_NEAR(area_of(layers) / area_of(watershed), 1.0, 0.005) << seed;
+    for (const auto& [tile, polygons] : layers.tiles) by_layers += polygons.size();
+    for (const auto& [tile, polygons] : watershed.tiles) by_watershed += polygons.size();
+  }
+  EXPECT_LE(static_cast<double>(by_layers), 1.1 * static_cast<double>(by_watershed));
+}
+
 /// Voxels of 0.1 m are halved: 0.35 m are no whole number of them.
 TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
   for (unsigned seed = 0; seed < 10; ++seed) {

@@ -217,6 +217,13 @@ std::optional<std::vector<mesh::GridPolygon>> try_bake(rcContext& context, const
   return try_contours(context, cells, *set, drawn);
 }
 
+bool build_regions(rcContext& context, const TileCells& cells, const BakeConfig& config,
+                   rcCompactHeightfield& field) {
+  if (!config.watershed) return rcBuildLayerRegions(&context, field, kBorder, 0);
+  measure_distances(field, cells);
+  return rcBuildRegions(&context, field, kBorder, 0, config.merge_region);
+}
+
 }  // namespace
 
 std::optional<std::vector<mesh::GridPolygon>> recast_polygons(const TileCells& cells,
@@ -224,8 +231,7 @@ std::optional<std::vector<mesh::GridPolygon>> recast_polygons(const TileCells& c
                                                               const BakeConfig& config) {
   rcContext context(false);
   const CompactField field = compact_field(rest);
-  measure_distances(*field, rest);
-  if (rcBuildRegions(&context, *field, kBorder, 0, config.merge_region)) {
+  if (build_regions(context, rest, config, *field)) {
     for (const Try& how : kTries) {
       if (auto polygons = try_bake(context, cells, rest.count_open(), *field, config, how))
         return polygons;

@@ -7,7 +7,7 @@
 
 namespace navvi_nav::bake {
 
-/// Watershed regions, their contours, and convex polygons, by Recast (R-NAV-3).
+/// Regions, their contours, and convex polygons, by Recast (R-NAV-3).
 /// \param cells  that walls grow away from
 /// \param rest  those to cover; none of them alone
 /// \return nothing where Recast fails the two sums of bake_tile()

@@ -9,7 +9,7 @@ namespace navvi_nav::bake {
 /// Cells along the side of a tile that was quartered as often as it can be; 8 at least.
 [[nodiscard]] int smallest_part(int size);
 
-/// What Recast makes of a tile (R-NAV-3): watershed regions, contours, convex polygons. (Recast
+/// What Recast makes of a tile (R-NAV-3): regions, contours, convex polygons. (Recast
 /// cuts ears and merges, it makes no constrained Delaunay triangulation.)
 ///
 /// No point of the polygons lies outside the open cells, each grown by `grow`: contours follow the

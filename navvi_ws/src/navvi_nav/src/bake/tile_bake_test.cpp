@@ -156,6 +156,7 @@ TEST(TileBake, covers_exactly_the_open_cells_if_nothing_is_smoothed_or_grown) {
     config.contour_error = 0.0;
     config.merge_region = static_cast<int>(seed % 3) * 100;
     config.max_corners = seed % 2 == 0 ? 12 : 3;
+    config.watershed = seed >= 12;
     for (const int size : {32, 64}) {
       const auto polygons = bake_all(field, size, config);
       EXPECT_EQ(twice_area(polygons), std::int64_t{2} * field.count() * kSteps * kSteps) << seed;
@@ -170,6 +171,7 @@ TEST(TileBake, covers_no_point_twice_and_none_beyond_the_grown_open_cells) {
     BakeConfig config;
     config.contour_error = 0.5 * static_cast<double>(seed % 4);
     config.grow = static_cast<int>(seed % 3) * 4;
+    config.watershed = seed >= 20;
     const auto polygons = bake_all(field, 32, config);
     std::mt19937 random(seed);
     for (const mesh::GridPolygon& polygon : polygons) ASSERT_TRUE(convex(polygon)) << seed;

@@ -36,6 +36,7 @@ struct BakeConfig {
   double contour_error = 1.0;  ///< cells by which a wall may be drawn nearer to smooth it
   int max_edge = 0;            ///< cells, longer walls are split; 0: never
   int max_corners = 12;        ///< of a polygon, 3 to 12
+  bool watershed = false;      ///< regions by Recast's watershed; else its layers, rows of cells
   int merge_region = 400;      ///< cells, smaller watershed regions join a neighbour
   int grow = 0;                ///< steps, at most half a cell: every wall moves out by so much
 };

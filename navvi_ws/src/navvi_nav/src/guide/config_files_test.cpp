@@ -23,6 +23,7 @@ TEST(ConfigFiles, paper_holds_the_printed_constants) {
   const NavigatorConfig paper = read_file("paper.yaml");
   EXPECT_DOUBLE_EQ(paper.planner.mesh.cell_size, 0.2);          // R-NAV-1
   EXPECT_TRUE(paper.planner.mesh.whole_cell_erosion);           // R-NAV-2
+  EXPECT_EQ(paper.planner.mesh.regions, "watershed");           // R-NAV-3
   EXPECT_DOUBLE_EQ(paper.planner.mesh.carve_changed, 0.01);     // R-NAV-5
   EXPECT_DOUBLE_EQ(paper.carve_period, 2.0);                    // R-NAV-5
   EXPECT_DOUBLE_EQ(paper.planner.alpha, 1.0);                   // R-NAV-6

@@ -27,6 +27,8 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
         "comes");
   visit(whole_cell_erosion, "whole_cell_erosion", navvi_config::Any{}, "",
         "round the eroded width up to whole cells (R-NAV-2)");
+  visit(regions, "regions", navvi_config::OneOf{{"layers", "watershed"}}, "",
+        "how Recast divides the floor before it is cut into polygons; layers take half the time");
   visit(contour_error, "contour_error", Range{0.0, 2.0}, "cells",
         "how deep a notch in a wall may be that is filled to draw the wall straight");
   visit(tile_size, "tile_size", Range{2.0, 64.0}, "m", "edge of a tile");
@@ -55,6 +57,7 @@ bake::BakedMap NavMesh::bake(map::MapSurvey survey) const {
   how.margin = margin(survey.cell_size);
   how.reach = clearance_ + 2.0 * survey.cell_size;
   how.tile_size = config_.tile_size;
+  how.watershed = config_.regions == "watershed";
   how.contour_error = config_.contour_error;
   how.max_edge = config_.max_edge;
   how.max_corners = config_.polygon_corners;

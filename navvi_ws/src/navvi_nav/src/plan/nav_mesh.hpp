@@ -26,6 +26,7 @@ struct NavMeshConfig {
   double climb = 0.04;
   double floor_height = map::kAnyFloor;
   bool whole_cell_erosion = false;
+  std::string regions = "layers";
   double contour_error = 1.0;
   double tile_size = 32.0;
   double max_edge = 0.0;
