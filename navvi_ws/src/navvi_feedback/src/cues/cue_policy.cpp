@@ -156,6 +156,7 @@ void CuePolicy::lost(const CueEvent& event) {
   phrasing_.forget(event);
   near_.unsaid(kind);
   route_.lost(kind);
+  state_.lost(kind, time_);
   answers_.lost(kind);
 }
 

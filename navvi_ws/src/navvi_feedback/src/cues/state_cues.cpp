@@ -11,6 +11,8 @@ namespace {
 constexpr double kStopped = 3.0;
 /// s, from one word to the next on what a stick that is pushed waits for.
 constexpr double kHeldBack = 2.5;
+/// s, after words that found no room.
+constexpr double kTryAgain = 0.3;
 
 bool said_once(CueKind problem) {
   return problem == CueKind::arrived || problem == CueKind::welcome || is_refusal(problem);
@@ -27,9 +29,16 @@ Utterances StateCues::update(const Tick& tick, bool halted, const Phrasing& phra
   // What is said too seldom for now is said a little later.
   if (!problem_ || !due(tick, halted) || phrasing.too_soon(*problem_, tick.time)) return told;
   said_ = tick.time;
+  lost_.reset();
   const bool again = problem_ == CueKind::arrived && std::exchange(arrival_said_, true);
   if (!again) told.push_back(problem_words(*problem_, tick.now));
   return told;
+}
+
+void StateCues::lost(CueKind kind, double time) {
+  if (kind != problem_) return;
+  lost_ = time;
+  arrival_said_ = false;
 }
 
 bool StateCues::goal_gone() const {
@@ -57,11 +66,13 @@ void StateCues::observe(const Tick& tick) {
   problem_ = problem;
   since_ = tick.time;
   said_.reset();
+  lost_.reset();
   if (guidance) goal_ = guidance->goal;
 }
 
 bool StateCues::due(const Tick& tick, bool halted) const {
   if (tick.time - since_ < hold(tick, halted)) return false;
+  if (lost_) return tick.time - *lost_ >= kTryAgain;
   const bool pushed = awaited_ && tick.now.stick_held_unarmed;
   const double pause = pushed ? kHeldBack : config_.problem_repeat;
   return !said_ || (!said_once(*problem_) && tick.time - *said_ >= pause);

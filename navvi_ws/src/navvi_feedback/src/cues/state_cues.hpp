@@ -17,6 +17,8 @@ class StateCues {
   /// \param halted  the person was told to stop
   /// \param phrasing  knows which kinds were said too short a time ago
   [[nodiscard]] Utterances update(const Tick& tick, bool halted, const Phrasing& phrasing);
+  /// Words of the kind were not heard: if they are true still, they are said again a little later.
+  void lost(CueKind kind, double time);
 
   /// As of the last update. \return nullopt: the guidance leads, or nothing is known of it
   [[nodiscard]] std::optional<CueKind> problem() const { return problem_; }
@@ -35,6 +37,7 @@ class StateCues {
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();  ///< m, in map, when that began
   double since_ = 0.0;                              ///< s
   std::optional<double> said_;                      ///< s
+  std::optional<double> lost_;                      ///< s, when that was dropped unheard
   bool arrival_said_ = false;                       ///< since there was a path to follow
   bool led_ = false;                                ///< there was one
 };

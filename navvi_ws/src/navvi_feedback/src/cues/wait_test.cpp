@@ -104,6 +104,27 @@ TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
   EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
 }
 
+TEST_F(WaitTest, is_said_again_while_it_lasts_if_other_words_left_it_no_room) {
+  for (int i = 1; i <= 3; ++i) {
+    note(i, CueStage::queued);
+    note(i, CueStage::dropped);
+    EXPECT_EQ(pass(0.25), Texts{}) << "none that finds no room either";
+    EXPECT_EQ(pass(0.25), Texts{"wait, worker in the way"});
+  }
+  note(4, CueStage::queued);
+  note(4, CueStage::started);
+  EXPECT_EQ(pass(2.0), Texts{});
+  follow();
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
+}
+
+TEST_F(WaitTest, is_not_said_again_once_the_way_is_free) {
+  note(1, CueStage::queued);
+  note(1, CueStage::dropped);
+  follow();
+  EXPECT_EQ(pass(3.0), Texts{});
+}
+
 TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_then) {
   follow();
   Texts told;
