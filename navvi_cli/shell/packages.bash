@@ -1,8 +1,8 @@
 # What NavVI needs of Debian 12 or 13, and how it gets there.
 
-# Without these no session runs.
+# Without these no session runs; netbase writes /etc/hosts, where roslaunch looks for localhost.
 run_packages=(
-  rosbash rosout espeak-ng-data libopenal-data iproute2 python3-rosbag python3-roslaunch python3-rosnode
+  netbase rosbash rosout espeak-ng-data libopenal-data iproute2 python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
   python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-std-srvs python3-tf2-msgs
   python3-yaml
