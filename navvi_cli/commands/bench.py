@@ -9,9 +9,10 @@ factor of sessions without ROS.
 trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]
 [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]
 [--trace[=FROM-TO]] [PART/NAME:=VALUE ...] runs sessions without ROS and prints
-one row a trial, or with --csv a table for a program. --trace prints what happens second by second,
-between FROM and TO (s). --sensing gives guidance and feedback what a lidar, or
-a lidar and a depth camera (robot), show of the world. PART is sim, nav,
+one row a trial, or with --csv a table for a program. --trace prints what
+happens second by second, between FROM and TO (s). --sensing gives guidance and
+feedback what a lidar, or a lidar and a depth camera (robot), show of the world.
+--cache bounds the worlds kept for other trials (MB; 0: none). PART is sim, nav,
 feedback, person or perception, with the parameters of its node, such as
 nav/replan/hold_time:=3 or sim/goal:=3,4.
 paper [--seeds=1-6] [--world=busy] [TRIAL] prints what the paper prints, with
