@@ -19,7 +19,8 @@ constexpr double kSameGoal = 0.05;    // m
 constexpr double kMoved = 0.05;       // m, driven
 constexpr double kTurned = 0.1;       // rad
 constexpr std::int64_t kOldNews =
-    2'000'000'000;  // ns in which an arrival may still be the last goal's
+    2'000'000'000;               // ns in which an arrival may still be the last goal's
+constexpr double kBeside = 3.0;  // m, from the hull to a thing beside the robot
 
 std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
@@ -40,6 +41,16 @@ std::uint64_t obstacles_in(const Contact& contact) {
   for (const auto& [thing_class, count] : contact.counts)
     if (thing_class != ThingClass::shelf) sum += count;
   return sum;
+}
+
+/// The class of the nearest thing on one side, or nothing. \param side  1: left, -1: right
+std::string beside(const Proximity& proximity, double side) {
+  for (const NearThing& thing : proximity.things) {
+    const double lateral = side * thing.nearest.y();
+    if (thing.gap <= kBeside && lateral > std::abs(thing.nearest.x()))
+      return to_string(thing.thing_class);
+  }
+  return "nothing";
 }
 
 }  // namespace
@@ -82,6 +93,7 @@ void TrialMonitor::start(const TrialStart& start) {
   hits_.obstacle_count = start.obstacle_count;
   inside_.clear();
   driven_.odometry.reset();
+  driven_.near.reset();
   guided_.before = guided_.guidance;
   guided_.guidance.reset();
   guided_.plans.reset();
@@ -134,6 +146,10 @@ record::Fields TrialMonitor::tally_fields() const {
 
 record::Fields TrialMonitor::end_fields() const {
   record::Fields fields = tally_fields();
+  const auto& last = driven_.odometry ? driven_.odometry : driven_.seen;
+  if (last) fields.set("yaw", last->pose.yaw);
+  if (driven_.near)
+    fields.set("left", beside(*driven_.near, 1.0)).set("right", beside(*driven_.near, -1.0));
   for (auto report = latencies_.rbegin(); report != latencies_.rend(); ++report) {
     if (end_ && report->stamp > *end_) continue;
     for (const std::string& name : record::reported_columns())
@@ -211,6 +227,7 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
 
 std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
   if (!counts(proximity.stamp)) return {};
+  driven_.near = proximity;
   std::vector<Event> events;
   const auto event = [&](const char* type, const NearThing& thing) {
     record::Fields fields;

@@ -136,7 +136,9 @@ class TrialMonitor {
   /// patterns_felt, missed_messages, and the last state of the world by step and hash (n/a where
   /// there is no simulator).
   [[nodiscard]] record::Fields tally_fields() const;
-  /// These, and how long the person waited for what was felt and heard, as far as it is known.
+  /// These, yaw (rad), the class of the nearest thing on the `left` and `right` (within 45 degrees
+  /// of that side and 3 m of the hull; or nothing), and how long the person waited for what was
+  /// felt and heard, as far as it is known.
   [[nodiscard]] record::Fields end_fields() const;
   /// The guide shows a path to the goal, has arrived, or refused.
   [[nodiscard]] bool goal_taken() const { return goal_.taken; }
@@ -162,6 +164,7 @@ class TrialMonitor {
     double first_yaw = 0.0;            ///< rad, of its first odometry
     std::optional<Odometry> seen;      ///< the last one at all
     std::int64_t next_progress = 0;    ///< ns
+    std::optional<Proximity> near;     ///< the last one of the trial
   };
   /// Of the session, up to the last contact.
   struct Hits {

@@ -132,6 +132,23 @@ TEST_F(Monitor, takes_a_shelf_as_near_within_one_meter_only) {
   EXPECT_TRUE(monitor_.observe(near(12.0, "shelf", 1.05)).empty()) << "still within the margin";
 }
 
+TEST_F(Monitor, ends_with_the_heading_and_what_is_on_either_side) {
+  Odometry stood;
+  stood.stamp = 11 * kSecond;
+  stood.pose.yaw = 1.25;
+  EXPECT_EQ(types(monitor_.observe(stood)), Names{"PROGRESS"});
+  Proximity around = near(11.0, "worker", 0.5, 0.9);
+  around.things.front().nearest.x() = 1.0;
+  around.things.push_back({ThingClass::shelf, 2, 0.9, {1.0, 1.5}});
+  around.things.push_back({ThingClass::wall, 3, 3.1, {1.0, -3.5}});
+  EXPECT_EQ(types(monitor_.observe(around)),
+            (Names{"PROXIMITY_ENTER", "PROXIMITY_ENTER", "PROXIMITY_ENTER"}));
+  const record::Fields end = monitor_.end_fields();
+  EXPECT_EQ(end.get("yaw"), "1.250");
+  EXPECT_EQ(end.get("left"), "shelf") << "the worker is nearer, and ahead";
+  EXPECT_EQ(end.get("right"), "nothing") << "the wall is more than 3 m away";
+}
+
 TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
   EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
             (Names{"GUIDANCE", "ROUTE"}));
