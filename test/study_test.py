@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "navvi_ws/src/navvi_study"
 sys.path.insert(0, str(PACKAGE / "python"))
 
-from navvi_study import actions, design, journal, overview, plan_file, progress, questionnaire, runner, schedule, session, study, table  # noqa: E402
+from navvi_study import actions, design, journal, overview, plan_file, probe, progress, questionnaire, record, runner, schedule, session, study, table  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
 
 EXAMPLE = PACKAGE / "studies/example_plan.yaml"
@@ -161,6 +161,11 @@ def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
     ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
     ("title: A small study", "", "the key \"title\" is missing"),
     ("operator: simulated", "sessions: 3", "a condition a session or more"),
+    ("limit: 60", "limit: 60\nprobes: {after: [20, 5], worlds: {world: easy, seeds: [3, 4]}}", "is no pair; allowed are the earliest and the latest second"),
+    ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3]}}", "has 1 worlds, and group all has 2 conditions"),
+    ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [1, 3]}}", "has easy 1 twice"),
+    ("[tlx]", "[probe]", "allowed are such items below the plan's key \"probes\""),
+    ("measure: time", "measure: pointing", "does not ask probe"),
 ])
 def test_a_wrong_plan_is_refused_with_file_key_and_what_is_allowed(tmp_path, old, new, sentence):
     with pytest.raises(StudyError) as problem:
@@ -185,15 +190,18 @@ def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
         asked = questionnaire.load(path)
         assert asked.items and questionnaire.script(asked.items, asked.title, asked.intro)
     sus = questionnaire.find("sus", EXAMPLE.parent)
-    assert sus.scored({item.name: "3" for item in sus.items}) == 50.0
-    assert sus.scored({item.name: "5" if at % 2 == 0 else "1" for at, item in enumerate(sus.items)}) == 100.0
+    assert sus.scored({item.name: "3" for item in sus.items}, {}) == 50.0
+    assert sus.scored({item.name: "5" if at % 2 == 0 else "1" for at, item in enumerate(sus.items)}, {}) == 100.0
     tlx = questionnaire.find("tlx", EXAMPLE.parent)
-    assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}) == 25.0
-    assert tlx.scored({item.name: "declined" for item in tlx.items}) is None
-    for name in ("tlx", "sus"):  # another language asks the same, and is compared with it
+    assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}, {}) == 25.0
+    assert tlx.scored({item.name: "declined" for item in tlx.items}, {}) is None
+    probe = questionnaire.find("probe", EXAMPLE.parent)
+    assert probe.scored({"goal": "80", "start": "0", "left": "wall"}, {"goal": "-20", "start": "40", "left": "n/a"}) == 30.0
+    assert probe.scored({"goal": "declined"}, {"goal": "n/a"}) is None
+    for name in ("tlx", "sus", "probe"):  # another language asks the same, and is compared with it
         first, other = (questionnaire.find(word, EXAMPLE.parent) for word in (name, name + "_es"))
         assert other.measured == name and other.score == first.score
-        assert [(item.name, item.values()) for item in other.items] == [(item.name, item.values()) for item in first.items]
+        assert [(item.name, item.classes or item.values()) for item in other.items] == [(item.name, item.classes or item.values()) for item in first.items]
 
 
 def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
@@ -516,6 +524,82 @@ def test_answers_that_were_given_are_not_asked_again(work):
     assert asked == [["mental", "physical", "temporal", "performance", "effort", "frustration"],
                      ["temporal", "performance", "effort", "frustration"], ["effort", "frustration"]]
     assert len(work.study.answers("sub-01")) == 6
+
+
+PROBES = ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3, 4]}}")
+
+
+@pytest.fixture
+def probed(tmp_path):
+    """A frozen study with probes, whose trials stop at (2, 1) m with a heading of 90 degrees, having begun at (0, 0); the goal is at (2, 6)."""
+    kept = study.Study(small(tmp_path, PROBES))
+    kept.freeze("test", None)
+
+    class Stopping(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            super().trial(participant, step, attempt, folder, lock)
+            trial = next(folder.iterdir())
+            rows = [(10, "TRIAL_START", "x=0;y=0"), (10, "GOAL_SET", "x=0;y=0;goal_x=2;goal_y=6"),
+                    (20, "TRIAL_END", f"x=2;y=1;yaw={math.pi / 2};left=shelf;right=nothing")]
+            (trial / "journal.csv").write_text("trial,seq,sim_ns,mono_ns,type,fields,crc32\n" + "".join(
+                f"t,{seq},{sim * 10**9},{sim * 10**9},{kind},{fields},00000000\n" for seq, (sim, kind, fields) in enumerate(rows, 1)))
+
+        def ask(self, participant, step, items, answered, lock):
+            if step.kind != "probe":
+                return super().ask(participant, step, items, answered, lock)
+            for item in items:
+                answered(item, {"goal": "-10", "start": "170", "left": "wall"}[item.name], "1.5")
+            return None
+    return lambda *results: session.Session(kept, Stopping(kept, *results), say=lambda line: None, wait=False)
+
+
+def test_a_probe_stops_a_trial_of_each_condition_at_a_time_that_nobody_can_tell(tmp_path):
+    plan = small(tmp_path, PROBES)
+    assert rest_of_kinds(plan, "sub-01") == ["trial", "probe", "questionnaire"] * 2 + ["session_end"]
+    stops = [step.limit for name in plan.participants for step in schedule.steps_of(plan, name) if step.kind == "probe"]
+    assert len(set(stops)) > 3 and all(5 <= stop <= 20 for stop in stops)
+    step = next(step for step in schedule.steps_of(plan, "sub-01") if step.kind == "probe")
+    words = runner.LiveRunner(study.Study(plan), "navvi", "close_trials").arguments("sub-01", step, progress.Attempt(step.name, 1, "easy", 3, "", 0), tmp_path)
+    assert words["limit"] == f"{step.limit:g}" and words["trial/study/phase"] == "probe"
+    assert "probes" not in small(tmp_path).values() and plan.hash() != small(tmp_path).hash()
+
+
+def rest_of_kinds(plan, name):
+    return [step.kind for step in schedule.steps_of(plan, name)]
+
+
+def test_what_was_answered_to_a_probe_stands_beside_what_was_true(probed):
+    begun = probed("timeout", "timeout")
+    assert rest(begun)[:3] == ["s1-c1-trial-1", "s1-c1-probe", "s1-c1-tlx"]
+    kept, state = begun.study, begun.study.progress()
+    first = {row["item"]: row for row in table.answers(kept, state) if row["step"] == "s1-c1-probe"}
+    assert (first["goal"]["truth"], first["goal"]["error_deg"], first["goal"]["seconds"]) == ("0", "-10", "1.5"), "it is straight ahead"
+    # The start is 2 m to the left of the heading and 1 m behind: 90 + atan(1/2).
+    assert (first["start"]["truth"], first["start"]["error_deg"]) == ("117", "53")
+    assert (first["left"]["truth"], first["left"]["correct"]) == ("shelf", "no")
+    assert [row["score"] for row in table.scores(kept, state) if row["questionnaire"] == "probe"] == [31.5, 31.5]
+    phases = [(row["phase"], row["counts"]) for row in table.trials(kept, state)]
+    assert phases == [("trial", "yes"), ("probe", "no")] * 2, "no figure of a trial is made of a probe"
+    files = {path.name: path for path in table.write(kept, state)}
+    assert json.loads(files["answers.json"].read_text())["error_deg"]["Units"] == "deg"
+
+
+def test_a_probe_whose_trial_does_not_count_is_driven_again_before_it_is_asked(probed):
+    begun = probed("reached", "aborted")
+    steps = rest(begun)
+    assert steps[:4] == ["s1-c1-trial-1", "s1-c1-probe", "s1-c1-probe", "s1-c1-tlx"]
+    assert begun.runner.driven[1:3] == [("easy", 3), ("easy", 11)]
+    assert len([row for row in begun.study.answers("sub-01") if row["step"] == "s1-c1-probe"]) == 3
+
+
+def test_where_the_robot_stands_at_the_place_or_the_record_does_not_know_nothing_is_true(tmp_path):
+    probe_of, folder = questionnaire.find("probe", EXAMPLE.parent), tmp_path / "trial"
+    folder.mkdir()
+    for end, known in (("x=0.5;y=0;yaw=0;left=n/a", [None, None, None]), ("x=3;y=0", [None, None, None]),
+                       ("x=-3;y=0;yaw=3.1;left=nothing", [None, "-178", "nothing"])):
+        (folder / "journal.csv").write_text("head\n" + f"t,1,0,0,TRIAL_START,x=0;y=0,0\nt,2,9,9,TRIAL_END,{end},0\n")
+        assert [probe.truth(item, record.Record(folder)) for item in probe_of.items] == known
+    assert [probe.wrapped(angle) for angle in (180, -180, 181, 540, 0)] == [180, 180, -179, 180, 0]
 
 
 def test_marks_and_interventions_stand_in_the_table(work):

@@ -1,4 +1,11 @@
-"""Orders and rotations, without names: rows of indices."""
+"""Orders and rotations, without names: rows of indices; and what is drawn by words."""
+import hashlib
+import random
+
+
+def drawn(*words):
+    """A source of numbers of its own for these words, the same on every machine."""
+    return random.Random(hashlib.sha256("/".join(map(str, words)).encode()).hexdigest())
 
 
 def williams(conditions):

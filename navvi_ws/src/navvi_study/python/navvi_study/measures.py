@@ -20,6 +20,7 @@ MEASURES = {
     "reached": Measure("Goal reached", "share of trials", "share", ("result",), less_is_better=False),
     "detour": Measure("Way driven over the first path", "times", "number", ("path_length_m", "first_path_length_m")),
     "stuck": Measure("Stuck", "a trial", "count", ("stuck_count",)),
+    "pointing": Measure("Error of pointing at goal and start", "degrees", "number", (), "probe"),
     "tlx": Measure("Workload, raw NASA-TLX", "0 to 100", "number", (), "tlx"),
     "sus": Measure("Usability, SUS", "0 to 100", "number", (), "sus", False),
 }

@@ -71,6 +71,15 @@ class Pause:
 
 
 @dataclass(frozen=True)
+class Probes:
+    """A trial in each condition that stops unannounced, after a time between `earliest` and `latest` (s), and is asked about."""
+    earliest: float
+    latest: float
+    worlds: tuple
+    asks: object  # a Questionnaire
+
+
+@dataclass(frozen=True)
 class Rule:
     """A trial whose column is so does not count."""
     column: str
@@ -115,6 +124,7 @@ class Plan:
     sets: tuple  # of tuples of worlds
     reserve: tuple
     practice: Practice
+    probes: Probes
     pause: Pause
     calibrate: bool
     lsl: bool
@@ -146,6 +156,17 @@ class Plan:
     def participants(self):
         return [name for group in self.groups for name in group.participants]
 
+    @property
+    def worlds(self):
+        """All that anybody may drive in."""
+        others = [part.worlds for part in (self.practice, self.probes) if part]
+        return [world for worlds in (*self.sets, self.reserve, *others) for world in worlds]
+
+    @property
+    def asked(self):
+        """Questionnaires whose answers are told in the report."""
+        return (*([self.probes.asks] if self.probes else []), *self.after_condition, *self.at_end)
+
     def world_file(self, world):
         """The file of a world that is no name; None for a name."""
         return Path(self.file).absolute().parent / world.world if world.world.endswith(WORLD_FILES) else None
@@ -153,8 +174,9 @@ class Plan:
     def values(self):
         """All that is planned, as JSON values; what a freeze keeps. Where the files are is no part of it, what is in them is."""
         values = _without_places(json.loads(json.dumps(asdict(self))))
-        worlds = [world for worlds in (*self.sets, self.reserve, self.practice.worlds if self.practice else ()) for world in worlds]
-        files = {world.world: self.world_file(world) for world in worlds if self.world_file(world)}
+        if not self.probes:  # so that plans without keep their hash
+            del values["probes"]
+        files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
         return dict(values, world_files={name: hashlib.sha256(file.read_bytes()).hexdigest() for name, file in files.items()})
 
     def hash(self):

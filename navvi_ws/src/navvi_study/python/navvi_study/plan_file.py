@@ -4,7 +4,7 @@ from pathlib import Path
 from . import checked, measures, questionnaire
 from .checked import code, flag, list_of, number, numbered, one_of, text, whole
 from .errors import StudyError
-from .plan import OWN, SWITCHES, WORLD_FILES, Condition, Group, Pause, Plan, Practice, Question, Rule, World, shown
+from .plan import OWN, SWITCHES, WORLD_FILES, Condition, Group, Pause, Plan, Practice, Probes, Question, Rule, World, shown
 
 
 def load(path):
@@ -29,7 +29,7 @@ def load(path):
         order=root.take("order", one_of("williams", "listed"), "williams"),
         groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
         conditions=conditions, sets=sets, reserve=reserve,
-        practice=_practice(root.section("practice"), folder), pause=_pause(root.section("break")),
+        practice=_practice(root.section("practice"), folder), probes=_probes(root.section("probes"), folder), pause=_pause(root.section("break")),
         calibrate=root.take("calibrate", flag, False), lsl=root.take("lsl", flag, False),
         consent=questionnaire.find(root.take("consent", text), folder) if "consent" in root else None,
         after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
@@ -95,6 +95,17 @@ def _practice(part, folder):
     return practice
 
 
+def _probes(part, folder):
+    if not part.values:
+        return None
+    after = part.take("after", list_of(number(1, 86400)))
+    if len(after) != 2 or after[0] > after[1]:
+        raise part.error("after", "is no pair; allowed are the earliest and the latest second, such as [20, 60]")
+    probes = Probes(*after, tuple(_worlds(part.section("worlds", required=True), folder)), questionnaire.find(part.take("ask", text, "probe"), folder))
+    part.done()
+    return probes
+
+
 def _pause(part):
     if not part.values:
         return None
@@ -129,7 +140,7 @@ def _questionnaires(folder, part, key):
 
 def _minutes(part):
     """What a session's parts take, for the schedule."""
-    given = {"trial": None, "practice": None, "questionnaire": 3.0, "consent": 5.0, "calibrate": 6.0, "between": 1.0}
+    given = {"trial": None, "practice": None, "probe": None, "questionnaire": 3.0, "consent": 5.0, "calibrate": 6.0, "between": 1.0}
     minutes = {name: part.take(name, number(0, 600), usual) for name, usual in given.items()}
     part.done()
     return minutes
@@ -152,12 +163,13 @@ def _check(root, plan):
     sizes = {len(worlds) for worlds in plan.sets}
     if len(sizes) != 1:
         raise root.error("worlds", "has sets of different sizes, or none; allowed are sets with the same number of worlds")
-    met = [world for worlds in plan.sets for world in worlds] + list(plan.reserve) + list(plan.practice.worlds if plan.practice else ())
-    if twice := _first_twice(met):
+    if twice := _first_twice(plan.worlds):
         raise root.error("worlds", f"has {twice} twice, and nobody may meet a world twice; allowed are other seeds")
     for group in plan.groups:
         if len(group.conditions) > len(plan.sets):
             raise root.error("worlds", f"has {len(plan.sets)} sets, and group {group.name} has {len(group.conditions)} conditions; allowed are as many sets or more")
+        if plan.probes and len(group.conditions) > len(plan.probes.worlds):
+            raise root.error("probes", f"has {len(plan.probes.worlds)} worlds, and group {group.name} has {len(group.conditions)} conditions; allowed are as many worlds or more")
         if plan.sessions > len(group.conditions):
             raise root.error("sessions", f"is {plan.sessions}, and group {group.name} has {len(group.conditions)} conditions; allowed is a condition a session or more")
         seen = {}
@@ -165,11 +177,14 @@ def _check(root, plan):
             same = seen.setdefault(tuple(sorted(plan.condition(name).arguments().items())), name)
             if same != name:
                 raise root.error("conditions", f"has {same} and {name}, which are alike; allowed are conditions that differ")
+    for key, asked in (("consent", [plan.consent] if plan.consent else []), ("questionnaires", [*plan.after_condition, *plan.at_end])):
+        if any(item.probes for one in asked for item in one.items):
+            raise root.error(key, "asks about a trial that stopped; allowed are such items below the plan's key \"probes\"")
     for question in (plan.primary, *plan.secondary):
         if not any({question.first, question.second} <= set(group.conditions) for group in plan.groups):
             raise root.error("outcomes", f"compares {question.first} and {question.second}, which no group has both; allowed are two conditions of a group")
         asked = measures.MEASURES[question.measure].questionnaire
-        if asked and asked not in [one.measured for one in (*plan.after_condition, *plan.at_end)]:
+        if asked and asked not in [one.measured for one in plan.asked]:
             raise root.error("outcomes", f"has the measure {question.measure}, and the plan does not ask {asked}; allowed is a questionnaire of the plan")
 
 

@@ -82,13 +82,13 @@ class Progress:
         return next((step for step in person.steps if not self.finished(person, step)), None)
 
     def finished(self, person, step):
-        if step.kind == "practice":
-            return step.name in person.done
         if step.kind != "trial":
             return step.name in person.done
+        return any(attempt.counts for attempt in person.of(step)) or self.given_up(person, step)
+
+    def given_up(self, person, step):
+        """Whether its trial does not count, and nothing shall replace it or no world is left for it."""
         attempts = person.of(step)
-        if any(attempt.counts for attempt in attempts):
-            return True
         if attempts and attempts[-1].excluded and not attempts[-1].replaced:
             return True
         return bool(attempts) and self.world_for(person, step) is None

@@ -27,9 +27,19 @@ class Item:
     most: str = ""
     choices: tuple = ()  # instead of a scale
     required: str = ""  # the choice without which nothing goes on
+    point: str = ""  # instead of a scale: the person points with the stick at the goal, or the start
+    beside: str = ""  # of choices: the right one is what stood on the left, or the right
+    classes: tuple = ()  # of things, in the order of the choices
+
+    @property
+    def probes(self):
+        """Whether the answer is true or false of a trial that stopped."""
+        return bool(self.point or self.beside)
 
     def values(self):
         """All answers that can be given, as they stand in the table."""
+        if self.point:  # degrees, counter-clockwise from straight ahead
+            return [str(degrees) for degrees in range(-179, 181)]
         if self.choices:
             return list(self.choices)
         return [f"{self.low + at * self.step:g}" for at in range(round((self.high - self.low) / self.step) + 1)]
@@ -42,7 +52,7 @@ class Questionnaire:
     title: str
     intro: str
     items: tuple
-    score: str  # none, mean or sus
+    score: str  # none, mean, sus or pointing
     same_as: str = ""  # the questionnaire that it is in another language
 
     @property
@@ -50,8 +60,12 @@ class Questionnaire:
         """Under which name its score is compared."""
         return self.same_as or self.name
 
-    def scored(self, answers):
-        """\\param answers  by item's name, as text. None where one is missing or declined."""
+    def scored(self, answers, errors):
+        """\\param answers  by item's name, as text. None where one is missing or declined.
+        \\param errors  of pointing, by item's name, as text"""
+        if self.score == "pointing":
+            known = [abs(float(error)) for error in errors.values() if error not in ("", "n/a")]
+            return sum(known) / len(known) if known else None
         try:
             numbers = [float(answers[item.name]) for item in self.items]
         except (KeyError, ValueError):
@@ -76,11 +90,13 @@ def load(path):
     root = checked.load(path)
     items = tuple(_item(part) for part in root.items("items"))
     one = Questionnaire(Path(path).stem, str(path), root.take("title", text), root.take("intro", text, ""), items,
-                        root.take("score", one_of("none", "mean", "sus"), "none"), root.take("same_as", code, ""))
+                        root.take("score", one_of("none", "mean", "sus", "pointing"), "none"), root.take("same_as", code, ""))
     root.done()
     names = [item.name for item in items]
     if len(set(names)) < len(names):
         raise root.error("items", "has two items of one name; allowed is a name of its own for each")
+    if one.score == "pointing" and not any(item.point for item in items):
+        raise root.error("score", "is pointing, and no item is answered by pointing; allowed is an item with the key point")
     if one.score == "sus" and [(item.low, item.high, item.step) for item in items] != [(1, 5, 1)] * 10:
         raise root.error("score", "is sus, which is made of ten items from 1 to 5")
     for words in [one.title, one.intro, *[words for item in items for words in (item.ask, item.least, item.most, *item.choices)]]:
@@ -101,13 +117,19 @@ def _item(part):
     name, ask = part.take("name", code), part.take("ask", text)
     choices = tuple(part.take("choices", list_of(_choice), []))
     required = part.take("required", text, "")
+    point, beside = part.take("point", one_of("goal", "start"), ""), part.take("beside", one_of("left", "right"), "")
+    classes = tuple(part.take("classes", list_of(code), list(choices)))
     scale = part.section("scale")
-    if bool(choices) == bool(scale.values):
-        raise StudyError(f"{part.file}: \"{part.path}\" needs one of the keys \"scale\" and \"choices\".")
+    if bool(choices) + bool(scale.values) + bool(point) != 1:
+        raise StudyError(f"{part.file}: \"{part.path}\" needs one of the keys \"scale\", \"choices\" and \"point\".")
+    if beside and len(classes) != len(choices):
+        raise StudyError(f"{part.file}: \"{part.path}\" needs as many \"classes\" as \"choices\"; it has {len(classes)} and {len(choices)}.")
     if required and required not in choices:
         raise part.error("required", f"is \"{required}\"; allowed is one of the choices")
-    if choices:
-        item = Item(name, ask, choices=choices, required=required)
+    if point:
+        item = Item(name, ask, point=point)
+    elif choices:
+        item = Item(name, ask, choices=choices, required=required, beside=beside, classes=classes if beside else ())
     else:
         item = Item(name, ask, scale.take("from", number(-1000, 1000)), scale.take("to", number(-1000, 1000)),
                     scale.take("step", number(0.01, 1000), 1.0), scale.take("least", text), scale.take("most", text))
@@ -124,8 +146,8 @@ def script(items, title, intro):
     def said(item, at, value):
         end = {0: item.least, len(item.values()) - 1: item.most}.get(at, "")
         return f"{value}, {end}" if end else value
-    asks = [{"name": item.name, "ask": item.ask, "values": item.values(), "spoken": [said(item, at, value) for at, value in enumerate(item.values())]}
-            for item in items]
+    asks = [{"name": item.name, "ask": item.ask, **({"point": True} if item.point else {
+        "values": item.values(), "spoken": [said(item, at, value) for at, value in enumerate(item.values())]})} for item in items]
     asks[0]["ask"] = ". ".join(words for words in (title, intro, asks[0]["ask"]) if words)
     return yaml.safe_dump({"items": asks}, allow_unicode=True, sort_keys=False, width=1000)
 

@@ -66,10 +66,10 @@ def people(progress):
 def trials(progress):
     kinds = {(person.name, step.name): step.kind for person in progress.people.values() for step in person.steps}
     driven = [(person, attempt) for person in progress.people.values() for attempt in person.attempts if attempt.trial]
-    practice = sum(kinds[person.name, attempt.step] == "practice" for person, attempt in driven)
+    practice, probes = (sum(kinds[person.name, attempt.step] == kind for person, attempt in driven) for kind in ("practice", "probe"))
     counted = sum(attempt.counts and not person.excluded and kinds[person.name, attempt.step] == "trial" for person, attempt in driven)
     missing = sum(len(progress.missing(person)) for person in progress.people.values())
-    rows = [["driven", len(driven)], ["practice", practice], ["counted", counted], ["excluded", len(driven) - practice - counted], ["without replacement", missing]]
+    rows = [["driven", len(driven)], ["practice", practice], ["probes", probes], ["counted", counted], ["excluded", len(driven) - practice - probes - counted], ["without replacement", missing]]
     results = collections.Counter(attempt.result for person, attempt in driven if attempt.counts and kinds[person.name, attempt.step] == "trial")
     return rows + [[f"counted, {result}", count] for result, count in sorted(results.items())]
 
@@ -158,9 +158,9 @@ def answered(study, progress):
     given = collections.defaultdict(list)
     for row in table.answers(study, progress):
         if not progress.people[row["participant"]].excluded:
-            given[row["questionnaire"], row["item"], row["condition"]].append(row["answer"])
+            given[row["questionnaire"], row["item"], row["condition"]].append(row)
     parts = []
-    for asked in (*progress.plan.after_condition, *progress.plan.at_end):
+    for asked in progress.plan.asked:
         conditions = list(dict.fromkeys(condition for name, _, condition in given if name == asked.name))
         if conditions:
             rows = [[item.ask, *[answers_in_words(item, given[asked.name, item.name, condition]) for condition in conditions]] for item in asked.items]
@@ -168,13 +168,18 @@ def answered(study, progress):
     return parts
 
 
-def answers_in_words(item, answers):
-    said = [answer for answer in answers if answer != DECLINED]
-    if item.choices:
+def answers_in_words(item, rows):
+    said = [row["answer"] for row in rows if row["answer"] != DECLINED]
+    if item.point:
+        errors = [abs(error) for row in rows if (error := number(row["error_deg"])) is not None]
+        words = f"{shown(statistics.mean(errors))} degrees off" if errors else "n/a"
+    elif item.beside:
+        words = f"{sum(row['correct'] == 'yes' for row in rows)} of {sum(row['correct'] != 'n/a' for row in rows)} right"
+    elif item.choices:
         words = ", ".join(f"{choice} {count}" for choice, count in collections.Counter(said).most_common())
     else:
         words = shown(statistics.mean(map(float, said))) if said else "n/a"
-    return f"{words} ({len(said)}, {len(answers) - len(said)})"
+    return f"{words} ({len(said)}, {len(rows) - len(said)})"
 
 
 def quality(study, progress):

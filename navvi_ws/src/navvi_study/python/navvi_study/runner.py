@@ -1,9 +1,7 @@
 """How a trial is driven and a questionnaire asked: live by ./navvi, or without ROS by simulated people."""
 import csv
-import hashlib
 import io
 import os
-import random
 import select
 import signal
 import subprocess
@@ -12,6 +10,7 @@ import time
 import zlib
 
 from . import questionnaire
+from .design import drawn
 from .errors import StudyError
 from .journal import utc_now
 from .plan import shown
@@ -49,7 +48,7 @@ class LiveRunner:
         plan, group = self.study.plan, self.study.plan.group_of(participant)
         simulated = plan.operator == "simulated"
         words = {**plan.condition(step.condition).arguments(), "operator": plan.operator, "participant": participant, "person": participant,
-                 "world": str(plan.world_file(attempt) or attempt.world), "seed": attempt.seed, "limit": f"{plan.limit:g}", "once": "true",
+                 "world": str(plan.world_file(attempt) or attempt.world), "seed": attempt.seed, "limit": f"{step.limit or plan.limit:g}", "once": "true",
                  "out": folder, "feedback/locked": "true", "trial/locked": "true", **self._learnt(participant, attempt)}
         if plan.lsl:
             words["lsl"] = "true"
@@ -72,7 +71,7 @@ class LiveRunner:
                               for other in self.study.progress().person(participant).attempts if other.trial])
 
     def ask(self, participant, step, items, answered, lock):
-        """Asks the items. answered(ITEM, ANSWER) keeps each at once."""
+        """Asks the items. answered(ITEM, ANSWER, SECONDS) keeps each at once; without SECONDS where nobody took the time."""
         if self.typed:
             ask_in_terminal(step.asks, items, answered)
         elif self.study.plan.operator == "simulated":
@@ -158,7 +157,7 @@ class LoopRunner:
     def trial(self, participant, step, attempt, folder, lock):
         plan = self.study.plan
         words = plan.condition(step.condition).arguments()
-        command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={plan.limit:.0f}",
+        command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={step.limit or plan.limit:.0f}",
                    f"--profile={words.pop('profile')}", "--csv"]
         words.pop("rviz")
         words.update(person_of(participant, "person/"))
@@ -168,17 +167,17 @@ class LoopRunner:
         rows = list(csv.DictReader(result.stdout.splitlines()))
         if result.returncode != 0 or len(rows) != 1:
             raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
-        self._write(folder / "trial-rehearsed", rows[0], participant, plan)
+        self._write(folder / "trial-rehearsed", rows[0], participant, step.limit or plan.limit)
 
     @staticmethod
-    def _write(folder, row, participant, plan):
+    def _write(folder, row, participant, limit):
         """The columns of a trial's summary that the loop knows."""
         hits = row["hits"].split()
         counts = dict(zip(hits[::2], map(int, hits[1::2]))) if row["hits"] != "-" else {}
         shelves = counts.pop("shelf", 0)
         reached = row["result"] == "reached"
         summary = {"trial": folder.name, "world": row["world"], "seed": row["seed"], "operator": "simulated", "participant": participant,
-                   "started_utc": utc_now(), "result": row["result"], "reason": "n/a", "elapsed_s": row["time"] if reached else f"{plan.limit:g}",
+                   "started_utc": utc_now(), "result": row["result"], "reason": "n/a", "elapsed_s": row["time"] if reached else f"{limit:g}",
                    "shelf_collision_count": shelves, "obstacle_collision_count": sum(counts.values()), "path_length_m": row["driven"],
                    "first_path_length_m": row["shortest"], "reroute_count": row["reroutes"], "missed_messages": 0}
         text = io.StringIO()
@@ -199,10 +198,10 @@ class LoopRunner:
 
 def keep_answers(record, items, answered):
     """What the lesson has written."""
-    answers = {row["item"]: row["answer"] for row in questionnaire.read_answers(record)}
+    answers = {row["item"]: row for row in questionnaire.read_answers(record)}
     for item in items:
-        if item.name in answers:
-            answered(item, answers[item.name])
+        if row := answers.get(item.name):
+            answered(item, row["answer"], row.get("seconds", "n/a"))
 
 
 def ask_in_terminal(asks, items, answered):
@@ -228,15 +227,12 @@ def ask_in_terminal(asks, items, answered):
 
 
 def allowed_words(item):
+    if item.point:
+        return "whole degrees from straight ahead, 90 on the left, -90 on the right, 180 behind"
     if item.choices:
         return ", ".join(item.choices)
     step = "" if item.step == 1 else f" in steps of {item.step:g}"
     return f"{item.low:g}, {item.least}, to {item.high:g}, {item.most}{step}"
-
-
-def drawn(*words):
-    """A source of numbers of its own for these words, the same on every machine."""
-    return random.Random(hashlib.sha256("/".join(map(str, words)).encode()).hexdigest())
 
 
 def simulate_answers(participant, step, items, answered):

@@ -1,10 +1,10 @@
 """What each participant does, in order: a pure function of the plan."""
 from dataclasses import dataclass
 
-from .design import set_of, williams
+from .design import drawn, set_of, williams
 
 # What a step is, and the column `phase` of its trial.
-KINDS = ("consent", "calibrate", "practice", "trial", "questionnaire", "break", "session_end")
+KINDS = ("consent", "calibrate", "practice", "trial", "probe", "questionnaire", "break", "session_end")
 
 
 @dataclass(frozen=True)
@@ -18,10 +18,12 @@ class Step:
     world: object = None  # a World, of a trial
     asks: object = None  # a Questionnaire
     minutes: float = 0.0
+    limit: float = None  # s, after which a probe stops its trial; that of the plan where there is none
 
     def __str__(self):
         words = {"consent": "consent", "calibrate": "calibration", "practice": "practice", "session_end": f"the end of session {self.session}",
-                 "trial": f"trial {self.repeat} in {self.condition}", "break": f"a break of {self.minutes:g} min"}
+                 "trial": f"trial {self.repeat} in {self.condition}", "probe": f"a probe in {self.condition}",
+                 "break": f"a break of {self.minutes:g} min"}
         return words.get(self.kind) or f"the questionnaire {self.asks.name}"
 
 
@@ -54,6 +56,9 @@ def steps_of(plan, participant):
                 add(f"c{order}-practice", "practice", **given)
             for repeat, world in enumerate(worlds, 1):
                 add(f"c{order}-trial-{repeat}", "trial", repeat=repeat, world=world, **given)
+            if plan.probes:
+                add(f"c{order}-probe", "probe", repeat=1, world=plan.probes.worlds[order - 1], asks=plan.probes.asks,
+                    limit=_stop(plan.probes, participant, order), **given)
             for asks in plan.after_condition:
                 add(f"c{order}-{asks.name}", "questionnaire", asks=asks, **given)
             if plan.pause and order < shares[session] and (order - shares[session - 1]) % plan.pause.after == 0:
@@ -71,12 +76,18 @@ def _minutes(plan, kind):
     if given is not None:
         return given
     trial = plan.minutes["trial"] if plan.minutes.get("trial") is not None else plan.limit / 120
-    return {"trial": trial, "practice": trial * (plan.practice.in_a_row if plan.practice else 0)}.get(kind, 0.0)
+    probe = plan.probes.latest / 60 + 0.3 * len(plan.probes.asks.items) if plan.probes else 0
+    return {"trial": trial, "practice": trial * (plan.practice.in_a_row if plan.practice else 0), "probe": probe}.get(kind, 0.0)
+
+
+def _stop(probes, participant, order):
+    """Whole seconds, drawn for the participant and the place of the condition, so that nobody can tell when it comes."""
+    return float(round(drawn(participant, "probe", order).uniform(probes.earliest, probes.latest)))
 
 
 def minutes_of(plan, participant):
     """By session."""
     steps = steps_of(plan, participant)
     between = plan.minutes["between"]
-    return [sum(step.minutes + (between if step.kind in ("trial", "practice") else 0.0) for step in steps if step.session == session)
+    return [sum(step.minutes + (between if step.kind in ("trial", "practice", "probe") else 0.0) for step in steps if step.session == session)
             for session in range(1, plan.sessions + 1)]

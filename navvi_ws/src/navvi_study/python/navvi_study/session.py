@@ -63,6 +63,18 @@ class Session:
             self.say(f"navvi: {person.name}: the practice is over; its criterion was {'met' if mastered else 'not met'}.")
         return went_on
 
+    def _probe(self, progress, person, step, lock):
+        """A trial that stops, and what is asked about it at once. One that does not count is driven again, as long as a world is left."""
+        if not any(attempt.counts for attempt in person.of(step)):
+            if progress.given_up(person, step):
+                self._done(person.name, step)
+                return True
+            if not self._trial(progress, person, step, lock):
+                return False
+            if not any(attempt.counts for attempt in self.study.progress().person(person.name).of(step)):
+                return True
+        return self._questionnaire(progress, person, step, lock)
+
     def _end(self, name, attempt):
         """Writes what came of an attempt. Returns whether a trial began."""
         folder = self.study.attempt_folder(name, attempt.step, attempt.number)
@@ -99,7 +111,7 @@ class Session:
         known = self.study.answers_of(name, step)
         left = [item for item in step.asks.items if item.name not in known]
         if left:
-            self.runner.ask(name, step, left, lambda item, answer: self.study.add_answer(name, step, item, answer), lock)
+            self.runner.ask(name, step, left, lambda *given: self.study.add_answer(name, step, *given), lock)
             known = self.study.answers_of(name, step)
         if all(item.name in known for item in step.asks.items):
             return known

@@ -86,10 +86,10 @@ class Study:
         finally:
             os.close(lock)
 
-    def add_answer(self, participant, step, item, answer):
+    def add_answer(self, participant, step, item, answer, seconds="n/a"):
         append_line(self.home(participant) / "answers.jsonl", {
             "step": step.name, "condition": step.condition, "order": step.order, "session": step.session, "questionnaire": step.asks.name,
-            "item": item.name, "answer": answer, "utc": utc_now()})
+            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now()})
 
     def answers_of(self, participant, step):
         """By item's name."""

@@ -3,19 +3,20 @@ import csv
 import io
 import json
 
+from . import probe
 from .record import Record
 from .study import write_safely
 
 # Set by the study; the others are those of each trial's summary.csv.
 COLUMNS = {
     "participant": "code of the plan", "group": "of the participant", "session": "from 1", "order": "place of the condition, from 1; 0 in practice before all",
-    "condition": "see the plan", "phase": "practice or trial", "repeat": "of the trial in its condition, from 1; 0 in practice",
-    "attempt": "from 1; more where a trial was replaced", "counts": "yes, or no where the trial is excluded or is practice",
+    "condition": "see the plan", "phase": "practice, trial or probe", "repeat": "of the trial in its condition, from 1; 0 in practice",
+    "attempt": "from 1; more where a trial was replaced", "counts": "yes, or no where the trial is excluded, or is practice or a probe",
     "excluded": "the reason, or n/a", "excluded_by": "rule, or the user who excluded it", "replaces": "the trial in whose place it stands",
     "marks": "marks and notes of the experimenter", "interventions": "of the experimenter",
 }
 NOT_OURS = {"participant", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
-UNITS = {"_s": "s", "_m": "m", "_ms": "ms"}
+UNITS = {"_s": "s", "_m": "m", "_ms": "ms", "_deg": "deg"}
 # Of each row of events.csv, before what the trial's own events.csv holds.
 WHOSE = ("participant", "group", "session", "order", "condition", "phase", "repeat", "attempt", "counts", "trial")
 EVENTS = {
@@ -30,6 +31,10 @@ DESCRIBED = {
     "trial": "name of its folder", "world": "name or file", "world_hash": "of the world that was built", "seed": "draws the world, start and goal",
     "result": "reached, timeout, refused, aborted or invalid", "reason": "of the result", "elapsed_s": "simulated time from start to goal, or to the end",
     "shelf_collision_count": "collisions with shelves", "obstacle_collision_count": "collisions with everything else",
+    "answer": "as given, or declined; pointed directions in whole degrees, counter-clockwise from straight ahead",
+    "seconds": "from the question to the answer; of pointing, from the end of the question's words to the push; n/a where the experimenter typed",
+    "truth": "of a probe: the answer that was true where the trial stopped; n/a where nobody can tell, or within a metre of the place",
+    "error_deg": "of pointing: answer minus truth, in (-180, 180]", "correct": "of a probe's choice: yes or no",
     "path_length_m": "way driven", "first_path_length_m": "of the first path", "started_utc": "ISO 8601", "bag": "ok, bad or none",
 }
 
@@ -86,13 +91,26 @@ def attempt_of(progress, row):
 
 
 def answers(study, progress):
+    """Rows by column name. Answers of a probe have what was true besides: truth, and error_deg or correct."""
     rows = []
     for person in progress.people.values():
         if person.withdrawn == "delete":
             continue
         for row in study.answers(person.name):
-            rows.append({"participant": person.name, "group": progress.plan.group_of(person.name).name, **{name: str(cell) for name, cell in row.items()}})
+            rows.append({"participant": person.name, "group": progress.plan.group_of(person.name).name, **{name: str(cell) for name, cell in row.items()},
+                         **_truth(study, person, row)})
     return rows
+
+
+def _truth(study, person, row):
+    """Columns of an answer to a probe; none of another."""
+    step = next((step for step in person.steps if step.name == row["step"]), None)
+    item = next((item for item in step.asks.items if item.name == row["item"]), None) if step and step.kind == "probe" else None
+    if not item or not item.probes:
+        return {}
+    stopped = [attempt for attempt in person.of(step) if attempt.counts]
+    known = probe.truth(item, Record(study.attempt_folder(person.name, step.name, stopped[-1].number) / stopped[-1].trial)) if stopped else None
+    return {"truth": "n/a" if known is None else known, **probe.off(item, row["answer"], known)}
 
 
 def scores(study, progress):
@@ -100,13 +118,14 @@ def scores(study, progress):
     given = {}
     for row in answers(study, progress):
         given.setdefault((row["participant"], row["step"]), []).append(row)
-    asked = {one.name: one for one in (*progress.plan.after_condition, *progress.plan.at_end)}
+    asked = {one.name: one for one in progress.plan.asked}
     rows = []
     for (participant, _), items in given.items():
         first = items[0]
         if first["questionnaire"] not in asked or progress.people[participant].excluded:
             continue
-        score = asked[first["questionnaire"]].scored({row["item"]: row["answer"] for row in items})
+        score = asked[first["questionnaire"]].scored({row["item"]: row["answer"] for row in items},
+                                                          {row["item"]: row.get("error_deg", "n/a") for row in items})
         rows.append({"participant": participant, "group": first["group"], "condition": first["condition"], "order": first["order"],
                      "questionnaire": asked[first["questionnaire"]].measured, "score": score})
     return rows

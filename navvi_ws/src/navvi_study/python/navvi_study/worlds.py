@@ -11,7 +11,7 @@ LIKE = 1.25  # times: the way of the longest set over that of the shortest
 
 def drive(plan, trials_bench, jobs=2):
     """Rows of the bench by world, each driven once with all that guides. Raises StudyError for a world that cannot be."""
-    worlds = [world for worlds in (*plan.sets, plan.reserve, plan.practice.worlds if plan.practice else ()) for world in worlds]
+    worlds = plan.worlds
 
     def one(world):
         command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv"]
@@ -27,7 +27,7 @@ def drive(plan, trials_bench, jobs=2):
 
 def draw(plan, navvi):
     """Pictures of all worlds from above, with the path and its turns. Returns their files. Raises StudyError."""
-    return [drawing_of(plan, navvi, world) for worlds in (*plan.sets, plan.reserve, plan.practice.worlds if plan.practice else ()) for world in worlds]
+    return [drawing_of(plan, navvi, world) for world in plan.worlds]
 
 
 def drawing_of(plan, navvi, world):
@@ -44,7 +44,7 @@ def drawing_of(plan, navvi, world):
 def picture_for(plan, navvi):
     """A function of world and seed as they stand in the record: the picture's text, None where it cannot be drawn."""
     def picture(world, seed):
-        known = [one for worlds in (*plan.sets, plan.reserve) for one in worlds if str(one.seed) == seed and Path(one.world).stem == Path(world).stem]
+        known = [one for one in plan.worlds if str(one.seed) == seed and Path(one.world).stem == Path(world).stem]
         try:
             return drawing_of(plan, navvi, known[0]).read_text(encoding="utf-8") if known else None
         except (StudyError, OSError):
@@ -61,7 +61,7 @@ def compared(plan, driven):
     """Lines on the worlds, and whether the sets are alike."""
     lines, ways = ["The reference driver: way in m, turns that were told, movers met within 5 m, time in s:"], {}
     for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
-                         ("practice", plan.practice.worlds if plan.practice else ())]:
+                         ("practice", plan.practice.worlds if plan.practice else ()), ("probes", plan.probes.worlds if plan.probes else ())]:
         for world in worlds:
             row = driven[world]
             lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {_turns(row):.0f}, movers {row['passed']}, time {row['time']}.")
