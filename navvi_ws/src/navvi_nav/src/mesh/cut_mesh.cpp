@@ -73,16 +73,30 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
 
 std::set<int> CutMesh::floor_components(Point point, double reach) const {
   std::set<int> found;
-  std::vector<Point> corners;
   bases_.visit(point - Point{reach, reach}, point + Point{reach, reach}, [&](int number) {
     if (found.count(bases_[number].component) > 0) return;
-    corners.clear();
-    for (const ExactPolygon::Edge& edge : bases_[number].shape.edges)
-      corners.push_back(position(edge.begin));
-    if (distance(nearest_in_convex(point, corners), point) <= reach)
+    if (distance(nearest_on_base(point, number), point) <= reach)
       found.insert(bases_[number].component);
   });
   return found;
+}
+
+std::optional<Point> CutMesh::nearest_on_floor(Point point, const std::set<int>& components) const {
+  std::optional<Point> best;
+  for (int number = 0; number < static_cast<int>(bases_.size()); ++number) {
+    if (bases_[number].shape.edges.empty() || components.count(bases_[number].component) == 0)
+      continue;
+    const Point nearest = nearest_on_base(point, number);
+    if (!best || distance(nearest, point) < distance(*best, point)) best = nearest;
+  }
+  return best;
+}
+
+Point CutMesh::nearest_on_base(Point point, int base) const {
+  std::vector<Point> corners;
+  for (const ExactPolygon::Edge& edge : bases_[base].shape.edges)
+    corners.push_back(position(edge.begin));
+  return nearest_in_convex(point, corners);
 }
 
 ExactPolygon CutMesh::shape_of(const GridPolygon& polygon) const {

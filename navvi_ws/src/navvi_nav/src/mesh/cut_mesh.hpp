@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -42,6 +43,10 @@ class CutMesh {
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   /// Components of the floor, holes disregarded, of which a part is within `reach` (m).
   [[nodiscard]] std::set<int> floor_components(Point point, double reach) const;
+  /// The point of these components, holes disregarded, that is nearest to `point`. Looks at each
+  /// polygon of the floor.
+  [[nodiscard]] std::optional<Point> nearest_on_floor(Point point,
+                                                      const std::set<int>& components) const;
 
  private:
   /// What is kept besides about a polygon of the mesh.
@@ -61,6 +66,7 @@ class CutMesh {
   };
 
   [[nodiscard]] Point position(const Intersection& at) const;
+  [[nodiscard]] Point nearest_on_base(Point point, int base) const;
   [[nodiscard]] ExactPolygon shape_of(const GridPolygon& polygon) const;
   void begin();
   void remove_base(int base);

@@ -102,6 +102,11 @@ class NavMesh {
   [[nodiscard]] std::set<int> floor_components(Point point, double reach) const {
     return mesh_.floor_components(point, reach);
   }
+  /// As CutMesh::nearest_on_floor.
+  [[nodiscard]] std::optional<Point> nearest_on_floor(Point point,
+                                                      const std::set<int>& components) const {
+    return mesh_.nearest_on_floor(point, components);
+  }
   /// The cylinders as carved.
   [[nodiscard]] const std::vector<Cylinder>& carved() const { return carving_.carved(); }
   [[nodiscard]] map::Space space() const { return {floor_.get(), &carved()}; }

@@ -31,7 +31,8 @@ struct PlanRequest {
   std::vector<Cylinder> swept_area;  ///< to leave free if obstacles close the path; may be empty
   std::optional<Point> goal;         ///< nullopt: only map and obstacles are taken
   Point start;
-  Path followed;  ///< the rest of the path to the goal so far, from the robot; may be empty
+  Path followed;        ///< the rest of the path to the goal so far, from the robot; may be empty
+  bool toward = false;  ///< a path to where the map ends will do for a goal beyond it
   bool show_mesh = false;  ///< return a copy of the mesh, too
 
   [[nodiscard]] bool brings_map() const { return map || grid; }
@@ -50,7 +51,10 @@ enum class PlanStatus {
 struct Plan {
   PlanStatus status = PlanStatus::no_map;
   Guidance::Refusal refusal = Guidance::Refusal::none;
-  Path path;              ///< from the robot (or the mesh next to it) to the goal
+  Path path;  ///< from the robot (or the mesh next to it) to the goal
+  /// The goal is not seen yet, as `refusal` and `detail` tell, and the path ends at the place that
+  /// is nearest to it.
+  bool ends_short = false;
   double shortest = 0.0;  ///< m, of the path before smoothing
   std::size_t nodes_expanded = 0;
   std::string detail;  ///< a sentence

@@ -77,9 +77,12 @@ bake::BakedMap Planner::bake(const PlanRequest& request) const {
   return failed;
 }
 
-Plan Planner::plan(Point start, Point goal, const Path& followed) {
+Plan Planner::plan(Point start, Point goal, const Path& followed, bool toward) {
   carve_latest();
-  return guide_paths_.plan(routes().find(start, goal), followed, nav_mesh_, search_);
+  RouteFinder here = routes();
+  return guide_paths_.plan(
+      toward ? here.find_toward(start, goal, followed) : here.find(start, goal), followed,
+      nav_mesh_, search_);
 }
 
 Plan Planner::retreat(const std::vector<Cylinder>& swept_area, Point start) {
@@ -102,16 +105,16 @@ Plan Planner::best_plan(const PlanRequest& request) {
 
 /// Clear of where the obstacles will be, or else of where they are: these are carved then.
 Plan Planner::clear_plan(const PlanRequest& request) {
-  Plan out = plan(request.start, *request.goal, request.followed);
+  Plan out = plan(request);
   if (out.status == PlanStatus::found || request.predicted.empty()) return out;
   carve(request.obstacles);
-  return plan(request.start, *request.goal, request.followed);
+  return plan(request);
 }
 
 /// A closed plan, or why there is none without obstacles either.
 Plan Planner::plan_without_obstacles(const PlanRequest& request, const Plan& blocked) {
   carve({});
-  Plan out = plan(request.start, *request.goal, request.followed);
+  Plan out = plan(request);
   carve(request.obstacles);
   if (out.status != PlanStatus::found) return out;
   out.status = PlanStatus::closed;

@@ -59,7 +59,8 @@ class Planner {
   /// of it: see escape().
   /// \param followed  a path to the goal whose corners are known: as many as lead there are kept,
   /// unless that costs more than smoothing.keep
-  [[nodiscard]] Plan plan(Point start, Point goal, const Path& followed = {});
+  /// \param toward  to a goal that is not seen yet as RouteFinder::find_toward(): it ends short
+  [[nodiscard]] Plan plan(Point start, Point goal, const Path& followed = {}, bool toward = false);
   /// As find_retreat(), or no_route.
   [[nodiscard]] Plan retreat(const std::vector<Cylinder>& swept_area, Point start);
   [[nodiscard]] const NavMesh& nav_mesh() const { return nav_mesh_; }
@@ -67,6 +68,9 @@ class Planner {
  private:
   void carve_latest();
   [[nodiscard]] Plan best_plan(const PlanRequest& request);
+  [[nodiscard]] Plan plan(const PlanRequest& request) {
+    return plan(request.start, *request.goal, request.followed, request.toward);
+  }
   [[nodiscard]] Plan clear_plan(const PlanRequest& request);
   [[nodiscard]] Plan plan_without_obstacles(const PlanRequest& request, const Plan& blocked);
   [[nodiscard]] RouteFinder routes() { return {nav_mesh_, search_, config_.start_snap}; }

@@ -76,6 +76,54 @@ TEST(Planner, calls_a_goal_not_seen_where_nothing_is_known_and_not_where_somethi
   EXPECT_EQ(planner.plan({2, 2}, {5.3, 2}).status, PlanStatus::found);
 }
 
+TEST(Planner, leads_toward_a_goal_that_is_not_seen_only_where_that_is_asked_for) {
+  SmallWorld world;
+  world.floor(0, 0, 6, 6).box(4, 4, 0, 5, 5, 1).floor(9, 0, 10, 6);
+  Planner planner = planner_on(world);
+  for (const Point goal : {Point{7.5, 3}, Point{40, 3}}) {
+    const Plan refused = planner.plan({2, 2}, goal);
+    EXPECT_EQ(refused.status, PlanStatus::refused);
+    const Plan plan = planner.plan({2, 2}, goal, {}, true);
+    ASSERT_EQ(plan.status, PlanStatus::found);
+    EXPECT_TRUE(plan.ends_short);
+    EXPECT_EQ(plan.refusal, refused.refusal);
+    EXPECT_NEAR(distance(plan.path.back(), {5.65, 3}), 0.0, 0.1) << "not on the island";
+    expect_clear(plan.path, world, {});
+  }
+  EXPECT_EQ(planner.plan({2, 2}, {4.5, 4.5}, {}, true).refusal, Guidance::Refusal::inside_obstacle);
+  EXPECT_FALSE(planner.plan({2, 2}, {5, 2}, {}, true).ends_short);
+  EXPECT_EQ(planner.plan({30, 2}, {40, 3}, {}, true).status, PlanStatus::off_mesh);
+}
+
+TEST(Planner, keeps_the_end_of_the_path_that_is_followed_unless_half_a_metre_is_gained) {
+  SmallWorld world;
+  world.floor(0, 0, 6, 6);
+  Planner planner = planner_on(world);
+  const Point goal{40, 3};
+  const Path followed{{2, 3}, {5.3, 3}};
+  EXPECT_EQ(planner.plan({2, 3}, goal, followed, true).path.back(), followed.back());
+  const Path behind{{2, 3}, {5.0, 3}};
+  EXPECT_GT(planner.plan({2, 3}, goal, behind, true).path.back().x, 5.5);
+  const Path beside_the_floor{{2, 3}, {5.9, 3}};
+  EXPECT_LT(planner.plan({2, 3}, goal, beside_the_floor, true).path.back().x, 5.7);
+}
+
+TEST(Planner, calls_a_way_to_the_end_of_the_map_closed_and_the_end_stays) {
+  SmallWorld world;
+  world.floor(0, 0, 8, 4).box(4, 0, 0, 4.2, 1.4, 1).box(4, 2.6, 0, 4.2, 4, 1);
+  Planner planner = planner_on(world);
+  PlanRequest request;
+  request.start = {2, 2};
+  request.goal = Point{40, 2};
+  request.toward = true;
+  request.obstacles = {{1, {4.1, 2}, 0.4, {}}};
+  const std::optional<Plan> plan = planner.answer(request).plan;
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->status, PlanStatus::closed);
+  EXPECT_TRUE(plan->ends_short);
+  EXPECT_NEAR(plan->path.back().x, 7.65, 0.1);
+}
+
 TEST(Planner, says_off_mesh_where_no_path_can_begin) {
   SmallWorld world;
   world.room(12, 8).box(2, 2, 0, 6, 6, 1);

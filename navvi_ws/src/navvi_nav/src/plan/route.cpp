@@ -10,6 +10,8 @@ namespace navvi_nav::plan {
 namespace {
 
 constexpr double kLatticeError = 4.0;  // cells, of a mesh's border besides contour_error
+constexpr double kSameEnd = 0.5;       // m, by which another end must be nearer to the goal
+constexpr double kOnFloor = 1e-3;      // m, from the end of a path that was found to the floor
 
 const char* sentence_of(Guidance::Refusal refusal) {
   switch (refusal) {
@@ -24,6 +26,10 @@ const char* sentence_of(Guidance::Refusal refusal) {
     default:
       return "the goal is within the robot's radius of an obstacle";
   }
+}
+
+bool beyond_the_map(Guidance::Refusal refusal) {
+  return refusal == Guidance::Refusal::not_seen || refusal == Guidance::Refusal::off_the_map;
 }
 
 bool share(const std::set<int>& a, const std::set<int>& b) {
@@ -60,6 +66,38 @@ Route RouteFinder::find(Point start, Point goal) {
   if (!from.place)
     return {no_plan(PlanStatus::no_route, "nothing joins the robot with the goal now")};
   return between(from, *to.place, start, goal);
+}
+
+Route RouteFinder::find_toward(Point start, Point goal, const Path& followed) {
+  if (nav_mesh_.empty()) return find(start, goal);
+  const std::optional<Plan> no = refused(start, goal);
+  if (!no || !beyond_the_map(no->refusal)) return find(start, goal);
+  const std::set<int> here = nav_mesh_.floor_components(start, start_snap_);
+  std::optional<Point> end = nav_mesh_.nearest_on_floor(goal, here);
+  if (end && !followed.empty()) {
+    const Point last = followed.back();
+    const std::optional<Point> still = nav_mesh_.nearest_on_floor(last, here);
+    const bool serves = still && distance(*still, last) <= kOnFloor;
+    if (serves && distance(last, goal) - distance(*end, goal) < kSameEnd) end = last;
+  }
+  Route out = end ? find_end(start, *end)
+                  : Route{no_plan(PlanStatus::off_mesh, "the robot stands off the floor")};
+  out.plan.ends_short = true;
+  out.plan.refusal = no->refusal;
+  if (out.plan.detail.empty()) out.plan.detail = no->detail;
+  return out;
+}
+
+/// To a place on the floor.
+Route RouteFinder::find_end(Point start, Point end) {
+  if (!begin(start, end, std::nullopt).place)
+    return {no_plan(PlanStatus::off_mesh, "the robot stands where no path can begin")};
+  const std::optional<mesh::Mesh::Place> to = nav_mesh_.mesh().locate(end, near_goal());
+  if (!to) return {no_plan(PlanStatus::no_route, "a moving thing stands where the map ends")};
+  const Anchor from = begin(start, end, nav_mesh_.mesh().polygon(to->polygon).component);
+  if (!from.place)
+    return {no_plan(PlanStatus::no_route, "nothing joins the robot with the end of the map now")};
+  return between(from, *to, start, to->point);
 }
 
 Route RouteFinder::between(const Anchor& from, const mesh::Mesh::Place& to, Point start,

@@ -34,6 +34,10 @@ class RouteFinder {
 
   /// To exactly `goal`, or why there is none.
   [[nodiscard]] Route find(Point start, Point goal);
+  /// Likewise; but where the map does not show the goal yet, to the place on the robot's floor that
+  /// is nearest to it, as the crow flies and whatever moves.
+  /// \param followed  a path whose end serves while no place is nearer by 0.5 m; may be empty
+  [[nodiscard]] Route find_toward(Point start, Point goal, const Path& followed);
   /// Between two places on the mesh. \param start, goal  for which they stand
   [[nodiscard]] Route between(const Anchor& from, const mesh::Mesh::Place& to, Point start,
                               Point goal);
@@ -46,6 +50,7 @@ class RouteFinder {
   [[nodiscard]] double radius() const { return nav_mesh_.config().robot_radius; }
   /// Nothing, or why no path to the goal can be found whatever moves.
   [[nodiscard]] std::optional<Plan> refused(Point start, Point goal) const;
+  [[nodiscard]] Route find_end(Point start, Point end);
   [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
   [[nodiscard]] Guidance::Refusal too_near(Point goal, double distance) const;
   [[nodiscard]] Guidance::Refusal not_joined(Point start, Point goal) const;
