@@ -128,9 +128,9 @@ std::vector<Cue> CuePolicy::say(const Utterances& told, const Tick& tick) {
 }
 
 void CuePolicy::note(const std::vector<CueEvent>& events) {
-  const auto replaced = [&](std::optional<CueKind> kind) {
+  const auto replaced = [&](const CueEvent& gone) {
     return std::any_of(events.begin(), events.end(), [&](const CueEvent& event) {
-      return event.stage == CueStage::queued && event.kind() == kind;
+      return event.stage == CueStage::queued && event.kind() == gone.kind() && event.id > gone.id;
     });
   };
   for (const CueEvent& event : events) {
@@ -140,13 +140,13 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
     }
     const bool owed = halt_.owes() && !halt_.halted();
-    halt_.note(event, replaced(event.kind()), time_);
+    halt_.note(event, replaced(event), time_);
     // "Go on" was not heard to its end.
     if (owed && halt_.halted()) lost(event);
   }
   for (const CueEvent& event : events) {
     const bool cut = event.stage == CueStage::cut && event.kind() && tells_route(*event.kind());
-    if (cut || (event.stage == CueStage::dropped && !replaced(event.kind()))) lost(event);
+    if (cut || (event.stage == CueStage::dropped && !replaced(event))) lost(event);
   }
 }
 

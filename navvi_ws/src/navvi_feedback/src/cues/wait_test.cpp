@@ -118,6 +118,19 @@ TEST_F(WaitTest, is_said_again_while_it_lasts_if_other_words_left_it_no_room) {
   EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
 }
 
+TEST_F(WaitTest, is_said_again_if_it_found_no_room_in_the_moment_it_was_due) {
+  const CueEvent due{1, CueStage::queued, last_.kind, last_.text, last_.priority};
+  CueEvent gone = due;
+  gone.stage = CueStage::dropped;
+  CueEvent later = due;
+  later.id = 2;
+  policy_.note({due, later, gone});
+  EXPECT_EQ(pass(1.0), Texts{}) << "a later one takes its place";
+  policy_.note({due, gone});
+  EXPECT_EQ(pass(0.25), Texts{});
+  EXPECT_EQ(pass(0.25), Texts{"wait, worker in the way"});
+}
+
 TEST_F(WaitTest, is_not_said_again_once_the_way_is_free) {
   note(1, CueStage::queued);
   note(1, CueStage::dropped);
