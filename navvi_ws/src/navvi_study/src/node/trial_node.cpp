@@ -140,8 +140,8 @@ class TrialNode {
   [[nodiscard]] trial::TrialKeeper::Outlets outlets() {
     trial::TrialKeeper::Outlets out;
     out.publish = [this](const record::Row& row) { events_.publish(to_msg(row)); };
-    out.set_goal = [this](const Eigen::Vector2d& goal) {
-      goals_.publish(navvi_types::goal_msg(goal, navvi_types::to_ns(ros::Time::now())));
+    out.set_goal = [this](const trial::ChosenGoal& goal) {
+      goals_.publish(navvi_types::goal_msg(goal.place, goal.stamp));
     };
     out.tell = tell;
     out.show = [this](TrialState::State state) {
@@ -210,7 +210,7 @@ class TrialNode {
   void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
     if (event.getPublisherName() == ros::this_node::getName()) return;
     if (const auto goal = from_msg(*event.getConstMessage())) {
-      keeper_.take_goal(*goal, now());
+      keeper_.take_goal(*goal, now(), navvi_types::to_ns(event.getConstMessage()->header.stamp));
     } else {
       ROS_WARN_THROTTLE(5.0, "A goal is malformed and was dropped.");
     }

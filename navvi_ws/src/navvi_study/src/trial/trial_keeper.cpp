@@ -85,16 +85,16 @@ void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   readiness_.saw(guidance, now.wall());
   const bool refused = guidance.state == Guidance::State::goal_refused;
   if (phase_ == Phase::armed && refused && goals_.next &&
-      (guidance.goal - *goals_.next).norm() < kSame)
+      (guidance.goal - goals_.next->place).norm() < kSame)
     goals_.next.reset();
   observe(guidance);
 }
 
 /// From now on it is sent until the guidance shows it.
-void TrialKeeper::change_goal(const Eigen::Vector2d& goal) {
-  goals_.now = goal;
+void TrialKeeper::change_goal(const ChosenGoal& chosen) {
+  goals_.now = chosen;
   goals_.tries = {};
-  record(monitor_.change_goal(goal, std::max(now_.ros_ns, monitor_.latest())));
+  record(monitor_.change_goal(chosen.place, std::max(now_.ros_ns, monitor_.latest())));
 }
 
 void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
@@ -128,16 +128,17 @@ void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
   }
 }
 
-void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now) {
+void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now, std::int64_t stamp) {
   now_ = now;
+  const ChosenGoal chosen{goal, stamp};
   if (phase_ == Phase::armed && (!offered_.scenario || offered_.played || config_.press_to_start)) {
     offered_.played = true;
-    goals_.next = goal;
-    if (!config_.press_to_start) start(goal);
+    goals_.next = chosen;
+    if (!config_.press_to_start) start(chosen);
   } else if (phase_ == Phase::running) {
     if (config_.locked) return end({"aborted", "goal_changed", monitor_.latest()});
     if (monitor_.goal_taken()) goals_.before = goals_.now;
-    change_goal(goal);
+    change_goal(chosen);
     goals_.tries.sent_elsewhere(now.wall());
   }
 }
@@ -225,7 +226,7 @@ void TrialKeeper::try_to_start() {
   if (!kept_.bag.ready(now_.wall())) return;
   if (offered_.scenario && !offered_.played) {
     offered_.played = true;
-    goals_.next = offered_.scenario->goal;
+    goals_.next = ChosenGoal{offered_.scenario->goal};
   }
   if (!goals_.next) {
     if (may_say(6 * kSayAgain)) tell(Tone::info, "Ready for a trial: waiting for a goal.");
@@ -245,10 +246,11 @@ void TrialKeeper::try_to_start() {
   if (may_say(6 * kSayAgain)) tell(Tone::info, "Ready: press start, or enter, to begin the trial.");
 }
 
-void TrialKeeper::start(const Eigen::Vector2d& goal) {
+void TrialKeeper::start(const ChosenGoal& chosen) {
+  goals_.now = chosen;
   goals_.next.reset();
   goals_.before.reset();
-  goals_.now = goal;
+  const Eigen::Vector2d& goal = goals_.now.place;
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);
   flow_.start(beginning.stamp);

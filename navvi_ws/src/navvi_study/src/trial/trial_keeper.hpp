@@ -28,6 +28,13 @@ struct Moment {
   [[nodiscard]] double wall() const { return 1e-9 * static_cast<double>(mono_ns); }  ///< s
 };
 
+/// A goal, sent as often as it takes with one stamp: a newer one would tell the guide that a person
+/// asks for it a second time.
+struct ChosenGoal {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m, in map
+  std::int64_t stamp = 0;  ///< ns, of the message with which it came; 0: the world's own goal
+};
+
 /// Runs trials one after the other: waits until every part is there, records, sets the goal, keeps
 /// the journal, ends, and writes the results.
 class TrialKeeper {
@@ -37,7 +44,7 @@ class TrialKeeper {
   /// Actions of a keeper on the world outside.
   struct Outlets {
     std::function<void(const record::Row&)> publish;  ///< is on the disk already
-    std::function<void(const Eigen::Vector2d&)> set_goal;
+    std::function<void(const ChosenGoal&)> set_goal;
     std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
     std::function<void(TrialState::State)> show = [](TrialState::State) {};  ///< on each change
     /// Each parameter that a node was given, in words.
@@ -66,8 +73,8 @@ class TrialKeeper {
   void take(const ClockOffset& clock, const Moment& now);
   /// A request that does not fit the state of the trial has no effect.
   void take(const TrialRequest& request, const Moment& now);
-  /// Another node has set a goal.
-  void take_goal(const Eigen::Vector2d& goal, const Moment& now);
+  /// Another node has set a goal. \param stamp  ns, of its message
+  void take_goal(const Eigen::Vector2d& goal, const Moment& now, std::int64_t stamp = 0);
   /// A simulated operator has moved its hands.
   void saw_operator(const Moment& now) { operator_seen_ = now.wall(); }
   /// The bag's recorder listens.
@@ -95,9 +102,9 @@ class TrialKeeper {
     bool bag_lost = false;  ///< and journalled
   };
   struct Goals {
-    std::optional<Eigen::Vector2d> next;  ///< of the trial that is to begin
-    Eigen::Vector2d now = Eigen::Vector2d::Zero();
-    std::optional<Eigen::Vector2d> before;  ///< that was taken, if a later one is refused
+    std::optional<ChosenGoal> next;  ///< of the trial that is to begin
+    ChosenGoal now;
+    std::optional<ChosenGoal> before;  ///< that was taken, if a later one is refused
     GoalTries tries;
   };
   struct Offered {
@@ -121,8 +128,8 @@ class TrialKeeper {
   void try_to_start();
   void show_state();
   [[nodiscard]] TrialState::State state();
-  void start(const Eigen::Vector2d& goal);
-  void change_goal(const Eigen::Vector2d& goal);
+  void start(const ChosenGoal& chosen);
+  void change_goal(const ChosenGoal& chosen);
   [[nodiscard]] record::Fields conditions(const TrialStart& beginning);
   [[nodiscard]] Signs signs() const;
   void watch();

@@ -34,7 +34,10 @@ class Trials : public testing::Test {
       EXPECT_NE(content("journal.csv").find(row.type), std::string::npos) << "not on the disk";
       events_.push_back(row.type);
     };
-    outlets.set_goal = [this](const Eigen::Vector2d& goal) { goals_.push_back(goal); };
+    outlets.set_goal = [this](const ChosenGoal& goal) {
+      goals_.push_back(goal.place);
+      stamps_.push_back(goal.stamp);
+    };
     outlets.show = [this](TrialState::State state) { shown_.push_back(state); };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
     outlets.settings = [] { return "sim/seed=3"; };
@@ -64,7 +67,7 @@ class Trials : public testing::Test {
     report.seq = ++guidance_;
     report.state = state;
     report.goal = goal;
-    report.plans = 1;
+    report.plans = plans_;
     keeper_->take(report, now());
   }
   /// So many s in which all nodes report.
@@ -109,8 +112,10 @@ class Trials : public testing::Test {
   double time_ = 1.0;     // s, of ROS
   std::int64_t set_ = 0;  // ns, by which the calendar was set
   std::uint32_t guidance_ = 0;
+  std::uint32_t plans_ = 1;
   std::vector<std::string> events_;
   std::vector<Eigen::Vector2d> goals_;
+  std::vector<std::int64_t> stamps_;  ///< of these
   std::string said_;
   std::vector<TrialState::State> shown_;
   bool feedback_ = true;    ///< feedback_node reports
@@ -247,6 +252,46 @@ TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
   live(0.1, State::arrived, kScenario.goal);
   live(9.0, State::arrived, kScenario.goal);
   EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
+}
+
+/// A newer stamp would be the person's second ask, by which they are led toward the unseen.
+TEST_F(Trials, send_a_goal_again_with_the_stamp_of_the_persons_message_and_the_worlds_with_none) {
+  config_.once = false;
+  begin();
+  keeper_->take(kScenario, now());
+  live(5.0);
+  ASSERT_GE(goals_.size(), 2U);
+  EXPECT_EQ(stamps_, std::vector<std::int64_t>(goals_.size(), 0));
+  live(1.0, State::following, kScenario.goal);
+  stamps_.clear();
+  const std::int64_t asked = now().ros_ns;
+  keeper_->take_goal({3.0, 0.0}, now(), asked);
+  live(5.0, State::following, kScenario.goal);  // it is not taken
+  EXPECT_GE(stamps_.size(), 1U);
+  live(1.0, State::following, {3.0, 0.0});
+  keeper_->take_goal({500.0, 0.0}, now(), now().ros_ns);
+  live(0.1, State::goal_refused, {500.0, 0.0});
+  live(0.1, State::following, {3.0, 0.0});
+  EXPECT_EQ(stamps_, std::vector<std::int64_t>(stamps_.size(), asked)) << "nor when restored";
+}
+
+/// The guide's last word on the last trial's goal may still be on its way.
+TEST_F(Trials, that_begin_with_a_goal_which_was_refused_wait_for_what_is_said_of_it_now) {
+  config_.once = false;
+  begin();
+  live(1.0);
+  const Eigen::Vector2d unseen(500.0, 0.0);
+  keeper_->take_goal(unseen, now(), now().ros_ns);
+  live(9.0, State::goal_refused, unseen);
+  ASSERT_NE(said_.find("result: refused"), std::string::npos) << said_;
+  keeper_->take_goal(unseen, now(), now().ros_ns);
+  live(0.2, State::goal_refused, unseen);
+  ++plans_;
+  live(9.0, State::following, unseen);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_END"), 1);
+  ++plans_;
+  live(9.0, State::goal_refused, unseen);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_END"), 2);
 }
 
 TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {

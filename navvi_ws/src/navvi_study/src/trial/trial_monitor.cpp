@@ -19,7 +19,7 @@ constexpr double kSameGoal = 0.05;    // m
 constexpr double kMoved = 0.05;       // m, driven
 constexpr double kTurned = 0.1;       // rad
 constexpr std::int64_t kOldNews =
-    2'000'000'000;               // ns in which an arrival may still be the last goal's
+    2'000'000'000;               // ns in which an arrival or a refusal may still be the last goal's
 constexpr double kBeside = 3.0;  // m, from the hull to a thing beside the robot
 
 std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
@@ -268,11 +268,14 @@ bool TrialMonitor::about_this_goal(const Guidance& guidance) {
   const bool refused = guidance.state == State::goal_refused;
   const bool was_refused = guided_.before && guided_.before->state == State::goal_refused;
   const bool goal_matches = same(guidance.goal, start_->goal);
+  const bool old = goal_matches && guided_.before && guided_.before->state == guidance.state &&
+                   same(guided_.before->goal, start_->goal) &&
+                   guided_.before->plans == guidance.plans;
   if (refused) {
-    // A refusal may come with the goal that is still valid.
-    goal_.taken = goal_matches || !was_refused;
-  } else if (goal_matches && guidance.state == State::arrived && guided_.before &&
-             same(guided_.before->goal, start_->goal) && guided_.before->plans == guidance.plans) {
+    // A refusal may come with the goal that is still valid. The last goal's may be of this place:
+    // the person asks for it a second time.
+    goal_.taken = old ? guidance.stamp > start_->stamp + kOldNews : goal_matches || !was_refused;
+  } else if (guidance.state == State::arrived && old) {
     goal_.taken = guidance.stamp > start_->stamp + kOldNews;
   } else {
     goal_.taken = goal_matches && (guidance.leads_to_goal() || guidance.state == State::arrived ||
