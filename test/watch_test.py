@@ -55,6 +55,7 @@ SESSION = [
     ("/navvi/drive_state", at(105, DriveState(state=DriveState.STOPPED, reason=DriveState.COMMAND_LOST))),
     ("/navvi/guidance", guidance(120, Guidance.FOLLOWING, 12.0)),
     ("/navvi/guidance", guidance(121, Guidance.BLOCKED, 12.0, blocked_by="forklift")),
+    ("/navvi/guidance", guidance(125, Guidance.FOLLOWING, 9.0, ends_short=True)),
     ("/navvi/events", at(130, TrialEvent(type="TRIAL_END", fields="result=aborted;reason=stopped_by_signal"))),
 ]
 LINES = [
@@ -67,6 +68,7 @@ LINES = [
     "The robot is stopped: no command came from the stick; let go of the stick. 5 s.",
     "12 m to go, the next corner in 5 m at 2 o'clock. 20 s.",
     "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
+    "Follow the path, 9 m to where the map ends. 25 s.",
     "The trial has ended: aborted, stopped by signal. 30 s.",
 ]
 

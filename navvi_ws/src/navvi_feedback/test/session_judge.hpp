@@ -85,6 +85,8 @@ class SessionJudge {
   static constexpr double kTick = 0.02;
 
   void tick() {
+    const bool same = (now.guidance.goal - last_.guidance.goal).norm() <= 0.5;
+    if (!same) told_unseen_ = false;
     if (now.guided) feedback_.take(now.guidance, time);
     if (now.velocity) feedback_.take(Odometry{0, {}, *now.velocity}, time);
     if (now.sensed) feedback_.take(Proximity{0, now.nearby}, time);
@@ -110,6 +112,7 @@ class SessionJudge {
     judge(out.cues, step.events);
     expect_what_matters();
     expect_release();
+    expect_toward();
     now.contacts.clear();
     now.asked.reset();
     last_ = now;
@@ -132,6 +135,10 @@ class SessionJudge {
         if (event.stage == CueStage::ended && std::exchange(waits_, false)) ++waits;
         released_ = 0;
       }
+      if (event.stage == CueStage::ended && event.kind() == CueKind::toward_goal)
+        told_unseen_ = true;
+      if (event.stage == CueStage::ended && event.kind() == CueKind::goal_seen)
+        told_unseen_ = false;
       if (event.stage != CueStage::started) {
         known_.erase(event.id);
         if (event.id == running_) running_ = 0;
@@ -147,10 +154,11 @@ class SessionJudge {
           complaints.insert("an important cue waited behind a lesser one");
       const auto said = said_.find(event.text);
       static const std::set<CueKind> news = {
-          CueKind::blocked,        CueKind::go_on,         CueKind::turn_now,
-          CueKind::obstacle_comes, CueKind::make_room,     CueKind::new_route,
-          CueKind::way_blocked,    CueKind::rerouted,      CueKind::rerouted_blocked,
-          CueKind::start,          CueKind::start_distance};
+          CueKind::blocked,        CueKind::go_on,          CueKind::turn_now,
+          CueKind::obstacle_comes, CueKind::make_room,      CueKind::new_route,
+          CueKind::way_blocked,    CueKind::rerouted,       CueKind::rerouted_blocked,
+          CueKind::start,          CueKind::start_distance, CueKind::toward_goal,
+          CueKind::goal_seen};
       const bool reminds = known.cue.priority <= Priority::text || event.kind() == CueKind::stuck ||
                            event.kind() == CueKind::back_away ||
                            event.kind() == CueKind::release_stick;
@@ -189,6 +197,16 @@ class SessionJudge {
     waits_alone_ = moves ? 0.0 : std::min(waits_alone_ + kTick, waits_over_);
     longest_wait = std::max(longest_wait, waits_over_);
     longest_wait_alone = std::max(longest_wait_alone, waits_alone_);
+  }
+
+  /// Whoever is led toward a goal that is not seen yet hears so as soon as nothing else is said.
+  void expect_toward() {
+    const bool leads = alive_ > 0.0 && now.guidance.state == Guidance::State::following;
+    if (!leads || !now.guidance.ends_short || told_unseen_ || waits_)
+      silent_ = 0.0;
+    else if (running_ == 0)
+      silent_ += kTick;
+    if (silent_ > 1.0) complaints.insert("led toward the unseen untold");
   }
 
   [[nodiscard]] bool decided(CueKind kind, double within) const {
@@ -260,6 +278,8 @@ class SessionJudge {
   double alive_ = 0.0;    ///< s, since when all links have lived
   double steady_ = 0.0;   ///< s, of the guidance's state
   double in_vain_ = 0.0;  ///< s
+  double silent_ = 0.0;   ///< s, while led untold toward a goal that is not seen yet
+  bool told_unseen_ = false;
   bool touched_ = false;
   bool arrived_ = false;
   bool waits_ = false;          ///< was told to, and has not heard "go on" to its end

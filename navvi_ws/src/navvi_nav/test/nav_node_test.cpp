@@ -90,8 +90,11 @@ class NavNodeTest : public testing::Test {
     map_.publish(msg);
   }
 
-  void send_goal(double x, double y, const std::string& frame = "map") {
+  /// \param stamp  0: none, as a program's
+  void send_goal(double x, double y, const std::string& frame = "map",
+                 const ros::Time& stamp = ros::Time()) {
     geometry_msgs::PoseStamped goal;
+    goal.header.stamp = stamp;
     goal.header.frame_id = frame;
     goal.pose.position.x = x;
     goal.pose.position.y = y;
@@ -171,6 +174,19 @@ TEST_F(NavNodeTest, guides_refuses_and_replans) {
   EXPECT_TRUE(until([this] { return refused_as(navvi_msgs::Guidance::NOT_FINITE); }));
   send_goal(14, 5, "nowhere");
   EXPECT_TRUE(until([this] { return refused_as(navvi_msgs::Guidance::UNKNOWN_FRAME); }));
+
+  // Beyond the map only a person's second ask leads on: a newer stamp.
+  const ros::Time asked = ros::Time::now();
+  for (int times = 0; times < 3; ++times) {
+    send_goal(40, 5, "map", asked);
+    const unsigned plans = guidance_.plans;
+    EXPECT_TRUE(until([&] { return guidance_.plans > plans; }));
+    EXPECT_TRUE(refused_as(navvi_msgs::Guidance::OFF_THE_MAP));
+  }
+  send_goal(40, 5, "map", ros::Time::now());
+  EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  EXPECT_TRUE(guidance_.ends_short);
+  EXPECT_DOUBLE_EQ(guidance_.goal.x, 40.0);
 
   send_goal(2.5, 5.2);
   EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::ARRIVED; }));

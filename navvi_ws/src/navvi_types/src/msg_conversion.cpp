@@ -93,6 +93,7 @@ void copy_guidance(const From& from, To& to) {
   copy(from.reroutes, to.reroutes);
   copy(from.reroute_reason, to.reroute_reason);
   copy(from.blocked_distance, to.blocked_distance);
+  copy(from.ends_short, to.ends_short);
   copy(from.waypoint_is_goal, to.waypoint_is_goal);
   copy(from.waypoint_distance, to.waypoint_distance);
   copy(from.waypoint_angle, to.waypoint_angle);

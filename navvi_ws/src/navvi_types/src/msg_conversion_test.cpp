@@ -163,6 +163,7 @@ navvi_msgs::Guidance guidance() {
   msg.goal.x = 6.0;
   msg.waypoint.y = 2.0;
   msg.goal.z = msg.waypoint.z = 0.1;
+  msg.ends_short = true;
   msg.waypoint_is_goal = true;
   msg.waypoint_distance = 2.0;
   msg.waypoint_angle = -1.5;

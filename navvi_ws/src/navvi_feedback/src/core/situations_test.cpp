@@ -26,6 +26,12 @@ void corner(Scene& now, double metres, double degrees) {
   now.guidance.turn_angle = degrees * kDegree;
 }
 
+/// The path ends where the map does.
+void beyond(Scene& now) {
+  now.guidance.ends_short = true;
+  now.guidance.waypoint_is_goal = false;
+}
+
 void become(Scene& now, State state, std::optional<ThingClass> by = std::nullopt) {
   now.guidance.state = state;
   now.guidance.blocked_by = by;
@@ -118,7 +124,13 @@ const std::vector<Row> kTable = {
        become(now, State::goal_refused);
        now.guidance.refusal = Guidance::Refusal::not_seen;
      },
-     "goal refused, that place is not seen yet", "", ""},
+     "goal refused, that place is not seen yet, choose it again to go toward it", "", ""},
+    {"a goal that is not seen and was asked for again",
+     [](Scene& now) {
+       now.guidance.goal = {60.0, 0.0};
+       beyond(now);
+     },
+     "that place is not seen yet, going toward it", "", ""},
     {"no goal", [](Scene& now) { become(now, State::no_goal); },
      "welcome, the session waits for a goal", "", ""},
     {"there", [](Scene& now) { become(now, State::arrived); }, "you have reached the goal",
@@ -176,6 +188,12 @@ const std::vector<Row> kTable = {
     // Questions.
     {"asks for the goal", [](Scene& now) { now.asked = drive::Button::goal; },
      "the goal is 20 meters on", "", ""},
+    {"asks for a goal that is not seen",
+     [](Scene& now) {
+       beyond(now);
+       now.asked = drive::Button::goal;
+     },
+     "that place is not seen yet, going toward it", "", ""},
     {"asks for the way", [](Scene& now) { now.asked = drive::Button::repeat; },
      "drive straight, 20 meters", "", ""},
 };
@@ -244,7 +262,7 @@ TEST(Situations, a_pushed_stick_that_moves_nothing_is_never_3_s_without_word_or_
 /// Changes some of the scene, at random: all states of the guidance, links, things and hands.
 class Chance {
  public:
-  explicit Chance(unsigned seed) : random_(seed) {}
+  explicit Chance(unsigned seed) : random_(seed), sights_(seed) {}
 
   void change(Scene& now) {
     Guidance& guidance = now.guidance;
@@ -257,6 +275,7 @@ class Chance {
     if (one_in(3)) lead(now, number(-180.0, 180.0));
     if (one_in(3)) corner(now, number(0.5, 15.0), number(-150.0, 150.0));
     if (one_in(8)) reroute(now, static_cast<Guidance::Replan>(draw(8)));
+    if (sights_() % 6 == 0) guidance.ends_short = !guidance.ends_short;
     if (one_in(20)) guidance.goal = {number(-20.0, 20.0), number(-20.0, 20.0)};
     guidance.path_offset = one_in(10) ? 1.0 : 0.1;
     now.guided = !one_in(25);
@@ -308,6 +327,7 @@ class Chance {
   }
 
   std::mt19937 random_;
+  std::mt19937 sights_;  ///< whether the goal is seen
 };
 
 struct Verdict {

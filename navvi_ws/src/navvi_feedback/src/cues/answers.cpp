@@ -37,7 +37,8 @@ std::optional<Utterance> about(Question question, const Tick& tick, Rounding rou
     return Utterance{now.devices.keyboard ? CueKind::help_keys : CueKind::help_pad};
   if (question == Question::where && (now.place || (to_goal && now.goal_angle)))
     return where_am_i(now, rounding);
-  if (question == Question::turn && to_goal && !now.guidance->waypoint_is_goal)
+  const bool ends = to_goal && now.guidance->ends_short && now.guidance->turn_angle == 0.0;
+  if (question == Question::turn && to_goal && !now.guidance->waypoint_is_goal && !ends)
     return next_turn(*now.guidance, rounding);
   if (question == Question::goal && to_goal)
     return goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, rounding);

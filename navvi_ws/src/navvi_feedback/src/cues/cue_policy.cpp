@@ -145,7 +145,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
     if (owed && halt_.halted()) lost(event);
   }
   for (const CueEvent& event : events) {
-    const bool cut = event.stage == CueStage::cut && event.kind() && tells_route(*event.kind());
+    const bool cut = event.stage == CueStage::cut && event.kind() && is_owed(*event.kind());
     if (cut || (event.stage == CueStage::dropped && !replaced(event))) lost(event);
   }
 }

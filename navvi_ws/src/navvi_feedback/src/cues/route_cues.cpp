@@ -1,5 +1,6 @@
 #include "cues/route_cues.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cues/route_rules.hpp"
@@ -12,6 +13,8 @@ namespace {
 
 /// m; a goal that moved less is the same goal.
 constexpr double kSameGoal = 0.5;
+/// s, after words that found no room.
+constexpr double kTryAgain = 0.3;
 
 }  // namespace
 
@@ -32,15 +35,33 @@ Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   // Room is made first.
   const bool aside = guidance.state == Guidance::State::make_room;
   if (is_new_goal(guidance) && !aside) return introduce_goal(look);
-  return by_sound_ ? sounds_lead(look, leg_) : words_lead(look, leg_);
+  Utterances told = sight_of_goal(now, time);
+  const Utterances led = by_sound_ ? sounds_lead(look, leg_) : words_lead(look, leg_);
+  told.insert(told.end(), led.begin(), led.end());
+  return told;
 }
 
-/// First of all what to do now.
+/// That the map does not show the goal yet, and that it does now: each once.
+Utterances RouteCues::sight_of_goal(const Observation& now, double time) {
+  const Guidance& guidance = *now.guidance;
+  if (!goal_ || guidance.state == Guidance::State::make_room ||
+      guidance.ends_short == told_unseen_ || time - sight_told_ < kTryAgain)
+    return {};
+  told_unseen_ = guidance.ends_short;
+  sight_told_ = time;
+  Utterance sight{told_unseen_ ? CueKind::toward_goal : CueKind::goal_seen};
+  sight.fillings.distance = std::max(0.0, guidance.goal_distance);
+  return {sight};
+}
+
+/// First of all what to do now; but that the goal is not seen yet comes before it.
 Utterances RouteCues::introduce_goal(const Look& look) {
   goal_ = look.guidance().goal;
+  told_unseen_ = look.guidance().ends_short;
+  sight_told_ = look.time;
   leg_.begin(look.guidance());
   Utterances told = tell_way(look, leg_);
-  told.push_back(start_words(look.now));
+  told.insert(told_unseen_ ? told.begin() : told.end(), start_words(look.now));
   return told;
 }
 
@@ -52,8 +73,11 @@ Utterances RouteCues::go_on(const Observation& now, double time) {
   if (guidance.state == Guidance::State::make_room) {
     way = make_room_now(look, leg_);
   } else if (is_new_goal(guidance)) {
-    way->also = {
-        goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, bearing_.rounding())};
+    // That the goal is not seen yet is told by itself, as there may be no room for it here.
+    if (!guidance.ends_short)
+      way->also = {
+          goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, bearing_.rounding())};
+    told_unseen_ = false;
     goal_ = guidance.goal;
     leg_.begin(guidance);
   } else if (leg_.routes.news(guidance) && way->kind != CueKind::slight) {
@@ -82,6 +106,8 @@ void RouteCues::pause(bool goal_gone) {
 void RouteCues::lost(CueKind kind) {
   if (is_way(family_of(kind))) leg_.lost();
   if (tells_route(kind)) leg_.route_lost(by_sound_);
+  if (kind == CueKind::toward_goal) told_unseen_ = false;
+  if (kind == CueKind::goal_seen) told_unseen_ = true;
 }
 
 bool RouteCues::is_new_goal(const Guidance& guidance) const {

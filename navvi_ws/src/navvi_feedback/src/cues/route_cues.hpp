@@ -14,6 +14,10 @@ namespace navvi_feedback::cues {
   return kind == CueKind::rerouted || kind == CueKind::rerouted_blocked ||
          kind == CueKind::new_route || kind == CueKind::way_blocked;
 }
+/// What was cut off is said again: whoever is led toward the unseen knows it.
+[[nodiscard]] constexpr bool is_owed(CueKind kind) {
+  return tells_route(kind) || kind == CueKind::toward_goal;
+}
 
 struct Look;
 
@@ -52,12 +56,15 @@ class RouteCues {
 
  private:
   [[nodiscard]] Utterances introduce_goal(const Look& look);
+  [[nodiscard]] Utterances sight_of_goal(const Observation& now, double time);
   [[nodiscard]] bool is_new_goal(const Guidance& guidance) const;
 
   RouteConfig config_;
   Bearing bearing_;
   Leg leg_;
   std::optional<Eigen::Vector2d> goal_;  ///< m, in map, the one that was introduced
+  bool told_unseen_ = false;             ///< it was told that the map does not show it yet
+  double sight_told_ = -1e9;             ///< s, when that was last told, or that it does
   bool by_sound_ = false;                ///< a sound led at the last look
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,79 @@ TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
   EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, CueKind::start_distance}));
+}
+
+TEST(RouteCues, introduce_a_goal_that_is_not_seen_as_such_without_the_length_of_the_path) {
+  for (const bool sound : {true, false}) {
+    Drive drive;
+    drive.now.sounds.turn = sound;
+    drive.now.goal_angle = rad(-60.0);
+    drive.now.guidance = following(90.0, 8.0);
+    drive.now.guidance->ends_short = true;
+    EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::toward_goal, CueKind::direction}));
+    const Kinds more = drive.pass(5.0);
+    EXPECT_EQ(std::count(more.begin(), more.end(), CueKind::toward_goal), 0);
+  }
+}
+
+TEST(RouteCues, say_once_that_the_goal_is_seen_now_and_once_that_it_is_not_any_more) {
+  for (const bool sound : {true, false}) {
+    Drive drive;
+    drive.now.sounds.turn = sound;
+    drive.now.guidance = following(0.0, 30.0);
+    drive.now.guidance->ends_short = true;
+    drive.now.commanded.linear = drive.now.measured->linear = 1.0;
+    drive.pass(3.0);
+    drive.now.guidance->ends_short = false;
+    EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::goal_seen});
+    EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 25.0);
+    EXPECT_EQ(drive.pass(3.0), Kinds{});
+    drive.now.guidance->ends_short = true;
+    EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::toward_goal});
+    EXPECT_EQ(drive.pass(3.0), Kinds{});
+  }
+}
+
+TEST(RouteCues, say_again_that_the_goal_is_not_seen_if_it_was_not_heard) {
+  Drive drive;
+  drive.now.guidance = following(0.0, 30.0);
+  drive.now.guidance->ends_short = true;
+  drive.now.commanded.linear = drive.now.measured->linear = 1.0;
+  drive.pass(3.0);
+  for (int i = 0; i < 3; ++i) {
+    drive.cues.lost(CueKind::toward_goal);
+    EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::toward_goal});
+    drive.cues.lost(CueKind::toward_goal);
+    EXPECT_EQ(drive.pass(0.2), Kinds{}) << "none that finds no room either";
+    EXPECT_EQ(drive.pass(0.12), Kinds{CueKind::toward_goal});
+    drive.pass(1.0);
+  }
+  drive.now.guidance->ends_short = false;
+  drive.pass(0.4);
+  drive.cues.lost(CueKind::goal_seen);
+  EXPECT_EQ(drive.pass(0.32).front(), CueKind::goal_seen);
+}
+
+TEST(RouteCues, tell_a_person_who_waited_meanwhile_that_the_new_goal_is_not_seen) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance->goal = {50.0, 5.0};
+  drive.now.guidance->ends_short = true;
+  const Utterances on = drive.go_on();
+  ASSERT_EQ(on.size(), 1U);
+  EXPECT_TRUE(on[0].also.empty()) << "not how far the goal is";
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::toward_goal});
+}
+
+TEST(RouteCues, name_no_goal_seen_while_room_is_made) {
+  Drive drive;
+  drive.settle(0.0, 30.0);
+  drive.now.guidance->ends_short = true;
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::toward_goal});
+  drive.now.guidance->state = Guidance::State::make_room;
+  drive.now.guidance->ends_short = false;
+  const Kinds told = drive.pass(3.0);
+  EXPECT_EQ(std::count(told.begin(), told.end(), CueKind::goal_seen), 0);
 }
 
 TEST(RouteCues, urge_a_hand_that_rests_for_3_s_at_the_begin_of_a_straight_leg_once) {

@@ -28,6 +28,7 @@ Utterance next_turn(const Guidance& guidance, Rounding rounding) {
 }
 
 Utterance start_words(const Observation& now) {
+  if (now.guidance->ends_short) return {CueKind::toward_goal};
   Utterance start{now.goal_angle ? CueKind::start : CueKind::start_distance};
   start.fillings.distance = std::max(0.0, now.guidance->goal_distance);
   if (now.goal_angle)
@@ -38,9 +39,13 @@ Utterance start_words(const Observation& now) {
 Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,
                      Rounding rounding) {
   Utterance goal;
-  goal.fillings.distance = std::max(0.0, now.guidance->goal_distance);
   if (now.goal_angle) goal.fillings.hour = clock_hour(*now.goal_angle, rounding);
-  goal.kind = goal.fillings.hour ? kind : without_hour;
+  // The path ends before the goal: how long it is tells nothing of that.
+  const bool beyond = now.guidance->ends_short;
+  goal.fillings.distance = beyond ? now.goal_straight : std::max(0.0, now.guidance->goal_distance);
+  goal.kind = goal.fillings.hour ? (beyond ? CueKind::where_goal : kind)
+              : beyond           ? CueKind::toward_goal
+                                 : without_hour;
   return goal;
 }
 

@@ -28,6 +28,7 @@ double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason,
   }
   follower_.follow(plan.path);
   leads_to_goal_ = !retreat;
+  if (!retreat) ends_short_ = plan.ends_short;
   shortest_length_ = plan.shortest;
   if (plan.status == plan::PlanStatus::found)
     mode_ = PathMode::to_goal;
@@ -41,6 +42,7 @@ double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason,
 void ActivePath::reset() {
   drop();
   mode_ = PathMode::to_goal;
+  ends_short_ = false;
   reroutes_ = 0;
   reroute_reason_ = Guidance::Replan::none;
 }
@@ -55,7 +57,8 @@ bool ActivePath::arrived(Point robot, const map::Space& space) const {
 void ActivePath::report(Guidance& out, const Pose2& robot, const map::Floor& floor,
                         double pace) const {
   follower_.report(out, robot, floor);
-  if (!leads_to_goal_) out.waypoint_is_goal = false;
+  out.ends_short = ends_short_;
+  if (!leads_to_goal_ || ends_short_) out.waypoint_is_goal = false;
   out.eta = out.goal_distance / pace;
   out.shortest_length = shortest_length_;
 }

@@ -28,7 +28,7 @@ class ActivePath {
   explicit ActivePath(const ActivePathConfig& config)
       : config_(config), follower_(config.guidance) {}
 
-  /// Follows a new path. \param plan  found, closed or retreat
+  /// Follows a new path. \param plan  found, closed or retreat, which leaves ends_short() as it is
   /// \returns m of the path so far, if one was followed by a `robot` whose place is known, that the
   /// new one leaves
   double follow(const plan::Plan& plan, Guidance::Replan reason, std::optional<Point> robot);
@@ -44,6 +44,8 @@ class ActivePath {
   [[nodiscard]] bool closed() const {
     return mode_ == PathMode::closed || mode_ == PathMode::waiting;
   }
+  /// True if the goal is not seen yet, and the path ends where the map does.
+  [[nodiscard]] bool ends_short() const { return ends_short_; }
   [[nodiscard]] bool following() const { return follower_.following(); }
   [[nodiscard]] const PathFollower& follower() const { return follower_; }
   [[nodiscard]] Path remaining(Point robot) const { return follower_.remaining(robot); }
@@ -51,7 +53,7 @@ class ActivePath {
   [[nodiscard]] double offset(Point robot) const;
   /// True if the robot needs a new path at the next plan. \pre following()
   [[nodiscard]] bool strayed(Point robot) const { return offset(robot) > config_.off_path; }
-  /// True if the robot is at the goal.
+  /// True if the robot is at the goal, or where the path ends short of it.
   [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
 
   /// Fills in where the path leads. \pre following()
@@ -64,6 +66,7 @@ class ActivePath {
   PathFollower follower_;
   PathMode mode_ = PathMode::to_goal;
   bool leads_to_goal_ = true;
+  bool ends_short_ = false;
   unsigned reroutes_ = 0;
   Guidance::Replan reroute_reason_ = Guidance::Replan::none;
   double shortest_length_ = 0.0;

@@ -3,11 +3,18 @@
 namespace navvi_nav::guide {
 namespace {
 
-constexpr double kWayAhead = 3.0;  // m, that must be free of obstacles to keep a path
+constexpr double kWayAhead = 3.0;   // m, that must be free of obstacles to keep a path
+constexpr double kNearer = 1.0;     // m, a way toward what is not seen leads nearer by so much
+constexpr double kLook = 4.0;       // s, at the end of it, for a map that shows more
+constexpr double kLongLook = 12.0;  // s, likewise while such a map is being baked
 
 std::optional<double> age_of(std::optional<double> then, double now) {
   if (!then) return std::nullopt;
   return std::max(0.0, now - *then);
+}
+
+bool leads_nearer(const Path& path, Point goal) {
+  return distance(path.front(), goal) - distance(path.back(), goal) >= kNearer;
 }
 
 /// Copies the values that several classes need.
@@ -67,9 +74,11 @@ bool Navigator::set_map(std::shared_ptr<const map::OccupancyGrid> grid) {
   return true;
 }
 
-void Navigator::set_goal(const Eigen::Vector2d& goal) {
+void Navigator::set_goal(const Eigen::Vector2d& goal, double stamp) {
   drop_goal(Guidance::State::no_goal);
   goal_.place = to_point(goal);
+  goal_.stamp = stamp;
+  goal_.toward = second_ask_.agrees(*goal_.place, stamp);
   guidance_.goal = goal;
 }
 
@@ -85,10 +94,13 @@ void Navigator::refuse_goal(Guidance::Refusal refusal, const std::string& detail
   guidance_.detail = detail;
 }
 
+void Navigator::refuse_place(Guidance::Refusal refusal, const std::string& detail, double time) {
+  second_ask_.refused(*goal_.place, refusal, std::max(goal_.stamp, time));
+  refuse_goal(refusal, detail);
+}
+
 void Navigator::drop_goal(Guidance::State state) {
-  goal_.place.reset();
-  ++goal_.number;
-  goal_.planned = false;
+  goal_ = Goal{std::nullopt, goal_.number + 1};
   path_.reset();
   trigger_.reset();
   keeper_.reset();
@@ -106,6 +118,8 @@ void Navigator::reset_times() {
   keeper_.reset();
   deadlock_.reset_times();
   conflict_ = {};
+  second_ask_.reset();
+  goal_.at_end.reset();
   sent_.carved.reset();
   if (sent_.since) sent_.since = 0.0;
   if (map_.sent) map_.sent = 0.0;
@@ -156,11 +170,22 @@ Conflict Navigator::follow_progress(double time) {
   if (!robot || !path_.following()) return {};
   path_.advance(*robot, space());
   end_retreat(time, *robot);
-  if (path_.arrived(*robot, space())) drop_goal(Guidance::State::arrived);
+  end_path(time, *robot);
   give_up_late_plan(time);
   const Conflict now = forecast(path_.remaining(*robot));
   if (path_.following()) watch_deadlock(time, *robot, now);
   return now;
+}
+
+/// At the goal it has arrived; where the path ends short of it, it never has: unless a map shows
+/// more, the goal is refused.
+void Navigator::end_path(double time, Point robot) {
+  if (!path_.arrived(robot, space())) return goal_.at_end.reset();
+  if (!path_.ends_short()) return drop_goal(Guidance::State::arrived);
+  if (!goal_.at_end) goal_.at_end = time;
+  const bool awaits = map_.sent || map_.changed || sent_.since;
+  if (time - *goal_.at_end <= (awaits ? kLongLook : kLook)) return;
+  refuse_place(Guidance::Refusal::not_seen, "the map ends here and does not show the goal", time);
 }
 
 /// A robot that stops just short of the end may still be in the way.
@@ -238,6 +263,7 @@ std::vector<Cylinder> Navigator::holes() const {
 
 void Navigator::ask_for_path(plan::PlanRequest& request, Point robot) {
   request.goal = goal_.place;
+  request.toward = goal_.toward;
   request.start = robot;
   if (path_.mode() == PathMode::to_goal || path_.mode() == PathMode::closed)
     request.followed = path_.remaining(robot);
@@ -273,6 +299,9 @@ void Navigator::deliver(const plan::PlanAnswer& answer, double time) {
 }
 
 void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, double time) {
+  if (plan.ends_short && !path_.following() && plan.status == plan::PlanStatus::found &&
+      !leads_nearer(plan.path, *goal_.place))
+    return refuse_place(plan.refusal, plan.detail, time);
   switch (plan.status) {
     case plan::PlanStatus::found:
     case plan::PlanStatus::closed:
@@ -288,7 +317,7 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
     case plan::PlanStatus::refused:
       // A goal that was accepted is not refused later on because of where the robot strayed.
       if (reason == Guidance::Replan::new_goal || reason == Guidance::Replan::map_changed) {
-        refuse_goal(plan.refusal, plan.detail);
+        refuse_place(plan.refusal, plan.detail, time);
         return;
       }
       guidance_.state = Guidance::State::no_route;

@@ -11,6 +11,7 @@
 #include "guide/observation.hpp"
 #include "guide/path_keeper.hpp"
 #include "guide/replan_trigger.hpp"
+#include "guide/second_ask.hpp"
 #include "plan/planner.hpp"
 
 namespace navvi_nav::guide {
@@ -64,8 +65,10 @@ class Navigator {
     return true;
   }
   void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
-  /// A new goal replaces the old one. It is judged by the next plan.
-  void set_goal(const Eigen::Vector2d& goal);
+  /// A new goal replaces the old one. It is judged by the next plan; one that the map does not show
+  /// yet is led toward only on a SecondAsk.
+  /// \param stamp  s, of its message; 0: it is nobody's second ask
+  void set_goal(const Eigen::Vector2d& goal, double stamp = 0.0);
   /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
   /// without one the refusal is reported. \returns true if a goal stands
   bool drop_bad_goal(Guidance::Refusal refusal, const std::string& detail);
@@ -95,6 +98,9 @@ class Navigator {
     std::optional<Point> place;
     unsigned number = 0;  ///< changes with each goal
     bool planned = false;
+    double stamp = 0.0;                 ///< s, of its message
+    bool toward = false;                ///< it is led toward though not seen yet
+    std::optional<double> at_end = {};  ///< s, since when the robot is at an end short of it
   };
   struct MapState {
     std::shared_ptr<const map::Floor> floor;  ///< null: no map yet
@@ -120,6 +126,7 @@ class Navigator {
   [[nodiscard]] Conflict forecast(const Path& path) const;
   Conflict follow_progress(double time);
   void end_retreat(double time, Point robot);
+  void end_path(double time, Point robot);
   void give_up_late_plan(double time);
   void watch_deadlock(double time, Point robot, const Conflict& now);
   [[nodiscard]] std::optional<Guidance::Replan> decide_replan(double time, const Conflict& now);
@@ -131,6 +138,7 @@ class Navigator {
   void change_path(const plan::Plan& plan, Guidance::Replan reason, double time);
   void drop_goal(Guidance::State state);
   void refuse_goal(Guidance::Refusal refusal, const std::string& detail);
+  void refuse_place(Guidance::Refusal refusal, const std::string& detail, double time);
   void report_path(Guidance& out) const;
 
   NavigatorConfig config_;
@@ -143,6 +151,7 @@ class Navigator {
   ActivePath path_;
   MapState map_;
   Goal goal_;
+  SecondAsk second_ask_;
   Sent sent_;
   Conflict conflict_;               ///< as of the last tick on which a replan was decided
   std::optional<Blocker> blocker_;  ///< of the only path, if near

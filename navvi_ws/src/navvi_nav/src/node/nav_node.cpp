@@ -128,7 +128,7 @@ class NavNode {
     if (!goal) {
       drop_goal(Guidance::Refusal::not_finite, "the goal is not a finite point");
     } else if (const std::optional<Eigen::Vector2d> there = in_map_frame(*goal, msg->header)) {
-      navigator_.set_goal(*there);
+      navigator_.set_goal(*there, msg->header.stamp.toSec());
     } else {
       drop_goal(Guidance::Refusal::unknown_frame, "the goal's frame is not known");
     }

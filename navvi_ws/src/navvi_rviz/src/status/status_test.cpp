@@ -45,6 +45,17 @@ TEST(Status, of_nothing_is_empty) {
   EXPECT_FALSE(shown.distance || shown.clock);
 }
 
+TEST(Status, shows_no_distance_to_a_goal_that_is_not_seen_yet) {
+  Status status = speaking();
+  Guidance guidance = in(Guidance::State::following);
+  guidance.goal_distance = 8.0;
+  status.take(guidance);
+  EXPECT_EQ(status.shown(1.0, 0.0).distance, 8.0);
+  guidance.ends_short = true;
+  status.take(guidance);
+  EXPECT_FALSE(status.shown(1.0, 0.0).distance);
+}
+
 TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
   Status status = speaking();
   status.take(in(Guidance::State::blocked));

@@ -301,9 +301,11 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
   // Only a guidance that was started anew forgets a goal that it had taken.
   if (guidance.state == State::no_goal) goal_.taken = false;
   if (guidance.leads_to_goal()) {
-    if (!tally_.first_path_length) tally_.first_path_length = guidance.goal_distance;
-    if (!guided_.plans) {
-      guided_.plans = guidance.plans;
+    const bool first = !guided_.plans;
+    if (first) guided_.plans = guidance.plans;
+    // A path that ends short of the goal has no length to compare a drive with.
+    if (first && !guidance.ends_short) {
+      tally_.first_path_length = guidance.goal_distance;
       record::Fields fields = place();
       fields.set("first_path_length", guidance.goal_distance);
       events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});

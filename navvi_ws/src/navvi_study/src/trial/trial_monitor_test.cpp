@@ -161,6 +161,16 @@ TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
   EXPECT_TRUE(monitor_.observe(contact(17.3, 2, "shelf", 2, 0)).empty()) << "the trial is over";
 }
 
+TEST_F(Monitor, calls_no_path_the_first_that_ends_short_of_the_goal) {
+  Guidance short_of_it = guidance(10.5, State::following);
+  short_of_it.ends_short = true;
+  EXPECT_EQ(types(monitor_.observe(short_of_it)), Names{"GUIDANCE"});
+  Guidance whole = guidance(12.0, State::following, 2);
+  whole.plans = 2;
+  EXPECT_EQ(types(monitor_.observe(whole)), Names{"REPLAN"});
+  EXPECT_FALSE(monitor_.tally().first_path_length);
+}
+
 TEST_F(Monitor, T4_an_arrival_that_the_odometry_contradicts_is_not_recorded_as_reached) {
   (void)monitor_.observe(Odometry{11 * kSecond, {{-3.2, 0.4}}});
   (void)monitor_.observe(guidance(11.5, State::following));

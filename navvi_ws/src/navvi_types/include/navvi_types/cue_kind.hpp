@@ -95,6 +95,8 @@ enum class CueKind : std::uint8_t {
   // The way.
   start,
   start_distance,
+  toward_goal,
+  goal_seen,
   direction,
   straight,
   slight,
@@ -281,6 +283,8 @@ inline constexpr CueTraits kRows[] = {
     // The way.
     {K::start, "start", P::text, 2.0, 10.0, F::other, A::ready},
     {K::start_distance, "start_distance", P::text, 2.0, 10.0, F::other, A::ready},
+    {K::toward_goal, "toward_goal", P::text, 0.0, 10.0, F::other, A::ready},
+    {K::goal_seen, "goal_seen", P::text, 0.0, 10.0, F::other, A::ready},
     {K::direction, "direction", P::text, 1.0, 1.0, F::way, A::turn},
     {K::straight, "straight", P::text, 1.0, 1.0, F::way, A::go},
     {K::slight, "slight", P::text, 1.0, 1.0, F::way, A::turn},

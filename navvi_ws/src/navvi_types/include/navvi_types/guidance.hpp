@@ -65,12 +65,13 @@ struct Guidance {
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();      ///< m, in map
   Eigen::Vector2d waypoint = Eigen::Vector2d::Zero();  ///< m, in map: the next corner, or the goal
   double floor = 0.0;                                  ///< m, height of the floor in map
+  bool ends_short = false;  ///< the goal is not seen yet: the path ends where the map does
   bool waypoint_is_goal = false;
   double waypoint_distance = 0.0;  ///< m, straight line
   double waypoint_angle = 0.0;     ///< from the robot's heading to the way-point
   double steer_angle = 0.0;        ///< where to steer: likewise, to the path a little ahead
   double turn_angle = 0.0;         ///< change of course at the way-point; 0 at the goal
-  double goal_distance = 0.0;      ///< m, along the path
+  double goal_distance = 0.0;      ///< m, along the path, to its end
   double eta = 0.0;                ///< s, for what is left, >= 0
   double shortest_length = 0.0;    ///< m, of the shortest path when this one was planned
   double path_offset = 0.0;        ///< m, from the robot to the nearest point of the path
