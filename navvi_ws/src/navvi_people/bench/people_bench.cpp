@@ -10,10 +10,12 @@
 #include <deque>
 #include <functional>
 #include <navvi_config/reader.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "navvi_people/loop/closed_loop.hpp"
+#include "navvi_people/people/listener.hpp"
 
 namespace {
 
@@ -56,7 +58,12 @@ class Rig {
   void wait(double seconds) {
     for (const double end = time_ + seconds; time_ < end;) step();
   }
+  /// \throws std::invalid_argument for words that are not the voice's: nobody would turn by them
   void say(const std::string& text) {
+    static const people::Listener listener(phrases());
+    if (listener.understand(text).empty())
+      throw std::invalid_argument("\"" + text + "\" is not among the phrases in " + phrases() +
+                                  ": change the benchmark's words with them");
     person_.hear(people::Speech{++id_, people::Speech::Moment::begins, text}, time_);
     wait(0.15 + static_cast<double>(text.size()) / 18.0);
     person_.hear(people::Speech{id_, people::Speech::Moment::ends}, time_);
@@ -86,7 +93,7 @@ double over_by_words(SimulatedOperatorConfig config, int hour) {
   config.hearing.faults = false;  // those who were measured had heard it
   Rig rig(config);
   rig.wait(2.0);
-  rig.say(std::to_string(hour) + " o'clock, 1 meter");
+  rig.say("turn to " + std::to_string(hour) + " o'clock, 1 meter");
   rig.wait(6.0);
   return -rig.yaw() / kDegree - 30.0 * hour;
 }
