@@ -84,9 +84,8 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   return answers;
 }
 
-void Answers::yield_to(const Utterances& way, Utterances& answer) {
-  const bool goes_on = !way.empty() && way.front().goes_on;
-  if (!goes_on || answer.empty() || family_of(answer.front().kind) != Family::halt) return;
+void Answers::yield(Utterances& answer) {
+  if (answer.empty() || family_of(answer.front().kind) != Family::halt) return;
   answer.clear();
   answered_.reset();
 }

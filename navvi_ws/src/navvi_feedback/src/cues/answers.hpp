@@ -16,8 +16,9 @@ class Answers {
   /// \return the answer, if any; first of all the menu's
   [[nodiscard]] Utterances update(const Tick& tick, RouteCues& route, const Halt& halt,
                                   const StateCues& state);
-  /// That a wait is over is a better answer than why it was: that one is withdrawn.
-  void yield_to(const Utterances& way, Utterances& answer);
+  /// That a wait is over, or begins just now, is a better answer than why a person waits: that one
+  /// is withdrawn.
+  void yield(Utterances& answer);
 
   /// Words of this kind have begun.
   void heard(CueKind kind);

@@ -44,13 +44,15 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
   add(told, collisions_.update(now.contacts, time));
   add(told, release(tick, told));
   add(told, stuck_.update(now, tick.follows, time));
-  add(told, state_.update(tick, halt_.halted(), phrasing_));
+  add(told, state_.update(tick, halt_.told(), phrasing_));
   add(told, near(tick));
   remind(tick, told);
+  const bool stops = halt(told, time);
   Utterances answer = answers_.update(tick, route_, halt_, state_);
-  halt(told, answer, time);
+  if (stops) answers_.yield(answer);
+  if (!halt_.halted()) halt(answer, time);
   const Utterances led = way(tick);
-  answers_.yield_to(led, answer);
+  if (!led.empty() && led.front().goes_on) answers_.yield(answer);
   add(told, answer);
   add(told, led);
   return say(told, tick);
@@ -90,13 +92,16 @@ void CuePolicy::remind(const Tick& tick, const Utterances& told) {
     route_.remind(tick.time + config_.recover);
 }
 
-/// Whoever hears a word to stop waits for "go on", be it an answer.
-void CuePolicy::halt(const Utterances& told, const Utterances& answer, double time) {
-  for (const Utterance& utterance : told)
-    if (family_of(utterance.kind) == Family::halt && !phrasing_.too_soon(utterance.kind, time))
-      halt_.say(utterance, time);
-  for (const Utterance& utterance : answer)
-    if (family_of(utterance.kind) == Family::halt && !halt_.halted()) halt_.say(utterance, time);
+/// Whoever hears a word to stop waits for "go on", be it an answer. \return whether one is said
+bool CuePolicy::halt(const Utterances& told, double time) {
+  bool stops = false;
+  for (const Utterance& utterance : told) {
+    const bool said = utterance.asked || !phrasing_.too_soon(utterance.kind, time);
+    if (family_of(utterance.kind) != Family::halt || !said) continue;
+    halt_.say(utterance, time);
+    stops = true;
+  }
+  return stops;
 }
 
 Utterances CuePolicy::way(const Tick& tick) {
@@ -139,6 +144,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       if (event.kind()) answers_.heard(*event.kind());
       if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
     }
+    if (event.kind()) route_.note(*event.kind(), event.stage);
     const bool owed = halt_.owes() && !halt_.halted();
     halt_.note(event, replaced(event), time_);
     // "Go on" was not heard to its end.
@@ -155,7 +161,7 @@ void CuePolicy::lost(const CueEvent& event) {
   const CueKind kind = event.kind().value_or(CueKind::lesson);
   phrasing_.forget(event);
   near_.unsaid(kind);
-  route_.lost(kind);
+  route_.lost(kind, time_);
   state_.lost(kind, time_);
   answers_.lost(kind);
 }

@@ -46,7 +46,7 @@ class CuePolicy {
   [[nodiscard]] Utterances release(const Tick& tick, const Utterances& told);
   [[nodiscard]] Utterances near(const Tick& tick);
   void remind(const Tick& tick, const Utterances& told);
-  void halt(const Utterances& told, const Utterances& answer, double time);
+  bool halt(const Utterances& told, double time);
   [[nodiscard]] Utterances way(const Tick& tick);
   [[nodiscard]] std::vector<Cue> say(const Utterances& told, const Tick& tick);
   void lost(const CueEvent& event);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cues/route_cues.hpp"
+
 namespace navvi_feedback::cues {
 namespace {
 
@@ -47,9 +49,14 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     // Two things that were hit are two messages of one kind.
     if (cue.asked && other.cue.asked) return true;
-    return other.cue.kind == cue.kind &&
+    const bool either = tells_sight(other.cue.kind) && tells_sight(cue.kind);
+    return (other.cue.kind == cue.kind || either) &&
            (cue.priority < Priority::important || other.cue.text == cue.text);
   });
+  if (same != waiting_.end() && same->cue.goes_on && !cue.goes_on && !cue.asked) {
+    step.events.push_back(event(entry.id, CueStage::dropped, cue));
+    return;
+  }
   if (same != waiting_.end()) {
     step.events.push_back(event(same->id, CueStage::dropped, same->cue));
     waiting_.erase(same);
@@ -61,9 +68,10 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
   waiting_.insert(place, entry);
 }
 
-void CueQueue::drop_ways(Step& step) {
+template <typename Which>
+void CueQueue::drop(const Which& which, Step& step) {
   for (auto entry = waiting_.begin(); entry != waiting_.end();) {
-    if (!is_way(family_of(entry->cue.kind))) {
+    if (!which(*entry)) {
       ++entry;
       continue;
     }
@@ -72,15 +80,17 @@ void CueQueue::drop_ways(Step& step) {
   }
 }
 
+void CueQueue::drop_ways(Step& step) {
+  drop([](const Entry& entry) { return is_way(family_of(entry.cue.kind)); }, step);
+}
+
 void CueQueue::drop_stale(double time, Step& step) {
-  for (auto entry = waiting_.begin(); entry != waiting_.end();) {
-    if (time - entry->since <= entry->cue.max_age) {
-      ++entry;
-      continue;
-    }
-    step.events.push_back(event(entry->id, CueStage::dropped, entry->cue));
-    entry = waiting_.erase(entry);
-  }
+  const auto stale = [&](const Entry& entry) { return time - entry.since > entry.cue.max_age; };
+  const bool waits_on = std::any_of(waiting_.begin(), waiting_.end(), [&](const Entry& entry) {
+    return entry.cue.goes_on && stale(entry);
+  });
+  drop(stale, step);
+  if (waits_on) drop_ways(step);
 }
 
 void CueQueue::drop_surplus(Step& step) {
@@ -112,8 +122,10 @@ void CueQueue::begin_next(Step& step) {
     step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
     step.stop = true;
   }
+  const bool waits_on = running_ && running_->cue.goes_on;
   running_ = next;
   waiting_.pop_front();
+  if (waits_on) drop_ways(step);
   step.events.push_back(event(running_->id, CueStage::started, running_->cue));
   step.start = running_->cue.text;
   step.asked = running_->cue.asked;

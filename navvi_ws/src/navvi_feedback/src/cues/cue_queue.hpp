@@ -14,9 +14,10 @@ namespace navvi_feedback::cues {
 /// one waits; nothing cuts an important one, and what was asked for cuts all others and takes the
 /// place of what was asked for before. Below `important` at most two wait; the least
 /// important is dropped first, but not what ends a wait. A newer cue of a kind replaces the waiting
-/// one, but an important one only if the text is the same. A word to stop drops all that waits to
-/// say where to steer. A cue that has waited beyond max_age is dropped. Every cue that enters
-/// reaches exactly one of ended, cut, dropped.
+/// one, but an important one only if the text is the same, and what ends a wait only if it does so,
+/// too. A word to stop drops all that waits to say where to steer, and so does what ends a wait if
+/// it is not heard to its end. A cue that has waited beyond max_age is dropped. Every cue that
+/// enters reaches exactly one of ended, cut, dropped.
 class CueQueue {
  public:
   /// The order to the voice, and the events of the cues in order.
@@ -42,6 +43,8 @@ class CueQueue {
   };
 
   void enter(const Cue& cue, double time, Step& step);
+  template <typename Which>
+  void drop(const Which& which, Step& step);
   void drop_ways(Step& step);
   void drop_stale(double time, Step& step);
   void drop_surplus(Step& step);

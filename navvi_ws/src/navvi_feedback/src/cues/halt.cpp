@@ -56,6 +56,9 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
     return;
   }
   if (!halted() || !event.kind() || family_of(*event.kind()) != Family::halt) return;
+  if (event.stage == CueStage::queued) ++due_;
+  if (event.stage == CueStage::started || event.stage == CueStage::dropped)
+    due_ = std::max(0, due_ - 1);
   if (event.stage == CueStage::started) {
     heard_ = true;
     if (std::exchange(begun_, true))
@@ -63,7 +66,7 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
     else
       said_ = last_ = time;
   }
-  if (event.stage == CueStage::dropped && !replaced && !heard_) state_ = State::free;
+  if (event.stage == CueStage::dropped && !replaced && !heard_ && due_ == 0) state_ = State::free;
 }
 
 bool Halt::over(const Observation& now, bool follows, bool comes, double time) {

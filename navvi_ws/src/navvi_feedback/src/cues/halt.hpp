@@ -34,6 +34,10 @@ class Halt {
   [[nodiscard]] bool halted() const { return state_ == State::waiting; }
   /// The person has not heard "go on" to its end.
   [[nodiscard]] bool owes() const { return state_ != State::free; }
+  /// s, when a person who waits was told to; nullopt: nobody waits
+  [[nodiscard]] std::optional<double> told() const {
+    return halted() ? std::optional(said_) : std::nullopt;
+  }
   /// A person has not obeyed it yet.
   [[nodiscard]] bool fresh(double time) const { return halted() && time - said_ < kObeyed; }
   /// The last word to stop.
@@ -48,6 +52,7 @@ class Halt {
 
   State state_ = State::free;
   Utterance words_;
+  int due_ = 0;          ///< words to stop that the voice has not begun yet
   bool heard_ = false;   ///< the voice has begun a word to stop since the person was free
   bool begun_ = false;   ///< and the last of them
   double said_ = 0.0;    ///< s, when that was said

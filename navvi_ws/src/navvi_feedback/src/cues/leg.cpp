@@ -57,7 +57,8 @@ void Leg::announced(int hour, double time) {
   turn_told = true;
 }
 
-void Leg::lost() {
+void Leg::lost(double time) {
+  unheard = time;
   said.hour.reset();
   room_made = turn_told = false;
   routes.told = routes.before;

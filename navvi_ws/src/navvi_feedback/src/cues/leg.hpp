@@ -67,6 +67,7 @@ struct Leg {
   bool turn_told = false;          ///< it is that of the corner ahead
   bool fell_away = false;          ///< it is no longer to be made
   bool room_made = false;          ///< the thing to make room for was named
+  double unheard = -1e9;           ///< s, when words of the way were lost
   ToldRoutes routes;               ///< of this goal
   std::optional<double> reminder;  ///< s, from which on the direction is to be said again
   Stray stray;
@@ -82,7 +83,7 @@ struct Leg {
   /// The turn at the corner ahead is announced now.
   void announced(int hour, double time);
   /// What was said of the way was not heard: it is said again, as it is then.
-  void lost();
+  void lost(double time);
   /// That the route is another was not heard. \param by_sound  a sound leads
   void route_lost(bool by_sound);
   /// The person waits: another plan, and not the robot, has replaced the corner.

@@ -82,7 +82,7 @@ TEST_F(LegTest, forgets_what_was_not_heard_with_the_route_that_it_told) {
   EXPECT_TRUE(leg_.routes.news(other));
   leg_.heard(3, 3.0);
   EXPECT_FALSE(leg_.routes.news(other));
-  leg_.lost();
+  leg_.lost(0.0);
   EXPECT_TRUE(leg_.routes.news(other));
   EXPECT_FALSE(leg_.said.hour);
   EXPECT_FALSE(leg_.turn_told);

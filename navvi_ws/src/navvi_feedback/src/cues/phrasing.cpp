@@ -1,7 +1,6 @@
 #include "cues/phrasing.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "cues/near_words.hpp"
@@ -82,8 +81,7 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
     if (!always && too_soon(kind, time)) continue;
     const auto age = [&](const std::string& text) {
       const auto same = last_text_.find(text);
-      return same == last_text_.end() ? std::numeric_limits<double>::infinity()
-                                      : time - same->second;
+      return time - (same == last_text_.end() ? kNever : same->second.last);
     };
     const auto sound = instead_of(utterance, now.sounds);
     Sentence told = word(utterance, false);
@@ -98,7 +96,8 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
     cue.felt = felt;
     cue.scan = told.scan;
     if (!sound && !felt) {
-      last_text_[cue.text] = time;
+      Times& times = last_text_[cue.text];
+      times = {time, times.last};
       if (utterance.fillings.hour == 12) straight_said_ = time;
     }
     last_said_.note(kind, time);
@@ -111,7 +110,8 @@ std::vector<Cue> Phrasing::cues_of(const std::vector<Utterance>& utterances, con
 
 void Phrasing::forget(const CueEvent& event) {
   if (event.kind()) last_said_.forget(*event.kind());
-  last_text_.erase(event.text);
+  if (const auto said = last_text_.find(event.text); said != last_text_.end())
+    said->second.last = said->second.before;
 }
 
 }  // namespace navvi_feedback::cues

@@ -31,11 +31,17 @@ class Phrasing {
   /// s, when "straight ahead" was last said
   [[nodiscard]] double straight_said() const { return straight_said_; }
 
-  void heard(const CueEvent& event, double time) { last_text_[event.text] = time; }
+  void heard(const CueEvent& event, double time) { last_text_[event.text] = {time, time}; }
   /// It was not heard, and may be said at once.
   void forget(const CueEvent& event);
 
  private:
+  static constexpr double kNever = -1e9;  ///< s
+
+  struct Times {
+    double last = kNever;    ///< s, when it was decided last, or heard
+    double before = kNever;  ///< s, before that
+  };
   struct Sentence {
     std::string text;
     std::vector<sounds::Play> scan;  ///< of its parts
@@ -46,8 +52,8 @@ class Phrasing {
   Phrases phrases_;
   double same_text_;
   LastSaid last_said_;
-  std::map<std::string, double> last_text_;  ///< s, by text
-  double straight_said_ = -1e9;              ///< s
+  std::map<std::string, Times> last_text_;  ///< by text
+  double straight_said_ = kNever;           ///< s
 };
 
 }  // namespace navvi_feedback::cues

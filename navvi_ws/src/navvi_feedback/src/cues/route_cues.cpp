@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cues/route_rules.hpp"
 #include "cues/sounds_lead.hpp"
@@ -13,8 +14,6 @@ namespace {
 
 /// m; a goal that moved less is the same goal.
 constexpr double kSameGoal = 0.5;
-/// s, after words that found no room.
-constexpr double kTryAgain = 0.3;
 
 }  // namespace
 
@@ -45,11 +44,11 @@ Utterances RouteCues::update(const Observation& now, bool halted, double time) {
 Utterances RouteCues::sight_of_goal(const Observation& now, double time) {
   const Guidance& guidance = *now.guidance;
   if (!goal_ || guidance.state == Guidance::State::make_room ||
-      guidance.ends_short == told_unseen_ || time - sight_told_ < kTryAgain)
+      guidance.ends_short == unseen_.told || time - unseen_.time < kTryAgain)
     return {};
-  told_unseen_ = guidance.ends_short;
-  sight_told_ = time;
-  Utterance sight{told_unseen_ ? CueKind::toward_goal : CueKind::goal_seen};
+  unseen_.told = guidance.ends_short;
+  unseen_.time = time;
+  Utterance sight{unseen_.told ? CueKind::toward_goal : CueKind::goal_seen};
   sight.fillings.distance = std::max(0.0, guidance.goal_distance);
   return {sight};
 }
@@ -57,11 +56,10 @@ Utterances RouteCues::sight_of_goal(const Observation& now, double time) {
 /// First of all what to do now; but that the goal is not seen yet comes before it.
 Utterances RouteCues::introduce_goal(const Look& look) {
   goal_ = look.guidance().goal;
-  told_unseen_ = look.guidance().ends_short;
-  sight_told_ = look.time;
+  unseen_ = {look.guidance().ends_short, false, false, look.time};
   leg_.begin(look.guidance());
   Utterances told = tell_way(look, leg_);
-  told.insert(told_unseen_ ? told.begin() : told.end(), start_words(look.now));
+  told.insert(unseen_.told ? told.begin() : told.end(), start_words(look.now));
   return told;
 }
 
@@ -77,7 +75,7 @@ Utterances RouteCues::go_on(const Observation& now, double time) {
     if (!guidance.ends_short)
       way->also = {
           goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, bearing_.rounding())};
-    told_unseen_ = false;
+    unseen_ = {};
     goal_ = guidance.goal;
     leg_.begin(guidance);
   } else if (leg_.routes.news(guidance) && way->kind != CueKind::slight) {
@@ -103,11 +101,18 @@ void RouteCues::pause(bool goal_gone) {
   if (goal_gone) goal_.reset();
 }
 
-void RouteCues::lost(CueKind kind) {
-  if (is_way(family_of(kind))) leg_.lost();
+void RouteCues::note(CueKind kind, CueStage stage) {
+  if (!tells_sight(kind)) return;
+  if (stage == CueStage::started)
+    unseen_.before = std::exchange(unseen_.heard, kind == CueKind::toward_goal);
+  if (stage == CueStage::cut) unseen_.heard = unseen_.before;
+}
+
+void RouteCues::lost(CueKind kind, double time) {
+  if (is_way(family_of(kind))) leg_.lost(time);
   if (tells_route(kind)) leg_.route_lost(by_sound_);
-  if (kind == CueKind::toward_goal) told_unseen_ = false;
-  if (kind == CueKind::goal_seen) told_unseen_ = true;
+  const bool last = tells_sight(kind) && unseen_.told == (kind == CueKind::toward_goal);
+  if (last) unseen_.told = unseen_.heard;
 }
 
 bool RouteCues::is_new_goal(const Guidance& guidance) const {

@@ -14,9 +14,13 @@ namespace navvi_feedback::cues {
   return kind == CueKind::rerouted || kind == CueKind::rerouted_blocked ||
          kind == CueKind::new_route || kind == CueKind::way_blocked;
 }
-/// What was cut off is said again: whoever is led toward the unseen knows it.
+/// It tells whether the map shows the goal.
+[[nodiscard]] constexpr bool tells_sight(CueKind kind) {
+  return kind == CueKind::toward_goal || kind == CueKind::goal_seen;
+}
+/// What was cut off is said again.
 [[nodiscard]] constexpr bool is_owed(CueKind kind) {
-  return tells_route(kind) || kind == CueKind::toward_goal;
+  return tells_route(kind) || tells_sight(kind);
 }
 
 struct Look;
@@ -44,8 +48,10 @@ class RouteCues {
   /// The path is gone: when there is one again, say where it leads.
   /// \param goal_gone  the goal, too: the next one is introduced
   void pause(bool goal_gone);
-  /// Words of this kind were not heard.
-  void lost(CueKind kind);
+  /// Takes note of what became of words of this kind.
+  void note(CueKind kind, CueStage stage);
+  /// They were not heard.
+  void lost(CueKind kind, double time);
   /// Something else was said that makes a person stop: say the direction again from `time` on.
   void remind(double time) { leg_.reminder = time; }
 
@@ -55,6 +61,14 @@ class RouteCues {
   [[nodiscard]] Rounding rounding() const { return bearing_.rounding(); }
 
  private:
+  /// That the map does not show the goal yet.
+  struct Unseen {
+    bool told = false;    ///< it was decided last, and not that it does
+    bool heard = false;   ///< likewise, what the voice has begun
+    bool before = false;  ///< likewise, before that
+    double time = -1e9;   ///< s, when either was decided
+  };
+
   [[nodiscard]] Utterances introduce_goal(const Look& look);
   [[nodiscard]] Utterances sight_of_goal(const Observation& now, double time);
   [[nodiscard]] bool is_new_goal(const Guidance& guidance) const;
@@ -63,9 +77,8 @@ class RouteCues {
   Bearing bearing_;
   Leg leg_;
   std::optional<Eigen::Vector2d> goal_;  ///< m, in map, the one that was introduced
-  bool told_unseen_ = false;             ///< it was told that the map does not show it yet
-  double sight_told_ = -1e9;             ///< s, when that was last told, or that it does
-  bool by_sound_ = false;                ///< a sound led at the last look
+  Unseen unseen_;
+  bool by_sound_ = false;  ///< a sound led at the last look
 };
 
 }  // namespace navvi_feedback::cues

@@ -66,17 +66,24 @@ TEST(RouteCues, say_again_that_the_goal_is_not_seen_if_it_was_not_heard) {
   drive.now.commanded.linear = drive.now.measured->linear = 1.0;
   drive.pass(3.0);
   for (int i = 0; i < 3; ++i) {
-    drive.cues.lost(CueKind::toward_goal);
+    drive.cues.lost(CueKind::toward_goal, drive.time);
     EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::toward_goal});
-    drive.cues.lost(CueKind::toward_goal);
+    drive.cues.lost(CueKind::toward_goal, drive.time);
     EXPECT_EQ(drive.pass(0.2), Kinds{}) << "none that finds no room either";
     EXPECT_EQ(drive.pass(0.12), Kinds{CueKind::toward_goal});
     drive.pass(1.0);
   }
   drive.now.guidance->ends_short = false;
   drive.pass(0.4);
-  drive.cues.lost(CueKind::goal_seen);
-  EXPECT_EQ(drive.pass(0.32).front(), CueKind::goal_seen);
+  drive.cues.lost(CueKind::goal_seen, drive.time);
+  EXPECT_EQ(drive.pass(1.0), Kinds{}) << "who never heard that it was not seen";
+  drive.now.guidance->ends_short = true;
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::toward_goal});
+  drive.cues.note(CueKind::toward_goal, CueStage::started);
+  drive.now.guidance->ends_short = false;
+  EXPECT_EQ(drive.pass(0.4), Kinds{CueKind::goal_seen});
+  drive.cues.lost(CueKind::goal_seen, drive.time);
+  EXPECT_EQ(drive.pass(0.32), Kinds{CueKind::goal_seen});
 }
 
 TEST(RouteCues, tell_a_person_who_waited_meanwhile_that_the_new_goal_is_not_seen) {
@@ -190,7 +197,7 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::direction});
   drive.cues = told;
-  drive.cues.lost(CueKind::straight_then);
+  drive.cues.lost(CueKind::straight_then, drive.time);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 

@@ -25,6 +25,7 @@ Utterances first_of(std::initializer_list<Rule> rules, const Look& look, Leg& le
 
 Told make_room(const Look& look, Leg& leg) {
   if (look.guidance().state != Guidance::State::make_room || leg.room_made) return std::nullopt;
+  if (look.now.voice_busy && look.time - leg.unheard < kTryAgain) return Utterances{};
   leg.heard(look.hour(), look.time);
   return Utterances{make_room_now(look, leg)};
 }

@@ -11,8 +11,6 @@ namespace {
 constexpr double kStopped = 3.0;
 /// s, from one word to the next on what a stick that is pushed waits for.
 constexpr double kHeldBack = 2.5;
-/// s, after words that found no room.
-constexpr double kTryAgain = 0.3;
 
 bool said_once(CueKind problem) {
   return problem == CueKind::arrived || problem == CueKind::welcome || is_refusal(problem);
@@ -20,7 +18,8 @@ bool said_once(CueKind problem) {
 
 }  // namespace
 
-Utterances StateCues::update(const Tick& tick, bool halted, const Phrasing& phrasing) {
+Utterances StateCues::update(const Tick& tick, std::optional<double> halted,
+                             const Phrasing& phrasing) {
   Utterances told;
   const bool wanted = std::exchange(awaited_, awaited(tick.now).has_value());
   if (wanted && tick.now.trial == TrialState::State::running) told = {{CueKind::trial_begins}};
@@ -70,7 +69,7 @@ void StateCues::observe(const Tick& tick) {
   if (guidance) goal_ = guidance->goal;
 }
 
-bool StateCues::due(const Tick& tick, bool halted) const {
+bool StateCues::due(const Tick& tick, std::optional<double> halted) const {
   if (tick.time - since_ < hold(tick, halted)) return false;
   if (lost_) return tick.time - *lost_ >= kTryAgain;
   const bool pushed = awaited_ && tick.now.stick_held_unarmed;
@@ -79,12 +78,12 @@ bool StateCues::due(const Tick& tick, bool halted) const {
 }
 
 /// s, for which it must last.
-double StateCues::hold(const Tick& tick, bool halted) const {
+double StateCues::hold(const Tick& tick, std::optional<double> halted) const {
   if (problem_ == CueKind::arrived || problem_ == CueKind::guidance_lost || is_refusal(problem_))
     return 0.0;
   if (problem_ == CueKind::blocked) {
     // Who was just told to stop need not be told to wait as well.
-    if (halted) return kStopped;
+    if (halted && since_ - *halted < kStopped) return kStopped;
     const bool near = tick.now.measured && tick.now.guidance->blocked_distance <
                                                tick.now.measured->linear * config_.near.stop_moving;
     if (near) return 0.0;

@@ -14,9 +14,10 @@ class StateCues {
  public:
   explicit StateCues(const CuePolicyConfig& config) : config_(config) {}
 
-  /// \param halted  the person was told to stop
+  /// \param halted  s, when the person was told to stop, and waits since; nullopt: they do not wait
   /// \param phrasing  knows which kinds were said too short a time ago
-  [[nodiscard]] Utterances update(const Tick& tick, bool halted, const Phrasing& phrasing);
+  [[nodiscard]] Utterances update(const Tick& tick, std::optional<double> halted,
+                                  const Phrasing& phrasing);
   /// Words of the kind were not heard: if they are true still, they are said again a little later.
   void lost(CueKind kind, double time);
 
@@ -28,8 +29,8 @@ class StateCues {
  private:
   [[nodiscard]] std::optional<CueKind> judge(const Tick& tick) const;
   void observe(const Tick& tick);
-  [[nodiscard]] bool due(const Tick& tick, bool halted) const;
-  [[nodiscard]] double hold(const Tick& tick, bool halted) const;
+  [[nodiscard]] bool due(const Tick& tick, std::optional<double> halted) const;
+  [[nodiscard]] double hold(const Tick& tick, std::optional<double> halted) const;
 
   CuePolicyConfig config_;
   bool awaited_ = false;                            ///< a trial waits for the person

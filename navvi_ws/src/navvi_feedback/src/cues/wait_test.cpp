@@ -126,7 +126,8 @@ TEST_F(WaitTest, is_said_again_if_it_found_no_room_in_the_moment_it_was_due) {
   later.id = 2;
   policy_.note({due, later, gone});
   EXPECT_EQ(pass(1.0), Texts{}) << "a later one takes its place";
-  policy_.note({due, gone});
+  later.stage = CueStage::dropped;
+  policy_.note({later});
   EXPECT_EQ(pass(0.25), Texts{});
   EXPECT_EQ(pass(0.25), Texts{"wait, worker in the way"});
 }
