@@ -362,8 +362,8 @@ Verdict judge(int situations, const FeedbackConfig& config = {}) {
 
 /// Nor is anybody left waiting: after "stop" or "wait" comes "go on" with its direction, within 12
 /// s once the cause has gone, 8 s where nothing moves near, and no other word of the way before it.
-TEST(Situations, ten_thousand_at_random_leave_nothing_that_matters_unsaid_overlapped_or_stale) {
-  const Verdict verdict = judge(10000);
+TEST(Situations, thirty_thousand_at_random_leave_nothing_that_matters_unsaid_overlapped_or_stale) {
+  const Verdict verdict = judge(30000);
   EXPECT_EQ(verdict.complaints, std::set<std::string>{});
   EXPECT_GT(verdict.waits, 300);
   EXPECT_LT(verdict.longest, 12.0);

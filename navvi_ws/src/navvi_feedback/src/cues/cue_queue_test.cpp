@@ -83,6 +83,40 @@ TEST(CueQueue, keeps_what_ends_a_wait_and_says_it_before_its_equals) {
   EXPECT_EQ(told(queue.update({}, false, 0.3)), (Words{"ended hit", "started straight"}));
 }
 
+TEST(CueQueue, says_no_way_that_waited_behind_what_ends_a_wait_and_was_not_heard) {
+  for (const bool cut : {false, true}) {
+    CueQueue queue;
+    Cue on = cue("make_room", Priority::message);
+    on.goes_on = true;
+    if (!cut) (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
+    (void)queue.update({on}, !cut, 0.1);
+    (void)queue.update({cue("direction", Priority::text, 9.0)}, true, 0.2);
+    const auto step = queue.update({cue("s", Priority::important)}, true, cut ? 0.3 : 2.2);
+    EXPECT_EQ(told(step),
+              cut ? (Words{"queued s", "cut make_room", "dropped direction", "started s"})
+                  : (Words{"dropped make_room", "dropped direction", "queued s"}));
+  }
+}
+
+TEST(CueQueue, replaces_what_ends_a_wait_only_by_what_ends_it_too) {
+  CueQueue queue;
+  Cue on = cue("direction", Priority::message);
+  on.goes_on = true;
+  (void)queue.update({cue("hit", Priority::important), on}, false, 0.0);
+  EXPECT_EQ(told(queue.update({cue("direction", Priority::text)}, true, 0.1)),
+            (Words{"queued direction", "dropped direction"}));
+  EXPECT_EQ(told(queue.update({on}, true, 0.2)), (Words{"queued direction", "dropped direction"}));
+  EXPECT_EQ(told(queue.update({}, false, 0.3)), (Words{"ended hit", "started direction"}));
+}
+
+TEST(CueQueue, never_waits_to_say_both_that_a_goal_is_seen_and_that_it_is_not) {
+  CueQueue queue;
+  (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
+  (void)queue.update({cue("goal_seen", Priority::text)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({cue("toward_goal", Priority::text)}, true, 0.2)),
+            (Words{"queued toward_goal", "dropped goal_seen"}));
+}
+
 TEST(CueQueue, answers_at_once_whatever_but_safety_is_spoken_and_only_the_last_question) {
   const auto answer = [](const std::string& kind) {
     Cue asked = cue(kind, Priority::message);

@@ -45,6 +45,10 @@ void Halt::release(const std::string& text) {
 }
 
 void Halt::note(const CueEvent& event, bool replaced, double time) {
+  const bool stops = event.kind() && family_of(*event.kind()) == Family::halt;
+  if (stops && event.stage == CueStage::queued) ++due_;
+  if (stops && (event.stage == CueStage::started || event.stage == CueStage::dropped))
+    due_ = std::max(0, due_ - 1);
   if (state_ == State::released && event.text == release_) {
     if (event.stage == CueStage::queued) release_id_ = event.id;
     if (event.id != release_id_) return;
@@ -55,10 +59,7 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
     }
     return;
   }
-  if (!halted() || !event.kind() || family_of(*event.kind()) != Family::halt) return;
-  if (event.stage == CueStage::queued) ++due_;
-  if (event.stage == CueStage::started || event.stage == CueStage::dropped)
-    due_ = std::max(0, due_ - 1);
+  if (!halted() || !stops) return;
   if (event.stage == CueStage::started) {
     heard_ = true;
     if (std::exchange(begun_, true))

@@ -141,6 +141,36 @@ TEST_F(HaltTest, takes_back_no_wait_that_was_never_heard) {
   for (const std::string& text : pass(3.0)) EXPECT_EQ(text.find("go on"), std::string::npos);
 }
 
+TEST_F(HaltTest, takes_back_no_wait_for_an_older_word_that_was_never_heard) {
+  under_way();
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(0.6).size(), 1U);
+  const CueEvent older{1, CueStage::queued, last_.kind, last_.text};
+  const CueEvent newer{2, CueStage::queued, navvi_types::Spoken(CueKind::obstacle_stop),
+                       "stop, box ahead"};
+  policy_.note({older, newer});
+  CueEvent gone = older;
+  gone.stage = CueStage::dropped;
+  policy_.note({gone});
+  now_.guidance->state = Guidance::State::following;
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
+}
+
+TEST_F(HaltTest, answers_no_way_in_the_moment_of_a_word_to_stop) {
+  under_way();
+  NearThing forklift{ThingClass::forklift, 5, 1.8, {2.2, 0.0}, true};
+  Texts said;
+  while (said.empty() && forklift.gap > 0.0) {
+    forklift.gap -= 0.006;
+    forklift.nearest.x() -= 0.006;
+    now_.nearby = {forklift};
+    asked_.question = Question::way;
+    said = pass(0.02);
+    if (last_.kind != CueKind::obstacle_stop) said.clear();
+  }
+  EXPECT_EQ(said, Texts{"stop, forklift ahead"});
+}
+
 TEST_F(HaltTest, a_question_during_a_wait_is_answered_by_it_however_often) {
   under_way();
   now_.guidance->state = Guidance::State::blocked;

@@ -122,6 +122,10 @@ TEST(RouteRules, name_once_the_thing_to_make_room_for_and_then_the_way) {
   drive.now.guidance = following(90.0, 3.0);
   drive.now.guidance->state = Guidance::State::make_room;
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::make_room});
+  drive.now.voice_busy = true;
+  drive.cues.lost(CueKind::make_room, drive.time);
+  EXPECT_EQ(drive.pass(0.28), Kinds{}) << "it would find no room again";
+  EXPECT_EQ(drive.pass(0.06), Kinds{CueKind::make_room});
 }
 
 TEST(RouteRules, judge_a_new_leg_afresh) {

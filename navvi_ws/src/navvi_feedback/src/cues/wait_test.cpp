@@ -104,6 +104,15 @@ TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
   EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
 }
 
+TEST_F(WaitTest, is_said_at_once_though_an_older_word_to_stop_holds) {
+  note(1, CueStage::queued);
+  note(1, CueStage::started);
+  now_.guidance->state = Guidance::State::no_route;
+  pass(12.0);
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(0.6), Texts{"wait, worker in the way"});
+}
+
 TEST_F(WaitTest, is_said_again_while_it_lasts_if_other_words_left_it_no_room) {
   for (int i = 1; i <= 3; ++i) {
     note(i, CueStage::queued);
