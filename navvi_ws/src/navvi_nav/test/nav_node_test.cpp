@@ -178,12 +178,12 @@ TEST_F(NavNodeTest, guides_refuses_and_replans) {
   // Beyond the map only a person's second ask leads on: a newer stamp.
   const ros::Time asked = ros::Time::now();
   for (int times = 0; times < 3; ++times) {
-    send_goal(40, 5, "map", asked);
+    send_goal(40, 8, "map", asked);
     const unsigned plans = guidance_.plans;
     EXPECT_TRUE(until([&] { return guidance_.plans > plans; }));
     EXPECT_TRUE(refused_as(navvi_msgs::Guidance::OFF_THE_MAP));
   }
-  send_goal(40, 5, "map", ros::Time::now());
+  send_goal(40, 8, "map", ros::Time::now());
   EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
   EXPECT_TRUE(guidance_.ends_short);
   EXPECT_DOUBLE_EQ(guidance_.goal.x, 40.0);
