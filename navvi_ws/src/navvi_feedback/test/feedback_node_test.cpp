@@ -12,6 +12,8 @@
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
+#include <std_msgs/String.h>
+#include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <functional>
@@ -87,8 +89,17 @@ class FeedbackNode : public testing::Test {
       joy_.publish(joy);
     }
     if (sensing_) proximity_.publish(proximity_msg_);
+    if (posed_) send_pose();
     odom_.publish(odom_msg_);
     if (guidance_on_) guidance_.publish(guidance_msg_);
+  }
+  void send_pose() {
+    geometry_msgs::TransformStamped pose;
+    pose.header.stamp = ros::Time::now();
+    pose.header.frame_id = "map";
+    pose.child_frame_id = "base_link";
+    pose.transform.rotation.w = 1.0;
+    broadcaster_.sendTransform(pose);
   }
   void thing(const std::string& thing_class, double gap, double x, double y) {
     navvi_msgs::ProximityThing thing;
@@ -112,12 +123,14 @@ class FeedbackNode : public testing::Test {
   ros::Publisher guidance_ = node_.advertise<navvi_msgs::Guidance>("navvi/guidance", 1);
   ros::Publisher contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 10);
   ros::Publisher path_ = node_.advertise<nav_msgs::Path>("navvi/path", 1, true);
+  tf2_ros::TransformBroadcaster broadcaster_;
   ros::Subscriber cmd_vel_, feedback_, cues_, markers_, diagnostics_;
 
   std::optional<float> stick_ = 0.0F;
   ros::Time joy_stamp_;
   bool sensing_ = true;
   bool guidance_on_ = false;
+  bool posed_ = false;  ///< the robot's place is published
   navvi_msgs::Proximity proximity_msg_;
   nav_msgs::Odometry odom_msg_;
   navvi_msgs::Guidance guidance_msg_;
@@ -259,6 +272,28 @@ TEST_F(FeedbackNode, says_the_direction_shows_the_path_and_takes_both_back_when_
   guidance_on_ = false;
   EXPECT_TRUE(until([this] { return shown_ == 0; }, 3.0));
   EXPECT_TRUE(until([this] { return heard("guidance_lost"); }));
+}
+
+TEST_F(FeedbackNode, says_where_the_robot_is_by_no_pose_that_is_stale) {
+  ros::Publisher asks = node_.advertise<std_msgs::String>("navvi/ask", 10);
+  std_msgs::String where;
+  where.data = "where";
+  guidance_msg_.state = navvi_msgs::Guidance::FOLLOWING;
+  guidance_msg_.goal.x = guidance_msg_.waypoint.x = 5.0;
+  guidance_msg_.waypoint_is_goal = true;
+  guidance_msg_.waypoint_distance = guidance_msg_.goal_distance = 5.0;
+  guidance_on_ = posed_ = true;
+  ASSERT_TRUE(until([&] { return asks.getNumSubscribers() > 0 && heard("start"); }, 10.0));
+  asks.publish(where);
+  ASSERT_TRUE(until([this] { return heard("where_goal"); }, 10.0));
+
+  posed_ = false;
+  pass(1.5);
+  heard_.clear();
+  asks.publish(where);
+  EXPECT_TRUE(until([this] { return !heard_.empty(); }, 10.0));
+  pass(1.0);
+  EXPECT_FALSE(heard("where_goal"));
 }
 
 TEST_F(FeedbackNode, reports_its_hardware_once_a_second) {

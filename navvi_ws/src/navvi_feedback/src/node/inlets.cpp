@@ -24,7 +24,11 @@ constexpr double kMostAhead = 0.3;  // s, that a pose may be stamped ahead of RO
 
 Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
                PersonDevices& devices, Beat beat)
-    : node_(node), guide_(guide), devices_(devices), beat_(std::move(beat)) {
+    : node_(node),
+      guide_(guide),
+      devices_(devices),
+      beat_(std::move(beat)),
+      stale_(config.feedback->stale) {
   subscribe_to_hands(config);
   subscribe_to_robot();
   subscribe_to_trials();
@@ -126,11 +130,11 @@ void Inlets::subscribe_to_trials() {
       }));
 }
 
-/// base_link in map
 std::optional<navvi_types::Pose2> Inlets::robot() const {
   try {
     const auto found = tf_.lookupTransform("map", "base_link", ros::Time(0));
-    if ((found.header.stamp - ros::Time::now()).toSec() > kMostAhead) return std::nullopt;
+    const double age = (ros::Time::now() - found.header.stamp).toSec();
+    if (age < -kMostAhead || age > stale_) return std::nullopt;
     return from_msg(found.transform);
   } catch (const tf2::TransformException&) {
     return std::nullopt;

@@ -46,12 +46,14 @@ class Inlets {
   void subscribe_to_hands(const NodeConfig& config);
   void subscribe_to_robot();
   void subscribe_to_trials();
+  /// base_link in map; nullopt if it is stale or from the future
   [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
 
   ros::NodeHandle& node_;
   lockstep::Guide& guide_;
   PersonDevices& devices_;
   Beat beat_;
+  double stale_;  ///< s
   tf2_ros::Buffer tf_;
   navvi_types::TransformListener tf_listener_{tf_};
   std::vector<Eigen::Vector2d> path_, preview_;  ///< m, in map
