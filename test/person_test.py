@@ -1,14 +1,19 @@
 """A person's settings: changed while driving, heard and felt at once, kept in their file, true in the records of trials to come."""
 import os
 import subprocess
+import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 import rospy
 import yaml
 from navvi_msgs.msg import Cue
 from sensor_msgs.msg import Joy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_study/python"))
+from navvi_study import questionnaire  # noqa: E402
 
 SELECT, START, UP, DOWN, LEFT, RIGHT = 4, 6, 11, 12, 13, 14
 
@@ -17,7 +22,7 @@ class Session:
     """feedback_node, the pad of another driver with its arrow pad, and what is heard and felt."""
 
     def __init__(self, env, *words):
-        self.said, self.answers, self.felt, self.down, self.over = [], [], [], None, False
+        self.said, self.answers, self.felt, self.down, self.stick, self.over = [], [], [], None, [0, 0], False
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
         self.cues = rospy.Subscriber("/navvi/cues", Cue, self.hear)
         self.node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic", "_speech:=false", "_listener:=topic", *words], env=env)
@@ -34,7 +39,7 @@ class Session:
 
     def hold(self):
         while not self.over:
-            self.joy.publish(Joy(axes=[0, 0], buttons=[int(i == self.down) for i in range(15)]))
+            self.joy.publish(Joy(axes=self.stick, buttons=[int(i == self.down) for i in range(15)]))
             time.sleep(0.02)
 
     def until(self, condition):
@@ -156,3 +161,23 @@ def test_a_questionnaire_is_answered_by_the_pad_and_each_answer_is_saved_at_once
     assert answers() == [["hard", "50"], ["again", "declined"]]
     tap(START, "thank you")
     assert pad.node.wait(20) == 0
+
+
+def test_a_direction_is_pointed_at_with_the_stick_in_a_file_as_a_study_writes_it(session, tmp_path):
+    asked, record = tmp_path / "asked.yaml", tmp_path / "answers.csv"
+    probe = questionnaire.load(questionnaire.SHIPPED[0] / "probe.yaml")
+    asked.write_text(questionnaire.script(probe.items, probe.title, probe.intro))
+    pad = session("_lesson:=questionnaire", f"_questions:={asked}", f"_record:={record}")
+    pad.until(lambda: pad.said[-1:] == [probe.items[0].ask])
+    time.sleep(3.0)  # also the words
+    pad.stick = [1.0, 0.0]
+    pad.until(lambda: pad.said[-1:] == ["9 o'clock"])
+    pad.stick = [0, 0]
+    time.sleep(0.2)
+    pad.down = START
+    pad.until(lambda: pad.said[-1:] == [probe.items[1].ask])
+    pad.down = None
+    pad.until(record.exists)
+    [row] = questionnaire.read_answers(record)
+    assert (row["item"], row["answer"]) == ("goal", "90") and row["answer"] in probe.items[0].values()
+    assert 0.5 < float(row["seconds"]) < 10

@@ -2,8 +2,9 @@
 
 Arrow up and down, or the stick, find the answer, start confirms it, the left
 arrow goes back, the lower button repeats, select is for "rather not say"; on
-the keyboard page up, page down, enter, back space, space, F8. Each answer is
-saved at once. A study asks its questionnaires by this.
+the keyboard page up, page down, enter, back space, space, F8. A direction is
+asked for with "point: true" and answered by the stick. Each answer is saved at
+once. A study asks its questionnaires by this.
 
 Exit codes
 0: it has ended. 1: it broke off. 2: a wrong argument, or neither a pad nor a
@@ -22,5 +23,5 @@ def arguments(parser):
 
 def run(args):
     if not any(word.startswith("feedback/questions:=") for word in args.words):
-        fail("which questions? feedback/questions:=FILE is needed: a YAML list of items, each with name, ask, values and spoken.", 2)
+        fail("which questions? feedback/questions:=FILE is needed: a YAML list of items, each with name, ask, values and spoken, or name, ask and point: true.", 2)
     give("questionnaire", args.words)

@@ -418,9 +418,12 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     return fillings.setting == SettingName::rate ? text : text + " " + words_.at("percent");
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
-  const bool ahead = placeholder == "way" && fillings.hour == 12;
-  return words_.at((ahead ? "left_right" : wording_.directions) + "_" +
-                   std::to_string(*fillings.hour));
+  if (placeholder == "way") return way(*fillings.hour);
+  return words_.at(wording_.directions + "_" + std::to_string(*fillings.hour));
+}
+
+std::string Phrases::way(int hour) const {
+  return words_.at((hour == 12 ? "left_right" : wording_.directions) + "_" + std::to_string(hour));
 }
 
 std::string Phrases::distance(double metres) const {

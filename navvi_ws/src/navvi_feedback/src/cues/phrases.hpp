@@ -111,6 +111,8 @@ class Phrases {
   void use(const WordingConfig& wording) { wording_ = wording; }
   [[nodiscard]] const WordingConfig& wording() const { return wording_; }
 
+  /// What {way} says. \param hour  1..12
+  [[nodiscard]] std::string way(int hour) const;
   /// A distance with its unit: whole metres from 2 m on, halves below, never less than half a
   /// metre; or whole feet, fives from 20 feet on. \param metres  m, finite, >= 0
   [[nodiscard]] std::string distance(double metres) const;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <regex>
 
+#include "cues/clock_face.hpp"
 #include "navvi_config/reader.hpp"
 
 namespace navvi_feedback::lessons {
@@ -41,9 +43,24 @@ void check_spoken(const std::string& text, const std::string& where) {
   }
 }
 
+void check_values(const Question& question, const std::regex& plain, const std::string& where) {
+  if (question.point) {
+    if (question.values.empty() && question.spoken.empty()) return;
+    throw ConfigError(where + " has point beside values or spoken; allowed is one or the other.");
+  }
+  if (question.values.empty() || question.values.size() != question.spoken.size())
+    throw ConfigError(where + " has " + std::to_string(question.values.size()) + " values and " +
+                      std::to_string(question.spoken.size()) +
+                      " spoken; allowed is one that is spoken for each value, or point: true.");
+  for (const std::string& value : question.values)
+    if (!std::regex_match(value, plain))
+      throw ConfigError(where + "/values holds \"" + value +
+                        "\"; allowed are words of letters, digits, . - and _.");
+}
+
 Question read_question(const YAML::Node& item, const std::string& where) {
   if (!item.IsMap())
-    throw ConfigError(where + " is no map; allowed are name, ask, values and spoken.");
+    throw ConfigError(where + " is no map; allowed are name, ask, values, spoken and point.");
   Question question;
   for (const auto& entry : item) {
     const std::string name = entry.first.Scalar();
@@ -53,22 +70,19 @@ Question read_question(const YAML::Node& item, const std::string& where) {
       (name == "name" ? question.name : question.ask) = entry.second.Scalar();
     } else if (name == "values" || name == "spoken") {
       (name == "values" ? question.values : question.spoken) = words(entry.second, place);
+    } else if (name == "point") {
+      if (!entry.second.IsScalar() || entry.second.Scalar() != "true")
+        throw ConfigError(place + " is not true; allowed is true, or no such key.");
+      question.point = true;
     } else {
-      throw ConfigError(place + " is unknown; known are name, ask, values and spoken.");
+      throw ConfigError(place + " is unknown; known are name, ask, values, spoken and point.");
     }
   }
   static const std::regex plain("[A-Za-z0-9_.-]{1,40}( [A-Za-z0-9_.-]{1,40}){0,9}");
   if (!std::regex_match(question.name, plain))
     throw ConfigError(where + "/name is \"" + question.name +
                       "\"; allowed are letters, digits, . - and _.");
-  if (question.values.empty() || question.values.size() != question.spoken.size())
-    throw ConfigError(where + " has " + std::to_string(question.values.size()) + " values and " +
-                      std::to_string(question.spoken.size()) +
-                      " spoken; allowed is one that is spoken for each value.");
-  for (const std::string& value : question.values)
-    if (!std::regex_match(value, plain))
-      throw ConfigError(where + "/values holds \"" + value +
-                        "\"; allowed are words of letters, digits, . - and _.");
+  check_values(question, plain, where);
   check_spoken(question.ask, where + "/ask");
   for (const std::string& text : question.spoken) check_spoken(text, where + "/spoken");
   return question;
@@ -90,7 +104,8 @@ std::vector<Question> read_questions(const std::filesystem::path& path) {
 
 std::vector<std::string> Questionnaire::texts() {
   std::vector<std::string> keys;
-  for (const char* name : {"welcome", "read", "chosen", "choose_first", "declined", "last", "end"})
+  for (const char* name : {"welcome", "read", "chosen", "choose_first", "pointed", "point_first",
+                           "declined", "last", "end"})
     keys.push_back(key(name));
   return keys;
 }
@@ -111,10 +126,15 @@ Taught Questionnaire::update(const Observation& seen, double time) {
   }
   if (!finished_) {
     for (const Button button : seen.pressed) obey(button);
-    lean(seen.stick);
+    if (!all_asked() && questions_[at_].point) {
+      point(seen.stick);
+    } else {
+      lean(seen.stick);
+    }
   }
   Taught taught;
   taught.cues = teller_.update(!seen.voice_busy);
+  if (!heard_ && teller_.done() && !seen.voice_busy && taught.cues.empty()) heard_ = time;
   over_ = finished_ && teller_.done() && !seen.voice_busy && taught.cues.empty();
   return taught;
 }
@@ -130,8 +150,7 @@ void Questionnaire::obey(Button button) {
         finished_ = true;
         return teller_.tell(key("end"));
       }
-      if (const auto chosen = answers_[at_].chosen) return give(questions_[at_].values[*chosen]);
-      return teller_.tell(key("choose_first"));
+      return confirm();
     case Button::back:
       teller_.forget();
       return go_to(at_ == 0 ? 0 : at_ - 1);
@@ -141,6 +160,7 @@ void Questionnaire::obey(Button button) {
     case Button::end:
       if (all_asked()) return;
       answers_[at_].chosen.reset();
+      answers_[at_].degrees.reset();
       teller_.tell(key("declined"));
       return give(kDeclined);
     default:
@@ -157,8 +177,39 @@ void Questionnaire::lean(const drive::Stick& stick) {
   change(stick.y > 0.0);
 }
 
+void Questionnaire::point(const drive::Stick& stick) {
+  leans_ = true;  // while it stays pushed it takes no step of a question that follows, either
+  leaned_ = std::numeric_limits<double>::infinity();
+  const auto direction = pointing_.update(stick, time_);
+  if (!direction) return;
+  Answer& answer = answers_[at_];
+  answer.degrees = direction->degrees;
+  answer.reaction = heard_ ? std::max(0.0, direction->pushed - *heard_) : 0.0;
+  if (!heard_) heard_ = time_;  // the words are cut
+  tell_pointed(true);
+}
+
+void Questionnaire::tell_pointed(bool at_once) {
+  const double clockwise = -*answers_[at_].degrees * cues::kDegree;
+  const int hour = *cues::clock_hour(clockwise, cues::Rounding::nearest);
+  const Teller::Fillings fillings{{"way", teller_.phrases().way(hour)}};
+  at_once ? teller_.tell(key("pointed"), fillings) : teller_.then(key("pointed"), fillings);
+}
+
+void Questionnaire::confirm() {
+  Answer& answer = answers_[at_];
+  if (questions_[at_].point) {
+    if (!answer.degrees) return teller_.tell(key("point_first"));
+    give(std::to_string(*answer.degrees));
+    answer.seconds = answer.reaction;
+    return;
+  }
+  if (answer.chosen) return give(questions_[at_].values[*answer.chosen]);
+  teller_.tell(key("choose_first"));
+}
+
 void Questionnaire::change(bool more) {
-  if (all_asked()) return;
+  if (all_asked() || questions_[at_].point) return;
   const std::size_t last = questions_[at_].values.size() - 1;
   std::optional<std::size_t>& chosen = answers_[at_].chosen;
   if (!chosen) {
@@ -178,12 +229,15 @@ void Questionnaire::give(const std::string& answer) {
 void Questionnaire::go_to(std::size_t question) {
   at_ = question;
   asked_ = time_;
+  heard_.reset();
+  pointing_ = Pointing();
   tell();
 }
 
 void Questionnaire::tell() {
   if (all_asked()) return teller_.then(key("last"));
   teller_.then(key("read"), {{"text", questions_[at_].ask}});
+  if (answers_[at_].degrees) tell_pointed(false);
   if (const auto chosen = answers_[at_].chosen)
     teller_.then(key("chosen"), {{"text", questions_[at_].spoken[*chosen]}});
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lessons/lesson.hpp"
+#include "lessons/pointing.hpp"
 #include "lessons/teller.hpp"
 
 namespace navvi_feedback::lessons {
@@ -16,15 +17,16 @@ struct Question {
   std::string ask;                  ///< sentences
   std::vector<std::string> values;  ///< in the record, from least to most
   std::vector<std::string> spoken;  ///< the same, as they are said
+  bool point = false;               ///< instead of values: answered by pointing with the stick
 };
 
-/// \param path  YAML: items, each with name, ask, values and spoken
+/// \param path  YAML: items, each with name, ask, values and spoken; or name, ask and point: true
 /// \throws navvi_config::ConfigError that names the file, the key and what is allowed
 [[nodiscard]] std::vector<Question> read_questions(const std::filesystem::path& path);
 
 /// Asks by voice and takes answers by stick and buttons: up for more, down for less, a button to
 /// answer, one to go back and correct, one to hear it again, one for who would rather not say.
-/// Nothing is chosen beforehand.
+/// Nothing is chosen beforehand. A question of a direction is answered by pointing with the stick.
 class Questionnaire : public Lesson {
  public:
   /// The answer of who would rather not say.
@@ -36,7 +38,10 @@ class Questionnaire : public Lesson {
 
   [[nodiscard]] Taught update(const Observation& seen, double time) override;
   [[nodiscard]] bool over() const override { return over_; }
-  /// item,answer,seconds: s from the question's beginning to its last answer.
+  /// item,answer,seconds: s from the question's beginning to its last answer. Of pointing,
+  /// answer: whole degrees, counter-clockwise from straight ahead (left positive), (-180, 180];
+  /// seconds: from the end of the spoken question to the push of the stick that led to the answer,
+  /// 0 if pushed before. Who declines: kDeclined, and seconds as of other questions.
   [[nodiscard]] std::string record() const override;
 
   /// The keys of all texts.
@@ -47,10 +52,15 @@ class Questionnaire : public Lesson {
     std::optional<std::size_t> chosen;  ///< of the question's values
     std::string given;                  ///< empty: not answered yet
     double seconds = 0.0;
+    std::optional<int> degrees = {};  ///< pointed at
+    double reaction = 0.0;            ///< s, of pointing
   };
 
   void obey(drive::Button button);
   void lean(const drive::Stick& stick);
+  void point(const drive::Stick& stick);
+  void tell_pointed(bool at_once);
+  void confirm();
   void change(bool more);
   void give(const std::string& answer);
   void go_to(std::size_t question);
@@ -60,9 +70,11 @@ class Questionnaire : public Lesson {
   std::vector<Question> questions_;
   std::vector<Answer> answers_;
   Teller teller_;
-  std::size_t at_ = 0;   ///< the question; their number: all are asked
-  double time_ = 0.0;    ///< s, of the last update
-  double asked_ = 0.0;   ///< s, when the question came
+  std::size_t at_ = 0;           ///< the question; their number: all are asked
+  double time_ = 0.0;            ///< s, of the last update
+  double asked_ = 0.0;           ///< s, when the question came
+  std::optional<double> heard_;  ///< s, when the question had been spoken
+  Pointing pointing_;
   double leaned_ = 0.0;  ///< s, when the stick last counted as a press
   bool leans_ = false;
   bool begun_ = false;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <navvi_config/reader.hpp>
 #include <utility>
@@ -112,11 +113,142 @@ TEST(Questions, are_read_from_a_file_and_wrong_ones_are_refused) {
   ASSERT_EQ(questions.size(), 1u);
   EXPECT_EQ(questions[0].spoken[1], "all");
   EXPECT_THROW(read("items: []"), ConfigError);
+  EXPECT_TRUE(read("items: [{name: a, ask: How, point: true}]").front().point);
+  EXPECT_THROW(read("items: [{name: a, ask: How, point: false}]"), ConfigError);
+  EXPECT_THROW(read("items: [{name: a, ask: How}]"), ConfigError);
+  EXPECT_THROW(read("items: [{name: a, ask: How, point: true, values: [0], spoken: [a]}]"),
+               ConfigError);
   EXPECT_THROW(read("items: [{name: a, ask: How, values: [0], spoken: [a, b]}]"), ConfigError);
   EXPECT_THROW(read("items: [{name: a, ask: \"How?\", values: [0], spoken: [a]}]"), ConfigError);
   EXPECT_THROW(read("items: [{name: a, ask: How, values: [\"0,1\"], spoken: [a]}]"), ConfigError);
   EXPECT_THROW(read("items: [{name: a, ask: How, value: [0], spoken: [a]}]"), ConfigError);
   EXPECT_THROW(read_questions("/nonexistent/questions.yaml"), ConfigError);
+}
+
+class PointingTest : public testing::Test {
+ protected:
+  /// \return what was said meanwhile
+  std::vector<std::string> live(double seconds, drive::Stick stick = {},
+                                std::vector<Button> pressed = {}) {
+    std::vector<std::string> said;
+    for (auto left = std::lround(seconds / 0.02); left > 0; --left, time_ += 0.02) {
+      Observation seen;
+      seen.pressed = std::exchange(pressed, {});
+      seen.stick = stick;
+      seen.voice_busy = time_ < speaks_until_;
+      for (const cues::Cue& cue : asked_.update(seen, time_).cues) {
+        said.push_back(cue.text);
+        speaks_until_ = time_ + 0.5;
+      }
+    }
+    return said;
+  }
+  std::vector<std::string> press(Button button) { return live(3.0, {}, {button}); }
+
+  Questionnaire asked_{cues::Phrases(NAVVI_FEEDBACK_CONFIG_DIR "/phrases/en.yaml"),
+                       {},
+                       {{"goal", "Where is the goal", {}, {}, true},
+                        {"again", "Once more", {"no", "yes"}, {"no", "yes"}, false}}};
+  double time_ = 0.0;
+  double speaks_until_ = 0.0;
+};
+
+TEST_F(PointingTest, a_direction_is_pointed_corrected_and_confirmed) {
+  live(60.0);
+  EXPECT_EQ(press(Button::start), Said{"point first, with the stick"});
+  EXPECT_EQ(press(Button::previous), Said{});
+  EXPECT_EQ(live(2.0, {1.0, 0.0}), Said{"9 o'clock"});
+  live(1.0);
+  EXPECT_EQ(live(2.0, {-0.5, -0.87}), Said{"5 o'clock"}) << "behind, right";
+  EXPECT_EQ(press(Button::start), Said{"Once more"});
+  EXPECT_NE(asked_.record().find("goal,-150,"), std::string::npos) << asked_.record();
+  EXPECT_EQ(press(Button::back), (Said{"Where is the goal", "5 o'clock"}));
+  press(Button::end);
+  EXPECT_NE(asked_.record().find("goal,declined,"), std::string::npos) << asked_.record();
+}
+
+TEST_F(PointingTest, a_correction_needs_a_push_of_its_own) {
+  live(60.0);
+  EXPECT_EQ(live(2.0, {0.0, 1.0}), Said{"straight ahead"});
+  EXPECT_EQ(live(2.0, {-1.0, 0.0}), Said{}) << "not let go";
+  live(1.0);
+  EXPECT_EQ(live(2.0, {0.0, -1.0}), Said{"6 o'clock"});
+  press(Button::start);
+  EXPECT_NE(asked_.record().find("goal,180,"), std::string::npos) << asked_.record();
+}
+
+TEST_F(PointingTest, a_direction_between_two_hours_is_said_as_those_of_the_guide_are) {
+  live(60.0);
+  EXPECT_EQ(live(2.0, {-0.7, -0.7}), Said{"5 o'clock"}) << "-135 degrees";
+  live(1.0);
+  EXPECT_EQ(live(2.0, {-0.7, -0.66}), Said{"4 o'clock"});
+}
+
+TEST(Pointed, is_said_as_the_person_wants_directions) {
+  cues::WordingConfig wording;
+  wording.directions = "degrees";
+  Questionnaire asked(cues::Phrases(NAVVI_FEEDBACK_CONFIG_DIR "/phrases/es.yaml", wording), {},
+                      {{"goal", "Meta", {}, {}, true}});
+  std::string last;
+  for (double time = 0.0; time < 62.0; time += 0.02) {
+    Observation seen;
+    if (time > 60.0) seen.stick = {1.0, 0.0};
+    for (const cues::Cue& cue : asked.update(seen, time).cues) last = cue.text;
+  }
+  EXPECT_EQ(last, "90 grados a la izquierda");
+}
+
+TEST_F(PointingTest, a_stick_too_little_pushed_or_not_long_enough_takes_nothing) {
+  live(60.0);
+  EXPECT_EQ(live(2.0, {0.5, 0.0}), Said{});
+  EXPECT_EQ(live(0.4, {1.0, 0.0}), Said{});
+  EXPECT_EQ(press(Button::start), Said{"point first, with the stick"});
+}
+
+TEST_F(PointingTest, a_stick_that_was_pushed_before_the_question_came_takes_nothing) {
+  for (const std::string& said : live(60.0, {1.0, 0.0})) EXPECT_NE(said, "9 o'clock");
+  EXPECT_EQ(press(Button::start), Said{"point first, with the stick"});
+}
+
+TEST_F(PointingTest, a_stick_that_still_points_takes_no_step_of_the_next_question) {
+  live(60.0);
+  live(2.0, {0.0, 1.0});
+  EXPECT_EQ(live(5.0, {0.0, 1.0}, {Button::start}), Said{"Once more"});
+  live(0.5);
+  EXPECT_EQ(live(0.5, {0.0, 1.0}), Said{"yes"});
+}
+
+TEST_F(PointingTest, seconds_are_those_from_the_end_of_the_words_to_the_push) {
+  while (live(0.02) != Said{"Where is the goal"}) ASSERT_LT(time_, 60.0);
+  live(2.5 - 0.02);  // 0.5 s of them the voice speaks
+  live(3.0, {0.0, -1.0});
+  press(Button::start);
+  EXPECT_NE(asked_.record().find("goal,180,2.0"), std::string::npos) << asked_.record();
+}
+
+TEST_F(PointingTest, seconds_of_a_correction_are_those_to_its_own_push) {
+  while (live(0.02) != Said{"Where is the goal"}) ASSERT_LT(time_, 60.0);
+  live(1.5 - 0.02);
+  live(1.0, {0.0, 1.0});
+  live(1.0);
+  live(1.0, {1.0, 0.0});
+  press(Button::start);
+  EXPECT_NE(asked_.record().find("goal,90,3.0"), std::string::npos) << asked_.record();
+}
+
+TEST_F(PointingTest, an_unsteady_stick_takes_nothing) {
+  live(60.0);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(live(0.3, {1.0, 0.0}), Said{});
+    EXPECT_EQ(live(0.3, {0.0, 1.0}), Said{});
+  }
+}
+
+TEST_F(PointingTest, a_push_before_the_words_ended_took_no_time) {
+  live(0.1);
+  live(2.0, {1.0, 0.0});
+  press(Button::start);
+  EXPECT_NE(asked_.record().find("goal,90,0.0"), std::string::npos) << asked_.record();
 }
 
 }  // namespace

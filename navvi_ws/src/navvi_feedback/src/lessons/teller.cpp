@@ -25,7 +25,7 @@ Teller::Teller(cues::Phrases phrases, const drive::ButtonsConfig& buttons,
     for (const bool keyboard : {false, true}) {
       keyboard_ = keyboard;
       for (const std::string& sentence :
-           sentences(key, {{"count", "99"}, {"all", "99"}, {"text", "text"}}))
+           sentences(key, {{"count", "99"}, {"all", "99"}, {"way", "text"}, {"text", "text"}}))
         if (!cues::speakable(sentence))
           throw navvi_config::ConfigError("the phrase file's lessons/" + key +
                                           " cannot be spoken: \"" + sentence +

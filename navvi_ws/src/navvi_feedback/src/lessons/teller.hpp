@@ -36,6 +36,8 @@ class Teller {
   /// goes_on count.
   void tell_phrase(const std::string& key, const cues::Utterance& words);
 
+  [[nodiscard]] const cues::Phrases& phrases() const { return phrases_; }
+
   /// \param quiet  nothing is spoken or waits for it
   /// \return what is to be said now
   [[nodiscard]] std::vector<cues::Cue> update(bool quiet);
