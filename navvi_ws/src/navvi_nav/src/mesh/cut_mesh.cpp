@@ -56,11 +56,11 @@ std::vector<int> CutMesh::change_floor(const std::vector<int>& gone,
   connect();
   for (const int base : bases_.touched()) find_neighbours(base);
   for (const int base : bases_.borders()) find_neighbours(base);
-  for (const int index : changed_) add_places(index, doubtful);
+  for (const int index : scratch_.changed) add_places(index, doubtful);
   std::sort(doubtful.begin(), doubtful.end());
   doubtful.erase(std::unique(doubtful.begin(), doubtful.end()), doubtful.end());
   for (const int vertex : doubtful) set_corner(vertex, is_floor_corner(vertex));
-  non_manifold_.split(mesh_, pool_, changed_);
+  non_manifold_.split(mesh_, pool_, scratch_.changed);
   non_manifold_.keep_all();
   bases_.settle();
   own_vertices_ = pool_.in_use();
@@ -224,7 +224,7 @@ int CutMesh::update() {
   const auto count = static_cast<int>(bases_.touched().size());
   if (count == 0) return 0;
   recut();
-  non_manifold_.split(mesh_, pool_, changed_);
+  non_manifold_.split(mesh_, pool_, scratch_.changed);
   bases_.settle();
   shrink();
   return count;
@@ -240,39 +240,39 @@ void CutMesh::recut() {
 }
 
 void CutMesh::begin() {
-  matcher_.clear();
-  side_portals_.clear();
-  changed_.clear();
+  scratch_.matcher.clear();
+  scratch_.side_portals.clear();
+  scratch_.changed.clear();
 }
 
 /// Of the pieces of a border polygon: keeps the portals that stay, and adds the sides along touched
 /// polygons to the matcher.
 void CutMesh::keep_portals(int number, bool all_sides) {
   const BasePolygon& base = bases_[number];
-  near_edges_.clear();
+  scratch_.near_edges.clear();
   for (const BasePolygon::Neighbour& next : base.neighbours) {
-    if (bases_.is_touched(next.base)) near_edges_.push_back(next.edge);
+    if (bases_.is_touched(next.base)) scratch_.near_edges.push_back(next.edge);
   }
   for (const int index : base.pieces) {
     const Piece& piece = pieces_[slot(index)];
     bool changes = false;
     for (std::size_t k = 0; k < piece.sides.size(); ++k) {
       const int edge = piece.sides[k].number;
-      if (!all_sides &&
-          std::find(near_edges_.begin(), near_edges_.end(), edge) == near_edges_.end())
+      if (!all_sides && std::find(scratch_.near_edges.begin(), scratch_.near_edges.end(), edge) ==
+                            scratch_.near_edges.end())
         continue;
-      matcher_.add(piece.sides, static_cast<int>(k), index, false, mesh_.vertices);
+      scratch_.matcher.add(piece.sides, static_cast<int>(k), index, false, mesh_.vertices);
       changes = true;
     }
     if (!changes) continue;
-    changed_.push_back(index);
+    scratch_.changed.push_back(index);
     const Polygon& polygon = mesh_.polygons[slot(index)];
     non_manifold_.forget(pool_, polygon);
     for (std::size_t i = 0; i < polygon.portals.size(); ++i) {
       const Portal& portal = polygon.portals[i];
       if (bases_.is_touched(pieces_[slot(portal.to)].base)) continue;
       const int side = piece.portal_sides[i];
-      side_portals_.push_back(
+      scratch_.side_portals.push_back(
           {index,
            side,
            along(piece.sides[slot(side)], mesh_.at(portal.right)),
@@ -294,10 +294,11 @@ void CutMesh::cut(int number) {
   if (base.shape.edges.size() < 3) return;
   std::sort(base.holes.begin(), base.holes.end(),
             [this](int a, int b) { return cut_before(a, b); });
-  holes_.clear();
-  for (const int hole : base.holes) holes_.push_back(&placed_holes_[slot(hole)].hole);
-  cutter_.cut(base.shape, holes_);
-  for (std::size_t i = 0; i < cutter_.count(); ++i) add_piece(number, cutter_.piece(i));
+  scratch_.holes.clear();
+  for (const int hole : base.holes) scratch_.holes.push_back(&placed_holes_[slot(hole)].hole);
+  scratch_.cutter.cut(base.shape, scratch_.holes);
+  for (std::size_t i = 0; i < scratch_.cutter.count(); ++i)
+    add_piece(number, scratch_.cutter.piece(i));
 }
 
 void CutMesh::clear_pieces(int number) {
@@ -349,21 +350,21 @@ void CutMesh::add_piece(int base, const ExactPolygon& shape) {
   for (const Side& side : piece.sides) widen(piece.low, piece.high, mesh_.at(side.begin));
   mesh_.grid.add(index, piece.low, piece.high);
   bases_[base].pieces.push_back(index);
-  changed_.push_back(index);
+  scratch_.changed.push_back(index);
   for (std::size_t k = 0; k < piece.sides.size(); ++k)
-    matcher_.add(piece.sides, static_cast<int>(k), index, true, mesh_.vertices);
+    scratch_.matcher.add(piece.sides, static_cast<int>(k), index, true, mesh_.vertices);
 }
 
 void CutMesh::connect() {
-  matcher_.match(side_portals_);
-  std::sort(side_portals_.begin(), side_portals_.end(),
+  scratch_.matcher.match(scratch_.side_portals);
+  std::sort(scratch_.side_portals.begin(), scratch_.side_portals.end(),
             [](const SidePortal& a, const SidePortal& b) {
               return std::tie(a.polygon, a.side, a.along) < std::tie(b.polygon, b.side, b.along);
             });
-  std::sort(changed_.begin(), changed_.end());
-  const SidePortal* next = side_portals_.data();
-  const SidePortal* const end = next + side_portals_.size();
-  for (const int index : changed_) {
+  std::sort(scratch_.changed.begin(), scratch_.changed.end());
+  const SidePortal* next = scratch_.side_portals.data();
+  const SidePortal* const end = next + scratch_.side_portals.size();
+  for (const int index : scratch_.changed) {
     Piece& piece = pieces_[slot(index)];
     const SidePortal* const first = next;
     piece.portal_sides.clear();
@@ -374,19 +375,20 @@ void CutMesh::connect() {
 }
 
 void CutMesh::keep_components() {
-  regions_.grow(bases_.size());
-  for (const int base : bases_.touched()) regions_.add(base);
-  for (const int base : bases_.borders()) regions_.add(base);
+  scratch_.regions.grow(bases_.size());
+  for (const int base : bases_.touched()) scratch_.regions.add(base);
+  for (const int base : bases_.borders()) scratch_.regions.add(base);
   for (const int base : bases_.touched()) {
     for (const BasePolygon::Neighbour& next : bases_[base].neighbours)
-      regions_.unite(base, next.base);
+      scratch_.regions.unite(base, next.base);
   }
-  changed_components_.clear();
-  for (const int index : changed_) {
+  scratch_.changed_components.clear();
+  for (const int index : scratch_.changed) {
     const int base = pieces_[slot(index)].base;
-    changed_components_.push_back({index, bases_.is_touched(base), regions_.root(base)});
+    scratch_.changed_components.push_back(
+        {index, bases_.is_touched(base), scratch_.regions.root(base)});
   }
-  components_.update(mesh_, changed_components_);
+  components_.update(mesh_, scratch_.changed_components);
 }
 
 /// Without holes the mesh is as it was before the first one.

@@ -64,6 +64,17 @@ class CutMesh {
     std::vector<int> bases;    ///< that it reaches into
     std::vector<int> corners;  ///< vertices
   };
+  /// Kept for its memory, and valid during one update only.
+  struct Scratch {
+    std::vector<int> changed;  ///< polygons of the mesh
+    std::vector<int> near_edges;
+    std::vector<const Hole*> holes;
+    std::vector<SidePortal> side_portals;  ///< of changed polygons
+    DisjointSets regions;                  ///< of touched base polygons and their neighbours
+    std::vector<Components::Changed> changed_components;
+    EdgeMatcher matcher;
+    Cutter cutter;
+  };
 
   [[nodiscard]] Point position(const Intersection& at) const;
   [[nodiscard]] Point nearest_on_base(Point point, int base) const;
@@ -100,16 +111,7 @@ class CutMesh {
   Components components_;
   std::size_t own_vertices_ = 0;  // that the floor uses
   std::size_t vertices_end_ = 0;  // one beyond the last of these
-
-  // Kept for their memory, and valid during one update only.
-  std::vector<int> changed_;  // polygons of the mesh
-  std::vector<int> near_edges_;
-  std::vector<const Hole*> holes_;
-  std::vector<SidePortal> side_portals_;  // of changed polygons
-  DisjointSets regions_;                  // of touched base polygons and their neighbours
-  std::vector<Components::Changed> changed_components_;
-  EdgeMatcher matcher_;
-  Cutter cutter_;
+  Scratch scratch_;
 };
 
 }  // namespace navvi_nav::mesh

@@ -119,6 +119,79 @@ std::string count_of(const std::vector<Row>& rows, const std::string& type,
   }));
 }
 
+constexpr const char* kNothing = "n/a";
+
+/// The value of that field, if there is such a row.
+std::string cell_of(const Row* row, const char* field) {
+  return row ? row->fields.get(field) : kNothing;
+}
+
+/// As the trial began.
+void add_start(Summary& summary, const Row* start) {
+  for (const char* name : {"world", "world_hash", "seed", "operator", "participant", "profile",
+                           "parameters", "version", "audio", "pad"})
+    summary.emplace_back(name, cell_of(start, name));
+  for (const char* name : kSettings) summary.emplace_back(name, cell_of(start, name));
+  summary.emplace_back("started_utc", cell_of(start, "utc"));
+}
+
+void add_end(Summary& summary, const std::vector<Row>& rows) {
+  const Row* start = first_of(rows, "TRIAL_START");
+  const Row* end = last_of(rows, "TRIAL_END");
+  const Row* reached = last_of(rows, "GOAL_REACHED");
+  const Row* last = end || rows.empty() ? end : &rows.back();
+  summary.emplace_back("result", end ? end->fields.get("result") : "aborted");
+  summary.emplace_back("reason", end ? end->fields.get("reason") : "no_end");
+  summary.emplace_back("elapsed_s", reached ? reached->fields.get("elapsed")
+                                    : start ? seconds(start->sim_ns, last->sim_ns)
+                                            : kNothing);
+}
+
+/// Wheels that had not turned yet were held, not stopped.
+bool stops_safely(const Row& row) {
+  return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes" &&
+         row.fields.get("held", "no") == "no";
+}
+
+/// \param tally  the last row with sums of the trial so far
+void add_counts(Summary& summary, const std::vector<Row>& rows, const Row* tally) {
+  const Row* start = first_of(rows, "TRIAL_START");
+  const Row* replan = last_of(rows, "REPLAN");
+  const bool blind = start && start->fields.get("contacts", "counted") == "unknown";
+  const auto collisions = [&](const char* what) {
+    return blind ? "unknown" : count_of(rows, "COLLISION", what);
+  };
+  const auto stops = std::count_if(rows.begin(), rows.end(), stops_safely);
+  const Summary counts = {
+      {"shelf_collision_count", collisions("shelf")},
+      {"obstacle_collision_count", collisions("obstacle")},
+      {"path_length_m", cell_of(tally, "path_length")},
+      {"first_path_length_m", cell_of(first_of(rows, "ROUTE"), "first_path_length")},
+      {"obstacle_proximity_count", count_of(rows, "PROXIMITY_ENTER", "obstacle")},
+      {"shelf_proximity_count", count_of(rows, "PROXIMITY_ENTER", "shelf")},
+      {"stuck_count", count_of(rows, "STUCK")},
+      {"replan_count", replan ? replan->fields.get("count") : "0"},
+      {"reroute_count", cell_of(tally, "reroutes")},
+      {"safe_stop_count", std::to_string(stops)}};
+  summary.insert(summary.end(), counts.begin(), counts.end());
+}
+
+/// Nobody heard the sounds. A simulated person knows of them by message, also where no device plays
+/// them.
+bool unheard(const Row* start) {
+  return start && start->fields.get("pad") == "simulated" && start->fields.get("audio") != "works";
+}
+
+void add_feedback(Summary& summary, const Row* tally, bool unheard) {
+  summary.emplace_back("cues_spoken", cell_of(tally, "cues_spoken"));
+  summary.emplace_back("sounds_played", cell_of(unheard ? nullptr : tally, "sounds_played"));
+  summary.emplace_back("patterns_felt", cell_of(tally, "patterns_felt"));
+  for (const std::string& name : reported_columns())
+    summary.emplace_back(name, cell_of(tally, name.c_str()));
+  for (const char* name : {"missed_messages", "state_step", "state_hash"})
+    summary.emplace_back(name, cell_of(tally, name));
+}
+
 }  // namespace
 
 std::string events_csv(const std::vector<Row>& rows) {
@@ -150,59 +223,15 @@ std::string events_csv(const std::vector<Row>& rows) {
 }
 
 Summary summarize(const std::vector<Row>& rows) {
-  Summary summary;
-  const auto add = [&](const char* name, const std::string& cell) {
-    summary.emplace_back(name, cell);
-  };
-  const Row* start = first_of(rows, "TRIAL_START");
-  const Row* end = last_of(rows, "TRIAL_END");
   const Row* tally =
       last_that(rows, [](const Row& row) { return row.fields.find("path_length").has_value(); });
-  const Row* replan = last_of(rows, "REPLAN");
-  const Row* reached = last_of(rows, "GOAL_REACHED");
+  Summary summary{{"trial", rows.empty() ? kNothing : rows.front().trial}};
+  add_start(summary, first_of(rows, "TRIAL_START"));
+  add_end(summary, rows);
+  add_counts(summary, rows, tally);
+  add_feedback(summary, tally, unheard(first_of(rows, "TRIAL_START")));
   const Row* bag = last_of(rows, "BAG_CLOSED");
-  const Row* route = first_of(rows, "ROUTE");
-  const std::string nothing = "n/a";
-  add("trial", rows.empty() ? nothing : rows.front().trial);
-  for (const char* name : {"world", "world_hash", "seed", "operator", "participant", "profile",
-                           "parameters", "version", "audio", "pad"}) {
-    add(name, start ? start->fields.get(name) : nothing);
-  }
-  for (const char* name : kSettings) add(name, start ? start->fields.get(name) : nothing);
-  add("started_utc", start ? start->fields.get("utc") : nothing);
-  add("result", end ? end->fields.get("result") : "aborted");
-  add("reason", end ? end->fields.get("reason") : "no_end");
-  const Row* last = end ? end : (rows.empty() ? nullptr : &rows.back());
-  add("elapsed_s", reached ? reached->fields.get("elapsed")
-                           : (start ? seconds(start->sim_ns, last->sim_ns) : nothing));
-  const bool blind = start && start->fields.get("contacts", "counted") == "unknown";
-  for (const char* what : {"shelf", "obstacle"})
-    add((what + std::string("_collision_count")).c_str(),
-        blind ? "unknown" : count_of(rows, "COLLISION", what));
-  add("path_length_m", tally ? tally->fields.get("path_length") : nothing);
-  add("first_path_length_m", route ? route->fields.get("first_path_length") : nothing);
-  add("obstacle_proximity_count", count_of(rows, "PROXIMITY_ENTER", "obstacle"));
-  add("shelf_proximity_count", count_of(rows, "PROXIMITY_ENTER", "shelf"));
-  add("stuck_count", count_of(rows, "STUCK"));
-  add("replan_count", replan ? replan->fields.get("count") : "0");
-  add("reroute_count", tally ? tally->fields.get("reroutes") : nothing);
-  // Wheels that had not turned yet were held, not stopped.
-  add("safe_stop_count", std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row& row) {
-        return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes" &&
-               row.fields.get("held", "no") == "no";
-      })));
-  add("cues_spoken", tally ? tally->fields.get("cues_spoken") : nothing);
-  // A simulated person knows of sounds by message, also where no device plays them.
-  const bool unheard =
-      start && start->fields.get("pad") == "simulated" && start->fields.get("audio") != "works";
-  add("sounds_played", tally && !unheard ? tally->fields.get("sounds_played") : nothing);
-  add("patterns_felt", tally ? tally->fields.get("patterns_felt") : nothing);
-  for (const std::string& name : reported_columns())
-    add(name.c_str(), tally ? tally->fields.get(name) : nothing);
-  add("missed_messages", tally ? tally->fields.get("missed_messages") : nothing);
-  for (const char* name : {"state_step", "state_hash"})
-    add(name, tally ? tally->fields.get(name) : nothing);
-  add("bag", bag ? bag->fields.get("state") : nothing);
+  summary.emplace_back("bag", bag ? bag->fields.get("state") : kNothing);
   return summary;
 }
 

@@ -261,7 +261,7 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
   enter(Phase::running);
   operator_seen_ = phase_since_;
   kept_.bag.expect_growth(phase_since_);
-  feedback_silent_ = false;
+  kept_.feedback_silent = false;
   if (!record({"TRIAL_START", conditions(beginning), beginning.stamp})) return;
   record::Fields where = monitor_.place();
   where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
@@ -346,11 +346,11 @@ Signs TrialKeeper::signs() const {
 /// If feedback_node is silent for 1 s, warns and journals it. It may come back, as on a busy
 /// machine; only its loss ends the trial.
 void TrialKeeper::watch_feedback(double silence) {
-  if (feedback_silent_ == (silence > kSilent)) return;
-  feedback_silent_ = !feedback_silent_;
-  if (feedback_silent_)
+  if (kept_.feedback_silent == (silence > kSilent)) return;
+  kept_.feedback_silent = !kept_.feedback_silent;
+  if (kept_.feedback_silent)
     tell(Tone::warning, "The guide is silent: feedback_node has not reported for a second.");
-  record({feedback_silent_ ? "DEVICE_LOST" : "DEVICE_BACK",
+  record({kept_.feedback_silent ? "DEVICE_LOST" : "DEVICE_BACK",
           monitor_.place().set("device", "feedback"), monitor_.latest()});
 }
 

@@ -99,7 +99,9 @@ class TrialKeeper {
     std::filesystem::path folder;
     std::unique_ptr<record::Journal> journal;
     BagWatch bag;
-    bool bag_lost = false;  ///< and journalled
+    // Both are journalled.
+    bool bag_lost = false;
+    bool feedback_silent = false;
   };
   struct Goals {
     std::optional<ChosenGoal> next;  ///< of the trial that is to begin
@@ -172,7 +174,6 @@ class TrialKeeper {
   std::optional<std::int64_t> pressed_;  ///< ns, ROS time, when the person began it
 
   Kept kept_;
-  bool feedback_silent_ = false;  ///< and journalled
   Goals goals_;
   TrialFlow flow_;
   double operator_seen_ = 0.0;  ///< when a simulated one last moved its hands
