@@ -93,22 +93,31 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
   return entries;
 }
 
-Menu::Step Menu::tell() const {
+std::optional<std::size_t> Menu::place_of_told(const std::vector<Entry>& list) const {
+  const std::optional<Entry>& told = path_.back().told;
+  if (!told) return std::nullopt;
+  const auto same = [&](const Entry& entry) { return entry.same(*told); };
+  const auto found = std::find_if(list.begin(), list.end(), same);
+  if (found == list.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - list.begin());
+}
+
+Menu::Step Menu::tell() {
   if (path_.empty()) return {cues::Utterance{CueKind::menu_closed}};
-  // What can be chosen may have become less meanwhile.
   const std::vector<Entry> list = entries(path_.back());
   if (list.empty()) return {cues::Utterance{CueKind::menu_empty}};
-  return {list[std::min(path_.back().at, list.size() - 1)].label};
+  path_.back().told = list[place_of_told(list).value_or(0)];
+  return {path_.back().told->label};
 }
 
 Menu::Step Menu::choose(const Entry& entry) {
   if (entry.opens) {
-    path_.push_back({*entry.opens, 0, entry.setting});
+    path_.push_back({*entry.opens, {}, entry.setting});
     return tell();
   }
   const bool sure = path_.back().list == List::goal;
   if (entry.goal && trial_ == TrialState::State::running && !sure) {
-    path_.push_back({List::goal, 0, nullptr, entry.goal});
+    path_.push_back({List::goal, {}, nullptr, entry.goal});
     return tell();
   }
   Step step;
@@ -192,13 +201,10 @@ Menu::Step Menu::obey(drive::Button button) {
     path_ = {{}};
     return tell();
   }
-  std::size_t& at = path_.back().at;
-  if (at >= list.size()) {
-    at = 0;
-    return tell();
-  }
-  if (button == Button::choose) return choose(list[at]);
-  at = (at + (button == Button::next ? 1 : list.size() - 1)) % list.size();
+  const std::optional<std::size_t> at = place_of_told(list);
+  if (at && button == Button::choose) return choose(list[*at]);
+  if (at)
+    path_.back().told = list[(*at + (button == Button::next ? 1 : list.size() - 1)) % list.size()];
   return tell();
 }
 

@@ -74,6 +74,10 @@ class Menu {
     std::string called = {};                       ///< instead of name and number; empty: by these
 
     [[nodiscard]] cues::Utterance say(CueKind kind) const;
+    [[nodiscard]] bool operator==(const Destination& other) const {
+      return name == other.name && number == other.number && at == other.at &&
+             called == other.called;
+    }
   };
   enum class List { top, goals, goal, settings, setting, end };
   struct Entry {
@@ -84,21 +88,29 @@ class Menu {
     const Setting* setting = nullptr;
     bool glossary = false;
     bool remember = false;
+
+    /// It does the same, whatever value a setting has.
+    [[nodiscard]] bool same(const Entry& other) const {
+      return label.kind == other.label.kind && goal == other.goal && setting == other.setting;
+    }
   };
-  /// A list, and what was last spoken of it.
+  /// A list, and what was last spoken of it: that is what a press means, even if the list has
+  /// changed since.
   struct Level {
     List list = List::top;
-    std::size_t at = 0;
+    std::optional<Entry> told = std::nullopt;
     const Setting* setting = nullptr;                ///< that is being changed
     std::optional<Destination> goal = std::nullopt;  ///< that is asked for once more
   };
 
   [[nodiscard]] std::vector<Destination> destinations() const;
   [[nodiscard]] std::vector<Entry> entries(const Level& level) const;
+  [[nodiscard]] std::optional<std::size_t> place_of_told(const std::vector<Entry>& list) const;
   [[nodiscard]] Step choose(const Entry& entry);
   [[nodiscard]] Step obey(drive::Button button);
   [[nodiscard]] Step change(const Setting& setting, bool up);
-  [[nodiscard]] Step tell() const;
+  /// Again what was told of the list, or its first entry.
+  [[nodiscard]] Step tell();
 
   bool locked_ = false;
   std::optional<Scenario> scenario_;

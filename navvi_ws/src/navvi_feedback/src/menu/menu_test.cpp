@@ -168,6 +168,32 @@ TEST_F(MenuTest, goes_back_to_a_list_that_has_become_shorter) {
   EXPECT_EQ(heard({Button::back}), "menu_settings");
 }
 
+TEST_F(MenuTest, chooses_what_was_told_where_the_list_has_grown_since) {
+  menu_.take_goal({3.0, 4.0});
+  EXPECT_EQ(heard({Button::choose, Button::choose, Button::next, Button::next}), "menu_place 2");
+  menu_.take_goal({9.0, 9.0});  // another program's: "the last goal" comes before the docks
+  const Menu::Step chosen = press({Button::choose});
+  ASSERT_TRUE(chosen.goal);
+  EXPECT_EQ(*chosen.goal, Eigen::Vector2d(5.0, 6.0));
+}
+
+TEST_F(MenuTest, goes_on_from_what_was_told_where_the_list_has_changed_since) {
+  trial(State::ready);
+  EXPECT_EQ(heard({Button::choose, Button::next}), "menu_goals");
+  trial(State::running);
+  EXPECT_EQ(heard({Button::next}), "menu_end");
+}
+
+TEST_F(MenuTest, chooses_nothing_where_what_was_told_is_gone) {
+  trial(State::ready);
+  EXPECT_EQ(heard({Button::choose}), "menu_begin");
+  trial(State::running);
+  const Menu::Step step = press({Button::choose});
+  EXPECT_FALSE(step.goal || step.request);
+  EXPECT_EQ(step.told->kind, CueKind::menu_goals) << "the first that there is now";
+  EXPECT_EQ(heard({Button::choose}), "menu_place");
+}
+
 TEST_F(MenuTest, offers_the_goal_before_the_present_one) {
   for (const double x : {7.0, 8.0, 8.0}) menu_.take_goal({x, 0.0});
   EXPECT_EQ(heard({Button::next, Button::choose, Button::next}), "menu_place");
