@@ -40,9 +40,10 @@ constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
 const std::vector<int> kSearchedAmong{10, 50};  // discs
 constexpr double kOneTurn = 1.0;                // m, as PathFollowerConfig's
-const std::string kToFloor = "bytes to floor, ours", kToMesh = "bytes to mesh, ours",
+const std::string kToFloor = "bytes to floor, ours, all threads",
+                  kToMesh = "bytes to mesh, ours, all threads",
                   kOneThread = "bytes to mesh, ours, one thread",
-                  kChanged = "bytes to mesh, ours, one box changed",
+                  kChanged = "one box changed, ours, all threads",
                   kToTree = "bytes to tree, octomap", kWatershed = "spans to mesh, watershed",
                   kTileCache = "spans to mesh, TileCache";
 
@@ -233,6 +234,45 @@ void compare(Course& c) {
          answers[i].length / Course::kQueries, answers[i].length / exact.length,
          answers[i].longest});
   }
+}
+
+/// What a better heuristic could spare: nodes expanded beside the polygons that the path crosses,
+/// each of which every search must expand.
+void count_nodes(Course& c) {
+  constexpr double kStep = 0.05;  // m, between places at which the path's polygon is looked up
+  search::Search search(search::SearchMethod::exact);
+  const mesh::Mesh& mesh = c.ours.nav_mesh().mesh();
+  std::vector<double> expanded, crossed, share;
+  for (const Query& query : c.queries) {
+    const auto from = mesh.locate(query.start, Course::kNear);
+    const auto to = mesh.locate(query.goal, Course::kNear);
+    if (!from || !to) continue;
+    const search::Found& found = search.find(mesh, *from, *to);
+    if (!found.found || found.nodes_expanded == 0) continue;
+    int polygons = 0, last = -1;
+    for (std::size_t i = 1; i < found.path.size(); ++i) {
+      const Point leg = found.path[i] - found.path[i - 1];
+      const int steps = static_cast<int>(std::ceil(norm(leg) / kStep));
+      for (int k = 0; k <= steps; ++k) {
+        const auto here =
+            mesh.locate(found.path[i - 1] + k / std::max(1.0, 1.0 * steps) * leg, 0.0);
+        if (!here || here->polygon == last) continue;
+        last = here->polygon;
+        ++polygons;
+      }
+    }
+    expanded.push_back(static_cast<double>(found.nodes_expanded));
+    crossed.push_back(polygons);
+    share.push_back(polygons / expanded.back());
+  }
+  heading("nodes of the exact search", {"p50", "p99"});
+  const auto print = [](const std::string& what, std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    row(what, {values[values.size() / 2], values[values.size() * 99 / 100]});
+  };
+  print("expanded", expanded);
+  print("polygons that the path crosses", crossed);
+  print("crossed / expanded", share);
 }
 
 /// Turns as they are announced, and the least clearance of paths.
@@ -480,6 +520,7 @@ void print(const Medians& medians, Course& c, bool maps_alone) {
     const double theirs = medians.get("TileCache replan " + which, "ms");
     row(std::to_string(count), {ours, theirs, ours / theirs});
   }
+  count_nodes(c);
   compare(c);
   follow(c);
   weigh(c);
@@ -488,13 +529,13 @@ void print(const Medians& medians, Course& c, bool maps_alone) {
 }  // namespace
 
 /// Arguments: `--seed=N` for clutter and queries, `--resolution=M` of the maps, `--largest=M` hall,
-/// `--maps` to time nothing but maps, `--judge` to check paths in all halls and nothing else, and
-/// Google Benchmark's own.
+/// `--maps` to time nothing but maps, `--nodes` to count nodes and nothing else, `--judge` to check
+/// paths in all halls and nothing else, and Google Benchmark's own.
 int main(int argc, char** argv) {
   std::uint32_t seed = 1;
   double resolution = 0.1;
   double largest = 300.0;
-  bool judges = false, maps = false;
+  bool judges = false, maps = false, nodes = false;
   int kept = 1;
   for (int i = 1; i < argc; ++i) {
     if (std::strncmp(argv[i], "--seed=", 7) == 0)
@@ -505,6 +546,8 @@ int main(int argc, char** argv) {
       largest = std::strtod(argv[i] + 10, nullptr);
     else if (std::strcmp(argv[i], "--judge") == 0)
       judges = true;
+    else if (std::strcmp(argv[i], "--nodes") == 0)
+      nodes = true;
     else if (std::strcmp(argv[i], "--maps") == 0)
       maps = true;
     else
@@ -518,6 +561,13 @@ int main(int argc, char** argv) {
           Hall{hall.length, hall.width, hall.clutter, seed, resolution}, seed));
   if (judges) {
     for (const auto& course : courses) judge(*course, 125);
+    return 0;
+  }
+  if (nodes) {
+    for (const auto& course : courses) {
+      std::printf("\n== %s", course->name.c_str());
+      count_nodes(*course);
+    }
     return 0;
   }
   for (const auto& course : courses) maps ? declare_bakes(*course) : declare(*course);
