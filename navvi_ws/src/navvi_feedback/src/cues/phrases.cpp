@@ -4,8 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
+#include <navvi_types/spoken_length.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -21,10 +21,7 @@ constexpr std::size_t kMaxBytes = 80;
 constexpr std::size_t kMaxWord = 24;
 constexpr std::size_t kMaxName = 40;      // of a place
 constexpr std::size_t kMaxNameWord = 20;  // a phrase may put signs beside it
-/// Of any unit; beyond it a distance is not spoken exactly, so that its length is bounded.
-constexpr double kFar = 9999.0;
-constexpr int kMostPlaces = 999;        // likewise, of one name
-constexpr double kFeet = 1.0 / 0.3048;  // in a metre
+constexpr int kMostPlaces = 999;          // of one name that are told by number
 
 const std::set<std::string> kPlaceholders = {
     "direction", "way",   "distance", "thing", "a_thing", "side", "where", "place",
@@ -136,14 +133,6 @@ std::size_t character(const std::string& text, std::size_t at) {
 std::string limits() {
   return "Spoken text holds only letters, digits and \" ,.'-\", at most 80 bytes, at most 24 a "
          "word.";
-}
-
-/// With one decimal, if it has any.
-std::string number(double value) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), value == std::floor(value) ? "%.0f" : "%.1f",
-                std::min(value, kFar));
-  return text.data();
 }
 
 /// One section of the phrase file, key by key.
@@ -400,7 +389,8 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     if (!fillings.place) throw missing();
     const std::string word =
         words_.at(std::string("place_") + navvi_types::to_string(*fillings.place));
-    return fillings.number > 0 ? word + " " + number(std::min(fillings.number, kMostPlaces)) : word;
+    return fillings.number > 0 ? word + " " + std::to_string(std::min(fillings.number, kMostPlaces))
+                               : word;
   }
   if (placeholder == "person") {
     std::string spoken = fillings.person;
@@ -414,7 +404,7 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
       return words_.at(std::string("setting_") + navvi_types::to_string(*fillings.setting));
     if (fillings.value)
       return words_.at(std::string("value_") + navvi_types::to_string(*fillings.value));
-    const std::string text = number(std::clamp(fillings.number, 0, kMostPlaces));
+    const std::string text = std::to_string(std::clamp(fillings.number, 0, kMostPlaces));
     return fillings.setting == SettingName::rate ? text : text + " " + words_.at("percent");
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
@@ -429,15 +419,8 @@ std::string Phrases::way(int hour) const {
 std::string Phrases::distance(double metres) const {
   if (!std::isfinite(metres) || metres < 0.0)
     throw std::logic_error("A distance to be spoken is negative or no number.");
-  if (wording_.units == "feet") {
-    const double feet = metres * kFeet;
-    const double whole =
-        feet < 20.0 ? std::max(1.0, std::round(feet)) : 5.0 * std::round(feet / 5.0);
-    return number(whole) + " " + words_.at(whole == 1.0 ? "foot" : "feet");
-  }
-  const double rounded =
-      metres < 1.75 ? std::max(0.5, std::round(metres * 2.0) / 2.0) : std::round(metres);
-  return number(rounded) + " " + words_.at(rounded == 1.0 ? "meter" : "meters");
+  const auto length = navvi_types::spoken_length(metres, wording_.units);
+  return length.number + " " + words_.at(length.unit);
 }
 
 }  // namespace navvi_feedback::cues

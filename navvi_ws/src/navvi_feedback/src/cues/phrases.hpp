@@ -113,8 +113,8 @@ class Phrases {
 
   /// What {way} says. \param hour  1..12
   [[nodiscard]] std::string way(int hour) const;
-  /// A distance with its unit: whole metres from 2 m on, halves below, never less than half a
-  /// metre; or whole feet, fives from 20 feet on. \param metres  m, finite, >= 0
+  /// A length with its unit, as `navvi_types::spoken_length` rounds it. \param metres  m, finite,
+  /// >= 0
   [[nodiscard]] std::string distance(double metres) const;
 
   /// The voice of espeak-ng that speaks this language.

@@ -50,8 +50,9 @@ class FeedbackNode {
         inlets_(node_, config, guide_, devices_,
                 [this](std::optional<Chain> caused) { tick(caused); }) {
     config_.speaker = config.voice();  // for the record
-    // The picture speaks the language of the session.
+    // The picture speaks the language of the session, and tells lengths in its unit.
     ros::param::set("navvi/phrases", config.phrases_file().string());
+    ros::param::set("navvi/units", config.feedback->cues.wording.units);
     guide_.offer(settings_.values());
     ROS_INFO("The stick comes from the %s.", devices::to_string(devices_.source().kind()));
     tick_timer_ =

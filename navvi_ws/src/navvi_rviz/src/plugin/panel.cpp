@@ -335,9 +335,7 @@ void Panel::refresh() {
             QAccessible::Alert);
   set_words(labels_.instruction, QString::fromStdString(shown.instruction),
             QAccessible::NameChanged);
-  const std::string to_go = words.of("picture/to_go");
-  set_words(labels_.distance, shown.distance ? number(*shown.distance, 0, to_go.c_str()) : "",
-            QAccessible::NameChanged);
+  set_words(labels_.distance, QString::fromStdString(shown.distance), QAccessible::NameChanged);
   set_words(labels_.speed, number(shown.speed, 1, "m/s"), QAccessible::NameChanged);
   const int seconds = static_cast<int>(shown.clock.value_or(0.0));
   set_words(labels_.clock,

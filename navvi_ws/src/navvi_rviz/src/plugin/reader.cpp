@@ -71,9 +71,14 @@ Reader::Reader() {
 void Reader::read_words() {
   std::string file = ros::package::getPath("navvi_feedback") + "/config/phrases/en.yaml";
   ros::param::getCached("navvi/phrases", file);
-  if (std::exchange(phrases_, file) == file) return;
+  std::string units = "meters";
+  ros::param::getCached("navvi/units", units);
+  const bool same = file == phrases_ && units == units_;
+  phrases_ = file;
+  units_ = units;
+  if (same) return;
   try {
-    status_.use(status::Words(file));
+    status_.use(status::Words(file, units));
   } catch (const navvi_config::ConfigError& error) {
     ROS_WARN("The picture keeps its words: %s", error.what());
   }

@@ -26,6 +26,7 @@ class Reader {
 
   ros::NodeHandle node_;
   std::string phrases_;  ///< the file whose words are used
+  std::string units_;    ///< of lengths
   status::Status status_;
   status::SteadyBanner banner_;
   std::optional<navvi_types::Guidance> guidance_;

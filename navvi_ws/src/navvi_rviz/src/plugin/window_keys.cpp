@@ -110,8 +110,9 @@ class WindowKeys::Reader {
   }
 
  private:
-  /// A key goes to the window below the pointer or, of those around it, to the first that any program listens at. So this
-  /// listens where Qt does, and at no other: a window of OGRE's would keep the keys from Qt.
+  /// A key goes to the window below the pointer or, of those around it, to the first that any
+  /// program listens at. So this listens where Qt does, and at no other: a window of OGRE's would
+  /// keep the keys from Qt.
   void select(Window window) {
     XWindowAttributes known;
     if (XGetWindowAttributes(display_, window, &known) == 0) return;

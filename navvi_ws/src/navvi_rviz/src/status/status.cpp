@@ -164,7 +164,7 @@ Shown Status::shown(double time, double ros_time) const {
   shown.instruction = instruction(time);
   shown.menu = menu_;
   if (guidance_ && guidance_->leads() && !guidance_->ends_short)
-    shown.distance = guidance_->goal_distance;
+    shown.distance = words_.to_go(guidance_->goal_distance);
   shown.speed = std::abs(speed_);
   if (begun_) shown.clock = std::max(0.0, ended_.value_or(ros_time) - *begun_);
   shown.sound = !silent_;

@@ -18,12 +18,12 @@ struct Shown {
 
   std::string banner = {};  ///< what matters most now, such as "stop, worker ahead"; empty: nothing
   Tone tone = Tone::calm;   ///< of the banner
-  std::string instruction = {};         ///< what the guide said last; of the way: as it is now
-  std::string menu = {};                ///< what the spoken menu offers; empty while it is closed
-  std::optional<double> distance = {};  ///< m, left to the goal along the path
-  double speed = 0.0;                   ///< m/s, >= 0
-  std::optional<double> clock = {};     ///< s, since the trial began
-  bool sound = true;                    ///< false: nothing can be heard
+  std::string instruction = {};      ///< what the guide said last; of the way: as it is now
+  std::string menu = {};             ///< what the spoken menu offers; empty while it is closed
+  std::string distance = {};         ///< left to the goal along the path; empty: not known
+  double speed = 0.0;                ///< m/s, >= 0
+  std::optional<double> clock = {};  ///< s, since the trial began
+  bool sound = true;                 ///< false: nothing can be heard
 };
 
 /// Turns what the nodes tell into words, in the language of the session. Times are s of one clock

@@ -42,7 +42,8 @@ TEST(Status, of_nothing_is_empty) {
   const Shown shown = speaking().shown(0.0, 0.0);
   EXPECT_EQ(shown.banner, "");
   EXPECT_EQ(shown.instruction, "");
-  EXPECT_FALSE(shown.distance || shown.clock);
+  EXPECT_EQ(shown.distance, "");
+  EXPECT_FALSE(shown.clock);
 }
 
 TEST(Status, shows_no_distance_to_a_goal_that_is_not_seen_yet) {
@@ -50,10 +51,20 @@ TEST(Status, shows_no_distance_to_a_goal_that_is_not_seen_yet) {
   Guidance guidance = in(Guidance::State::following);
   guidance.goal_distance = 8.0;
   status.take(guidance);
-  EXPECT_EQ(status.shown(1.0, 0.0).distance, 8.0);
+  EXPECT_EQ(status.shown(1.0, 0.0).distance, "8 meters to go");
   guidance.ends_short = true;
   status.take(guidance);
-  EXPECT_FALSE(status.shown(1.0, 0.0).distance);
+  EXPECT_EQ(status.shown(1.0, 0.0).distance, "");
+}
+
+TEST(Status, rounds_the_distance_as_the_voice_does_and_in_its_unit) {
+  Status status = speaking();
+  Guidance guidance = in(Guidance::State::following);
+  guidance.goal_distance = 1.4;
+  status.take(guidance);
+  EXPECT_EQ(status.shown(1.0, 0.0).distance, "1.5 meters to go");
+  status.use(Words(NAVVI_PHRASES "/es.yaml", "feet"));
+  EXPECT_EQ(status.shown(1.0, 0.0).distance, "5 pies hasta la meta");
 }
 
 TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {

@@ -1,10 +1,12 @@
 #include "status/words.hpp"
 
 #include <navvi_config/reader.hpp>
+#include <navvi_types/spoken_length.hpp>
+#include <utility>
 
 namespace navvi_rviz::status {
 
-Words::Words(const std::filesystem::path& phrases) {
+Words::Words(const std::filesystem::path& phrases, std::string units) : units_(std::move(units)) {
   const YAML::Node root = navvi_config::load_yaml(phrases);
   for (const char* section : {"phrases", "words", "picture", "lessons"})
     if (const YAML::Node texts = root[section]; texts && texts.IsMap())
@@ -24,6 +26,11 @@ std::string Words::said(navvi_types::CueKind kind, bool keyboard) const {
   if (const std::size_t at = text.find(place); at != std::string::npos)
     text.replace(at, place.size(), of(keyboard ? "words/key_stick" : "words/pad_stick"));
   return text;
+}
+
+std::string Words::to_go(double metres) const {
+  const auto length = navvi_types::spoken_length(metres, units_);
+  return length.number + " " + of(std::string("words/") + length.unit) + " " + of("picture/to_go");
 }
 
 }  // namespace navvi_rviz::status

@@ -12,7 +12,8 @@ class Words {
  public:
   Words() = default;
   /// \throws navvi_config::ConfigError if it cannot be read
-  explicit Words(const std::filesystem::path& phrases);
+  /// \param units  of lengths: meters or feet
+  explicit Words(const std::filesystem::path& phrases, std::string units = "meters");
 
   /// \param key  section and key, such as "picture/wait"; empty: the file lacks it
   [[nodiscard]] std::string of(const std::string& key) const;
@@ -20,7 +21,12 @@ class Words {
   /// \param keyboard  the hands are on the arrow keys
   [[nodiscard]] std::string said(navvi_types::CueKind kind, bool keyboard) const;
 
+  /// What is left to the goal, rounded as the voice does.
+  /// \param metres  finite, >= 0
+  [[nodiscard]] std::string to_go(double metres) const;
+
  private:
+  std::string units_;
   std::map<std::string, std::string> texts_;
 };
 
