@@ -73,6 +73,11 @@ def test_a_person_is_moved_by_a_trait(tmp_path):
         batch.trials_of(args_of(tmp_path, people="typical~hearing"))
 
 
+def test_each_world_has_a_person_of_its_own_where_no_seeds_are_asked_for(tmp_path):
+    trials = batch.trials_of(args_of(tmp_path, people="able,drawn:7", seeds="5-6", worlds="busy", conditions="default"))
+    assert [(trial.person, trial.person_seed) for trial in trials] == [("able", 5), ("drawn", 7), ("able", 6), ("drawn", 7)]
+
+
 def test_a_trial_is_compared_with_that_of_the_same_hand_led_by_eyes(tmp_path):
     assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a", conditions="sighted,default")) == 0
     with open(tmp_path / "a/trials.csv", encoding="utf-8", newline="") as file:

@@ -5,11 +5,12 @@ goes on when it is called again with the same words. At its end DIR holds
 trials.csv, a row a trial, with the same bytes for every --jobs and --shard, and
 trials.json, what each column means. doc/batch.md tells more.
 
-A person is able, typical, struggling, hard_of_hearing, no_touch or drawn, with
-seeds if wanted, such as drawn:1-20; typical~hearing/sound_spread+1 moves a
-trait by one standard deviation. A condition is default, sounds_off, touch_off,
-words_off, words_alone, attractive, brief, sighted (the hand led by eyes), or a
-name of your own: slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
+A person is able, typical, struggling, hard_of_hearing, no_touch or drawn: in
+each world another one, or those with your seeds, such as drawn:1-20;
+typical~hearing/sound_spread+1 moves a trait by one standard deviation. A
+condition is default, sounds_off, touch_off, words_off, words_alone, attractive,
+brief, sighted (the hand led by eyes), or a name of your own:
+slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
 
 Exit codes
 0: done. 1: some failed, are not done, or changed. 2: a wrong argument.
@@ -97,7 +98,7 @@ def person_of(text):
     if kind not in PEOPLE or (moved and not re.fullmatch(r"[a-z_/]+[+-]\d+", trait)):
         fail(f"--people has \"{text}\"; allowed are: {' '.join(PEOPLE)}, each with ~TRAIT+1 or ~TRAIT-1 and with seeds if wanted, "
              "such as drawn:1-20.", 2)
-    return [(name, seed) for seed in span(seeds or "1", "--people")]
+    return [(name, seed) for seed in (span(seeds, "--people") if seeds else [None])]
 
 
 def condition_of(text):
@@ -112,8 +113,8 @@ def condition_of(text):
 def trials_of(args):
     people = [each for text in args.people.split(",") for each in person_of(text)]
     conditions = [condition_of(text) for text in args.conditions.split(",")]
-    cells = [(world, seed, *person, *condition) for world in args.worlds.split(",") for seed in span(args.seeds, "--seeds")
-             for person in people for condition in conditions]
+    cells = [(world, seed, person, seed if person_seed is None else person_seed, *condition) for world in args.worlds.split(",")
+             for seed in span(args.seeds, "--seeds") for person, person_seed in people for condition in conditions]
     if len(cells) > MOST_TRIALS:
         fail(f"these make {len(cells)} trials; allowed are {MOST_TRIALS}.", 2)
     return [Trial(number, *cell) for number, cell in enumerate(cells)]

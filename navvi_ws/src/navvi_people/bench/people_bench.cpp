@@ -44,7 +44,7 @@ SimulatedOperatorConfig person(const std::string& type, int seed) {
 class Rig {
  public:
   explicit Rig(const SimulatedOperatorConfig& config, double late = 0.0)
-      : person_(config, phrases()),
+      : person_(config, phrases(), 1),
         hands_(static_cast<std::size_t>(std::lround(late / kStep)) + 1) {}
 
   void step() {

@@ -53,15 +53,16 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav, cache),
-      guided_(
-          std::make_unique<GuidedPerson>(config.feedback, config.person, config.speech, phrases)) {
+      guided_(std::make_unique<GuidedPerson>(config.feedback, config.person, config.sim.seed,
+                                             config.speech, phrases)) {
   if (branch) {
     other_ = std::make_unique<GuidedPerson>(branch->then.feedback, branch->then.person,
-                                            branch->then.speech, phrases);
+                                            config.sim.seed, branch->then.speech, phrases);
     other_at_ = branch->at;
   }
   if (config.driver == "sighted")
-    sighted_.emplace(config.person.driving, static_cast<std::uint64_t>(config.person.seed));
+    sighted_.emplace(config.person.driving, static_cast<std::uint64_t>(config.person.seed),
+                     static_cast<std::uint64_t>(config.sim.seed));
   if (!setting_.senses)
     navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
 }

@@ -9,10 +9,10 @@
 namespace navvi_people::loop {
 
 GuidedPerson::GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
-                           const people::SimulatedOperatorConfig& person, bool speech,
+                           const people::SimulatedOperatorConfig& person, int occasion, bool speech,
                            const std::string& phrases)
     : guide_(guide, phrases),
-      person_(person, phrases),
+      person_(person, phrases, occasion),
       speech_(speech),
       heard_(speech || guide.has_sounds()) {}
 

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
     if (phrases.empty())
       phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/" +
                 ros::param::param<std::string>(feedback + "/language", "en") + ".yaml";
-    navvi_people::people::SimulatedOperator person(config.person, phrases);
+    const int world = ros::param::param<int>(ros::names::resolve("sim_node") + "/seed", 0);
+    navvi_people::people::SimulatedOperator person(config.person, phrases, world);
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);

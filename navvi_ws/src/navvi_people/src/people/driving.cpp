@@ -30,10 +30,12 @@ void DrivingConfig::describe(navvi_config::Visitor& visit) {
         "standard deviation, over a metre, of what comes besides");
 }
 
-Driving::Driving(const DrivingConfig& config, std::uint64_t seed) : config_(config), random_(seed) {
-  const double turn = random_.normal();
-  const double speed = random_.normal();
-  const bool left = random_.chance(0.5);
+Driving::Driving(const DrivingConfig& config, std::uint64_t person, std::uint64_t occasion)
+    : config_(config), random_(occasion) {
+  Random of_person(person);
+  const double turn = of_person.normal();
+  const double speed = of_person.normal();
+  const bool left = of_person.chance(0.5);
   if (!config_.faults) return;
   turn_gain_ = 1.0 + std::clamp(config_.gain_error * turn, -0.3, 0.3);
   speed_gain_ = 1.0 + std::clamp(config_.gain_error * speed, -0.3, 0.3);

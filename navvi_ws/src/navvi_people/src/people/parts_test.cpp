@@ -145,7 +145,7 @@ TEST(Turning, over_rotates_a_typical_person_as_much_as_was_measured_by_class_of_
 
 TEST(Driving, trembles_and_veers_by_a_bias_and_a_larger_variable_error) {
   const DrivingConfig config = person("typical").driving;
-  Driving hand(config, 6);
+  Driving hand(config, 6, 6);
   const Moments stick = moments([&] { return hand.trembling(0.5, 0.1); });
   EXPECT_NEAR(stick.mean, 0.5, 0.02);
   EXPECT_NEAR(stick.deviation, config.noise, 0.02);
@@ -157,9 +157,19 @@ TEST(Driving, trembles_and_veers_by_a_bias_and_a_larger_variable_error) {
   EXPECT_GT(veer.deviation, std::abs(veer.mean));
   DrivingConfig steady;
   steady.faults = false;
-  Driving ideal(steady, 6);
+  Driving ideal(steady, 6, 6);
   EXPECT_EQ(ideal.trembling(0.5, 0.1), 0.5);
   EXPECT_EQ(ideal.veered(1.0), 0.0);
+}
+
+TEST(Driving, of_a_person_is_the_same_on_each_occasion_but_for_chance) {
+  DrivingConfig config = person("typical").driving;
+  Driving one(config, 6, 1);
+  Driving other(config, 6, 2);
+  EXPECT_EQ(one.turn_gain(), other.turn_gain());
+  EXPECT_EQ(one.speed_gain(), other.speed_gain());
+  EXPECT_NE(one.trembling(0.5, 0.1), other.trembling(0.5, 0.1));
+  EXPECT_NE(one.turn_gain(), Driving(config, 7, 1).turn_gain());
 }
 
 TEST(Feeling, is_as_late_as_was_measured_and_feels_nothing_without_motors_or_below_its_threshold) {

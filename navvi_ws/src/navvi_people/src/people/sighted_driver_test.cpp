@@ -15,7 +15,7 @@ StickAndButtons after(
     navvi_types::Guidance::State state = navvi_types::Guidance::State::following) {
   DrivingConfig config;
   config.faults = false;
-  SightedDriver driver(config, 1);
+  SightedDriver driver(config, 1, 1);
   Sight sight;
   sight.guidance.state = state;
   sight.guidance.steer_angle = off;
@@ -56,7 +56,7 @@ TEST(SightedDriver, keeps_its_distance_from_what_moves_and_waits_where_it_is_to)
 TEST(SightedDriver, sees_a_quarter_of_a_second_late) {
   DrivingConfig config;
   config.faults = false;
-  SightedDriver driver(config, 1);
+  SightedDriver driver(config, 1, 1);
   Sight sight;
   sight.guidance.state = navvi_types::Guidance::State::following;
   double time = 0.0;

@@ -48,6 +48,11 @@ std::uint64_t stream(const SimulatedOperatorConfig& config, std::uint64_t part) 
   return mix.next();
 }
 
+std::uint64_t stream(const SimulatedOperatorConfig& config, std::uint64_t part, int occasion) {
+  Random mix(stream(config, part) + static_cast<std::uint64_t>(occasion));
+  return mix.next();
+}
+
 HearingConfig practised(HearingConfig config, double factor) {
   config.word_reaction *= factor;
   config.sound_reaction *= factor;
@@ -71,7 +76,8 @@ FeelingConfig practised(FeelingConfig config, double factor) {
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   const std::string type_before = type;
   const int seed_before = seed;
-  visit(seed, "seed", navvi_config::Range{0, 2147483647}, "", "of what the person does");
+  visit(seed, "seed", navvi_config::Range{0, 2147483647}, "",
+        "of a drawn person's traits, and, with the world's seed, of what the person does");
   visit(type, "type", navvi_config::OneOf{person_types()}, "",
         "sets the traits of doc/people.md; drawn: from the seed");
   const std::string moved_before = moved;
@@ -95,16 +101,16 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
 }
 
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
-                                     const std::filesystem::path& phrases)
+                                     const std::filesystem::path& phrases, int occasion)
     : config_(config),
       listener_(phrases),
       learning_(config.learning),
-      hearing_(practised(config.hearing, learning_.factor()), stream(config, 1)),
-      turning_(practised(config.turning, learning_.factor()), stream(config, 2)),
-      driving_(config.driving, stream(config, 3)),
-      feeling_(practised(config.feeling, learning_.factor()), stream(config, 4)),
-      memory_(config.memory, stream(config, 5)),
-      attention_(config.attention, stream(config, 6)) {}
+      hearing_(practised(config.hearing, learning_.factor()), stream(config, 1, occasion)),
+      turning_(practised(config.turning, learning_.factor()), stream(config, 2, occasion)),
+      driving_(config.driving, stream(config, 3), stream(config, 3, occasion)),
+      feeling_(practised(config.feeling, learning_.factor()), stream(config, 4, occasion)),
+      memory_(config.memory, stream(config, 5, occasion)),
+      attention_(config.attention, stream(config, 6, occasion)) {}
 
 void SimulatedOperator::hear(const Heard& heard, double time) {
   if (const auto* const sound = std::get_if<Sound>(&heard))

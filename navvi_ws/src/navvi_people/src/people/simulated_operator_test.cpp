@@ -41,7 +41,7 @@ struct Point {
 class Loop {
  public:
   Loop(std::uint64_t seed, std::vector<Point> corners)
-      : person(steady(seed), NAVVI_PHRASES), corners_(std::move(corners)) {}
+      : person(steady(seed), NAVVI_PHRASES, 1), corners_(std::move(corners)) {}
 
   /// One step of the hand; the voice stays silent.
   StickAndButtons step() {
@@ -145,7 +145,7 @@ TEST(SimulatedOperator, does_not_try_where_somebody_has_spoken) {
 }
 
 TEST(SimulatedOperator, presses_start_when_it_is_told_to) {
-  SimulatedOperator person(steady(1), NAVVI_PHRASES);
+  SimulatedOperator person(steady(1), NAVVI_PHRASES, 1);
   int presses = 0;
   bool down = false;
   for (int tick = 0; tick < 300; ++tick) {
@@ -160,7 +160,7 @@ TEST(SimulatedOperator, presses_start_when_it_is_told_to) {
 }
 
 TEST(SimulatedOperator, presses_start_once_where_words_and_taps_ask_for_it) {
-  SimulatedOperator person(steady(1), NAVVI_PHRASES);
+  SimulatedOperator person(steady(1), NAVVI_PHRASES, 1);
   int presses = 0;
   bool down = false;
   for (int tick = 0; tick < 300; ++tick) {
@@ -173,6 +173,26 @@ TEST(SimulatedOperator, presses_start_once_where_words_and_taps_ask_for_it) {
     down = start;
   }
   EXPECT_EQ(presses, 1);
+}
+
+TEST(SimulatedOperator, misses_a_first_sentence_on_some_occasions_and_not_on_all) {
+  SimulatedOperatorConfig config = steady(1);
+  config.hearing.faults = true;
+  config.hearing.missed_words = 0.5;
+  int drives = 0;
+  for (int occasion = 1; occasion <= 40; ++occasion) {
+    SimulatedOperator person(config, NAVVI_PHRASES, occasion);
+    bool moved = false;
+    for (int tick = 0; tick < 300; ++tick) {
+      const double time = 0.02 * tick;
+      if (tick == 100) person.hear(Speech{1, Moment::begins, "drive straight, 5 meters"}, time);
+      if (tick == 170) person.hear(Speech{1, Moment::ends}, time);
+      moved |= person.update(time, 0.02).forward > 0.0;
+    }
+    drives += moved ? 1 : 0;
+  }
+  EXPECT_GT(drives, 10);
+  EXPECT_LT(drives, 30);
 }
 
 TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {

@@ -116,10 +116,7 @@ TEST_F(ClosedLoopIn, aBranchWithoutAChangeIsTheSameTrialAndAnotherPersonMakesAno
     branch_->then.sim = config_.sim;
     navvi_config::read(branch_->then, navvi_config::read_words({"person/driving/cruise:=0.4"}),
                        "test");
-    const record::Fields slow = play(kCrossing, 60.0);
-    EXPECT_GT(slow.number("time").value(),
-              record::Fields::parse(before)->number("time").value() + 1.0)
-        << type;
+    EXPECT_NE(play(kCrossing, 60.0).format(), before) << type;
     branch_.reset();
   }
 }

@@ -17,8 +17,9 @@ class GuidedPerson {
  public:
   /// \param speech  false: nothing is spoken \param phrases  file of the spoken phrases
   /// \throws ConfigError
+  /// \param occasion  as of `SimulatedOperator`
   GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
-               const people::SimulatedOperatorConfig& person, bool speech,
+               const people::SimulatedOperatorConfig& person, int occasion, bool speech,
                const std::string& phrases);
 
   /// As Guide::take. \param more  a time, where that takes one

@@ -28,7 +28,9 @@ struct DrivingConfig {
 
 class Driving {
  public:
-  Driving(const DrivingConfig& config, std::uint64_t seed);
+  /// \param person  seed of what this hand believes and to which side it veers
+  /// \param occasion  seed of what it does by chance
+  Driving(const DrivingConfig& config, std::uint64_t person, std::uint64_t occasion);
 
   /// What the robot makes of a stick, as believed, [-1, 1].
   [[nodiscard]] double shaped(double stick) const;

@@ -22,8 +22,9 @@ struct Sight {
 /// its distance from what is ahead. No person is like it, so nothing of it is drawn or fitted.
 class SightedDriver {
  public:
-  SightedDriver(const DrivingConfig& config, std::uint64_t seed)
-      : config_(config), driving_(config, seed) {}
+  /// \param person, occasion  seeds, as of `Driving`
+  SightedDriver(const DrivingConfig& config, std::uint64_t person, std::uint64_t occasion)
+      : config_(config), driving_(config, person, occasion) {}
 
   /// \param time  s, not going back \param dt  s since the last update
   [[nodiscard]] StickAndButtons update(const Sight& sight, double time, double dt);

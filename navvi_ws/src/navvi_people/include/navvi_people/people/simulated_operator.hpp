@@ -54,7 +54,10 @@ struct StickAndButtons {
 class SimulatedOperator {
  public:
   /// \param phrases  file of the phrases in the language that the person speaks
-  SimulatedOperator(const SimulatedOperatorConfig& config, const std::filesystem::path& phrases);
+  /// \param occasion  seed of what happens by chance, as is the world's: on another occasion the
+  /// same person hears, misses and trembles otherwise
+  SimulatedOperator(const SimulatedOperatorConfig& config, const std::filesystem::path& phrases,
+                    int occasion);
 
   void hear(const Heard& heard, double time);
   void feel(const Felt& felt, double time);
