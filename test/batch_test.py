@@ -121,6 +121,19 @@ def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
     assert rows.read_bytes().count(b"\n") == 36
 
 
+def test_a_batch_that_breaks_off_begins_no_trial_whose_row_nobody_would_write(tmp_path, monkeypatch):
+    program = tmp_path / "told"
+    program.write_text(stand_in(tmp_path, 0.05).read_text().replace("#!/bin/sh", f'#!/bin/sh\necho "$@" >> {tmp_path}/words'))
+    program.chmod(0o755)
+
+    def full(rows, line):
+        raise OSError(28, "No space left on device")
+    monkeypatch.setattr(batch.Rows, "append", full)
+    with pytest.raises(OSError):
+        batch.run_batch(program, args_of(tmp_path / "a", jobs=2))
+    assert len((tmp_path / "words").read_text().splitlines()) < 8, "of 36"
+
+
 def test_a_trial_that_fails_is_named_and_run_again_next_time(tmp_path, capsys):
     out = tmp_path / "out"
     assert batch.run_batch(stand_in(tmp_path, broken="3"), args_of(out)) == 1

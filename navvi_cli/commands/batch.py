@@ -223,7 +223,8 @@ def time_left(seconds):
 def run_all(program, trials, args, rows):
     """Appends a row a trial. \\return the titles, and how many trials failed"""
     titles, failed, finished, since, told = None, 0, 0, time.monotonic(), 0.0
-    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+    pool = concurrent.futures.ThreadPoolExecutor(args.jobs)
+    try:
         for answer in concurrent.futures.as_completed([pool.submit(simulate, program, trial, args) for trial in trials]):
             trial, said, line = answer.result()
             finished += 1
@@ -238,6 +239,9 @@ def run_all(program, trials, args, rows):
                 told = now
                 left = (now - since) / finished * (len(trials) - finished)
                 print(f"{finished} of {len(trials)} trials, {time_left(left)} left", file=sys.stderr, flush=True)
+    finally:
+        # After Ctrl-C or a full disk no trial is begun whose row nobody would write.
+        pool.shutdown(cancel_futures=True)
     return titles, failed
 
 
