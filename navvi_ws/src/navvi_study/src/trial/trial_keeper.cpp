@@ -84,7 +84,7 @@ void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
   readiness_.saw(guidance, now.wall());
   const bool refused = guidance.state == Guidance::State::goal_refused;
-  if (phase_ == Phase::armed && refused && goals_.next &&
+  if (phase_ != Phase::running && refused && goals_.next &&
       (guidance.goal - goals_.next->place).norm() < kSame)
     goals_.next.reset();
   observe(guidance);
@@ -131,15 +131,16 @@ void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
 void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now, std::int64_t stamp) {
   now_ = now;
   const ChosenGoal chosen{goal, stamp};
-  if (phase_ == Phase::armed && (!offered_.scenario || offered_.played || config_.press_to_start)) {
-    offered_.played = true;
-    goals_.next = chosen;
-    if (!config_.press_to_start) start(chosen);
-  } else if (phase_ == Phase::running) {
+  if (phase_ == Phase::running) {
     if (config_.locked) return end({"aborted", "goal_changed", monitor_.latest()});
     if (monitor_.goal_taken()) goals_.before = goals_.now;
     change_goal(chosen);
     goals_.tries.sent_elsewhere(now.wall());
+  } else if (!offered_.scenario || offered_.played || config_.press_to_start) {
+    // Also while a record is being closed: the next trial is to it.
+    offered_.played = true;
+    goals_.next = chosen;
+    if (phase_ == Phase::armed && !config_.press_to_start) start(chosen);
   }
 }
 

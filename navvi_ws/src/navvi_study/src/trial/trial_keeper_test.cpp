@@ -235,6 +235,21 @@ TEST_F(Trials, are_separated_by_a_pause_in_which_a_goal_can_be_chosen_again_and_
   EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_START"), 1);
 }
 
+TEST_F(Trials, are_to_a_goal_that_was_chosen_while_the_one_before_was_closed) {
+  config_.once = false;
+  begin();
+  live(1.0);
+  const Eigen::Vector2d refused(500.0, 0.0);
+  const Eigen::Vector2d next(4.0, 0.0);
+  keeper_->take_goal(refused, now());
+  live(0.5, State::goal_refused, refused);
+  ASSERT_TRUE(happened("TRIAL_END"));
+  keeper_->take_goal(next, now());
+  live(9.0, State::following, next);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "TRIAL_START"), 2) << "none without a record";
+  EXPECT_NE(content("journal.csv").find("goal_x=4.0"), std::string::npos);
+}
+
 TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
   begin();
   keeper_->take(kScenario, now());
