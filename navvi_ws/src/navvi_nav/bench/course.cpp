@@ -1,5 +1,6 @@
 #include "course.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <limits>
 #include <random>
@@ -64,6 +65,11 @@ Course::Course(Hall hall, std::uint32_t seed)
     while (component(goal) != component(start)) goal = somewhere(random);
     queries.push_back({start, goal});
   }
+  across = queries;
+  std::sort(across.begin(), across.end(), [](const Query& a, const Query& b) {
+    return norm(a.goal - a.start) > norm(b.goal - b.start);
+  });
+  across.resize(kQueries / 10);
   choose_tile();
   octomap::OcTree with_box(tree);
   const double step = tree.getResolution();

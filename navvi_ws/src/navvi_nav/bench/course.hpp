@@ -53,6 +53,7 @@ struct Course {
   std::unique_ptr<plain::Query> tile_cache_query;
   mesh::Mesh detours_mesh;  ///< the very polygons that Detour searches, for our searches
   std::vector<Query> queries;
+  std::vector<Query> across;  ///< the tenth of them whose ends are farthest apart
 
  private:
   void choose_tile();
