@@ -70,9 +70,16 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   }
   const auto question =
       tick.asked.question ? tick.asked.question : std::exchange(question_, std::nullopt);
+  for_go_on_ = false;
   if (!question) return {};
   asked_ = question;
   std::optional<Utterance> answer = about(*question, tick, route.rounding());
+  // What stopped the person is gone; to say it again would only put off "go on".
+  if (!answer && tick.follows && halt.ends_soon()) {
+    question_ = question;
+    for_go_on_ = true;
+    return {};
+  }
   if (!answer) answer = about_the_way(tick, route, halt, state);
   if (!answer) return {};
   // An answer is wanted at once, whatever was said just before.
@@ -85,6 +92,7 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
 }
 
 void Answers::yield(Utterances& answer) {
+  if (std::exchange(for_go_on_, false)) question_.reset();
   if (answer.empty() || family_of(answer.front().kind) != Family::halt) return;
   answer.clear();
   answered_.reset();

@@ -28,7 +28,8 @@ class Answers {
  private:
   std::optional<Question> asked_;     ///< the last that was answered
   std::optional<CueKind> answered_;   ///< the kind of that, until it is heard
-  std::optional<Question> question_;  ///< to be answered again
+  std::optional<Question> question_;  ///< still to be answered, or again
+  bool for_go_on_ = false;            ///< it waits for "go on", which is due soon
 };
 
 }  // namespace navvi_feedback::cues

@@ -32,6 +32,8 @@ class Halt {
   [[nodiscard]] bool over(const Observation& now, bool follows, bool comes, double time);
 
   [[nodiscard]] bool halted() const { return state_ == State::waiting; }
+  /// Nothing speaks against "go on" any more: it is due within a few seconds.
+  [[nodiscard]] bool ends_soon() const { return halted() && clear_since_; }
   /// The person has not heard "go on" to its end.
   [[nodiscard]] bool owes() const { return state_ != State::free; }
   /// s, when a person who waits was told to; nullopt: nobody waits

@@ -36,11 +36,11 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   pass(1.0);
   const auto heard = [&] { policy_.note({{1, CueStage::started, last_.kind, last_.text}}); };
   heard();
-  now_.guidance->state = Guidance::State::following;
   pass(1.0);
   asked_.question = Question::way;
   EXPECT_EQ(pass(0.1), Texts{"wait, worker in the way"});
   heard();
+  now_.guidance->state = Guidance::State::following;
   EXPECT_EQ(pass(1.8), Texts{}) << "what was just called in the way";
   EXPECT_EQ(pass(0.4), Texts{"go on, drive straight, 20 meters"});
 

@@ -45,11 +45,13 @@ Told tell_stray(const Look& look, Leg& leg) {
   return Utterances{way};
 }
 
-/// A leg has words once, at its begin; a short one has those of its end.
+/// A leg has words at its begin, and again while it goes on; a short one has those of its end.
 bool leg_due(const Look& look, const Leg& leg) {
-  if (!look.bearing.idle(look.time))
-    return leg.at_corner() && look.guidance().waypoint_distance >= look.config.long_leg;
-  return leg.at_corner() || look.time - leg.said.time >= 2.0 * look.config.repeat_direction;
+  const double since = look.time - leg.said.time;
+  if (look.bearing.idle(look.time))
+    return leg.at_corner() || since >= 2.0 * look.config.repeat_direction;
+  const bool goes_on = look.hour() == 12 && since >= look.config.repeat_straight;
+  return (leg.at_corner() || goes_on) && look.guidance().waypoint_distance >= look.config.long_leg;
 }
 
 Told tell_direction(const Look& look, Leg& leg) {

@@ -43,5 +43,14 @@ TEST(SoundsLead, say_a_turn_once_and_no_bend_where_a_sound_leads_round) {
   }
 }
 
+TEST(SoundsLead, say_a_long_leg_again_every_20_s_and_no_end_of_it) {
+  Drive drive;
+  drive.now.sounds.turn = true;
+  drive.settle(0.0, 40.0);
+  EXPECT_EQ(drive.pass(45.0), (Kinds{CueKind::straight, CueKind::straight}));
+  drive.now.guidance->waypoint_distance = 8.0;
+  EXPECT_EQ(drive.pass(45.0), Kinds{});
+}
+
 }  // namespace
 }  // namespace navvi_feedback::cues

@@ -159,6 +159,22 @@ TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_th
   EXPECT_EQ(told, Texts{"go on, drive straight, 20 meters"});
 }
 
+TEST_F(WaitTest, is_not_told_again_to_who_asks_when_its_reason_is_gone) {
+  follow();
+  EXPECT_EQ(pass(0.5), Texts{});
+  asked_.question = Question::way;
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"}) << "asked and answered once";
+}
+
+TEST_F(WaitTest, is_told_to_who_asks_when_its_reason_comes_back) {
+  follow();
+  pass(0.5);
+  asked_.question = Question::way;
+  pass(0.1);
+  now_.guidance->state = Guidance::State::blocked;
+  EXPECT_EQ(pass(0.1), Texts{"wait, worker in the way"});
+}
+
 TEST_F(WaitTest, ends_by_an_answer_that_comes_before_go_on_was_heard) {
   follow();
   EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
