@@ -11,20 +11,19 @@ namespace navvi_people::people {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kNeutralAtStart = 1.0;   // s
-constexpr double kPress = 0.15;           // s, a button is held
-constexpr double kAwaited = 3.0;          // s, that a person waits for what a press does
-constexpr double kSameBump = 15.0;        // s
-constexpr double kBackOff = 0.7;          // s
-constexpr double kCareful = 5.0;          // s, one goes slowly after hearing of something near
-constexpr double kLettersPerSecond = 14;  // at which a sentence without an end is over
-constexpr double kNearTheEnd = 1.5;       // m to where one expects to stop
-constexpr double kListenFirst = 2.5;      // m, likewise
-constexpr double kOneSided = 0.8;         // of one motor over the other: very near at a side
-constexpr double kTicksOver = 1.2;        // s; ticks that paused for so long are over
-constexpr double kMuchForce = 0.6;        // of the motor that attracts: much is left to turn
-constexpr double kSlowTicks = 0.28;       // s, between two: much is left to turn
-constexpr double kShortly = 5.0;          // s; what is told after a turn is the rest of it
+constexpr double kNeutralAtStart = 1.0;  // s
+constexpr double kPress = 0.15;          // s, a button is held
+constexpr double kAwaited = 3.0;         // s, that a person waits for what a press does
+constexpr double kSameBump = 15.0;       // s
+constexpr double kBackOff = 0.7;         // s
+constexpr double kCareful = 5.0;         // s, one goes slowly after hearing of something near
+constexpr double kNearTheEnd = 1.5;      // m to where one expects to stop
+constexpr double kListenFirst = 2.5;     // m, likewise
+constexpr double kOneSided = 0.8;        // of one motor over the other: very near at a side
+constexpr double kTicksOver = 1.2;       // s; ticks that paused for so long are over
+constexpr double kMuchForce = 0.6;       // of the motor that attracts: much is left to turn
+constexpr double kSlowTicks = 0.28;      // s, between two: much is left to turn
+constexpr double kShortly = 5.0;         // s; what is told after a turn is the rest of it
 constexpr double kBackAgain = 0.6;
 constexpr double kLeansAway = 0.07;  // rad, from what is felt at a side
 constexpr double kTriesAfter = 1.0;  // s, without an answer
@@ -103,9 +102,8 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
                                      const std::filesystem::path& phrases, int occasion)
     : config_(config),
-      listener_(phrases),
       learning_(config.learning),
-      hearing_(practised(config.hearing, learning_.factor()), stream(config, 1, occasion)),
+      ears_(practised(config.hearing, learning_.factor()), stream(config, 1, occasion), phrases),
       turning_(practised(config.turning, learning_.factor()), stream(config, 2, occasion)),
       driving_(config.driving, stream(config, 3), stream(config, 3, occasion)),
       feeling_(practised(config.feeling, learning_.factor()), stream(config, 4, occasion)),
@@ -114,7 +112,7 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
 
 void SimulatedOperator::hear(const Heard& heard, double time) {
   if (const auto* const sound = std::get_if<Sound>(&heard))
-    hear_sound(*sound, time);
+    ears_.sounds(*sound, attention_.elsewhere(time), time);
   else
     hear_words(std::get<Speech>(heard), time);
 }
@@ -124,20 +122,12 @@ void SimulatedOperator::hear_words(const Speech& speech, double time) {
   switch (speech.moment) {
     case Speech::Moment::begins:
       words_.spoken_to = true;
-      words_.begun[speech.id] = {speech.text, at_.heading, at_.odometer, time, time};
-      return;
+      return ears_.begins(speech, at_, time);
     case Speech::Moment::breaks_off:
-      words_.begun.erase(speech.id);
-      return;
+      return ears_.breaks_off(speech.id);
     case Speech::Moment::ends:
       return understood(speech.id, time);
   }
-}
-
-void SimulatedOperator::hear_sound(const Sound& sound, double time) {
-  const auto tone = hearing_.sound(sound, !words_.begun.empty(), time);
-  if (!tone || attention_.elsewhere(time)) return;
-  sounds_.due.push_back({sound.earcon, tone->side, time + tone->reaction});
 }
 
 void SimulatedOperator::follow(const Tone& tone, double time) {
@@ -265,20 +255,13 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
 }
 
 void SimulatedOperator::understood(std::uint32_t id, double time) {
-  const auto found = words_.begun.find(id);
-  if (found == words_.begun.end()) return;
-  Sentence sentence = found->second;
-  words_.begun.erase(found);
-  const auto ear = hearing_.words(sentence.text, time - sentence.begun);
-  if (!ear || attention_.elsewhere(time)) return;
-  sentence.time = time + ear->reaction;
-  sentence.parts = Hearing::as_heard(*ear, listener_.understand(sentence.text));
-  words_.understood.push_back(sentence);
+  const Sentence* const sentence = ears_.ends(id, attention_.elsewhere(time), time);
+  if (sentence == nullptr) return;
   // A thing nearby, or a later turn, is no news while waiting for a direction.
   const auto idle = [](const Instruction& part) {
     return part.asks == Ask::beware || part.asks == Ask::turn_ahead;
   };
-  if (mode_ != Mode::waiting || !std::all_of(sentence.parts.begin(), sentence.parts.end(), idle))
+  if (mode_ != Mode::waiting || !std::all_of(sentence->parts.begin(), sentence->parts.end(), idle))
     when_.news = time;
 }
 
@@ -293,7 +276,7 @@ void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& ins
   turned_.at = time;
   if (back) angle *= kBackAgain;
   const double learnt = std::copysign(learning_.bias(), angle);
-  course_.target = sentence.heading - turning_.made((angle + learnt) * driving_.turn_gain());
+  course_.target = sentence.at.heading - turning_.made((angle + learnt) * driving_.turn_gain());
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;
   course_.turn_speed =
       std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.driving.slow * 0.7 : 0.0;
@@ -304,7 +287,7 @@ void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& ins
 
 void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
   const double distance = instruction.distance.value_or(kBlindTurn);
-  const double begun = mode_ == Mode::turning ? at_.odometer : sentence.odometer;
+  const double begun = mode_ == Mode::turning ? at_.odometer : sentence.at.odometer;
   course_.stop_at = std::max(begun + distance, at_.odometer + 0.6);
   course_.speed =
       course_.stop_at - at_.odometer > 3.0 ? config_.driving.cruise : config_.driving.slow;
@@ -347,9 +330,9 @@ void SimulatedOperator::shy_away(const Instruction& instruction, double time) {
 
 /// Some first words are enough.
 void SimulatedOperator::be_startled(double time) {
-  for (const auto& [id, sentence] : words_.begun) {
+  for (const auto& [id, sentence] : ears_.begun()) {
     const double heard = (time - sentence.begun - kStartled) * kLettersPerSecond;
-    const Listener::FirstWord word = listener_.first_word(sentence.text, heard);
+    const Listener::FirstWord word = ears_.listener().first_word(sentence.text, heard);
     if (mode_ == Mode::arrived || heard <= 0.0 || !word.startles) continue;
     mode_ = Mode::waiting;
     wait_for_go_on(sentence, word.holds);
@@ -374,7 +357,7 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
 }
 
 void SimulatedOperator::expect_turn(const Sentence& sentence, const Instruction& turn) {
-  course_.stop_at = sentence.odometer + turn.distance.value_or(kBlindTurn);
+  course_.stop_at = sentence.at.odometer + turn.distance.value_or(kBlindTurn);
   if (course_.stop_at - at_.odometer < 3.0)
     course_.speed = std::min(course_.speed, config_.driving.slow);
 }
@@ -397,7 +380,7 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
       break;
     case Ask::go:
       // A turn that a sound has led since is not turned back.
-      if (sounds_.turned < sentence.begun) course_.target = sentence.heading;
+      if (sounds_.turned < sentence.begun) course_.target = sentence.at.heading;
       course_.turn_speed = 0.0;
       mode_ = std::abs(course_.target - at_.heading) > 0.1 ? Mode::turning : Mode::driving;
       go_for(sentence, instruction);
@@ -431,8 +414,7 @@ void SimulatedOperator::follow(const Sentence& sentence, const Instruction& inst
 StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
   // Near a corner the hand waits for the end of a sentence.
-  const bool listening = !words_.begun.empty() || !words_.understood.empty();
-  if (listening && course_.stop_at - at_.odometer < kListenFirst) return hand;
+  if (ears_.listen() && course_.stop_at - at_.odometer < kListenFirst) return hand;
   const double slow = config_.driving.slow;
   double speed = time < when_.careful_until ? std::min(course_.speed, slow) : course_.speed;
   if (course_.stop_at - at_.odometer < kNearTheEnd) speed = std::min(speed, slow);
@@ -504,7 +486,7 @@ void SimulatedOperator::go_ahead() {
 }
 
 void SimulatedOperator::ask_when_lost(double time) {
-  if (mode_ == Mode::arrived || !words_.begun.empty() || !words_.understood.empty()) return;
+  if (mode_ == Mode::arrived || ears_.listen()) return;
   const double patience =
       mode_ == Mode::waiting ? config_.attention.idle_patience : config_.attention.patience;
   if (time - when_.news >= patience && time - when_.asked >= patience + kPress) when_.asked = time;
@@ -531,33 +513,18 @@ std::string SimulatedOperator::doing() const {
   return "";
 }
 
-void SimulatedOperator::forget_sentences_without_end(double time) {
-  std::vector<std::uint32_t> over;
-  for (const auto& [id, sentence] : words_.begun) {
-    const double length = 1.0 + static_cast<double>(sentence.text.size()) / kLettersPerSecond;
-    if (time - sentence.begun > length) over.push_back(id);
-  }
-  for (const auto id : over) understood(id, time);
-}
-
 /// What the ear took in first the hand does first, however long either took.
 void SimulatedOperator::follow_what_is_due(double time) {
-  while (!words_.understood.empty() && words_.understood.front().time <= time) {
-    const Sentence sentence = words_.understood.front();
-    words_.understood.erase(words_.understood.begin());
-    follow(sentence, time);
-  }
-  while (!sounds_.due.empty() && sounds_.due.front().time <= time) {
-    Tone tone = sounds_.due.front();
-    sounds_.due.pop_front();
-    if (tone.earcon == Earcon::turn_stop && !tone.much) {
+  while (const auto sentence = ears_.next_sentence(time)) follow(*sentence, time);
+  while (auto tone = ears_.next_tone(time)) {
+    if (tone->earcon == Earcon::turn_stop && !tone->much) {
       // Decided; the hand lets go a moment later.
-      tone.much = false;
-      tone.time = time + turning_.stop_delay();
-      sounds_.due.push_front(tone);
+      tone->much = false;
+      tone->time = time + turning_.stop_delay();
+      ears_.put_off(*tone);
       continue;
     }
-    follow(tone, time);
+    follow(*tone, time);
   }
 }
 
@@ -576,7 +543,7 @@ StickAndButtons SimulatedOperator::update(double time, double dt,
     when_.started = true;
     when_.start = when_.news = time;
   }
-  forget_sentences_without_end(time);
+  for (const auto id : ears_.without_end(time)) understood(id, time);
   follow_what_is_due(time);
   touch(time);
   if (time - when_.start < kNeutralAtStart) return {};

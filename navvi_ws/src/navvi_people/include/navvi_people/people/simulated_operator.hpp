@@ -1,20 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "navvi_config/field.hpp"
 #include "navvi_people/people/driving.hpp"
+#include "navvi_people/people/ears.hpp"
 #include "navvi_people/people/feeling.hpp"
 #include "navvi_people/people/heard.hpp"
 #include "navvi_people/people/hearing.hpp"
 #include "navvi_people/people/instruction.hpp"
-#include "navvi_people/people/listener.hpp"
 #include "navvi_people/people/mind.hpp"
 #include "navvi_people/people/turning.hpp"
 
@@ -70,7 +67,7 @@ class SimulatedOperator {
   [[nodiscard]] const StickAndButtons& meant() const { return meant_; }
 
   /// What it makes of a sentence.
-  [[nodiscard]] const Listener& listener() const { return listener_; }
+  [[nodiscard]] const Listener& listener() const { return ears_.listener(); }
   [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
   [[nodiscard]] bool gave_up() const { return attention_.gave_up(); }
   /// What the hands are at, in words, for a trace.
@@ -78,23 +75,6 @@ class SimulatedOperator {
 
  private:
   enum class Mode { waiting, turning, driving, backing, arrived };
-  /// A sentence, and where the operator believed to be when it began.
-  struct Sentence {
-    std::string text;
-    double heading = 0.0;
-    double odometer = 0.0;
-    double begun = 0.0;                   ///< s
-    double time = 0.0;                    ///< s, when the hands will follow
-    std::vector<Instruction> parts = {};  ///< once understood
-  };
-
-  /// A short sound, as the ear takes it.
-  struct Tone {
-    Earcon earcon = Earcon::turn;
-    Instruction::Side side = Instruction::Side::none;
-    double time = 0.0;              ///< s: when the hands will follow
-    std::optional<bool> much = {};  ///< is left to turn; nullopt: as slow ticks tell
-  };
   /// The ticks, or the motor, that tell to turn.
   struct Ticks {
     Instruction::Side side = Instruction::Side::none;
@@ -102,23 +82,15 @@ class SimulatedOperator {
     bool much = true;   ///< is left to turn
   };
 
-  /// The sentences of the guide.
+  /// What the guide's words left behind.
   struct Words {
-    std::map<std::uint32_t, Sentence> begun;  ///< by the id of their cue
-    std::vector<Sentence> understood;
     std::optional<double> waits;  ///< s, since when for "go on"
     bool told_to_halt = false;
     bool spoken_to = false;
   };
   struct Sounds {
-    std::deque<Tone> due;
     std::optional<Ticks> ticks;
     double turned = -1e9;  ///< s, when they last led a turn
-  };
-  /// The place that the operator believes in.
-  struct Belief {
-    double heading = 0.0;   ///< rad, counter-clockwise
-    double odometer = 0.0;  ///< m
   };
   struct Course {
     double target = 0.0;           ///< rad, heading to hold
@@ -154,7 +126,6 @@ class SimulatedOperator {
   };
 
   void hear_words(const Speech& speech, double time);
-  void hear_sound(const Sound& sound, double time);
   void touch(double time);
   void follow_pull(const Felt& force, double time);
   void follow(Meaning meaning, double time);
@@ -179,14 +150,12 @@ class SimulatedOperator {
   void press_start(double time);
   void go_ahead();
   void ask_when_lost(double time);
-  void forget_sentences_without_end(double time);
   void follow_what_is_due(double time);
   void believe(const StickAndButtons& hand, double dt);
 
   SimulatedOperatorConfig config_;
-  Listener listener_;
   Learning learning_;
-  Hearing hearing_;
+  Ears ears_;
   Turning turning_;
   Driving driving_;
   Feeling feeling_;

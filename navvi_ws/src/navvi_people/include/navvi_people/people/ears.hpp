@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "navvi_people/people/heard.hpp"
+#include "navvi_people/people/hearing.hpp"
+#include "navvi_people/people/instruction.hpp"
+#include "navvi_people/people/listener.hpp"
+
+namespace navvi_people::people {
+
+/// The place that a person believes in.
+struct Belief {
+  double heading = 0.0;   ///< rad, counter-clockwise
+  double odometer = 0.0;  ///< m
+};
+
+/// A sentence, and where the person believed to be when it began.
+struct Sentence {
+  std::string text;
+  Belief at;
+  double begun = 0.0;                   ///< s
+  double time = 0.0;                    ///< s, when the hands will follow
+  std::vector<Instruction> parts = {};  ///< once understood
+};
+
+/// A short sound, as the ear takes it.
+struct Tone {
+  Earcon earcon = Earcon::turn;
+  Instruction::Side side = Instruction::Side::none;
+  double time = 0.0;              ///< s: when the hands will follow
+  std::optional<bool> much = {};  ///< is left to turn; nullopt: as slow ticks tell
+};
+
+/// Keeps what is spoken and sounded until the hands follow it: sentences from their first word on,
+/// short sounds from their onset. Times are s, not going back.
+class Ears {
+ public:
+  Ears(const HearingConfig& config, std::uint64_t seed, const std::filesystem::path& phrases)
+      : hearing_(config, seed), listener_(phrases) {}
+
+  void begins(const Speech& speech, const Belief& at, double time);
+  void breaks_off(std::uint32_t id) { begun_.erase(id); }
+  /// \param elsewhere  the mind is: it takes nothing in
+  /// \return what the hands will follow; nullptr: nothing
+  const Sentence* ends(std::uint32_t id, bool elsewhere, double time);
+  /// \param elsewhere  as above
+  void sounds(const Sound& sound, bool elsewhere, double time);
+
+  /// Sentences that are being spoken, by the id of their cue.
+  [[nodiscard]] const std::map<std::uint32_t, Sentence>& begun() const { return begun_; }
+  /// Of these, those whose end should have come.
+  [[nodiscard]] std::vector<std::uint32_t> without_end(double time) const;
+  /// Something is spoken, or was and is not followed yet.
+  [[nodiscard]] bool listen() const { return !begun_.empty() || !understood_.empty(); }
+  [[nodiscard]] const Listener& listener() const { return listener_; }
+
+  /// What is to be followed now, in the order in which it was taken in.
+  [[nodiscard]] std::optional<Sentence> next_sentence(double time);
+  [[nodiscard]] std::optional<Tone> next_tone(double time);
+  /// It is the next to be followed, at a time of its own.
+  void put_off(const Tone& tone) { tones_.push_front(tone); }
+
+ private:
+  Hearing hearing_;
+  Listener listener_;
+  std::map<std::uint32_t, Sentence> begun_;
+  std::deque<Sentence> understood_;
+  std::deque<Tone> tones_;
+};
+
+/// At which a sentence is spoken, and one without an end is over.
+constexpr double kLettersPerSecond = 14;
+
+}  // namespace navvi_people::people
