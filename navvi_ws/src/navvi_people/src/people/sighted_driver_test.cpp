@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kStep = 0.02;  // s
 
-/// A driver who has seen this for 2 s.
-StickAndButtons after(
-    double off, const std::vector<navvi_types::NearThing>& nearby,
-    navvi_types::Guidance::State state = navvi_types::Guidance::State::following) {
+/// A driver who has seen this for so many s.
+StickAndButtons after(double off, const std::vector<navvi_types::NearThing>& nearby,
+                      navvi_types::Guidance::State state = navvi_types::Guidance::State::following,
+                      double seconds = 2.0) {
   DrivingConfig config;
   config.faults = false;
   SightedDriver driver(config, 1, 1);
@@ -21,7 +21,7 @@ StickAndButtons after(
   sight.guidance.steer_angle = off;
   sight.nearby = nearby;
   StickAndButtons hand;
-  for (double time = 0.0; time < 2.0; time += kStep) hand = driver.update(sight, time, kStep);
+  for (double time = 0.0; time < seconds; time += kStep) hand = driver.update(sight, time, kStep);
   return hand;
 }
 
@@ -51,6 +51,17 @@ TEST(SightedDriver, keeps_its_distance_from_what_moves_and_waits_where_it_is_to)
   EXPECT_EQ(after(0.0, {ahead(0.5, true)}).forward, 0.0);
   EXPECT_GT(after(0.0, {ahead(0.3, false)}).forward, 0.0) << "the path leads round what stands";
   EXPECT_EQ(after(0.0, {}, navvi_types::Guidance::State::blocked).forward, 0.0);
+}
+
+TEST(SightedDriver, creeps_past_what_waits_beside_its_lane) {
+  navvi_types::NearThing worker = ahead(0.1, true);
+  worker.nearest = {0.15, 0.41};
+  EXPECT_EQ(after(0.0, {worker}).forward, 0.0);
+  const double creeps = after(0.0, {worker}, navvi_types::Guidance::State::following, 5.0).forward;
+  EXPECT_GT(creeps, 0.0);
+  EXPECT_LT(creeps, after(0.0, {}).forward);
+  worker.nearest = {0.45, 0.1};
+  EXPECT_EQ(after(0.0, {worker}, navvi_types::Guidance::State::following, 5.0).forward, 0.0);
 }
 
 TEST(SightedDriver, sees_a_quarter_of_a_second_late) {

@@ -19,7 +19,8 @@ struct Sight {
 
 /// The reference for people who are guided: the same hand on the same stick, liking the same speed,
 /// but it sees the path and what moves. It steers along the path, slows down in bends, and keeps
-/// its distance from what is ahead. No person is like it, so nothing of it is drawn or fitted.
+/// its distance from what is ahead, but creeps past what waits beside its lane. No person is like
+/// it, so nothing of it is drawn or fitted.
 class SightedDriver {
  public:
   /// \param person, occasion  seeds, as of `Driving`
@@ -40,6 +41,7 @@ class SightedDriver {
   DrivingConfig config_;
   Driving driving_;
   std::deque<Seen> seen_;
+  double halted_ = 0.0;  ///< s, when it last went on, or had no path
 };
 
 }  // namespace navvi_people::people
