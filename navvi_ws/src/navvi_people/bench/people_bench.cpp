@@ -1,6 +1,7 @@
-// people_bench [TYPE]: published effects of guidance on people, beside what the simulated person
-// shows: `./navvi bench people`. A row whose sign differs, or whose size is off by more than half
-// where one is published, says so. A disagreement is a finding about the person, not a failure.
+// people_bench [TYPE]: published effects of guidance on people, beside what simulated persons
+// show, with an interval of 95 % over persons: `./navvi bench people`. A row whose sign differs, or
+// whose size is off by more than half where one is published, says so, and so does one whose
+// interval leaves the sign open. A disagreement is a finding about the person, not a failure.
 
 #include <ros/package.h>
 
@@ -24,8 +25,8 @@ using people::SimulatedOperatorConfig;
 
 constexpr double kStep = 0.02;  // s
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr int kPeople = 60;
-constexpr int kTrials = 8;
+constexpr int kPeople = 200;
+constexpr int kTrials = 40;
 constexpr double kLimit = 300.0;  // s
 
 std::string phrases() {
@@ -127,16 +128,47 @@ double over_by_ticks(const SimulatedOperatorConfig& config, double angle, Stop s
   return (rig.yaw() - target) / kDegree;
 }
 
-/// The mean over people, each with a seed.
-double mean(const std::string& type, const std::function<double(SimulatedOperatorConfig)>& of) {
+/// One value a person, each of another seed.
+using Sample = std::vector<double>;
+
+Sample each(const std::string& type, const std::function<double(SimulatedOperatorConfig)>& of) {
+  Sample all;
+  for (int seed = 1; seed <= kPeople; ++seed) all.push_back(of(person(type, seed)));
+  return all;
+}
+
+double mean(const Sample& all, std::size_t but = std::string::npos) {
   double sum = 0.0;
-  for (int seed = 1; seed <= kPeople; ++seed) sum += of(person(type, seed));
-  return sum / kPeople;
+  for (std::size_t i = 0; i < all.size(); ++i) sum += i == but ? 0.0 : all[i];
+  return sum / static_cast<double>(but < all.size() ? all.size() - 1 : all.size());
+}
+
+struct Estimate {
+  double value = 0.0;
+  double error = 0.0;  ///< standard error
+};
+
+/// With the standard error of the jackknife.
+/// \param statistic  of all n persons but one; n: of all
+Estimate estimate(std::size_t n, const std::function<double(std::size_t but)>& statistic) {
+  Sample without;
+  for (std::size_t i = 0; i < n; ++i) without.push_back(statistic(i));
+  double squares = 0.0;
+  for (const double value : without) squares += std::pow(value - mean(without), 2);
+  return {statistic(n), std::sqrt(squares * static_cast<double>(n - 1) / static_cast<double>(n))};
+}
+
+/// Of the means of the same persons.
+Estimate difference(const Sample& a, const Sample& b) {
+  return estimate(a.size(), [&](std::size_t but) { return mean(a, but) - mean(b, but); });
+}
+Estimate ratio(const Sample& a, const Sample& b) {
+  return estimate(a.size(), [&](std::size_t but) { return mean(a, but) / mean(b, but); });
 }
 
 /// s that the person takes from the sound to the stop, on the mean: what a guide would learn.
 double delay_of(const std::string& type) {
-  return mean(type, [](auto who) { return over_by_ticks(who, 1.5, {}) * kDegree; }) / 1.2;
+  return mean(each(type, [](auto who) { return over_by_ticks(who, 1.5, {}) * kDegree; })) / 1.2;
 }
 
 /// What turns on the spot leave of the way to where the guide leads.
@@ -157,12 +189,8 @@ class Leavings {
       all_.push_back(std::abs(course_.steer_angle) / kDegree);
     turned_ = 0.0;
   }
-  /// deg, the median
-  [[nodiscard]] double median() {
-    if (all_.empty()) return 0.0;
-    std::nth_element(all_.begin(), all_.begin() + static_cast<long>(all_.size() / 2), all_.end());
-    return all_[all_.size() / 2];
-  }
+  /// deg, one a turn
+  [[nodiscard]] const std::vector<double>& all() const { return all_; }
 
  private:
   navvi_msgs::Guidance course_;
@@ -171,15 +199,15 @@ class Leavings {
   std::vector<double> all_;
 };
 
-/// Whole sessions: s, how far from the path on the mean, m, and what turns leave, deg.
-struct Way {
-  double time = 0.0;
-  double offset = 0.0;
-  double left = 0.0;
+/// Whole sessions, one value a trial: s, how far from the path on the mean, m, and what each turn
+/// left, deg.
+struct Ways {
+  Sample time;
+  Sample offset;
+  std::vector<std::vector<double>> left;
 };
-Way drive(const std::string& type, const std::vector<std::string>& words) {
-  Way all;
-  Leavings left;
+Ways drive(const std::string& type, const std::vector<std::string>& words) {
+  Ways all;
   for (int seed = 1; seed <= kTrials; ++seed) {
     loop::ClosedLoopConfig config;
     std::vector<std::string> set = words;
@@ -187,6 +215,7 @@ Way drive(const std::string& type, const std::vector<std::string>& words) {
                            "person/type:=" + type, "person/seed:=" + std::to_string(seed)});
     navvi_config::read(config, navvi_config::read_words(set), "bench");
     loop::ClosedLoop trial(config, phrases());
+    Leavings left;
     double offset = 0.0;
     int guidances = 0;
     const auto goal = [&] {
@@ -198,58 +227,88 @@ Way drive(const std::string& type, const std::vector<std::string>& words) {
       offset += std::abs(trial.told().guidance->path_offset);
       ++guidances;
     }
-    all.time += trial.time() / kTrials;
-    all.offset += guidances > 0 ? offset / guidances / kTrials : 0.0;
+    all.time.push_back(trial.time());
+    all.offset.push_back(guidances > 0 ? offset / guidances : 0.0);
+    all.left.push_back(left.all());
   }
-  all.left = left.median();
   return all;
 }
 
-/// \param published  0: only its sign is
-void row(const char* effect, const char* source, double published, double here, bool sign) {
-  const bool size = published == 0.0 || std::abs(here / published - 1.0) <= 0.5;
-  char known[32] = "sign";
-  if (published != 0.0) std::snprintf(known, sizeof known, "%.1f", published);
-  std::printf("| %s | %s | %s | %.2f | %s |\n", effect, source, known, here,
-              !sign  ? "DISAGREES in sign"
-              : size ? "agrees"
-                     : "agrees in sign, DISAGREES in size");
+/// Of what the turns of all trials but one left, deg.
+double median(const std::vector<std::vector<double>>& left, std::size_t but) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (i != but) all.insert(all.end(), left[i].begin(), left[i].end());
+  if (all.empty()) return 0.0;
+  const auto middle = all.begin() + static_cast<long>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+struct Published {
+  const char* effect;
+  const char* source;
+  double size = 0.0;   ///< 0: only its sign is published
+  double none = 0.0;   ///< what would be measured without the effect
+  bool below = false;  ///< the effect is less than that
+};
+
+std::string verdict(const Published& known, const Estimate& here) {
+  const double effect = (known.below ? -1.0 : 1.0) * (here.value - known.none);
+  if (std::abs(effect) <= 1.96 * here.error) return "sign open";
+  if (effect < 0.0) return "DISAGREES in sign";
+  if (known.size != 0.0 && std::abs(here.value / known.size - 1.0) > 0.5)
+    return "agrees in sign, DISAGREES in size";
+  return "agrees";
+}
+
+void row(const Published& known, const Estimate& here) {
+  char size[32] = "sign";
+  if (known.size != 0.0) std::snprintf(size, sizeof size, "%.1f", known.size);
+  std::printf("| %s | %s | %s | %.2f [%.2f, %.2f] | %s |\n", known.effect, known.source, size,
+              here.value, here.value - 1.96 * here.error, here.value + 1.96 * here.error,
+              verdict(known, here).c_str());
   std::fflush(stdout);
 }
 
 void turns(const std::string& type) {
   const double delay = delay_of(type);
-  const auto error = [&](double angle, Stop stop, double late = 0.0) {
-    return mean(type, [=](auto who) { return std::abs(over_by_ticks(who, angle, stop, late)); });
+  const auto error = [](auto who, double angle, Stop stop, double late = 0.0) {
+    return std::abs(over_by_ticks(who, angle, stop, late));
   };
-  const double words = mean(type, [](auto who) { return std::abs(over_by_words(who, 3)); });
-  const double ticks = error(1.5, {0.0, delay});
-  row("error of turns by words over that by a turn sound, the robot never slowed down",
-      "PerCom'19, 28 people", 3.5, words / ticks, words > ticks);
-  const double slight = mean(type, [](auto who) { return over_by_words(who, 1); });
-  const double ample = mean(type, [](auto who) { return over_by_words(who, 3); });
-  row("slight turns over-rotated more than ample ones, deg", "ASSETS'18, 11 people", 4.0,
-      slight - ample, slight > ample);
-  double fixed = 0.0, anticipated = 0.0;
-  for (const double angle : {0.5, 1.0, 1.5, 2.5}) {
-    fixed += error(angle, {1.2 * delay, 0.0}) / 4.0;
-    anticipated += error(angle, {0.0, delay}) / 4.0;
-  }
-  row("a stop at a fixed angle errs more than an anticipated one, deg", "TACCESS'19, 11 people",
-      0.0, fixed - anticipated, fixed > anticipated);
-  const double base = error(1.5, {0.0, delay});
-  // The guide does not know of it.
-  const double short_delay = error(1.5, {0.0, delay}, 0.1) - base;
-  const double long_delay = error(1.5, {0.0, delay}, 0.5) - base;
-  row("500 ms between stick and robot add to the error of turns, deg",
-      "arXiv 2508.18074, 10 people", 0.0, long_delay, long_delay > 0.0);
-  row("100 ms do not, as a share of that", "arXiv 2508.18074, 10 people", 0.0,
-      short_delay / long_delay, short_delay < 0.25 * long_delay);
+  const Stop early{0.0, delay};
+  row({"error of turns by words over that by a turn sound, the robot never slowed down",
+       "PerCom'19, 28 people", 3.5, 1.0},
+      ratio(each(type, [](auto who) { return std::abs(over_by_words(who, 3)); }),
+            each(type, [&](auto who) { return error(who, 1.5, early); })));
+  row({"slight turns over-rotated more than ample ones, deg", "ASSETS'18, 11 people", 4.0},
+      difference(each(type, [](auto who) { return over_by_words(who, 1); }),
+                 each(type, [](auto who) { return over_by_words(who, 3); })));
+  const auto stopped = [&](Stop stop) {
+    return each(type, [=](auto who) {
+      double sum = 0.0;
+      for (const double angle : {0.5, 1.0, 1.5, 2.5}) sum += error(who, angle, stop);
+      return sum / 4.0;
+    });
+  };
+  row({"a stop at a fixed angle errs more than an anticipated one, deg", "TACCESS'19, 11 people"},
+      difference(stopped({1.2 * delay, 0.0}), stopped(early)));
+  // The guide does not know of the delay.
+  const auto delayed = [&](double late) {
+    return each(type,
+                [=](auto who) { return error(who, 1.5, early, late) - error(who, 1.5, early); });
+  };
+  const Sample long_delay = delayed(0.5);
+  row({"500 ms between stick and robot add to the error of turns, deg",
+       "arXiv 2508.18074, 10 people"},
+      difference(long_delay, Sample(long_delay.size(), 0.0)));
+  row({"100 ms do not, as a share of that", "arXiv 2508.18074, 10 people", 0.0, 0.25, true},
+      ratio(delayed(0.1), long_delay));
 }
 
 void second_turns(const std::string& type) {
   const auto missed = [&](double speed) {
-    return mean(type, [=](SimulatedOperatorConfig who) {
+    return each(type, [=](SimulatedOperatorConfig who) {
       who.driving.cruise = speed;
       Rig rig(who);
       rig.wait(2.0);
@@ -259,30 +318,33 @@ void second_turns(const std::string& type) {
       return rig.yaw() < -45.0 * kDegree ? 1.0 : 0.0;
     });
   };
-  const double quick = missed(1.0), slow = missed(0.6);
-  row("the quick miss a second turn soon after the first more often, share", "IMWUT'18, 12 people",
-      0.0, quick - slow, quick > slow);
+  row({"the quick miss a second turn soon after the first more often, share",
+       "IMWUT'18, 12 people"},
+      difference(missed(1.0), missed(0.6)));
 }
 
 void ways(const std::string& type) {
   const std::string deaf = "feedback/sounds/enabled:=false";
   const std::string numb = "feedback/haptics/enabled:=false";
-  const Way speech = drive(type, {deaf, numb});
-  const Way spatial = drive(type, {numb});
-  const Way beacon =
+  const Ways speech = drive(type, {deaf, numb});
+  const Ways spatial = drive(type, {numb});
+  const Ways beacon =
       drive(type, {numb, "feedback/sounds/turn/on:=false", "feedback/sounds/beacon/on:=true"});
-  const Way touch = drive(type, {deaf, "speech:=false", "feedback/haptics/steer:=attractive",
-                                 "person/feeling/touch:=attractive"});
-  row("error of turns by words over that by the guide's turn sound", "PerCom'19, 28 people", 3.5,
-      speech.left / spatial.left, speech.left > spatial.left);
-  row("sounds from the side to turn to are quicker than speech, s", "Loomis 1998, Marston 2006",
-      0.0, speech.time - spatial.time, speech.time > spatial.time);
-  row("a beacon is quicker than speech, s", "Marston 2006, 8 people", 0.0,
-      speech.time - beacon.time, speech.time > beacon.time);
-  row("touch alone is slower than speech, s", "ToH 2015, 10 people", 0.0, touch.time - speech.time,
-      touch.time > speech.time);
-  row("touch alone is closer to the path than speech, m", "ToH 2015, 10 people", 0.0,
-      speech.offset - touch.offset, touch.offset < speech.offset);
+  const Ways touch = drive(type, {deaf, "speech:=false", "feedback/haptics/steer:=attractive",
+                                  "person/feeling/touch:=attractive"});
+  row({"error of turns by words over that by the guide's turn sound", "PerCom'19, 28 people", 3.5,
+       1.0},
+      estimate(kTrials, [&](std::size_t but) {
+        return median(speech.left, but) / median(spatial.left, but);
+      }));
+  row({"sounds from the side to turn to are quicker than speech, s", "Loomis 1998, Marston 2006"},
+      difference(speech.time, spatial.time));
+  row({"a beacon is quicker than speech, s", "Marston 2006, 8 people"},
+      difference(speech.time, beacon.time));
+  row({"touch alone is slower than speech, s", "ToH 2015, 10 people"},
+      difference(touch.time, speech.time));
+  row({"touch alone is closer to the path than speech, m", "ToH 2015, 10 people"},
+      difference(speech.offset, touch.offset));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ def effects(folder, measures):
             result = subprocess.run([NAVVI, "bench", "people", person], stdout=subprocess.PIPE, text=True, check=True)
             file.write_text(result.stdout, encoding="utf-8")
         text = file.read_text(encoding="utf-8") if file.exists() else ""
-        for effect, source, published, here, agrees in re.findall(r"^\| (.+) \| (.+) \| (.+) \| (-?[\d.]+) \| (.+) \|$", text, re.M):
+        for effect, source, published, here, agrees in re.findall(r"^\| (.+) \| (.+) \| (.+) \| (-?[\d.]+ \[.+\]) \| (.+) \|$", text, re.M):
             rows.setdefault((effect, source, published), []).append(f"{here} {agrees}")
     return [*tables.head("effect", "source", "published", *tables.TYPES), *(tables.line(*effect, *cells) for effect, cells in rows.items())]
 
@@ -81,8 +81,9 @@ def page(folder, found, known, notes, day):
         "Simulated people ([their traits](people.md)); nobody has driven yet. `./navvi bench guidance TRIALS -o doc/guidance.md` makes this page,",
         "but for the notes: it runs its batches in the folder TRIALS, or what is missing of them; `--as-is` shows those that are there.",
         f"Measured on {day} in world `busy`, on seeds that no tuning saw, limit 600 s. Intervals hold 95 % (bootstrap); changes are beside",
-        "`default` over the same worlds. `sighted` is the same hand led by eyes, and `sounds_off` leaves words and touch.", "",
-        *parts(folder, found), *section("Published effects", "`./navvi bench people TYPE`; sessions are of 8 trials each.", known), notes])
+        "`default` over the same worlds. In each world another person of the type drives, the same in all conditions; `sighted` is the same",
+        "hand led by eyes, and `sounds_off` leaves words and touch.", "",
+        *parts(folder, found), *section("Published effects", "`./navvi bench people TYPE`; 200 persons turn, 40 drive; intervals hold 95 % (jackknife over persons).", known), notes])
 
 
 def make(folder, file, jobs, as_is):
