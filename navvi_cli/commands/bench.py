@@ -63,7 +63,7 @@ def run(args):
     chosen = {name: path for name, path in chosen.items() if path.stem == f"{args.filter}_bench"} or chosen
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
-    shell("install_packages", "all")
+    shell("install_packages", "benchmarks")
     build("session", *(path.stem for path in chosen.values() if path.suffix == ".cpp"), *(target for name in chosen for target in NEEDS.get(name, [])))
     enter()
     failed = 0

@@ -35,9 +35,11 @@ missing_packages() {  # PACKAGE...
   comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<<"$installed")
 }
 # qt_packages [build]: what draws icons in RViz, or is also needed to build its plug-in, of the Qt that apt's RViz is linked to. Two
-# versions of Qt in one process end it by signal 11.
+# versions of Qt in one process end it by signal 11. apt needs a second for what dpkg knows of an RViz that is installed.
 qt_packages() {
-  case $(apt-cache depends rviz 2>/dev/null) in
+  local depends
+  depends=$(dpkg-query -W -f '${Depends}' rviz 2>/dev/null) || true
+  case ${depends:-$(apt-cache depends rviz 2>/dev/null)} in
     *libqt6*) echo qt6-svg-plugins "${1:+qt6-base-dev}" ;;
     *libqt5*) echo libqt5svg5 "${1:+qtbase5-dev}" ;;
   esac
@@ -55,14 +57,15 @@ installed_percent() {
   awk -F: '/^dlstatus:/ {done = $3 / 2} /^pmstatus:/ {done = 50 + $3 / 2} END {print int(done)}' "$1"
 }
 
-# install_packages [report|all]: what a session needs, what a study's report needs as well, or the tests.
+# install_packages [report|benchmarks|all]: what a session needs, and what a study's report, the benchmarks or the tests need as well.
 install_packages() {
   [[ -f /opt/ros/noetic/setup.bash ]] && return  # on Ubuntu, rosdep installs what package.xml names
   local needed=("${session_packages[@]}") missing as_root=() log=$root/.setup.log optional=() qt=()
   read -ra qt < <(qt_packages build) || true  # none where apt knows no RViz before its first update
   needed+=("${qt[@]}")
   [[ ${1:-} != report ]] || needed+=("${report_packages[@]}")
-  [[ ${1:-} != all ]] || needed+=("${test_packages[@]}") optional=("${optional_packages[@]}")
+  [[ ${1:-} != @(benchmarks|all) ]] || needed+=("${test_packages[@]}")
+  [[ ${1:-} != all ]] || optional=("${optional_packages[@]}")
   command -v apt-get >/dev/null || elsewhere
   missing=$(missing_packages "${needed[@]}")
   if [[ -z $missing && -n ${optional[*]} ]]; then
