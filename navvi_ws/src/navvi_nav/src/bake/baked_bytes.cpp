@@ -21,13 +21,16 @@ void put(ByteWriter& out, const map::Floor& floor) {
     out.put(number);
   std::vector<std::uint32_t> lengths;
   std::vector<std::uint8_t> kinds;
-  for (const map::Ground ground : floor.all_ground()) {
-    const auto kind = static_cast<std::uint8_t>(ground);
-    if (kinds.empty() || kinds.back() != kind) {
-      kinds.push_back(kind);
-      lengths.push_back(0);
+  for (int y = 0; y < floor.rows(); ++y) {
+    const map::Ground* row = floor.all_ground().row(y);
+    for (int x = 0; x < floor.columns(); ++x) {
+      const auto kind = static_cast<std::uint8_t>(row[x]);
+      if (kinds.empty() || kinds.back() != kind) {
+        kinds.push_back(kind);
+        lengths.push_back(0);
+      }
+      ++lengths.back();
     }
-    ++lengths.back();
   }
   out.put(lengths);
   out.put(kinds);
@@ -38,8 +41,8 @@ std::shared_ptr<const map::Floor> get_floor(ByteReader& in, int threads) {
   map::FloorGround ground;
   ground.origin.x = in.get<int>();
   ground.origin.y = in.get<int>();
-  ground.columns = in.get<int>();
-  ground.rows = in.get<int>();
+  const int columns = in.get<int>();
+  const int rows = in.get<int>();
   ground.cell_size = in.get<double>();
   ground.height = in.get<double>();
   map::FloorDistances distances;
@@ -47,15 +50,16 @@ std::shared_ptr<const map::Floor> get_floor(ByteReader& in, int threads) {
   distances.margin = in.get<double>();
   const auto lengths = in.get_all<std::uint32_t>();
   const auto kinds = in.get_all<std::uint8_t>();
-  std::size_t left =
-      static_cast<std::size_t>(ground.columns) * static_cast<std::size_t>(ground.rows);
-  ground.ground.reserve(left);
+  std::size_t left = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  std::vector<map::Ground> cells;
+  cells.reserve(left);
   for (std::size_t i = 0; i < std::min(lengths.size(), kinds.size()); ++i) {
     if (lengths[i] > left) return nullptr;
-    ground.ground.insert(ground.ground.end(), lengths[i], static_cast<map::Ground>(kinds[i]));
+    cells.insert(cells.end(), lengths[i], static_cast<map::Ground>(kinds[i]));
     left -= lengths[i];
   }
   if (left > 0 || !in.good()) return nullptr;
+  ground.ground = {columns, rows, cells.data()};
   return std::make_shared<const map::Floor>(std::move(ground), distances, threads);
 }
 

@@ -178,8 +178,7 @@ BakedMap bake_map(map::MapSurvey survey, const MapBakeConfig& config, const Bake
   if (!out.error.empty()) return out;
   out.record = std::move(survey.record);
   out.floor = std::make_shared<const map::Floor>(
-      map::FloorGround{survey.low, survey.columns, survey.rows, cell, survey.floor_height,
-                       std::move(survey.ground)},
+      map::FloorGround{survey.low, cell, survey.floor_height, std::move(survey.ground)},
       map::FloorDistances{config.margin + config.reach, config.margin}, config.threads,
       before != nullptr ? before->floor.get() : nullptr);
   out.tile_cells = tile_cells_of(config.tile_size / cell);

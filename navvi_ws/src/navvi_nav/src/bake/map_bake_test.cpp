@@ -145,10 +145,10 @@ TEST(MapBake, loses_no_way_that_is_3_cm_wider_than_the_robot) {
                            {},
                            "",
                            ""};
+    eighths.ground = {eighths.columns, eighths.rows};
     for (int y = 0; y < eighths.rows; ++y)
       for (int x = 0; x < eighths.columns; ++x)
-        eighths.ground.push_back(
-            survey.ground[static_cast<std::size_t>(y / kParts * survey.columns + x / kParts)]);
+        eighths.ground.own_row(y)[x] = survey.ground.at(x / kParts, y / kParts);
     MapBakeConfig config;
     config.tile_size = 4.0;
     const BakedMap map = bake_map(survey, config);
@@ -313,8 +313,7 @@ TEST(MapBake, surveys_a_large_map_that_changes_over_and_over_as_at_once) {
       ASSERT_TRUE(survey.ground == anew.ground) << seed << ' ' << round;
       in_part += survey.in_part ? 1 : 0;
       last = std::move(survey);
-      floor = map::Floor({last.low, last.columns, last.rows, last.cell_size, 0.0, last.ground},
-                         {0.1, 0.0});
+      floor = map::Floor({last.low, last.cell_size, 0.0, last.ground}, {0.1, 0.0});
     }
   }
   EXPECT_GT(in_part, 25);

@@ -107,8 +107,6 @@ void for_each_row(const ColumnSteps& columns, const Area& area, int reach, const
 
 Floor::Floor(FloorGround ground, const FloorDistances& distances, int threads, const Floor* before)
     : origin_(ground.origin),
-      columns_(ground.columns),
-      rows_(ground.rows),
       cell_size_(ground.cell_size),
       height_(ground.height),
       reach_(std::min(distances.reach, (kMaxReach - 1) * ground.cell_size)),
@@ -123,7 +121,7 @@ Point Floor::center_of(Cell cell) const {
 }
 
 Ground Floor::ground(Cell cell) const {
-  return contains(cell) ? ground_[index(cell)] : Ground::none;
+  return contains(cell) ? ground_.at(cell.x - origin_.x, cell.y - origin_.y) : Ground::none;
 }
 
 bool Floor::changed(const Area& wanted) const {
@@ -136,14 +134,15 @@ bool Floor::changed(const Area& wanted) const {
 }
 
 void Floor::note_changes(const Floor& before) {
-  changed_.resize(static_cast<std::size_t>(notes_across() * ((rows_ + kNote - 1) / kNote)));
+  changed_.resize(static_cast<std::size_t>(notes_across() * ((rows() + kNote - 1) / kNote)));
   const auto differ = [&](int x, int y, int count) {
-    const std::size_t at = index({origin_.x + x, origin_.y + y});
-    return std::memcmp(&ground_[at], &before.ground_[at], static_cast<std::size_t>(count)) != 0;
+    return std::memcmp(ground_.row(y) + x, before.ground_.row(y) + x,
+                       static_cast<std::size_t>(count)) != 0;
   };
-  for (int y = 0; y < rows_; ++y) {
-    for (int x = 0; x < columns_ && differ(x, y, columns_ - x); x += kNote)
-      if (differ(x, y, std::min(kNote, columns_ - x)))
+  for (int y = 0; y < rows(); ++y) {
+    if (ground_.shares(y, before.ground_)) continue;
+    for (int x = 0; x < columns() && differ(x, y, columns() - x); x += kNote)
+      if (differ(x, y, std::min(kNote, columns() - x)))
         changed_[static_cast<std::size_t>(y / kNote * notes_across() + x / kNote)] = true;
   }
 }
@@ -163,16 +162,24 @@ void Floor::measure(int threads, const Floor* before) {
     gap2_ = before->gap2_;
     open_ = before->open_;
   } else {
-    gap2_.resize(ground_.size());
-    open_.resize(ground_.size());
+    gap2_ = {columns(), rows()};
+    open_ = {columns(), rows()};
   }
-  const int across = (columns_ + kSquare - 1) / kSquare;
-  const int along = (rows_ + kSquare - 1) / kSquare;
-  in_parallel(across * along, threads, [&](int i) {
-    const Cell low{origin_.x + i % across * kSquare, origin_.y + i / across * kSquare};
-    const Area square = clipped({low, {low.x + kSquare, low.y + kSquare}}, area());
-    if (changed(grown(square, influence()))) measure(square);
-  });
+  std::vector<Area> squares;
+  for (Cell low = origin_; low.y < area().high.y; low.y += kSquare) {
+    for (low.x = origin_.x; low.x < area().high.x; low.x += kSquare) {
+      const Area square = clipped({low, {low.x + kSquare, low.y + kSquare}}, area());
+      if (changed(grown(square, influence()))) squares.push_back(square);
+    }
+  }
+  for (const Area& square : squares) {  // before threads write to them
+    for (int y = square.low.y; y < square.high.y; ++y) {
+      (void)gap2_.own_row(y - origin_.y);
+      (void)open_.own_row(y - origin_.y);
+    }
+  }
+  in_parallel(static_cast<int>(squares.size()), threads,
+              [&](int i) { measure(squares[static_cast<std::size_t>(i)]); });
 }
 
 /// Two passes: how far along each column, then the least sum over each row within reach.
@@ -184,14 +191,14 @@ void Floor::measure(const Area& square) {
   const double margin_cells = margin_ / cell_size_;
   const auto is_open = [](auto least) { return [least](auto gap2) { return gap2 >= least; }; };
   const auto keep_open = [&](int y, const auto* row, const auto& far_enough) {
-    std::uint8_t* open = open_.data() + index({square.low.x, y});
+    std::uint8_t* open = open_.own_row(y - origin_.y) + square.low.x - origin_.x;
     for (int x = 0; x < square.columns(); ++x) open[x] = far_enough(row[x]);
   };
   const auto whole = static_cast<std::uint16_t>(std::ceil(margin_cells * margin_cells - kRounding));
   const bool whole_cells = grow_ == 0;
   for_each_row<std::uint16_t>(
       columns, square, reach_cells_, Measure{}, [&](int y, const std::uint16_t* row) {
-        std::copy_n(row, square.columns(), gap2_.data() + index({square.low.x, y}));
+        std::copy_n(row, square.columns(), gap2_.own_row(y - origin_.y) + square.low.x - origin_.x);
         if (whole_cells) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
       });
   if (whole_cells) return;
@@ -219,7 +226,7 @@ std::vector<std::uint8_t> Floor::steps_along_columns(const Area& area) const {
   std::vector<std::uint8_t> out(width * static_cast<std::size_t>(area.rows()));
   std::vector<std::uint8_t> steps(width);
   const auto pass = [&](int y) {
-    const Ground* here = ground_.data() + index({area.low.x, y});
+    const Ground* here = ground_.row(y - origin_.y) + area.low.x - origin_.x;
     for (std::size_t x = 0; x < width; ++x) {
       const auto next = static_cast<std::uint8_t>(steps[x] + (steps[x] < cap));
       steps[x] = here[x] == Ground::floor ? next : std::uint8_t{0};
@@ -230,7 +237,7 @@ std::vector<std::uint8_t> Floor::steps_along_columns(const Area& area) const {
   };
   // Whatever blocks beyond these rows is too far away to count.
   const int first = std::max(origin_.y, area.low.y - reach_cells_);
-  const int last = std::min(origin_.y + rows_, area.high.y + reach_cells_) - 1;
+  const int last = std::min(origin_.y + rows(), area.high.y + reach_cells_) - 1;
   for (int y = first; y < area.high.y; ++y) {
     pass(y);
     if (y >= area.low.y) std::copy(steps.begin(), steps.end(), row_of(y));

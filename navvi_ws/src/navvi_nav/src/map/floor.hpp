@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry.hpp"
+#include "map/bands.hpp"
 
 namespace navvi_nav::map {
 
@@ -49,12 +50,10 @@ enum class Ground : std::uint8_t {
 
 /// The ground of a map, cell by cell.
 struct FloorGround {
-  Cell origin;  ///< the lower cell
-  int columns = 0;
-  int rows = 0;
-  double cell_size = 0.05;     ///< m
-  double height = 0.0;         ///< m, z of the floor in map
-  std::vector<Ground> ground;  ///< row by row
+  Cell origin;              ///< the lower cell
+  double cell_size = 0.05;  ///< m
+  double height = 0.0;      ///< m, z of the floor in map
+  Bands<Ground> ground;
 };
 
 /// What is to be known of the distances from each cell to what blocks, m.
@@ -74,7 +73,8 @@ class Floor {
 
   Floor() = default;
   /// \param threads  that may share the work
-  /// \param before  from where distances are taken over as far as the ground around is the same
+  /// \param before  from where distances are taken over, in shared memory, as far as the ground
+  /// around is the same
   Floor(FloorGround ground, const FloorDistances& distances, int threads = 1,
         const Floor* before = nullptr);
 
@@ -82,9 +82,9 @@ class Floor {
   [[nodiscard]] double cell_size() const { return cell_size_; }  ///< m
   [[nodiscard]] double height() const { return height_; }        ///< m, z of the floor in map
   [[nodiscard]] Cell origin() const { return origin_; }
-  [[nodiscard]] Area area() const { return {origin_, {origin_.x + columns_, origin_.y + rows_}}; }
-  [[nodiscard]] int columns() const { return columns_; }
-  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] Area area() const { return {origin_, {origin_.x + columns(), origin_.y + rows()}}; }
+  [[nodiscard]] int columns() const { return ground_.columns(); }
+  [[nodiscard]] int rows() const { return ground_.rows(); }
   [[nodiscard]] double reach() const { return reach_; }    ///< m
   [[nodiscard]] double margin() const { return margin_; }  ///< m, of open()
 
@@ -101,18 +101,16 @@ class Floor {
   [[nodiscard]] Ground ground(Cell cell) const;
   /// True if the whole cell, and grow() steps around it along each axis, keeps the margin from
   /// everything that blocks.
-  [[nodiscard]] bool open(Cell cell) const { return contains(cell) && open_[index(cell)] != 0; }
+  [[nodiscard]] bool open(Cell cell) const {
+    return contains(cell) && open_row(cell.y)[cell.x - origin_.x] != 0;
+  }
   /// Whole cells would round the margin up along walls; this is how much they took too much.
   [[nodiscard]] int grow() const { return grow_; }
   /// The open cells of a row that exists, 1 or 0, columns() of them from origin() on.
-  [[nodiscard]] const std::uint8_t* open_row(int y) const {
-    return open_.data() + index({origin_.x, y});
-  }
+  [[nodiscard]] const std::uint8_t* open_row(int y) const { return open_.row(y - origin_.y); }
   /// Squares of gap() in cells, of a row that exists, columns() of them from origin() on.
-  [[nodiscard]] const std::uint16_t* gap2_row(int y) const {
-    return gap2_.data() + index({origin_.x, y});
-  }
-  [[nodiscard]] const std::vector<Ground>& all_ground() const { return ground_; }  ///< row by row
+  [[nodiscard]] const std::uint16_t* gap2_row(int y) const { return gap2_.row(y - origin_.y); }
+  [[nodiscard]] const Bands<Ground>& all_ground() const { return ground_; }
   /// False if the ground of the area is as in the floor before, if there was one that lay alike.
   [[nodiscard]] bool changed(const Area& area) const;
   /// m, at most the distance from any point of the cell to a blocked cell; capped at reach().
@@ -129,15 +127,10 @@ class Floor {
   [[nodiscard]] std::vector<Cell> cells_along(Point a, Point b) const;
 
  private:
-  [[nodiscard]] std::size_t index(Cell cell) const {
-    return static_cast<std::size_t>(cell.y - origin_.y) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(cell.x - origin_.x);
+  [[nodiscard]] bool contains(Cell cell) const { return area().contains(cell); }
+  [[nodiscard]] int gap2(Cell cell) const {
+    return contains(cell) ? gap2_row(cell.y)[cell.x - origin_.x] : 0;
   }
-  [[nodiscard]] bool contains(Cell cell) const {
-    return cell.x >= origin_.x && cell.y >= origin_.y && cell.x < origin_.x + columns_ &&
-           cell.y < origin_.y + rows_;
-  }
-  [[nodiscard]] int gap2(Cell cell) const { return contains(cell) ? gap2_[index(cell)] : 0; }
   /// Cells along a row to the next one that may block.
   [[nodiscard]] int stride(Cell cell) const {
     return 1 + static_cast<int>(std::sqrt(static_cast<double>(gap2(cell))));
@@ -149,24 +142,22 @@ class Floor {
   /// Cells, from one to what may change anything that is kept of it.
   [[nodiscard]] int influence() const { return std::max(reach_cells_, margin_reach()); }
   static constexpr int kNote = 16;
-  [[nodiscard]] int notes_across() const { return (columns_ + kNote - 1) / kNote; }
+  [[nodiscard]] int notes_across() const { return (columns() + kNote - 1) / kNote; }
   void note_changes(const Floor& before);
   void measure(int threads, const Floor* before);
   void measure(const Area& square);
   [[nodiscard]] std::vector<std::uint8_t> steps_along_columns(const Area& area) const;
 
   Cell origin_;
-  int columns_ = 0;
-  int rows_ = 0;
   double cell_size_ = 0.05;
   double height_ = 0.0;
   double reach_ = 0.0;
   int reach_cells_ = 0;
   double margin_ = 0.0;
   int grow_ = 0;  // steps
-  std::vector<Ground> ground_;
-  std::vector<std::uint16_t> gap2_;  // cells squared, capped
-  std::vector<std::uint8_t> open_;
+  Bands<Ground> ground_;
+  Bands<std::uint16_t> gap2_;  // cells squared, capped
+  Bands<std::uint8_t> open_;
   std::vector<bool> changed_;  // squares of kNote cells, row by row; empty: all
 };
 

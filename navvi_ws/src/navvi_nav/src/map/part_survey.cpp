@@ -70,13 +70,10 @@ void put(const MapSurvey& part, const Area& columns, double voxel, MapSurvey& ou
     return static_cast<int>(std::floor(column * scale + 0.01));
   };
   const auto end = [&](int column) { return static_cast<int>(std::ceil(column * scale - 0.01)); };
-  const auto at = [](auto& survey, int x, int y) {
-    return survey.ground.begin() + std::ptrdiff_t{y - survey.low.y} * survey.columns + x -
-           survey.low.x;
-  };
   const int from = first(columns.low.x), to = end(columns.high.x);
   for (int y = first(columns.low.y); y < end(columns.high.y); ++y)
-    std::copy(at(part, from, y), at(part, to, y), at(out, from, y));
+    std::copy_n(part.ground.row(y - part.low.y) + from - part.low.x, to - from,
+                out.ground.own_row(y - out.low.y) + from - out.low.x);
 }
 
 /// The voxels of some columns, and of leaves that are larger than a block.

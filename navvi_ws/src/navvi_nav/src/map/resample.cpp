@@ -97,14 +97,16 @@ MapSurvey resample(GroundGrid grid, const SurveyConfig& how) {
   const bool same = std::abs(ratio - 1.0) * std::max(grid.columns, grid.rows) < kRounding &&
                     out.columns == grid.columns && out.rows == grid.rows;
   if (same) {
-    out.ground = std::move(grid.ground);
+    out.ground = {out.columns, out.rows, grid.ground.data()};
     return out;
   }
   const auto across = overlaps(out.low.x, out.columns, cell_size, grid.origin.x, grid.cell_size);
   const auto along = overlaps(out.low.y, out.rows, cell_size, grid.origin.y, grid.cell_size);
-  out.ground.reserve(across.size() * along.size());
-  for (const Overlap& rows : along) {
-    for (const Overlap& columns : across) out.ground.push_back(worst(grid, columns, rows));
+  out.ground = {out.columns, out.rows};
+  for (int y = 0; y < out.rows; ++y) {
+    Ground* row = out.ground.own_row(y);
+    for (const Overlap& columns : across)
+      *row++ = worst(grid, columns, along[static_cast<std::size_t>(y)]);
   }
   return out;
 }

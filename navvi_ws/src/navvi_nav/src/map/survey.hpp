@@ -23,7 +23,7 @@ struct SurveyConfig {
 
 struct SurveyRecord;
 
-/// What a map shows, seen from above: which squares are floor, row by row.
+/// What a map shows, seen from above: which squares are floor.
 struct MapSurvey {
   std::string error;          ///< a sentence if the map cannot be surveyed
   double cell_size = 0.0;     ///< m
@@ -31,7 +31,7 @@ struct MapSurvey {
   Cell low;                   ///< lower cell
   int columns = 0;
   int rows = 0;
-  std::vector<Ground> ground;
+  Bands<Ground> ground;
   std::string source = {};  ///< what a file says of itself; may be empty
   std::string levels;       ///< where the map shows floor, for a sentence; may be empty
   std::shared_ptr<const SurveyRecord> record = {};  ///< by which the next map can be compared
