@@ -24,9 +24,12 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
   const auto width = static_cast<std::size_t>(size_[0]);
   highest_.resize(width * static_cast<std::size_t>(size_[1]));
   rows_.resize(static_cast<std::size_t>(size_[1]));
-  const int bands = std::min(std::max(1, threads), size_[1]);
+  // Narrow bands need little room for spans that are to be joined; each looks at all octets.
+  constexpr std::size_t kBandColumns = 4U << 20U;
+  const int bands =
+      std::min(std::max({1, threads, static_cast<int>(highest_.size() / kBandColumns)}), size_[1]);
   lower_.resize(static_cast<std::size_t>(bands));
-  in_parallel(bands, bands, [&](int band) {
+  in_parallel(bands, threads, [&](int band) {
     std::vector<Lower>& lower = lower_[static_cast<std::size_t>(band)];
     const auto row_at = [&](int end) {
       return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);
@@ -34,6 +37,7 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
     for (const Octet& octet : voxels.octets) add(octet, row_at(band), row_at(band + 1), lower);
     settle(lower);
     lower.push_back({static_cast<std::uint32_t>(highest_.size()), {}});
+    lower.shrink_to_fit();
     const Lower* at = lower.data();
     for (int row = row_at(band); row < row_at(band + 1); ++row) {
       const std::size_t end = (static_cast<std::size_t>(row) + 1) * width;
@@ -172,13 +176,15 @@ double HeightField::touching_runs(const Voxels& voxels) {
 /// \param first_row, last_row  rows of columns to fill, the last excluded
 void HeightField::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
   const int side = 1 << octet.level;
+  const int first = octet.y - kMapCenter - low_[1];
+  if (first >= last_row || first + 2 * side <= first_row) return;
   const int z = octet.z - kMapCenter - low_[2];
   for (int quarter = 0; quarter < 4; ++quarter) {
     const bool in_low = ((octet.mask >> quarter) & 1) != 0;
     const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
     if (!in_low && !in_high) continue;
     const int x = octet.x - kMapCenter - low_[0] + ((quarter & 1) != 0 ? side : 0);
-    const int y = octet.y - kMapCenter - low_[1] + ((quarter & 2) != 0 ? side : 0);
+    const int y = first + ((quarter & 2) != 0 ? side : 0);
     const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
                       static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
     const int from = std::max(x, 0), to = std::min(x + side, size_[0]);
