@@ -59,11 +59,13 @@ Problem write_atomically(const fs::path& path, std::string_view bytes, const Sys
 std::optional<std::string> read_file(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
-  const auto size = fs::file_size(path, error);
-  if (error || size > (256u << 20)) return std::nullopt;
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes(size, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  // Of the file that was opened: meanwhile another may have taken its name.
+  const std::streamoff size = stream ? std::streamoff{stream.tellg()} : -1;
+  if (size < 0 || size > (256 << 20)) return std::nullopt;
+  stream.seekg(0);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  stream.read(bytes.data(), size);
   if (!stream.good() && !stream.eof()) return std::nullopt;
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
   return bytes;
