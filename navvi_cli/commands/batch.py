@@ -127,15 +127,26 @@ def shard_of(text):
     return int(found[1]), int(found[2])
 
 
+def locked(file):
+    """Whether this process has the file for itself."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
 class Rows:
     """The rows of a shard: whole lines, each on the disk before the next begins. What a kill has torn is cut off."""
 
     def __init__(self, path):
         self.file = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-        try:
-            fcntl.flock(self.file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            fail(f"{path} is being written by another process; one shard is run once at a time.", 2)
+        # A batch that was killed while it began a trial leaves the lock to that trial's process until its program runs.
+        end = time.monotonic() + 2.0
+        while not locked(self.file):
+            if time.monotonic() > end:
+                fail(f"{path} is being written by another process; one shard is run once at a time.", 2)
+            time.sleep(0.05)
         whole = read(path).rpartition("\n")[0]
         os.ftruncate(self.file, len(whole.encode()) + 1 if whole else 0)
         os.lseek(self.file, 0, os.SEEK_END)
