@@ -72,7 +72,8 @@ class Words(dict):
             if "/" in name and parts:
                 self.take_parameter(name, value, known, parts, fixed)
             elif name not in known:
-                fail(f"\"{name}\" is unknown; known are: {' '.join(sorted(known))}", 2)
+                more = "; parameters are given with their part, such as feedback/language:=es" if "feedback" in parts else ""
+                fail(f"\"{name}\" is unknown; known are: {' '.join(sorted(known))}{more}", 2)
             elif name in self:
                 fail(f"\"{name}\" is given twice; once is allowed.", 2)
             else:
