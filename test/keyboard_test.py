@@ -14,7 +14,7 @@ from display import Display
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # How xdotool finds a window, and a word of its title.
-KEYS = ("--class", "feedback_node", "NavVI")
+KEYS = ("--class", "key_window", "NavVI")
 PICTURE = ("--name", "RViz$", "RViz")
 OTHER = ("--name", "Event Tester", "Event Tester")  # xev's, in the part of RViz
 
@@ -30,7 +30,8 @@ class Keys:
         echoes = {topic: self.start("rostopic", "echo", "-p", topic, output=folder / name)
                   for name, topic in (("commands", "/cmd_vel"), ("cues", "/navvi/cues"))}
         self.processes.extend(echoes.values())
-        self.processes.append(self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false", "_listener:=topic"))
+        self.node = self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false", "_listener:=topic")
+        self.processes.append(self.node)
         for topic, echo in echoes.items():
             # By name: those of the test before may still be on the master's list.
             ends = "* /feedback_node ", f"* /rostopic_{echo.pid}_"
@@ -182,6 +183,27 @@ def test_keys_drive_only_where_they_are_meant(keys):
     keys.xdotool("keydown", "Up")
     assert eventually(lambda: keys.command() > 0.8)
     keys.xdotool("keyup", "Up")
+
+
+def test_F6_keys_are_lost_with_the_display_and_return_with_it(keys):
+    keys.window(KEYS)
+    assert eventually(lambda: keys.has_focus(KEYS))
+    time.sleep(1)  # neutral
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    keys.display.close()
+    assert eventually(lambda: keys.command() == 0.0, 0.5)
+    assert eventually(lambda: keys.said("keyboard_lost"))
+    assert keys.node.poll() is None, "the guide goes on"
+
+    keys.display.start()
+    keys.processes.append(keys.start("openbox"))
+    keys.window(KEYS)
+    assert eventually(lambda: keys.has_focus(KEYS))
+    time.sleep(1)
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    assert keys.node.poll() is None
 
 
 def test_keys_typed_into_the_picture_drive_too(keys):

@@ -102,6 +102,8 @@ std::vector<Note> notes(sounds::Earcon earcon) {
       return {{V::bell, 880.0, 880.0, 0.08}};
     case Earcon::sonar:
       return {{V::bell, 2600.0, 2600.0, 0.04}};
+    case Earcon::unsaid:  // as a mumbled word
+      return {{V::horn, 330.0, 262.0, 0.15}, kRest, {V::horn, 330.0, 196.0, 0.3}};
   }
   return {};
 }

@@ -65,7 +65,7 @@ void InputSource::receive(const drive::InputState& input, double time) {
   if (keyboard_) keyboard_->give_way();
 }
 
-drive::InputState InputSource::read(double time) const {
+drive::InputState InputSource::read(double time) {
   if (pad_) return pad_->input();
   const bool fresh = received_at_ && time - *received_at_ <= kTimeout && received_.live;
   drive::InputState now = fresh ? received_ : drive::InputState{};

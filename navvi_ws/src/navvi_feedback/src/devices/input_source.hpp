@@ -29,7 +29,7 @@ class InputSource {
   void receive(const drive::InputState& input, double time);
   /// Not live if the device is gone, or if the last message is older than 250 ms. A change from one
   /// window to another is another session.
-  [[nodiscard]] drive::InputState read(double time) const;
+  [[nodiscard]] drive::InputState read(double time);
 
   [[nodiscard]] Kind kind() const { return kind_; }
   /// nullptr unless kind() is pad.

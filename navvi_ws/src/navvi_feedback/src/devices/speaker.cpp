@@ -107,7 +107,7 @@ std::vector<sounds::Play> Speaker::take_played() {
 void Speaker::run(std::promise<void> ready) {
   std::optional<Voice> voice;
   try {
-    voice.emplace(config_.voice, config_.rate, config_.pitch);
+    voice.emplace(config_.voice, config_.pitch);
     ready.set_value();
   } catch (...) {
     ready.set_exception(std::current_exception());
@@ -116,11 +116,15 @@ void Speaker::run(std::promise<void> ready) {
   while (auto job = next()) {
     if (!job->text) {
       mixer_.tend();
-      continue;
+      voice->tend();
     }
-    voice->set_rate(job->rate);
-    const bool spoken = speak(*voice, *job);
-    finish(job->generation, spoken);
+    const bool spoken = job->text && speak(*voice, *job);
+    const std::lock_guard lock(mutex_);
+    status_.losses = voice->losses();
+    status_.works = voice->works();
+    if (!job->text || job->generation != generation_) continue;
+    busy_ = false;
+    ++(spoken ? status_.spoken : status_.failed);
   }
 }
 
@@ -130,11 +134,15 @@ bool Speaker::speak(Voice& voice, Job& job) {
   bool spoken = true;
   for (std::size_t part = 0; !rest.empty() && !cancelled(); ++part) {
     const auto comma = part < job.scan.size() ? rest.find(", ") : std::string::npos;
-    const Sound sound = voice.synthesize(rest.substr(0, comma), cancelled);
+    const std::string words = rest.substr(0, comma);
+    auto sound = voice.synthesize(words, job.rate);
+    if (!sound && !cancelled()) sound = voice.synthesize(words, job.rate);
     rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
-    spoken = spoken && !sound.samples.empty();
+    const bool said = sound && !sound->samples.empty();
+    spoken = spoken && said;
     if (part < job.scan.size() && job.scan[part].volume > 0.0) play_first(job.scan[part], job);
-    if (!cancelled()) play(sound, job);
+    if (!said && !cancelled()) play_first({sounds::Earcon::unsaid}, job);
+    if (said && !cancelled()) play(*sound, job);
   }
   return spoken;
 }
@@ -206,13 +214,6 @@ void Speaker::fall_silent() {
     silent = std::exchange(silent_, {});
   }
   if (silent) silent();
-}
-
-void Speaker::finish(unsigned long generation, bool done) {
-  const std::lock_guard lock(mutex_);
-  if (generation != generation_) return;
-  busy_ = false;
-  ++(done ? status_.spoken : status_.failed);
 }
 
 }  // namespace navvi_feedback::devices

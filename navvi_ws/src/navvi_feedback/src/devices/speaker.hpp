@@ -25,14 +25,17 @@ struct SpeakerConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// The voice: espeak-ng into the mixer. It owns the library and one thread, which also looks after
-/// the mixer's device. Without one it keeps quiet for as long as speaking would take, so that the
-/// times of the cues stay true. There is one Speaker in a process at a time.
+/// The voice: espeak-ng into the mixer. It owns the voice's process and one thread, which also
+/// looks after the mixer's device. Without one it keeps quiet for as long as speaking would take, so
+/// that the times of the cues stay true. A sentence over which the process is lost is spoken by the
+/// next one; after a second loss a sound says that words are missing.
 class Speaker {
  public:
   struct Status {
     unsigned spoken = 0;
-    unsigned failed = 0;  ///< texts that the synthesizer refused
+    unsigned failed = 0;  ///< texts that were not spoken
+    unsigned losses = 0;  ///< of the voice's process
+    bool works = true;    ///< there is a process that speaks
   };
 
   /// \param mixer  outlives this \throws DeviceError with a sentence if the voice cannot be loaded
@@ -78,7 +81,6 @@ class Speaker {
   void play(const Sound& sound, Job& job);
   void play_first(const sounds::Play& play, Job& job);
   void fall_silent();
-  void finish(unsigned long generation, bool done);
 
   SpeakerConfig config_;
   Mixer& mixer_;

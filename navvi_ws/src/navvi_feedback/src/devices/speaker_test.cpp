@@ -1,9 +1,13 @@
 #include "devices/speaker.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <navvi_config/reader.hpp>
 #include <vector>
 
@@ -53,12 +57,6 @@ TEST(Speaker, rejects_a_voice_that_does_not_exist) {
   EXPECT_THROW(Speaker(config, mixer), DeviceError);
 }
 
-TEST(Speaker, is_one_at_a_time) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  const Speaker speaker(SpeakerConfig{}, mixer);
-  EXPECT_THROW(Speaker(SpeakerConfig{}, mixer), DeviceError);
-}
-
 TEST(Speaker, keeps_quiet_for_as_long_as_speaking_takes_when_it_has_no_device) {
   Mixer mixer(MixerConfig{}, Audio::off);
   Speaker speaker(SpeakerConfig{}, mixer);
@@ -97,6 +95,70 @@ TEST(Speaker, speaks_another_language_with_its_letters) {
   EXPECT_EQ(speaker.status().failed, 0U);
 }
 
+/// The voices' processes.
+std::vector<pid_t> voices() {
+  std::vector<pid_t> found;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream children(thread.path() / "children");
+    for (pid_t id = 0; children >> id;) found.push_back(id);
+  }
+  return found;
+}
+
+TEST(Speaker, F4_says_a_sentence_whose_voice_is_killed_by_the_next_voice) {
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
+  for (unsigned i = 1; i <= 20; ++i) {
+    ASSERT_EQ(voices().size(), 1U);
+    ::kill(voices().front(), SIGKILL);
+    speaker.start("stop");
+    ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+    EXPECT_EQ(speaker.status().spoken, i);
+    EXPECT_EQ(speaker.status().losses, i);
+  }
+  EXPECT_EQ(speaker.status().failed, 0U);
+}
+
+TEST(Speaker, F4_kills_a_voice_that_hangs_and_says_its_sentence_by_another) {
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
+  const pid_t hangs = voices().at(0);
+  ::kill(hangs, SIGSTOP);
+  speaker.start("stop");
+  ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+  EXPECT_EQ(speaker.status().spoken, 1U);
+  EXPECT_EQ(speaker.status().losses, 1U);
+  EXPECT_NE(voices().at(0), hangs);
+}
+
+TEST(Speaker, F4_replaces_a_voice_that_ends_while_nothing_is_said) {
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
+  ::kill(voices().at(0), SIGKILL);
+  EXPECT_TRUE(wait_for([&] { return speaker.status().losses == 1; }));
+  EXPECT_TRUE(speaker.status().works);
+}
+
+TEST(Speaker, F4_plays_a_sound_for_words_that_no_voice_says) {
+  Mixer mixer(MixerConfig{}, Audio::off);
+  Speaker speaker(SpeakerConfig{}, mixer);
+  const pid_t voice = voices().at(0);
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  const rlimit none{3, files.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &none);  // no process can be started
+  ::kill(voice, SIGKILL);
+  speaker.start("stop");
+  EXPECT_TRUE(wait_for([&] { return !speaker.busy(); }));
+  ::setrlimit(RLIMIT_NOFILE, &files);
+  EXPECT_EQ(speaker.take_played().size(), 1U);
+  EXPECT_EQ(speaker.status().failed, 1U);
+  EXPECT_FALSE(speaker.status().works);
+  speaker.start("stop");
+  EXPECT_TRUE(wait_for([&] { return speaker.status().spoken == 1; }));
+  EXPECT_TRUE(speaker.status().works);
+}
+
 /// Hz, of the lag at which a vowel is most like itself.
 double fundamental(const Sound& sound) {
   const auto like = [&](std::size_t lag) {
@@ -112,7 +174,7 @@ double fundamental(const Sound& sound) {
 
 TEST(Speaker, speaks_higher_at_a_higher_pitch) {
   const auto pitch = [](int value) {
-    return fundamental(Voice("en", 80, value).synthesize("ah ah ah", [] { return false; }));
+    return fundamental(Voice("en", value).synthesize("ah ah ah", 80).value());
   };
   EXPECT_GT(pitch(80), 1.2 * pitch(20));
 }

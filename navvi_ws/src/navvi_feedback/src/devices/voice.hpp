@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "process/child.hpp"
 
 namespace navvi_feedback::devices {
 
@@ -16,29 +19,36 @@ struct Sound {
   [[nodiscard]] double duration() const { return static_cast<double>(samples.size()) / rate; }
 };
 
-/// espeak-ng, which is one for the whole process and bears one user at a time: construct and
-/// use it in one thread.
+/// espeak-ng in a process of its own (espeak_voice), which is started anew after it crashed, hung
+/// or was killed. For one thread, and no longer than that lives.
 class Voice {
  public:
-  /// \param name  of an espeak-ng voice; empty for "en" \param rate  words a minute, 80..449
-  /// \param pitch  0..99
-  /// \throws DeviceError if the library, its data or the voice cannot be loaded, or if another
-  /// Voice lives
-  Voice(const std::string& name, int rate, int pitch);
-  ~Voice();
-  Voice(const Voice&) = delete;
-  Voice& operator=(const Voice&) = delete;
-
-  /// \param rate  words a minute, 80..449
-  void set_rate(int rate);
+  /// \param name  of an espeak-ng voice; empty for "en" \param pitch  0..99
+  /// \throws DeviceError if the library, its data or the voice cannot be loaded
+  Voice(const std::string& name, int pitch);
 
   /// Markup in the text is read aloud, not obeyed.
-  /// \param cancelled  asked often; once true, synthesis ends
-  /// \return no samples if it failed or was cancelled
-  [[nodiscard]] Sound synthesize(const std::string& text, const std::function<bool()>& cancelled);
+  /// \param rate  words a minute, 80..449
+  /// \return no samples if espeak-ng cannot speak the text; nullopt if its process ended over it, or
+  /// hung for a second. That is running again then, if it can.
+  [[nodiscard]] std::optional<Sound> synthesize(const std::string& text, int rate);
+
+  /// Between sentences: starts a process anew that was lost.
+  void tend();
+
+  /// Whether there is a process that speaks.
+  [[nodiscard]] bool works() const { return child_ != nullptr; }
+  /// How often its process was lost.
+  [[nodiscard]] unsigned losses() const { return losses_; }
 
  private:
-  int sample_rate_ = 0;
+  /// \return empty, or a sentence on why there is none
+  [[nodiscard]] std::string start();
+  void replace();
+
+  std::vector<std::string> arguments_;
+  std::unique_ptr<process::Child> child_;  ///< nullptr: it could not be started anew
+  unsigned losses_ = 0;
 };
 
 }  // namespace navvi_feedback::devices

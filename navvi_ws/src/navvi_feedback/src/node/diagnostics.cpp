@@ -95,14 +95,18 @@ DiagnosticStatus audio_status(const devices::Mixer::Status& mixer) {
 }
 
 DiagnosticStatus speech_status(const devices::Speaker::Status& speaker, const std::string& voice) {
-  const bool failed = speaker.failed > 0;
-  DiagnosticStatus result =
-      status("navvi/speech", failed ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
-             failed ? "Some texts could not be spoken." : "Ready.");
-  add(result, "state", "works");
+  DiagnosticStatus result = status("navvi/speech", DiagnosticStatus::OK, "Ready.");
+  if (!speaker.works)
+    result = status("navvi/speech", DiagnosticStatus::ERROR, "The voice's process does not start.");
+  else if (speaker.failed > 0)
+    result = status("navvi/speech", DiagnosticStatus::WARN, "Some texts were not spoken.");
+  else if (speaker.losses > 0)
+    result = status("navvi/speech", DiagnosticStatus::WARN, "The voice's process was lost, and runs again.");
+  add(result, "state", speaker.works ? "works" : "missing");
   add(result, "voice", voice);
   add(result, "spoken", std::to_string(speaker.spoken));
   add(result, "failed", std::to_string(speaker.failed));
+  add(result, "losses", std::to_string(speaker.losses));
   return result;
 }
 

@@ -48,7 +48,7 @@ senses::Devices PersonDevices::read(double time) {
   senses::Devices now;
   now.hands = source_.read(time);
   now.keyboard = source_.kind() == InputSource::Kind::keyboard;
-  now.audio = link_of(mixer_.status().device);
+  now.audio = speech_.status().works ? link_of(mixer_.status().device) : senses::Link::lost;
   now.words = speech_wanted_ || by_topic();
   now.sounds = heard();
   now.motors = !own || own->connected;

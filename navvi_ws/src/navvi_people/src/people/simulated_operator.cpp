@@ -160,6 +160,7 @@ void SimulatedOperator::follow(const Tone& tone, double time) {
     case Earcon::arrived:
     case Earcon::beacon:
     case Earcon::sonar:
+    case Earcon::unsaid:
       return;
   }
 }

@@ -10,7 +10,8 @@ namespace {
 
 /// Columns that older summaries lack, besides those of the latency.
 constexpr const char* kNewer[] = {"parameters",    "version",       "started_utc",
-                                  "reroute_count", "sounds_played", "patterns_felt"};
+                                  "reroute_count", "sounds_played", "patterns_felt",
+                                  "device_loss_count"};
 
 /// Of TRIAL_START: where the trial stands in a study, and on what it ran. Older summaries lack
 /// them.
@@ -153,6 +154,11 @@ bool stops_safely(const Row& row) {
          row.fields.get("held", "no") == "no";
 }
 
+/// Pad, audio or voice. That feedback_node was silent is no message of a bag.
+bool loses_device(const Row& row) {
+  return row.type == "DEVICE_LOST" && row.fields.get("device") != "feedback";
+}
+
 /// \param tally  the last row with sums of the trial so far
 void add_counts(Summary& summary, const std::vector<Row>& rows, const Row* tally) {
   const Row* start = first_of(rows, "TRIAL_START");
@@ -162,6 +168,7 @@ void add_counts(Summary& summary, const std::vector<Row>& rows, const Row* tally
     return blind ? "unknown" : count_of(rows, "COLLISION", what);
   };
   const auto stops = std::count_if(rows.begin(), rows.end(), stops_safely);
+  const auto losses = std::count_if(rows.begin(), rows.end(), loses_device);
   const Summary counts = {
       {"shelf_collision_count", collisions("shelf")},
       {"obstacle_collision_count", collisions("obstacle")},
@@ -172,7 +179,8 @@ void add_counts(Summary& summary, const std::vector<Row>& rows, const Row* tally
       {"stuck_count", count_of(rows, "STUCK")},
       {"replan_count", replan ? replan->fields.get("count") : "0"},
       {"reroute_count", cell_of(tally, "reroutes")},
-      {"safe_stop_count", std::to_string(stops)}};
+      {"safe_stop_count", std::to_string(stops)},
+      {"device_loss_count", std::to_string(losses)}};
   summary.insert(summary.end(), counts.begin(), counts.end());
 }
 

@@ -168,5 +168,17 @@ TEST(Summary, wheels_that_were_held_before_they_turned_are_no_safe_stop) {
   EXPECT_EQ(std::stoi(columns(rows)["safe_stop_count"]), before) << "they stood already";
 }
 
+TEST(Summary, F4_counts_the_devices_that_were_lost) {
+  auto rows = example().rows;
+  const auto before = std::stoi(columns(rows)["device_loss_count"]);
+  Row lost = rows.back();
+  lost.type = "DEVICE_LOST";
+  for (const char* device : {"speech", "pad", "feedback"}) {
+    lost.fields = Fields().set("device", device);
+    rows.push_back(lost);
+  }
+  EXPECT_EQ(std::stoi(columns(rows)["device_loss_count"]), before + 2);
+}
+
 }  // namespace
 }  // namespace navvi_study::record

@@ -417,13 +417,24 @@ std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {
     if (latencies_.size() > kReports) latencies_.erase(latencies_.begin());
   }
   const auto known = devices_.find(device.device);
-  const bool changed = known != devices_.end() && known->second != device.state;
-  devices_[device.device] = device.state;
-  if (!inside || !changed) return {};
-  record::Fields fields = place();
-  fields.set("device", device.device);
-  return {{device.state == DeviceState::works ? "DEVICE_BACK" : "DEVICE_LOST", fields, device.stamp,
-           true}};
+  const auto losses = [](const DeviceReport& report) {
+    const auto count = report.traits.find("losses");
+    return count == report.traits.end() ? std::string("0") : count->second;
+  };
+  if (known == devices_.end() || !inside) {
+    devices_[device.device] = device;
+    return {};
+  }
+  const DeviceReport before = std::exchange(known->second, device);
+  const auto event = [&](const char* type) {
+    return Event{type, place().set("device", device.device), device.stamp, true};
+  };
+  if (before.state != device.state)
+    return {event(device.state == DeviceState::works ? "DEVICE_BACK" : "DEVICE_LOST")};
+  // It was back before it was reported lost.
+  if (losses(before) != losses(device) && losses(device) != "0")
+    return {event("DEVICE_LOST"), event("DEVICE_BACK")};
+  return {};
 }
 
 std::vector<Event> TrialMonitor::observe(const StateHash& state) {

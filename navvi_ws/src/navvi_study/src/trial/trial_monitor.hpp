@@ -45,7 +45,7 @@ struct DeviceReport {
   std::int64_t stamp = 0;
   std::string device;  ///< pad, audio, speech; latency tells what the person waited for
   DeviceState state = DeviceState::missing;
-  std::map<std::string, std::string> traits = {};  ///< such as name, firmware, voice
+  std::map<std::string, std::string> traits = {};  ///< such as name, firmware, voice, losses
 };
 
 /// How far another clock, such as that of a lab's recorder, is ahead of this computer's monotonic
@@ -212,7 +212,7 @@ class TrialMonitor {
   DriveState::Reason stopped_for_ =
       DriveState::Reason::none;  ///< by the last stage before the wheels
   std::string intruder_;         ///< that stage ignores this node
-  std::map<std::string, DeviceState> devices_;
+  std::map<std::string, DeviceReport> devices_;
   std::vector<DeviceReport> latencies_;   ///< the last ones, as an end may be told after it
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
   GoalFate goal_;

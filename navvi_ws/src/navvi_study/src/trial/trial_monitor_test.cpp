@@ -372,6 +372,18 @@ TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
             Names{"DEVICE_BACK"});
 }
 
+TEST_F(Monitor, F4_records_a_voice_that_was_lost_and_back_between_two_reports) {
+  const auto report = [&](int second, const char* losses) {
+    return types(monitor_.observe(
+        DeviceReport{second * kSecond, "speech", DeviceState::works, {{"losses", losses}}}));
+  };
+  EXPECT_TRUE(report(11, "1").empty()) << "before the trial";
+  EXPECT_TRUE(report(12, "1").empty());
+  EXPECT_EQ(report(13, "2"), (Names{"DEVICE_LOST", "DEVICE_BACK"}));
+  EXPECT_TRUE(report(14, "0").empty()) << "another feedback_node";
+  EXPECT_EQ(report(15, "1"), (Names{"DEVICE_LOST", "DEVICE_BACK"}));
+}
+
 TEST_F(Monitor, T1_records_a_clock_that_jumps_while_the_wheels_stand_for_another_reason) {
   ASSERT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
   DriveState jumped = stopped(12);
