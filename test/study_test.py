@@ -368,6 +368,13 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
             journal.Journal(kept.path).rows()
 
 
+def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
+    for content in (b"{", b"\xff", b"[]", b"{}"):
+        work.study.frozen_file.write_bytes(content)
+        with pytest.raises(StudyError, match="restore it from a copy"):
+            work.study.require_frozen()
+
+
 def _write_for_ever(path):
     kept = journal.Journal(path)
     for number in itertools.count():
@@ -617,6 +624,72 @@ def test_marks_and_interventions_stand_in_the_table(work):
     row = table.trials(work.study, work.study.progress())[0]
     assert (row["marks"], row["interventions"]) == ("2", "1")
     assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot", ""]
+
+
+def test_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
+    begun = work()
+    begun.next("sub-01")
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    reader, writer = os.pipe()
+    os.write(writer, b"n caf\xe9\nn one\xe2\x80\xa8two\xe2\x80\xa9three\xc2\x85four\nwhat\nwhat\ni led the robot")
+    os.close(writer)
+    desk = runner.Desk(None, lambda row: work.study.note("sub-01", attempt, row), runner.Lines(reader))
+    for _ in range(6):
+        desk.listen(0.0)
+    assert [note["text"] for note in work.study.notes("sub-01")] == ["caf\ufffd", "one\u2028two\u2029three\x85four", "led the robot"]
+    told = capsys.readouterr().out
+    assert told.count("\"what\" is not understood") == 2 and told.count(runner.DESK) == 1
+    row = table.trials(work.study, work.study.progress())[0]
+    assert (row["marks"], row["interventions"]) == ("2", "1")
+
+
+@pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])
+def test_a_note_that_cannot_be_written_is_told_and_the_trial_is_ended_all_the_same(problem, capsys, monkeypatch):
+    ended = []
+    monkeypatch.setattr(runner.os, "killpg", lambda *given: ended.append(given))
+
+    def note(row):
+        raise problem
+    desk = runner.Desk(type("Process", (), {"pid": 7}), note)
+    desk.obey("n the door opened")
+    desk.obey("a")
+    assert capsys.readouterr().out.count("is NOT written") == 2 and ended == [(7, signal.SIGINT)]
+
+
+def test_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_over(work):
+    from navvi_study import verify
+    rest(work())
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    for text in ("one", "two"):
+        work.study.note("sub-01", attempt, {"utc": "2026-01-01T00:00:00Z", "mono_ns": 1, "type": "note", "text": text})
+    assert verify.notes_and_answers(work.study, work.study.progress())[1:] == ({"notes": 2, "answers": 12}, 0)
+    for kind, damage in (("notes", b'{"step": "s1-c1-trial-1", "att\n[1]\n'), ("answers", b"\xff\n" + b"[" * 100000 + b"\n")):
+        with open(work.study.home("sub-01") / f"{kind}.jsonl", "ab") as file:
+            file.write(damage)
+    sentences, counts, lost = verify.notes_and_answers(work.study, work.study.progress())
+    assert sentences[0] == "sub-01: notes 2 of 4, answers 12 of 14." and counts == {"notes": 4, "answers": 14} and lost == 4
+    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
+             for kind, numbers in (("notes", (3, 4)), ("answers", (13, 14))) for number in numbers]
+    assert sentences[1:] == named and all(f"  {sentence}" in overview.status(work.study, work.study.progress()) for sentence in named)
+    assert len(table.answers(work.study, work.study.progress())) == 12
+
+
+def test_a_reason_that_is_not_utf_8_leaves_the_journal_whole(work):
+    rest(work())
+    actions.Exclude.run(type("Args", (), {"plan": work.study.plan.file, "what": "sub-01", "reason": "caf\udce9", "no_replacement": False}))
+    assert work.study.journal.rows()[-1]["reason"] == "caf?" == journal.Journal(work.study.journal.path).rows()[-1]["reason"]
+
+
+def test_a_record_whose_bytes_are_not_utf_8_is_read(work):
+    rest(work())
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    trial = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
+    write_record(trial)
+    for name, more in (("events.csv", b"3.000,0,t,caf\xe9\xe2\x80\xa8,1.0,2.0,n/a\n"), ("journal.csv", b"\x85\xff\n"), ("summary.csv", b"\xff")):
+        with open(trial / name, "ab") as file:
+            file.write(more)
+    assert [row["trial_type"] for row in table.events(work.study, work.study.progress())] == ["goal reached", "caf\ufffd\u2028"]
+    assert len(record.Record(trial).rows) == 3
 
 
 def write_record(folder, end=30.0):

@@ -247,10 +247,11 @@ class Table:
 class Verify:
     """Count each trial's summary again, from its journal and from its bag.
 
-    A line a trial: whether journal, bag and the row of trials.csv are equal.
+    A line a trial: whether journal, bag and the row of trials.csv are equal; a line a
+    participant: how many of the notes and answers that were written are read.
 
     Exit codes
-    0: all are equal. 1: some differ. 2: a wrong plan, or a damaged record.
+    0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
 
     arguments = staticmethod(plan_argument)
@@ -261,8 +262,9 @@ class Verify:
         study = opened(args)
         programs = (TOOLS["tool"]("navvi_study", name) for name in ("summary_from_journal", "summary_from_bag"))
         sentences, bad = verify.verify(study, study.progress(), *programs)
-        print("\n".join([*sentences, f"{len(sentences)} trials, {bad} differ."]))
-        return 1 if bad else 0
+        lines, counts, lost = verify.notes_and_answers(study, study.progress())
+        print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+        return 1 if bad or lost else 0
 
 
 class Export:
@@ -362,9 +364,9 @@ def _write_report(study, only, rehearsed):
 
 
 def _reason(words):
-    from . import checked
+    from . import checked, journal
     try:
-        return checked.text(words)
+        return checked.text(journal.plain(words))
     except ValueError as allowed:
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
 

@@ -59,6 +59,7 @@ def status(study, progress):
                 lines.append(f"  {person.name}/{attempt.trial} does not count: {attempt.excluded}, by {attempt.excluded_by}.")
             elif not attempt.ended:
                 lines.append(f"  {attempt.step} is running, or was broken off; \"study next\" goes on.")
+        lines += [f"  {sentence}" for sentence in study.unread(person.name)]
         if missing := progress.missing(person):
             lines.append(f"  without a trial that counts: {', '.join(step.name for step in missing)}.")
     complete = sum(progress.complete(person) for person in progress.people.values())

@@ -1,6 +1,5 @@
 """A study on the disk: its plan, its journal, and the folders of its participants."""
 import contextlib
-import csv
 import fcntl
 import json
 import os
@@ -9,8 +8,14 @@ from pathlib import Path
 
 from . import plan_file
 from .errors import StudyError
-from .journal import Journal, append_line, read_lines, sync_folder, utc_now
+from .journal import Journal, append_line, read_lines, rows_of, sync_folder, utc_now
 from .progress import Progress
+
+# What each line of a participant's files holds at least.
+FIELDS = {
+    "notes": {"step": str, "attempt": int, "utc": str, "mono_ns": int, "type": str, "text": str},
+    "answers": {"step": str, "condition": str, "order": int, "session": int, "questionnaire": str, "item": str, "answer": str},
+}
 
 
 class Study:
@@ -43,10 +48,13 @@ class Study:
         if not freezes:
             return None
         for path in sorted(self.folder.glob("frozen*.json")):
-            values = json.loads(path.read_text(encoding="utf-8"))
-            if values["hash"] == freezes[-1]["plan"]:
-                return values["plan"]
-        raise StudyError(f"{self.folder} lacks the file of the frozen plan; restore it from a copy.")
+            try:
+                values = json.loads(path.read_bytes())
+                if values["hash"] == freezes[-1]["plan"]:
+                    return values["plan"]
+            except (OSError, ValueError, LookupError, TypeError):
+                continue  # damaged
+        raise StudyError(f"{self.folder} lacks the file of the frozen plan, or it is damaged; restore it from a copy.")
 
     def freeze(self, version, reason):
         """Returns what has changed since the last time, a sentence each; None where nothing was frozen before."""
@@ -96,13 +104,22 @@ class Study:
         return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
 
     def answers(self, participant):
-        return read_lines(self.home(participant) / "answers.jsonl")
+        return self.lines(participant, "answers")[0]
 
     def note(self, participant, attempt, row):
         append_line(self.home(participant) / "notes.jsonl", {"step": attempt.step, "attempt": attempt.number, **row})
 
     def notes(self, participant):
-        return read_lines(self.home(participant) / "notes.jsonl")
+        return self.lines(participant, "notes")[0]
+
+    def lines(self, participant, kind):
+        """Rows of the participant's notes or answers, and the numbers of the lines of the file that cannot be read."""
+        return read_lines(self.home(participant) / f"{kind}.jsonl", FIELDS[kind])
+
+    def unread(self, participant):
+        """A sentence for each line of notes or answers that was passed over."""
+        return [f"{self.home(participant) / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
+                for kind in FIELDS for number in self.lines(participant, kind)[1]]
 
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
@@ -124,11 +141,7 @@ class Study:
 
 
 def read_summary(folder):
-    try:
-        with open(folder / "summary.csv", newline="", encoding="utf-8") as file:
-            return next(csv.DictReader(file), {})
-    except OSError:
-        return {}
+    return next(iter(rows_of(folder / "summary.csv")), {})
 
 
 def write_safely(path, content):
@@ -136,7 +149,7 @@ def write_safely(path, content):
     aside = path.with_name(path.name + ".new")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with open(aside, "w", encoding="utf-8", newline="") as file:
+        with open(aside, "w", encoding="utf-8", errors="replace", newline="") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())

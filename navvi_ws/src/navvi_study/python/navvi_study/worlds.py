@@ -1,5 +1,6 @@
 """The plan's worlds as the reference driver meets them: the simulated person without errors, in the loop without ROS."""
 import csv
+import io
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -15,8 +16,8 @@ def drive(plan, trials_bench, jobs=2):
 
     def one(world):
         command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv"]
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-        rows = list(csv.DictReader(result.stdout.splitlines()))
+        result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
         if result.returncode != 0 or len(rows) != 1:
             raise StudyError(f"{plan.file}: no trial can be driven in {world}: {(result.stderr or result.stdout).strip()}")
         return rows[0]
@@ -35,7 +36,7 @@ def drawing_of(plan, navvi, world):
     file = plan.folder / "worlds" / f"{Path(world.world).stem}-{world.seed}.svg"
     file.parent.mkdir(parents=True, exist_ok=True)
     command = [str(navvi), "world", "show", str(plan.world_file(world) or world.world), f"seed:={world.seed}", "-o", str(file)]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
     if result.returncode != 0:
         raise StudyError(f"{plan.file}: {world} cannot be drawn: {(result.stderr or result.stdout).strip()}")
     return file
