@@ -221,6 +221,20 @@ def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
     assert runner.learnt_before([{}]) == {}
 
 
+def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path):
+    from navvi_study import worlds
+    plan = small(tmp_path)
+
+    def compared(**second):
+        row = {"result": "reached", "shortest": "40.0", "time": "120.0", "turns": "2.0", "passed": "12"}
+        return worlds.compared(plan, {world: {**row, **(second if world.seed == 2 else {})} for world in plan.worlds})
+    lines, alike = compared()
+    assert alike and "  set 1: easy 1: reached, way 40.0, turns 4, movers 12, time 120.0." in lines
+    assert not compared(shortest="51.0")[1] and not compared(time="151.0", turns="1.6")[1] and not compared(turns="4.0")[1]
+    assert compared(turns="3.0")[1], "two turns apart are alike, however few they are"
+    assert any(line == "The turns of set 2 are 8, those of set 1 4; other seeds would be better: alike are 1.25 times, or 2 turns." for line in compared(turns="4.0")[0])
+
+
 # What comes next.
 
 def test_a_participant_is_led_through_the_plan(work):
