@@ -75,9 +75,9 @@ class Driver:
         pass
 
 
-def write_summary(folder, result="reached", elapsed=20.0):
+def write_summary(folder, result="reached", elapsed=20.0, reason="n/a"):
     folder.mkdir(parents=True)
-    row = {"trial": folder.name, "started_utc": "2026-01-01T00:00:00Z", "result": result, "elapsed_s": elapsed, "shelf_collision_count": 1,
+    row = {"trial": folder.name, "started_utc": "2026-01-01T00:00:00Z", "result": result, "reason": reason, "elapsed_s": elapsed, "shelf_collision_count": 1,
            "obstacle_collision_count": 2, "path_length_m": 12.0, "first_path_length_m": 10.0}
     (folder / "summary.csv").write_text(",".join(row) + "\n" + ",".join(map(str, row.values())) + "\n")
 
@@ -279,6 +279,82 @@ def test_an_invalid_record_counts_in_no_plan(tmp_path):
     rest(session.Session(kept, Driver(kept, "invalid"), say=lambda line: None, wait=False))
     rows = table.trials(kept, kept.progress())
     assert [(row["counts"], row["excluded"]) for row in rows[:2]] == [("no", "its record is not whole"), ("yes", "n/a")]
+
+
+@pytest.mark.parametrize("exclusions", [True, False])
+def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, exclusions):
+    rule = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
+    kept = study.Study(small(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(rule, "")])))
+    kept.freeze("test", None)
+
+    class GivingUp(Driver):
+        """The person ends a trial of sub-01, and the experimenter one of sub-02; one of sub-03 breaks off by itself."""
+        def trial(self, participant, step, attempt, folder, lock):
+            ends = participant in ("sub-01", "sub-02", "sub-03") and step.condition == "plain" and attempt.number == 1
+            if participant == "sub-02" and ends:
+                kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
+            reason = {"sub-01": "ended_by_person", "sub-02": "stopped_by_signal"}.get(participant, "goal_changed")
+            self.driven.append((participant, attempt.seed))
+            write_summary(folder / f"trial-{len(self.driven)}", "aborted" if ends else "reached", reason=reason if ends else "n/a")
+    driver = GivingUp(kept)
+    said = []
+    for name in kept.plan.participants:
+        rest(session.Session(kept, driver, say=said.append, wait=False), name)
+    assert [seed for name, seed in driver.driven if seed > 10] == [11], "a world of the reserve for sub-03 alone"
+    rows = table.trials(kept, kept.progress())
+    assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
+    assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
+    assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
+    lines = overview.status(kept, kept.progress())
+    assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
+    from navvi_study.analysis import Analysis
+    analysis = Analysis(kept, kept.progress())
+    shown = {name: {row["condition"]: (row["trials"], round(row["mean"], 3)) for row in analysis.by_condition(name)} for name in ("reached", "drop_out", "collisions")}
+    assert shown == {"reached": {"full": (6, 1.0), "plain": (6, 0.667)}, "drop_out": {"full": (6, 0.0), "plain": (6, 0.333)},
+                     "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
+    name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
+    actions.Exclude.run(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
+    begun = session.Session(kept, driver, say=said.append, wait=False)
+    assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
+
+
+def test_trials_that_broke_off_count_in_no_plan(tmp_path):
+    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
+    kept.freeze("test", None)
+    rest(session.Session(kept, Driver(kept, "aborted", "refused"), say=lambda line: None, wait=False))
+    assert [(row["counts"], row["excluded"]) for row in table.trials(kept, kept.progress())] == [("no", "it broke off")] * 2 + [("yes", "n/a")] * 2
+
+
+def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, capsys):
+    plan = small(tmp_path)
+    actions.TOOLS["version"] = lambda: "test"
+    actions.Freeze.run(type("Args", (), {"plan": plan.file, "reason": None}))
+    printed = capsys.readouterr().out
+    for line in overview.broken_off(plan):
+        assert line in printed and line in overview.schedule(plan)
+    assert "nothing takes its place" in printed and "The same holds where result is aborted or invalid: the trial broke off." in printed
+
+
+def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
+    from navvi_study import measures
+    row = {"counts": "yes", "result": "timeout", "path_length_m": "5.0", "first_path_length_m": "10.0"}
+    assert measures.value(measures.MEASURES["detour"], row) is None
+    assert measures.value(measures.MEASURES["detour"], {**row, "result": "reached"}) == 0.5
+    with pytest.raises(StudyError) as problem:
+        small(tmp_path, ("measure: time", "measure: detour"))
+    assert "\"outcomes/primary/measure\" is detour, which is defined for trials that reached the goal alone; allowed are \"trials: reached\"" in str(problem.value)
+    plan = small(tmp_path, ("measure: time", "trials: reached, measure: detour"))
+    assert plan.values()["primary"]["trials"] == "reached" and "of trials that reached the goal" in overview.question(plan.primary)
+    with pytest.raises(StudyError, match="time is defined for trials that count; allowed is to leave it out"):
+        small(tmp_path, ("measure: time", "trials: reached, measure: time"))
+    assert "trials" not in small(tmp_path).values()["primary"], "plans of before keep their hash"
+
+
+def test_the_page_on_studies_says_for_which_trials_each_measure_is_defined():
+    from navvi_study import measures
+    page = (ROOT / "doc/study.md").read_text()
+    for name, measure in measures.MEASURES.items():
+        assert f"| {name} | {measure.label}, {measure.unit} | {measure.of} |" in page, name
 
 
 def test_where_no_trial_began_the_same_world_comes_again(work):
@@ -798,7 +874,7 @@ def test_a_report_is_read_without_eyes_and_without_a_network(reported):
         assert page.parts[at + 1][0] == "table"
     assert page.links and all(link.startswith("data:") for link in page.links)
     assert "sub-06 is excluded: fell ill." in page.text
-    assert f"./navvi study report {kept.plan.file} --only time" in page.text
+    assert "./navvi study report small.yaml --only time" in page.text and str(kept.folder.parent) not in text, "no folder of the researcher"
 
 
 def test_ways_lie_over_the_map_where_they_were_driven():
@@ -826,6 +902,35 @@ def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
     assert any("3 sentences, 0 sounds and 0 felt patterns a minute" in part.get("alt", "") for _, part in page.parts)
     assert asked == [("n/a", "n/a")]
     assert report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: None) == text
+
+
+def test_a_contrast_has_one_sign_in_all_of_a_report(reported):
+    _, text = reported
+    assert text.count("full minus plain") > 5 and "plain minus full" not in text, "the plan's order, not that of the conditions"
+
+
+def test_replaced_is_what_another_trial_was_driven_for(work):
+    from navvi_study import report
+    rest(work("aborted", "aborted", "aborted"))
+    assert [row[-1] for row in report.excluded(work.study.progress())] == ["yes", "yes", "no"], "the reserve is used up"
+
+
+def test_a_report_does_not_deny_the_journal_of_a_trial_that_does_not_count(work):
+    from navvi_study import report
+    work("aborted").next("sub-01")
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    write_record(work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial)
+    text = report.page(work.study, work.study.progress(), rehearsed=False)
+    assert "No trial that counts has a journal" in text and "No trial has a journal" not in text
+
+
+@pytest.mark.parametrize("p, words", [(0.077, "the interval excludes 0, and p is not below 0.05"), (0.01, "")])
+def test_an_interval_and_a_p_that_differ_are_said_in_words(reported, monkeypatch, p, words):
+    from navvi_study import analysis
+    kept, _ = reported
+    monkeypatch.setitem(analysis.MODELS, "time", lambda result, values, differences: setattr(result, "p", p))
+    one = analysis.Analysis(kept, kept.progress()).contrast("time", "plain", "full")
+    assert one.high < 0 and (words in one.note if words else one.note == "")
 
 
 def test_the_same_study_gives_the_same_report(reported):

@@ -72,11 +72,13 @@ class Freeze:
 
     @staticmethod
     def run(args):
+        from . import overview
         study = opened(args)
         changes = study.freeze(TOOLS["version"](), args.reason)
         print(f"navvi: the plan is frozen: {study.plan.hash()}")
         for change in changes or []:
             print(f"  changed: {change}")
+        print("\n".join(overview.broken_off(study.plan)))
 
 
 class Next:
@@ -192,7 +194,7 @@ class Exclude:
             print(f"navvi: {args.what} does not count: {reason}.")
             return
         person, attempt = progress.find(args.what)
-        if attempt.excluded:
+        if attempt.excluded and not attempt.dropped_out:
             raise StudyError(f"{args.what} is excluded already: {attempt.excluded}.")
         study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
                              rule=False, replace=not args.no_replacement)

@@ -97,8 +97,8 @@ class Rule:
             return False
 
 
-#: Holds in every plan: such a record has no figures that could count.
-RECORD_NOT_WHOLE = Rule("result", "its record is not whole", ("invalid",))
+#: Hold in every plan, after its own: such a trial has no figures that could count.
+BROKEN_OFF = (Rule("result", "its record is not whole", ("invalid",)), Rule("result", "it broke off", ("aborted", "refused")))
 
 
 @dataclass(frozen=True)
@@ -107,6 +107,7 @@ class Question:
     measure: str
     first: str
     second: str
+    trials: str = ""  # "reached": of a measure that is defined for these alone, and the plan says so
 
 
 @dataclass(frozen=True)
@@ -176,6 +177,9 @@ class Plan:
         values = _without_places(json.loads(json.dumps(asdict(self))))
         if not self.probes:  # so that plans without keep their hash
             del values["probes"]
+        for question in (values["primary"], *values["secondary"]):
+            if not question["trials"]:
+                del question["trials"]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
         return dict(values, world_files={name: hashlib.sha256(file.read_bytes()).hexdigest() for name, file in files.items()})
 

@@ -108,9 +108,9 @@ class LiveRunner:
         env = dict(os.environ, NAVVI_PEOPLE=str(self.study.home(participant) / "settings"), NAVVI_LOCKS=str(lock))
         # A group of its own: Ctrl-C goes to all of the session, and what it leaves is recorded here.
         process = subprocess.Popen([self.navvi, *map(str, words)], env=env, stdin=subprocess.DEVNULL, pass_fds=(lock,), process_group=0)
-        before = signal.signal(signal.SIGINT, lambda *_: os.killpg(process.pid, signal.SIGINT))
+        desk = Desk(process, note, self.lines)
+        before = signal.signal(signal.SIGINT, desk.interrupt)
         try:
-            desk = Desk(process, note, self.lines)
             while process.poll() is None:
                 desk.listen(0.2)
             self.paused = self.paused or desk.paused
@@ -142,10 +142,17 @@ class Desk:
     """The experimenter's lines while a session runs."""
 
     def __init__(self, process, note, lines=None):
-        self.process, self.note, self.lines, self.paused, self.told = process, note, lines, False, False
+        self.process, self.note, self.lines, self.paused, self.told, self.interrupted = process, note, lines, False, False, False
+
+    def interrupt(self, *_):
+        """Ctrl-C; within listen(), as a handler of signals must not write."""
+        self.interrupted = True
 
     def listen(self, seconds):
-        if self.note is None or not (self.lines.open or self.lines.rest):
+        if self.interrupted:
+            self.interrupted = False
+            self.obey("a")
+        elif self.note is None or not (self.lines.open or self.lines.rest):
             time.sleep(seconds)
         elif line := self.lines.next(seconds):
             self.obey(line)
@@ -160,8 +167,9 @@ class Desk:
             self.told = True
             return
         try:
-            self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
-            print(f"navvi: {kinds[key]} written.", flush=True)
+            if self.note:
+                self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
+                print(f"navvi: {kinds[key]} written.", flush=True)
         except Exception as problem:  # whatever it is, the session keeps its desk
             print(f"navvi: the {kinds[key]} is NOT written: {problem}", flush=True)
         self.paused = self.paused or key == "p"
@@ -196,9 +204,9 @@ class LoopRunner:
         hits = row["hits"].split()
         counts = dict(zip(hits[::2], map(int, hits[1::2]))) if row["hits"] != "-" else {}
         shelves = counts.pop("shelf", 0)
-        reached = row["result"] == "reached"
+        result, reason = ("aborted", "ended_by_person") if row["result"] == "gave_up" else (row["result"], "n/a")
         summary = {"trial": folder.name, "world": row["world"], "seed": row["seed"], "operator": "simulated", "participant": participant,
-                   "started_utc": utc_now(), "result": row["result"], "reason": "n/a", "elapsed_s": row["time"] if reached else f"{limit:g}",
+                   "started_utc": utc_now(), "result": result, "reason": reason, "elapsed_s": f"{limit:g}" if result == "timeout" else row["time"],
                    "shelf_collision_count": shelves, "obstacle_collision_count": sum(counts.values()), "path_length_m": row["driven"],
                    "first_path_length_m": row["shortest"], "reroute_count": row["reroutes"], "missed_messages": 0}
         text = io.StringIO()
