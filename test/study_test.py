@@ -440,6 +440,37 @@ def test_two_experimenters_do_not_drive_one_participant(work):
         work().next("sub-01")
 
 
+@pytest.mark.parametrize("with_command", [True, False])
+def test_a_session_that_outlived_its_terminal_is_named_and_stopped(work, tmp_path, capsys, with_command):
+    navvi = tmp_path / "navvi"
+    navvi.write_text(f"""#!/bin/sh
+trap 'touch {tmp_path}/ended; exit 1' INT
+touch {tmp_path}/there
+while true; do sleep 0.1; done
+""")
+    navvi.chmod(0o755)
+    child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"))
+    child.start()
+    deadline = time.monotonic() + 20
+    while not (tmp_path / "there").exists():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    if not with_command:
+        os.kill(child.pid, signal.SIGKILL)
+        child.join()
+    orphan = next(pid for pid, name in work.study.running("sub-01").items() if name == "navvi")
+    with pytest.raises(StudyError, match=rf"running still: process .*{orphan} \(navvi\).*\./navvi study stop {work.study.plan.file} sub-01"):
+        work().next("sub-01")
+    begun = time.monotonic()
+    args = type("Args", (), {"plan": work.study.plan.file, "participant": "sub-01"})
+    actions.Stop.run(args)
+    assert time.monotonic() - begun < 5 and (tmp_path / "ended").exists() and f"{orphan} (navvi)" in capsys.readouterr().out
+    child.join()
+    actions.Stop.run(args)
+    assert "nothing of sub-01 is running" in capsys.readouterr().out
+    assert rest(work())[0] == "s1-c1-trial-1"
+
+
 # The journal.
 
 def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):

@@ -119,6 +119,28 @@ class Next:
             session.runner.pause()
 
 
+class Stop:
+    """End what is running of a participant, as Ctrl-C would.
+
+    For a session that goes on after its "study next" was killed. Its trial is kept
+    as broken off, and the next "study next" goes on with a world of the reserve.
+
+    Exit codes
+    0: ended, or nothing was running. 2: not planned, or it does not end.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        participant_argument(parser)
+
+    @staticmethod
+    def run(args):
+        study = opened(args)
+        ended = study.stop(study.progress().person(args.participant).name)
+        print("navvi: ended: " + ", ".join(f"{pid} ({name})" for pid, name in ended.items()) + "." if ended else f"navvi: nothing of {args.participant} is running.")
+
+
 class Run:
     """Lead all simulated participants through the plan, live, to the report.
 
@@ -373,4 +395,4 @@ def _reason(words):
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
 
 
-ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Run, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}
+ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Stop, Run, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}

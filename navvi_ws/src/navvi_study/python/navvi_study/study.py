@@ -4,11 +4,13 @@ import fcntl
 import json
 import os
 import shutil
+import signal
+import time
 from pathlib import Path
 
 from . import plan_file
 from .errors import StudyError
-from .journal import Journal, append_line, read_lines, rows_of, sync_folder, utc_now
+from .journal import Journal, append_line, lines_of, read_lines, rows_of, sync_folder, utc_now
 from .progress import Progress
 
 # What each line of a participant's files holds at least.
@@ -83,16 +85,49 @@ class Study:
     def claimed(self, participant):
         """Nobody else goes on with the participant meanwhile. The session inherits the lock: one that outlives this program keeps it."""
         self.home(participant).mkdir(parents=True, exist_ok=True)
-        lock = os.open(self.folder / f".{participant}.lock", os.O_RDWR | os.O_CREAT, 0o600)
+        lock = os.open(self._lock(participant), os.O_RDWR | os.O_CREAT, 0o600)
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             os.close(lock)
-            raise StudyError(f"something of {participant} is running still; wait for its end, or end it.") from None
+            running = ", ".join(f"{pid} ({name})" for pid, name in sorted(self.running(participant).items())) or "of another user"
+            raise StudyError(f"something of {participant} is running still: process {running}; wait for its end, or end it: "
+                             f"./navvi study stop {self.plan.file} {participant}") from None
         try:
             yield lock
         finally:
             os.close(lock)
+
+    def running(self, participant):
+        """Names by number of this user's other processes that hold the participant's lock."""
+        found = {}
+        with contextlib.suppress(OSError):  # no lock yet
+            lock = os.stat(self._lock(participant))
+            for pid in map(int, filter(str.isdigit, os.listdir("/proc"))):
+                if pid != os.getpid() and any(os.path.samestat(lock, file) for file in _files_of(pid)):
+                    found[pid] = b"".join(lines_of(f"/proc/{pid}/comm")).decode(errors="replace")
+        return found
+
+    def stop(self, participant, seconds=40.0):
+        """Ends the session that a killed "study next" has left, or that another one leads, as Ctrl-C does. Returns its processes."""
+        found = self.running(participant)
+        # A session has a group of its own; the command that began it goes on, or is all there is.
+        sessions = {pid: name for pid, name in found.items() if any(b"NAVVI_LOCKS=" in line for line in lines_of(f"/proc/{pid}/environ"))}
+        ended = sessions or found
+        with contextlib.suppress(ProcessLookupError):
+            for group in {os.getpgid(pid) for pid in sessions} - {os.getpgrp()}:
+                os.killpg(group, signal.SIGINT)
+            for pid in [] if sessions else found:
+                os.kill(pid, signal.SIGINT)
+        end = time.monotonic() + seconds
+        while left := [str(pid) for pid in self.running(participant) if pid in ended]:
+            if time.monotonic() > end:
+                raise StudyError(f"process {', '.join(left)} of {participant} did not end within {seconds:g} s; \"kill -9 {' '.join(left)}\" ends it.")
+            time.sleep(0.1)
+        return ended
+
+    def _lock(self, participant):
+        return self.folder / f".{participant}.lock"
 
     def add_answer(self, participant, step, item, answer, seconds="n/a"):
         append_line(self.home(participant) / "answers.jsonl", {
@@ -138,6 +173,14 @@ class Study:
                 if self.home(person.name).exists():
                     raise StudyError(f"{self.home(person.name)} cannot be deleted, and the withdrawal asks for it; delete it.")
                 self.journal.append("erased", participant=person.name)
+
+
+def _files_of(pid):
+    """The open files of a process; none of another user's."""
+    with contextlib.suppress(OSError):
+        for name in os.listdir(f"/proc/{pid}/fd"):
+            with contextlib.suppress(OSError):  # closed meanwhile
+                yield os.stat(f"/proc/{pid}/fd/{name}")
 
 
 def read_summary(folder):
