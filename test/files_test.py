@@ -32,11 +32,11 @@ def plan(file):
     return [ROOT / "navvi", "study", "check", file, "--no-worlds"], {}
 
 
-def planned(old, new):
+def planned(word):
     """The file is named by a plan beside it."""
     def command(file):
         path = file.parent / "plan.yaml"
-        path.write_text(PLAN.replace(old, new or file.name).replace("consent: CONSENT\n", "").replace("WORLD", "easy"))
+        path.write_text(PLAN.replace(word, file.name).replace("consent: CONSENT\n", "").replace("WORLD", "easy"))
         return [ROOT / "navvi", "study", "freeze", path], {}
     return command
 
@@ -64,7 +64,7 @@ def person(file):
 
 #: What a file is to the product: its name's ending, and the command that reads it.
 KINDS = {
-    "plan": (".yaml", plan), "consent": (".yaml", planned("CONSENT\n", "")), "world of a plan": (".sdf", planned("WORLD", "")),
+    "plan": (".yaml", plan), "consent": (".yaml", planned("CONSENT")), "world of a plan": (".sdf", planned("WORLD")),
     "layout": (".yaml", program("navvi_sim", "world_tool", "check")), "sdf": (".sdf", program("navvi_sim", "world_tool", "check")),
     "config": (".yaml", program("navvi_sim", "world_tool", "check", "easy", "--config")),
     "classes": (".yaml", lambda file: ([LIB / "navvi_sim/world_tool", "check", ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world", f"classes:={file}"], {})),

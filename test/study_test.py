@@ -53,6 +53,8 @@ def small(folder, *changes):
 class Driver:
     """Instead of ./navvi: each trial's summary has the next result, or none is written."""
 
+    asks = "nobody"
+
     def __init__(self, work, *results):
         self.work, self.results, self.driven = work, list(results), []
 
@@ -408,9 +410,12 @@ def test_nobody_drives_without_consent(tmp_path):
     (tmp_path / "consent.yaml").write_text("title: Consent\nitems: [{name: agree, ask: Do you agree, choices: [\"no\", \"yes\"], required: \"yes\"}]")
     kept = study.Study(small(tmp_path, ("limit: 60", "consent: consent\nlimit: 60")))
     kept.freeze("test", None)
-    begun = session.Session(kept, Driver(kept), say=lambda line: None)
+    said = []
+    begun = session.Session(kept, Driver(kept), say=said.append)
     begun.runner.ask = lambda participant, step, items, answered, lock: answered(items[0], "no")
     assert begun.next("sub-01") is None
+    assert said[-1] == "navvi: sub-01: consent is not given, by an answer that was drawn: nobody was asked."
+    assert kept.journal.rows()[-1]["asked"] == "nobody", "a rehearsed consent is told from a real one"
     with_status = "\n".join(overview.status(kept, kept.progress()))
     assert "sub-01: 0 of 2 trials; has not given consent." in with_status
     assert rest(begun) == [] and begun.runner.driven == []

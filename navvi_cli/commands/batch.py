@@ -13,7 +13,8 @@ brief, sighted (the hand led by eyes), or a name of your own:
 slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
 
 Exit codes
-0: done. 1: some failed, are not done, or changed. 2: a wrong argument.
+0: done. 1: some failed, are not done, or changed. 2: a wrong argument, or a
+full disk.
 
 Examples
 ./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy

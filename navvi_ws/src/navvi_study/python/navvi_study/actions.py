@@ -237,7 +237,7 @@ class Withdraw:
     def arguments(parser):
         plan_argument(parser)
         participant_argument(parser)
-        parser.add_argument("--data", metavar="WHAT", required=True, choices=("delete", "keep"), help="delete or keep what was recorded.")
+        parser.add_argument("--data", metavar="delete|keep", required=True, choices=("delete", "keep"), help="what was recorded.")
 
     @staticmethod
     def run(args):

@@ -4,6 +4,7 @@ import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from . import checked
 from .errors import StudyError
 
 # What a condition switches, and the parameters of feedback_node that do it. Words for safety are never off.
@@ -13,6 +14,7 @@ SWITCHES = {
     "sounds": ["feedback/sounds/enabled"],
 }
 WORLD_FILES = (".yaml", ".sdf", ".world")
+LARGEST_WORLD = 20 << 20  # bytes, as world_tool reads
 # Given by the study itself to each session.
 OWN = {"feedback/locked", "trial/locked", "feedback/sounds/turn/learn", "feedback/sounds/turn/stopping_delay", "feedback/sounds/turn/stopping_spread"}
 
@@ -181,7 +183,7 @@ class Plan:
             if not question["trials"]:
                 del question["trials"]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
-        return dict(values, world_files={name: hashlib.sha256(file.read_bytes()).hexdigest() for name, file in files.items()})
+        return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 
     def hash(self):
         return hashlib.sha256(json.dumps(self.values(), sort_keys=True).encode()).hexdigest()

@@ -35,6 +35,7 @@ class LiveRunner:
 
     def __init__(self, study, navvi, close_trials, typed=False):
         self.study, self.navvi, self.close_trials, self.typed = study, str(navvi), str(close_trials), typed
+        self.asks = "the experimenter" if typed else "nobody" if study.plan.operator == "simulated" else "the voice"  # questionnaires
         self.paused = False  # by the experimenter: nothing begins until a line comes
         self.lines = Lines()
 
@@ -179,6 +180,8 @@ class Desk:
 
 class LoopRunner:
     """Simulated people without ROS, many times faster than real time. It proves the pipeline, nothing about people."""
+
+    asks = "nobody"
 
     def __init__(self, study, trials_bench):
         self.study, self.program = study, str(trials_bench)

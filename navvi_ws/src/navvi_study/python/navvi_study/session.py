@@ -136,8 +136,8 @@ class Session:
         if answers is None:
             return False
         given = all(answers[item.name] == item.required for item in step.asks.items if item.required)
-        self._done(person.name, step, given=given)
-        self.say(f"navvi: {person.name}: consent is {'given' if given else 'not given'}.")
+        self._done(person.name, step, given=given, asked=self.runner.asks)
+        self.say(f"navvi: {person.name}: consent is {'given' if given else 'not given'}" + (", by an answer that was drawn: nobody was asked." if self.runner.asks == "nobody" else "."))
         return given
 
     def _calibrate(self, progress, person, step, lock):
