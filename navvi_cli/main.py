@@ -38,7 +38,8 @@ def run(words):
 
 def main(words):
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `./navvi man | head`
-    sys.stdout.reconfigure(errors="replace")  # a terminal that lacks a sign ends no session
+    for stream in filter(None, (sys.stdin, sys.stdout)):  # a sign that a terminal sends or lacks ends no session
+        stream.reconfigure(errors="replace")
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
         argcomplete.autocomplete(parser_of(*command_names()))

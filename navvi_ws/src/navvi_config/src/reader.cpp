@@ -31,7 +31,10 @@ std::string to_text(double number) {
 /// So much of a value or key as tells which one is meant: an error cites no file.
 std::string cited(const std::string& text) {
   constexpr std::size_t kMost = 60;  // bytes
-  return text.size() <= kMost ? text : text.substr(0, kMost - 3) + "...";
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // of UTF-8
+  return text.substr(0, end) + "...";
 }
 
 /// Of the words, the one that is at most two letters, and half of it, off; empty where none is.
