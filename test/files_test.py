@@ -100,7 +100,7 @@ def bounded():
 
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_A4_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path):
+def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path):
     ending, command = KINDS[kind]
     file = tmp_path / f"given{ending}"
     FAULTS[fault](file)

@@ -446,7 +446,7 @@ def test_two_experimenters_do_not_drive_one_participant(work):
 
 
 @pytest.mark.parametrize("with_command", [True, False])
-def test_a_session_that_outlived_its_terminal_is_named_and_stopped(work, tmp_path, capsys, with_command):
+def test_D3_a_session_that_outlived_its_terminal_is_named_and_stopped(work, tmp_path, capsys, with_command):
     navvi = tmp_path / "navvi"
     navvi.write_text(f"""#!/bin/sh
 trap 'touch {tmp_path}/ended; exit 1' INT
@@ -752,7 +752,7 @@ def test_marks_and_interventions_stand_in_the_table(work):
     assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot", ""]
 
 
-def test_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
+def test_D1_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
     begun = work()
     begun.next("sub-01")
     attempt = work.study.progress().person("sub-01").attempts[0]
@@ -770,7 +770,7 @@ def test_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
 
 
 @pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])
-def test_a_note_that_cannot_be_written_is_told_and_the_trial_is_ended_all_the_same(problem, capsys, monkeypatch):
+def test_D2_a_note_that_cannot_be_written_is_told_and_the_trial_is_ended_all_the_same(problem, capsys, monkeypatch):
     ended = []
     monkeypatch.setattr(runner.os, "killpg", lambda *given: ended.append(given))
 
@@ -782,7 +782,7 @@ def test_a_note_that_cannot_be_written_is_told_and_the_trial_is_ended_all_the_sa
     assert capsys.readouterr().out.count("is NOT written") == 2 and ended == [(7, signal.SIGINT)]
 
 
-def test_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_over(work):
+def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_over(work):
     from navvi_study import verify
     rest(work())
     attempt = work.study.progress().person("sub-01").attempts[0]
