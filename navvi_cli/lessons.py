@@ -39,7 +39,7 @@ def give(lesson, given):
         say(f"{lesson} begins in some seconds, with the {words['operator']}; what to press is spoken. Ctrl-C in this terminal ends it, too.")
         launch = Launch(launch_file, words, log, network)
         if not launch.run() and not launch.interrupted:
-            fail(f"it broke off: {launch.log.fatal or log.read_text()[-500:]}")
+            fail(f"it broke off: {launch.log.fatal or log.read_text(errors='replace')[-500:]}")
         if kept:
             say(f"the log is {log}{f', what was measured {kept}.csv' if Path(f'{kept}.csv').exists() else ''}.")
 

@@ -38,6 +38,8 @@ def run(words):
 
 def main(words):
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `./navvi man | head`
+    for stream in filter(None, (sys.stdin, sys.stdout)):  # a sign that a terminal sends or lacks ends no session
+        stream.reconfigure(errors="replace")
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
         argcomplete.autocomplete(parser_of(*command_names()))
@@ -48,8 +50,8 @@ def main(words):
             aside(failure.sentence)
         return failure.code
     except OSError as problem:
-        aside(f"{problem.filename} cannot be used: {problem.strerror}.")
-        return 1
+        aside(f"{problem.filename or 'a file or the output'} cannot be used: {problem.strerror or problem}.")
+        return 2
     except KeyboardInterrupt:
         aside("stopped by Ctrl-C, before it was done. The same command goes on from here.")
         return 130

@@ -61,7 +61,8 @@ def usage_of(action):
     if isinstance(action, argparse._SubParsersAction):
         return "|".join(action.choices) + " ..."
     if action.option_strings:
-        return f"[{action.option_strings[-1]}{'' if action.nargs == 0 else ' ' + name}]"
+        option = action.option_strings[-1] + ("" if action.nargs == 0 else " " + name)
+        return option if action.required else f"[{option}]"
     return {"*": f"[{name} ...]", "?": f"[{name}]", "+": f"{name} ..."}.get(action.nargs, name)
 
 

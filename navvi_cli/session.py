@@ -71,7 +71,7 @@ def nodes_of(words):
 
 def accepted(part, node, parameters):
     """Parameters as YAML, if the node takes them."""
-    checked = subprocess.run([str(node), "--parameters", *parameters], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    checked = subprocess.run([str(node), "--parameters", *parameters], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if checked.returncode:
         fail(f"{part}_node refuses this: {checked.stderr.strip()}", 2)
     return checked.stdout.strip()
@@ -111,7 +111,7 @@ class Log:
     def __init__(self, path):
         self.fatal = ""
         try:
-            self.file = open(path, "w")
+            self.file = open(path, "w", encoding="utf-8", errors="replace")
         except OSError as problem:
             fail(f"the log {path} cannot be written: {problem.strerror}; a place that can be is needed, such as out:=/tmp.", 2)
 

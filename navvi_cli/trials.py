@@ -13,9 +13,9 @@ BRIEF = ["path_length_m", "safe_stop_count", "cues_spoken"]
 def summary(folder):
     path = Path(folder) / "summary.csv"
     try:
-        with open(path, newline="") as file:
+        with open(path, newline="", errors="replace") as file:
             return next(csv.DictReader(file))
-    except (OSError, StopIteration) as problem:
+    except (OSError, StopIteration, csv.Error) as problem:
         fail(f"{path} cannot be read: {problem or 'it is empty'}; the folder of a trial that has ended is allowed.", 2)
 
 

@@ -13,9 +13,9 @@ from .say import Failure, fail
 def answer(path, *words):
     """Runs a program with --json: how it ended with what it told people, and what it told programs (None if nothing)."""
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
-        done = subprocess.run([str(path), *map(str, words), "--json", file.name], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        done = subprocess.run([str(path), *map(str, words), "--json", file.name], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         text = file.read()
-    return done, json.loads(text) if text else None
+    return done, json.loads(text.decode(errors="replace")) if text else None
 
 
 def names():

@@ -57,6 +57,27 @@ def test_a_batch_has_a_row_for_each_world_seed_person_and_condition(tmp_path):
     assert list(units) == lines[0].split(",") and all(units.values())
 
 
+def test_a_world_of_any_name_is_a_row_and_a_torn_one_is_run_again(tmp_path):
+    folder, given = tmp_path / "a", {"worlds": "one\u2028two.sdf,caf\udce9.sdf,\u00e9.sdf", "seeds": "1", "people": "able", "conditions": "default"}
+    assert batch.run_batch(stand_in(tmp_path), args_of(folder, **given)) == 0
+    whole, rows = (folder / "trials.csv").read_bytes(), folder / "rows-1-of-1.csv"
+    assert whole.count(b"\n") == 4 and b"caf\xe9.sdf" in whole
+    rows.write_bytes(rows.read_bytes().partition("\u00e9".encode())[0] + b"\xc3")  # killed amid a letter
+    assert batch.run_batch(stand_in(tmp_path), args_of(folder, **given)) == 0
+    assert (folder / "trials.csv").read_bytes() == whole
+    with pytest.raises(Failure, match="line break"):
+        batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "b", worlds="a\nb"))
+
+
+def test_a_full_disk_names_the_file(tmp_path, monkeypatch):
+    def full(file):
+        raise OSError(28, "No space left on device")
+    monkeypatch.setattr(batch.os, "fsync", full)
+    with pytest.raises(OSError) as problem:
+        batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a"))
+    assert problem.value.filename == str(tmp_path / "a/batch.json")
+
+
 def test_trials_keep_as_much_of_worlds_as_asked_for(tmp_path):
     program = tmp_path / "told"
     program.write_text(stand_in(tmp_path).read_text().replace("#!/bin/sh", f'#!/bin/sh\necho "$@" >> {tmp_path}/words'))

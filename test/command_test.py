@@ -67,6 +67,27 @@ def test_a_wrong_argument_is_refused_with_what_is_allowed(command, words, senten
     assert refusal(lambda: command.parse_args(words)) == sentence
 
 
+def test_a_missing_option_is_named_with_its_values_and_without_brackets():
+    from navvi_cli.commands import study
+    found = parser.Parser(prog="./navvi study", text="Study.\n")
+    study.arguments(found)
+    assert refusal(lambda: found.parse_args(["withdraw", "plan.yaml", "sub-04"])) == (
+        "missing: --data; allowed is: ./navvi study withdraw PLAN PARTICIPANT --data delete|keep")
+
+
+def test_a_full_disk_is_a_sentence_with_exit_code_2(capsys, monkeypatch):
+    import types
+    from navvi_cli import main
+
+    def full(words):
+        raise OSError(28, "No space left on device", "/some/rows.csv")
+    monkeypatch.setattr(main, "run", full)
+    monkeypatch.setattr(main.signal, "signal", lambda *given: None)
+    monkeypatch.setattr(main.sys, "stdin", None)
+    monkeypatch.setattr(main.sys, "stdout", types.SimpleNamespace(reconfigure=lambda **given: None, flush=lambda: None))
+    assert main.main([]) == 2 and capsys.readouterr().err == "navvi: /some/rows.csv cannot be used: No space left on device.\n"
+
+
 def test_help_is_usage_summary_text_arguments_and_exit_codes(command, capsys):
     with pytest.raises(SystemExit) as end:
         command.parse_args(["draw", "--help"])
@@ -224,6 +245,14 @@ def test_a_full_disk_ends_the_log_and_not_the_session(capfd):
         log.take(line + "\n")
     assert capfd.readouterr().out == ("navvi: warning: the log cannot be written any more: No space left on device.\n"
                                       "navvi: warning: one\nnavvi: warning: two\n")
+
+
+def test_a_terminal_without_utf_8_ends_no_session(tmp_path):
+    code = "import sys; sys.path.insert(0, sys.argv[1])\nfrom navvi_cli.session import Log\nLog(sys.argv[2]).take('caf\\ufffd \\u2192\\n')"
+    done = subprocess.run([sys.executable, "-X", "utf8=0", "-c", code, ROOT, tmp_path / "log"], env=dict(os.environ, LC_ALL="C", PYTHONCOERCECLOCALE="0"),
+                          capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "log").read_bytes().decode() == "caf\ufffd \u2192\n"
 
 
 def test_what_ended_a_session_is_remembered(tmp_path):

@@ -53,6 +53,8 @@ def small(folder, *changes):
 class Driver:
     """Instead of ./navvi: each trial's summary has the next result, or none is written."""
 
+    asks = "nobody"
+
     def __init__(self, work, *results):
         self.work, self.results, self.driven = work, list(results), []
 
@@ -75,9 +77,9 @@ class Driver:
         pass
 
 
-def write_summary(folder, result="reached", elapsed=20.0):
+def write_summary(folder, result="reached", elapsed=20.0, reason="n/a"):
     folder.mkdir(parents=True)
-    row = {"trial": folder.name, "started_utc": "2026-01-01T00:00:00Z", "result": result, "elapsed_s": elapsed, "shelf_collision_count": 1,
+    row = {"trial": folder.name, "started_utc": "2026-01-01T00:00:00Z", "result": result, "reason": reason, "elapsed_s": elapsed, "shelf_collision_count": 1,
            "obstacle_collision_count": 2, "path_length_m": 12.0, "first_path_length_m": 10.0}
     (folder / "summary.csv").write_text(",".join(row) + "\n" + ",".join(map(str, row.values())) + "\n")
 
@@ -221,6 +223,20 @@ def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
     assert runner.learnt_before([{}]) == {}
 
 
+def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path):
+    from navvi_study import worlds
+    plan = small(tmp_path)
+
+    def compared(**second):
+        row = {"result": "reached", "shortest": "40.0", "time": "120.0", "turns": "2.0", "passed": "12"}
+        return worlds.compared(plan, {world: {**row, **(second if world.seed == 2 else {})} for world in plan.worlds})
+    lines, alike = compared()
+    assert alike and "  set 1: easy 1: reached, way 40.0, turns 4, movers 12, time 120.0." in lines
+    assert not compared(shortest="51.0")[1] and not compared(time="151.0", turns="1.6")[1] and not compared(turns="4.0")[1]
+    assert compared(turns="3.0")[1], "two turns apart are alike, however few they are"
+    assert any(line == "The turns of set 2 are 8, those of set 1 4; other seeds would be better: alike are 1.25 times, or 2 turns." for line in compared(turns="4.0")[0])
+
+
 # What comes next.
 
 def test_a_participant_is_led_through_the_plan(work):
@@ -265,6 +281,82 @@ def test_an_invalid_record_counts_in_no_plan(tmp_path):
     rest(session.Session(kept, Driver(kept, "invalid"), say=lambda line: None, wait=False))
     rows = table.trials(kept, kept.progress())
     assert [(row["counts"], row["excluded"]) for row in rows[:2]] == [("no", "its record is not whole"), ("yes", "n/a")]
+
+
+@pytest.mark.parametrize("exclusions", [True, False])
+def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, exclusions):
+    rule = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
+    kept = study.Study(small(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(rule, "")])))
+    kept.freeze("test", None)
+
+    class GivingUp(Driver):
+        """The person ends a trial of sub-01, and the experimenter one of sub-02; one of sub-03 breaks off by itself."""
+        def trial(self, participant, step, attempt, folder, lock):
+            ends = participant in ("sub-01", "sub-02", "sub-03") and step.condition == "plain" and attempt.number == 1
+            if participant == "sub-02" and ends:
+                kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
+            reason = {"sub-01": "ended_by_person", "sub-02": "stopped_by_signal"}.get(participant, "goal_changed")
+            self.driven.append((participant, attempt.seed))
+            write_summary(folder / f"trial-{len(self.driven)}", "aborted" if ends else "reached", reason=reason if ends else "n/a")
+    driver = GivingUp(kept)
+    said = []
+    for name in kept.plan.participants:
+        rest(session.Session(kept, driver, say=said.append, wait=False), name)
+    assert [seed for name, seed in driver.driven if seed > 10] == [11], "a world of the reserve for sub-03 alone"
+    rows = table.trials(kept, kept.progress())
+    assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
+    assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
+    assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
+    lines = overview.status(kept, kept.progress())
+    assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
+    from navvi_study.analysis import Analysis
+    analysis = Analysis(kept, kept.progress())
+    shown = {name: {row["condition"]: (row["trials"], round(row["mean"], 3)) for row in analysis.by_condition(name)} for name in ("reached", "drop_out", "collisions")}
+    assert shown == {"reached": {"full": (6, 1.0), "plain": (6, 0.667)}, "drop_out": {"full": (6, 0.0), "plain": (6, 0.333)},
+                     "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
+    name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
+    actions.Exclude.run(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
+    begun = session.Session(kept, driver, say=said.append, wait=False)
+    assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
+
+
+def test_trials_that_broke_off_count_in_no_plan(tmp_path):
+    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
+    kept.freeze("test", None)
+    rest(session.Session(kept, Driver(kept, "aborted", "refused"), say=lambda line: None, wait=False))
+    assert [(row["counts"], row["excluded"]) for row in table.trials(kept, kept.progress())] == [("no", "it broke off")] * 2 + [("yes", "n/a")] * 2
+
+
+def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, capsys):
+    plan = small(tmp_path)
+    actions.TOOLS["version"] = lambda: "test"
+    actions.Freeze.run(type("Args", (), {"plan": plan.file, "reason": None}))
+    printed = capsys.readouterr().out
+    for line in overview.broken_off(plan):
+        assert line in printed and line in overview.schedule(plan)
+    assert "nothing takes its place" in printed and "The same holds where result is aborted or invalid: the trial broke off." in printed
+
+
+def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
+    from navvi_study import measures
+    row = {"counts": "yes", "result": "timeout", "path_length_m": "5.0", "first_path_length_m": "10.0"}
+    assert measures.value(measures.MEASURES["detour"], row) is None
+    assert measures.value(measures.MEASURES["detour"], {**row, "result": "reached"}) == 0.5
+    with pytest.raises(StudyError) as problem:
+        small(tmp_path, ("measure: time", "measure: detour"))
+    assert "\"outcomes/primary/measure\" is detour, which is defined for trials that reached the goal alone; allowed are \"trials: reached\"" in str(problem.value)
+    plan = small(tmp_path, ("measure: time", "trials: reached, measure: detour"))
+    assert plan.values()["primary"]["trials"] == "reached" and "of trials that reached the goal" in overview.question(plan.primary)
+    with pytest.raises(StudyError, match="time is defined for trials that count; allowed is to leave it out"):
+        small(tmp_path, ("measure: time", "trials: reached, measure: time"))
+    assert "trials" not in small(tmp_path).values()["primary"], "plans of before keep their hash"
+
+
+def test_the_page_on_studies_says_for_which_trials_each_measure_is_defined():
+    from navvi_study import measures
+    page = (ROOT / "doc/study.md").read_text()
+    for name, measure in measures.MEASURES.items():
+        assert f"| {name} | {measure.label}, {measure.unit} | {measure.of} |" in page, name
 
 
 def test_where_no_trial_began_the_same_world_comes_again(work):
@@ -318,9 +410,12 @@ def test_nobody_drives_without_consent(tmp_path):
     (tmp_path / "consent.yaml").write_text("title: Consent\nitems: [{name: agree, ask: Do you agree, choices: [\"no\", \"yes\"], required: \"yes\"}]")
     kept = study.Study(small(tmp_path, ("limit: 60", "consent: consent\nlimit: 60")))
     kept.freeze("test", None)
-    begun = session.Session(kept, Driver(kept), say=lambda line: None)
+    said = []
+    begun = session.Session(kept, Driver(kept), say=said.append)
     begun.runner.ask = lambda participant, step, items, answered, lock: answered(items[0], "no")
     assert begun.next("sub-01") is None
+    assert said[-1] == "navvi: sub-01: consent is not given, by an answer that was drawn: nobody was asked."
+    assert kept.journal.rows()[-1]["asked"] == "nobody", "a rehearsed consent is told from a real one"
     with_status = "\n".join(overview.status(kept, kept.progress()))
     assert "sub-01: 0 of 2 trials; has not given consent." in with_status
     assert rest(begun) == [] and begun.runner.driven == []
@@ -350,6 +445,37 @@ def test_two_experimenters_do_not_drive_one_participant(work):
         work().next("sub-01")
 
 
+@pytest.mark.parametrize("with_command", [True, False])
+def test_D3_a_session_that_outlived_its_terminal_is_named_and_stopped(work, tmp_path, capsys, with_command):
+    navvi = tmp_path / "navvi"
+    navvi.write_text(f"""#!/bin/sh
+trap 'touch {tmp_path}/ended; exit 1' INT
+touch {tmp_path}/there
+while true; do sleep 0.1; done
+""")
+    navvi.chmod(0o755)
+    child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"))
+    child.start()
+    deadline = time.monotonic() + 20
+    while not (tmp_path / "there").exists():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    if not with_command:
+        os.kill(child.pid, signal.SIGKILL)
+        child.join()
+    orphan = next(pid for pid, name in work.study.running("sub-01").items() if name == "navvi")
+    with pytest.raises(StudyError, match=rf"running still: process .*{orphan} \(navvi\).*\./navvi study stop {work.study.plan.file} sub-01"):
+        work().next("sub-01")
+    begun = time.monotonic()
+    args = type("Args", (), {"plan": work.study.plan.file, "participant": "sub-01"})
+    actions.Stop.run(args)
+    assert time.monotonic() - begun < 5 and (tmp_path / "ended").exists() and f"{orphan} (navvi)" in capsys.readouterr().out
+    child.join()
+    actions.Stop.run(args)
+    assert "nothing of sub-01 is running" in capsys.readouterr().out
+    assert rest(work())[0] == "s1-c1-trial-1"
+
+
 # The journal.
 
 def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
@@ -366,6 +492,13 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
         kept.path.write_text("".join(changed))
         with pytest.raises(StudyError, match="damaged, changed"):
             journal.Journal(kept.path).rows()
+
+
+def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
+    for content in (b"{", b"\xff", b"[]", b"{}"):
+        work.study.frozen_file.write_bytes(content)
+        with pytest.raises(StudyError, match="restore it from a copy"):
+            work.study.require_frozen()
 
 
 def _write_for_ever(path):
@@ -619,6 +752,72 @@ def test_marks_and_interventions_stand_in_the_table(work):
     assert [note["text"] for note in work.study.notes("sub-01")] == ["", "the door opened", "led the robot", ""]
 
 
+def test_D1_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
+    begun = work()
+    begun.next("sub-01")
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    reader, writer = os.pipe()
+    os.write(writer, b"n caf\xe9\nn one\xe2\x80\xa8two\xe2\x80\xa9three\xc2\x85four\nwhat\nwhat\ni led the robot")
+    os.close(writer)
+    desk = runner.Desk(None, lambda row: work.study.note("sub-01", attempt, row), runner.Lines(reader))
+    for _ in range(6):
+        desk.listen(0.0)
+    assert [note["text"] for note in work.study.notes("sub-01")] == ["caf\ufffd", "one\u2028two\u2029three\x85four", "led the robot"]
+    told = capsys.readouterr().out
+    assert told.count("\"what\" is not understood") == 2 and told.count(runner.DESK) == 1
+    row = table.trials(work.study, work.study.progress())[0]
+    assert (row["marks"], row["interventions"]) == ("2", "1")
+
+
+@pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])
+def test_D2_a_note_that_cannot_be_written_is_told_and_the_trial_is_ended_all_the_same(problem, capsys, monkeypatch):
+    ended = []
+    monkeypatch.setattr(runner.os, "killpg", lambda *given: ended.append(given))
+
+    def note(row):
+        raise problem
+    desk = runner.Desk(type("Process", (), {"pid": 7}), note)
+    desk.obey("n the door opened")
+    desk.obey("a")
+    assert capsys.readouterr().out.count("is NOT written") == 2 and ended == [(7, signal.SIGINT)]
+
+
+def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_over(work):
+    from navvi_study import verify
+    rest(work())
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    for text in ("one", "two"):
+        work.study.note("sub-01", attempt, {"utc": "2026-01-01T00:00:00Z", "mono_ns": 1, "type": "note", "text": text})
+    assert verify.notes_and_answers(work.study, work.study.progress())[1:] == ({"notes": 2, "answers": 12}, 0)
+    for kind, damage in (("notes", b'{"step": "s1-c1-trial-1", "att\n[1]\n'), ("answers", b"\xff\n" + b"[" * 100000 + b"\n")):
+        with open(work.study.home("sub-01") / f"{kind}.jsonl", "ab") as file:
+            file.write(damage)
+    sentences, counts, lost = verify.notes_and_answers(work.study, work.study.progress())
+    assert sentences[0] == "sub-01: notes 2 of 4, answers 12 of 14." and counts == {"notes": 4, "answers": 14} and lost == 4
+    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
+             for kind, numbers in (("notes", (3, 4)), ("answers", (13, 14))) for number in numbers]
+    assert sentences[1:] == named and all(f"  {sentence}" in overview.status(work.study, work.study.progress()) for sentence in named)
+    assert len(table.answers(work.study, work.study.progress())) == 12
+
+
+def test_a_reason_that_is_not_utf_8_leaves_the_journal_whole(work):
+    rest(work())
+    actions.Exclude.run(type("Args", (), {"plan": work.study.plan.file, "what": "sub-01", "reason": "caf\udce9", "no_replacement": False}))
+    assert work.study.journal.rows()[-1]["reason"] == "caf?" == journal.Journal(work.study.journal.path).rows()[-1]["reason"]
+
+
+def test_a_record_whose_bytes_are_not_utf_8_is_read(work):
+    rest(work())
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    trial = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
+    write_record(trial)
+    for name, more in (("events.csv", b"3.000,0,t,caf\xe9\xe2\x80\xa8,1.0,2.0,n/a\n"), ("journal.csv", b"\x85\xff\n"), ("summary.csv", b"\xff")):
+        with open(trial / name, "ab") as file:
+            file.write(more)
+    assert [row["trial_type"] for row in table.events(work.study, work.study.progress())] == ["goal reached", "caf\ufffd\u2028"]
+    assert len(record.Record(trial).rows) == 3
+
+
 def write_record(folder, end=30.0):
     """A journal from 10 s of ROS time on, whose monotonic clock stands at 1000 s then and runs half as fast, and the events of it."""
     rows = [(10.0, 1000.0, "TRIAL_START", "x=0;y=0"), (15.0, 1002.5, "PROGRESS", "x=1;y=0"), (end, 1000.0 + (end - 10.0) / 2, "TRIAL_END", "x=2;y=0")]
@@ -711,7 +910,7 @@ def test_a_report_is_read_without_eyes_and_without_a_network(reported):
         assert page.parts[at + 1][0] == "table"
     assert page.links and all(link.startswith("data:") for link in page.links)
     assert "sub-06 is excluded: fell ill." in page.text
-    assert f"./navvi study report {kept.plan.file} --only time" in page.text
+    assert "./navvi study report small.yaml --only time" in page.text and str(kept.folder.parent) not in text, "no folder of the researcher"
 
 
 def test_ways_lie_over_the_map_where_they_were_driven():
@@ -739,6 +938,35 @@ def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
     assert any("3 sentences, 0 sounds and 0 felt patterns a minute" in part.get("alt", "") for _, part in page.parts)
     assert asked == [("n/a", "n/a")]
     assert report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: None) == text
+
+
+def test_a_contrast_has_one_sign_in_all_of_a_report(reported):
+    _, text = reported
+    assert text.count("full minus plain") > 5 and "plain minus full" not in text, "the plan's order, not that of the conditions"
+
+
+def test_replaced_is_what_another_trial_was_driven_for(work):
+    from navvi_study import report
+    rest(work("aborted", "aborted", "aborted"))
+    assert [row[-1] for row in report.excluded(work.study.progress())] == ["yes", "yes", "no"], "the reserve is used up"
+
+
+def test_a_report_does_not_deny_the_journal_of_a_trial_that_does_not_count(work):
+    from navvi_study import report
+    work("aborted").next("sub-01")
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    write_record(work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial)
+    text = report.page(work.study, work.study.progress(), rehearsed=False)
+    assert "No trial that counts has a journal" in text and "No trial has a journal" not in text
+
+
+@pytest.mark.parametrize("p, words", [(0.077, "the interval excludes 0, and p is not below 0.05"), (0.01, "")])
+def test_an_interval_and_a_p_that_differ_are_said_in_words(reported, monkeypatch, p, words):
+    from navvi_study import analysis
+    kept, _ = reported
+    monkeypatch.setitem(analysis.MODELS, "time", lambda result, values, differences: setattr(result, "p", p))
+    one = analysis.Analysis(kept, kept.progress()).contrast("time", "plain", "full")
+    assert one.high < 0 and (words in one.note if words else one.note == "")
 
 
 def test_the_same_study_gives_the_same_report(reported):

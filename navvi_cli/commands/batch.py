@@ -13,13 +13,15 @@ brief, sighted (the hand led by eyes), or a name of your own:
 slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
 
 Exit codes
-0: done. 1: some failed, are not done, or changed. 2: a wrong argument.
+0: done. 1: some failed, are not done, or changed. 2: a wrong argument, or a
+full disk.
 
 Examples
 ./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy
 ./navvi batch --from=busy:7 --until=40 --then=speech:=false --out=quiet
 """
 import concurrent.futures
+import contextlib
 import csv
 import fcntl
 import io
@@ -111,6 +113,8 @@ def condition_of(text):
 
 
 def trials_of(args):
+    if "\n" in args.worlds + args.people + args.conditions:
+        fail("--worlds, --people or --conditions has a line break; allowed are names without one.", 2)
     people = [each for text in args.people.split(",") for each in person_of(text)]
     conditions = [condition_of(text) for text in args.conditions.split(",")]
     cells = [(world, seed, person, seed if person_seed is None else person_seed, *condition) for world in args.worlds.split(",")
@@ -140,6 +144,7 @@ class Rows:
     """The rows of a shard: whole lines, each on the disk before the next begins. What a kill has torn is cut off."""
 
     def __init__(self, path):
+        self.path = path
         self.file = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
         # A batch that was killed while it began a trial leaves the lock to that trial's process until its program runs.
         end = time.monotonic() + 2.0
@@ -148,21 +153,37 @@ class Rows:
                 fail(f"{path} is being written by another process; one shard is run once at a time.", 2)
             time.sleep(0.05)
         whole = read(path).rpartition("\n")[0]
-        os.ftruncate(self.file, len(whole.encode()) + 1 if whole else 0)
+        os.ftruncate(self.file, len(bytes_of(whole)) + 1 if whole else 0)
         os.lseek(self.file, 0, os.SEEK_END)
 
     def append(self, line):
-        data = line.encode()
-        while data:
-            data = data[os.write(self.file, data):]
-        os.fsync(self.file)
+        data = bytes_of(line)
+        with naming(self.path):
+            while data:
+                data = data[os.write(self.file, data):]
+            os.fsync(self.file)
 
     def close(self):
         os.close(self.file)
 
 
+@contextlib.contextmanager
+def naming(path):
+    """A full disk names the file."""
+    try:
+        yield
+    except OSError as problem:
+        problem.filename = problem.filename or str(path)
+        raise
+
+
 def read(path):
-    return Path(path).read_bytes().decode()
+    """Bytes that are not UTF-8, as in the name of a world's file, stay what they are."""
+    return Path(path).read_bytes().decode(errors="surrogateescape")
+
+
+def bytes_of(text):
+    return text.encode(errors="surrogateescape")
 
 
 def number_of(line):
@@ -173,17 +194,16 @@ def done_in(folder):
     """The rows of all shards, by number."""
     rows = {}
     for path in sorted(folder.glob("rows-*.csv")):
-        for line in read(path).splitlines(keepends=True):
-            if line.endswith("\n"):
-                rows.setdefault(number_of(line), line)
+        for line in read(path).split("\n")[:-1]:
+            rows.setdefault(number_of(line), line + "\n")
     return rows
 
 
 def replace(path, text):
     """As a whole, and on the disk."""
     part = path.with_name(f".{path.name}.{os.getpid()}")
-    with open(part, "w", encoding="utf-8") as file:
-        file.write(text)
+    with naming(path), open(part, "wb") as file:
+        file.write(bytes_of(text))
         file.flush()
         os.fsync(file.fileno())
     os.replace(part, path)
@@ -207,7 +227,7 @@ def row_of(trial, titles, cells):
 
 def simulate(program, trial, args, more=()):
     """(trial, titles, line); without a line where it failed, and then the reason in place of the titles."""
-    result = subprocess.run([program, *trial.words(args.limit, (f"--cache={args.cache}", *more))], capture_output=True, text=True, check=False)
+    result = subprocess.run([program, *trial.words(args.limit, (f"--cache={args.cache}", *more))], capture_output=True, text=True, errors="surrogateescape", check=False)
     table = list(csv.reader(io.StringIO(result.stdout)))
     if result.returncode or len(table) != 2:
         return trial, (result.stderr.strip().splitlines() or [f"exit code {result.returncode}"])[-1], None

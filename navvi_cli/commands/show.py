@@ -18,6 +18,6 @@ def arguments(parser):
 def run(args):
     row = trials.summary(args.trial)
     if args.csv:
-        print((args.trial / "summary.csv").read_text(), end="")
+        print((args.trial / "summary.csv").read_text(errors="replace"), end="")
     else:
         print("\n".join([*trials.lines(row, row), f"The record is in {args.trial}", trials.sentence(row)]))

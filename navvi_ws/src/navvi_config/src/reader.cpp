@@ -7,8 +7,11 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <numeric>
 #include <set>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include "navvi_config/json.hpp"
 
@@ -23,6 +26,33 @@ std::string to_text(double number) {
     out << std::fixed << std::setprecision(0);
   out << number;
   return out.str();
+}
+
+/// So much of a value or key as tells which one is meant: an error cites no file.
+std::string cited(const std::string& text) {
+  constexpr std::size_t kMost = 60;  // bytes
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // of UTF-8
+  return text.substr(0, end) + "...";
+}
+
+/// Of the words, the one that is at most two letters, and half of it, off; empty where none is.
+std::string nearest(const std::string& word, const std::set<std::string>& words) {
+  std::string found;
+  std::size_t least = std::min<std::size_t>(3, word.size() / 2 + 1);
+  for (const std::string& other : words) {
+    std::vector<std::size_t> row(other.size() + 1);  // of Levenshtein's distances
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t corner = std::exchange(row[0], i + 1);
+      for (std::size_t j = 0; j < other.size(); ++j)
+        corner = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1,
+                                                     corner + (word[i] == other[j] ? 0 : 1)}));
+    }
+    if (row.back() < least) std::tie(least, found) = std::pair(row.back(), other);
+  }
+  return found;
 }
 
 template <typename Items>
@@ -101,8 +131,10 @@ class YamlReader : public Visitor {
     for (const auto& pair : level.node) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "(not a word)";
       if (!level.known.count(key)) {
-        throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
-                          "\" is unknown; known here are " + join(level.known) + ".");
+        const std::string meant = nearest(cited(key), level.known);
+        throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + cited(key) +
+                          "\" is unknown; " + (meant.empty() ? "" : "nearest is " + meant + "; ") +
+                          "known here are " + join(level.known) + ".");
       }
       if (!seen.insert(key).second) {
         throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
@@ -153,7 +185,7 @@ class YamlReader : public Visitor {
 
   [[noreturn]] void refuse(const Field& field, const YAML::Node& node,
                            const std::string& allowed) const {
-    const std::string given = node.IsScalar() ? node.Scalar()
+    const std::string given = node.IsScalar() ? cited(node.Scalar())
                               : node.IsNull() ? "nothing"
                                               : "a list or map";
     throw ConfigError(where(node) + ": \"" + levels_.back().prefix + field.name + "\" is " + given +
@@ -275,7 +307,7 @@ YAML::Node load_yaml(const std::filesystem::path& path) {
   } catch (const YAML::DeepRecursion& problem) {
     throw not_yaml(problem, "it is nested too deep");
   } catch (const YAML::Exception& problem) {
-    throw not_yaml(problem, problem.msg);
+    throw not_yaml(problem, cited(problem.msg));
   }
 }
 

@@ -95,7 +95,17 @@ TEST(Reader, every_bad_document_is_refused) {
 TEST(Reader, an_unknown_key_is_named_with_the_known_ones) {
   EXPECT_EQ(
       refusal("inner: {kurve: log}"),
-      "test.yaml, line 1: the key \"inner/kurve\" is unknown; known here are classes, curve.");
+      "test.yaml, line 1: the key \"inner/kurve\" is unknown; nearest is curve; known here "
+      "are classes, curve.");
+}
+
+TEST(Reader, an_error_cites_no_more_of_a_file_than_tells_which_value_is_meant) {
+  const std::string letters(1000, 'x');
+  for (const std::string& said : {refusal("speed: " + letters), refusal(letters + ": 1"),
+                                  refusal_of_file("speed: *" + letters)}) {
+    EXPECT_NE(said, "");
+    EXPECT_LT(said.size(), 250U) << said;
+  }
 }
 
 TEST(Reader, a_missing_file_and_a_broken_file_are_told_apart) {

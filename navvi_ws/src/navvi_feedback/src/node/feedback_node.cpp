@@ -8,6 +8,8 @@
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 
+#include "cues/phrases.hpp"
+#include "lessons/questionnaire.hpp"
 #include "menu/places_file.hpp"
 #include "navvi_feedback/lockstep/guide.hpp"
 #include "node/beat.hpp"
@@ -194,8 +196,12 @@ int main(int argc, char** argv) {
   using navvi_feedback::person::PersonFile;
   if (const auto code =
           navvi_config::print_parameters<NodeConfig>(argc, argv, [](const NodeConfig& config) {
+            using namespace navvi_feedback;
             if (const std::string& places = config.feedback->places; !places.empty())
-              static_cast<void>(navvi_feedback::menu::read_places(places));
+              static_cast<void>(menu::read_places(places));
+            if (const std::string& asked = config.feedback->questions; !asked.empty())
+              static_cast<void>(lessons::read_questions(asked));
+            if (!config.phrases.empty()) static_cast<void>(cues::Phrases(config.phrases));
             return config.person.empty() ? YAML::Node(YAML::NodeType::Map)
                                          : PersonFile::of<PersonConfig>(config.person).load();
           }))

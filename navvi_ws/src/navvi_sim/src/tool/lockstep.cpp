@@ -5,8 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <fstream>
+#include <navvi_config/files.hpp>
 #include <navvi_config/reader.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -18,8 +19,9 @@ namespace {
 using namespace navvi_sim;
 
 std::vector<live::AppliedCommand> read_commands(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("\"" + path + "\" cannot be read");
+  const auto content = navvi_config::read_file(path);
+  if (!content) throw std::runtime_error("\"" + path + "\" cannot be read");
+  std::istringstream file(*content);
   std::vector<live::AppliedCommand> commands;
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {

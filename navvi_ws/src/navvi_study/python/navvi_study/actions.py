@@ -72,11 +72,13 @@ class Freeze:
 
     @staticmethod
     def run(args):
+        from . import overview
         study = opened(args)
         changes = study.freeze(TOOLS["version"](), args.reason)
         print(f"navvi: the plan is frozen: {study.plan.hash()}")
         for change in changes or []:
             print(f"  changed: {change}")
+        print("\n".join(overview.broken_off(study.plan)))
 
 
 class Next:
@@ -115,6 +117,28 @@ class Next:
             if not args.session or step.kind == "session_end":
                 return 0
             session.runner.pause()
+
+
+class Stop:
+    """End what is running of a participant, as Ctrl-C would.
+
+    For a session that goes on after its "study next" was killed. Its trial is kept
+    as broken off, and the next "study next" goes on with a world of the reserve.
+
+    Exit codes
+    0: ended, or nothing was running. 2: not planned, or it does not end.
+    """
+
+    @staticmethod
+    def arguments(parser):
+        plan_argument(parser)
+        participant_argument(parser)
+
+    @staticmethod
+    def run(args):
+        study = opened(args)
+        ended = study.stop(study.progress().person(args.participant).name)
+        print("navvi: ended: " + ", ".join(f"{pid} ({name})" for pid, name in ended.items()) + "." if ended else f"navvi: nothing of {args.participant} is running.")
 
 
 class Run:
@@ -192,7 +216,7 @@ class Exclude:
             print(f"navvi: {args.what} does not count: {reason}.")
             return
         person, attempt = progress.find(args.what)
-        if attempt.excluded:
+        if attempt.excluded and not attempt.dropped_out:
             raise StudyError(f"{args.what} is excluded already: {attempt.excluded}.")
         study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
                              rule=False, replace=not args.no_replacement)
@@ -213,7 +237,7 @@ class Withdraw:
     def arguments(parser):
         plan_argument(parser)
         participant_argument(parser)
-        parser.add_argument("--data", metavar="WHAT", required=True, choices=("delete", "keep"), help="delete or keep what was recorded.")
+        parser.add_argument("--data", metavar="delete|keep", required=True, choices=("delete", "keep"), help="what was recorded.")
 
     @staticmethod
     def run(args):
@@ -247,10 +271,11 @@ class Table:
 class Verify:
     """Count each trial's summary again, from its journal and from its bag.
 
-    A line a trial: whether journal, bag and the row of trials.csv are equal.
+    A line a trial: whether journal, bag and the row of trials.csv are equal; a line a
+    participant: how many of the notes and answers that were written are read.
 
     Exit codes
-    0: all are equal. 1: some differ. 2: a wrong plan, or a damaged record.
+    0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
 
     arguments = staticmethod(plan_argument)
@@ -261,8 +286,9 @@ class Verify:
         study = opened(args)
         programs = (TOOLS["tool"]("navvi_study", name) for name in ("summary_from_journal", "summary_from_bag"))
         sentences, bad = verify.verify(study, study.progress(), *programs)
-        print("\n".join([*sentences, f"{len(sentences)} trials, {bad} differ."]))
-        return 1 if bad else 0
+        lines, counts, lost = verify.notes_and_answers(study, study.progress())
+        print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+        return 1 if bad or lost else 0
 
 
 class Export:
@@ -362,11 +388,11 @@ def _write_report(study, only, rehearsed):
 
 
 def _reason(words):
-    from . import checked
+    from . import checked, journal
     try:
-        return checked.text(words)
+        return checked.text(journal.plain(words))
     except ValueError as allowed:
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
 
 
-ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Run, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}
+ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Stop, Run, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}

@@ -42,7 +42,7 @@ class Contrast:
 class Analysis:
     def __init__(self, study, progress):
         self.plan = progress.plan
-        rows = [row for row in table.trials(study, progress) if row["counts"] == "yes"]
+        rows = [row for row in table.trials(study, progress) if row["counts"] in ("yes", measures.DROP_OUT)]
         self.trials = pd.DataFrame(rows, columns=list(rows[0]) if rows else ["participant", "group", "condition", "order", "result"])
         self.scores = pd.DataFrame(table.scores(study, progress), columns=["participant", "group", "condition", "order", "questionnaire", "score"])
 
@@ -99,6 +99,9 @@ class Analysis:
         if result.p is not None and not np.isfinite(estimates).all():
             result.p = result.estimate = result.estimate_low = result.estimate_high = None
             result.note = "the model cannot be estimated from these data"
+        if result.p is not None and result.low is not None and (result.low > 0 or result.high < 0) != (result.p < 0.05):
+            words = ("the interval excludes 0, and p is not below 0.05" if result.p >= 0.05 else "p is below 0.05, and the interval holds 0")
+            result.note = "; ".join(filter(None, [result.note, f"{words}: mean and model differ here, and p decides"]))
         return result
 
     def confirmatory(self):
@@ -109,9 +112,20 @@ class Analysis:
 
     def exploratory(self):
         """All that was not asked for before, with p corrected by Benjamini and Hochberg."""
-        asked = {(one.measure, frozenset((one.first, one.second))) for one in (self.plan.primary, *self.plan.secondary)}
-        pairs = dict.fromkeys(pair for group in self.plan.groups for pair in itertools.combinations(group.conditions, 2))
-        return corrected([self.contrast(name, *pair) for name in self.asked() for pair in pairs if (name, frozenset(pair)) not in asked], "fdr_bh")
+        asked = {(one.measure, frozenset((one.first, one.second))) for one in self._questions()}
+        return corrected([self.contrast(name, *pair) for name in self.asked() for pair in self.pairs(name) if (name, frozenset(pair)) not in asked], "fdr_bh")
+
+    def pairs(self, name):
+        """All that is compared by the measure, each pair once and in the plan's order: as the outcome of this measure names it, else as
+        another outcome does, else as the group has its conditions."""
+        planned = {frozenset((one.first, one.second)): (one.first, one.second)
+                   for one in sorted(self._questions(), key=lambda one: one.measure == name)}
+        pairs = dict.fromkeys(frozenset(pair) for group in self.plan.groups for pair in itertools.combinations(group.conditions, 2))
+        listed = {frozenset(pair): pair for group in reversed(self.plan.groups) for pair in itertools.combinations(group.conditions, 2)}
+        return [planned.get(pair, listed[pair]) for pair in pairs]
+
+    def _questions(self):
+        return (self.plan.primary, *self.plan.secondary)
 
     def _of(self, question):
         return self.contrast(question.measure, question.first, question.second)

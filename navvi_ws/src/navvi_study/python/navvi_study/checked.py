@@ -1,6 +1,11 @@
-"""YAML files read key by key: an unknown key or a wrong value is an error that names file, line, key and what is allowed."""
+"""YAML files read key by key: an unknown key or a wrong value is an error that names file, line, key and what is allowed.
+
+Whatever a user hands in as a file is read here: regular files alone, bounded in bytes, depth and values, and cited in no error beyond a
+value's first letters."""
 import difflib
+import os
 import re
+import stat
 
 import yaml
 
@@ -8,21 +13,55 @@ from .errors import StudyError
 
 
 REQUIRED = object()
+LARGEST = 1 << 20  # bytes of a file, as in navvi_config's readers
+LINE_ENDS = "\x85\u2028\u2029"
+HUGE = 10 ** 40
+DEEPEST = 32  # lists and mappings in one another
+MOST = 50_000  # values of a file, those behind an alias counted each time
 
 
 class _Loader(yaml.SafeLoader):
-    """Refuses a key that is given twice, and keeps the line of each."""
+    """Refuses a key that is given twice and what is too deep or too much, and keeps the line of each key."""
+
+    depth = count = 0
+
+    def compose_node(self, parent, index):
+        alias, line = self.check_event(yaml.AliasEvent), self.peek_event().start_mark.line + 1
+        self.depth, self.count = self.depth + 1, self.count + 1
+        node = super().compose_node(parent, index) if self.depth <= DEEPEST else None
+        self.depth -= 1
+        if node and not alias:
+            below = [] if isinstance(node, yaml.ScalarNode) else [one for entry in node.value for one in (entry if isinstance(entry, tuple) else (entry,))]
+            node.height = 1 + max((one.height for one in below), default=0)
+            node.weight = 1 + sum(one.weight for one in below)
+        if node and not hasattr(node, "height"):
+            raise StudyError(f"{self.file}:{line}: an alias stands in what it names; allowed are aliases of what has ended.")
+        if not node or node.height > DEEPEST:
+            raise StudyError(f"{self.file}:{line}: lists and mappings are nested too deep; allowed are {DEEPEST} in one another.")
+        if max(node.weight, self.count) > MOST:
+            raise StudyError(f"{self.file}:{line}: there are too many values; allowed are {MOST}.")
+        return node
+
+    def construct_object(self, node, deep=False):
+        try:
+            value = super().construct_object(node, deep)
+            if isinstance(value, int) and abs(value) > HUGE:
+                raise ValueError
+            return value
+        except (ArithmeticError, AttributeError, LookupError, ValueError):  # such as a date that there is not
+            raise StudyError(f"{self.file}:{node.start_mark.line + 1}: a value cannot be read as the date, number or type that it looks like; "
+                             "allowed is to quote it, if it is text.") from None
 
 
 def _mapping(loader, node, deep=True):
     keys = _Lined()
     for key_node, value_node in node.value:
-        key = loader.construct_object(key_node, deep=True)
         line = key_node.start_mark.line + 1
+        key = loader.construct_object(key_node, deep=True)
         if not isinstance(key, str):
-            raise StudyError(f"{loader.file}:{line}: the key {key!r} is not text; quote it, such as \"{key}\".")
+            raise StudyError(f"{loader.file}:{line}: the key {_shown(key)} is not text; quote it.")
         if key in keys:
-            raise StudyError(f"{loader.file}:{line}: the key \"{key}\" is given twice; once is allowed.")
+            raise StudyError(f"{loader.file}:{line}: the key {_shown(key)} is given twice; once is allowed.")
         keys[key] = loader.construct_object(value_node, deep=True)
         keys.lines[key] = line
     return keys
@@ -37,21 +76,38 @@ class _Lined(dict):
 _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
 
 
+def read(path, most=LARGEST):
+    """The bytes of a regular file of at most so many. Raises StudyError."""
+    try:
+        with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:  # a pipe is not waited for
+            about = os.fstat(file.fileno())
+            if not stat.S_ISREG(about.st_mode):
+                raise StudyError(f"{path} is a device, a pipe or a folder; allowed are regular files.")
+            content = file.read(most + 1)
+    except OSError as problem:
+        raise StudyError(f"{path} cannot be read: {problem.strerror}.") from None
+    if len(content) > most:
+        raise StudyError(f"{path} is larger than {most >> 20} MiB; allowed is no more than that.")
+    return content
+
+
 def load(path):
     """The file as a Section. Raises StudyError."""
+    content = read(path)
     try:
-        with open(path, encoding="utf-8") as file:
-            loader = _Loader(file)
-            loader.file = path
-            try:
-                values = loader.get_single_data()
-            finally:
-                loader.dispose()
-    except (OSError, UnicodeDecodeError) as problem:
-        raise StudyError(f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}.") from None
+        loader = _Loader(content.decode())
+        loader.file = path
+        try:
+            values = loader.get_single_data()
+        finally:
+            loader.dispose()
+    except UnicodeDecodeError as problem:
+        line = content.count(b"\n", 0, problem.start) + 1
+        raise StudyError(f"{path}:{line}: a byte is not UTF-8; allowed is text in UTF-8.") from None
     except yaml.YAMLError as problem:
-        mark = getattr(problem, "problem_mark", None)
-        raise StudyError(f"{path}:{mark.line + 1 if mark else 1}: cannot parse the YAML: {getattr(problem, 'problem', problem)}.") from None
+        mark, why = getattr(problem, "problem_mark", None), getattr(problem, "problem", None) or "a sign is not allowed in it"
+        why = re.sub(r"'[^']{24,}'", "what stands there", why)  # an error cites no file
+        raise StudyError(f"{path}:{mark.line + 1 if mark else 1}: cannot parse the YAML: {why}.") from None
     return Section(path, "", values)
 
 
@@ -61,7 +117,7 @@ class Section:
     def __init__(self, file, path, values):
         self.file, self.path, self.line = file, path, 1
         if not isinstance(values, dict):
-            raise StudyError(f"{file}: {path or 'the file'} is {_shown(values)}; allowed is a mapping of keys.")
+            raise StudyError(f"{file}: {path or 'the file'} is {_shown(values) if path else _kind(values)}; allowed is a mapping of keys.")
         self.values, self.taken = values, set()
 
     def __contains__(self, key):
@@ -73,7 +129,7 @@ class Section:
         if key not in self.values:
             if default is REQUIRED:
                 alike = difflib.get_close_matches(key, [other for other in self.values if other not in self.taken], 1)
-                raise StudyError(f"{self.file}: the key \"{self._path(key)}\" is missing" + (f"; \"{alike[0]}\" is unknown." if alike else "."))
+                raise StudyError(f"{self.file}: the key \"{self._path(key)}\" is missing" + (f"; {_shown(alike[0])} is unknown." if alike else "."))
             return default
         try:
             return kind(self.values[key])
@@ -101,7 +157,7 @@ class Section:
     def error(self, key, words):
         """To be raised: what is wrong with the value of the key."""
         line = getattr(self.values, "lines", {}).get(key, 1)
-        return StudyError(f"{self.file}:{line}: \"{self._path(key)}\" {words}.")
+        return StudyError(f"{self.file}:{line}: {_shown(self._path(key), 80)} {words}.")
 
     def done(self):
         for key in self.values:
@@ -113,12 +169,19 @@ class Section:
         return f"{self.path}/{key}" if self.path else key
 
 
-def _shown(value):
-    if value is None:
-        return "empty"
+def _shown(value, most=40):
+    """A key or value in an error: no more of it than says which one is meant."""
+    if value is None or isinstance(value, (list, dict)):
+        return _kind(value)
     if isinstance(value, bool):
         return str(value).lower()
-    return f"\"{value}\"" if isinstance(value, str) else str(value)
+    words = str(value)
+    words = words if len(words) <= most else words[:most - 3] + "..."
+    return f"\"{words}\"" if isinstance(value, str) else words
+
+
+def _kind(value):
+    return "empty" if value is None else "a list" if isinstance(value, list) else "a mapping" if isinstance(value, dict) else "one value"
 
 
 def anything(value):
@@ -126,7 +189,7 @@ def anything(value):
 
 
 def text(value):
-    if not isinstance(value, str) or not value.strip() or any(ord(letter) < 32 for letter in value.strip()):
+    if not isinstance(value, str) or not value.strip() or any(ord(letter) < 32 or letter in LINE_ENDS or "\ud800" <= letter <= "\udfff" for letter in value.strip()):
         raise ValueError("text of one line")
     return value.strip()
 

@@ -3,10 +3,12 @@
 A row is a line of JSON. It holds the hash of the row before it, so that no row can be changed, left out or put in later without the chain
 breaking. What belongs to one participant (answers, notes, trials) is in that participant's folder, so that it can be erased."""
 import contextlib
+import csv
 import datetime
 import fcntl
 import getpass
 import hashlib
+import io
 import json
 import os
 import time
@@ -29,6 +31,7 @@ class Journal:
 
     def append(self, kind, **fields):
         """Returns the row, once it is on the disk."""
+        fields = {name: plain(value) if isinstance(value, str) else value for name, value in fields.items()}
         with self._locked() as file:
             rows = self._read(file)
             row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
@@ -65,9 +68,12 @@ class Journal:
             raise StudyError(f"{self.path} has become shorter; restore it from a copy.")
         whole, _, torn = os.pread(file, size - self._good, self._good).rpartition(b"\n")
         if torn:
-            self._set_aside(torn)
-            os.ftruncate(file, size - len(torn))
-            os.fsync(file)
+            try:
+                self._set_aside(torn)
+                os.ftruncate(file, size - len(torn))
+                os.fsync(file)
+            except OSError as problem:
+                raise StudyError(f"{self.path} ends in an unfinished row, which cannot be set aside: {problem.strerror}; mend that and try again.") from None
         for line in whole.split(b"\n") if whole else []:
             self._known.append(self._checked(line))
             self._good += len(line) + 1
@@ -107,12 +113,20 @@ def sync_folder(folder):
         os.close(file)
 
 
+def plain(text):
+    """The text with "?" for what is no text: bytes of an argument that are not UTF-8."""
+    return text.encode(errors="replace").decode()
+
+
 def append_line(path, values):
     """A line of JSON in a participant's own file, safe on the disk on return."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    new = not path.exists()
-    line = (json.dumps(values, ensure_ascii=False) + "\n").encode()
-    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
+    line = (plain(json.dumps(values, ensure_ascii=False)) + "\n").encode()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        new = not path.exists()
+        file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
+    except OSError as problem:
+        raise StudyError(f"{path} cannot be written: {problem.strerror}.") from None
     try:
         # What a crash left of a line ends here, so that the next one stands for itself.
         size = os.fstat(file).st_size
@@ -129,16 +143,34 @@ def append_line(path, values):
         sync_folder(path.parent)
 
 
-def read_lines(path):
-    """The lines that append_line() wrote whole."""
+def read_lines(path, fields):
+    """The rows that append_line() wrote whole, and the numbers of the lines that are none: unfinished when the power failed, or damaged.
+    \\param fields  the type of each by name"""
+    rows, skipped = [], []
+    for number, line in enumerate(lines_of(path), 1):
+        try:
+            row = json.loads(line)
+        except (ValueError, RecursionError):
+            row = None
+        if isinstance(row, dict) and all(isinstance(row.get(name), kind) for name, kind in fields.items()):
+            rows.append(row)
+        elif line:
+            skipped.append(number)
+    return rows, skipped
+
+
+def lines_of(path):
+    """Bytes of each line of a record, ended by "\\n" alone; none where there is no file."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        return Path(path).read_bytes().split(b"\n")
     except OSError:
         return []
-    rows = []
-    for line in lines:
-        try:
-            rows.append(json.loads(line))
-        except ValueError:
-            continue  # unfinished when the power failed
-    return rows
+
+
+def rows_of(path):
+    """Rows by column of a table that a trial or a lesson wrote; bytes that are not UTF-8 are replaced. None where there is no file."""
+    text = b"\n".join(lines_of(path)).decode(errors="replace")
+    try:
+        return list(csv.DictReader(io.StringIO(text, newline="\n")))
+    except csv.Error as problem:
+        raise StudyError(f"{path} is damaged: {problem}; restore it from a copy.") from None

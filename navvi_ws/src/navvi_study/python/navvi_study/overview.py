@@ -11,6 +11,7 @@ def schedule(plan):
         switched = [f"{'no ' if not getattr(condition, name) else ''}{name}" for name in ("touch", "speech", "sounds", "picture")]
         lines.append(f"Condition {condition.name}: {', '.join(switched)}, profile {condition.profile}"
                      + "".join(f", {name} {value}" for name, value in condition.parameters) + ".")
+    lines += broken_off(plan)
     lines += [f"Worlds: {len(plan.sets)} sets of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
     for group in plan.groups:
         lines.append(f"Group {group.name}:")
@@ -24,6 +25,13 @@ def schedule(plan):
     hours = sum(sum(minutes_of(plan, name)) for name in plan.participants) / 60
     lines.append(f"All together {hours:.1f} hours.")
     return lines
+
+
+def broken_off(plan):
+    """What happens to trials that do not end at goal or limit."""
+    lines = ["A trial that the person or the experimenter ends is a drop-out: not reached, in no other measure, and nothing takes its place.",
+             "A trial that breaks off by itself (aborted, refused, invalid) does not count, and a world of the reserve takes its place."]
+    return lines + [f"The same holds where {rule.column} is {' or '.join(rule.one_of) if rule.one_of else f'above {rule.above:g}'}: {rule.reason}." for rule in plan.exclusions]
 
 
 def balance(plan):
@@ -41,7 +49,7 @@ def balance(plan):
 
 def question(one):
     from .measures import MEASURES
-    return f"{MEASURES[one.measure].label.lower()}, {one.second} against {one.first}"
+    return f"{MEASURES[one.measure].label.lower()}, {one.second} minus {one.first}, of {MEASURES[one.measure].of}"
 
 
 def status(study, progress):
@@ -55,10 +63,13 @@ def status(study, progress):
         what = f"next is {step.name}, {step}" if step else why_nothing(progress, person)[:-1]
         lines.append(f"{person.name}: {driven} of {len(trials)} trials; {'has not begun; ' if not person.begun else ''}{what}.")
         for attempt in person.attempts:
-            if attempt.excluded:
+            if attempt.dropped_out:
+                lines.append(f"  {person.name}/{attempt.trial} is a {attempt.excluded}.")
+            elif attempt.excluded:
                 lines.append(f"  {person.name}/{attempt.trial} does not count: {attempt.excluded}, by {attempt.excluded_by}.")
             elif not attempt.ended:
                 lines.append(f"  {attempt.step} is running, or was broken off; \"study next\" goes on.")
+        lines += [f"  {sentence}" for sentence in study.unread(person.name)]
         if missing := progress.missing(person):
             lines.append(f"  without a trial that counts: {', '.join(step.name for step in missing)}.")
     complete = sum(progress.complete(person) for person in progress.people.values())

@@ -4,6 +4,7 @@ import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from . import checked
 from .errors import StudyError
 
 # What a condition switches, and the parameters of feedback_node that do it. Words for safety are never off.
@@ -13,6 +14,7 @@ SWITCHES = {
     "sounds": ["feedback/sounds/enabled"],
 }
 WORLD_FILES = (".yaml", ".sdf", ".world")
+LARGEST_WORLD = 20 << 20  # bytes, as world_tool reads
 # Given by the study itself to each session.
 OWN = {"feedback/locked", "trial/locked", "feedback/sounds/turn/learn", "feedback/sounds/turn/stopping_delay", "feedback/sounds/turn/stopping_spread"}
 
@@ -97,8 +99,8 @@ class Rule:
             return False
 
 
-#: Holds in every plan: such a record has no figures that could count.
-RECORD_NOT_WHOLE = Rule("result", "its record is not whole", ("invalid",))
+#: Hold in every plan, after its own: such a trial has no figures that could count.
+BROKEN_OFF = (Rule("result", "its record is not whole", ("invalid",)), Rule("result", "it broke off", ("aborted", "refused")))
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,7 @@ class Question:
     measure: str
     first: str
     second: str
+    trials: str = ""  # "reached": of a measure that is defined for these alone, and the plan says so
 
 
 @dataclass(frozen=True)
@@ -176,8 +179,11 @@ class Plan:
         values = _without_places(json.loads(json.dumps(asdict(self))))
         if not self.probes:  # so that plans without keep their hash
             del values["probes"]
+        for question in (values["primary"], *values["secondary"]):
+            if not question["trials"]:
+                del question["trials"]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
-        return dict(values, world_files={name: hashlib.sha256(file.read_bytes()).hexdigest() for name, file in files.items()})
+        return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 
     def hash(self):
         return hashlib.sha256(json.dumps(self.values(), sort_keys=True).encode()).hexdigest()

@@ -130,8 +130,15 @@ def _question(part, conditions):
     pair = part.take("conditions", list_of(one_of(*names)))
     if len(pair) != 2 or pair[0] == pair[1]:
         raise part.error("conditions", f"has {len(pair)} entries or one twice; allowed are two conditions")
+    trials, defined = part.take("trials", one_of("reached"), ""), measures.MEASURES[measure].of
+    if trials and defined != measures.REACHED:
+        raise part.error("trials", f"is {trials}, and {measure} is defined for {defined}; allowed is to leave it out")
+    if part.path == "outcomes/primary" and defined == measures.REACHED and not trials:
+        whole = ", ".join(name for name, one in measures.MEASURES.items() if one.of != measures.REACHED)
+        raise part.error("measure", f"is {measure}, which is defined for {defined} alone; allowed are \"trials: reached\" beside it, by which "
+                         f"the plan leaves the others out, and the measures {whole}")
     part.done()
-    return Question(measure, *pair)
+    return Question(measure, *pair, trials)
 
 
 def _questionnaires(folder, part, key):

@@ -22,6 +22,7 @@ class Attempt:
     excluded: str = ""  # why
     excluded_by: str = ""
     replaced: bool = True  # another attempt takes its place
+    dropped_out: bool = False  # the person or the experimenter ended it
 
     @property
     def ended(self):
@@ -99,7 +100,7 @@ class Progress:
     def missing(self, person):
         """Trials that no world is left for, or that nothing shall replace."""
         return [step for step in person.steps
-                if step.kind == "trial" and self.finished(person, step) and not any(attempt.counts for attempt in person.of(step))]
+                if step.kind == "trial" and self.finished(person, step) and not any(attempt.counts or attempt.dropped_out for attempt in person.of(step))]
 
     def world_for(self, person, step):
         """What the next attempt drives in: the planned world, unless it was met and the trial does not count; then one of the reserve."""
@@ -157,6 +158,7 @@ class Progress:
             return
         attempt = self._attempt(row)
         attempt.excluded, attempt.excluded_by, attempt.replaced = row["reason"], row["rule"] and "rule" or row["by"], row["replace"]
+        attempt.dropped_out = row.get("drop_out", False)
 
     def _withdraw(self, row):
         self.people[row["participant"]].withdrawn = row["data"]

@@ -1,5 +1,4 @@
 """Questionnaires as YAML files: items, answers and scores."""
-import csv
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +8,7 @@ import yaml
 from . import checked
 from .checked import code, list_of, number, one_of, text
 from .errors import StudyError
+from .journal import rows_of
 
 # Either in the sources, or installed.
 SHIPPED = [Path(__file__).resolve().parents[2] / "studies" / "questionnaires"]
@@ -154,8 +154,4 @@ def script(items, title, intro):
 
 def read_answers(path):
     """The table that the lesson writes, or this program: item, answer, seconds. Empty where it is not there."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            return [row for row in csv.DictReader(file) if row.get("answer")]
-    except OSError:
-        return []
+    return [row for row in rows_of(path) if row.get("answer")]

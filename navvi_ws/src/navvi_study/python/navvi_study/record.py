@@ -1,8 +1,9 @@
 """One trial's own record, as trial_node left it: doc/record.md defines its rows."""
 import bisect
-import csv
 from dataclasses import dataclass
 from urllib.parse import unquote
+
+from .journal import lines_of, rows_of
 
 
 @dataclass(frozen=True)
@@ -25,11 +26,7 @@ class Record:
 
     def __init__(self, folder):
         self.folder = folder
-        try:
-            lines = (folder / "journal.csv").read_text(encoding="utf-8", errors="replace").splitlines()
-        except OSError:
-            lines = []
-        self.rows = [row for row in map(_row, lines) if row]
+        self.rows = [row for line in lines_of(folder / "journal.csv") if (row := _row(line.decode(errors="replace")))]
 
     def first(self, kind):
         return next((row for row in self.rows if row.type == kind), None)
@@ -66,11 +63,7 @@ class Record:
 
     def events(self):
         """Rows of events.csv, by column; none where there is no such file."""
-        try:
-            with open(self.folder / "events.csv", newline="", encoding="utf-8") as file:
-                return list(csv.DictReader(file))
-        except OSError:
-            return []
+        return rows_of(self.folder / "events.csv")
 
 
 def _row(line):

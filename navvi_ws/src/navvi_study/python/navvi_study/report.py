@@ -8,7 +8,7 @@ import jinja2
 
 from . import figures, table, ways
 from .analysis import RESAMPLES, Analysis
-from .measures import MEASURES, number
+from .measures import MEASURES, REACHED, number
 from .overview import question, why_nothing
 from .questionnaire import DECLINED
 from .study import write_safely
@@ -26,7 +26,7 @@ def write(study, progress, rehearsed, picture=lambda world, seed: None):
 def page(study, progress, rehearsed, picture=lambda world, seed: None):
     """\\param picture  the SVG of a world and seed; None where it cannot be drawn"""
     analysis = Analysis(study, progress)
-    command = f"./navvi study {'rehearse' if rehearsed else 'report'} {progress.plan.file}"
+    command = f"./navvi study {'rehearse' if rehearsed else 'report'} {Path(progress.plan.file).name}"
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests["number_like"] = lambda cell: number(str(cell).split(" ")[0]) is not None
     primary, secondary = analysis.confirmatory()
@@ -69,13 +69,16 @@ def trials(progress):
     practice, probes = (sum(kinds[person.name, attempt.step] == kind for person, attempt in driven) for kind in ("practice", "probe"))
     counted = sum(attempt.counts and not person.excluded and kinds[person.name, attempt.step] == "trial" for person, attempt in driven)
     missing = sum(len(progress.missing(person)) for person in progress.people.values())
-    rows = [["driven", len(driven)], ["practice", practice], ["probes", probes], ["counted", counted], ["excluded", len(driven) - practice - probes - counted], ["without replacement", missing]]
+    dropped = sum(attempt.dropped_out and not person.excluded and kinds[person.name, attempt.step] == "trial" for person, attempt in driven)
+    rows = [["driven", len(driven)], ["practice", practice], ["probes", probes], ["counted", counted], ["drop-outs", dropped],
+            ["excluded", len(driven) - practice - probes - counted - dropped], ["without replacement", missing]]
     results = collections.Counter(attempt.result for person, attempt in driven if attempt.counts and kinds[person.name, attempt.step] == "trial")
     return rows + [[f"counted, {result}", count] for result, count in sorted(results.items())]
 
 
 def excluded(progress):
-    return [[f"{person.name}/{attempt.trial}", attempt.step, attempt.excluded, attempt.excluded_by, "yes" if attempt.replaced else "no"]
+    return [[f"{person.name}/{attempt.trial}", attempt.step, attempt.excluded, attempt.excluded_by,
+             "yes" if any(other.trial and other.replaces == attempt.trial for other in person.attempts) else "no"]
             for person in progress.people.values() for attempt in person.attempts if attempt.excluded]
 
 
@@ -98,27 +101,30 @@ def probability(p):
 
 def contrast_row(one):
     effect = f"{one.effect} {with_interval(one.estimate, one.estimate_low, one.estimate_high)}" if one.estimate is not None else "n/a"
-    return [MEASURES[one.measure].label, f"{one.second} against {one.first}", one.participants, with_interval(one.difference, one.low, one.high),
+    measure = MEASURES[one.measure]
+    return [measure.label + (f", of {measure.of}" if measure.of == REACHED else ""), compared(one), one.participants, with_interval(one.difference, one.low, one.high),
             one.model or "n/a", effect, probability(one.p), probability(one.corrected), one.note]
+
+
+def compared(one):
+    return f"{one.second} minus {one.first}"
 
 
 def measure_part(analysis, name, command):
     """What the template shows of a measure."""
     measure, rows = MEASURES[name], analysis.by_condition(name)
-    pairs = []
-    for group in analysis.plan.groups:
-        first = group.conditions[0]
-        pairs += [(first, second) for second in group.conditions[1:] if (first, second) not in pairs]
-    compared = [one for one in (analysis.contrast(name, *pair) for pair in pairs) if one.participants]
+    first = [group.conditions[0] for group in analysis.plan.groups]
+    pairs = [pair for pair in analysis.pairs(name) if set(first) & set(pair)]
+    contrasts = [one for one in (analysis.contrast(name, *pair) for pair in pairs) if one.participants]
     censored = measure.kind == "time"
     return {
-        "name": name, "label": measure.label, "unit": measure.unit, "censored": censored, "command": f"{command} --only {name}",
+        "name": name, "label": measure.label, "unit": f"{measure.unit}, of {measure.of}", "censored": censored, "command": f"{command} --only {name}",
         "svg": base64.b64encode(figures.by_condition(analysis, name).encode()).decode(),
         "alt": alt(measure, rows), "caption": "A dot is a participant's mean, a line joins one participant's, a square is the mean with its 95 % interval"
         + (", times that were not reached at their limit." if censored else "."),
         "rows": [[f"{row['group']}, {row['condition']}", row["participants"], row["trials"], with_interval(row["mean"], row["low"], row["high"]),
                   shown(row["sd"]), shown(row["median"]), shown(row["least"]), shown(row["most"])] + ([row["unfinished"]] if censored else []) for row in rows],
-        "pairs": [[f"{one.second} against {one.first}", one.participants, with_interval(one.difference, one.low, one.high)] for one in compared]}
+        "pairs": [[compared(one), one.participants, with_interval(one.difference, one.low, one.high)] for one in contrasts]}
 
 
 def maps(found, plan, picture, command):
@@ -130,6 +136,7 @@ def maps(found, plan, picture, command):
         rows = [[name, len(lengths), shown(statistics.mean(lengths)), shown(min(lengths)), shown(max(lengths))] for name in conditions
                 if (lengths := [ways.length(way) for condition, way in driven if condition == name])]
         words = "; ".join(f"{row[0]}: {row[1]} ways, {row[2]} m on average" for row in rows)
+        world = Path(world).name
         parts.append({"world": f"{world} {seed}", "svg": base64.b64encode(drawn.encode()).decode() if drawn else "", "rows": rows, "command": command,
                       "alt": f"The map of world {world}, seed {seed}, with the ways that were driven in it. {words}. The table below has their lengths."})
     return parts
@@ -193,5 +200,6 @@ def quality(study, progress):
     return [["trials", len(rows)], ["messages missed", shown(total("missed_messages"))], ["safe stops", shown(total("safe_stop_count"))],
             ["bags", ", ".join(f"{state} {count}" for state, count in bags.items()) or "none"],
             ["versions of NavVI", ", ".join(f"{version} {count}" for version, count in versions.items()) or "none"],
+            ["lines of notes and answers that cannot be read", sum(len(study.unread(name)) for name in progress.people)],
             ["interventions", shown(total("interventions"))], ["marks and notes", shown(total("marks"))],
             ["practice without its criterion", f"{sum(not row['mastered'] for row in practice)} of {len(practice)}"]]

@@ -5,7 +5,6 @@ import os
 import select
 import signal
 import subprocess
-import sys
 import time
 import zlib
 
@@ -17,6 +16,7 @@ from .plan import shown
 from .study import write_safely
 
 DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; p: pause after this step; a: end the trial now."
+LONGEST = 1 << 16  # bytes of a line that is typed
 
 
 def learnt_before(summaries):
@@ -35,7 +35,9 @@ class LiveRunner:
 
     def __init__(self, study, navvi, close_trials, typed=False):
         self.study, self.navvi, self.close_trials, self.typed = study, str(navvi), str(close_trials), typed
+        self.asks = "the experimenter" if typed else "nobody" if study.plan.operator == "simulated" else "the voice"  # questionnaires
         self.paused = False  # by the experimenter: nothing begins until a line comes
+        self.lines = Lines()
 
     def trial(self, participant, step, attempt, folder, lock):
         """Returns when the session has ended, in whatever way."""
@@ -73,7 +75,7 @@ class LiveRunner:
     def ask(self, participant, step, items, answered, lock):
         """Asks the items. answered(ITEM, ANSWER, SECONDS) keeps each at once; without SECONDS where nobody took the time."""
         if self.typed:
-            ask_in_terminal(step.asks, items, answered)
+            ask_in_terminal(step.asks, items, answered, self.lines.next)
         elif self.study.plan.operator == "simulated":
             simulate_answers(participant, step, items, answered)
         else:
@@ -91,7 +93,7 @@ class LiveRunner:
         """Waits for the experimenter where a pause was asked for."""
         if self.paused:
             print("navvi: paused; Enter goes on.", flush=True)
-            sys.stdin.readline()
+            self.lines.next()
         self.paused = False
 
     def calibrate(self, participant, lock):
@@ -107,9 +109,9 @@ class LiveRunner:
         env = dict(os.environ, NAVVI_PEOPLE=str(self.study.home(participant) / "settings"), NAVVI_LOCKS=str(lock))
         # A group of its own: Ctrl-C goes to all of the session, and what it leaves is recorded here.
         process = subprocess.Popen([self.navvi, *map(str, words)], env=env, stdin=subprocess.DEVNULL, pass_fds=(lock,), process_group=0)
-        before = signal.signal(signal.SIGINT, lambda *_: os.killpg(process.pid, signal.SIGINT))
+        desk = Desk(process, note, self.lines)
+        before = signal.signal(signal.SIGINT, desk.interrupt)
         try:
-            desk = Desk(process, note)
             while process.poll() is None:
                 desk.listen(0.2)
             self.paused = self.paused or desk.paused
@@ -117,21 +119,44 @@ class LiveRunner:
             signal.signal(signal.SIGINT, before)
 
 
+class Lines:
+    """What is typed: lines end at "\\n" alone, and bytes that are not UTF-8 are replaced."""
+
+    def __init__(self, file=0):
+        self.file, self.rest, self.open = file, b"", True
+
+    def next(self, seconds=None):
+        """A line without its end; None where none has come within so many seconds, or none will."""
+        while self.open and b"\n" not in self.rest and len(self.rest) < LONGEST:
+            if not select.select([self.file], [], [], seconds)[0]:
+                return None
+            read = os.read(self.file, LONGEST)
+            self.open = bool(read)
+            self.rest += read
+        if not self.rest:
+            return None
+        line, _, self.rest = self.rest.partition(b"\n")
+        return line.decode(errors="replace").strip()
+
+
 class Desk:
     """The experimenter's lines while a session runs."""
 
-    def __init__(self, process, note):
-        self.process, self.note, self.open, self.paused = process, note, note is not None, False
+    def __init__(self, process, note, lines=None):
+        self.process, self.note, self.lines, self.paused, self.told, self.interrupted = process, note, lines, False, False, False
+
+    def interrupt(self, *_):
+        """Ctrl-C; within listen(), as a handler of signals must not write."""
+        self.interrupted = True
 
     def listen(self, seconds):
-        if not self.open:
+        if self.interrupted:
+            self.interrupted = False
+            self.obey("a")
+        elif self.note is None or not (self.lines.open or self.lines.rest):
             time.sleep(seconds)
-            return
-        if not select.select([sys.stdin], [], [], seconds)[0]:
-            return
-        line = sys.stdin.readline()
-        self.open = bool(line)
-        self.obey(line.strip())
+        elif line := self.lines.next(seconds):
+            self.obey(line)
 
     def obey(self, line):
         key, _, words = line.partition(" ")
@@ -139,10 +164,15 @@ class Desk:
         if not line:
             return
         if key not in kinds or (key in "n" and not words):
-            print("navvi: " + DESK)
+            print(f"navvi: \"{line[:40]}\" is not understood, and nothing is written." + ("" if self.told else " " + DESK), flush=True)
+            self.told = True
             return
-        self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
-        print(f"navvi: {kinds[key]} written.")
+        try:
+            if self.note:
+                self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
+                print(f"navvi: {kinds[key]} written.", flush=True)
+        except Exception as problem:  # whatever it is, the session keeps its desk
+            print(f"navvi: the {kinds[key]} is NOT written: {problem}", flush=True)
         self.paused = self.paused or key == "p"
         if key == "a":
             os.killpg(self.process.pid, signal.SIGINT)
@@ -150,6 +180,8 @@ class Desk:
 
 class LoopRunner:
     """Simulated people without ROS, many times faster than real time. It proves the pipeline, nothing about people."""
+
+    asks = "nobody"
 
     def __init__(self, study, trials_bench):
         self.study, self.program = study, str(trials_bench)
@@ -163,8 +195,8 @@ class LoopRunner:
         words.update(person_of(participant, "person/"))
         parts = ("sim/", "nav/", "feedback/", "person/", "perception/")
         command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]
-        result = subprocess.run(command, capture_output=True, text=True, check=False, pass_fds=(lock,))
-        rows = list(csv.DictReader(result.stdout.splitlines()))
+        result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, pass_fds=(lock,))
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
         if result.returncode != 0 or len(rows) != 1:
             raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
         self._write(folder / "trial-rehearsed", rows[0], participant, step.limit or plan.limit)
@@ -175,9 +207,9 @@ class LoopRunner:
         hits = row["hits"].split()
         counts = dict(zip(hits[::2], map(int, hits[1::2]))) if row["hits"] != "-" else {}
         shelves = counts.pop("shelf", 0)
-        reached = row["result"] == "reached"
+        result, reason = ("aborted", "ended_by_person") if row["result"] == "gave_up" else (row["result"], "n/a")
         summary = {"trial": folder.name, "world": row["world"], "seed": row["seed"], "operator": "simulated", "participant": participant,
-                   "started_utc": utc_now(), "result": row["result"], "reason": "n/a", "elapsed_s": row["time"] if reached else f"{limit:g}",
+                   "started_utc": utc_now(), "result": result, "reason": reason, "elapsed_s": f"{limit:g}" if result == "timeout" else row["time"],
                    "shelf_collision_count": shelves, "obstacle_collision_count": sum(counts.values()), "path_length_m": row["driven"],
                    "first_path_length_m": row["shortest"], "reroute_count": row["reroutes"], "missed_messages": 0}
         text = io.StringIO()
@@ -204,24 +236,23 @@ def keep_answers(record, items, answered):
             answered(item, row["answer"], row.get("seconds", "n/a"))
 
 
-def ask_in_terminal(asks, items, answered):
+def ask_in_terminal(asks, items, answered, read):
     """The experimenter reads aloud and types. An answer counts once the next one is typed, or the last is confirmed; b corrects it."""
     print(f"navvi: {asks.title}. {asks.intro}. For each, type the answer, r to read it again, b for the one before, d for rather not say.")
     given, at = {}, 0
     while at < len(items):
         item = items[at]
         print(f"{item.ask}? Allowed: {allowed_words(item)}" + (f"; now {given[item.name]}" if item.name in given else ""))
-        line = sys.stdin.readline()
-        if not line:
+        word = read()
+        if word is None:
             return
-        word = line.strip()
         if word == "b":
             at = max(0, at - 1)
         elif word == "d" or word in item.values():
             given[item.name] = questionnaire.DECLINED if word == "d" else word
             at += 1
         elif word != "r":
-            print(f"navvi: \"{word}\" is not allowed here.")
+            print(f"navvi: \"{word[:40]}\" is not allowed here.")
     for item in items:
         answered(item, given[item.name])
 

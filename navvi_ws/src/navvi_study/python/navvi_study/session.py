@@ -2,7 +2,7 @@
 import time
 
 from .errors import StudyError
-from .plan import RECORD_NOT_WHOLE
+from .plan import BROKEN_OFF
 from .study import read_summary
 
 
@@ -93,12 +93,25 @@ class Session:
         return True
 
     def _apply_rules(self, name, attempt, trial, row):
-        for rule in (*self.study.plan.exclusions, RECORD_NOT_WHOLE):
+        if who := self._dropped_out(name, attempt, row):
+            self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
+                                      reason=f"drop-out: ended by the {who}", rule=True, replace=False, drop_out=True)
+            self.say(f"navvi: {name}: a drop-out, ended by the {who}; nothing takes its place. If that had nothing to do with the person or the condition: "
+                     f"./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
+            return
+        for rule in (*self.study.plan.exclusions, *BROKEN_OFF):
             if rule.meets(row):
                 self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
                                           reason=rule.reason, rule=True, replace=True)
                 self.say(f"navvi: {name}: the trial does not count: {rule.reason}.")
                 return
+
+    def _dropped_out(self, name, attempt, row):
+        """Who ended a trial before goal and limit; empty where nobody did, and in practice, which goes on."""
+        if row["result"] != "aborted" or attempt.step.endswith("practice"):
+            return ""
+        ended = any((note["step"], note["attempt"], note["type"]) == (attempt.step, attempt.number, "abort") for note in self.study.notes(name))
+        return "person" if row.get("reason") == "ended_by_person" else "experimenter" if ended else ""
 
     def _questionnaire(self, progress, person, step, lock):
         if self._ask(person.name, step, lock) is None:
@@ -123,8 +136,8 @@ class Session:
         if answers is None:
             return False
         given = all(answers[item.name] == item.required for item in step.asks.items if item.required)
-        self._done(person.name, step, given=given)
-        self.say(f"navvi: {person.name}: consent is {'given' if given else 'not given'}.")
+        self._done(person.name, step, given=given, asked=self.runner.asks)
+        self.say(f"navvi: {person.name}: consent is {'given' if given else 'not given'}" + (", by an answer that was drawn: nobody was asked." if self.runner.asks == "nobody" else "."))
         return given
 
     def _calibrate(self, progress, person, step, lock):

@@ -1,16 +1,23 @@
 """A study on the disk: its plan, its journal, and the folders of its participants."""
 import contextlib
-import csv
 import fcntl
 import json
 import os
 import shutil
+import signal
+import time
 from pathlib import Path
 
 from . import plan_file
 from .errors import StudyError
-from .journal import Journal, append_line, read_lines, sync_folder, utc_now
+from .journal import Journal, append_line, lines_of, read_lines, rows_of, sync_folder, utc_now
 from .progress import Progress
+
+# What each line of a participant's files holds at least.
+FIELDS = {
+    "notes": {"step": str, "attempt": int, "utc": str, "mono_ns": int, "type": str, "text": str},
+    "answers": {"step": str, "condition": str, "order": int, "session": int, "questionnaire": str, "item": str, "answer": str},
+}
 
 
 class Study:
@@ -43,10 +50,13 @@ class Study:
         if not freezes:
             return None
         for path in sorted(self.folder.glob("frozen*.json")):
-            values = json.loads(path.read_text(encoding="utf-8"))
-            if values["hash"] == freezes[-1]["plan"]:
-                return values["plan"]
-        raise StudyError(f"{self.folder} lacks the file of the frozen plan; restore it from a copy.")
+            try:
+                values = json.loads(path.read_bytes())
+                if values["hash"] == freezes[-1]["plan"]:
+                    return values["plan"]
+            except (OSError, ValueError, LookupError, TypeError):
+                continue  # damaged
+        raise StudyError(f"{self.folder} lacks the file of the frozen plan, or it is damaged; restore it from a copy.")
 
     def freeze(self, version, reason):
         """Returns what has changed since the last time, a sentence each; None where nothing was frozen before."""
@@ -75,16 +85,49 @@ class Study:
     def claimed(self, participant):
         """Nobody else goes on with the participant meanwhile. The session inherits the lock: one that outlives this program keeps it."""
         self.home(participant).mkdir(parents=True, exist_ok=True)
-        lock = os.open(self.folder / f".{participant}.lock", os.O_RDWR | os.O_CREAT, 0o600)
+        lock = os.open(self._lock(participant), os.O_RDWR | os.O_CREAT, 0o600)
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             os.close(lock)
-            raise StudyError(f"something of {participant} is running still; wait for its end, or end it.") from None
+            running = ", ".join(f"{pid} ({name})" for pid, name in sorted(self.running(participant).items())) or "of another user"
+            raise StudyError(f"something of {participant} is running still: process {running}; wait for its end, or end it: "
+                             f"./navvi study stop {self.plan.file} {participant}") from None
         try:
             yield lock
         finally:
             os.close(lock)
+
+    def running(self, participant):
+        """Names by number of this user's other processes that hold the participant's lock."""
+        found = {}
+        with contextlib.suppress(OSError):  # no lock yet
+            lock = os.stat(self._lock(participant))
+            for pid in map(int, filter(str.isdigit, os.listdir("/proc"))):
+                if pid != os.getpid() and any(os.path.samestat(lock, file) for file in _files_of(pid)):
+                    found[pid] = b"".join(lines_of(f"/proc/{pid}/comm")).decode(errors="replace")
+        return found
+
+    def stop(self, participant, seconds=40.0):
+        """Ends the session that a killed "study next" has left, or that another one leads, as Ctrl-C does. Returns its processes."""
+        found = self.running(participant)
+        # A session has a group of its own; the command that began it goes on, or is all there is.
+        sessions = {pid: name for pid, name in found.items() if any(b"NAVVI_LOCKS=" in line for line in lines_of(f"/proc/{pid}/environ"))}
+        ended = sessions or found
+        with contextlib.suppress(ProcessLookupError):
+            for group in {os.getpgid(pid) for pid in sessions} - {os.getpgrp()}:
+                os.killpg(group, signal.SIGINT)
+            for pid in [] if sessions else found:
+                os.kill(pid, signal.SIGINT)
+        end = time.monotonic() + seconds
+        while left := [str(pid) for pid in self.running(participant) if pid in ended]:
+            if time.monotonic() > end:
+                raise StudyError(f"process {', '.join(left)} of {participant} did not end within {seconds:g} s; \"kill -9 {' '.join(left)}\" ends it.")
+            time.sleep(0.1)
+        return ended
+
+    def _lock(self, participant):
+        return self.folder / f".{participant}.lock"
 
     def add_answer(self, participant, step, item, answer, seconds="n/a"):
         append_line(self.home(participant) / "answers.jsonl", {
@@ -96,13 +139,22 @@ class Study:
         return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
 
     def answers(self, participant):
-        return read_lines(self.home(participant) / "answers.jsonl")
+        return self.lines(participant, "answers")[0]
 
     def note(self, participant, attempt, row):
         append_line(self.home(participant) / "notes.jsonl", {"step": attempt.step, "attempt": attempt.number, **row})
 
     def notes(self, participant):
-        return read_lines(self.home(participant) / "notes.jsonl")
+        return self.lines(participant, "notes")[0]
+
+    def lines(self, participant, kind):
+        """Rows of the participant's notes or answers, and the numbers of the lines of the file that cannot be read."""
+        return read_lines(self.home(participant) / f"{kind}.jsonl", FIELDS[kind])
+
+    def unread(self, participant):
+        """A sentence for each line of notes or answers that was passed over."""
+        return [f"{self.home(participant) / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
+                for kind in FIELDS for number in self.lines(participant, kind)[1]]
 
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
@@ -123,12 +175,16 @@ class Study:
                 self.journal.append("erased", participant=person.name)
 
 
+def _files_of(pid):
+    """The open files of a process; none of another user's."""
+    with contextlib.suppress(OSError):
+        for name in os.listdir(f"/proc/{pid}/fd"):
+            with contextlib.suppress(OSError):  # closed meanwhile
+                yield os.stat(f"/proc/{pid}/fd/{name}")
+
+
 def read_summary(folder):
-    try:
-        with open(folder / "summary.csv", newline="", encoding="utf-8") as file:
-            return next(csv.DictReader(file), {})
-    except OSError:
-        return {}
+    return next(iter(rows_of(folder / "summary.csv")), {})
 
 
 def write_safely(path, content):
@@ -136,7 +192,7 @@ def write_safely(path, content):
     aside = path.with_name(path.name + ".new")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with open(aside, "w", encoding="utf-8", newline="") as file:
+        with open(aside, "w", encoding="utf-8", errors="replace", newline="") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())

@@ -4,6 +4,7 @@ import io
 import json
 
 from . import probe
+from .measures import DROP_OUT
 from .record import Record
 from .study import write_safely
 
@@ -11,7 +12,7 @@ from .study import write_safely
 COLUMNS = {
     "participant": "code of the plan", "group": "of the participant", "session": "from 1", "order": "place of the condition, from 1; 0 in practice before all",
     "condition": "see the plan", "phase": "practice, trial or probe", "repeat": "of the trial in its condition, from 1; 0 in practice",
-    "attempt": "from 1; more where a trial was replaced", "counts": "yes, or no where the trial is excluded, or is practice or a probe",
+    "attempt": "from 1; more where a trial was replaced", "counts": "yes; drop-out where the person or the experimenter ended it; no where the trial is excluded, or is practice or a probe",
     "excluded": "the reason, or n/a", "excluded_by": "rule, or the user who excluded it", "replaces": "the trial in whose place it stands",
     "marks": "marks and notes of the experimenter", "interventions": "of the experimenter",
 }
@@ -53,13 +54,19 @@ def trials(study, progress):
             mine = [note for note in notes if (note["step"], note["attempt"]) == (attempt.step, attempt.number)]
             row = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
                    "condition": step.condition, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number,
-                   "counts": "yes" if step.kind == "trial" and attempt.counts and not person.excluded else "no",
+                   "counts": _counts(person, step, attempt),
                    "excluded": person.excluded or attempt.excluded or "n/a", "excluded_by": attempt.excluded_by or "n/a",
                    "replaces": attempt.replaces or "n/a", "marks": len([note for note in mine if note["type"] in ("mark", "note")]),
                    "interventions": len([note for note in mine if note["type"] == "intervention"])}
             row.update({name: cell for name, cell in summary.items() if name not in NOT_OURS})
             rows.append({name: str(cell) for name, cell in row.items()})
     return rows
+
+
+def _counts(person, step, attempt):
+    if step.kind != "trial" or person.excluded:
+        return "no"
+    return "yes" if attempt.counts else DROP_OUT if attempt.dropped_out else "no"
 
 
 def events(study, progress):

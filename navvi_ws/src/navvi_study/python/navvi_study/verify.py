@@ -1,7 +1,8 @@
-"""Whether bag, journal and table tell the same of each trial."""
+"""Whether bag, journal and table tell the same of each trial, and hold each note and answer."""
 import subprocess
 
 from . import table
+from .study import FIELDS
 
 EQUAL = "equal"
 
@@ -20,10 +21,26 @@ def verify(study, progress, from_journal, from_bag):
     return sentences, bad
 
 
+def notes_and_answers(study, progress):
+    """A sentence a participant, and one for each line that cannot be read; then how many lines there are of each kind, and how many of them
+    are in no table."""
+    sentences, counts, lost = [], dict.fromkeys(FIELDS, 0), 0
+    for name, person in progress.people.items():
+        if not person.begun or person.withdrawn == "delete":
+            continue
+        found = {kind: study.lines(name, kind) for kind in FIELDS}
+        for kind, (rows, skipped) in found.items():
+            counts[kind] += len(rows) + len(skipped)
+            lost += len(skipped)
+        sentences.append(f"{name}: " + ", ".join(f"{kind} {len(rows)} of {len(rows) + len(skipped)}" for kind, (rows, skipped) in found.items()) + ".")
+        sentences += study.unread(name)
+    return sentences, counts, lost
+
+
 def _journal(program, folder):
     if not (folder / "journal.csv").is_file():
         return "no journal, as in a rehearsal"
-    result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, check=False)
+    result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, errors="replace", check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[-3:])
 
 
@@ -31,7 +48,7 @@ def _bag(program, folder, row):
     if not (folder / "trial.bag").is_file():
         recorded = row.get("bag", "n/a")
         return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
-    result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, check=False)
+    result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, errors="replace", check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[:3])
 
 

@@ -1,12 +1,14 @@
 """The plan's worlds as the reference driver meets them: the simulated person without errors, in the loop without ROS."""
 import csv
+import io
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .errors import StudyError
 
-LIKE = 1.25  # times: the way of the longest set over that of the shortest
+LIKE = 1.25  # times: the most of a set over the least, of ways, of turns and of the reference driver's times
+FEW = 2  # turns that sets may be apart, however few they are
 
 
 def drive(plan, trials_bench, jobs=2):
@@ -15,8 +17,8 @@ def drive(plan, trials_bench, jobs=2):
 
     def one(world):
         command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv"]
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-        rows = list(csv.DictReader(result.stdout.splitlines()))
+        result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
+        rows = list(csv.DictReader(io.StringIO(result.stdout)))
         if result.returncode != 0 or len(rows) != 1:
             raise StudyError(f"{plan.file}: no trial can be driven in {world}: {(result.stderr or result.stdout).strip()}")
         return rows[0]
@@ -35,7 +37,7 @@ def drawing_of(plan, navvi, world):
     file = plan.folder / "worlds" / f"{Path(world.world).stem}-{world.seed}.svg"
     file.parent.mkdir(parents=True, exist_ok=True)
     command = [str(navvi), "world", "show", str(plan.world_file(world) or world.world), f"seed:={world.seed}", "-o", str(file)]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
     if result.returncode != 0:
         raise StudyError(f"{plan.file}: {world} cannot be drawn: {(result.stderr or result.stdout).strip()}")
     return file
@@ -59,21 +61,27 @@ def _turns(row):
 
 def compared(plan, driven):
     """Lines on the worlds, and whether the sets are alike."""
-    lines, ways = ["The reference driver: way in m, turns that were told, movers met within 5 m, time in s:"], {}
+    lines, sets = ["The reference driver: way in m, turns that were told, how often a mover drove within 5 m, time in s:"], {}
     for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
                          ("practice", plan.practice.worlds if plan.practice else ()), ("probes", plan.probes.worlds if plan.probes else ())]:
         for world in worlds:
             row = driven[world]
             lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {_turns(row):.0f}, movers {row['passed']}, time {row['time']}.")
         if name.startswith("set"):
-            ways[name] = sum(float(driven[world]["shortest"]) for world in worlds)
             rows = [driven[world] for world in worlds]
-            lines.append(f"  {name}: all together way {ways[name]:.1f}, turns {sum(map(_turns, rows)):.0f}, "
-                         f"movers {sum(float(row['passed']) for row in rows):.0f}, time {sum(float(row['time']) for row in rows):.1f}.")
-    short, long = min(ways, key=ways.get), max(ways, key=ways.get)
-    ratio = ways[long] / max(ways[short], 0.1)
-    lines.append(f"The ways of {long} are {ratio:.2f} times those of {short}; " + ("alike enough." if ratio <= LIKE else f"other seeds would be better, {LIKE} times is alike."))
+            sets[name] = {"ways": sum(float(row["shortest"]) for row in rows), "turns": sum(round(_turns(row)) for row in rows),
+                          "times": sum(float(row["time"]) for row in rows)}
+            lines.append(f"  {name}: all together way {sets[name]['ways']:.1f}, turns {sets[name]['turns']}, "
+                         f"movers {sum(float(row['passed']) for row in rows):.0f}, time {sets[name]['times']:.1f}.")
+    alike = True
+    for what in ("ways", "turns", "times"):
+        least, most = (choose(sets, key=lambda name: sets[name][what]) for choose in (min, max))
+        low, high = sets[least][what], sets[most][what]
+        good = high <= LIKE * low or (what == "turns" and high - low <= FEW)
+        alike = alike and good
+        lines.append(f"The {what} of {most} are {high:.4g}, those of {least} {low:.4g}; "
+                     + ("alike enough." if good else f"other seeds would be better: alike are {LIKE} times" + (f", or {FEW} turns." if what == "turns" else ".")))
     late = [str(world) for world, row in driven.items() if row["result"] != "reached"]
     if late:
         lines.append(f"Within {plan.limit:g} s the reference driver does not arrive in: {', '.join(late)}; choose others.")
-    return lines, ratio <= LIKE and not late
+    return lines, alike and not late

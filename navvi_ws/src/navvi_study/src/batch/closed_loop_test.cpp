@@ -273,6 +273,8 @@ TEST_F(ClosedLoopIn, anAisleWithRoomForOneMakesRoomForWhatComesAndGoesOnOnceItHa
   EXPECT_EQ(row.get("hits"), "-");
   EXPECT_EQ(row.get("reroutes"), "0");
   EXPECT_GT(row.number("make_room").value(), 10.0);
+  EXPECT_GE(row.number("passed").value(), 1.0) << "no sensor is needed to count what came by";
+  EXPECT_EQ(row.get("missed"), "0");
   EXPECT_NE(trace_.str().find("move to 6 o'clock"), std::string::npos) << trace_.str();
 }
 

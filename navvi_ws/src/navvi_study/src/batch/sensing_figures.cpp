@@ -1,6 +1,7 @@
 #include "batch/sensing_figures.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace navvi_study::batch {
 namespace {
@@ -15,18 +16,21 @@ constexpr double kSame = 1.0;    // m, between the surfaces of what is told and 
 }  // namespace
 
 void SensingFigures::watch(const ClosedLoop& loop) {
-  if (!loop.senses() || !loop.perceived()) return;
+  const bool senses = loop.senses() != nullptr;
+  if (senses && !loop.perceived()) return;
   const navvi_sim::live::Snapshot& now = loop.session().world().now();
-  const auto& told = loop.perceived()->things;
+  const std::vector<navvi_types::MovingThing> nothing;
+  const auto& told = senses ? loop.perceived()->things : nothing;
   const auto matches = [](const navvi_types::MovingThing& one,
                           const navvi_types::MovingThing& mover) {
     return (one.pose.position - mover.pose.position).norm() < kSame + mover.radius;
   };
   std::map<std::uint32_t, int> rays;
-  for (const std::uint32_t mover : loop.senses()->scan().movers) ++rays[mover];
+  if (senses)
+    for (const std::uint32_t mover : loop.senses()->scan().movers) ++rays[mover];
   for (const navvi_sim::MoverState& mover : now.movers) {
     const navvi_types::MovingThing& truth = mover.thing;
-    if (rays[truth.id] < kRays || truth.velocity.norm() < kDrives ||
+    if ((senses && rays[truth.id] < kRays) || truth.velocity.norm() < kDrives ||
         (truth.pose.position - now.robot.position).norm() > kNear)
       continue;
     Passage& passage = passages_[truth.id];
@@ -44,7 +48,7 @@ void SensingFigures::watch(const ClosedLoop& loop) {
     if (passage.judged || loop.time() - passage.since < kTime) continue;
     passage.judged = true;
     ++passed_;
-    if (!passage.told) ++missed_;
+    if (senses && !passage.told) ++missed_;
   }
   for (const navvi_types::MovingThing& one : told)
     if (one.velocity.norm() > 0.0 &&

@@ -11,13 +11,13 @@ namespace navvi_study::batch {
 
 using navvi_people::loop::ClosedLoop;
 
-/// Judges what the robot's own sensors told of what moves, by what truly did.
+/// Counts what drove near the robot, and judges what its own sensors told of that.
 class SensingFigures {
  public:
   /// Call it after every step of `loop`.
   void watch(const ClosedLoop& loop);
-  /// Adds: `passed`, how often a mover came into the lidar's sight within 5 m and drove there for
-  /// 1.5 s; `missed`, how often of these nothing was told within 1 m of it; `ghosts`, numbers of
+  /// Adds: `passed`, how often a mover came within 5 m, where a lidar senses into its sight, and
+  /// drove there for 1.5 s; `missed`, how often of these nothing was told within 1 m of it; `ghosts`, numbers of
   /// obstacles that were told to drive where no mover was within 1 m; `lag`, s on the mean from a
   /// mover's driving in sight to the first message that says it drives.
   void add_to(record::Fields& row) const;
