@@ -17,6 +17,9 @@ namespace {
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
 constexpr double kIdle = 6.0;         // s; who does not drive for so long needs no ticks to turn by
 
+constexpr double kPlans = 5.0;        // s; no planner needs longer
+constexpr double kSameGoal = 0.05;    // m
+
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
 constexpr std::pair<drive::Button, cues::Question> kQuestions[] = {
@@ -99,6 +102,8 @@ Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, doubl
   const cues::Asked asked = obey(now, dt, out);
   out.cues = cues.update(now, asked, time);
   teacher.join(out.cues);
+  if (!teacher.speaks()) lesson_.reset();
+  if (teacher.speaks() && !teacher.taught().cues.empty()) lesson_ = teacher.taught().cues.back();
   touch.begin(out.cues, now.contacts, teacher.taught());
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
                                 [](const cues::Cue& cue) { return cue.felt; }),
@@ -180,8 +185,13 @@ cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
   for (const drive::Button button : pressed) {
     if (const auto question = question_of(button)) asked.question = question;
     const menu::Menu::Step step = menu.press(button);
-    if (step.told) asked.menu = step.told;
-    if (step.goal) out.goal = step.goal;
+    if (step.goal) {
+      out.goal = step.goal;
+      const std::uint32_t plans = now.guidance ? now.guidance->plans : 0;
+      chosen_ = Chosen{*step.goal, *step.told, plans, kPlans};
+    } else if (step.told) {
+      asked.menu = step.told;
+    }
     if (step.request) out.request = step.request;
     if (step.remember) asked.menu = remember(place_of(now), out);
     if (step.glossary) teacher.begin("glossary", now.devices.pad);
@@ -192,8 +202,23 @@ cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
   }
   if (const auto at = std::exchange(shown_, std::nullopt); at && !menu.locked())
     asked.menu = remember(at, out);
+  if (const auto answer = heed_planner(now, dt); answer && !asked.menu) asked.menu = answer;
   asked.menu_closed = menu.pass(dt);
   return asked;
+}
+
+std::optional<cues::Utterance> Feedback::heed_planner(const Observation& now, double dt) {
+  if (!chosen_) return std::nullopt;
+  const std::optional<Guidance>& plan = now.guidance;
+  const bool answered = plan && plan->plans != chosen_->plans &&
+                        (plan->goal - chosen_->goal).norm() < kSameGoal;
+  chosen_->left -= dt;
+  if (!answered && chosen_->left > 0.0) return std::nullopt;
+  const Chosen chosen = *std::exchange(chosen_, std::nullopt);
+  if (!answered) return cues::Utterance{CueKind::menu_closed};
+  // Why there is no way is told by itself.
+  if (!plan->leads() && plan->state != Guidance::State::arrived) return std::nullopt;
+  return chosen.words;
 }
 
 cues::Utterance Feedback::remember(const std::optional<Eigen::Vector2d>& at, Output& out) {
@@ -218,6 +243,16 @@ std::optional<double> Feedback::off_course(const Observation& now) const {
   const bool led = now.links.guidance == Link::alive && deciders_->cues.leads() && idle_ <= kIdle;
   if (!led) return std::nullopt;
   return navvi_types::wrap(now.guidance->steer_angle + now.turned);
+}
+
+std::optional<cues::Cue> Feedback::order() const {
+  std::optional<cues::Cue> order = deciders_->cues.order();
+  const bool urgent =
+      order && (order->priority == Priority::important || traits(order->kind).shown);
+  if (!lesson_ || urgent) return order;
+  order = lesson_;
+  order->kind = CueKind::lesson;  // also where it says what the guide would say
+  return order;
 }
 
 std::optional<sounds::Learnt> Feedback::learnt() const { return deciders_->sounds.learnt(); }

@@ -69,10 +69,22 @@ class FeedbackTest : public testing::Test {
     feedback_.take(Proximity{0, {{ThingClass::shelf, 1, 0.5, {0.0, y}}}}, time_);
   }
 
+  /// The planner's answer to a goal.
+  void lead_to(const Eigen::Vector2d& goal, Guidance::State state) {
+    Guidance guidance;
+    guidance.state = state;
+    guidance.refusal = Guidance::Refusal::not_seen;
+    guidance.goal = goal;
+    guidance.plans = ++plans_;
+    feedback_.take(guidance, time_);
+    feedback_.take(Odometry{}, time_);
+  }
+
   [[nodiscard]] bool said(CueKind kind) const {
     return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
   }
 
+  std::uint32_t plans_ = 0;
   Feedback feedback_{FeedbackConfig{}, kEnglish};
   Devices input_;
   bool voice_busy_ = false;
@@ -361,9 +373,10 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   EXPECT_EQ(press(kDown).cues.at(0).text, "goals");
   EXPECT_EQ(press(kRight).cues.at(0).text, "the goal of the task");
   EXPECT_EQ(press(kDown).cues.at(0).text, "dock 1");
-  const Feedback::Output chosen = press(kRight);
-  EXPECT_EQ(chosen.cues.at(0).text, "you are heading for dock 1");
-  EXPECT_EQ(chosen.goal.value().x(), 3.0);
+  EXPECT_EQ(press(kRight).goal.value().x(), 3.0);
+  EXPECT_FALSE(said(CueKind::goal_chosen)) << "the planner has not answered";
+  lead_to({3.0, 4.0}, Guidance::State::following);
+  EXPECT_EQ(pass(0.02).cues.at(0).text, "you are heading for dock 1");
   feedback_.take_goal({9.0, 9.0});
   feedback_.take_goal({3.0, 4.0});
   feedback_.take_goal({3.0, 4.0});
@@ -371,6 +384,45 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   press(kRight);
   EXPECT_EQ(press(kDown).cues.at(0).text, "the previous goal");
   EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
+}
+
+TEST_F(FeedbackTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
+  Scenario scenario;
+  scenario.goal = {1.0, 2.0};
+  feedback_.take(scenario, time_);
+  const auto choose = [&] {
+    for (int press = 0; press < 3; ++press) {
+      input_.asked = {drive::Button::choose};
+      pass(0.02);
+      input_.asked.clear();
+      pass(0.1);
+    }
+  };
+  pass(0.1);
+  choose();
+  lead_to({1.0, 2.0}, Guidance::State::goal_refused);
+  pass(0.1);
+  EXPECT_TRUE(said(CueKind::goal_refused_not_seen));
+  pass(6.0);
+  EXPECT_FALSE(said(CueKind::goal_chosen));
+  EXPECT_FALSE(said(CueKind::menu_closed)) << "the refusal was the answer";
+  choose();
+  pass(0.2);
+  EXPECT_FALSE(said(CueKind::goal_chosen)) << "that refusal was of the first time";
+  lead_to({1.0, 2.0}, Guidance::State::following);
+  pass(0.1);
+  EXPECT_TRUE(said(CueKind::goal_chosen));
+}
+
+TEST_F(FeedbackTest, a_goal_that_no_planner_answers_closes_the_menu) {
+  Scenario scenario;
+  feedback_.take(scenario, time_);
+  input_.asked.assign(3, drive::Button::choose);
+  pass(0.02);
+  input_.asked.clear();
+  pass(6.0);
+  EXPECT_FALSE(said(CueKind::goal_chosen));
+  EXPECT_TRUE(said(CueKind::menu_closed));
 }
 
 TEST_F(FeedbackTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_said) {
