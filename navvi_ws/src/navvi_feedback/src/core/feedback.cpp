@@ -7,6 +7,7 @@
 
 #include "core/auditory_display.hpp"
 #include "core/haptic_display.hpp"
+#include "core/side_question.hpp"
 #include "cues/cue_policy.hpp"
 #include "lessons/teacher.hpp"
 #include "menu/menu.hpp"
@@ -65,6 +66,7 @@ struct Feedback::Deciders {
   AuditoryDisplay sounds;
   cues::Phrases phrases;
   cues::CuePolicy cues;
+  SideQuestion side;
   menu::Menu menu;
   lessons::Teacher teacher;
 };
@@ -80,6 +82,8 @@ void Feedback::note(const std::vector<CueEvent>& events) {
   deciders_->cues.note(events);
   for (const CueEvent& event : events) {
     const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+    if (event.stage == CueStage::ended && event.kind() == CueKind::which_side)
+      deciders_->side.told();
     if (event.stage == CueStage::started && spoken) begun_.push_back(spoken->lesson);
     if (event.stage == CueStage::started && event.priority == Priority::important)
       important_ = event.id;
@@ -91,10 +95,12 @@ void Feedback::note(const std::vector<CueEvent>& events) {
 Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
   last_update_ = time;
-  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, menu, teacher] = *deciders_;
+  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, side, menu, teacher] =
+      *deciders_;
   Output out;
   out.command = command(devices, dt);
-  const Observation now = observe(devices, voice_busy, dt, time);
+  Observation now = observe(devices, voice_busy, dt, time);
+  ask_side(now, time, out);
   out.share = assist(out.command, now);
   touch.use_pad(devices.pad);
   out.alarm_begins = touch.report(devices.audio, devices.motors);
@@ -163,6 +169,26 @@ Observation Feedback::observe(const Devices& devices, bool voice_busy, double dt
   return now;
 }
 
+/// Before a trial, of a person whom sounds are to lead, by each sound device once.
+void Feedback::ask_side(Observation& now, double time, Output& out) {
+  AuditoryDisplay& sounds = deciders_->sounds;
+  SideQuestion& side = deciders_->side;
+  const Devices& devices = now.devices;
+  const bool known = devices.ears.empty() || devices.ears == config_.sounds.sides;
+  const bool may = !known && now.sounds.turn && devices.words && devices.hands.live &&
+                   !deciders_->teacher.teaching() && now.trial == TrialState::State::ready;
+  const std::optional<bool> right = side.update(may, !now.voice_busy, now.stick.x, time);
+  if (right == false) sounds.find_sides_wrong();
+  if (right == true && !devices.person.empty()) out.change = "sounds/sides:=" + devices.ears;
+  now.side_asked = side.asks();
+  if (side.sounds()) {
+    out.plays.push_back(sounds.sample(sounds::Earcon::turn));
+    out.plays.back().from = {0.0, *side.sounds()};
+  }
+  if (const auto learnt = sounds.learnt(); learnt && learnt->sides_wrong)
+    now.notices.push_back(CueKind::sides_wrong);
+}
+
 /// What the person asked for stays the measure of being stuck. \return the share that is left
 double Feedback::assist(std::optional<Velocity>& command, const Observation& now) const {
   if (!command) return 1.0;
@@ -177,7 +203,8 @@ double Feedback::assist(std::optional<Velocity>& command, const Observation& now
 }
 
 cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
-  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, menu, teacher] = *deciders_;
+  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, side, menu, teacher] =
+      *deciders_;
   std::vector<drive::Button> pressed;
   for (const drive::Button button : now.pressed)
     if (!teacher.takes(button)) pressed.push_back(button);

@@ -98,6 +98,7 @@ class Feedback {
   [[nodiscard]] Observation observe(const Devices& devices, bool voice_busy, double dt,
                                     double time);
   [[nodiscard]] double assist(std::optional<Velocity>& command, const Observation& now) const;
+  void ask_side(Observation& now, double time, Output& out);
   /// Carries out what lesson and menu make of the buttons. \return what is left to be answered
   cues::Asked obey(const Observation& now, double dt, Output& out);
   /// \return the words of a choice that the planner has agreed to now

@@ -414,6 +414,75 @@ TEST_F(FeedbackTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
   EXPECT_TRUE(said(CueKind::goal_chosen));
 }
 
+/// A session with headphones, before a trial.
+class SidesTest : public FeedbackTest {
+ protected:
+  SidesTest() {
+    input_.ears = "usb_headphones";
+    input_.person = "ada";
+    state_.state = TrialState::State::ready;
+  }
+  /// Hears what is said to its end, and sounds. \return the last change of a setting
+  std::string wait(double seconds) {
+    std::string change;
+    for (const double end = time_ + seconds; time_ < end - 1e-9;) {
+      feedback_.take(state_, time_);
+      feedback_.take(Odometry{}, time_);
+      const Feedback::Output output = pass(0.02);
+      if (!output.change.empty()) change = output.change;
+      for (const sounds::Play& play : output.plays) side_ = play.from.y();
+      CueEvent event;
+      event.stage = CueStage::ended;
+      for (const cues::Cue& cue : output.cues) {
+        event.what = cue.kind;
+        feedback_.note({event});
+      }
+    }
+    return change;
+  }
+
+  TrialState state_;
+  double side_ = 0.0;
+};
+
+TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
+  EXPECT_EQ(wait(2.0), "");
+  EXPECT_TRUE(said(CueKind::which_side));
+  EXPECT_EQ(feedback_.order().value().kind, CueKind::which_side);
+  ASSERT_NE(side_, 0.0);
+  EXPECT_FALSE(said(CueKind::press_start));
+  hold(side_, 0.0);
+  EXPECT_EQ(wait(1.0), "sounds/sides:=usb_headphones");
+  EXPECT_TRUE(said(CueKind::press_start));
+  EXPECT_FALSE(said(CueKind::sides_wrong));
+  EXPECT_FALSE(feedback_.learnt().value().words_lead);
+}
+
+TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
+  wait(2.0);
+  hold(-side_, 0.0);
+  EXPECT_EQ(wait(1.0), "");
+  EXPECT_TRUE(said(CueKind::sides_wrong));
+  EXPECT_TRUE(said(CueKind::press_start));
+  EXPECT_TRUE(feedback_.learnt().value().words_lead);
+}
+
+TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
+  FeedbackConfig known;
+  known.sounds.sides = "usb_headphones";
+  feedback_.use(known);
+  wait(3.0);
+  EXPECT_FALSE(said(CueKind::which_side));
+  feedback_.use({});
+  input_.sounds = false;
+  wait(3.0);
+  EXPECT_FALSE(said(CueKind::which_side));
+  input_.sounds = true;
+  input_.ears.clear();
+  wait(3.0);
+  EXPECT_FALSE(said(CueKind::which_side)) << "a simulated person";
+}
+
 TEST_F(FeedbackTest, a_goal_that_no_planner_answers_closes_the_menu) {
   Scenario scenario;
   feedback_.take(scenario, time_);

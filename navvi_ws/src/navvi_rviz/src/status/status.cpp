@@ -26,6 +26,7 @@ Shown::Tone tone_of(CueKind kind) {
       return Shown::Tone::good;
     case CueKind::blocked:
     case CueKind::make_room:
+    case CueKind::which_side:
     case CueKind::press_start:
     case CueKind::press_enter:
     case CueKind::choose_goal:
