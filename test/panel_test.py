@@ -15,7 +15,7 @@ pytestmark = pytest.mark.accessibility
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 BUTTONS = {"Start": "F5", "End trial": "F8", "Repeat": "R", "Goal": "G", "Around": "A", "Chase": "1", "Top": "2", "Forward": "3",
            "Tools": "F2", "Settings": "F3"}
-MENU = {"Down": "PgDown", "Up": "PgUp", "Choose": "Return", "Back": "Backspace"}
+MENU = {"Down": "page down", "Up": "page up", "Choose": "enter", "Back": "back space"}
 LEAST = 26  # px, of capital letters on a screen of 1080 rows
 
 
@@ -106,8 +106,9 @@ def desk(master):
         subscribers = [rospy.Subscriber("/navvi/ask", String, lambda msg: desk.asked.append(msg.data)),
                        rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: desk.requests.append(msg.request))]
         desk.cues = rospy.Publisher("/navvi/cues", Cue, queue_size=10)
+        desk.orders = rospy.Publisher("/navvi/order", Cue, queue_size=10, latch=True)
         desk.state = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
-        eventually(lambda: all(link.get_num_connections() for link in [*subscribers, desk.cues, desk.state]), 120)
+        eventually(lambda: all(link.get_num_connections() for link in [*subscribers, desk.cues, desk.orders, desk.state]), 120)
         eventually(lambda: desk.has(desk.window(), "ACTIVE"))
         yield desk
     finally:
@@ -117,6 +118,11 @@ def desk(master):
 def say(desk, text, kind="direction", stage=1):  # started
     from navvi_msgs.msg import Cue
     desk.cues.publish(Cue(stage=stage, modality=Cue.SPEECH, kind=kind, text=text))
+
+
+def order(desk, text="", kind="press_start"):
+    from navvi_msgs.msg import Cue
+    desk.orders.publish(Cue(stage=Cue.STARTED if text else Cue.ENDED, modality=Cue.SPEECH, kind=kind, text=text))
 
 
 def set_state(desk, state):
@@ -138,10 +144,12 @@ def test_a_screen_reader_meets_each_part_by_role_and_name(desk):
 
 def test_a_screen_reader_reads_what_was_said_and_what_the_trial_waits_for(desk):
     set_state(desk, "READY")
-    say(desk, "2 o'clock, 5 meters")
-    eventually(lambda: desk.widget("instruction").name == "2 o'clock, 5 meters")
+    say(desk, "settings of ada", "settings_of")
+    order(desk, "press start to begin")
+    eventually(lambda: desk.widget("instruction").name == "settings of ada")
     eventually(lambda: desk.widget("state").name == "press start to begin")
     set_state(desk, "RUNNING")
+    order(desk)
     eventually(lambda: desk.widget("state").name == "drive")
 
 
@@ -154,14 +162,14 @@ def test_the_panel_speaks_the_language_of_the_session_and_names_its_keys(desk):
     def sit_at(language, source):
         rospy.set_param("/navvi/phrases", rospkg.RosPack().get_path("navvi_feedback") + f"/config/phrases/{language}.yaml")
         diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name="navvi/pad", values=[KeyValue("input", source)])]))
-    button = desk.widget("Start")
+    button, choose = desk.widget("Start"), desk.widget("Choose")
     try:
         sit_at("es", "keyboard")
         eventually(lambda: (button.name, button.description) == ("Empezar", "Tecla intro"))
-        set_state(desk, "READY")
-        eventually(lambda: desk.widget("state").name == "pulse intro para empezar")
+        sit_at("es", "pad")
+        eventually(lambda: (button.name, button.description) == ("Empezar", "Tecla F5"))
+        eventually(lambda: (choose.name, choose.description) == ("Elegir", "Tecla intro"))
     finally:
-        set_state(desk, "RUNNING")
         sit_at("en", "pad")
         eventually(lambda: (button.name, button.description) == ("Start", "Key F5"))
 
@@ -331,7 +339,7 @@ def heights(desk, folder):
     from PIL import ImageChops
     sight = (10, 40, 1910, 700)
     desk.show(THINGS)
-    say(desk, "HERE")
+    say(desk, "HERE", "settings_of")
     set_state(desk, "RUNNING")
     eventually(lambda: desk.widget("instruction").name == "HERE")
     bare = desk.shot(folder / "bare.png", sight)
@@ -342,7 +350,7 @@ def heights(desk, folder):
     label.text = "GOAL"
     for name, show, hide, letter in [
             ("plate", lambda: desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]]), lambda: desk.show(THINGS), 0),
-            ("banner", lambda: set_state(desk, "READY"), lambda: set_state(desk, "RUNNING"), 1)]:
+            ("banner", lambda: order(desk, "press start to begin"), lambda: order(desk), 1)]:
         show()
         time.sleep(1)
         shown = desk.shot(folder / f"{name}.png", sight)

@@ -71,6 +71,7 @@ class SessionJudge {
   std::set<std::string> felt;        ///< patterns
   std::set<std::string> played;      ///< earcons
   std::set<std::string> complaints;  ///< rules that were broken
+  int orders_of_way = 0;             ///< looks at which the order was to drive somewhere
   int waits = 0;                     ///< that were ended by "go on"
   double longest_wait = 0.0;         ///< s, for "go on" after the cause had gone
   double longest_wait_alone = 0.0;   ///< s, of these, with nothing that moves near
@@ -113,6 +114,7 @@ class SessionJudge {
     expect_what_matters();
     expect_release();
     expect_toward();
+    expect_one_order(out);
     now.contacts.clear();
     now.asked.reset();
     last_ = now;
@@ -147,6 +149,7 @@ class SessionJudge {
       if (running_ != 0) complaints.insert("two cues at once");
       running_ = event.id;
       words.push_back(event.text);
+      says_way_ = says_way_ || (is_way(family_of(*event.kind())) && !known.cue.asked);
       if (time - known.queued > known.cue.max_age + kTick) complaints.insert("a stale cue");
       judge_wait(event, known.cue.asked);
       for (const auto& [id, other] : known_)
@@ -207,6 +210,40 @@ class SessionJudge {
     else if (running_ == 0)
       silent_ += kTick;
     if (silent_ > 1.0) complaints.insert("led toward the unseen untold");
+  }
+
+  /// Voice, pad and sounds follow the order that banner, panel and plate show and have from nowhere
+  /// else.
+  void expect_one_order(const Feedback::Output& out) {
+    const bool halts = out.pattern == haptics::Pattern::halt;
+    const bool halt_begins = !std::exchange(feels_halt_, halts) && halts;
+    if (std::exchange(beats_, (beats_ + 1) % 5) != 0 && !says_way_ && !halt_begins) return;
+    using navvi_types::Ask;
+    const std::optional<cues::Cue> order = feedback_.order();
+    const CueKind kind = order ? order->kind : CueKind::lesson;
+    const Ask ask = order ? traits(kind).ask : Ask::nothing;
+    const bool drive = order && is_way(family_of(kind));
+    const auto contradicts = [&](const char* what, bool wrong) {
+      if (wrong) complaints.insert(std::string(what) + " against the order " + to_string(kind));
+    };
+    const bool goes_on =
+        released_ != 0 || std::any_of(known_.begin(), known_.end(), [](const auto& known) {
+          return known.second.cue.goes_on;
+        });
+    // The voice has ended a word a moment before it is noted.
+    const bool waits = drive && waits_ && !goes_on;
+    contradicts("a voice that said wait", std::exchange(waited_, waits) && waits);
+    contradicts("a voice that says the way", says_way_ && family_of(kind) == cues::Family::halt);
+    contradicts("a pad that says halt", drive && halt_begins);
+    const bool ticks = std::any_of(out.plays.begin(), out.plays.end(), [](const auto& play) {
+      return play.earcon == sounds::Earcon::turn || play.earcon == sounds::Earcon::turn_click;
+    });
+    const bool rests = kind != CueKind::release_stick &&
+                       (ask == Ask::halt || ask == Ask::begin || ask == Ask::rest);
+    contradicts("ticks", ticks && (!order || rests || family_of(kind) == cues::Family::halt));
+    contradicts("a guidance that does not lead", drive && now.guided && !now.guidance.is_followed());
+    says_way_ = false;
+    if (drive) ++orders_of_way;
   }
 
   [[nodiscard]] bool decided(CueKind kind, double within) const {
@@ -281,6 +318,10 @@ class SessionJudge {
   double silent_ = 0.0;   ///< s, while led untold toward a goal that is not seen yet
   bool told_unseen_ = false;
   bool touched_ = false;
+  bool says_way_ = false;  ///< unasked, it has begun to since the last look at the order
+  bool feels_halt_ = false;
+  bool waited_ = false;  ///< at the last look the order was to drive, and the voice had said wait
+  int beats_ = 0;
   bool arrived_ = false;
   bool waits_ = false;          ///< was told to, and has not heard "go on" to its end
   std::uint32_t released_ = 0;  ///< the cue that says it

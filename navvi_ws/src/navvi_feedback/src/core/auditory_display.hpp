@@ -27,6 +27,8 @@ class AuditoryDisplay {
                                                  const lessons::Taught& taught, double time);
   /// As Soundscape::learnt().
   [[nodiscard]] std::optional<sounds::Learnt> learnt() const { return soundscape_.learnt(); }
+  /// As TurnSound::find_sides_wrong().
+  void find_sides_wrong() { soundscape_.find_sides_wrong(); }
   /// As TurnSound::leads().
   [[nodiscard]] bool leads() const { return soundscape_.leads(); }
   /// As TurnSound::most_rate().

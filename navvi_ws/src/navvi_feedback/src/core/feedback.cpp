@@ -7,6 +7,7 @@
 
 #include "core/auditory_display.hpp"
 #include "core/haptic_display.hpp"
+#include "core/side_question.hpp"
 #include "cues/cue_policy.hpp"
 #include "lessons/teacher.hpp"
 #include "menu/menu.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
 constexpr double kIdle = 6.0;         // s; who does not drive for so long needs no ticks to turn by
+
+constexpr double kPlans = 5.0;        // s; no planner needs longer
+constexpr double kSameGoal = 0.05;    // m
 
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
@@ -62,6 +66,7 @@ struct Feedback::Deciders {
   AuditoryDisplay sounds;
   cues::Phrases phrases;
   cues::CuePolicy cues;
+  SideQuestion side;
   menu::Menu menu;
   lessons::Teacher teacher;
 };
@@ -77,6 +82,8 @@ void Feedback::note(const std::vector<CueEvent>& events) {
   deciders_->cues.note(events);
   for (const CueEvent& event : events) {
     const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+    if (event.stage == CueStage::ended && event.kind() == CueKind::which_side)
+      deciders_->side.told();
     if (event.stage == CueStage::started && spoken) begun_.push_back(spoken->lesson);
     if (event.stage == CueStage::started && event.priority == Priority::important)
       important_ = event.id;
@@ -88,10 +95,12 @@ void Feedback::note(const std::vector<CueEvent>& events) {
 Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
   last_update_ = time;
-  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, menu, teacher] = *deciders_;
+  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, side, menu, teacher] =
+      *deciders_;
   Output out;
   out.command = command(devices, dt);
-  const Observation now = observe(devices, voice_busy, dt, time);
+  Observation now = observe(devices, voice_busy, dt, time);
+  ask_side(now, time, out);
   out.share = assist(out.command, now);
   touch.use_pad(devices.pad);
   out.alarm_begins = touch.report(devices.audio, devices.motors);
@@ -99,6 +108,8 @@ Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, doubl
   const cues::Asked asked = obey(now, dt, out);
   out.cues = cues.update(now, asked, time);
   teacher.join(out.cues);
+  if (!teacher.speaks()) lesson_.reset();
+  if (teacher.speaks() && !teacher.taught().cues.empty()) lesson_ = teacher.taught().cues.back();
   touch.begin(out.cues, now.contacts, teacher.taught());
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
                                 [](const cues::Cue& cue) { return cue.felt; }),
@@ -158,6 +169,26 @@ Observation Feedback::observe(const Devices& devices, bool voice_busy, double dt
   return now;
 }
 
+/// Before a trial, of a person whom sounds are to lead, by each sound device once.
+void Feedback::ask_side(Observation& now, double time, Output& out) {
+  AuditoryDisplay& sounds = deciders_->sounds;
+  SideQuestion& side = deciders_->side;
+  const Devices& devices = now.devices;
+  const bool known = devices.ears.empty() || devices.ears == config_.sounds.sides;
+  const bool may = !known && now.sounds.turn && devices.words && devices.hands.live &&
+                   !deciders_->teacher.teaching() && now.trial == TrialState::State::ready;
+  const std::optional<bool> right = side.update(may, !now.voice_busy, now.stick.x, time);
+  if (right == false) sounds.find_sides_wrong();
+  if (right == true && !devices.person.empty()) out.change = "sounds/sides:=" + devices.ears;
+  now.side_asked = side.asks();
+  if (side.sounds()) {
+    out.plays.push_back(sounds.sample(sounds::Earcon::turn));
+    out.plays.back().from = {0.0, *side.sounds()};
+  }
+  if (const auto learnt = sounds.learnt(); learnt && learnt->sides_wrong)
+    now.notices.push_back(CueKind::sides_wrong);
+}
+
 /// What the person asked for stays the measure of being stuck. \return the share that is left
 double Feedback::assist(std::optional<Velocity>& command, const Observation& now) const {
   if (!command) return 1.0;
@@ -172,7 +203,8 @@ double Feedback::assist(std::optional<Velocity>& command, const Observation& now
 }
 
 cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
-  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, menu, teacher] = *deciders_;
+  auto& [drive, assistance, buttons, touch, sounds, phrases, cues, side, menu, teacher] =
+      *deciders_;
   std::vector<drive::Button> pressed;
   for (const drive::Button button : now.pressed)
     if (!teacher.takes(button)) pressed.push_back(button);
@@ -180,8 +212,13 @@ cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
   for (const drive::Button button : pressed) {
     if (const auto question = question_of(button)) asked.question = question;
     const menu::Menu::Step step = menu.press(button);
-    if (step.told) asked.menu = step.told;
-    if (step.goal) out.goal = step.goal;
+    if (step.goal) {
+      out.goal = step.goal;
+      const std::uint32_t plans = now.guidance ? now.guidance->plans : 0;
+      chosen_ = Chosen{*step.goal, *step.told, plans, kPlans};
+    } else if (step.told) {
+      asked.menu = step.told;
+    }
     if (step.request) out.request = step.request;
     if (step.remember) asked.menu = remember(place_of(now), out);
     if (step.glossary) teacher.begin("glossary", now.devices.pad);
@@ -192,8 +229,23 @@ cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
   }
   if (const auto at = std::exchange(shown_, std::nullopt); at && !menu.locked())
     asked.menu = remember(at, out);
+  if (const auto answer = heed_planner(now, dt); answer && !asked.menu) asked.menu = answer;
   asked.menu_closed = menu.pass(dt);
   return asked;
+}
+
+std::optional<cues::Utterance> Feedback::heed_planner(const Observation& now, double dt) {
+  if (!chosen_) return std::nullopt;
+  const std::optional<Guidance>& plan = now.guidance;
+  const bool answered = plan && plan->plans != chosen_->plans &&
+                        (plan->goal - chosen_->goal).norm() < kSameGoal;
+  chosen_->left -= dt;
+  if (!answered && chosen_->left > 0.0) return std::nullopt;
+  const Chosen chosen = *std::exchange(chosen_, std::nullopt);
+  if (!answered) return cues::Utterance{CueKind::menu_closed};
+  // Why there is no way is told by itself.
+  if (!plan->leads() && plan->state != Guidance::State::arrived) return std::nullopt;
+  return chosen.words;
 }
 
 cues::Utterance Feedback::remember(const std::optional<Eigen::Vector2d>& at, Output& out) {
@@ -218,6 +270,16 @@ std::optional<double> Feedback::off_course(const Observation& now) const {
   const bool led = now.links.guidance == Link::alive && deciders_->cues.leads() && idle_ <= kIdle;
   if (!led) return std::nullopt;
   return navvi_types::wrap(now.guidance->steer_angle + now.turned);
+}
+
+std::optional<cues::Cue> Feedback::order() const {
+  std::optional<cues::Cue> order = deciders_->cues.order();
+  const bool urgent =
+      order && (order->priority == Priority::important || traits(order->kind).shown);
+  if (!lesson_ || urgent) return order;
+  order = lesson_;
+  order->kind = CueKind::lesson;  // also where it says what the guide would say
+  return order;
 }
 
 std::optional<sounds::Learnt> Feedback::learnt() const { return deciders_->sounds.learnt(); }

@@ -82,6 +82,8 @@ class Feedback {
   /// As CuePolicy::note().
   void note(const std::vector<CueEvent>& events);
 
+  /// What the person is to do now, as all of the picture shows it; nullopt: nothing
+  [[nodiscard]] std::optional<cues::Cue> order() const;
   /// nullopt where turns have no sound
   [[nodiscard]] std::optional<sounds::Learnt> learnt() const;
   /// The latest guidance, however old.
@@ -96,13 +98,24 @@ class Feedback {
   [[nodiscard]] Observation observe(const Devices& devices, bool voice_busy, double dt,
                                     double time);
   [[nodiscard]] double assist(std::optional<Velocity>& command, const Observation& now) const;
+  void ask_side(Observation& now, double time, Output& out);
   /// Carries out what lesson and menu make of the buttons. \return what is left to be answered
   cues::Asked obey(const Observation& now, double dt, Output& out);
+  /// \return the words of a choice that the planner has agreed to now
+  std::optional<cues::Utterance> heed_planner(const Observation& now, double dt);
   /// \param at  m, in map; nullopt: it is not known \return what is told of it
   cues::Utterance remember(const std::optional<Eigen::Vector2d>& at, Output& out);
   /// To where the person is led now.
   [[nodiscard]] sounds::Soundscape::Lead lead(const Observation& now, double dt);
   [[nodiscard]] std::optional<double> off_course(const Observation& now) const;
+
+  /// A goal of the menu that the planner has not answered yet.
+  struct Chosen {
+    Eigen::Vector2d goal;     ///< m, in map
+    cues::Utterance words;    ///< that say so
+    std::uint32_t plans = 0;  ///< of the planner, before
+    double left = 0.0;        ///< s, to wait for it
+  };
 
   FeedbackConfig config_;
   std::unique_ptr<Deciders> deciders_;
@@ -110,12 +123,14 @@ class Feedback {
   std::vector<std::string>
       begun_;  ///< texts of a lesson that began to be heard since the last update
 
+  std::optional<Chosen> chosen_;
   std::optional<Eigen::Vector2d> shown_;  ///< m, in map: a place to be remembered
   std::optional<double> last_update_;
   drive::InputState last_hands_;
   std::optional<std::uint32_t> important_;  ///< the safety phrase that is being spoken
   Velocity commanded_;
   double idle_ = 0.0;  ///< s, since the person last drove, or had reason to
+  std::optional<cues::Cue> lesson_;  ///< its last sentence, while one speaks
   bool held_unarmed_ = false;
   bool pushed_disabled_ = false;
 };

@@ -69,10 +69,22 @@ class FeedbackTest : public testing::Test {
     feedback_.take(Proximity{0, {{ThingClass::shelf, 1, 0.5, {0.0, y}}}}, time_);
   }
 
+  /// The planner's answer to a goal.
+  void lead_to(const Eigen::Vector2d& goal, Guidance::State state) {
+    Guidance guidance;
+    guidance.state = state;
+    guidance.refusal = Guidance::Refusal::not_seen;
+    guidance.goal = goal;
+    guidance.plans = ++plans_;
+    feedback_.take(guidance, time_);
+    feedback_.take(Odometry{}, time_);
+  }
+
   [[nodiscard]] bool said(CueKind kind) const {
     return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
   }
 
+  std::uint32_t plans_ = 0;
   Feedback feedback_{FeedbackConfig{}, kEnglish};
   Devices input_;
   bool voice_busy_ = false;
@@ -361,9 +373,10 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   EXPECT_EQ(press(kDown).cues.at(0).text, "goals");
   EXPECT_EQ(press(kRight).cues.at(0).text, "the goal of the task");
   EXPECT_EQ(press(kDown).cues.at(0).text, "dock 1");
-  const Feedback::Output chosen = press(kRight);
-  EXPECT_EQ(chosen.cues.at(0).text, "you are heading for dock 1");
-  EXPECT_EQ(chosen.goal.value().x(), 3.0);
+  EXPECT_EQ(press(kRight).goal.value().x(), 3.0);
+  EXPECT_FALSE(said(CueKind::goal_chosen)) << "the planner has not answered";
+  lead_to({3.0, 4.0}, Guidance::State::following);
+  EXPECT_EQ(pass(0.02).cues.at(0).text, "you are heading for dock 1");
   feedback_.take_goal({9.0, 9.0});
   feedback_.take_goal({3.0, 4.0});
   feedback_.take_goal({3.0, 4.0});
@@ -371,6 +384,114 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   press(kRight);
   EXPECT_EQ(press(kDown).cues.at(0).text, "the previous goal");
   EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
+}
+
+TEST_F(FeedbackTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
+  Scenario scenario;
+  scenario.goal = {1.0, 2.0};
+  feedback_.take(scenario, time_);
+  const auto choose = [&] {
+    for (int press = 0; press < 3; ++press) {
+      input_.asked = {drive::Button::choose};
+      pass(0.02);
+      input_.asked.clear();
+      pass(0.1);
+    }
+  };
+  pass(0.1);
+  choose();
+  lead_to({1.0, 2.0}, Guidance::State::goal_refused);
+  pass(0.1);
+  EXPECT_TRUE(said(CueKind::goal_refused_not_seen));
+  pass(6.0);
+  EXPECT_FALSE(said(CueKind::goal_chosen));
+  EXPECT_FALSE(said(CueKind::menu_closed)) << "the refusal was the answer";
+  choose();
+  pass(0.2);
+  EXPECT_FALSE(said(CueKind::goal_chosen)) << "that refusal was of the first time";
+  lead_to({1.0, 2.0}, Guidance::State::following);
+  pass(0.1);
+  EXPECT_TRUE(said(CueKind::goal_chosen));
+}
+
+/// A session with headphones, before a trial.
+class SidesTest : public FeedbackTest {
+ protected:
+  SidesTest() {
+    input_.ears = "usb_headphones";
+    input_.person = "ada";
+    state_.state = TrialState::State::ready;
+  }
+  /// Hears what is said to its end, and sounds. \return the last change of a setting
+  std::string wait(double seconds) {
+    std::string change;
+    for (const double end = time_ + seconds; time_ < end - 1e-9;) {
+      feedback_.take(state_, time_);
+      feedback_.take(Odometry{}, time_);
+      const Feedback::Output output = pass(0.02);
+      if (!output.change.empty()) change = output.change;
+      for (const sounds::Play& play : output.plays) side_ = play.from.y();
+      CueEvent event;
+      event.stage = CueStage::ended;
+      for (const cues::Cue& cue : output.cues) {
+        event.what = cue.kind;
+        feedback_.note({event});
+      }
+    }
+    return change;
+  }
+
+  TrialState state_;
+  double side_ = 0.0;
+};
+
+TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
+  EXPECT_EQ(wait(2.0), "");
+  EXPECT_TRUE(said(CueKind::which_side));
+  EXPECT_EQ(feedback_.order().value().kind, CueKind::which_side);
+  ASSERT_NE(side_, 0.0);
+  EXPECT_FALSE(said(CueKind::press_start));
+  hold(side_, 0.0);
+  EXPECT_EQ(wait(1.0), "sounds/sides:=usb_headphones");
+  EXPECT_TRUE(said(CueKind::press_start));
+  EXPECT_FALSE(said(CueKind::sides_wrong));
+  EXPECT_FALSE(feedback_.learnt().value().words_lead);
+}
+
+TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
+  wait(2.0);
+  hold(-side_, 0.0);
+  EXPECT_EQ(wait(1.0), "");
+  EXPECT_TRUE(said(CueKind::sides_wrong));
+  EXPECT_TRUE(said(CueKind::press_start));
+  EXPECT_TRUE(feedback_.learnt().value().words_lead);
+}
+
+TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
+  FeedbackConfig known;
+  known.sounds.sides = "usb_headphones";
+  feedback_.use(known);
+  wait(3.0);
+  EXPECT_FALSE(said(CueKind::which_side));
+  feedback_.use({});
+  input_.sounds = false;
+  wait(3.0);
+  EXPECT_FALSE(said(CueKind::which_side));
+  input_.sounds = true;
+  input_.ears.clear();
+  wait(3.0);
+  EXPECT_FALSE(said(CueKind::which_side)) << "a simulated person";
+}
+
+TEST_F(FeedbackTest, a_goal_that_no_planner_answers_closes_the_menu) {
+  Scenario scenario;
+  feedback_.take(scenario, time_);
+  input_.asked.assign(3, drive::Button::choose);
+  pass(0.02);
+  input_.asked.clear();
+  pass(6.0);
+  EXPECT_FALSE(said(CueKind::goal_chosen));
+  EXPECT_TRUE(said(CueKind::menu_closed));
 }
 
 TEST_F(FeedbackTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_said) {

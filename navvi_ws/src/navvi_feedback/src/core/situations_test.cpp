@@ -333,6 +333,7 @@ class Chance {
 struct Verdict {
   std::set<std::string> complaints;
   int waits = 0;               ///< that were ended by "go on"
+  int orders_of_way = 0;       ///< as in SessionJudge
   double longest = 0.0;        ///< s, of waiting after the cause had gone
   double longest_alone = 0.0;  ///< s, of these, with nothing that moves near
 };
@@ -354,6 +355,7 @@ Verdict judge(int situations, const FeedbackConfig& config = {}) {
     }
     verdict.complaints.insert(session.complaints.begin(), session.complaints.end());
     verdict.waits += session.waits;
+    verdict.orders_of_way += session.orders_of_way;
     verdict.longest = std::max(verdict.longest, session.longest_wait);
     verdict.longest_alone = std::max(verdict.longest_alone, session.longest_wait_alone);
   }
@@ -366,6 +368,7 @@ TEST(Situations, thirty_thousand_at_random_leave_nothing_that_matters_unsaid_ove
   const Verdict verdict = judge(30000);
   EXPECT_EQ(verdict.complaints, std::set<std::string>{});
   EXPECT_GT(verdict.waits, 300);
+  EXPECT_GT(verdict.orders_of_way, 10000);
   EXPECT_LT(verdict.longest, 12.0);
   EXPECT_LT(verdict.longest_alone, 8.0);
 }

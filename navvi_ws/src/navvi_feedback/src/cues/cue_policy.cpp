@@ -55,7 +55,16 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
   if (!led.empty() && led.front().goes_on) answers_.yield(answer);
   add(told, answer);
   add(told, led);
-  return say(told, tick);
+  std::vector<Cue> cues = say(told, tick);
+  order_.update(tick, state_, halt_, route_, leads_, cues);
+  return cues;
+}
+
+std::optional<Cue> CuePolicy::order() const {
+  if (!order_.now()) return std::nullopt;
+  const CueKind kind = order_.now()->kind;
+  return Cue{kind, order_.said().empty() ? phrasing_.shown(*order_.now()) : order_.said(),
+             traits(kind).priority};
 }
 
 Tick CuePolicy::look(const Observation& now, const Asked& asked, double time) {

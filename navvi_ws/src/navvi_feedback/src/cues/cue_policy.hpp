@@ -10,6 +10,7 @@
 #include "cues/link_cues.hpp"
 #include "cues/near_cues.hpp"
 #include "cues/notice_cues.hpp"
+#include "cues/order.hpp"
 #include "cues/phrases.hpp"
 #include "cues/phrasing.hpp"
 #include "cues/route_cues.hpp"
@@ -33,10 +34,13 @@ class CuePolicy {
   /// From now on.
   void use(const WordingConfig& wording) { phrasing_.use(wording); }
 
+  /// What the person is to do now; in few words where that is the way, as they stand on a plate.
+  /// \return nullopt: nothing
+  [[nodiscard]] std::optional<Cue> order() const;
   /// The person is to follow the path now.
-  [[nodiscard]] bool leads() const { return leads_; }
+  [[nodiscard]] bool leads() const { return leads_ && !order_.stopped(); }
   /// And it leads off something near, so that a small turn counts.
-  [[nodiscard]] bool leads_off() const { return leads_ && route_.leads_off(); }
+  [[nodiscard]] bool leads_off() const { return leads() && route_.leads_off(); }
 
   /// Takes note of what became of the cues: one that was dropped may be said again at once.
   void note(const std::vector<CueEvent>& events);
@@ -63,6 +67,7 @@ class CuePolicy {
   Halt halt_;
   RouteCues route_;
   Phrasing phrasing_;
+  Order order_;
   bool leads_ = false;  ///< there is a path, and no word against following it
   double time_ = 0.0;   ///< s, of the last update
 };

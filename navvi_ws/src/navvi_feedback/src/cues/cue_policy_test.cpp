@@ -18,7 +18,23 @@ TEST_F(CuePolicyTest, says_nothing_before_anything_is_known) {
 TEST_F(CuePolicyTest, says_what_to_do_first_and_then_where_the_goal_is) {
   now_.goal_angle = 1.6;
   EXPECT_EQ(pass(1.0), (Texts{"drive straight, 20 meters",
-                              "the goal is 20 meters along the path, on your right"}));
+                              "the goal is 20 meters along the path, at 3 o'clock"}));
+}
+
+TEST_F(CuePolicyTest, tells_one_direction_of_a_goal_whether_it_is_asked_for_or_not) {
+  for (const double angle : {-0.5, 0.2, 0.7, 2.5}) {
+    now_.goal_angle = angle;
+    now_.guidance->goal.x() += 5.0;
+    Texts told = pass(1.0);
+    const auto of = [](const std::string& text) { return text.substr(text.rfind(',')); };
+    const std::string unasked = of(told.back());
+    asked_.question = Question::goal;
+    told = pass(0.02);
+    asked_.question.reset();
+    EXPECT_EQ(of(told.front()), unasked);
+    EXPECT_NE(unasked, "");
+    pass(5.0);
+  }
 }
 
 TEST_F(CuePolicyTest, says_not_to_drive_at_what_moves_ahead_where_ticks_lead) {

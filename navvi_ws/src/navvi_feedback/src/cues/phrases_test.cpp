@@ -111,7 +111,7 @@ TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   EXPECT_EQ(phrases.say(CueKind::turn_ahead, everything()), "in 8 meters, turn to 3 o'clock");
   EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn to 3 o'clock now");
   EXPECT_EQ(phrases.say(CueKind::start, everything()),
-            "the goal is 8 meters along the path, on your left");
+            "the goal is 8 meters along the path, at 3 o'clock");
   EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "shelf on your left");
   EXPECT_EQ(phrases.say(CueKind::shelf_close, everything()), "shelf very close, on your left");
   EXPECT_EQ(phrases.say(CueKind::obstacle_near, everything()), "pallet robot on your left");

@@ -27,6 +27,18 @@ bool muted(CueKind kind, const WordingConfig& wording) {
 
 }  // namespace
 
+void Phrasing::use(const WordingConfig& wording) {
+  phrases_.use(wording);
+  WordingConfig brief = wording;
+  brief.verbosity = "brief";
+  plates_.use(brief);
+}
+
+std::string Phrasing::shown(const Utterance& utterance) const {
+  const Phrases& words = family_of(utterance.kind) == Family::way ? plates_ : phrases_;
+  return words.say(utterance.kind, utterance.fillings);
+}
+
 /// The farthest of what is around lose their distances, as far as there is no room for all.
 Utterance Phrasing::shortened(Utterance around) const {
   std::vector<Utterance*> parts = {&around};

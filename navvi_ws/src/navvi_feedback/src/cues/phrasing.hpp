@@ -16,14 +16,18 @@ class Phrasing {
  public:
   /// \param same_text  s, within which the same words are not said twice
   Phrasing(Phrases phrases, double same_text)
-      : phrases_(std::move(phrases)), same_text_(same_text) {}
+      : phrases_(std::move(phrases)), plates_(phrases_), same_text_(same_text) {
+    use(phrases_.wording());
+  }
 
   /// From now on.
-  void use(const WordingConfig& wording) { phrases_.use(wording); }
+  void use(const WordingConfig& wording);
 
   /// \return the most urgent first
   [[nodiscard]] std::vector<Cue> cues_of(const std::vector<Utterance>& utterances,
                                          const Observation& now, double time);
+  /// As it stands in the picture: the way in few words, all else as it is said.
+  [[nodiscard]] std::string shown(const Utterance& utterance) const;
   /// One of this kind would not be said now.
   [[nodiscard]] bool too_soon(CueKind kind, double time) const {
     return last_said_.too_soon(kind, time);
@@ -50,6 +54,7 @@ class Phrasing {
   [[nodiscard]] Utterance shortened(Utterance around) const;
 
   Phrases phrases_;
+  Phrases plates_;  ///< likewise, in few words
   double same_text_;
   LastSaid last_said_;
   std::map<std::string, Times> last_text_;  ///< by text

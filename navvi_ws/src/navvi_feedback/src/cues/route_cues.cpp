@@ -59,7 +59,7 @@ Utterances RouteCues::introduce_goal(const Look& look) {
   unseen_ = {look.guidance().ends_short, false, false, look.time};
   leg_.begin(look.guidance());
   Utterances told = tell_way(look, leg_);
-  told.insert(unseen_.told ? told.begin() : told.end(), start_words(look.now));
+  told.insert(unseen_.told ? told.begin() : told.end(), start_words(look.now, look.bearing.rounding()));
   return told;
 }
 
@@ -93,6 +93,19 @@ std::optional<Utterance> RouteCues::ask(const Guidance& guidance, double time) {
   const std::optional<Utterance> answer = direction(guidance, bearing_);
   if (answer) leg_.heard(*answer->fillings.hour, time);
   return answer;
+}
+
+std::optional<Utterance> RouteCues::order(const Guidance& guidance) const {
+  std::optional<Utterance> way = direction(guidance, bearing_);
+  if (!way) return std::nullopt;
+  if (guidance.state == Guidance::State::make_room) {
+    way->kind = CueKind::make_room;
+    way->fillings.thing = guidance.blocked_by.value_or(ThingClass::other);
+  } else if (way->kind == CueKind::straight && !guidance.waypoint_is_goal) {
+    const Utterance turn = next_turn(guidance, rounding());
+    if (turn.fillings.hour != 12) return turn;
+  }
+  return way;
 }
 
 void RouteCues::pause(bool goal_gone) {

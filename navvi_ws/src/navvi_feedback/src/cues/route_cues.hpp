@@ -45,6 +45,10 @@ class RouteCues {
   /// The direction as of now, for a person who asks; it need not be said again by itself.
   [[nodiscard]] std::optional<Utterance> ask(const Guidance& guidance, double time);
 
+  /// Where to drive now: aside, to where to steer, or, facing that, round the next corner.
+  /// \return nullopt: it is not known
+  [[nodiscard]] std::optional<Utterance> order(const Guidance& guidance) const;
+
   /// The path is gone: when there is one again, say where it leads.
   /// \param goal_gone  the goal, too: the next one is introduced
   void pause(bool goal_gone);

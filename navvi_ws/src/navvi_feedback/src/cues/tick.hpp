@@ -21,6 +21,7 @@ struct Tick {
 [[nodiscard]] inline std::optional<CueKind> awaited(const Observation& now) {
   if (now.trial == TrialState::State::choose_goal) return CueKind::choose_goal;
   if (now.trial != TrialState::State::ready) return std::nullopt;
+  if (now.side_asked) return CueKind::which_side;
   return now.devices.keyboard ? CueKind::press_enter : CueKind::press_start;
 }
 

@@ -27,10 +27,9 @@ Utterance next_turn(const Guidance& guidance, Rounding rounding) {
   return turn;
 }
 
-Utterance start_words(const Observation& now) {
+Utterance start_words(const Observation& now, Rounding rounding) {
   if (now.guidance->ends_short) return {CueKind::toward_goal};
-  Utterance start{now.goal_angle ? CueKind::start : CueKind::start_distance};
-  start.fillings.distance = std::max(0.0, now.guidance->goal_distance);
+  Utterance start = goal_words(CueKind::start, CueKind::start_distance, now, rounding);
   if (now.goal_angle)
     start.fillings.side = side_of({std::cos(*now.goal_angle), -std::sin(*now.goal_angle)});
   return start;

@@ -14,8 +14,8 @@ namespace navvi_feedback::cues {
 /// Where the next turn is, and where it leads.
 [[nodiscard]] Utterance next_turn(const Guidance& guidance, Rounding rounding);
 
-/// How far the goal is, and on which side.
-[[nodiscard]] Utterance start_words(const Observation& now);
+/// How far the goal is, and where from the nose, as goal_words() has both.
+[[nodiscard]] Utterance start_words(const Observation& now, Rounding rounding);
 
 /// Distance and, if it is known, hour of the goal. \param without_hour  the kind if it is not
 [[nodiscard]] Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,

@@ -1,5 +1,7 @@
 #include "lessons/teller.hpp"
 
+#include <cctype>
+
 #include "navvi_config/reader.hpp"
 
 namespace navvi_feedback::lessons {
@@ -38,6 +40,10 @@ std::vector<std::string> Teller::sentences(const std::string& key, const Filling
   const auto by_keys = phrases_.lessons().find(key + "_keys");
   std::string text = keyboard_ && by_keys != phrases_.lessons().end() ? by_keys->second
                                                                       : phrases_.lessons().at(key);
+  // Each stands in the picture by itself, in the letters of the guide's own phrases.
+  for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 2))
+    if (at + 3 < text.size() && std::islower(static_cast<unsigned char>(text[at + 3])) != 0)
+      text[at + 2] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[at + 2])));
   for (std::size_t i = 0; i < drive::kButtons; ++i) {
     const auto name = phrases_.lessons().find((keyboard_ ? "key_" : "pad_") +
                                               std::to_string(buttons_.index.at(i)));

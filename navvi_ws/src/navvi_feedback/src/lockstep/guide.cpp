@@ -174,6 +174,13 @@ Told Guide::finish(const Devices& devices) {
 
 CueEvent Guide::event_of(const sounds::Play& play) { return sound_event(play, ++parts_->sounds); }
 
+std::optional<CueEvent> Guide::order() const {
+  const auto order = parts_->feedback.order();
+  if (!order) return std::nullopt;
+  return CueEvent{0, CueStage::started, navvi_types::Spoken(order->kind, order->lesson),
+                  order->text, order->priority};
+}
+
 std::optional<sounds::Learnt> Guide::learnt() const { return parts_->feedback.learnt(); }
 
 const std::optional<navvi_types::Guidance>& Guide::guidance() const {

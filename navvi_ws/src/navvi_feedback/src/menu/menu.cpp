@@ -160,8 +160,8 @@ Menu::Step Menu::press(drive::Button button) {
 
 Menu::Step Menu::obey(drive::Button button) {
   using drive::Button;
+  if (path_.empty() && (button == Button::leave || button == Button::back)) return {};
   if (button == Button::leave) {
-    if (path_.empty()) return {};
     path_.clear();
     return tell();
   }
@@ -188,7 +188,7 @@ Menu::Step Menu::obey(drive::Button button) {
   if (setting && (button == Button::next || button == Button::previous))
     return change(*setting, button == Button::previous);
   if (button == Button::back || setting) {
-    if (!path_.empty()) path_.pop_back();
+    path_.pop_back();
     return tell();
   }
   if (path_.empty()) {

@@ -46,7 +46,7 @@ class FeedbackNode {
         settings_(config_),
         welcomes_(settings_.loaded()),
         guide_(config.feedback, config.phrases_file()),
-        plates_(config.phrases_file(), config.plates()),
+        words_(config.phrases_file()),
         devices_(config),
         outlets_(node_, config, devices_.source().kind() != InputSource::Kind::topic),
         inlets_(node_, config, guide_, devices_,
@@ -108,8 +108,9 @@ class FeedbackNode {
     tell(*told, called);
     const auto guidance = guide_.guidance_fresh(time) ? guide_.guidance() : std::nullopt;
     const bool ahead = !(guidance && guidance->leads()) && inlets_.preview().size() > 1;
+    outlets_.show(guide_.order());
     outlets_.show(ahead ? picture::preview_of(inlets_.preview()) : guidance,
-                  ahead ? inlets_.preview() : inlets_.path(), plates_, time);
+                  ahead ? inlets_.preview() : inlets_.path(), words_, time);
   }
 
   void tell(const Told& told, const std::function<void()>& called) {
@@ -132,7 +133,6 @@ class FeedbackNode {
   void change(const std::string& word) {
     settings_.change(word);
     guide_.use(config_.feedback);
-    plates_.use(config_.plates());
     devices_.use(config_.speaker.rate, config_.mixer.volume);
   }
 
@@ -155,7 +155,7 @@ class FeedbackNode {
   Settings settings_;
   bool welcomes_;  ///< the person's settings were loaded, and that is to be said
   lockstep::Guide guide_;
-  cues::Phrases plates_;  ///< what is written in the picture
+  cues::Phrases words_;  ///< of the picture
   PersonDevices devices_;
   Beat beat_{kLate};
   HeartbeatNotice heartbeat_;

@@ -59,7 +59,8 @@ std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg) {
   if (msg.type != "TRIAL_END") return std::nullopt;
   const std::string fields = ";" + msg.fields + ";";
   const auto holds = [&](const char* field) { return fields.find(field) != std::string::npos; };
-  if (holds(";result=reached;")) return std::nullopt;
+  // Both are told by themselves; with a goal that is refused nothing has begun for the person.
+  if (holds(";result=reached;") || holds(";result=refused;")) return std::nullopt;
   if (holds(";result=timeout;")) return CueKind::trial_time_up;
   return holds(";reason=disk_full;") ? CueKind::trial_disk_full : CueKind::trial_over;
 }

@@ -53,6 +53,8 @@ TEST(LastWords, tell_the_end_of_a_trial_unless_the_arrival_does) {
   EXPECT_EQ(last_words(msg), CueKind::trial_over);
   msg.fields = "result=reached;reason=goal_reached";
   EXPECT_FALSE(last_words(msg));
+  msg.fields = "result=refused;reason=not_seen";
+  EXPECT_FALSE(last_words(msg)) << "why, is told by itself";
   msg.type = "GOAL_SET";
   msg.fields = "result=timeout";
   EXPECT_FALSE(last_words(msg));

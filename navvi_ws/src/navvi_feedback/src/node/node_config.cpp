@@ -54,12 +54,6 @@ std::filesystem::path NodeConfig::phrases_file() const {
   return ros::package::getPath("navvi_feedback") + "/config/phrases/" + language + ".yaml";
 }
 
-cues::WordingConfig NodeConfig::plates() const {
-  cues::WordingConfig wording = feedback->cues.wording;
-  wording.verbosity = "brief";
-  return wording;
-}
-
 devices::SpeakerConfig NodeConfig::voice() const {
   devices::SpeakerConfig voice = speaker;
   if (voice.voice.empty()) voice.voice = cues::Phrases(phrases_file()).voice();

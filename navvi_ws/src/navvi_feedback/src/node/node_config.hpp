@@ -34,8 +34,6 @@ struct NodeConfig : PersonConfig {
 
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] std::filesystem::path phrases_file() const;
-  /// How words are put where there is room for few.
-  [[nodiscard]] cues::WordingConfig plates() const;
   /// The voice of the language, unless another one is wanted.
   [[nodiscard]] devices::SpeakerConfig voice() const;
 };

@@ -25,6 +25,7 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
   assistance_ = node.advertise<std_msgs::Float32>("navvi/assistance", 1, true);
   goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
   requests_ = node.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
+  orders_ = node.advertise<navvi_msgs::Cue>("navvi/order", 1, true);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
   diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
   if (own_hands) joy_ = node.advertise<sensor_msgs::Joy>("joy", 1);
@@ -58,13 +59,26 @@ void Outlets::send(const drive::InputState& hands) {
   if (joy_) joy_.publish(to_msg(hands, ros::Time::now()));
 }
 
+void Outlets::show(const std::optional<CueEvent>& order) {
+  CueEvent next = order.value_or(order_);
+  if (!order) next.stage = CueStage::ended;
+  if (next.stage == order_.stage && next.word() == order_.word() && next.text == order_.text)
+    return;
+  next.id = order_.id + (order ? 1 : 0);
+  next.stamp = stamp();
+  order_ = next;
+  orders_.publish(to_msg(order_));
+}
+
 void Outlets::show(const std::optional<Guidance>& guidance,
-                   const std::vector<Eigen::Vector2d>& path, const cues::Phrases& plates,
+                   const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words,
                    double time) {
   if (markers_time_ && time - *markers_time_ < kMarkers) return;
   markers_time_ = time;
+  const bool turn = order_.stage == CueStage::started && order_.kind() == CueKind::turn_ahead;
   visualization_msgs::MarkerArray markers =
-      picture::guide_markers(markers_config_, guidance, path, plates);
+      picture::guide_markers(markers_config_, guidance, path, words,
+                             turn ? order_.text : "");
   if (markers.markers == shown_.markers) return;
   shown_ = markers;
   picture::stamp(markers, ros::Time::now());

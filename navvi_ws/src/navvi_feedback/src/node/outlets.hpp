@@ -28,20 +28,24 @@ class Outlets {
   void send(std::vector<CueEvent> events);
   void send(const drive::InputState& hands);
   void send(const diagnostic_msgs::DiagnosticArray& report) { diagnostics_.publish(report); }
-  /// The path and what is written beside it, where they have changed.
-  /// \param path  m, in map \param plates  wording of what is written \param time  s
+  /// What the person is to do now, where it has changed.
+  void show(const std::optional<CueEvent>& order);
+  /// The path and what is written beside it, where they have changed: the turn, where it is the
+  /// order that was shown last.
+  /// \param path  m, in map \param time  s
   void show(const std::optional<Guidance>& guidance, const std::vector<Eigen::Vector2d>& path,
-            const cues::Phrases& plates, double time);
+            const cues::Phrases& words, double time);
 
   [[nodiscard]] bool are_words_read() const { return cues_.getNumSubscribers() > 0; }
 
  private:
   std::string motors_driver_;
   picture::MarkersConfig markers_config_;
-  ros::Publisher cmd_vel_, joy_, motors_, assistance_, goals_, requests_, cues_, markers_,
-      diagnostics_;
+  ros::Publisher cmd_vel_, joy_, motors_, assistance_, goals_, requests_, cues_, orders_,
+      markers_, diagnostics_;
   std::optional<double> share_;         ///< of the person's speed, last published
   std::optional<double> markers_time_;  ///< s
+  CueEvent order_{0, CueStage::ended};  ///< last published
   visualization_msgs::MarkerArray shown_;
 };
 

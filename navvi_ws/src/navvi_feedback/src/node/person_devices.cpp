@@ -1,5 +1,8 @@
 #include "node/person_devices.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 #include "node/diagnostics.hpp"
 
 namespace navvi_feedback::node {
@@ -36,6 +39,16 @@ std::optional<devices::Gamepad::Status> PersonDevices::pad() const {
   return source_.pad() != nullptr ? std::optional(source_.pad()->status()) : std::nullopt;
 }
 
+/// A word in a person's file.
+std::string PersonDevices::ears() const {
+  const devices::Mixer::Status device = mixer_.status();
+  if (by_topic() || device.device != Sound::open) return "";
+  std::string name = device.name.empty() ? "device" : device.name;
+  const auto odd = [](unsigned char c) { return std::isalnum(c) == 0; };
+  std::replace_if(name.begin(), name.end(), odd, '_');
+  return name;
+}
+
 bool PersonDevices::heard() const { return by_topic() || mixer_.status().device == Sound::open; }
 
 bool PersonDevices::felt() const {
@@ -49,6 +62,7 @@ senses::Devices PersonDevices::read(double time) {
   now.hands = source_.read(time);
   now.keyboard = source_.kind() == InputSource::Kind::keyboard;
   now.audio = speech_.status().works ? link_of(mixer_.status().device) : senses::Link::lost;
+  now.ears = ears();
   now.words = speech_wanted_ || by_topic();
   now.sounds = heard();
   now.motors = !own || own->connected;

@@ -46,6 +46,7 @@ class PersonDevices {
  private:
   [[nodiscard]] bool by_topic() const { return listener_ == "topic"; }
   [[nodiscard]] bool heard() const;
+  [[nodiscard]] std::string ears() const;
   [[nodiscard]] bool felt() const;
 
   std::string listener_;

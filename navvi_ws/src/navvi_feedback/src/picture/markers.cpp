@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <navvi_types/angles.hpp>
-#include <string>
-
-#include "cues/clock_face.hpp"
 
 namespace navvi_feedback::picture {
 namespace {
@@ -94,14 +91,6 @@ std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& 
   return Eigen::Rotation2Dd(-guidance.turn_angle) * leg.normalized();
 }
 
-/// What the arrow shows, in words: the hour of the turn as it will be seen from the way-point.
-std::string turn_text(const Guidance& guidance, const cues::Phrases& words) {
-  cues::Fillings turn;
-  turn.hour = cues::clock_hour(guidance.turn_angle, cues::Rounding::nearest).value_or(12);
-  turn.distance = std::max(0.0, guidance.waypoint_distance);
-  return words.say(CueKind::turn_ahead, turn);
-}
-
 void add_path(const MarkersConfig& config, const std::vector<Eigen::Vector2d>& path,
               std::vector<Marker>& markers) {
   if (path.size() < 2) return;
@@ -123,7 +112,7 @@ void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal, const cu
 }
 
 void add_turn(const MarkersConfig& config, const Guidance& guidance,
-              const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words,
+              const std::vector<Eigen::Vector2d>& path, const std::string& words,
               std::vector<Marker>& markers) {
   const std::optional<Eigen::Vector2d> course = course_after(path, guidance);
   if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < config.slight ||
@@ -135,8 +124,8 @@ void add_turn(const MarkersConfig& config, const Guidance& guidance,
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;
   markers[5] = arrow;
-  markers[6] =
-      label(1, turn_text(guidance, words), guidance.waypoint, 1.8, 0.6 * config.label_height);
+  if (!words.empty())
+    markers[6] = label(1, words, guidance.waypoint, 1.8, 0.6 * config.label_height);
 }
 
 }  // namespace
@@ -156,7 +145,8 @@ void MarkersConfig::describe(navvi_config::Visitor& visit) {
 visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
                                               const std::optional<Guidance>& guidance,
                                               const std::vector<Eigen::Vector2d>& path,
-                                              const cues::Phrases& words) {
+                                              const cues::Phrases& words,
+                                              const std::string& turn) {
   visualization_msgs::MarkerArray array;
   std::vector<Marker>& markers = array.markers;
   markers = {absent("path", 0),  absent("path", 1), absent("goal", 0), absent("goal", 1),
@@ -164,7 +154,7 @@ visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
   if (!guidance || !guidance->leads()) return array;
   add_path(config, path, markers);
   add_goal(config, guidance->goal, words, markers);
-  add_turn(config, *guidance, path, words, markers);
+  add_turn(config, *guidance, path, turn, markers);
   for (Marker& marker : markers) marker.pose.position.z += guidance->floor;
   return array;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <navvi_types/guidance.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cues/phrases.hpp"
@@ -29,17 +30,17 @@ struct MarkersConfig {
 };
 
 /// What is drawn of the guidance (R-VIS-1, 2): the path as a purple strip on a wider white one, the
-/// goal as a red pole in a white ring with its word, and the next turn as an arrow with the
-/// hour and the distance. No two things differ by colour alone. Namespaces path, goal, turn, and
-/// label for the words.
+/// goal as a red pole in a white ring with its word, and the next turn as an arrow with its words.
+/// No two things differ by colour alone. Namespaces path, goal, turn, and label for the words.
 ///
 /// Every call names every marker, with DELETE for what is not there: without guidance that follows
 /// a path, nothing is.
 /// \param path  m, in map
-/// \param words  of the language of the session, as few as it has
+/// \param words  of the language of the session
+/// \param turn  what is said of the next turn; empty while the person is to do something else
 [[nodiscard]] visualization_msgs::MarkerArray guide_markers(
     const MarkersConfig& config, const std::optional<Guidance>& guidance,
-    const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words);
+    const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words, const std::string& turn);
 
 /// What shows a path that nobody is led along yet: its goal, and no turn.
 /// \param path  m, in map, of at least one place

@@ -18,9 +18,9 @@ const std::string kPhrases = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/
 
 MarkerArray markers_of(const std::optional<Guidance>& guidance,
                        const std::vector<Eigen::Vector2d>& path,
+                       const std::string& turn = "in 4 meters, 3 o'clock",
                        const std::string& language = "en") {
-  static const cues::WordingConfig brief{"clock", "meters", "brief"};
-  return guide_markers({}, guidance, path, cues::Phrases(kPhrases + language + ".yaml", brief));
+  return guide_markers({}, guidance, path, cues::Phrases(kPhrases + language + ".yaml"), turn);
 }
 
 Guidance following() {
@@ -116,23 +116,23 @@ TEST(Markers, the_line_and_the_goal_pass_three_to_one_on_rviz_grey_and_the_line_
   EXPECT_GE(contrast(luminance(find(array, "goal", 0)->color), luminance(grey)), 3.0);
 }
 
-TEST(Markers, the_turn_shows_hour_and_distance_and_points_along_the_next_leg) {
+TEST(Markers, the_turn_shows_its_words_and_points_along_the_next_leg) {
   const MarkerArray array = markers_of(following(), kPath);
   EXPECT_EQ(find(array, "label", 1)->text, "in 4 meters, 3 o'clock");
   const Marker& arrow = *find(array, "turn", 0);
-  Guidance aside = following();
-  aside.steer_angle = 0.0;
-  EXPECT_EQ(find(markers_of(aside, kPath), "label", 1)->text, "in 4 meters, 3 o'clock")
-      << "where the robot looks does not change what the arrow shows";
   ASSERT_EQ(arrow.points.size(), 2u);
   EXPECT_NEAR(arrow.points[1].x, arrow.points[0].x, 1e-9);
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
 }
 
+TEST(Markers, a_person_who_is_to_do_something_else_reads_no_turn) {
+  const MarkerArray array = markers_of(following(), kPath, "");
+  EXPECT_EQ(find(array, "label", 1)->action, Marker::DELETE);
+  EXPECT_EQ(find(array, "turn", 0)->action, Marker::ADD);
+}
+
 TEST(Markers, speak_the_language_of_the_session) {
-  const MarkerArray array = markers_of(following(), kPath, "es");
-  EXPECT_EQ(find(array, "label", 0)->text, "META");
-  EXPECT_EQ(find(array, "label", 1)->text, "en 4 metros, hacia las 3");
+  EXPECT_EQ(find(markers_of(following(), kPath, "", "es"), "label", 0)->text, "META");
 }
 
 TEST(Markers, the_arrow_shows_two_corners_that_are_said_as_one_turn_as_one) {

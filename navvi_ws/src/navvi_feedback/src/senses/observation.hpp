@@ -60,6 +60,7 @@ struct Observation {
   bool motors = true;   ///< anything by the motors
   bool touch = false;   ///< what is said is felt, too, and so may do without the words
   bool audible = true;  ///< short sounds
+  bool side_asked = false;  ///< the person is asked which side a sound comes from
   Sounds sounds;
 
   // The robot

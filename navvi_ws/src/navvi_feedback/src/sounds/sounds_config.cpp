@@ -43,6 +43,8 @@ void SoundsConfig::describe(navvi_config::Visitor& visit) {
         "nearer than this a way-point has no beacon");
   visit(under_words, "under_words", Range{0.0, 1.0}, "",
         "share of its volume that a sound has while words are spoken; a hit has it all");
+  visit(sides, "sides", Any{}, "",
+        "the sound device by which the person told left from right: with it they are not asked");
 }
 
 const FamilyConfig& SoundsConfig::family_of(Earcon earcon) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "navvi_config/field.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 
@@ -36,6 +38,7 @@ struct SoundsConfig {
   FamilyConfig sonar{false};
   double capture_radius = 1.5;  ///< m
   double under_words = 0.3;
+  std::string sides;  ///< sound device by which the person tells sides
 
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] const FamilyConfig& family_of(Earcon earcon) const;

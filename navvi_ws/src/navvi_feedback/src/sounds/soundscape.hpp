@@ -35,6 +35,8 @@ class Soundscape {
     if (!config_.enabled || !config_.turn.on) return std::nullopt;
     return turn_.learnt();
   }
+  /// As TurnSound::find_sides_wrong().
+  void find_sides_wrong() { turn_.find_sides_wrong(); }
   /// As TurnSound::leads().
   [[nodiscard]] bool leads() const { return turn_.leads(); }
   /// As TurnSound::most_rate().

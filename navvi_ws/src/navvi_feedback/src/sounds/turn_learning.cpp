@@ -44,8 +44,16 @@ void TurnLearning::led_by_sounds(double error) {
   by_words_ = 0;
 }
 
+void TurnLearning::turned(bool away) {
+  if (!learns_) return;
+  away_ = std::max(0, away_ + (away ? 1 : -1));
+  if (away_ >= kTooMany) found_sides_wrong();
+}
+
+void TurnLearning::found_sides_wrong() { learnt_.words_lead = learnt_.sides_wrong = true; }
+
 void TurnLearning::led_by_words(double error) {
-  if (!learnt_.words_lead) return;
+  if (!learnt_.words_lead || learnt_.sides_wrong) return;
   by_words_ = error > kMuch ? 0 : by_words_ + 1;
   if (by_words_ < trial_) return;
   // Sounds are tried again; if that fails, not so soon the next time.

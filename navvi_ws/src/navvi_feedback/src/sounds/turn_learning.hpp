@@ -10,7 +10,7 @@ namespace navvi_feedback::sounds {
 class TurnLearning {
  public:
   explicit TurnLearning(const TurnConfig& config)
-      : learns_(config.learn), learnt_{config.stopping_delay, config.stopping_spread, 0.0, false} {}
+      : learns_(config.learn), learnt_{config.stopping_delay, config.stopping_spread} {}
 
   void use(const TurnConfig& config) { learns_ = config.learn; }
 
@@ -19,6 +19,10 @@ class TurnLearning {
   /// \param error  rad, what is left of a turn that sounds have led, or, where no turn was made,
   /// all of it
   void led_by_sounds(double error);
+  /// The person turned away from the side of a sound, or, as it asked to, to that side.
+  void turned(bool away);
+  /// They take it for one of the other side: words lead from now on.
+  void found_sides_wrong();
   /// \param error  rad, what is left of a turn that words have led
   void led_by_words(double error);
 
@@ -30,6 +34,7 @@ class TurnLearning {
   int turns_ = 0;     ///< that sounds have led
   int stops_ = 0;     ///< of these, where the robot was told to stop, and did
   int bad_ = 0;       ///< of the latest of them, those that left too much
+  int away_ = 0;      ///< turns away from the sound, as bad_
   int by_words_ = 0;  ///< in a row, that words have led well
   int trial_ = 4;     ///< of these, until sounds are tried again
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvi_feedback::sounds {
 namespace {
@@ -27,6 +28,8 @@ constexpr double kObeys = 2.5;
 constexpr double kStopAgain = 0.35;
 /// s; who has not begun to turn by then has missed the ticks.
 constexpr double kMissed = 5.0;
+/// rad, turned away from the ticks in one go: a turn that went the wrong way.
+constexpr double kAway = 30.0 * kDegree;
 /// rad, that stops may differ by from turn to turn: the end of a turn is led so slowly.
 constexpr double kAlike = 4.5 * kDegree;
 /// rad/s, the least that slowing down leaves before where the turn is to end, and beyond.
@@ -41,7 +44,8 @@ double interval(double off) {
 
 std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, const Velocity& motion,
                                       double time) {
-  learn(off, motion.angular, time);
+  const double dt = time - std::exchange(time_, time);
+  learn(off, motion.angular, dt, time);
   if (!leads()) watch_words(off, motion.angular);
   if (!off || !leads()) {
     counting_.reset();
@@ -51,7 +55,7 @@ std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, cons
   if (stopping_) return stop_again(time);
   if (!counting_ && !begins(*off, fine, time))
     return off_since_ ? std::nullopt : on_course(motion, time);
-  return count(*off, motion.angular, time);
+  return count(*off, motion.angular, dt, time);
 }
 
 bool TurnSound::begins(double off, bool fine, double time) {
@@ -67,10 +71,18 @@ bool TurnSound::begins(double off, bool fine, double time) {
   return true;
 }
 
-std::optional<Play> TurnSound::count(double off, double rate, double time) {
+std::optional<Play> TurnSound::count(double off, double rate, double dt, double time) {
   left_ = std::abs(off);
   const bool turns = std::abs(rate) > kTurning && rate * off < 0.0;
   if (turns) counting_->turned = true;
+  const bool away = std::abs(rate) > kTurning && rate * off > 0.0;
+  const double before = std::exchange(
+      counting_->away, away ? counting_->away + std::abs(rate) * dt : 0.0);
+  if (before <= kAway && counting_->away > kAway) {
+    counting_->strayed = true;
+    learning_.turned(true);
+    if (!leads()) return std::nullopt;
+  }
   if (!counting_->turned && time - counting_->since > kMissed) {
     learning_.led_by_sounds(left_);
     counting_->since = time;
@@ -79,6 +91,7 @@ std::optional<Play> TurnSound::count(double off, double rate, double time) {
   // Turning counter-clockwise makes what lies ahead wander clockwise.
   const double left = off + rate * learnt().stopping_delay;
   if (std::abs(left) <= config_.done * kDegree || left * off < 0.0) {
+    if (counting_->turned && !counting_->strayed) learning_.turned(false);
     counting_.reset();
     if (std::abs(rate) > kStill) stopping_ = Stopping{time, rate, time, 0.0};
     heard_ = time;
@@ -107,9 +120,7 @@ std::optional<Play> TurnSound::on_course(const Velocity& motion, double time) {
   return Play{Earcon::on_course, Eigen::Vector2d::UnitX(), 0.5 * config_.volume};
 }
 
-void TurnSound::learn(std::optional<double> off, double rate, double time) {
-  const double dt = time - time_;
-  time_ = time;
+void TurnSound::learn(std::optional<double> off, double rate, double dt, double time) {
   if (!stopping_) return;
   stopping_->angle += rate * dt;
   // Turning counter-clockwise, what is left lies counter-clockwise.

@@ -37,6 +37,8 @@ class TurnSound {
   [[nodiscard]] std::optional<Play> update(std::optional<double> off, bool fine,
                                            const Velocity& motion, double time);
 
+  /// The person takes its sounds for those of the other side: it is silent from now on.
+  void find_sides_wrong() { learning_.found_sides_wrong(); }
   /// It is counting now.
   [[nodiscard]] bool sounds() const { return counting_.has_value(); }
   /// It does so where there is something to turn.
@@ -50,6 +52,8 @@ class TurnSound {
     double since = 0.0;            ///< s
     bool turned = false;           ///< the robot has, to the side of the ticks
     std::optional<double> ticked;  ///< s
+    double away = 0.0;             ///< rad, that it now turns to the other side
+    bool strayed = false;          ///< once far enough for a turn that went the wrong way
   };
   /// The turn that was told to end.
   struct Stopping {
@@ -60,10 +64,10 @@ class TurnSound {
   };
 
   [[nodiscard]] bool begins(double off, bool fine, double time);
-  [[nodiscard]] std::optional<Play> count(double off, double rate, double time);
+  [[nodiscard]] std::optional<Play> count(double off, double rate, double dt, double time);
   [[nodiscard]] std::optional<Play> stop_again(double time);
   [[nodiscard]] std::optional<Play> on_course(const Velocity& motion, double time);
-  void learn(std::optional<double> off, double rate, double time);
+  void learn(std::optional<double> off, double rate, double dt, double time);
   void watch_words(std::optional<double> off, double rate);
   [[nodiscard]] double least_rate() const;
 

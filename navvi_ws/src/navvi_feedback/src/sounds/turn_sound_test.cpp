@@ -32,7 +32,7 @@ class Turner {
       if (play && play->earcon == Earcon::turn) {
         ticks.push_back(time_);
         side = play->from.y();
-        if (!let_go && hears_ticks) speed = std::copysign(rate, side);
+        if (!let_go && hears_ticks) speed = std::copysign(rate, mirrored ? -side : side);
       }
       if (play && play->earcon == Earcon::turn_stop) {
         ++stops;
@@ -52,6 +52,7 @@ class Turner {
   double side = 0.0;
   bool slowed = false;  ///< by the guide
   bool hears_ticks = true;
+  bool mirrored = false;  ///< hears them from the other side
 
  private:
   double rate_ = 0.0;  // rad/s
@@ -219,6 +220,32 @@ TEST(TurnSound, is_silent_where_words_lead_better_and_is_tried_again) {
       (void)person.sound_.update(5.0 * kDegree, false, {0.0, i < 50 ? -1.0 : 0.0}, time += kTick);
   }
   EXPECT_TRUE(person.sound_.leads());
+}
+
+TEST(TurnSound, gives_way_to_words_for_good_where_three_turns_went_the_wrong_way) {
+  Turner person{TurnConfig{}};
+  person.turn(80.0, 0.4);
+  person.mirrored = true;
+  for (const double off : {60.0, -80.0, 90.0}) {
+    EXPECT_FALSE(person.sound_.learnt().sides_wrong);
+    person.turn(off, 0.4, 0.3);
+  }
+  EXPECT_TRUE(person.sound_.learnt().sides_wrong);
+  EXPECT_FALSE(person.sound_.leads());
+  double time = 1000.0;
+  for (int turn = 0; turn < 40; ++turn)
+    for (int i = 0; i < 100; ++i)
+      (void)person.sound_.update(5.0 * kDegree, false, {0.0, i < 50 ? -1.0 : 0.0}, time += kTick);
+  EXPECT_FALSE(person.sound_.leads()) << "however well words lead";
+}
+
+TEST(TurnSound, forgives_sides_that_are_mistaken_now_and_then) {
+  Turner person{TurnConfig{}};
+  for (int turn = 0; turn < 30; ++turn) {
+    person.mirrored = turn % 3 == 0;
+    person.turn(turn % 2 == 0 ? 80.0 : -80.0, 0.4, person.mirrored ? 0.3 : 1.2);
+  }
+  EXPECT_FALSE(person.sound_.learnt().sides_wrong);
 }
 
 TEST(TurnSound, gives_way_to_words_where_nobody_turns_to_it) {

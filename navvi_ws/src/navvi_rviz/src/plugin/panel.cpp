@@ -112,7 +112,7 @@ void Panel::name_all() {
   const status::Words& words = reader_->words();
   const auto of = [&](const std::string& key) { return QString::fromStdString(words.of(key)); };
   for (const Named& named : named_) {
-    const bool spoken = reader_->keyboard() && !named.spoken.empty();
+    const bool spoken = !named.spoken.empty() && (named.same || reader_->keyboard());
     const QString key = spoken ? of("lessons/" + named.spoken) : named.key.toString();
     const QString name = of("picture/" + named.words);
     if (const QString text = name + " (" + key + ")"; named.button->text() != text) {
@@ -165,7 +165,7 @@ void Panel::add_menu() {
   const auto add = [&](const char* words, const QKeySequence& key, const char* spoken,
                        const char* question) {
     return add_button(
-        rows_.menu, {nullptr, words, key, spoken}, [this, question] { ask(question); }, page);
+        rows_.menu, {nullptr, words, key, spoken, true}, [this, question] { ask(question); }, page);
   };
   down_ = add("down", Qt::Key_PageDown, "key_12", "next");
   add("up", Qt::Key_PageUp, "key_11", "previous");

@@ -42,6 +42,7 @@ class Panel : public rviz::Panel {
     QKeySequence key;
     std::string spoken;  ///< what the voice calls the key that does the same on the keyboard, as
                          ///< key of the lessons' words; empty: `key` itself
+    bool same = false;   ///< it is `key`, whatever the hands are on
   };
   /// \param scope  the key works while this is visible
   QPushButton* add_button(QLayout* row, const Named& named, const std::function<void()>& action,

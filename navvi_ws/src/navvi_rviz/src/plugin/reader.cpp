@@ -3,7 +3,6 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <navvi_msgs/TrialEvent.h>
 #include <ros/package.h>
-#include <visualization_msgs/MarkerArray.h>
 
 #include <navvi_config/reader.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -17,8 +16,6 @@ using navvi_types::subscribe;
 
 namespace {
 
-constexpr int kTurn = 1;  // of the label of the next turn among feedback_node's markers
-
 double now() { return ros::SteadyTime::now().toSec(); }
 
 }  // namespace
@@ -28,6 +25,9 @@ Reader::Reader() {
   keep(subscribe<navvi_msgs::Cue, navvi_types::CueEvent>(
       node_, "navvi/cues", 100, from_msg,
       [this](const navvi_types::CueEvent& cue) { status_.take(cue, now()); }));
+  keep(subscribe<navvi_msgs::Cue, navvi_types::CueEvent>(
+      node_, "navvi/order", 1, from_msg,
+      [this](const navvi_types::CueEvent& order) { status_.take_order(order); }));
   keep(subscribe<navvi_msgs::Guidance, navvi_types::Guidance>(
       node_, "navvi/guidance", 1, from_msg, [this](const navvi_types::Guidance& guidance) {
         guidance_ = guidance;
@@ -45,13 +45,6 @@ Reader::Reader() {
   keep(subscribe<navvi_msgs::Scenario, navvi_types::Scenario>(
       node_, "navvi/scenario", 1, from_msg,
       [this](const navvi_types::Scenario& scenario) { goal_ = scenario.goal; }));
-  keep(node_.subscribe<visualization_msgs::MarkerArray>(
-      "navvi/markers", 1, [this](const visualization_msgs::MarkerArray::ConstPtr& markers) {
-        std::string turn;
-        for (const auto& marker : markers->markers)
-          if (marker.ns == "label" && marker.id == kTurn) turn = marker.text;
-        status_.take_turn(turn);
-      }));
   keep(node_.subscribe<navvi_msgs::TrialEvent>(
       "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& event) {
         status_.take_event(event->type, event->header.stamp.toSec());

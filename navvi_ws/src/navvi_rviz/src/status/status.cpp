@@ -8,58 +8,33 @@ namespace {
 
 using navvi_types::Guidance;
 
-// s; "stop" and "wait" hold until a word follows, but not for ever; nor does "no sound" hide the
-// way.
-constexpr double kHeld = 10.0;
-constexpr double kShown = 4.0;  // s, of other warnings
+constexpr double kNoSound = 10.0;  // s, for which "no sound" hides the way
+constexpr double kRead = 4.0;      // s, that what was said stays to be read
 
-using navvi_types::Banner;
 using navvi_types::CueFamily;
 using navvi_types::CueKind;
 
-/// A word that the way goes on.
-bool releases(CueKind kind) {
-  switch (kind) {
-    case CueKind::direction:
-    case CueKind::straight:
-    case CueKind::slight:
-    case CueKind::straight_then:
-    case CueKind::turn_now:
-    case CueKind::rerouted:
-    case CueKind::rerouted_blocked:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// The menu is closed, by itself or by what was chosen.
 bool closes(CueKind kind) {
-  return family_of(kind) == CueFamily::menu_end || kind == CueKind::lesson;
+  return family_of(kind) == CueFamily::menu_end || family_of(kind) == CueFamily::refusal ||
+         kind == CueKind::lesson;
 }
 
-/// The cue whose words the banner shows of a state; nullopt for other words, or none.
-std::optional<CueKind> said_of(Guidance::State state) {
-  switch (state) {
-    case Guidance::State::no_route:
-      return CueKind::no_route;
-    case Guidance::State::off_mesh:
-      return CueKind::off_mesh;
-    case Guidance::State::no_map:
-      return CueKind::no_map;
-    case Guidance::State::pose_stale:
-      return CueKind::pose_stale;
-    case Guidance::State::map_stale:
-      return CueKind::map_stale;
-    case Guidance::State::no_goal:
-    case Guidance::State::following:
-    case Guidance::State::arrived:
-    case Guidance::State::blocked:
-    case Guidance::State::make_room:
-    case Guidance::State::goal_refused:
-      return std::nullopt;
+Shown::Tone tone_of(CueKind kind) {
+  switch (kind) {
+    case CueKind::arrived:
+      return Shown::Tone::good;
+    case CueKind::blocked:
+    case CueKind::make_room:
+    case CueKind::which_side:
+    case CueKind::press_start:
+    case CueKind::press_enter:
+    case CueKind::choose_goal:
+    case CueKind::lesson:
+      return Shown::Tone::wait;
+    default:
+      return Shown::Tone::alarm;
   }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -74,10 +49,12 @@ void Status::take(const navvi_types::CueEvent& cue, double time) {
   // Where nothing can be heard, what would have been is dropped.
   if (cue.stage != CueStage::started && !(silent_ && cue.stage == CueStage::dropped)) return;
   last_ = Said{kind, cue.text, time};
-  if (traits(kind).banner != Banner::none) warning_ = last_;
-  if (releases(kind) && warning_ && traits(warning_->kind).banner == Banner::held) warning_.reset();
-  if (kind == CueKind::pad_lost || kind == CueKind::keyboard_lost) lost_ = cue.text;
-  if (kind == CueKind::pad_back || kind == CueKind::keyboard_back) lost_.clear();
+}
+
+void Status::take_order(const navvi_types::CueEvent& order) {
+  order_ = Order{};
+  if (order.kind() && order.stage == navvi_types::CueStage::started)
+    order_ = Order{*order.kind(), order.text};
 }
 
 void Status::take(const navvi_types::TrialState& state) {
@@ -111,51 +88,28 @@ void Status::take_device(const std::string& name, const std::string& state, doub
     silent_ = time;
 }
 
-std::optional<Status::Said> Status::warning(double time) const {
-  if (!warning_) return std::nullopt;
-  const double age = time - warning_->time;
-  return age < (traits(warning_->kind).banner == Banner::held ? kHeld : kShown) ? warning_
-                                                                                : std::nullopt;
-}
-
-/// What was said is soon no longer true: of the way the plate's words are shown at once, after all
-/// else as soon as that was read.
+/// What was said is soon no longer true: of the way the order is shown at once, after all else as
+/// soon as that was read.
 std::string Status::instruction(double time) const {
-  if (!last_) return "";
-  const bool leads = guidance_ && guidance_->leads();
-  const bool read = time - last_->time >= kShown;
-  if (family_of(last_->kind) == CueFamily::way && !turn_.empty()) return turn_;
-  return leads && read ? turn_ : last_->text;
+  if (!last_) return order_ ? order_->text : "";
+  const bool way = is_way(family_of(last_->kind));
+  const bool read = time - last_->time >= kRead;
+  if (order_ && (way || (read && !order_->text.empty()))) return order_->text;
+  return last_->text;
 }
 
-/// The first that applies, most urgent first.
+/// The order, but for the way, and what the guide cannot know: that the wheels stand without it.
 void Status::choose_banner(double time, Shown& shown) const {
-  using Tone = Shown::Tone;
-  const auto show = [&](const std::string& text, Tone tone) {
+  const auto show = [&](const std::string& text, Shown::Tone tone) {
     if (!shown.banner.empty() || text.empty()) return;
     shown.banner = text;
     shown.tone = tone;
   };
   if (gate_ == navvi_types::DriveState::State::stopped)
-    show(words_.said(CueKind::robot_stopped, keyboard_), Tone::alarm);
-  show(lost_, Tone::alarm);
-  if (const auto said = warning(time))
-    show(said->text, said->kind == CueKind::blocked || said->kind == CueKind::make_room
-                         ? Tone::wait
-                         : Tone::alarm);
-  using Trial = navvi_types::TrialState::State;
-  if (trial_ == Trial::ready)
-    show(words_.said(keyboard_ ? CueKind::press_enter : CueKind::press_start, keyboard_),
-         Tone::wait);
-  if (trial_ == Trial::choose_goal) show(words_.said(CueKind::choose_goal, keyboard_), Tone::wait);
-  if (!guidance_) return;
-  const auto state = guidance_->state;
-  if (state == Guidance::State::blocked) show(words_.of("picture/wait"), Tone::wait);
-  if (state == Guidance::State::make_room) show(words_.of("picture/make_room"), Tone::wait);
-  if (state == Guidance::State::arrived) show(words_.of("picture/arrived"), Tone::good);
-  if (state == Guidance::State::goal_refused) show(words_.of("picture/goal_refused"), Tone::alarm);
-  if (const auto kind = said_of(state)) show(words_.said(*kind, keyboard_), Tone::alarm);
-  if (silent_ && time - *silent_ < kHeld) show(words_.of("picture/no_sound"), Tone::wait);
+    show(words_.said(CueKind::robot_stopped, keyboard_), Shown::Tone::alarm);
+  if (order_ && family_of(order_->kind) != CueFamily::way)
+    show(order_->text, tone_of(order_->kind));
+  if (silent_ && time - *silent_ < kNoSound) show(words_.of("picture/no_sound"), Shown::Tone::wait);
 }
 
 Shown Status::shown(double time, double ros_time) const {

@@ -41,8 +41,8 @@ class Status {
   [[nodiscard]] bool trial_runs() const {
     return trial_ == navvi_types::TrialState::State::running;
   }
-  /// What the plate of the next turn says now; empty: there is none.
-  void take_turn(const std::string& text) { turn_ = text; }
+  /// What the person is to do from now on.
+  void take_order(const navvi_types::CueEvent& order);
   /// For the person to begin it.
   [[nodiscard]] bool trial_waits() const { return trial_ == navvi_types::TrialState::State::ready; }
   /// \param ros_time  s, of the event
@@ -64,9 +64,12 @@ class Status {
     std::string text;
     double time;
   };
+  struct Order {
+    navvi_types::CueKind kind = navvi_types::CueKind::lesson;
+    std::string text = {};  ///< empty: nothing is to be done
+  };
 
   [[nodiscard]] std::string instruction(double time) const;
-  [[nodiscard]] std::optional<Said> warning(double time) const;
   void choose_banner(double time, Shown& shown) const;
 
   Words words_;
@@ -74,10 +77,9 @@ class Status {
   std::optional<navvi_types::Guidance> guidance_;
   std::optional<navvi_types::DriveState::State> gate_;
   std::optional<navvi_types::TrialState::State> trial_;
-  std::optional<Said> last_, warning_;
-  std::string lost_;  ///< sentence while the hands are lost
+  std::optional<Said> last_;
+  std::optional<Order> order_;  ///< nullopt: none has come yet
   std::string menu_;
-  std::string turn_;  ///< what its plate says
   double speed_ = 0.0;
   std::optional<double> begun_, ended_;  ///< s, ROS time
   std::optional<double> silent_;         ///< since when nothing can be heard

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace navvi_rviz::status {
 namespace {
 
@@ -67,72 +69,52 @@ TEST(Status, rounds_the_distance_as_the_voice_does_and_in_its_unit) {
   EXPECT_EQ(status.shown(1.0, 0.0).distance, "5 pies hasta la meta");
 }
 
-TEST(Status, a_stopped_robot_comes_before_a_hit_and_a_hit_before_a_wait) {
+TEST(Status, shows_the_order_but_for_the_way_which_the_plate_shows) {
+  using Tone = Shown::Tone;
   Status status = speaking();
-  status.take(in(Guidance::State::blocked));
-  EXPECT_EQ(status.shown(1.0, 0.0).banner, "wait");
-  status.take(said(CueKind::collision_shelf, "hit a shelf on your left"), 1.0);
-  EXPECT_EQ(status.shown(1.1, 0.0).banner, "hit a shelf on your left");
+  for (const auto& [kind, tone] : std::map<CueKind, Tone>{{CueKind::blocked, Tone::wait},
+                                                          {CueKind::obstacle_stop, Tone::alarm},
+                                                          {CueKind::press_enter, Tone::wait},
+                                                          {CueKind::lesson, Tone::wait},
+                                                          {CueKind::make_room, Tone::wait},
+                                                          {CueKind::no_route, Tone::alarm},
+                                                          {CueKind::arrived, Tone::good}}) {
+    status.take_order(said(kind, "as the guide has it"));
+    EXPECT_EQ(status.shown(1.0, 0.0).banner, "as the guide has it") << to_string(kind);
+    EXPECT_EQ(status.shown(1.0, 0.0).tone, tone) << to_string(kind);
+  }
+  status.take_order(said(CueKind::turn_ahead, "in 3 meters, 9 o'clock"));
+  EXPECT_EQ(status.shown(2.0, 0.0).banner, "");
+  EXPECT_EQ(status.shown(2.0, 0.0).instruction, "in 3 meters, 9 o'clock");
+}
+
+TEST(Status, an_order_that_has_ended_is_shown_no_more) {
+  Status status = speaking();
+  CueEvent order = said(CueKind::blocked, "wait, worker in the way");
+  status.take_order(order);
+  status.take(in(Guidance::State::following));
+  EXPECT_EQ(status.shown(100.0, 0.0).banner, "wait, worker in the way");
+  order.stage = CueStage::ended;
+  status.take_order(order);
+  EXPECT_EQ(status.shown(100.0, 0.0).banner, "");
+}
+
+TEST(Status, wheels_that_stand_without_the_guide_are_shown_before_its_last_order) {
+  Status status = speaking();
+  status.take_order(said(CueKind::blocked, "wait, worker in the way"));
   status.take(gate(DriveState::State::stopped));
-  EXPECT_EQ(status.shown(1.2, 0.0).banner, "robot stopped, release the stick");
-  status.take(gate(DriveState::State::running));
-  EXPECT_EQ(status.shown(6.0, 0.0).banner, "wait") << "the hit is over";
-}
-
-TEST(Status, stop_holds_until_go_on_or_until_it_is_old) {
-  Status status = speaking();
-  status.take(said(CueKind::obstacle_stop, "stop, worker ahead"), 0.0);
-  EXPECT_EQ(status.shown(8.0, 0.0).banner, "stop, worker ahead");
-  EXPECT_EQ(status.shown(11.0, 0.0).banner, "");
-  status.take(said(CueKind::obstacle_stop, "stop, worker ahead"), 20.0);
-  status.take(said(CueKind::straight, "go on, drive straight, 5 meters"), 21.0);
-  EXPECT_EQ(status.shown(21.1, 0.0).banner, "");
-  EXPECT_EQ(status.shown(21.1, 0.0).instruction, "go on, drive straight, 5 meters");
-}
-
-TEST(Status, a_lost_controller_is_shown_until_it_is_back) {
-  Status status = speaking();
-  status.take(said(CueKind::pad_lost, "controller disconnected"), 0.0);
-  EXPECT_EQ(status.shown(100.0, 0.0).banner, "controller disconnected");
-  status.take(said(CueKind::pad_back, "controller connected, release the stick"), 101.0);
-  EXPECT_EQ(status.shown(101.0, 0.0).banner, "");
-}
-
-TEST(Status, a_trial_that_waits_says_for_what) {
-  Status status = speaking();
-  navvi_types::TrialState trial;
-  trial.state = navvi_types::TrialState::State::ready;
-  status.take(trial);
-  EXPECT_EQ(status.shown(0.0, 0.0).banner, "press start to begin");
-  trial.state = navvi_types::TrialState::State::running;
-  status.take(trial);
-  EXPECT_EQ(status.shown(0.0, 0.0).banner, "");
+  EXPECT_EQ(status.shown(1.0, 0.0).banner, "robot stopped, release the stick");
 }
 
 TEST(Status, speaks_the_language_of_the_session_and_names_its_keys) {
   Status status = speaking("es");
   status.take_input("keyboard");
-  navvi_types::TrialState trial;
-  trial.state = navvi_types::TrialState::State::ready;
-  status.take(trial);
-  EXPECT_EQ(status.shown(0.0, 0.0).banner, "pulse intro para empezar");
   status.take(gate(DriveState::State::stopped));
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "robot detenido, suelte las teclas");
   EXPECT_EQ(status.words().of("lessons/key_6"), "intro") << "so does the button";
 }
 
-TEST(Status, has_words_for_every_state_in_each_language) {
-  for (const char* language : {"en", "es"})
-    for (std::size_t i = 0; i < names(Guidance::State{}).size(); ++i) {
-      Status status = speaking(language);
-      const auto state = static_cast<Guidance::State>(i);
-      status.take(in(state));
-      const bool calm = state == Guidance::State::no_goal || state == Guidance::State::following;
-      EXPECT_EQ(status.shown(0.0, 0.0).banner.empty(), calm) << to_string(state);
-    }
-}
-
-TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
+TEST(Status, missing_sound_is_shown_by_itself) {
   Status status = speaking();
   status.take(in(Guidance::State::following));
   status.take_device("navvi/audio", "missing", 0.0);
@@ -140,9 +122,6 @@ TEST(Status, arrival_and_missing_sound_are_shown_by_themselves) {
   status.take_device("navvi/audio", "missing", 10.0);
   EXPECT_EQ(status.shown(11.0, 0.0).banner, "") << "it would hide the way";
   EXPECT_FALSE(status.shown(11.0, 0.0).sound);
-  status.take(in(Guidance::State::arrived));
-  EXPECT_EQ(status.shown(0.0, 0.0).banner, "arrived");
-  EXPECT_EQ(status.shown(0.0, 0.0).tone, Shown::Tone::good);
 }
 
 TEST(Status, a_cue_that_was_never_spoken_is_not_shown) {
@@ -198,21 +177,24 @@ TEST(Status, the_clock_runs_from_the_trials_start_to_its_end) {
 
 TEST(Status, the_panel_says_of_the_way_what_the_plate_says) {
   Status status = speaking();
-  Guidance guidance;
-  guidance.state = Guidance::State::following;
-  status.take(guidance);
   const auto shown = [&](double time) { return status.shown(time, 0.0).instruction; };
   status.take(said(CueKind::turn_ahead, "in 3 meters, turn to 9 o'clock"), 0.0);
   EXPECT_EQ(shown(0.0), "in 3 meters, turn to 9 o'clock");
-  status.take_turn("in 1.2 meters, 9 o'clock");
-  EXPECT_EQ(shown(1.0), "in 1.2 meters, 9 o'clock");
+  const auto order = [&](CueKind kind, const std::string& text) {
+    status.take_order(said(kind, text));
+  };
+  order(CueKind::turn_ahead, "in 1.5 meters, 9 o'clock");
+  EXPECT_EQ(shown(1.0), "in 1.5 meters, 9 o'clock");
+  for (const CueKind kind : {CueKind::turn_now, CueKind::rerouted, CueKind::make_room}) {
+    status.take(said(kind, "turn to 9 o'clock now"), 1.0);
+    EXPECT_EQ(shown(1.0), "in 1.5 meters, 9 o'clock") << "it is older than the order";
+  }
   status.take(said(CueKind::collision_shelf, "hit, shelf on the left"), 2.0);
   EXPECT_EQ(shown(2.0), "hit, shelf on the left") << "to be read first";
-  EXPECT_EQ(shown(7.0), "in 1.2 meters, 9 o'clock");
+  EXPECT_EQ(shown(7.0), "in 1.5 meters, 9 o'clock");
   status.take(said(CueKind::straight, "drive straight, 4 meters"), 8.0);
-  status.take_turn("");
-  EXPECT_EQ(shown(8.0), "drive straight, 4 meters");
-  EXPECT_EQ(shown(13.0), "") << "it is less by now";
+  order(CueKind::straight, "straight");
+  EXPECT_EQ(shown(8.0), "straight") << "it is less by now";
 }
 
 }  // namespace

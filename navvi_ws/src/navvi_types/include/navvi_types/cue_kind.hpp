@@ -62,6 +62,8 @@ enum class CueKind : std::uint8_t {
   audio_back,
   no_rumble,
   second_pad,
+  sides_wrong,
+  which_side,
   press_start,
   press_enter,
   choose_goal,
@@ -164,12 +166,6 @@ enum class Ask : std::uint8_t {
   rest,        ///< the goal is reached
 };
 
-/// How long a cue stands in the banner of the picture.
-enum class Banner : std::uint8_t {
-  none,
-  shown,  ///< some seconds
-  held,   ///< until a word about the way
-};
 
 /// How a kind of cue is treated.
 struct CueTraits {
@@ -180,7 +176,7 @@ struct CueTraits {
   double max_age;       ///< s after which it is dropped if it has not begun
   CueFamily family = CueFamily::other;
   Ask ask = Ask::nothing;
-  Banner banner = Banner::none;
+  bool shown = false;  ///< some seconds in the banner, as what it is about lasts no longer
   std::optional<Pattern> felt = {};  ///< the motors' pattern that begins with it
 };
 
@@ -189,44 +185,43 @@ using K = CueKind;
 using P = Priority;
 using F = CueFamily;
 using A = Ask;
-using B = Banner;
 using T = Pattern;
 
-// kind, word, priority, least interval in s, largest age in s, family, ask, banner, pattern
+// kind, word, priority, least interval in s, largest age in s, family, ask, shown, pattern
 inline constexpr CueTraits kRows[] = {
     // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy.
-    {K::collision_shelf, "collision_shelf", P::important, 0.0, 3.0, F::hit, A::back, B::shown},
-    {K::collision_wall, "collision_wall", P::important, 0.0, 3.0, F::hit, A::back, B::shown},
+    {K::collision_shelf, "collision_shelf", P::important, 0.0, 3.0, F::hit, A::back, true},
+    {K::collision_wall, "collision_wall", P::important, 0.0, 3.0, F::hit, A::back, true},
     {K::collision_obstacle, "collision_obstacle", P::important, 0.0, 3.0, F::hit, A::back,
-     B::shown},
-    {K::obstacle_stop, "obstacle_stop", P::important, 3.0, 1.0, F::halt, A::beware, B::held,
+     true},
+    {K::obstacle_stop, "obstacle_stop", P::important, 3.0, 1.0, F::halt, A::beware, false,
      T::halt},
     {K::pad_lost, "pad_lost", P::important, 2.0, 10.0, F::other, A::halt},
     {K::keyboard_lost, "keyboard_lost", P::important, 2.0, 10.0, F::other, A::halt},
-    {K::robot_stopped, "robot_stopped", P::important, 2.0, 4.0, F::other, A::halt, B::none,
+    {K::robot_stopped, "robot_stopped", P::important, 2.0, 4.0, F::other, A::halt, false,
      T::stopped},
-    {K::simulator_lost, "simulator_lost", P::important, 5.0, 10.0, F::other, A::halt, B::shown},
-    {K::proximity_lost, "proximity_lost", P::important, 5.0, 10.0, F::other, A::nothing, B::shown},
-    {K::guidance_lost, "guidance_lost", P::important, 5.0, 5.0, F::other, A::halt, B::shown},
-    {K::record_lost, "record_lost", P::important, 5.0, 10.0, F::other, A::nothing, B::shown},
+    {K::simulator_lost, "simulator_lost", P::important, 5.0, 10.0, F::other, A::halt},
+    {K::proximity_lost, "proximity_lost", P::important, 5.0, 10.0, F::other, A::nothing, true},
+    {K::guidance_lost, "guidance_lost", P::important, 5.0, 5.0, F::other, A::halt},
+    {K::record_lost, "record_lost", P::important, 5.0, 10.0, F::other, A::nothing, true},
     {K::trial_disk_full, "trial_disk_full", P::important, 5.0, 10.0, F::trial_end, A::nothing,
-     B::shown},
+     true},
     // What the person must act on now.
-    {K::stuck, "stuck", P::message, 2.0, 1.0, F::stuck, A::turn, B::shown, T::stuck},
-    {K::stuck_unknown, "stuck_unknown", P::message, 2.0, 2.0, F::stuck, A::back, B::shown,
+    {K::stuck, "stuck", P::message, 2.0, 1.0, F::stuck, A::turn, true, T::stuck},
+    {K::stuck_unknown, "stuck_unknown", P::message, 2.0, 2.0, F::stuck, A::back, true,
      T::stuck},
-    {K::arrived, "arrived", P::message, 1.0, 10.0, F::other, A::rest, B::none, T::arrived},
+    {K::arrived, "arrived", P::message, 1.0, 10.0, F::other, A::rest, false, T::arrived},
     {K::turn_now, "turn_now", P::message, 1.0, 1.0, F::route, A::turn},
-    {K::no_route, "no_route", P::message, 5.0, 5.0, F::other, A::halt, B::shown},
-    {K::off_mesh, "off_mesh", P::message, 5.0, 5.0, F::other, A::back, B::shown},
+    {K::no_route, "no_route", P::message, 5.0, 5.0, F::other, A::halt},
+    {K::off_mesh, "off_mesh", P::message, 5.0, 5.0, F::other, A::back},
     {K::no_map, "no_map", P::message, 5.0, 5.0, F::other, A::halt},
     {K::pose_stale, "pose_stale", P::message, 5.0, 5.0, F::other, A::halt},
     {K::map_stale, "map_stale", P::message, 5.0, 5.0, F::other, A::halt},
-    {K::blocked, "blocked", P::message, 3.0, 1.0, F::halt, A::halt, B::held, T::halt},
+    {K::blocked, "blocked", P::message, 3.0, 1.0, F::halt, A::halt, false, T::halt},
     {K::obstacle_comes, "obstacle_comes", P::message, 1.5, 1.0, F::other, A::beware},
-    {K::back_away, "back_away", P::message, 2.0, 1.0, F::other, A::back, B::shown, T::stuck},
+    {K::back_away, "back_away", P::message, 2.0, 1.0, F::other, A::back, true, T::stuck},
     {K::go_on, "go_on", P::message, 1.0, 2.0, F::other, A::go},
-    {K::make_room, "make_room", P::message, 1.0, 1.0, F::route, A::turn, B::shown},
+    {K::make_room, "make_room", P::message, 1.0, 1.0, F::route, A::turn},
     {K::goal_refused_not_finite, "goal_refused_not_finite", P::message, 1.0, 10.0, F::refusal,
      A::halt},
     {K::goal_refused_unknown_frame, "goal_refused_unknown_frame", P::message, 1.0, 10.0, F::refusal,
@@ -238,9 +233,9 @@ inline constexpr CueTraits kRows[] = {
     {K::goal_refused_unreachable, "goal_refused_unreachable", P::message, 1.0, 10.0, F::refusal,
      A::halt},
     {K::goal_refused_not_seen, "goal_refused_not_seen", P::message, 1.0, 10.0, F::refusal, A::halt},
-    {K::release_stick, "release_stick", P::message, 2.0, 2.0, F::other, A::halt, B::shown,
+    {K::release_stick, "release_stick", P::message, 2.0, 2.0, F::other, A::halt, true,
      T::stopped},
-    {K::hold_to_drive, "hold_to_drive", P::message, 2.0, 2.0, F::other, A::nothing, B::shown},
+    {K::hold_to_drive, "hold_to_drive", P::message, 2.0, 2.0, F::other, A::nothing, true},
     {K::intruder, "intruder", P::message, 5.0, 10.0},
     {K::machine_slow, "machine_slow", P::message, 5.0, 10.0},
     {K::two_drivers, "two_drivers", P::message, 5.0, 10.0},
@@ -249,10 +244,12 @@ inline constexpr CueTraits kRows[] = {
     {K::audio_back, "audio_back", P::message, 2.0, 5.0},
     {K::no_rumble, "no_rumble", P::message, 5.0, 10.0},
     {K::second_pad, "second_pad", P::message, 5.0, 10.0},
-    {K::press_start, "press_start", P::message, 2.0, 5.0, F::other, A::begin, B::none, T::ready},
-    {K::press_enter, "press_enter", P::message, 2.0, 5.0, F::other, A::begin, B::none, T::ready},
+    {K::sides_wrong, "sides_wrong", P::message, 5.0, 10.0, F::other, A::nothing, true},
+    {K::which_side, "which_side", P::message, 2.0, 5.0},
+    {K::press_start, "press_start", P::message, 2.0, 5.0, F::other, A::begin, false, T::ready},
+    {K::press_enter, "press_enter", P::message, 2.0, 5.0, F::other, A::begin, false, T::ready},
     {K::choose_goal, "choose_goal", P::message, 2.0, 5.0},
-    {K::trial_begins, "trial_begins", P::message, 1.0, 2.0, F::other, A::nothing, B::none,
+    {K::trial_begins, "trial_begins", P::message, 1.0, 2.0, F::other, A::nothing, false,
      T::begun},
     {K::goal_chosen, "goal_chosen", P::message, 0.0, 4.0, F::menu_end},
     {K::goal_sure, "goal_sure", P::message, 0.0, 4.0, F::menu},
@@ -277,8 +274,8 @@ inline constexpr CueTraits kRows[] = {
     {K::place_not_saved, "place_not_saved", P::message, 0.0, 10.0, F::menu_end},
     {K::place_no_file, "place_no_file", P::message, 0.0, 4.0, F::menu_end},
     {K::place_no_pose, "place_no_pose", P::message, 0.0, 4.0, F::menu_end},
-    {K::trial_time_up, "trial_time_up", P::message, 5.0, 10.0, F::trial_end, A::nothing, B::shown},
-    {K::trial_over, "trial_over", P::message, 5.0, 10.0, F::trial_end, A::nothing, B::shown},
+    {K::trial_time_up, "trial_time_up", P::message, 5.0, 10.0, F::trial_end, A::nothing, true},
+    {K::trial_over, "trial_over", P::message, 5.0, 10.0, F::trial_end, A::nothing, true},
     {K::pad_firmware, "pad_firmware", P::message, 5.0, 10.0},
     // The way.
     {K::start, "start", P::text, 2.0, 10.0, F::other, A::ready},
@@ -294,11 +291,11 @@ inline constexpr CueTraits kRows[] = {
     {K::off_path, "off_path", P::text, 2.0, 1.0, F::route},
     {K::turn_cancelled, "turn_cancelled", P::text, 1.0, 1.0, F::way, A::go},
     {K::push, "push", P::text, 2.0, 1.0, F::way, A::go},
-    {K::rerouted, "rerouted", P::text, 4.0, 1.0, F::route, A::turn, B::none, T::rerouted},
-    {K::rerouted_blocked, "rerouted_blocked", P::text, 4.0, 1.0, F::route, A::turn, B::none,
+    {K::rerouted, "rerouted", P::text, 4.0, 1.0, F::route, A::turn, false, T::rerouted},
+    {K::rerouted_blocked, "rerouted_blocked", P::text, 4.0, 1.0, F::route, A::turn, false,
      T::rerouted},
-    {K::new_route, "new_route", P::message, 4.0, 1.0, F::other, A::nothing, B::none, T::rerouted},
-    {K::way_blocked, "way_blocked", P::message, 4.0, 1.0, F::other, A::nothing, B::none,
+    {K::new_route, "new_route", P::message, 4.0, 1.0, F::other, A::nothing, false, T::rerouted},
+    {K::way_blocked, "way_blocked", P::message, 4.0, 1.0, F::other, A::nothing, false,
      T::rerouted},
     {K::shelf_near, "shelf_near", P::text, 1.5, 1.0, F::near, A::beware},
     {K::wall_near, "wall_near", P::text, 1.5, 1.0, F::near, A::beware},

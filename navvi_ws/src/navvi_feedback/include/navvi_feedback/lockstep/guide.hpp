@@ -122,6 +122,9 @@ class Guide {
   /// Numbered for the record: a sound that was played.
   [[nodiscard]] navvi_types::CueEvent event_of(const sounds::Play& play);
 
+  /// What the person is to do now, for the picture: it holds until there is another; nullopt:
+  /// nothing
+  [[nodiscard]] std::optional<navvi_types::CueEvent> order() const;
   /// nullopt where turns have no sound
   [[nodiscard]] std::optional<sounds::Learnt> learnt() const;
   /// The latest, however old.

@@ -28,7 +28,7 @@ using navvi_types::CueKind;
 [[nodiscard]] std::optional<haptics::Rumble> from_msg(const sensor_msgs::JoyFeedbackArray& msg,
                                                       const std::string& driver);
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
-/// arrival tells it.
+/// arrival or the refusal of the goal tells it.
 [[nodiscard]] std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg);
 
 }  // namespace navvi_feedback::node

@@ -19,6 +19,7 @@ struct Devices {
   drive::InputState hands;
   bool keyboard = false;                     ///< the hands are on the arrow keys
   Link audio = Link::alive;                  ///< the sound device
+  std::string ears;                          ///< the sound device, by a word; empty: it is none of ours
   bool words = true;                         ///< words are wanted; false: none is ever heard
   bool sounds = true;                        ///< words and short sounds reach somebody
   bool motors = true;                        ///< false if our own pad is not connected
