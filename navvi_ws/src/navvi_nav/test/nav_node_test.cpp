@@ -47,10 +47,13 @@ class NavNodeTest : public testing::Test {
   }
 
   void play_robot() {
-    const geometry_msgs::TransformStamped transform = robot_at(2.0, ros::Time::now());
+    const geometry_msgs::TransformStamped transform = robot_at(pose_x_, ros::Time::now());
     if (poses_) broadcaster_.sendTransform(transform);
     nav_msgs::Odometry odometry;
     odometry.header = transform.header;
+    odometry.pose.pose.position.x = odometry_x_;
+    odometry.pose.pose.position.y = 5.0;
+    odometry.pose.pose.orientation.w = 1.0;
     odometry.twist.twist.linear.x = 0.5;
     odometry_.publish(odometry);
     if (moves_) moves_();
@@ -120,6 +123,8 @@ class NavNodeTest : public testing::Test {
   navvi_msgs::Obstacles played_;
   std::function<void()> moves_;  ///< brings played_ up to date
   bool poses_ = true;            ///< the robot tells its place
+  double pose_x_ = 2.0;          ///< m, by transforms
+  double odometry_x_ = 2.0;      ///< m, by odometry
   navvi_msgs::Guidance guidance_;
   nav_msgs::Path path_;
   visualization_msgs::MarkerArray mesh_;
@@ -348,6 +353,37 @@ TEST_F(NavNodeTest, T4_one_transform_from_the_future_is_no_pose_and_keeps_out_no
   EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::POSE_STALE; }));
   poses_ = true;
   EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+}
+
+TEST_F(NavNodeTest, T4_a_transform_1_s_ahead_is_no_pose_when_its_time_has_come_either) {
+  played_.header.frame_id = "map";
+  send_map();
+  send_goal(14, 5);
+  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  for (int i = 0; i < 3; ++i)
+    broadcaster_.sendTransform(robot_at(13.0, ros::Time::now() + ros::Duration(1.0 + 0.01 * i)));
+  double nearest = guidance_.goal_distance;
+  const ros::WallTime sent = ros::WallTime::now();
+  until([&] {
+    nearest = std::min(nearest, guidance_.goal_distance);
+    return (ros::WallTime::now() - sent).toSec() > 2.5;
+  });
+  EXPECT_GT(nearest, 12.0) << "from where the robot is";
+  EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
+}
+
+TEST_F(NavNodeTest, T4_an_arrival_that_odometry_contradicts_is_a_lost_position) {
+  played_.header.frame_id = "map";
+  send_map();
+  send_goal(14, 5);
+  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  pose_x_ = 14.0;
+  EXPECT_TRUE(until([this] {
+    EXPECT_NE(guidance_.state, navvi_msgs::Guidance::ARRIVED);
+    return guidance_.state == navvi_msgs::Guidance::POSE_STALE;
+  }));
+  odometry_x_ = 13.5;
+  EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::ARRIVED; }));
 }
 
 TEST_F(NavNodeTest, T4_transforms_that_are_no_numbers_or_no_rotation_end_nothing) {

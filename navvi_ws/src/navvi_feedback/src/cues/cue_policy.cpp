@@ -34,6 +34,7 @@ CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
       stuck_(config),
       state_(config),
       near_(config.near),
+      halt_(config.route.repeat_direction),
       route_(config.route),
       phrasing_(std::move(phrases), config.same_text) {}
 
@@ -127,8 +128,14 @@ Utterances CuePolicy::way(const Tick& tick) {
   }
   // A wait that is not worth saying is no reason to say the direction again.
   if (!tick.follows && !halt_.halted()) return {};
-  const Utterances told = route_.update(tick.now, halt_.halted(), tick.time);
-  return may_go ? route_.go_on(tick.now, tick.time) : told;
+  Utterances told = route_.update(tick.now, halt_.halted(), tick.time);
+  const auto leads = [](const Utterance& one) { return is_way(family_of(one.kind)); };
+  const bool led = std::any_of(told.begin(), told.end(), leads);
+  if (!may_go && !(halt_.owes() && led)) return told;
+  told.erase(std::remove_if(told.begin(), told.end(), leads), told.end());
+  Utterances on = route_.go_on(tick.now, tick.time);
+  add(on, told);
+  return on;
 }
 
 std::vector<Cue> CuePolicy::say(const Utterances& told, const Tick& tick) {
@@ -152,6 +159,8 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       phrasing_.heard(event, time_);
       if (event.kind()) answers_.heard(*event.kind());
       if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
+    } else if (event.kind() && event.stage != CueStage::queued) {
+      answers_.over(*event.kind());
     }
     if (event.kind()) route_.note(*event.kind(), event.stage);
     const bool owed = halt_.owes() && !halt_.halted();

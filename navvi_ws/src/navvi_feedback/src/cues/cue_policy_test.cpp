@@ -88,6 +88,8 @@ TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_
   EXPECT_EQ(go_on, "go on, drive straight, 20 meters");
   for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
     policy_.note({{9, stage, CueKind::straight, go_on}});
+  now_.measured->linear = 1.0;
+  EXPECT_EQ(pass(0.5), Texts{});
   asked_.question = Question::way;
   EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }

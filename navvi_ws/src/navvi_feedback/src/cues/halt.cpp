@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cues/ahead.hpp"
+#include "cues/robot_motion.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -23,6 +24,14 @@ bool clear(const Observation& now) {
   return !mover_ahead(now.nearby, kAhead);
 }
 
+/// By their own hand; but back from what was hit is not on.
+bool drives_on(const Observation& now) {
+  const auto on = [](const Velocity& velocity) {
+    return velocity.linear > kMoving || std::abs(velocity.angular) > kMoving;
+  };
+  return now.measured && on(*now.measured) && on(now.commanded);
+}
+
 }  // namespace
 
 void Halt::say(const Utterance& words, double time) {
@@ -39,6 +48,7 @@ void Halt::repeat(double time) {
 }
 
 void Halt::release(const std::string& text) {
+  if (state_ != State::released) before_ = state_;
   state_ = State::released;
   release_ = text;
   release_id_.reset();
@@ -52,9 +62,12 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
   if (state_ == State::released && event.text == release_) {
     if (event.stage == CueStage::queued) release_id_ = event.id;
     if (event.id != release_id_) return;
-    if (event.stage == CueStage::ended) state_ = State::free;
+    if (event.stage == CueStage::ended) {
+      state_ = State::told;
+      last_ = time;
+    }
     if (event.stage == CueStage::cut || event.stage == CueStage::dropped) {
-      state_ = State::waiting;
+      state_ = before_;
       clear_since_.reset();
     }
     return;
@@ -71,13 +84,15 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
 }
 
 bool Halt::over(const Observation& now, bool follows, bool comes, double time) {
-  if (!halted() || !follows) led_since_.reset();
-  if (halted() && follows && !led_since_) led_since_ = time;
+  if (state_ == State::told && drives_on(now)) state_ = State::free;
+  const bool awaits = halted() || state_ == State::told;
+  if (!awaits || !follows) led_since_.reset();
+  if (awaits && follows && !led_since_) led_since_ = time;
   const bool long_led = led_since_ && time - std::max(said_, *led_since_) > kLongest;
   const bool may_go = led_since_ && ((clear(now) && !comes) || long_led);
   if (!may_go) clear_since_.reset();
   if (may_go && !clear_since_) clear_since_ = time;
-  return may_go && time - last_ >= kObeyed && time - *clear_since_ >= kClear;
+  return may_go && time - last_ >= (halted() ? kObeyed : again_) && time - *clear_since_ >= kClear;
 }
 
 }  // namespace navvi_feedback::cues

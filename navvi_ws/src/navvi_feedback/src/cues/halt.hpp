@@ -11,10 +11,14 @@ namespace navvi_feedback::cues {
 
 /// The rule that is taught: after "stop" or "wait" a person stays until "go on". One state,
 /// waiting, and one way out of it: a sentence that says "go on" with the direction, heard to its
-/// end. A new route, a new goal or a lost link changes nothing.
+/// end. Nobody knows whether it was understood: it is owed, and each direction says it, until the
+/// person drives. A new route, a new goal or a lost link changes nothing.
 class Halt {
  public:
   static constexpr double kObeyed = 2.0;  ///< s; a person hears the word, and lets go of the stick
+
+  /// \param again  s, after which "go on" is said again to a person who stands
+  explicit Halt(double again) : again_(again) {}
 
   /// A word to stop is about to be said.
   void say(const Utterance& words, double time);
@@ -34,7 +38,7 @@ class Halt {
   [[nodiscard]] bool halted() const { return state_ == State::waiting; }
   /// Nothing speaks against "go on" any more: it is due within a few seconds.
   [[nodiscard]] bool ends_soon() const { return halted() && clear_since_; }
-  /// The person has not heard "go on" to its end.
+  /// The person has not driven since "go on" was said to its end.
   [[nodiscard]] bool owes() const { return state_ != State::free; }
   /// s, when a person who waits was told to; nullopt: nobody waits
   [[nodiscard]] std::optional<double> told() const {
@@ -50,15 +54,18 @@ class Halt {
     free,
     waiting,   ///< for "go on"
     released,  ///< that is being said
+    told,      ///< it was, and the person has not driven since
   };
 
+  double again_;  ///< s
   State state_ = State::free;
+  State before_ = State::free;  ///< it was released
   Utterance words_;
   int due_ = 0;          ///< words to stop that the voice has not begun yet
   bool heard_ = false;   ///< the voice has begun a word to stop since the person was free
   bool begun_ = false;   ///< and the last of them
   double said_ = 0.0;    ///< s, when that was said
-  double last_ = 0.0;    ///< s, when it was said last
+  double last_ = 0.0;    ///< s, when it was said last, or "go on" was
   std::string release_;  ///< the sentence that says "go on"
   std::optional<std::uint32_t> release_id_;  ///< its cue, once it is queued
   std::optional<double> led_since_;          ///< s, there is a path to be followed

@@ -53,12 +53,14 @@ Told announce_turn(const Look& look, Leg& leg) {
 }
 
 Told urge(const Look& look, Leg& leg) {
-  if (look.hour() != 12 || !leg.hand.due(look.time)) return std::nullopt;
+  if (look.hour() != 12 || !leg.hand.due(look.time, 2.0 * look.config.repeat_direction))
+    return std::nullopt;
   const double free = std::min(look.config.in_the_way, look.guidance().waypoint_distance);
   if (anything_ahead(look.now.nearby, free)) return std::nullopt;
   // The sound of a turn that it made has ended.
   if (leg.said.hour != 12) return tell_way(look, leg);
-  leg.hand.urged = true;
+  leg.heard(12, look.time);
+  leg.hand.urged = look.time;
   return Utterances{{CueKind::push}};
 }
 

@@ -66,7 +66,7 @@ Told tell_direction(const Look& look, Leg& leg) {
 
 Utterances sounds_lead(const Look& look, Leg& leg) {
   return first_of({make_room, leave_turn, turn_at_corner, tell_route, listen, tell_stray,
-                   cancel_turn, tell_direction, urge, announce_turn},
+                   cancel_turn, urge, tell_direction, announce_turn},
                   look, leg);
 }
 

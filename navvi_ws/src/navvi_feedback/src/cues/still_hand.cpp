@@ -22,8 +22,8 @@ void StillHand::observe(const Observation& now, double time) {
     since = time;
 }
 
-bool StillHand::due(double time) const {
-  return !driven && !urged && since && time - *since >= kStill;
+bool StillHand::due(double time, double again) const {
+  return !driven && since && time - *since >= kStill && !(urged && time - *urged < again);
 }
 
 }  // namespace navvi_feedback::cues

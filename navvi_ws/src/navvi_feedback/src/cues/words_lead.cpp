@@ -86,7 +86,7 @@ Told tell_direction(const Look& look, Leg& leg) {
 
 Utterances words_lead(const Look& look, Leg& leg) {
   return first_of({make_room, end_turn, turn_at_corner, listen, watch_stray, tell_route,
-                   cancel_turn, tell_direction, urge, announce_turn},
+                   cancel_turn, urge, tell_direction, announce_turn},
                   look, leg);
 }
 

@@ -16,12 +16,6 @@ using devices::Latencies;
 using navvi_types::from_msg;
 using navvi_types::to_ns;
 
-namespace {
-
-constexpr double kMostAhead = 0.3;  // s, that a pose may be stamped ahead of ROS time
-
-}  // namespace
-
 Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
                PersonDevices& devices, Beat beat)
     : node_(node),
@@ -34,7 +28,7 @@ Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide&
   subscribe_to_trials();
 }
 
-void Inlets::complete(senses::Devices& devices) const {
+void Inlets::complete(senses::Devices& devices) {
   devices.robot = robot();
   devices.asked = asked_;
   if (twin_) devices.states.push_back(CueKind::two_drivers);
@@ -130,15 +124,11 @@ void Inlets::subscribe_to_trials() {
       }));
 }
 
-std::optional<navvi_types::Pose2> Inlets::robot() const {
-  try {
-    const auto found = tf_.lookupTransform("map", "base_link", ros::Time(0));
-    const double age = (ros::Time::now() - found.header.stamp).toSec();
-    if (age < -kMostAhead || age > stale_) return std::nullopt;
-    return from_msg(found.transform);
-  } catch (const tf2::TransformException&) {
-    return std::nullopt;
-  }
+std::optional<navvi_types::Pose2> Inlets::robot() {
+  const ros::Time now = ros::Time::now();
+  const auto found = navvi_types::newest(tf_, "map", "base_link", now);
+  if (!found || (now - found->header.stamp).toSec() > stale_) return std::nullopt;
+  return from_msg(found->transform);
 }
 
 }  // namespace navvi_feedback::node

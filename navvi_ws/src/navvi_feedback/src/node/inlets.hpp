@@ -28,7 +28,7 @@ class Inlets {
          PersonDevices& devices, Beat beat);
 
   /// Adds to the person's devices what topics say: the robot's place, and buttons by name.
-  void complete(senses::Devices& devices) const;
+  void complete(senses::Devices& devices);
   /// Those buttons were taken.
   void forget_buttons() { asked_.clear(); }
   /// m, in map
@@ -47,7 +47,7 @@ class Inlets {
   void subscribe_to_robot();
   void subscribe_to_trials();
   /// base_link in map; nullopt if it is stale or from the future
-  [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
+  [[nodiscard]] std::optional<navvi_types::Pose2> robot();
 
   ros::NodeHandle& node_;
   lockstep::Guide& guide_;

@@ -177,11 +177,18 @@ Conflict Navigator::follow_progress(double time) {
   return now;
 }
 
-/// At the goal it has arrived; where the path ends short of it, it never has: unless a map shows
-/// more, the goal is refused.
+/// At the goal it has arrived, if odometry agrees; where the path ends short of it, it never has:
+/// unless a map shows more, the goal is refused.
 void Navigator::end_path(double time, Point robot) {
+  goal_.elsewhere = false;
   if (!path_.arrived(robot, space())) return goal_.at_end.reset();
-  if (!path_.ends_short()) return drop_goal(Guidance::State::arrived);
+  if (!path_.ends_short()) {
+    const double range = config_.path.guidance.goal_reached + navvi_types::kArrivalMargin;
+    goal_.elsewhere =
+        by_odometry_ && navvi_types::arrived_elsewhere(*by_odometry_, guidance_.goal, range);
+    if (!goal_.elsewhere) drop_goal(Guidance::State::arrived);
+    return;
+  }
   if (!goal_.at_end) goal_.at_end = time;
   const bool awaits = map_.sent || map_.changed || sent_.since;
   if (time - *goal_.at_end <= (awaits ? kLongLook : kLook)) return;
@@ -379,6 +386,9 @@ Guidance Navigator::guidance(double time) const {
   } else if (goal_.place && !pose(time)) {
     out.state = Guidance::State::pose_stale;
     out.detail = "no fresh pose of the robot";
+  } else if (goal_.elsewhere) {
+    out.state = Guidance::State::pose_stale;
+    out.detail = "the pose is at the goal, and odometry is not";
   } else if (out.state == Guidance::State::following) {
     report_path(out);
   }

@@ -65,6 +65,9 @@ class Navigator {
     return true;
   }
   void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
+  /// \param place  m, in map, where the robot is by odometry, which may contradict an arrival;
+  /// nullopt: unknown
+  void set_odometry_place(const std::optional<Eigen::Vector2d>& place) { by_odometry_ = place; }
   /// A new goal replaces the old one. It is judged by the next plan; one that the map does not show
   /// yet is led toward only on a SecondAsk.
   /// \param stamp  s, of its message; 0: it is nobody's second ask
@@ -101,6 +104,7 @@ class Navigator {
     double stamp = 0.0;                 ///< s, of its message
     bool toward = false;                ///< it is led toward though not seen yet
     std::optional<double> at_end = {};  ///< s, since when the robot is at an end short of it
+    bool elsewhere = false;             ///< the pose is at it, and odometry is not
   };
   struct MapState {
     std::shared_ptr<const map::Floor> floor;  ///< null: no map yet
@@ -144,6 +148,7 @@ class Navigator {
   NavigatorConfig config_;
   Observation observation_;
   double height_ = 0.0;  ///< m, z of base_link
+  std::optional<Eigen::Vector2d> by_odometry_;  ///< m, in map
   ConflictForecast forecast_;
   ReplanTrigger trigger_;
   PathKeeper keeper_;

@@ -128,6 +128,24 @@ TEST_F(Lockstep, leads_around_the_block_and_arrives) {
   EXPECT_EQ(status().state, Guidance::State::arrived);
 }
 
+TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  navigator_.set_odometry_place(Eigen::Vector2d(2.0, 5.0));
+  robot_.position = {14, 5};
+  tick(20);
+  EXPECT_EQ(status().state, Guidance::State::pose_stale);
+  EXPECT_EQ(status().detail, "the pose is at the goal, and odometry is not");
+  robot_.position = {11, 5};
+  tick(2);
+  EXPECT_EQ(status().state, Guidance::State::following) << "the pose was a false one";
+  navigator_.set_odometry_place(Eigen::Vector2d(13.0, 5.0));
+  robot_.position = {13.4, 5};
+  tick(2);
+  EXPECT_EQ(status().state, Guidance::State::arrived);
+}
+
 TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
   load();
   navigator_.set_goal({14, 5});

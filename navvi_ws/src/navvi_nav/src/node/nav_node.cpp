@@ -40,6 +40,11 @@ class Wake : public ros::CallbackInterface {
   std::function<void()> work_;
 };
 
+/// As it came, with its frame.
+std::optional<nav_msgs::Odometry> checked(const nav_msgs::Odometry& msg) {
+  return navvi_types::from_msg(msg) ? std::optional(msg) : std::nullopt;
+}
+
 struct NodeConfig {
   guide::NavigatorConfig navigator;
   std::string map_frame = "map";
@@ -77,10 +82,8 @@ class NavNode {
               beat();
             },
             config.map_frame, [this] { navigator_.reject_obstacles(); }),
-        navvi_types::subscribe<nav_msgs::Odometry>(node, "odom", 1, navvi_types::from_msg,
-                                                   [this](const navvi_types::Odometry& odometry) {
-                                                     navigator_.set_speed(odometry.velocity.linear);
-                                                   }),
+        navvi_types::subscribe<nav_msgs::Odometry>(
+            node, "odom", 1, checked, [this](const nav_msgs::Odometry& msg) { on_odometry(msg); }),
         node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(kBeat),
@@ -187,22 +190,25 @@ class NavNode {
           buffer_.lookupTransform(config_.map_frame, header.frame_id, ros::Time(0)).transform);
       return frame ? std::optional(frame->to_parent(point)) : std::nullopt;
     } catch (const tf2::TransformException& error) {
-      ROS_WARN("Goal: %s", error.what());
+      ROS_WARN_DELAYED_THROTTLE(5.0, "A place in frame %s is not known in the map: %s",
+                                header.frame_id.c_str(), error.what());
       return std::nullopt;
     }
   }
 
-  void read_pose(double now) {
-    try {
-      const geometry_msgs::TransformStamped transform =
-          buffer_.lookupTransform(config_.map_frame, config_.base_frame, ros::Time(0));
-      const std::optional<Pose2> pose = navvi_types::from_msg(transform.transform);
-      if (pose && !navigator_.set_pose(*pose, transform.transform.translation.z,
-                                       transform.header.stamp.toSec(), now))
-        ROS_WARN_THROTTLE(5.0, "The robot's pose is stamped ahead of this clock and is dropped.");
-    } catch (const tf2::TransformException&) {
-      // The age of the pose shows it.
-    }
+  /// Where there is none, the age of the last one shows it.
+  void read_pose(const ros::Time& now) {
+    const auto found = navvi_types::newest(buffer_, config_.map_frame, config_.base_frame, now);
+    const auto pose = found ? navvi_types::from_msg(found->transform) : std::nullopt;
+    if (pose)
+      (void)navigator_.set_pose(*pose, found->transform.translation.z,
+                                found->header.stamp.toSec(), now.toSec());
+  }
+
+  void on_odometry(const nav_msgs::Odometry& msg) {
+    const navvi_types::Odometry odometry = *navvi_types::from_msg(msg);
+    navigator_.set_speed(odometry.velocity.linear);
+    navigator_.set_odometry_place(in_map_frame(odometry.pose.position, msg.header));
   }
 
   /// At least at 20 Hz; at once when obstacles or a finished plan come.
@@ -213,7 +219,7 @@ class NavNode {
       navigator_.reset_times();
     }
     last_time_ = now;
-    if (ros::Time::isValid()) read_pose(now);
+    if (ros::Time::isValid()) read_pose(ros::Time(now));
     if (const std::optional<plan::PlanAnswer> answer = worker_.take()) {
       report(*answer);
       navigator_.deliver(*answer, now);

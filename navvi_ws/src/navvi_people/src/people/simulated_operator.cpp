@@ -95,8 +95,6 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit.group("learning", learning);
   visit(trust, "trust", navvi_config::Range{1.0, 100.0}, "m",
         "driven on without a word after a turn that a sound has ended; assumed");
-  visit(obeys, "obeys", navvi_config::Any{}, "",
-        "true: after \"stop\" and \"wait\" nothing but \"go on\" moves the hand, as is taught");
 }
 
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
@@ -341,7 +339,7 @@ void SimulatedOperator::be_startled(double time) {
 }
 
 void SimulatedOperator::wait_for_go_on(const Sentence& sentence, bool holds) {
-  if (!config_.obeys || !holds) return;
+  if (!holds) return;
   words_.waits = std::max(words_.waits.value_or(sentence.begun), sentence.begun);
   words_.told_to_halt = true;
 }

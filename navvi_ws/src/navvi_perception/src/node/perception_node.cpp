@@ -150,6 +150,7 @@ class PerceptionNode {
 
   /// Fills in all but the points. \return false if it cannot be used
   bool begin(const std_msgs::Header& header, std::size_t sensor, sight::Sight& sight) {
+    (void)robot_now();  // a transform from the future would bend those before it
     const auto eye = in_map(header.frame_id, header.stamp);
     const auto robot = in_map(config_.base_frame, header.stamp);
     if (!eye || !robot) return false;
@@ -185,6 +186,13 @@ class PerceptionNode {
     }
   }
 
+  std::optional<navvi_types::Pose2> robot_now() {
+    const auto found =
+        navvi_types::newest(buffer_, config_.map_frame, config_.base_frame, ros::Time::now());
+    const auto pose = found ? pose_of(found->transform) : std::nullopt;
+    return pose ? std::optional(flat(*pose)) : std::nullopt;
+  }
+
   void take(const sight::Sight& sight) {
     perception_->take(sight);
     sight_ = sight.stamp;
@@ -211,9 +219,9 @@ class PerceptionNode {
           10.0, "Nothing is seen: no scan or cloud of the last %.1f s can be used.", kFresh);
       return;
     }
-    const auto robot = in_map(config_.base_frame, ros::Time(0));
+    const auto robot = robot_now();
     if (!robot) return;
-    navvi_msgs::Proximity near = navvi_types::to_msg(perception_->proximity(flat(*robot), sight_));
+    navvi_msgs::Proximity near = navvi_types::to_msg(perception_->proximity(*robot, sight_));
     near.header.frame_id = config_.base_frame;
     proximity_.publish(near);
   }
@@ -221,10 +229,10 @@ class PerceptionNode {
   void on_bumper(const std_msgs::Bool& bumper) {
     const bool begins = bumper.data && !touches_;
     touches_ = bumper.data;
-    const auto robot = begins ? in_map(config_.base_frame, ros::Time(0)) : std::nullopt;
+    const auto robot = begins ? robot_now() : std::nullopt;
     if (!robot) return;
     navvi_msgs::Contact msg =
-        navvi_types::to_msg(perception_->bump(flat(*robot), navvi_types::to_ns(ros::Time::now())));
+        navvi_types::to_msg(perception_->bump(*robot, navvi_types::to_ns(ros::Time::now())));
     msg.header.frame_id = config_.map_frame;
     contacts_.publish(msg);
   }

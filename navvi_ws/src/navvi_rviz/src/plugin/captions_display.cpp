@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <navvi_types/angles.hpp>
+#include <navvi_types/transform_listener.hpp>
 
 #include "look/solids.hpp"
 #include "plugin/chosen.hpp"
@@ -119,6 +120,8 @@ Eigen::Vector2d CaptionsDisplay::pixel(const Eigen::Vector3d& in_camera) const {
 }
 
 std::optional<navvi_types::Pose2> CaptionsDisplay::robot() const {
+  (void)navvi_types::newest(*context_->getTF2BufferPtr(), fixed_frame_.toStdString(), "base_link",
+                            ros::Time::now());
   Ogre::Vector3 at;
   Ogre::Quaternion turned;
   if (!context_->getFrameManager()->getTransform("base_link", ros::Time(), at, turned))

@@ -350,7 +350,6 @@ TEST(APersonWhoObeysWhatIsTaught,
   ClosedLoopConfig config;
   config.sim.world = "warehouse";
   config.sim.seed = 7;
-  config.person.obeys = true;
   config.person.attention.patience = config.person.attention.idle_patience = 60.0;
   ClosedLoop loop(config, NAVVI_PHRASES);
   LoopFigures figures(400.0);

@@ -325,9 +325,10 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
 void TrialMonitor::arrive(const Guidance& guidance, std::vector<Event>& events) {
   record::Fields fields = place();
   const auto& robot = driven_.odometry ? driven_.odometry : driven_.seen;
-  const double away = robot ? (robot->pose.position - start_->goal).norm() : 0.0;
-  if (away > config_.arrival_range) {
+  if (robot && navvi_types::arrived_elsewhere(robot->pose.position, start_->goal,
+                                              config_.arrival_range)) {
     goal_.arrived_elsewhere = true;
+    const double away = (robot->pose.position - start_->goal).norm();
     events.push_back({"ARRIVED_ELSEWHERE", fields.set("distance", away), guidance.stamp});
     return;
   }

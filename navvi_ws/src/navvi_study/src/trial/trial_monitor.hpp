@@ -70,7 +70,7 @@ struct TrialMonitorConfig {
   double leave_time = 0.5;
   double center_range = 1.0;
   double progress_period = 1.0;
-  double arrival_range = 2.0;
+  double arrival_range = 1.0 + navvi_types::kArrivalMargin;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -36,6 +36,16 @@ struct Odometry {
   double floor = 0.0;     ///< m, height of the floor in odom
 };
 
+/// m, beyond where a pose arrives; by odometry the goal may be so much farther.
+inline constexpr double kArrivalMargin = 1.0;
+
+/// Whether odometry contradicts an arrival: a pose alone may be a false one.
+/// \param by_odometry, goal  m, in map \param range  m, within which the two agree
+[[nodiscard]] inline bool arrived_elsewhere(const Eigen::Vector2d& by_odometry,
+                                            const Eigen::Vector2d& goal, double range) {
+  return (by_odometry - goal).norm() > range;
+}
+
 /// rad in (-pi, pi], clockwise from the nose of a robot at `robot` to `target`, m, in its frame.
 [[nodiscard]] inline double clockwise_angle(const Pose2& robot, const Eigen::Vector2d& target) {
   const Eigen::Vector2d seen = robot.to_local(target);

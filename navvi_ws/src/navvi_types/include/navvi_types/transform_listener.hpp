@@ -5,9 +5,30 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 
+#include <optional>
 #include <string>
 
 namespace navvi_types {
+
+/// The newest transform from `child` to `parent`; nullopt where there is none, or where it is
+/// stamped more than 0.3 s ahead of `now`. Such a one empties the buffer: it would stay the newest,
+/// and look fresh as soon as its time has come.
+[[nodiscard]] inline std::optional<geometry_msgs::TransformStamped> newest(
+    tf2::BufferCore& buffer, const std::string& parent, const std::string& child,
+    const ros::Time& now) {
+  constexpr double kMostAhead = 0.3;  // s
+  try {
+    const geometry_msgs::TransformStamped found =
+        buffer.lookupTransform(parent, child, ros::Time(0));
+    if ((found.header.stamp - now).toSec() <= kMostAhead) return found;
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+  ROS_WARN_THROTTLE(5.0, "The transform from %s to %s is stamped ahead of this clock and dropped.",
+                    parent.c_str(), child.c_str());
+  buffer.clear();
+  return std::nullopt;
+}
 
 /// Fills a buffer from /tf and /tf_static, as tf2_ros::TransformListener does, and besides rejects
 /// transforms stamped more than 2 s ahead of ROS time: tf2 drops all that are 10 s older than the

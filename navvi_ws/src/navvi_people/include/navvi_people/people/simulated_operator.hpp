@@ -30,7 +30,6 @@ struct SimulatedOperatorConfig {
   AttentionConfig attention;
   LearningConfig learning;
   double trust = 10.0;
-  bool obeys = false;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -46,8 +45,7 @@ struct StickAndButtons {
 /// Drives by ear and touch alone, as a blind person would (R-TRL-5): it knows the words that it
 /// heard to their end, the sounds and their sides (ahead and behind sound alike), the motors it
 /// feels, and, roughly, how its own stick turns and drives the robot. Its parts decide how late and
-/// how wrongly. One that `obeys` does exactly what is taught: after "stop" and "wait" it stays
-/// until "go on".
+/// how wrongly. It does what is taught: after "stop" and "wait" it stays until "go on".
 class SimulatedOperator {
  public:
   /// \param phrases  file of the phrases in the language that the person speaks
