@@ -1069,13 +1069,29 @@ def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(
 
 # The paper.
 
-def paper_bench():
+def script(name):
     import importlib.machinery
     import importlib.util
-    loader = importlib.machinery.SourceFileLoader("paper_bench", str(PACKAGE / "scripts/paper_bench"))
+    loader = importlib.machinery.SourceFileLoader(name, str(PACKAGE / "scripts" / name))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("paper_bench", loader))
     loader.exec_module(module)
     return module
+
+
+def paper_bench():
+    return script("paper_bench")
+
+
+def test_latencies_are_whole_with_figures_of_others_beside_them_and_not_without_one():
+    bench = script("latency_bench")
+    own = {f"{name}_{figure}": "1" for name in bench.OWN for figure in ("p50_ms", "p99_ms", "max_ms", "count")}
+    chain = bench.Chain("a button, to the answer", 150)
+    assert not bench.whole([chain], own)
+    chain.begin()
+    chain.end([(chain.begun + 0.1, 'began "go on"')])
+    assert chain.longest == '+100 ms began "go on"'
+    assert bench.whole([chain], {**own, "learnt_count": "3"})
+    assert not bench.whole([chain], {key: value for key, value in own.items() if not key.startswith("words")})
 
 
 def test_each_claim_of_the_paper_names_a_test_that_is_there(capsys):

@@ -75,6 +75,8 @@ class SessionJudge {
   int waits = 0;                     ///< that were ended by "go on"
   double longest_wait = 0.0;         ///< s, for "go on" after the cause had gone
   double longest_wait_alone = 0.0;   ///< s, of these, with nothing that moves near
+  double longest_owed = 0.0;         ///< s, at rest after "go on", for the next one
+  int owed_again = 0;                ///< that were said to who had not moved since the one before
 
  private:
   using Events = std::vector<CueEvent>;
@@ -135,6 +137,7 @@ class SessionJudge {
       if (event.stage == CueStage::cut && important) complaints.insert("an important cue was cut");
       if (event.stage != CueStage::started && event.id == released_) {
         if (event.stage == CueStage::ended && std::exchange(waits_, false)) ++waits;
+        if (event.stage == CueStage::ended && std::exchange(owed_, true)) ++owed_again;
         released_ = 0;
       }
       if (event.stage == CueStage::ended && event.kind() == CueKind::toward_goal)
@@ -181,17 +184,19 @@ class SessionJudge {
         is_way(family_of(*begun.kind())) && !(asked && begun.kind() == CueKind::turn_ahead);
     if (begins("go on") && !(way && begins("go on, ")))
       complaints.insert("go on without a direction: " + text);
-    if (waits_ && way && !begins("go on, "))
+    if ((waits_ || owed_) && way && !begins("go on, "))
       complaints.insert("a way without go on: " + begun.word());
     if (begins("stop") || begins("wait")) {
       waits_ = true;
+      owed_ = false;
       released_ = 0;
     } else if (begins("go on, ")) {
       released_ = begun.id;
     }
   }
 
-  /// Once the cause has gone, a person who waits hears "go on" within some seconds.
+  /// Once the cause has gone, a person who waits hears "go on" within some seconds; and again, as
+  /// it may have been missed, until the wheels have moved.
   void expect_release() {
     const bool over = now.guidance.is_followed() && alive_ > 0.0;
     const bool moves = std::any_of(now.nearby.begin(), now.nearby.end(),
@@ -200,6 +205,11 @@ class SessionJudge {
     waits_alone_ = moves ? 0.0 : std::min(waits_alone_ + kTick, waits_over_);
     longest_wait = std::max(longest_wait, waits_over_);
     longest_wait_alone = std::max(longest_wait_alone, waits_alone_);
+    const bool moved =
+        now.velocity && (now.velocity->linear > 0.05 || std::abs(now.velocity->angular) > 0.05);
+    if (moved) owed_ = false;
+    owed_over_ = owed_ && over && released_ == 0 ? owed_over_ + kTick : 0.0;
+    longest_owed = std::max(longest_owed, owed_over_);
   }
 
   /// Whoever is led toward a goal that is not seen yet hears so as soon as nothing else is said.
@@ -325,6 +335,8 @@ class SessionJudge {
   bool arrived_ = false;
   bool waits_ = false;          ///< was told to, and has not heard "go on" to its end
   std::uint32_t released_ = 0;  ///< the cue that says it
+  bool owed_ = false;           ///< "go on" was heard, and the wheels have not moved since
+  double owed_over_ = 0.0;      ///< s, without another
   double waits_over_ = 0.0;     ///< s, though there is no cause any more
   double waits_alone_ = 0.0;    ///< s, of these, with nothing that moves near
 };

@@ -375,8 +375,10 @@ TEST_F(NavNodeTest, T4_a_transform_1_s_ahead_is_no_pose_when_its_time_has_come_e
 TEST_F(NavNodeTest, T4_an_arrival_that_odometry_contradicts_is_a_lost_position) {
   played_.header.frame_id = "map";
   send_map();
-  send_goal(14, 5);
-  ASSERT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  send_goal(14, 5.3);
+  ASSERT_TRUE(until([this] {
+    return guidance_.state == navvi_msgs::Guidance::FOLLOWING && guidance_.goal.y == 5.3;
+  }));
   pose_x_ = 14.0;
   EXPECT_TRUE(until([this] {
     EXPECT_NE(guidance_.state, navvi_msgs::Guidance::ARRIVED);

@@ -336,6 +336,8 @@ struct Verdict {
   int orders_of_way = 0;       ///< as in SessionJudge
   double longest = 0.0;        ///< s, of waiting after the cause had gone
   double longest_alone = 0.0;  ///< s, of these, with nothing that moves near
+  double longest_owed = 0.0;   ///< s, at rest after "go on", for the next one
+  int owed_again = 0;          ///< "go on" to who had not moved since the one before
 };
 
 Verdict judge(int situations, const FeedbackConfig& config = {}) {
@@ -358,12 +360,15 @@ Verdict judge(int situations, const FeedbackConfig& config = {}) {
     verdict.orders_of_way += session.orders_of_way;
     verdict.longest = std::max(verdict.longest, session.longest_wait);
     verdict.longest_alone = std::max(verdict.longest_alone, session.longest_wait_alone);
+    verdict.longest_owed = std::max(verdict.longest_owed, session.longest_owed);
+    verdict.owed_again += session.owed_again;
   }
   return verdict;
 }
 
 /// Nor is anybody left waiting: after "stop" or "wait" comes "go on" with its direction, within 12
-/// s once the cause has gone, 8 s where nothing moves near, and no other word of the way before it.
+/// s once the cause has gone, 8 s where nothing moves near, and no other word of the way before it;
+/// and again within 12 s, until the wheels have moved.
 TEST(Situations, thirty_thousand_at_random_leave_nothing_that_matters_unsaid_overlapped_or_stale) {
   const Verdict verdict = judge(30000);
   EXPECT_EQ(verdict.complaints, std::set<std::string>{});
@@ -371,6 +376,8 @@ TEST(Situations, thirty_thousand_at_random_leave_nothing_that_matters_unsaid_ove
   EXPECT_GT(verdict.orders_of_way, 10000);
   EXPECT_LT(verdict.longest, 12.0);
   EXPECT_LT(verdict.longest_alone, 8.0);
+  EXPECT_LT(verdict.longest_owed, 12.0);
+  EXPECT_GT(verdict.owed_again, 100);
 }
 
 TEST(Situations, the_judge_sees_a_broken_rule) {

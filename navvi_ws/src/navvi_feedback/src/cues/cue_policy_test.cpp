@@ -94,6 +94,14 @@ TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_
   EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }
 
+TEST_F(CuePolicyTest, repeats_to_who_stands_what_to_do_and_not_what_was_said) {
+  Texts told = pass(60.0);
+  ASSERT_GE(told.size(), 6U);
+  EXPECT_EQ(told.front(), "drive straight, 20 meters");
+  told.erase(told.begin(), told.begin() + 2);
+  for (const std::string& text : told) EXPECT_EQ(text, "push the stick forward");
+}
+
 TEST_F(CuePolicyTest, words_things_otherwise_as_soon_as_it_is_wanted) {
   under_way();
   WordingConfig wording;

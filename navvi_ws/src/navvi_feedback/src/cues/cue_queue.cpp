@@ -14,6 +14,11 @@ CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {
   return {id, stage, navvi_types::Spoken(cue.kind, cue.lesson), cue.text, cue.priority};
 }
 
+bool stops(const Cue& cue) { return family_of(cue.kind) == Family::halt; }
+
+/// It does not wait for another of its priority.
+bool at_once(const Cue& cue) { return cue.asked || stops(cue); }
+
 }  // namespace
 
 CueQueue::Step CueQueue::update(const std::vector<Cue>& fresh, bool speaker_busy, double time) {
@@ -45,7 +50,7 @@ CueQueue::Step CueQueue::clear() {
 void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const Entry entry{++last_id_, time, cue};
   step.events.push_back(event(entry.id, CueStage::queued, cue));
-  if (family_of(cue.kind) == Family::halt) drop_ways(step);
+  if (stops(cue)) drop_ways(step);
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     // Two things that were hit are two messages of one kind.
     if (cue.asked && other.cue.asked) return true;
@@ -63,7 +68,7 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
   }
   const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     return other.cue.priority < cue.priority ||
-           ((cue.asked || cue.goes_on) && other.cue.priority == cue.priority);
+           ((at_once(cue) || cue.goes_on) && other.cue.priority == cue.priority);
   });
   waiting_.insert(place, entry);
 }
@@ -98,7 +103,7 @@ void CueQueue::drop_surplus(Step& step) {
     return entry.cue.priority < Priority::important;
   });
   // One place more for the cue that begins in this very step.
-  const bool begins = !waiting_.empty() && (!running_ || waiting_.front().cue.asked ||
+  const bool begins = !waiting_.empty() && (!running_ || at_once(waiting_.front().cue) ||
                                             waiting_.front().cue.priority > running_->cue.priority);
   const bool lesser_begins = begins && lesser == waiting_.begin();
   const auto room = static_cast<std::ptrdiff_t>(kMaxWaiting + (lesser_begins ? 1 : 0));
@@ -117,7 +122,8 @@ void CueQueue::begin_next(Step& step) {
   const Entry& next = waiting_.front();
   if (running_) {
     if (running_->cue.priority == Priority::important ||
-        (next.cue.priority <= running_->cue.priority && !next.cue.asked))
+        (next.cue.priority <= running_->cue.priority && !next.cue.asked &&
+         !(stops(next.cue) && !stops(running_->cue))))
       return;
     step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
     step.stop = true;

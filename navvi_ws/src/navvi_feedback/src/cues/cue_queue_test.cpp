@@ -56,6 +56,24 @@ TEST(CueQueue, starts_a_cue_at_once_and_ends_it_when_the_speaker_is_done) {
   EXPECT_TRUE(queue.empty());
 }
 
+TEST(CueQueue, lets_a_word_to_stop_wait_for_nothing_but_an_important_one) {
+  for (const bool asked : {false, true}) {
+    CueQueue queue;
+    Cue answer = cue("a", Priority::message);
+    answer.asked = asked;
+    (void)queue.update({answer, cue("b", Priority::message)}, false, 0.0);
+    const auto step = queue.update({cue("blocked", Priority::message)}, true, 0.1);
+    EXPECT_EQ(told(step), (Words{"queued blocked", "cut a", "started blocked"}));
+    EXPECT_EQ(told(queue.update({cue("blocked", Priority::message)}, true, 0.2)),
+              Words{"queued blocked"})
+        << "it does not cut itself";
+  }
+  CueQueue queue;
+  (void)queue.update({cue("s", Priority::important)}, false, 0.0);
+  EXPECT_EQ(told(queue.update({cue("blocked", Priority::message)}, true, 0.1)),
+            Words{"queued blocked"});
+}
+
 TEST(CueQueue, lets_a_higher_priority_cut_a_lower_one) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::text)}, false, 0.0);

@@ -95,6 +95,37 @@ TEST_F(WaitTest, is_not_over_before_go_on_was_heard_to_its_end) {
   }
 }
 
+TEST_F(WaitTest, owes_go_on_until_the_person_drives) {
+  follow();
+  const std::string go_on = "go on, drive straight, 20 meters";
+  std::uint32_t id = 0;
+  int told = 0;
+  for (double seconds = 0.0; seconds < 40.0; seconds += 0.1) {
+    for (const std::string& text : pass(0.1)) {
+      EXPECT_EQ(text, go_on);
+      ++told;
+      ++id;
+      for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
+        note(id, stage);
+    }
+  }
+  EXPECT_GE(told, 4);
+  EXPECT_LE(told, 8);
+  now_.commanded.linear = -1.0;
+  now_.measured->linear = -0.3;
+  pass(0.1);
+  asked_.question = Question::way;
+  EXPECT_EQ(pass(0.1), Texts{go_on}) << "back is not on";
+  ++id;
+  for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
+    note(id, stage);
+  now_.commanded.linear = 1.0;
+  now_.measured->linear = 0.5;
+  EXPECT_EQ(pass(12.0), Texts{});
+  asked_.question = Question::way;
+  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"});
+}
+
 TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
   note(1, CueStage::started);
   pass(15.0);  // it is said again
