@@ -184,7 +184,7 @@ class SessionJudge {
         is_way(family_of(*begun.kind())) && !(asked && begun.kind() == CueKind::turn_ahead);
     if (begins("go on") && !(way && begins("go on, ")))
       complaints.insert("go on without a direction: " + text);
-    if ((waits_ || (owed_ && !moves())) && way && !begins("go on, "))
+    if ((waits_ || (owed_ && !moves_on())) && way && !begins("go on, "))
       complaints.insert("a way without go on: " + begun.word());
     if (begins("stop") || begins("wait")) {
       waits_ = true;
@@ -205,7 +205,7 @@ class SessionJudge {
     waits_alone_ = moves ? 0.0 : std::min(waits_alone_ + kTick, waits_over_);
     longest_wait = std::max(longest_wait, waits_over_);
     longest_wait_alone = std::max(longest_wait_alone, waits_alone_);
-    if (moves()) owed_ = false;
+    if (moves_on()) owed_ = false;
     owed_over_ = owed_ && over && released_ == 0 ? owed_over_ + kTick : 0.0;
     longest_owed = std::max(longest_owed, owed_over_);
   }
@@ -255,7 +255,7 @@ class SessionJudge {
   }
 
   /// On, not back.
-  [[nodiscard]] bool moves() const {
+  [[nodiscard]] bool moves_on() const {
     return now.velocity &&
            (now.velocity->linear > 0.05 || std::abs(now.velocity->angular) > 0.05);
   }
