@@ -71,7 +71,7 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   const auto question =
       tick.asked.question ? tick.asked.question : std::exchange(question_, std::nullopt);
   for_go_on_ = false;
-  if (!question || (said_ && question == asked_)) return {};
+  if (!question) return {};
   asked_ = question;
   std::optional<Utterance> answer = about(*question, tick, route.rounding());
   // What stopped the person is gone; to say it again would only put off "go on".
@@ -99,11 +99,7 @@ void Answers::yield(Utterances& answer) {
 }
 
 void Answers::heard(CueKind kind) {
-  if (kind == answered_) said_ = std::exchange(answered_, std::nullopt);
-}
-
-void Answers::over(CueKind kind) {
-  if (kind == said_) said_.reset();
+  if (kind == answered_) answered_.reset();
 }
 
 void Answers::lost(CueKind kind) {

@@ -9,8 +9,7 @@
 
 namespace navvi_feedback::cues {
 
-/// Answers what the person asks by a button, and again if the answer was dropped. The same question
-/// while its answer is being said changes nothing: begun anew each time, none would come to its end.
+/// Answers what the person asks by a button, and again if the answer was dropped.
 class Answers {
  public:
   /// \param route  knows the way, and takes note that it was told
@@ -23,15 +22,12 @@ class Answers {
 
   /// Words of this kind have begun.
   void heard(CueKind kind);
-  /// They are not said any more.
-  void over(CueKind kind);
   /// They were not heard.
   void lost(CueKind kind);
 
  private:
   std::optional<Question> asked_;     ///< the last that was answered
   std::optional<CueKind> answered_;   ///< the kind of that, until it is heard
-  std::optional<CueKind> said_;       ///< likewise, while it is heard
   std::optional<Question> question_;  ///< still to be answered, or again
   bool for_go_on_ = false;            ///< it waits for "go on", which is due soon
 };

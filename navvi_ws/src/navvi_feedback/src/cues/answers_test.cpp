@@ -24,25 +24,6 @@ TEST_F(AnswersTest, answers_a_question_at_once) {
   EXPECT_EQ(pass(0.1), Texts{"there is no goal yet"});
 }
 
-TEST_F(AnswersTest, are_not_begun_anew_by_the_same_question_while_they_are_said) {
-  under_way();
-  const auto ask = [this](Question question) {
-    asked_.question = question;
-    return pass(0.1);
-  };
-  const auto note = [this](CueStage stage) {
-    policy_.note({{1, stage, last_.kind, last_.text, last_.priority}});
-  };
-  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
-  note(CueStage::started);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(Question::way), Texts{});
-  EXPECT_EQ(ask(Question::goal), Texts{"the goal is 20 meters on"}) << "another one is answered";
-  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
-  note(CueStage::started);
-  note(CueStage::ended);
-  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
-}
-
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
   const auto ask = [this](Question question) {
     asked_.question = question;

@@ -159,8 +159,6 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       phrasing_.heard(event, time_);
       if (event.kind()) answers_.heard(*event.kind());
       if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
-    } else if (event.kind() && event.stage != CueStage::queued) {
-      answers_.over(*event.kind());
     }
     if (event.kind()) route_.note(*event.kind(), event.stage);
     const bool owed = halt_.owes() && !halt_.halted();
