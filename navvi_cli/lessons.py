@@ -46,6 +46,6 @@ def give(lesson, given):
 
 def make(folder):
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(0o700, parents=True, exist_ok=True)
     except OSError as error:
         fail(f"out:={folder} cannot be made: {error.strerror}; a folder that can be written is needed.", 2)

@@ -12,9 +12,10 @@ import subprocess
 from pathlib import Path
 
 from .places import DEVEL
-from .say import fail
+from .say import aside, fail
 
 PORTS = range(11311, 11411)
+GIVEN = os.environ.get("ROS_MASTER_URI")  # by the user; later also by the workspace's own set-up
 
 
 def lock_file(port):
@@ -89,6 +90,9 @@ class Network:
             fail(f"no port from {PORTS[0]} to {PORTS[-1]} is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them.")
         atexit.register(remove, lock_file(self.port), self.descriptor)
         self.uri = f"http://127.0.0.1:{self.port}"
+        if GIVEN and not re.fullmatch(rf"http://(localhost|127\.0\.0\.1):{self.port}/?", GIVEN):
+            aside(f"ROS_MASTER_URI={GIVEN} is not used: a session has a master of its own, here {self.uri}; \"roslaunch navvi live.launch\" "
+                  "uses yours.")
         os.environ.update(ROS_IP="127.0.0.1", ROS_MASTER_URI=self.uri)
         os.environ.pop("ROS_HOSTNAME", None)
 

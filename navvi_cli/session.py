@@ -9,7 +9,7 @@ import subprocess
 from .places import DEVEL, WORKSPACE, program
 from .say import fail
 from .version import version
-from .workspace import build, enter, is_current
+from .workspace import END_WITH_US, build, enter, is_current
 
 CONTROLS = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07|[\r\x07]")
 # Of all that roslaunch and the nodes print, a person reads warnings, errors, which trial begins and ends, and which node ended.
@@ -25,6 +25,8 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^RLException: (.*)", r"error: \1"),
 ]]
 FATAL = re.compile(r"FATAL|RLException")
+# What ends a session before its time, after which roslaunch itself ends with 0: a required program, or one that does not stay alive.
+CRASH = re.compile(r"^process has died|.*so the session ends\.|^RLException")
 
 
 def has_display():
@@ -106,10 +108,11 @@ def write(sentence):
 
 
 class Log:
-    """Everything goes to the file, what a person reads to the screen, too. The last sentence that ended a session is `fatal`."""
+    """Everything goes to the file, what a person reads to the screen, too. The last sentence that ended a session is `fatal`, and it has
+    `crashed` where a program did that."""
 
     def __init__(self, path):
-        self.fatal = ""
+        self.fatal, self.crashed = "", False
         try:
             self.file = open(path, "w", encoding="utf-8", errors="replace")
         except OSError as problem:
@@ -125,6 +128,7 @@ class Log:
             write(f"warning: the log cannot be written any more: {problem.strerror}.")
         if FATAL.search(line):
             self.fatal = line.rpartition("]: ")[2].strip()
+        self.crashed = self.crashed or bool(CRASH.match(line))
         for pattern, text in SHOWN:
             if pattern.match(line):
                 write(pattern.sub(text, line.rstrip("\n")))
@@ -134,12 +138,13 @@ class Launch:
     """A roslaunch that runs to its end, whatever ends it."""
 
     def __init__(self, launch_file, words, log, network):
+        os.umask(0o077)  # what a session leaves is its owner's alone
         self.interrupted, self.log = False, Log(log)
         env = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1", PYTHONUNBUFFERED="1", LD_PRELOAD=network.preload())
         # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too, and
         # those of whoever began this session and may be gone before it.
         locks = [network.descriptor, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
-        self.process = subprocess.Popen(["sh", "-c", "export NAVVI_LAUNCHER=$$; exec roslaunch \"$@\"", "sh", str(launch_file.path),
+        self.process = subprocess.Popen([*END_WITH_US, "sh", "-c", "export NAVVI_LAUNCHER=$$; exec roslaunch \"$@\"", "sh", str(launch_file.path),
                                          *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=locks,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
@@ -153,7 +158,7 @@ class Launch:
         status = self.process.wait()
         for number, handler in before.items():
             signal.signal(number, handler)
-        return status == 0
+        return status == 0 and not self.log.crashed
 
     def stop(self, number, _):
         if number != signal.SIGINT:

@@ -8,9 +8,14 @@ from .places import DEVEL, SHELL, WORKSPACE, program
 from .say import Failure, fail
 
 
+# Before a command: it is ended with this process, also where that is killed and can end none itself.
+END_WITH_US = ["setpriv", "--pdeathsig", "TERM"]
+
+
 def shell(function, *words):
-    """Runs a function of the folder shell. It prints how far it is and why it failed, and answers Ctrl-C."""
-    process = subprocess.Popen([str(SHELL), function, *map(str, words)])
+    """Runs a function of the folder shell. It prints how far it is and why it failed, answers Ctrl-C, and ends with this process. What it
+    installs and builds is of everybody's to read."""
+    process = subprocess.Popen([*END_WITH_US, str(SHELL), function, *map(str, words)], umask=0o022)
     while True:
         try:
             status = process.wait()

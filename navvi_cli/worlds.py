@@ -1,12 +1,13 @@
 """What the simulator and navigation make of a world: they know each other's work by the OctoMap alone."""
 import csv
 import json
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from .places import config_of, program
+from .places import config_of, program, share
 from .say import Failure, fail
 
 
@@ -22,6 +23,14 @@ def names():
     """Worlds that have a name, with their meaning; for completion, hence without an error where nothing is built."""
     tool = program("navvi_sim", "world_tool")
     return answer(tool, "list")[1] if tool.exists() else {}
+
+
+def check_name(world):
+    """Refuses a word that is neither a name nor a file, also where nothing is built."""
+    presets = (share("navvi_sim") / "config" / "presets.yaml").read_text()
+    known = re.findall(r"^- name: (\w+)", presets, re.M)
+    if world not in known and not Path(world).is_file():
+        fail(f"no world and no file has the name \"{world}\"; allowed are: {' '.join(known)}, or a .yaml, .sdf or .world file.", 2)
 
 
 def table(header, rows):

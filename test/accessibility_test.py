@@ -198,7 +198,7 @@ def test_long_output_goes_to_a_file():
 
 BASH = f"""set -euo pipefail
 for part in "{ROOT}"/navvi_cli/shell/*.bash; do source "$part"; done
-trap stopped INT
+stopped_by_signals
 """
 
 
@@ -212,7 +212,7 @@ def bash(script, **more):
                             start_new_session=True, preexec_fn=heed_ctrl_c, **more)
 
 
-def test_progress_comes_in_whole_lines_with_percent_and_time_left(tmp_path):
+def test_progress_comes_in_whole_lines_with_percent_and_time_so_far(tmp_path):
     """A stand-in for ninja that takes 24 s, watched by the clock."""
     work = 'slow() { for i in 1 2 3 4; do sleep 6; echo "[$i/4] Building"; done; }\n'
     process = bash(f'root=/ workspace=/\n{work} with_progress building "{tmp_path}/log" built_percent slow; say "the build is done."')
@@ -220,8 +220,8 @@ def test_progress_comes_in_whole_lines_with_percent_and_time_left(tmp_path):
     for line in process.stdout:
         seen.append((time.monotonic() - begin, line))
     assert process.wait() == 0
-    assert re.fullmatch(r"navvi: building: 25 percent done, about 3\d seconds left.\n"
-                        r"navvi: building: 75 percent done, about \d seconds left.\n"
+    assert re.fullmatch(r"navvi: building: 25 percent done, 1\d seconds so far.\n"
+                        r"navvi: building: 75 percent done, 2\d seconds so far.\n"
                         r"navvi: the build is done.\n", "".join(line for _, line in seen))
     gaps = [after - before for (before, _), (after, _) in zip(seen, seen[1:])]
     assert 5 <= gaps[0] <= 30
@@ -249,6 +249,21 @@ def test_ctrl_c_ends_long_work_within_two_seconds_and_says_so(tmp_path):
     assert time.monotonic() - begin < 2
     assert process.returncode == 130 and said.startswith("navvi: stopped by Ctrl-C")
     assert subprocess.run(["pgrep", "-fx", "sleep 987"]).returncode == 1, "nothing is left running"
+
+
+def test_a_command_that_is_killed_leaves_no_work_behind(tmp_path):
+    code = (f"import sys; sys.path.insert(0, {str(ROOT)!r}); from navvi_cli import workspace; "
+            f"workspace.SHELL = {str(tmp_path / 'shell')!r}; workspace.shell('x')")
+    (tmp_path / "shell").write_text(BASH.replace("set -euo", "#!/bin/bash\nset -euo") +
+                                    f'root=/ workspace=/\nslow() {{ sleep 986 & sleep 986; }}; with_progress x "{tmp_path}/log" built_percent slow')
+    (tmp_path / "shell").chmod(0o755)
+    process = subprocess.Popen(["/usr/bin/python3", "-c", code], stderr=subprocess.DEVNULL)
+    time.sleep(2)
+    assert subprocess.run(["pgrep", "-fx", "sleep 986"], stdout=subprocess.DEVNULL).returncode == 0
+    process.kill()
+    process.wait()
+    time.sleep(2)
+    assert subprocess.run(["pgrep", "-fx", "sleep 986"]).returncode == 1, "something is left running"
 
 
 def test_ctrl_c_ends_a_session_soon_and_says_so(tmp_path):

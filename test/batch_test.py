@@ -17,6 +17,7 @@ from navvi_cli.commands import batch  # noqa: E402
 from navvi_cli.say import Failure  # noqa: E402
 
 STAND_IN = """#!/bin/sh
+case "$*" in --check*unknown*) echo 'navvi: the key "unknown" is unknown' >&2; exit 2 ;; --check*) exit 0 ;; esac
 # The row is a function of all that the trial is.
 sum=$(echo "$@" | cksum)
 sum=${{sum%% *}}
@@ -80,7 +81,7 @@ def test_a_full_disk_names_the_file(tmp_path, monkeypatch):
 
 def test_trials_keep_as_much_of_worlds_as_asked_for(tmp_path):
     program = tmp_path / "told"
-    program.write_text(stand_in(tmp_path).read_text().replace("#!/bin/sh", f'#!/bin/sh\necho "$@" >> {tmp_path}/words'))
+    program.write_text(stand_in(tmp_path).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
     program.chmod(0o755)
     assert batch.run_batch(program, args_of(tmp_path / "a", cache=64)) == 0
     words = (tmp_path / "words").read_text().splitlines()
@@ -144,7 +145,7 @@ def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
 
 def test_a_batch_that_breaks_off_begins_no_trial_whose_row_nobody_would_write(tmp_path, monkeypatch):
     program = tmp_path / "told"
-    program.write_text(stand_in(tmp_path, 0.05).read_text().replace("#!/bin/sh", f'#!/bin/sh\necho "$@" >> {tmp_path}/words'))
+    program.write_text(stand_in(tmp_path, 0.05).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
     program.chmod(0o755)
 
     def full(rows, line):
@@ -169,6 +170,13 @@ def test_another_batch_in_the_same_folder_and_bad_words_are_refused_by_a_sentenc
                  {"out": str(tmp_path / "b"), "shard": "3/2"}, {"out": str(tmp_path / "b"), "seeds": "9-1"}):
         with pytest.raises(Failure, match="allowed|another"):
             batch.run_batch(program, args_of(more.pop("out", tmp_path / "a"), **more))
+
+
+def test_a_condition_that_the_program_would_refuse_is_refused_once_and_before_any_trial(tmp_path, capsys):
+    args = args_of(tmp_path / "a", conditions="default,bad=feedback/unknown:=1")
+    with pytest.raises(Failure, match="condition bad, person able: the key \"unknown\" is unknown") as refused:
+        batch.run_batch(stand_in(tmp_path), args)
+    assert refused.value.code == 2 and not (tmp_path / "a").exists() and "trial" not in capsys.readouterr().err
 
 
 def test_a_branch_runs_a_trial_of_a_batch_again_with_and_without_a_change(tmp_path, capsys):

@@ -24,5 +24,6 @@ def session(env, folder, person, results, *words):
         launch.terminate()
         launch.wait(30)
     print(told)
+    assert "was ended by signal" not in (folder / "log").read_text()
     found = [path.read_text().splitlines()[1] for path in sorted(folder.glob("trial-*/summary.csv"))]
     assert len(found) == len(results) and all(word in row for row, word in zip(found, results)), found

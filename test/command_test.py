@@ -255,6 +255,27 @@ def test_a_terminal_without_utf_8_ends_no_session(tmp_path):
     assert (tmp_path / "log").read_bytes().decode() == "caf\ufffd \u2192\n"
 
 
+@pytest.mark.parametrize("line, crashed", [
+    ("process has died [pid 7, exit code -9, cmd sim_node].\n", True), ("process has finished cleanly\n", False),
+    ("[rviz-9] process has died [pid 7, exit code -9, cmd rviz].\n", False),
+    ("[FATAL] [1.0]: nav_node has ended 5 times within 60 s, so the session ends. Its own words\n", True),
+    ("[FATAL] [1.0]: There is not enough memory for what came; this node ends.\n", False)])
+def test_a_crash_that_ends_a_session_is_known_though_roslaunch_ends_with_0(line, crashed, tmp_path):
+    log = session.Log(tmp_path / "log")
+    log.take(line)
+    assert log.crashed == crashed
+
+
+def test_a_master_of_the_environment_that_is_not_used_is_named(locks, monkeypatch, capsys):
+    monkeypatch.setattr(network, "PORTS", [locks])
+    for name in "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME":  # which are set back afterwards
+        monkeypatch.setenv(name, "")
+    for given, said in ("http://robot:11311", True), (f"http://localhost:{locks}/", False), (None, False):
+        monkeypatch.setattr(network, "GIVEN", given)
+        os.close(network.Network().descriptor)
+        assert (f"ROS_MASTER_URI={given} is not used" in capsys.readouterr().err) == said
+
+
 def test_what_ended_a_session_is_remembered(tmp_path):
     log = session.Log(tmp_path / "log")
     for line in "[FATAL] [1.0]: there is no map", "[ INFO] [2.0]: bye":

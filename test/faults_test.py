@@ -15,6 +15,8 @@ import time
 
 import pytest
 
+from display import Display
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 
@@ -22,10 +24,10 @@ WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 class Run:
     """`./navvi run` with a simulated person, and the processes that belong to it."""
 
-    def __init__(self, folder, *words, **variables):
+    def __init__(self, folder, *words, rviz="false", **variables):
         self.folder, self.output, self.uri = folder, [], ""
         env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")} | variables
-        self.process = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", f"world:={WORLD}", "seed:=3",
+        self.process = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", f"rviz:={rviz}", f"world:={WORLD}", "seed:=3",
                                          f"out:={folder}", *words], env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                         start_new_session=True)
         self.reader = threading.Thread(target=self.read, daemon=True)
@@ -100,6 +102,49 @@ def test_a_crash_is_not_recorded_as_a_stop_by_hand(run, program, reason):
     run.process.wait(40)
     assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", reason), run.text()[-2000:]
     assert run.summary()["bag"] == "ok"
+
+
+def test_L5_where_the_command_is_killed_the_session_ends_with_it_and_the_record_is_whole(run):
+    run.begin()
+    run.process.kill()
+    run.wait_for(lambda: not run.processes(), 30, "all programs of the session have ended")
+    assert (run.summary()["result"], run.summary()["bag"]) == ("aborted", "ok"), run.summary()
+
+
+def test_M2_a_second_node_named_trial_node_ends_the_session_with_its_record_whole(run):
+    run.begin()
+    twin = subprocess.Popen(["/usr/bin/python3", "-c", "import rospy; rospy.init_node('trial_node'); rospy.sleep(20)"],
+                            env=dict(os.environ, ROS_MASTER_URI=run.uri, ROS_IP="127.0.0.1"))
+    run.process.wait(40)
+    twin.kill()
+    twin.wait()
+    assert run.process.returncode == 1
+    assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", "name_taken"), run.text()[-2000:]
+    assert "Another node has taken the name /trial_node" in run.text()
+    assert list(run.folder.glob("trial-*/events.csv"))
+
+
+def test_F6_a_killed_rviz_comes_back_and_ends_by_no_signal(tmp_path):
+    display = Display("1920x1080")
+    session = Run(tmp_path, "limit:=300", rviz="true", DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
+
+    def pictures():
+        return [number for number, line in session.processes().items() if line.startswith("/usr/lib/rviz/rviz ")]
+    try:
+        session.begin()
+        session.wait_for(pictures, 30, "RViz runs")
+        killed = pictures()[0]
+        time.sleep(5.0)
+        os.kill(killed, signal.SIGKILL)
+        session.wait_for(lambda: pictures() and pictures() != [killed], 30, "RViz runs again")
+        assert "warning: the program rviz was ended by signal 9." in session.text()
+        time.sleep(15.0)  # it draws the scene
+        os.killpg(session.process.pid, signal.SIGINT)
+        session.process.wait(40)
+    finally:
+        session.close()
+        display.close()
+    assert session.text().count("was ended by signal") == 1, session.text()[-2000:]
 
 
 def test_a_stop_by_hand_is_recorded_as_one(run):

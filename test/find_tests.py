@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Prints the programs of ctest that hold a test case whose name contains a word, one a line.
 
-find_tests.py WORD: from the sources, so that nothing has to be built before a wrong word is rejected.
+find_tests.py WORD: from the sources, so that nothing has to be built before a wrong word is rejected. Exit code 1 if neither a case nor
+a program has that name.
 """
 import pathlib
 import re
@@ -26,4 +27,6 @@ def programs(word, root=ROOT):
 
 
 if __name__ == "__main__":
-    print("\n".join(programs(sys.argv[1])))
+    found = list(programs(sys.argv[1]))
+    print("\n".join(found))
+    sys.exit(not found and not any(re.search(sys.argv[1], name) for name in programs("")))

@@ -36,6 +36,7 @@ from types import SimpleNamespace
 from typing import NamedTuple
 
 from navvi_cli.say import aside, fail
+from navvi_cli.worlds import check_name
 
 PEOPLE = ("able", "typical", "struggling", "hard_of_hearing", "no_touch", "drawn")
 CONDITIONS = {
@@ -303,9 +304,18 @@ def finish(folder, trials):
     return missing
 
 
+def require_conditions(program, trials, more=()):
+    """Refuses, once and before any trial, what the program would refuse in each."""
+    for trial in {(trial.person, trial.condition): trial for trial in trials}.values():
+        checked = subprocess.run([program, "--check", *trial.words(1, more)], capture_output=True, text=True, check=False)
+        if checked.returncode:
+            fail(f"condition {trial.condition}, person {trial.person}: {checked.stderr.strip().removeprefix('navvi: ')}", 2)
+
+
 def run_batch(program, args):
     trials = trials_of(args)
     shard, shards = shard_of(args.shard)
+    require_conditions(program, trials)
     folder = Path(args.out)
     folder.mkdir(parents=True, exist_ok=True)
     same_batch(folder, args, trials)
@@ -342,6 +352,7 @@ def branch(program, args):
     recorded = done_in(folder).get(int(number))
     if recorded is None:
         fail(f"{folder} has no row of trial {number}; its rows are those of {folder}/rows-*.csv.", 2)
+    require_conditions(program, [trials[int(number)]], (f"--until={args.until}", f"--then={args.then}"))
     trial, same = trials[int(number)], SimpleNamespace(limit=known["limit"], cache=args.cache)
     again = simulate(program, trial, same, (f"--until={args.until}",))
     other = simulate(program, trial, same, (f"--until={args.until}", f"--then={args.then}")) if args.then else again
@@ -376,6 +387,9 @@ def arguments(parser):
 
 def run(args):
     from navvi_cli.workspace import enter, tool
+    for world in args.worlds.split(","):
+        check_name(world)
+    trials_of(args), shard_of(args.shard)  # before anything is built
     program = tool("navvi_study", "trials_bench")
     enter()
     return branch(program, args) if args.from_trial else run_batch(program, args)

@@ -34,6 +34,7 @@ import re
 from navvi_cli.places import WORKSPACE, program
 from navvi_cli.say import fail
 from navvi_cli.workspace import build, enter, shell, show
+from navvi_cli.worlds import check_name
 
 
 # Programs that a script runs, besides those of a session.
@@ -63,6 +64,10 @@ def run(args):
     chosen = {name: path for name, path in chosen.items() if path.stem == f"{args.filter}_bench"} or chosen
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
+    for word in args.words:
+        if word.startswith("--world="):
+            for world in word.partition("=")[2].split(","):
+                check_name(world)
     shell("install_packages", "benchmarks")
     build("session", *(path.stem for path in chosen.values() if path.suffix == ".cpp"), *(target for name in chosen for target in NEEDS.get(name, [])))
     enter()

@@ -5,7 +5,8 @@ simulated person. It begins with six lines that tell what to press, where the
 record goes and how to stop (Ctrl-C), and ends with how it went.
 
 Exit codes
-0: the goal was reached. 1: it was not. 2: a wrong argument, nothing started.
+0: the goal was reached. 1: it was not, or a program of the session crashed.
+2: a wrong argument, nothing started.
 """
 import importlib.util
 import os
@@ -18,7 +19,7 @@ from navvi_cli.network import Network
 from navvi_cli.places import TRIALS, config_of, program
 from navvi_cli.say import fail, say, tell
 from navvi_cli.session import Launch, accepted, check_operator, check_parameters, has_display, has_pad, prepare, resolve_rviz
-from navvi_cli.worlds import Verdict
+from navvi_cli.worlds import Verdict, check_name
 
 FEEDBACK = program("navvi_feedback", "feedback_node")
 PERSON = ["person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
@@ -49,7 +50,7 @@ def session(given):
     words = words_for(launch_file, given)
     complete(words)
     check(words)
-    targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else []), *(["perception_node"] if words["sensing"] != "truth" else [])]
+    targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])]
     checkers = [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool"), *([FEEDBACK] if words.get("places") else [])]
     prepare(words, targets, checkers, check_by_programs)
     network = Network()
@@ -57,8 +58,8 @@ def session(given):
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
     announce(words, log, network)
     launch = Launch(launch_file, words, log, network)
-    launch.run()
-    return report(words["out"], begin, log, launch.log.fatal)
+    whole = launch.run() or launch.interrupted
+    return report(words["out"], begin, log, launch.log.fatal) or int(not whole)
 
 
 def complete(words):
@@ -87,9 +88,10 @@ def check(words):
              "pylsl\" installs it.", 2)
     words["out"] = Path(os.path.abspath(words["out"]))
     try:
-        words["out"].mkdir(parents=True, exist_ok=True)
+        words["out"].mkdir(0o700, parents=True, exist_ok=True)
     except OSError as problem:
         fail(f"the folder {words['out']} cannot be made: {problem.strerror}; out:=FOLDER names another, such as out:=/tmp/trials.", 2)
+    check_name(words["world"])
     # Nodes run elsewhere: paths become absolute.
     for name in ("world", "classes"):
         if name in words and Path(words[name]).is_file():

@@ -5,6 +5,7 @@ doc/study.md shows how, from plan to report.
 Exit codes
 0: it is done. 1: it broke off. 2: a wrong argument, or a wrong plan.
 """
+import os
 import sys
 
 from navvi_cli import places
@@ -45,6 +46,7 @@ def _guarded(action):
             from navvi_cli.workspace import shell
             if places.WORKSPACE and action.__name__ in ("Report", "Rehearse"):
                 shell("install_packages", "report")
+            os.umask(0o077)  # what a study holds is its owner's alone
             TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi")
             try:
                 return action.run(args)

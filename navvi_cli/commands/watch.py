@@ -17,9 +17,10 @@ Exit codes
 
 Examples
 ./navvi watch
-./navvi watch trials/trial-20260101T120000Z pace:=0 > trial.txt
+./navvi watch trials/trial-20260101T120000Z > trial.txt
 """
 import os
+import sys
 
 from navvi_cli.arguments import Words, completions, trial_in, trials_that_hold
 from navvi_cli.network import listeners, running_sessions
@@ -30,7 +31,8 @@ from navvi_cli.workspace import build, enter, is_current
 CHOICES = {"speech": ["true", "false"]}
 HELP = ["TRIAL: the folder of a trial, such as trials/trial-20260101T120000Z.",
         "speech:=true: each line is also spoken, by speech-dispatcher, and the next one waits until it was.",
-        "pace:=180: no line comes before the last one can have been read at so many words a minute; 0: no pause.",
+        "pace:=180: no line comes before the last one can have been read at so many words a minute; 0: no pause, as by default for a "
+        "record where no terminal reads the lines.",
         "port:=11312: of several sessions, the one with this port."]
 
 
@@ -52,7 +54,8 @@ def run(args):
         os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1")
         os.environ.pop("ROS_HOSTNAME", None)
     program = str(script("navvi_study", "watch_session"))
-    os.execv(program, [program, words.get("pace", "180"), words.get("speech", "false"), *([str(trial)] if trial else [])])
+    slow = not trial or sys.stdout.isatty() or words.get("speech") == "true"
+    os.execv(program, [program, words.get("pace", "180" if slow else "0"), words.get("speech", "false"), *([str(trial)] if trial else [])])
 
 
 def port_of_session(wanted):

@@ -9,13 +9,17 @@ fail() {
   exit "${2:-1}"
 }
 
-# Ctrl-C.
+# stopped [SIGNAL]: Ctrl-C by default. Nothing of the work is left behind.
 job="" sleeper=""
 stopped() {
   [[ -z $sleeper ]] || kill "$sleeper" 2>/dev/null || true
   [[ -z $job ]] || kill -TERM -- "-$job" 2>/dev/null || true
-  echo "navvi: stopped by Ctrl-C, before it was done. The same command goes on from here." >&2
+  echo "navvi: stopped by ${1:-Ctrl-C}, before it was done. The same command goes on from here." >&2
   exit 130
+}
+stopped_by_signals() {
+  trap stopped INT
+  trap 'stopped "a signal"' TERM HUP
 }
 
 in_words() {  # seconds
@@ -23,7 +27,8 @@ in_words() {  # seconds
 }
 
 # with_progress WHAT LOG PERCENT COMMAND...: runs the command with all it says in the file LOG. Every 10 s a line tells how
-# much is done, by what the function PERCENT makes of the log, and how long it may still take.
+# long it has run and how much is done, by what the function PERCENT makes of the log. Steps differ too much in length for an
+# estimate of the time left.
 with_progress() {
   local what=$1 log=$2 percent=$3 begin=$SECONDS status=0 share
   shift 3
@@ -38,11 +43,8 @@ with_progress() {
     kill -0 "$job" 2>/dev/null
   do
     share=$("$percent" "$log")
-    if ((${share:-0} > 0 && share < 100)); then
-      aside "$what: $share percent done, about $(in_words $(((SECONDS - begin) * (100 - share) / share))) left."
-    else
-      aside "$what: $(in_words $((SECONDS - begin))) so far."
-    fi
+    ((${share:-0} > 0 && share < 100)) && share="$share percent done, " || share=""
+    aside "$what: $share$(in_words $((SECONDS - begin))) so far."
   done
   kill "$sleeper" 2>/dev/null || true
   wait "$job" || status=$?

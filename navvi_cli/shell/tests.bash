@@ -1,8 +1,15 @@
 # The tests' tiers, each with those before it.
 tiers=(quick whole release)
 
+# Refuses a word before anything is installed or built.
+is_a_test() {  # FILTER
+  /usr/bin/python3 "$root/test/find_tests.py" "$1" >/dev/null 2>&1 ||
+    fail "no test's name contains \"$1\"; \"./navvi test --slowest\" lists those of the last run." 2
+}
+
 tests() {  # TIER [FILTER]
   local tier=$1 filter=${2:-.} labels="" results=$workspace/build/test_results log=$workspace/test.log name status=0
+  is_a_test "$filter"
   install_packages all
   if [[ $tier == quick ]]; then
     build_workspace all core_tests
@@ -25,7 +32,7 @@ tests() {  # TIER [FILTER]
     # No program has that name; cases may. Each kind of program is told by a variable which of its cases to run.
     selected[3]="^($(/usr/bin/python3 "$root/test/find_tests.py" "$filter" | paste -sd '|'))\$"
     ctest -N "${selected[@]}" | grep -q 'Total Tests: [1-9]' ||
-      fail "no test's name contains \"$filter\"; \"ctest -N\" in $PWD lists the programs." 2
+      fail "no test of the tier $tier has \"$filter\" in its name; another tier may." 2
     export NAVVI_TEST_CASE=$filter GTEST_FILTER="*$filter*" PYTEST_ADDOPTS="-k $filter"
   fi
   # Sessions in real time, which quick has one of, are tried again where a machine was too busy; which ones is reported.
@@ -58,6 +65,7 @@ slowest() {
 sanitized_tests() {
   local filter=${1:-} results=$workspace/build_asan/test_results log=$workspace/test_asan.log targets=(core_tests) selected
   selected=(-R "^navvi_.*/.*$filter")
+  is_a_test "${filter:-.}"
   install_packages all
   [[ -n $filter ]] || targets+=(odr_check)
   build_workspace --asan "${targets[@]}"

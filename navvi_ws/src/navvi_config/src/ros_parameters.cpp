@@ -1,14 +1,19 @@
 #include "navvi_config/ros_parameters.hpp"
 
 #include <XmlRpcValue.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace navvi_config {
 namespace {
 
 constexpr rlim_t kFiles = 256;
+
+std::atomic<bool> g_name_taken{false};
 
 YAML::Node to_yaml(XmlRpc::XmlRpcValue& value) {
   YAML::Node node;
@@ -45,6 +50,22 @@ void allow_files() {
   throw ConfigError("Only " + std::to_string(allowed) + " files may be open at once; allowed is " +
                     std::to_string(kFiles) + " or more, such as by \"ulimit -n 1024\".");
 }
+
+void on_shutdown_request(const std::function<void()>& end) {
+  ros::XMLRPCManager::instance()->unbind("shutdown");
+  ros::XMLRPCManager::instance()->bind(
+      "shutdown", [end](XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answer) {
+        const std::string why = request.size() > 1 ? std::string(request[1]) : "";
+        if (why.find("new node registered with same name") != why.npos &&
+            !g_name_taken.exchange(true))
+          ROS_FATAL("Another node has taken the name %s, so this one ends.",
+                    ros::this_node::getName().c_str());
+        end();
+        answer = ros::xmlrpc::responseInt(1, "", 0);
+      });
+}
+
+bool name_is_taken() { return g_name_taken; }
 
 YAML::Node parameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue value;

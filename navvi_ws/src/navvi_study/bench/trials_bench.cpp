@@ -33,12 +33,13 @@ using navvi_people::loop::ClosedLoopConfig;
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
     "             [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]\n"
-    "             [--trace[=FROM-TO]]\n"
+    "             [--trace[=FROM-TO]] [--check]\n"
     "             [--until=S --then=part/name:=value+...] [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
     "--then: from S s after the goal was set on another guide or person (feedback, person, "
     "speech)\n"
     "goes on, who has been told and has felt the same so far.\n"
+    "--check runs nothing: exit code 2 and a sentence where a parameter would be rejected.\n"
     "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
     "--cache: MB of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world "
     "and seed\n"
@@ -74,6 +75,7 @@ struct Options {
   std::optional<int> until;  ///< s
   std::vector<std::string> then;
   bool csv = false;
+  bool check = false;
   bool help = false;
 };
 
@@ -153,6 +155,8 @@ Options read_options(const std::vector<std::string>& words) {
       out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
     } else if (option == "--csv") {
       out.csv = true;
+    } else if (option == "--check") {
+      out.check = true;
     } else if (option == "--help") {
       out.help = true;
     } else {
@@ -196,17 +200,21 @@ struct Task {
   int seed = 1;
 };
 
+/// Who goes on from some second on. \throws navvi_config::ConfigError
+std::optional<navvi_people::loop::Branch> branch_of(const Options& options,
+                                                    const ClosedLoopConfig& config) {
+  if (!options.until) return std::nullopt;
+  navvi_people::loop::Branch branch{config, static_cast<double>(*options.until)};
+  navvi_config::read(branch.then, navvi_config::read_words(options.then), "--then");
+  return branch;
+}
+
 record::Fields run_trial(const Options& options, ClosedLoopConfig config,
                          const std::string& phrases, const navvi_config::Cache* cache,
                          const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
-  std::optional<navvi_people::loop::Branch> branch;
-  if (options.until) {
-    branch = navvi_people::loop::Branch{config, static_cast<double>(*options.until)};
-    navvi_config::read(branch->then, navvi_config::read_words(options.then), "--then");
-  }
-  ClosedLoop loop(config, phrases, branch, cache);
+  ClosedLoop loop(config, phrases, branch_of(options, config), cache);
   LoopFigures figures(options.limit);
   std::optional<LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
@@ -333,6 +341,8 @@ class Total {
 
 int run(const Options& options) {
   const ClosedLoopConfig config = configured(options);
+  static_cast<void>(branch_of(options, config));
+  if (options.check) return 0;
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto cache = batch::world_cache(static_cast<std::uintmax_t>(options.cache));
   const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;

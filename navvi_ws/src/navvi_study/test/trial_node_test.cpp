@@ -328,6 +328,46 @@ TEST_F(TrialNodeProcess, a_signal_closes_the_trial_as_aborted_and_keeps_its_bag)
   EXPECT_TRUE(fs::exists(folder / "trial.bag"));
 }
 
+TEST_F(TrialNodeProcess, M2_a_second_node_of_its_name_ends_the_trial_with_its_record_whole) {
+  World world;
+  world.moving = false;
+  Process node(command());
+  ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
+  fs::create_directory(out_ / "twin");
+  const Process twin({TRIAL_NODE, "_out:=" + (out_ / "twin").string()});
+  ASSERT_TRUE(run(world, [&] { return !node.running(); }));
+  EXPECT_EQ(node.exit_code(), 3);
+  fs::remove_all(out_ / "twin");
+  auto summary = summary_in(only_folder());
+  EXPECT_EQ(summary["result"], "aborted");
+  EXPECT_EQ(summary["reason"], "name_taken");
+  EXPECT_EQ(summary["bag"], "ok");
+  EXPECT_TRUE(fs::exists(only_folder() / "events.csv"));
+}
+
+TEST_F(TrialNodeProcess, P3_records_a_parameter_that_is_set_while_a_condition_is_locked) {
+  World world;
+  world.moving = false;
+  Process node(command({"_locked:=true", "_record:=false", "_limit:=10"}));
+  ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
+  ros::param::set("/trial_node/limit", 1.0);
+  ASSERT_TRUE(run(world, [&] { return has(world, "PARAMETER_SET"); }));
+  EXPECT_FALSE(has(world, "TRIAL_END"));
+}
+
+TEST_F(TrialNodeProcess, what_it_records_is_its_owners_alone) {
+  World world;
+  Process node(command({"_out:=" + (out_ / "a/b").string()}));
+  ASSERT_TRUE(run(world, [&] { return !node.running(); }));
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out_)) {
+    const fs::perms all = fs::status(entry).permissions();
+    EXPECT_EQ(all & ~fs::perms::owner_all, fs::perms::none) << entry.path();
+    if (entry.is_regular_file()) ++files;
+  }
+  EXPECT_EQ(files, 4U) << "journal, events, summary and bag";
+}
+
 TEST_F(TrialNodeProcess, a_killed_trial_is_closed_by_the_next_start) {
   fs::path first;
   World world;

@@ -2,7 +2,9 @@
 
 #include <ros/console.h>
 #include <ros/node_handle.h>
+#include <sys/stat.h>
 
+#include <functional>
 #include <new>
 #include <optional>
 
@@ -28,19 +30,30 @@ template <typename Config>
 /// hangs without a word
 void allow_files();
 
+/// Calls `end`, in a thread of ROS, once a master or a person asks this node by XML-RPC to end.
+/// Where the reason is a second node of its name, that is logged as a fatal error, and
+/// name_is_taken() from then on.
+void on_shutdown_request(const std::function<void()>& end);
+[[nodiscard]] bool name_is_taken();
+
 /// The rest of a node's main() after ros::init: runs `body` with the parameters, and ends with the
-/// roslaunch that started it. An exception is logged as a fatal error.
+/// roslaunch that started it. An exception is logged as a fatal error. What the node writes is its
+/// owner's alone.
 /// \param body  takes a Config, returns the exit code
-/// \return the exit code: 2 if a parameter is rejected, 3 after any other exception
+/// \return the exit code: 2 if a parameter is rejected, 3 after any other exception or where another
+/// node has taken the name
 template <typename Config, typename Body>
 [[nodiscard]] int run_node(const Body& body) {
   end_with_launcher();
+  ::umask(S_IRWXG | S_IRWXO);
   // Without one, roscpp shuts down before an error is logged.
   std::optional<ros::NodeHandle> alive;
   try {
     allow_files();
     alive.emplace();
-    return body(load<Config>(ros::NodeHandle("~")));
+    on_shutdown_request(ros::requestShutdown);
+    const int code = body(load<Config>(ros::NodeHandle("~")));
+    return name_is_taken() ? 3 : code;
   } catch (const ConfigError& error) {
     ROS_FATAL("%s", error.what());
     return 2;

@@ -7,7 +7,11 @@
 #include <rviz/ogre_helpers/render_system.h>
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
+#include <rviz/visualization_manager.h>
+#include <rviz/window_manager_interface.h>
 
+#include <QEvent>
+#include <QWidget>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,6 +63,8 @@ CaptionsDisplay::~CaptionsDisplay() = default;
 
 void CaptionsDisplay::onInitialize() {
   rviz::RenderSystem::get()->prepareOverlays(context_->getSceneManager());
+  if (auto* window = context_->getWindowManager())
+    window->getParentWindow()->installEventFilter(this);
   reader_ = std::make_unique<Reader>();
   using visualization_msgs::MarkerArray;
   markers_ = update_nh_.subscribe<MarkerArray>(
@@ -77,6 +83,13 @@ void CaptionsDisplay::onInitialize() {
                                                       for (const auto& marker : msg->markers)
                                                         movers_.push_back(whole(marker));
                                                     });
+}
+
+bool CaptionsDisplay::eventFilter(QObject* window, QEvent* event) {
+  auto* manager = dynamic_cast<rviz::VisualizationManager*>(context_);
+  if (manager != nullptr && event->type() == QEvent::Hide && !event->spontaneous())
+    manager->stopUpdate();
+  return Display::eventFilter(window, event);
 }
 
 void CaptionsDisplay::onDisable() {

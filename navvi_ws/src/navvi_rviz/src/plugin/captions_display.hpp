@@ -27,6 +27,9 @@ class CaptionsDisplay : public rviz::Display {
   ~CaptionsDisplay() override;
   void onInitialize() override;
   void update(float wall_dt, float ros_dt) override;
+  /// Nothing more is drawn once RViz's window has been closed: it has no size then, and Mesa would
+  /// write pixels beyond a buffer of no bytes.
+  bool eventFilter(QObject* window, QEvent* event) override;
 
  protected:
   void onDisable() override;

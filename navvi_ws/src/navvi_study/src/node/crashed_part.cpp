@@ -59,6 +59,7 @@ std::string crashed_part() {
   if (nobody_listens(ros::master::getHost(), ros::master::getPort())) return "master_lost";
   if (crashed("/sim_node")) return "simulator_lost";
   if (crashed("/perception_node")) return "perception_lost";
+  if (crashed("/relay_node")) return "relay_lost";
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/subscribe.hpp>
+#include <set>
 
 #include "node/crashed_part.hpp"
 #include "node/msg_conversion.hpp"
@@ -65,25 +66,36 @@ void tell(trial::TrialKeeper::Tone tone, const std::string& sentence) {
   ROS_LOG(kLevels[static_cast<std::size_t>(tone)], ROSCONSOLE_DEFAULT_NAME, "%s", sentence.c_str());
 }
 
-/// What the parameter server holds for NavVI's nodes, such as "nav/mesh/climb=0": profile, launch
-/// file and person gave it. The folder of the record may bear a person's name and is left out.
-std::string settings_of_nodes() {
-  std::vector<std::string> names;
-  ros::param::getParamNames(names);
-  std::sort(names.begin(), names.end());
-  std::string words;
-  for (const std::string& name : names) {
-    const auto end = name.find("_node/");
-    XmlRpc::XmlRpcValue value;
-    if (end == name.npos || name == ros::this_node::getName() + "/out" ||
-        !ros::param::get(name, value))
-      continue;
-    std::ostringstream text;
-    value.write(text);
-    words += (words.empty() ? "" : " ") + name.substr(1, end - 1) + name.substr(end + 5) + "=" +
-             (value.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(value) : text.str());
+void add(const std::string& name, XmlRpc::XmlRpcValue& value, trial::Settings& settings) {
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
+    for (auto& [key, item] : value) add(name + "/" + key, item, settings);
+    return;
   }
-  return words;
+  std::ostringstream text;
+  value.write(text);
+  settings[name] =
+      value.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(value) : text.str();
+}
+
+/// What the parameter server holds for NavVI's nodes, such as nav/mesh/climb: profile, launch file
+/// and person gave it. The folder of the record may bear a person's name and is left out. The
+/// master tells this node of changes, so that only the first call asks for all.
+trial::Settings settings_of_nodes() {
+  static const std::set<std::string> nodes = [] {
+    std::vector<std::string> names;
+    ros::param::getParamNames(names);
+    std::set<std::string> found;
+    for (const std::string& name : names)
+      if (const auto end = name.find("_node/"); end != name.npos) found.insert(name.substr(0, end));
+    return found;
+  }();
+  trial::Settings settings;
+  for (const std::string& node : nodes)
+    if (XmlRpc::XmlRpcValue value; ros::param::getCached(node + "_node", value))
+      add(node.substr(1), value, settings);
+  const std::string own = ros::this_node::getName();
+  settings.erase(own.substr(1, own.rfind("_node") - 1) + "/out");
+  return settings;
 }
 
 /// The node's name without slashes, as a child of it may bear it.
@@ -120,7 +132,8 @@ class TrialNode {
 
   /// Ends a running trial as aborted and closes everything. Takes two seconds at most.
   void shut_down() {
-    for (keeper_.stop(now(), crashed_part()); !keeper_.done(); keeper_.step(now()))
+    const std::string why = navvi_config::name_is_taken() ? "name_taken" : crashed_part();
+    for (keeper_.stop(now(), why); !keeper_.done(); keeper_.step(now()))
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
     ros::shutdown();
   }
@@ -240,6 +253,7 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error of write(), as any other
   return navvi_config::run_node<TrialNodeConfig>([](const TrialNodeConfig& config) {
     navvi_study::node::TrialNode trials(config);
+    navvi_config::on_shutdown_request([] { navvi_study::node::g_stop = 1; });
     while (ros::ok()) {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
       if (navvi_study::node::g_stop != 0) trials.shut_down();

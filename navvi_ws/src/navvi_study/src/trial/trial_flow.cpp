@@ -38,7 +38,7 @@ std::optional<std::int64_t> TrialFlow::deadline() const {
 std::optional<Ending> TrialFlow::watch(const Signs& signs) const {
   if (signs.disk_full) return Ending{"invalid", "disk_full", signs.latest};
   if (signs.world_restarted) return Ending{"aborted", "simulator_restarted", signs.latest};
-  if (signs.now + kTimeBack < signs.latest)
+  if (signs.clock_jumped || signs.now + kTimeBack < signs.latest)
     return Ending{"aborted", "time_went_back", signs.latest};
   if (signs.odometry_silence > kSimulatorLost)
     return Ending{"aborted", "simulator_lost", signs.latest};

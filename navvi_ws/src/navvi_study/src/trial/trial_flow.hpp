@@ -20,6 +20,7 @@ struct Signs {
   std::int64_t latest = 0;  ///< of any report
   bool disk_full = false;
   bool world_restarted = false;
+  bool clock_jumped = false;  ///< for a moment at least
   double odometry_silence = 0.0;
   double guidance_silence = 0.0;
   double feedback_silence = 0.0;

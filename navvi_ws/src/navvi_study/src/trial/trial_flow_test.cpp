@@ -40,6 +40,7 @@ TEST(TrialFlow, each_loss_ends_the_trial_with_its_own_reason) {
       {"disk_full", [](Signs& signs) { signs.disk_full = true; }},
       {"simulator_restarted", [](Signs& signs) { signs.world_restarted = true; }},
       {"time_went_back", [](Signs& signs) { signs.now -= 2 * kSecond; }},
+      {"time_went_back", [](Signs& signs) { signs.clock_jumped = true; }},
       {"simulator_lost", [](Signs& signs) { signs.odometry_silence = 6.0; }},
       {"guidance_lost", [](Signs& signs) { signs.guidance_silence = 11.0; }},
       {"feedback_lost", [](Signs& signs) { signs.feedback_silence = 6.0; }},

@@ -22,9 +22,9 @@ constexpr double kDrain = 0.3;                   // s, for reports on their way 
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
 constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
-std::string list_of(const std::vector<std::string>& words) {
+std::string list_of(const std::vector<std::string>& words, const char* between = ", ") {
   std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
   return text;
 }
 
@@ -281,7 +281,10 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("operator", config_.operator_kind).set("participant", config_.participant);
   fields.set("profile", config_.profile).set("version", config_.version);
   fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
-  fields.set("settings", outlets_.settings());
+  kept_.settings = outlets_.settings();
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : kept_.settings) settings.push_back(name + "=" + value);
+  fields.set("settings", list_of(settings, " "));
   fields.set("audio", readiness_.state_of("audio"));
   fields.set("pad", simulated() ? "simulated" : readiness_.state_of("pad"));
   // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
@@ -327,6 +330,7 @@ void TrialKeeper::watch() {
   watch_bag();
   const Signs seen = signs();
   watch_feedback(seen.feedback_silence);
+  watch_settings();
   if (const auto ending = flow_.watch(seen)) return end(*ending);
   ask_for_goal();
 }
@@ -337,6 +341,7 @@ Signs TrialKeeper::signs() const {
   signs.latest = monitor_.latest();
   signs.disk_full = kept_.journal->full();
   signs.world_restarted = monitor_.world_restarted();
+  signs.clock_jumped = monitor_.clock_jumped();
   signs.odometry_silence = readiness_.silence(now_.wall());
   signs.guidance_silence = readiness_.guidance_silence(now_.wall());
   signs.feedback_silence = readiness_.feedback_silence(now_.wall());
@@ -353,6 +358,22 @@ void TrialKeeper::watch_feedback(double silence) {
     tell(Tone::warning, "The guide is silent: feedback_node has not reported for a second.");
   record({kept_.feedback_silent ? "DEVICE_LOST" : "DEVICE_BACK",
           monitor_.place().set("device", "feedback"), monitor_.latest()});
+}
+
+/// No node obeys what is set while a condition is locked, but one that is started anew would.
+void TrialKeeper::watch_settings() {
+  if (!config_.locked || now_.wall() - kept_.settings_read < kSilent) return;
+  kept_.settings_read = now_.wall();
+  Settings settings = outlets_.settings();
+  const Settings before = std::exchange(kept_.settings, settings);
+  for (const auto& [name, value] : before) settings.try_emplace(name, "deleted");
+  for (const auto& [name, value] : settings) {
+    const auto old = before.find(name);
+    if (old != before.end() && old->second == value) continue;
+    tell(Tone::warning, "The parameter " + name + " was set from outside, with no effect.");
+    record({"PARAMETER_SET", monitor_.place().set("name", name).set("value", value),
+            monitor_.latest()});
+  }
 }
 
 void TrialKeeper::watch_bag() {

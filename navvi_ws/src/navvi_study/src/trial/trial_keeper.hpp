@@ -3,6 +3,7 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <navvi_types/stall_guard.hpp>
 #include <optional>
@@ -35,6 +36,9 @@ struct ChosenGoal {
   std::int64_t stamp = 0;  ///< ns, of the message with which it came; 0: the world's own goal
 };
 
+/// The parameters that nodes were given, by names such as nav/mesh/climb.
+using Settings = std::map<std::string, std::string>;
+
 /// Runs trials one after the other: waits until every part is there, records, sets the goal, keeps
 /// the journal, ends, and writes the results.
 class TrialKeeper {
@@ -47,8 +51,7 @@ class TrialKeeper {
     std::function<void(const ChosenGoal&)> set_goal;
     std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
     std::function<void(TrialState::State)> show = [](TrialState::State) {};  ///< on each change
-    /// Each parameter that a node was given, in words.
-    std::function<std::string()> settings = [] { return std::string("unknown"); };
+    std::function<Settings()> settings = [] { return Settings(); };
     /// Begins a bag at that path; nullptr where none is wanted.
     std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
   };
@@ -102,6 +105,8 @@ class TrialKeeper {
     // Both are journalled.
     bool bag_lost = false;
     bool feedback_silent = false;
+    Settings settings;
+    double settings_read = 0.0;  ///< s
   };
   struct Goals {
     std::optional<ChosenGoal> next;  ///< of the trial that is to begin
@@ -137,6 +142,7 @@ class TrialKeeper {
   void watch();
   void watch_bag();
   void watch_feedback(double silence);
+  void watch_settings();
   void ask_for_goal();
   void end(const Ending& ending);
   void write_end();

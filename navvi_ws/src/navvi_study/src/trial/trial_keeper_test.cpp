@@ -40,7 +40,7 @@ class Trials : public testing::Test {
     };
     outlets.show = [this](TrialState::State state) { shown_.push_back(state); };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
-    outlets.settings = [] { return "sim/seed=3"; };
+    outlets.settings = [this] { return settings_; };
     outlets.start_recorder = [this](const fs::path& bag) {
       const fs::path program = fs::path(config_.out) / "record";
       std::ofstream(program) << "#!/bin/sh\nexec sleep 60\n";
@@ -122,6 +122,7 @@ class Trials : public testing::Test {
   bool elsewhere_ = false;  ///< the robot, where the guide says that it has arrived
   int failures_ = 0;        ///< writes of the journal that are still to fail
   int error_ = 0;           ///< with this errno
+  Settings settings_{{"sim/seed", "3"}};
 };
 
 const Scenario kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
@@ -319,6 +320,21 @@ TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {
   live(9.0, State::following, kScenario.goal);
   EXPECT_NE(content("summary.csv").find(",aborted,goal_changed,"), std::string::npos)
       << content("summary.csv");
+}
+
+TEST_F(Trials, P3_of_a_study_record_each_parameter_that_is_set_from_outside) {
+  config_.locked = true;
+  begin();
+  keeper_->take(kScenario, now());
+  live(1.0);
+  live(2.0, State::following, kScenario.goal);
+  EXPECT_FALSE(happened("PARAMETER_SET"));
+  settings_ = {{"feedback/haptics/enabled", "0"}};
+  live(2.0, State::following, kScenario.goal);
+  EXPECT_EQ(std::count(events_.begin(), events_.end(), "PARAMETER_SET"), 2);
+  EXPECT_NE(content("journal.csv").find(";name=feedback/haptics/enabled;value=0;"), std::string::npos)
+      << content("journal.csv");
+  EXPECT_NE(content("journal.csv").find(";name=sim/seed;value=deleted;"), std::string::npos);
 }
 
 TEST_F(Trials, of_a_study_name_their_place_in_it_and_on_what_they_ran) {

@@ -107,6 +107,7 @@ void TrialMonitor::start(const TrialStart& start) {
   goal_.arrived_elsewhere = false;
   goal_.refused.reset();
   world_restarted_ = false;
+  clock_jumped_ = false;
 }
 
 Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp) {
@@ -398,6 +399,7 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
       drive.state == DriveState::State::stopped ? drive.reason : DriveState::Reason::none;
   const DriveState::Reason before = std::exchange(stopped_for_, reason);
   const std::string intruder_before = std::exchange(intruder_, drive.intruder);
+  if (reason == DriveState::Reason::clock_jumped && reason != before) clock_jumped_ = true;
   std::vector<Event> events;
   if (!inside) return events;
   if (drive.intruder != intruder_before)

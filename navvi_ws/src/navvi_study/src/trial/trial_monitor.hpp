@@ -150,6 +150,8 @@ class TrialMonitor {
   [[nodiscard]] std::optional<std::string> refused() const { return goal_.refused; }
   /// The simulator began anew in mid trial.
   [[nodiscard]] bool world_restarted() const { return world_restarted_; }
+  /// The wheels were stopped as ROS time had jumped, if for a moment only.
+  [[nodiscard]] bool clock_jumped() const { return clock_jumped_; }
   /// ns, the latest stamp that was seen at all
   [[nodiscard]] std::int64_t latest() const { return latest_; }
 
@@ -217,6 +219,7 @@ class TrialMonitor {
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
   GoalFate goal_;
   bool world_restarted_ = false;
+  bool clock_jumped_ = false;
 };
 
 }  // namespace navvi_study::trial

@@ -393,6 +393,18 @@ TEST_F(Monitor, T1_records_a_clock_that_jumps_while_the_wheels_stand_for_another
   EXPECT_EQ(events[0].fields.get("reason"), "clock_jumped");
   EXPECT_EQ(events[0].fields.get("held"), "yes");
   EXPECT_TRUE(monitor_.observe(jumped).empty());
+  EXPECT_TRUE(monitor_.clock_jumped());
+}
+
+TEST_F(Monitor, T1_knows_a_jump_to_before_the_trial_and_forgets_that_of_the_last_one) {
+  DriveState jumped = stopped(1);
+  jumped.reason = DriveState::Reason::clock_jumped;
+  EXPECT_TRUE(monitor_.observe(jumped).empty());
+  EXPECT_TRUE(monitor_.clock_jumped());
+  monitor_.start({20 * kSecond, {3.0, 0.0}});
+  EXPECT_FALSE(monitor_.clock_jumped());
+  EXPECT_TRUE(monitor_.observe(jumped).empty());
+  EXPECT_FALSE(monitor_.clock_jumped());
 }
 
 TEST_F(Monitor, counts_sounds_and_felt_patterns_and_keeps_how_long_the_person_waited) {

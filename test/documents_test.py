@@ -1,0 +1,161 @@
+"""Each command line of README.md and doc/*.md, taken from the files themselves, in a fresh shell.
+
+What measures, needs a person's devices or another machine is parsed alone; what runs until it is stopped ends at its ready line.
+"""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+from display import Display  # noqa: E402
+from navvi_cli.arguments import LaunchFile, words_for  # noqa: E402
+from navvi_cli.commands import batch  # noqa: E402
+from navvi_cli.main import parser_of  # noqa: E402
+from navvi_cli.say import Failure  # noqa: E402
+
+PAGES = [ROOT / "README.md", *sorted((ROOT / "doc").glob("*.md"))]
+ELSEWHERE = ("git clone", "cd navvi", "podman", "apt ", "sudo ", "parallel ")  # other machines, and the system itself
+LAUNCHES = {"run": "live.launch", "tutorial": "live.launch", "glossary": "lesson.launch", "calibrate": "lesson.launch"}
+READY = {"./navvi run": "a session begins in some seconds", "roslaunch": "No trial yet: waiting for"}
+# What a document leaves to its reader, as it is here.
+GIVEN = {"MAP.bt": "my_map.bt", "X,Y": "1,-9", "COMMAND": "run", "ROW": "L5"}
+
+
+def blocks(text):
+    """The lines of code in a row, each with those that it goes on in."""
+    text = re.sub(r"^```(\w*)\n(.*?)^```$", lambda code: re.sub("^", "    ", code[2], flags=re.M) if code[1] in ("", "bash") else "", text,
+                  flags=re.M | re.S)
+    text = text.replace("\\\n", " ")
+    for block in re.findall(r"(?:^ {4}.*\n)+", text, re.M):
+        lines = [line.strip() for line in block.splitlines()]
+        yield [line for line in lines if is_command(line)]
+
+
+def is_command(line):
+    word = line.split(" ")[0] if line else ""
+    return word in ("./navvi", "source", "for", "cd") or bool(re.fullmatch(r"[a-z]+", word) and shutil.which(word) and " " in line)
+
+
+def found():
+    """(page, the sources before it in its block, command)"""
+    for page in PAGES:
+        text = page.read_text()
+        for lines in blocks(text):
+            before = [line for line in lines if line.startswith("source ")]
+            for line in lines:
+                yield page.name, before if line.startswith("ros") else [], re.sub(r"\s+#.*", "", line)
+        for span in re.findall(r"`(\./navvi [^`]+|ros[a-z]+ [^`]+)`", re.sub(r"^ {4}.*$", "", text, flags=re.M)):
+            yield page.name, None, re.sub(r"\s+", " ", span)
+
+
+FOUND = list(dict.fromkeys((page, tuple(before) if before is not None else None, line) for page, before, line in found()))
+LINES = [each for each in FOUND if not each[2].startswith(ELSEWHERE)]
+
+
+def runs(before, line):
+    """Whether it does something here, beside being parsed."""
+    return before is not None and line.startswith(("./navvi run", "./navvi world", "./navvi navmesh", "./navvi study check", "roslaunch", "source"))
+
+
+@pytest.fixture(scope="module")
+def papers(tmp_path_factory):
+    """A folder with what the documents speak of, as far as it is only named."""
+    folder = tmp_path_factory.mktemp("desk")
+    for name in "navvi", "navvi_ws":
+        (folder / name).symlink_to(ROOT / name)
+    worlds = ROOT / "navvi_ws/src/navvi_sim/worlds"
+    shutil.copy(worlds / "cross_dock.yaml", folder / "my_layout.yaml")
+    (folder / "my_models").mkdir()
+    for name in "my.world", "my_map.bt":
+        (folder / name).touch()
+    shutil.copy(ROOT / "navvi_ws/src/navvi_study/studies/example_plan.yaml", folder / "plan.yaml")
+    trial = folder / "trials/TRIAL"
+    trial.mkdir(parents=True)
+    for name in "trial.bag", "summary.csv", "journal.csv":
+        (trial / name).touch()
+    return folder
+
+
+@pytest.fixture(scope="module")
+def desk(papers):
+    """With a world and a map, too."""
+    for words in ["write", "warehouse", "my.world"], ["check", "warehouse", "-o", "my_map.bt"]:
+        subprocess.run(["./navvi", "world", *words], cwd=papers, check=True, stdout=subprocess.DEVNULL)
+    return papers
+
+
+def test_the_documents_are_read():
+    assert len(LINES) > 60
+    assert sum(runs(before, line) for _, before, line in LINES) > 20
+    assert ("README.md", ("source navvi_ws/devel/setup.bash",),
+            "roslaunch navvi robot.launch wheels:=/my_robot/cmd_vel rehearse:=true") in LINES
+    assert any(line.startswith("git clone") for _, _, line in FOUND) and any(line.startswith("podman") for _, _, line in FOUND) is False
+
+
+@pytest.mark.parametrize("page, before, line", LINES, ids=lambda value: value if isinstance(value, str) else "")
+def test_a_command_is_taken(page, before, line, papers, monkeypatch):
+    monkeypatch.chdir(papers)
+    assert subprocess.run(["bash", "-n", "-c", line], stderr=subprocess.PIPE).returncode == 0, page
+    for command in re.findall(r"\./navvi ([a-z].*?)(?:;|$)", line):
+        for name, value in GIVEN.items():
+            command = command.replace(name, value)
+        words = shlex.split(command)
+        if not re.search(r"[A-Z]{3,}|\.\.\.|\$", command.replace("TRIAL", "")):  # else what stands there is for its reader to fill in
+            if "--help" in words:
+                continue
+            try:
+                args = parser_of(words[0]).parse_args(words)
+            except Failure as refused:  # within a sentence a command may be named without all that it needs
+                assert before is None and refused.sentence.startswith("missing: "), refused.sentence
+                continue
+            if words[0] in LAUNCHES:
+                words_for(LaunchFile(LAUNCHES[words[0]]), [word for word in args.words if words[0] == "run" or not word.startswith("out:=")])
+            if words[0] == "batch" and not args.from_trial:
+                assert batch.trials_of(args) and batch.shard_of(args.shard)
+    for name, words in re.findall(r"^roslaunch navvi (\w+\.launch)(.*)", line):
+        known = {arg for path in [ROOT / "launch" / name] for arg in re.findall(r'<arg name="(\w+)"', path.read_text())}
+        assert {word.partition(":=")[0] for word in shlex.split(words)} <= known, page
+
+
+@pytest.mark.parametrize("page, before, line", [each for each in LINES if runs(*each[1:])], ids=lambda value: value if isinstance(value, str) else "")
+def test_a_command_runs_in_a_fresh_shell(page, before, line, desk):
+    if re.search(r"operator:=(pad|keyboard)", line):
+        pytest.skip("it needs a person's devices")
+    for name, value in GIVEN.items():
+        line = line.replace(name, value)
+    display = Display() if line.startswith("roslaunch") else None
+    env = {"HOME": str(desk), "PATH": "/usr/bin:/bin", "TERM": "dumb", "ROS_MASTER_URI": "http://127.0.0.1:11499", "ROS_IP": "127.0.0.1"}
+    if display:
+        env.update(DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
+        line = f"exec {line} --port=11499"
+    else:
+        del env["ROS_MASTER_URI"], env["ROS_IP"]
+    process = subprocess.Popen(["bash", "--noprofile", "--norc", "-c", "\n".join([*before, line])], cwd=desk, env=env, text=True, start_new_session=True,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    ready = next((text for start, text in READY.items() if line.removeprefix("exec ").startswith(start)), None)
+    said = ""
+    try:
+        deadline = time.monotonic() + 120
+        for text in process.stdout:
+            said += text
+            assert time.monotonic() < deadline, said
+            if ready and ready in text:
+                break
+        assert not ready or ready in said, said
+        assert not re.search(r"Cannot locate|do not exist|Traceback|has died", said), said
+    finally:
+        if ready:
+            os.killpg(process.pid, signal.SIGINT)
+        rest = process.communicate(timeout=40)[0]
+        if display:
+            display.close()
+    assert ready or process.returncode == 0, said + rest
