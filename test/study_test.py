@@ -454,7 +454,7 @@ touch {tmp_path}/there
 while true; do sleep 0.1; done
 """)
     navvi.chmod(0o755)
-    child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"))
+    child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"), daemon=True)
     child.start()
     deadline = time.monotonic() + 20
     while not (tmp_path / "there").exists():
