@@ -124,13 +124,13 @@ const std::vector<Row> kTable = {
        become(now, State::goal_refused);
        now.guidance.refusal = Guidance::Refusal::not_seen;
      },
-     "goal refused, that place is not seen yet, choose it again to go toward it", "", ""},
+     "goal refused, not all of that place is seen yet, choose it again to go toward it", "", ""},
     {"a goal that is not seen and was asked for again",
      [](Scene& now) {
        now.guidance.goal = {60.0, 0.0};
        beyond(now);
      },
-     "that place is not seen yet, going toward it", "", ""},
+     "not all of that place is seen yet, going toward it", "", ""},
     {"no goal", [](Scene& now) { become(now, State::no_goal); },
      "welcome, the session waits for a goal", "", ""},
     {"there", [](Scene& now) { become(now, State::arrived); }, "you have reached the goal",
@@ -193,7 +193,7 @@ const std::vector<Row> kTable = {
        beyond(now);
        now.asked = drive::Button::goal;
      },
-     "that place is not seen yet, going toward it", "", ""},
+     "not all of that place is seen yet, going toward it", "", ""},
     {"asks for the way", [](Scene& now) { now.asked = drive::Button::repeat; },
      "drive straight, 20 meters", "", ""},
 };

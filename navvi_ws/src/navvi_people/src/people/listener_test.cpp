@@ -41,7 +41,7 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"robot stopped, release the stick", Ask::halt},
       {"there is no route to the goal", Ask::halt},
       {"goal refused, it is off the map, choose it again to go toward it", Ask::halt},
-      {"that place is not seen yet, going toward it", Ask::ready},
+      {"not all of that place is seen yet, going toward it", Ask::ready},
       {"the goal is seen now, 12 meters along the path", Ask::ready},
       {"you have reached the goal", Ask::rest},
       {"turn 90 degrees left, 12 feet", Ask::turn},
