@@ -1,5 +1,7 @@
 #include "cues/link_cues.hpp"
 
+#include <algorithm>
+
 namespace navvi_feedback::cues {
 namespace {
 
@@ -31,12 +33,16 @@ Utterances LinkCues::update(const Observation& now) {
   const auto back = [&](Link Links::*link) {
     return last_.*link == Link::lost && links_.*link == Link::alive;
   };
-  if (lost(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
+  const auto& states = now.devices.states;
+  const bool late = std::count(states.begin(), states.end(), CueKind::pad_too_late) > 0;
+  if (lost(&Links::pad) && !late) say(now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
   if (back(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
-  if (lost(&Links::simulator)) say(CueKind::simulator_lost);
+  if (lost(&Links::simulator))
+    say(now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost);
   if (back(&Links::audio)) say(CueKind::audio_back);
   const bool simulated = links_.simulator != Link::lost;
   if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
+  if (simulated && back(&Links::proximity)) say(CueKind::proximity_back);
   const bool stopped =
       last_gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
   if (simulated && stopped && links_.pad != Link::lost) say(CueKind::robot_stopped);
