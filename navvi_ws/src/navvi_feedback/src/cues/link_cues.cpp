@@ -10,6 +10,17 @@ constexpr double kTogether = 0.3;
 
 }  // namespace
 
+CueKind lost_stick(const Observation& now) {
+  const auto& states = now.devices.states;
+  if (std::count(states.begin(), states.end(), CueKind::pad_too_late) > 0)
+    return CueKind::pad_too_late;
+  return now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost;
+}
+
+CueKind lost_robot(const Observation& now) {
+  return now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost;
+}
+
 const Links& LinkCues::judge(const Observation& now, double time) {
   if (!first_) first_ = time;
   const bool waited = time - *first_ > patience_;
@@ -33,12 +44,10 @@ Utterances LinkCues::update(const Observation& now) {
   const auto back = [&](Link Links::*link) {
     return last_.*link == Link::lost && links_.*link == Link::alive;
   };
-  const auto& states = now.devices.states;
-  const bool late = std::count(states.begin(), states.end(), CueKind::pad_too_late) > 0;
-  if (lost(&Links::pad) && !late) say(now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
+  // NoticeCues says of one that comes too late.
+  if (lost(&Links::pad) && lost_stick(now) != CueKind::pad_too_late) say(lost_stick(now));
   if (back(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
-  if (lost(&Links::simulator))
-    say(now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost);
+  if (lost(&Links::simulator)) say(lost_robot(now));
   if (back(&Links::audio)) say(CueKind::audio_back);
   const bool simulated = links_.simulator != Link::lost;
   if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
