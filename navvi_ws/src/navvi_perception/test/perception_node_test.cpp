@@ -1,5 +1,6 @@
 // perception_node from outside: a robot with a lidar, a camera and a bumper is played to it.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <navvi_msgs/Contact.h>
 #include <navvi_msgs/Obstacles.h>
@@ -13,10 +14,12 @@
 #include <std_msgs/Bool.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace navvi_perception {
 namespace {
@@ -35,6 +38,10 @@ class PerceptionNodeTest : public testing::Test {
                     take<navvi_msgs::Obstacles>("navvi/obstacles", obstacles_),
                     take<navvi_msgs::Proximity>("navvi/proximity", near_),
                     take<navvi_msgs::Contact>("navvi/contacts", contact_)};
+    subscribers_.push_back(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& msg) {
+          sensing_ = msg->status.front().message;
+        }));
     timer_ = node_.createWallTimer(ros::WallDuration(0.1),
                                    [this](const ros::WallTimerEvent&) { play(); });
   }
@@ -106,6 +113,7 @@ class PerceptionNodeTest : public testing::Test {
   std::optional<navvi_msgs::Obstacles> obstacles_;
   std::optional<navvi_msgs::Proximity> near_;
   std::optional<navvi_msgs::Contact> contact_;
+  std::string sensing_;  ///< as in /diagnostics
 };
 
 TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
@@ -165,6 +173,61 @@ TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_fo
   disc_y_ = -2.0;
   ASSERT_TRUE(until([this] { return obstacles_ && !obstacles_->obstacles.empty(); }));
   EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3) << "from where the robot is";
+}
+
+TEST_F(PerceptionNodeTest, H1_uses_scans_as_drivers_send_them) {
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  struct Habit {
+    const char* name;
+    std::function<void(sensor_msgs::LaserScan&)> have;
+  };
+  const std::vector<Habit> habits = {
+      {"the stamp of sending, and a sweep of 0.2 s",
+       [](auto& msg) { msg.time_increment = 0.2F / 359.0F; }},
+      {"a sweep of 0.9 s, whose end no transform reaches in time",
+       [](auto& msg) { msg.time_increment = 0.9F / 359.0F; }},
+      {"the stamp of the first ray of a sweep that ends now",
+       [](auto& msg) {
+         msg.time_increment = 0.07F / 359.0F;
+         msg.header.stamp -= ros::Duration(0.07);
+       }},
+      {"delivered 0.2 s late", [](auto& msg) { msg.header.stamp -= ros::Duration(0.2); }},
+      {"a frame of ROS 1's first drivers", [](auto& msg) { msg.header.frame_id = "/laser"; }},
+      {"most rays 0",
+       [](auto& msg) { std::fill(msg.ranges.begin() + 90, msg.ranges.end(), 0.0F); }},
+  };
+  for (const Habit& habit : habits) {
+    int sent = 0, seen = 0;
+    spoil_ = [&](auto& msg) {
+      ++sent;
+      habit.have(msg);
+    };
+    ASSERT_TRUE(until([&] { return sent >= 5; }));  // of the habit before, none is under way
+    sent = 0;
+    EXPECT_TRUE(until([&] {
+      if (std::exchange(obstacles_, std::nullopt)) ++seen;
+      return sent >= 20;
+    }));
+    EXPECT_GE(seen, 15) << habit.name;
+    near_.reset();
+    EXPECT_TRUE(until([this] { return near_.has_value(); })) << habit.name;
+  }
+}
+
+TEST_F(PerceptionNodeTest, H2_loses_sensing_where_no_ray_has_a_measurement) {
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  int sent = 0;
+  spoil_ = [&](auto& msg) {
+    ++sent;
+    msg.ranges.assign(360, 0.0F);
+  };
+  ASSERT_TRUE(until([&] { return sent >= 10; }));
+  near_.reset();
+  ASSERT_TRUE(until([&] { return sent >= 15; }));
+  EXPECT_FALSE(near_);
+  EXPECT_NE(sensing_.find("no_return"), std::string::npos) << sensing_;
+  spoil_ = {};
+  EXPECT_TRUE(until([this] { return near_.has_value(); }));
 }
 
 TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_on_after_them) {

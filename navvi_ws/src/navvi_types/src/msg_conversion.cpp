@@ -12,6 +12,8 @@
 namespace navvi_types {
 namespace {
 
+constexpr double kLevel = 1e-3;  // of a quaternion's x and y
+
 /// False also for a value that is not finite.
 bool within(std::initializer_list<double> values, double least, double most) {
   return std::all_of(values.begin(), values.end(),
@@ -134,11 +136,24 @@ std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PointStamped& msg) 
   return valid(msg.point) ? std::optional(flat(msg.point)) : std::nullopt;
 }
 
-std::optional<Odometry> from_msg(const nav_msgs::Odometry& msg) {
+Checked<Odometry> from_msg(const nav_msgs::Odometry& msg) {
   const std::optional<Velocity> velocity = from_msg(msg.twist.twist);
-  if (!velocity || !valid(msg.pose.pose)) return std::nullopt;
+  if (!velocity) return Refusal{"its twist is not finite, or beyond 100 m/s or rad/s"};
+  if (!valid(msg.pose.pose.position)) return Refusal{"its position is not finite, or beyond 100 km"};
+  if (!valid(msg.pose.pose.orientation))
+    return Refusal{"the norm of its orientation's quaternion is not 1"};
   return Odometry{to_ns(msg.header.stamp), pose_of(msg.pose.pose), *velocity,
                   msg.twist.twist.linear.y, msg.pose.pose.position.z};
+}
+
+Checked<Pose2> origin_of(const nav_msgs::OccupancyGrid& msg) {
+  geometry_msgs::Pose origin = msg.info.origin;
+  geometry_msgs::Quaternion& q = origin.orientation;
+  if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0) q.w = 1.0;
+  if (!valid(origin.position)) return Refusal{"its origin is not finite, or beyond 100 km"};
+  if (!valid(q)) return Refusal{"the norm of its origin's quaternion is not 1 (or 0 for no turn)"};
+  if (!within({q.x, q.y}, kLevel)) return Refusal{"its origin is tilted: a map lies flat"};
+  return pose_of(origin);
 }
 
 std::optional<std::vector<Eigen::Vector2d>> from_msg(const nav_msgs::Path& msg) {

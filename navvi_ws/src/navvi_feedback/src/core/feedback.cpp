@@ -192,8 +192,12 @@ void Feedback::ask_side(Observation& now, double time, Output& out) {
 /// What the person asked for stays the measure of being stuck. \return the share that is left
 double Feedback::assist(std::optional<Velocity>& command, const Observation& now) const {
   if (!command) return 1.0;
-  const double share =
+  double share =
       deciders_->assistance.share(*command, now.nearby, now.links.proximity == Link::alive);
+  if (now.devices.hands.late) {
+    share = std::min(share, config_.drive.assistance.least);
+    command->angular *= config_.drive.assistance.least;
+  }
   command->linear *= share;
   const double turning = std::abs(command->angular);
   const double most = deciders_->sounds.most_rate().value_or(turning);

@@ -11,6 +11,8 @@ namespace {
 
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
+/// s in which the same question is answered twice at most.
+constexpr double kInsists = 6.0;
 
 /// All of it from the robot's nose, and as the crow flies.
 Utterance where_am_i(const Observation& now, Rounding rounding) {
@@ -61,6 +63,13 @@ std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const
 
 }  // namespace
 
+bool Answers::accepts(Question question, double time) {
+  if (question != asked_) asked_at_.fill(-std::numeric_limits<double>::infinity());
+  if (question == asked_ && time - asked_at_.front() < kInsists) return false;
+  asked_at_ = {asked_at_.back(), time};
+  return true;
+}
+
 Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
                            const StateCues& state) {
   if (tick.asked.menu) {
@@ -68,8 +77,8 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
     label.asked = true;
     return {label};
   }
-  const auto question =
-      tick.asked.question ? tick.asked.question : std::exchange(question_, std::nullopt);
+  const bool pressed = tick.asked.question && accepts(*tick.asked.question, tick.time);
+  const auto question = pressed ? tick.asked.question : std::exchange(question_, std::nullopt);
   for_go_on_ = false;
   if (!question) return {};
   asked_ = question;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <optional>
 
 #include "cues/halt.hpp"
@@ -9,7 +11,9 @@
 
 namespace navvi_feedback::cues {
 
-/// Answers what the person asks by a button, and again if the answer was dropped.
+/// Answers what the person asks by a button, and again if the answer was dropped. The same question
+/// a third time within seconds is not answered: words that never end would keep a person from
+/// driving.
 class Answers {
  public:
   /// \param route  knows the way, and takes note that it was told
@@ -26,7 +30,13 @@ class Answers {
   void lost(CueKind kind);
 
  private:
+  /// Takes note of it, unless it comes too often.
+  [[nodiscard]] bool accepts(Question question, double time);
+
   std::optional<Question> asked_;     ///< the last that was answered
+  /// s, of the last two times that it was asked, the earlier one first
+  std::array<double, 2> asked_at_ = {-std::numeric_limits<double>::infinity(),
+                                     -std::numeric_limits<double>::infinity()};
   std::optional<CueKind> answered_;   ///< the kind of that, until it is heard
   std::optional<Question> question_;  ///< still to be answered, or again
   bool for_go_on_ = false;            ///< it waits for "go on", which is due soon

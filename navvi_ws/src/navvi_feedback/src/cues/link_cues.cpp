@@ -1,5 +1,7 @@
 #include "cues/link_cues.hpp"
 
+#include <algorithm>
+
 namespace navvi_feedback::cues {
 namespace {
 
@@ -7,6 +9,17 @@ namespace {
 constexpr double kTogether = 0.3;
 
 }  // namespace
+
+CueKind lost_stick(const Observation& now) {
+  const auto& states = now.devices.states;
+  if (std::count(states.begin(), states.end(), CueKind::pad_too_late) > 0)
+    return CueKind::pad_too_late;
+  return now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost;
+}
+
+CueKind lost_robot(const Observation& now) {
+  return now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost;
+}
 
 const Links& LinkCues::judge(const Observation& now, double time) {
   if (!first_) first_ = time;
@@ -31,12 +44,14 @@ Utterances LinkCues::update(const Observation& now) {
   const auto back = [&](Link Links::*link) {
     return last_.*link == Link::lost && links_.*link == Link::alive;
   };
-  if (lost(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost);
+  // NoticeCues says of one that comes too late.
+  if (lost(&Links::pad) && lost_stick(now) != CueKind::pad_too_late) say(lost_stick(now));
   if (back(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
-  if (lost(&Links::simulator)) say(CueKind::simulator_lost);
+  if (lost(&Links::simulator)) say(lost_robot(now));
   if (back(&Links::audio)) say(CueKind::audio_back);
   const bool simulated = links_.simulator != Link::lost;
   if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
+  if (simulated && back(&Links::proximity)) say(CueKind::proximity_back);
   const bool stopped =
       last_gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
   if (simulated && stopped && links_.pad != Link::lost) say(CueKind::robot_stopped);

@@ -7,6 +7,11 @@
 
 namespace navvi_feedback::cues {
 
+/// The words for a stick that is lost, or whose messages come too late.
+[[nodiscard]] CueKind lost_stick(const Observation& now);
+/// The words for a robot that is silent: of the simulator, or its odometry.
+[[nodiscard]] CueKind lost_robot(const Observation& now);
+
 /// Tells which link is lost, and which is back. A loss that follows from that of the simulator or
 /// the pad has no cue of its own.
 class LinkCues {

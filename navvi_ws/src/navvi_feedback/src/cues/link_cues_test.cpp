@@ -12,7 +12,7 @@ class LinkCuesTest : public CuePolicyTest {};
 TEST_F(LinkCuesTest, says_which_messages_never_came) {
   now_ = Observation();
   pass(9.0);
-  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "the simulator is lost"}));
+  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "the odometry is lost"}));
 }
 
 TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
@@ -26,6 +26,7 @@ TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back)
 
 TEST_F(LinkCuesTest, names_only_the_simulator_when_all_dies_with_it) {
   under_way();
+  now_.simulated = true;
   now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
   now_.gate = DriveState::State::stopped;
   EXPECT_EQ(pass(30.0), Texts{"the simulator is lost"});
@@ -34,6 +35,7 @@ TEST_F(LinkCuesTest, names_only_the_simulator_when_all_dies_with_it) {
 
 TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_missed_first) {
   under_way();
+  now_.simulated = true;
   now_.links.proximity = Link::lost;
   EXPECT_EQ(pass(0.1), Texts{});
   now_.links.simulator = now_.links.guidance = Link::lost;
@@ -42,6 +44,28 @@ TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_misse
   pass(5.0);
   now_.links.proximity = Link::lost;
   EXPECT_EQ(pass(1.0), Texts{"obstacles are not sensed"}) << "where that alone is lost";
+}
+
+TEST_F(LinkCuesTest, names_the_odometry_where_there_is_no_simulator) {
+  under_way();
+  now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
+  EXPECT_EQ(pass(30.0), Texts{"the odometry is lost"});
+}
+
+TEST_F(LinkCuesTest, says_that_obstacles_are_sensed_again) {
+  under_way();
+  now_.links.proximity = Link::lost;
+  EXPECT_EQ(pass(1.0), Texts{"obstacles are not sensed"});
+  now_.links.proximity = Link::alive;
+  EXPECT_EQ(pass(1.0), Texts{"obstacles are sensed again"});
+}
+
+TEST_F(LinkCuesTest, says_that_a_stick_comes_too_late_and_not_that_it_is_disconnected) {
+  under_way();
+  now_.links.pad = Link::lost;
+  now_.devices.states = now_.notices = {CueKind::pad_too_late};
+  EXPECT_EQ(pass(1.0),
+            Texts{"the robot stands, controller signals are too late or clocks differ"});
 }
 
 TEST_F(LinkCuesTest, distinguishes_a_stopped_robot_from_a_lost_controller) {

@@ -1,5 +1,6 @@
 #include "cues/order.hpp"
 
+#include "cues/link_cues.hpp"
 #include "cues/problem.hpp"
 
 namespace navvi_feedback::cues {
@@ -10,9 +11,8 @@ constexpr double kShown = 4.0;  // s
 /// The robot cannot be driven.
 std::optional<Utterance> undriveable(const Tick& tick) {
   const Observation& now = tick.now;
-  if (tick.links.simulator == Link::lost) return Utterance{CueKind::simulator_lost};
-  if (tick.links.pad == Link::lost)
-    return Utterance{now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost};
+  if (tick.links.simulator == Link::lost) return Utterance{lost_robot(now)};
+  if (tick.links.pad == Link::lost) return Utterance{lost_stick(now)};
   if (now.gate == DriveState::State::stopped && !now.robotless)
     return Utterance{CueKind::robot_stopped};
   return std::nullopt;

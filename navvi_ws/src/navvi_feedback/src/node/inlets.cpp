@@ -13,6 +13,7 @@ namespace navvi_feedback::node {
 using devices::Chain;
 using devices::InputSource;
 using devices::Latencies;
+using drive::StickAge;
 using navvi_types::from_msg;
 using navvi_types::to_ns;
 
@@ -32,6 +33,9 @@ void Inlets::complete(senses::Devices& devices) {
   devices.robot = robot();
   devices.asked = asked_;
   if (twin_) devices.states.push_back(CueKind::two_drivers);
+  const StickAge::Late late = stick_age_.late(now());
+  if (late == StickAge::Late::slow) devices.states.push_back(CueKind::pad_late);
+  if (late == StickAge::Late::too_late) devices.states.push_back(CueKind::pad_too_late);
 }
 
 template <typename Msg, typename Take>
@@ -50,8 +54,8 @@ void Inlets::listen_at_once(
 void Inlets::subscribe_to_hands(const NodeConfig& config) {
   InputSource& source = devices_.source();
   if (source.kind() == InputSource::Kind::topic)
-    listen<sensor_msgs::Joy>(
-        "joy", 1, [&source](const drive::InputState& joy) { source.receive(joy, now()); });
+    listen<sensor_msgs::Joy>("joy", 1,
+                             [this, &source](const drive::InputState& joy) { receive(joy, source); });
   // Without a stick in it, the keys are lost. Each message counts: a short press is two.
   if (source.kind() == InputSource::Kind::keyboard)
     listen_at_once<sensor_msgs::Joy>(
@@ -74,6 +78,24 @@ void Inlets::subscribe_to_hands(const NodeConfig& config) {
         if (const auto button = navvi_types::from_word<drive::Button>(msg->data))
           asked_.push_back(*button);
       }));
+}
+
+/// A stick whose messages come too late counts as lost: the wheels would obey a hand that has let go.
+void Inlets::receive(drive::InputState joy, InputSource& source) {
+  const double time = now();
+  if (joy.stamp != 0) {
+    stick_age_.add(1e-9 * static_cast<double>(to_ns(ros::Time::now()) - joy.stamp), time);
+    const StickAge::Late late = stick_age_.late(time);
+    joy.live = late != StickAge::Late::too_late;
+    joy.late = late == StickAge::Late::slow;
+    if (late != StickAge::Late::no && late != logged_)
+      ROS_WARN(
+          "The stick's messages come %.2f s after their stamp (median of 5 s), so the robot %s. The "
+          "way from the stick delays them, or the clocks of the two computers differ (chrony, NTP).",
+          stick_age_.median(), joy.live ? "is slow" : "stands");
+    logged_ = late;
+  }
+  source.receive(joy, time);
 }
 
 void Inlets::subscribe_to_robot() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "devices/latencies.hpp"
+#include "drive/stick_age.hpp"
 #include "navvi_feedback/lockstep/guide.hpp"
 #include "node/node_config.hpp"
 #include "node/person_devices.hpp"
@@ -44,6 +45,7 @@ class Inlets {
   void listen_at_once(const std::string& topic, std::uint32_t queue,
                       const boost::function<void(const ros::MessageEvent<const Msg>&)>& take);
   void subscribe_to_hands(const NodeConfig& config);
+  void receive(drive::InputState joy, devices::InputSource& source);
   void subscribe_to_robot();
   void subscribe_to_trials();
   /// base_link in map; nullopt if it is stale or from the future
@@ -58,6 +60,8 @@ class Inlets {
   navvi_types::TransformListener tf_listener_{tf_};
   std::vector<Eigen::Vector2d> path_, preview_;  ///< m, in map
   std::vector<drive::Button> asked_;             ///< by topic, not answered yet
+  drive::StickAge stick_age_;
+  drive::StickAge::Late logged_ = drive::StickAge::Late::no;
   bool twin_ = false;                            ///< another node drives under the name of this one
   bool runs_ = false;                            ///< a trial
   std::vector<ros::Subscriber> subscribers_;

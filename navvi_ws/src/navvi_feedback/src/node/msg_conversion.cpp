@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_feedback::node {
 namespace {
@@ -10,12 +11,15 @@ constexpr float kAxisSlack = 1e-3F;  // of an axis beyond [-1, 1]
 
 }  // namespace
 
-std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg) {
-  if (msg.axes.size() < 2 || msg.axes.size() > 64 || msg.buttons.size() > 256) return std::nullopt;
+navvi_types::Checked<drive::InputState> from_msg(const sensor_msgs::Joy& msg) {
+  if (msg.axes.size() < 2 || msg.axes.size() > 64 || msg.buttons.size() > 256)
+    return navvi_types::Refusal{"it has fewer than 2 or more than 64 axes, or more than 256 buttons"};
   drive::InputState input;
   input.live = true;
+  input.stamp = navvi_types::to_ns(msg.header.stamp);
   for (const float axis : msg.axes) {
-    if (!(std::abs(axis) <= 1.0F + kAxisSlack)) return std::nullopt;
+    if (!(std::abs(axis) <= 1.0F + kAxisSlack))
+      return navvi_types::Refusal{"an axis in it is not within -1 and 1"};
     input.axes.push_back(static_cast<double>(axis));
   }
   for (const int button : msg.buttons) input.buttons.push_back(button != 0);

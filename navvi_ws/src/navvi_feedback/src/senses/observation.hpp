@@ -65,6 +65,7 @@ struct Observation {
 
   // The robot
   Links links;
+  bool simulated = false;                 ///< there is a simulator, whose world is known
   bool robotless = false;                 ///< a lesson that wants no robot: none of it is missed
   Velocity commanded;                     ///< what was last sent to it
   std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale

@@ -41,6 +41,7 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   seen_hands_ = seen_hands_ || devices.hands.live;
   if (motion_.value) turned_ += motion_.value->angular * dt;
   now.links = links(devices, time);
+  now.simulated = scenario_.has_value();
   if (now.links.simulator == Link::alive) now.measured = motion_.value;
   now.last_measured = motion_.value.value_or(Velocity{});
   now.gate = gate_;

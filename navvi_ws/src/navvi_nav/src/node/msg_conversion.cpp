@@ -1,12 +1,11 @@
 #include "node/msg_conversion.hpp"
 
-#include <navvi_types/limits.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_nav::node {
 namespace {
 
 constexpr std::uint32_t kMaxGridSide = 1000000;  // cells
-constexpr double kLevel = 1e-3;                  // of a quaternion's x and y
 constexpr float kMeshAlpha = 0.35F;
 constexpr double kAboveFloor = 0.02;  // m
 
@@ -36,24 +35,17 @@ std::string error_of(const octomap_msgs::Octomap& map, const std::string& frame)
   return "";
 }
 
-std::optional<map::OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map,
-                                           const std::string& frame) {
-  const auto& q = map.info.origin.orientation;
-  const auto& at = map.info.origin.position;
-  const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
-  const bool sound =
-      map.header.frame_id == frame && within(at.x, navvi_types::kFarthest) &&
-      within(at.y, navvi_types::kFarthest) && within(at.z, navvi_types::kFarthest) &&
-      within(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0, navvi_types::kUnitSlack) &&
-      within(q.x, kLevel) && within(q.y, kLevel) && map.info.width <= kMaxGridSide &&
-      map.info.height <= kMaxGridSide;
-  if (!sound) return std::nullopt;
+navvi_types::Checked<map::OccupancyGrid> from_msg(const nav_msgs::OccupancyGrid& map) {
+  const navvi_types::Checked<navvi_types::Pose2> origin = navvi_types::origin_of(map);
+  if (!origin) return navvi_types::Refusal{origin.why()};
+  if (map.info.width > kMaxGridSide || map.info.height > kMaxGridSide)
+    return navvi_types::Refusal{"it has more than 1000000 cells along a side"};
   map::OccupancyGrid out;
   out.width = static_cast<int>(map.info.width);
   out.height = static_cast<int>(map.info.height);
   out.resolution = static_cast<double>(map.info.resolution);
-  out.origin = {at.x, at.y};
-  out.yaw = 2.0 * std::atan2(q.z, q.w);
+  out.origin = {origin->position.x(), origin->position.y()};
+  out.yaw = origin->yaw;
   out.cells.assign(map.data.begin(), map.data.end());
   return out;
 }

@@ -74,14 +74,20 @@ class NavNode {
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
     subscribers_ = {
         node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
-        node.subscribe("map", 1, &NavNode::on_grid, this),
+        navvi_types::subscribe<nav_msgs::OccupancyGrid>(
+            node, "map", 1, from_msg,
+            [this](const map::OccupancyGrid& grid) {
+              if (!navigator_.set_map(std::make_shared<const map::OccupancyGrid>(grid)))
+                ROS_WARN_ONCE("The occupancy grid is ignored: an OctoMap came before.");
+            },
+            config.map_frame),
         navvi_types::subscribe<navvi_msgs::Obstacles>(
             node, "navvi/obstacles", 1, navvi_types::from_msg,
             [this](const navvi_types::Obstacles& obstacles) {
               navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
               beat();
             },
-            config.map_frame, [this] { navigator_.reject_obstacles(); }),
+            config.map_frame, [this](const std::string&) { navigator_.reject_obstacles(); }),
         navvi_types::subscribe<nav_msgs::Odometry>(
             node, "odom", 1, checked, [this](const nav_msgs::Odometry& msg) { on_odometry(msg); }),
         node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
@@ -114,16 +120,6 @@ class NavNode {
       ROS_ERROR("The map is refused: %s.", error.c_str());
     else
       navigator_.set_map(std::make_shared<const plan::MapMessage>(from_msg(*msg)));
-  }
-
-  void on_grid(const nav_msgs::OccupancyGrid::ConstPtr& msg) {
-    std::optional<map::OccupancyGrid> grid = from_msg(*msg, config_.map_frame);
-    if (!grid) {
-      ROS_ERROR("The occupancy grid is refused: it is not a flat grid in frame '%s'.",
-                config_.map_frame.c_str());
-    } else if (!navigator_.set_map(std::make_shared<const map::OccupancyGrid>(std::move(*grid)))) {
-      ROS_WARN("The occupancy grid is ignored: an OctoMap came before.");
-    }
   }
 
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
@@ -237,8 +233,8 @@ class NavNode {
 
   void report(const plan::PlanAnswer& answer) const {
     if (answer.map_taken) {
-      ROS_INFO("Map taken in %.3f s: %zu polygons in %d tiles, %d tiles changed.", answer.seconds,
-               answer.polygons, answer.mesh.tiles, answer.mesh.tiles_rebuilt);
+      ROS_INFO_ONCE("Map taken in %.3f s: %zu polygons in %d tiles. Later maps are taken unsaid.",
+                    answer.seconds, answer.polygons, answer.mesh.tiles);
     } else if (!answer.map_error.empty()) {
       ROS_ERROR("The map is refused: %s.", answer.map_error.c_str());
     }

@@ -2,11 +2,13 @@
 
 #include <octomap/octomap.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <navvi_config/reader.hpp>
 #include <sstream>
 #include <unordered_set>
+#include <utility>
 
 namespace navvi_perception::map {
 namespace {
@@ -17,6 +19,7 @@ constexpr double kFollow = 4.0;          // m, that the robot drives before the 
 constexpr float kSurelyClear = -1.0F;    // log-odds; three rays at 0.4
 constexpr double kMostCells = 1e8;       // of a prior map
 constexpr double kOnBorder = 1e-6;       // voxels, against rounding
+constexpr double kDoubtful = 0.5;        // m, before the end of a ray, where a map may be amiss
 
 octomap::point3d to_octomap(const Eigen::Vector3d& point) {
   return octomap::point3d(static_cast<float>(point.x()), static_cast<float>(point.y()),
@@ -177,28 +180,47 @@ LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
     : config_(config), trees_(std::make_unique<Trees>(config.resolution)) {
   trees_->seen.setProbHit(config.hit);
   trees_->seen.setProbMiss(config.miss);
+  know(prior);
+}
+
+LocalMap::~LocalMap() = default;
+
+void LocalMap::know(const sight::Prior& prior) {
   flat_ = prior.flat;
+  prior_told_ = false;
+  prior_.clear();
+  columns_ = rows_ = 0;
+  trees_->prior.clear();
   if (prior.cells.empty()) return;
   const double side = config_.resolution;
-  const Eigen::Vector2d end =
-      prior.origin + prior.resolution * Eigen::Vector2d(prior.width, prior.height);
+  const Eigen::Rotation2Dd turn(prior.yaw);
+  const Eigen::Vector2d size = prior.resolution * Eigen::Vector2d(prior.width, prior.height);
+  Eigen::AlignedBox2d box(prior.origin);
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(size.x(), 0.0), size, Eigen::Vector2d(0.0, size.y())})
+    box.extend(prior.origin + turn * corner);
   const double inside = kOnBorder * side;
-  low_ = column_of(prior.origin + Eigen::Vector2d(inside, inside));
-  const Column high = column_of(end - Eigen::Vector2d(inside, inside));
+  low_ = column_of(box.min() + Eigen::Vector2d(inside, inside));
+  const Column high = column_of(box.max() - Eigen::Vector2d(inside, inside));
   columns_ = high.first - low_.first + 1;
   rows_ = high.second - low_.second + 1;
   prior_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   const int top = static_cast<int>(std::ceil(config_.high / side));
+  // The middle of a column may lie outside the grid though some of the column is in it.
+  const double slack = 0.5 * side / prior.resolution;
   for (int y = low_.second; y <= high.second; ++y) {
     for (int x = low_.first; x <= high.first; ++x) {
       const Eigen::Vector2d middle((x + 0.5) * side, (y + 0.5) * side);
-      const Eigen::Vector2d cell = (middle - prior.origin) / prior.resolution;
+      const Eigen::Vector2d cell = turn.inverse() * (middle - prior.origin) / prior.resolution;
+      const bool out = cell.x() < -slack || cell.y() < -slack || cell.x() > prior.width + slack ||
+                       cell.y() > prior.height + slack;
       const auto number = [](double at, int count) {
         return static_cast<std::size_t>(std::clamp(static_cast<int>(std::floor(at)), 0, count - 1));
       };
       const int value =
-          prior.cells[number(cell.y(), prior.height) * static_cast<std::size_t>(prior.width) +
-                      number(cell.x(), prior.width)];
+          out ? -1
+              : prior.cells[number(cell.y(), prior.height) * static_cast<std::size_t>(prior.width) +
+                            number(cell.x(), prior.width)];
       prior_.push_back(value < 0 ? kUnknown : value > kOccupiedAbove ? kOccupied : kClear);
       if (value < 0) continue;
       const int up_to = prior_.back() == kOccupied ? top : 0;
@@ -211,8 +233,6 @@ LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
   trees_->prior.prune();
   widen_prior();
 }
-
-LocalMap::~LocalMap() = default;
 
 void LocalMap::widen_prior() {
   const int reach = static_cast<int>(std::ceil(config_.slack / config_.resolution - kOnBorder));
@@ -324,6 +344,17 @@ LocalMap::Known LocalMap::at(const Eigen::Vector3d& point, bool in_plane) const 
   return clear ? Known::clear : Known::nothing;
 }
 
+bool LocalMap::contradicts(const sight::Sight& sight) const {
+  return std::any_of(sight.clear.begin(), sight.clear.end(), [&](const Eigen::Vector3d& end) {
+    const Eigen::Vector2d from = sight.origin.head<2>();
+    const Eigen::Vector2d way = end.head<2>() - from;
+    const double length = way.norm();
+    for (double at = 0.0; at < length - kDoubtful; at += 0.5 * config_.resolution)
+      if (prior_at(column_of(from + at / length * way)) == kOccupied) return true;
+    return false;
+  });
+}
+
 std::vector<Column> LocalMap::standing(const Eigen::Vector2d& place, double radius) const {
   std::vector<Column> found;
   const Column low = column_of(place.array() - radius);
@@ -353,7 +384,8 @@ std::vector<Eigen::Vector3d> LocalMap::seen() const {
 }
 
 bool LocalMap::changed() {
-  const bool same = !prior_.empty() && trees_->told == trees_->occupied;
+  const bool same =
+      std::exchange(prior_told_, true) && !prior_.empty() && trees_->told == trees_->occupied;
   trees_->told = trees_->occupied;
   return !same;
 }

@@ -41,17 +41,22 @@ class LocalMap {
  public:
   enum class Known { nothing, clear, standing };
 
-  /// \param prior  may be without cells. What it shows is kept for good, each occupied cell from
-  /// the floor up to `high`
+  /// \param prior  as of know()
   explicit LocalMap(const MapConfig& config, const sight::Prior& prior = {});
   ~LocalMap();
 
+  /// Replaces the prior map and keeps what was seen. \param prior  may be without cells. What it
+  /// shows is kept for good, each occupied cell from the floor up to `high`
+  void know(const sight::Prior& prior);
   /// Takes in what stands and what is clear; forgets what is beyond the bound or was not seen for
   /// long.
   void insert(const sight::Sight& sight);
   /// Whether something stands at the point, by a voxel or the slack, or the point is clear.
   /// \param in_plane  of the prior map, if that is flat
   [[nodiscard]] Known at(const Eigen::Vector3d& point, bool in_plane = true) const;
+  /// True if a ray of `clear` passes a wall of the prior map, more than 0.5 m before its end: the
+  /// map or the sensor is wrong.
+  [[nodiscard]] bool contradicts(const sight::Sight& sight) const;
   /// True for what is between `low` and `high`, m above the floor.
   [[nodiscard]] bool matters(const Eigen::Vector3d& point) const {
     return point.z() > config_.floor + config_.low && point.z() < config_.floor + config_.high;
@@ -83,6 +88,7 @@ class LocalMap {
   int columns_ = 0;
   int rows_ = 0;
   std::vector<Prior> prior_;
+  bool prior_told_ = false;  ///< by changed()
   std::unique_ptr<Trees> trees_;
   std::int64_t faded_ = 0;                            ///< ns, when fade() was last done
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();  ///< m, of what is kept

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
 
+#include <Eigen/Geometry>
 #include <fstream>
 #include <navvi_config/reader.hpp>
 #include <sstream>
@@ -73,6 +74,59 @@ TEST(LocalMap, an_octomap_is_a_prior_map_of_all_heights) {
   EXPECT_THROW((void)prior_of("/no/such.bt", MapConfig()), navvi_config::ConfigError);
   std::ofstream(file) << "no tree";
   EXPECT_THROW((void)prior_of(file, MapConfig()), navvi_config::ConfigError);
+}
+
+/// 4 m by 2 m of floor with a wall at its far end, turned about its lower corner at the origin.
+sight::Prior strip(double yaw) {
+  sight::Prior prior{0.05, {0.0, 0.0}, 80, 40, {}};
+  for (int i = 0; i < 80 * 40; ++i) prior.cells.push_back(i % 80 >= 78 ? 100 : 0);
+  prior.yaw = yaw;
+  return prior;
+}
+
+TEST(LocalMap, a_turned_prior_map_lies_as_it_was_turned) {
+  for (const double yaw : {0.0, 0.3, 2.0, -2.5}) {
+    const LocalMap map(MapConfig(), strip(yaw));
+    const auto known = [&](double x, double y) {
+      const Eigen::Vector2d at = Eigen::Rotation2Dd(yaw) * Eigen::Vector2d(x, y);
+      return map.at({at.x(), at.y(), 0.12});
+    };
+    EXPECT_EQ(known(3.95, 1.0), Known::standing) << yaw;
+    EXPECT_EQ(known(2.0, 1.0), Known::clear) << yaw;
+    EXPECT_EQ(known(2.0, -0.2), Known::nothing) << yaw;
+    EXPECT_EQ(known(2.0, 2.2), Known::nothing) << yaw;
+    EXPECT_EQ(known(-0.2, 1.0), Known::nothing) << yaw;
+  }
+}
+
+TEST(LocalMap, another_prior_map_replaces_the_first_and_leaves_what_was_seen) {
+  LocalMap map(MapConfig(), strip(0.0));
+  for (int i = 0; i < 3; ++i) map.insert(ray({2.02, 0.52, 0.12}, 1.0 + 0.1 * i));
+  EXPECT_TRUE(map.changed());
+  EXPECT_FALSE(map.changed());
+  sight::Prior next = strip(0.0);
+  next.cells[20 * 80 + 20] = 100;
+  map.know(next);
+  EXPECT_TRUE(map.changed());
+  EXPECT_EQ(map.at({2.02, 0.52, 0.12}), Known::standing) << "seen";
+  EXPECT_EQ(map.at({1.02, 1.02, 0.12}), Known::standing) << "of the new map";
+  map.know({});
+  EXPECT_EQ(map.at({1.02, 1.02, 0.12}), Known::nothing);
+  EXPECT_EQ(map.at({2.02, 0.52, 0.12}), Known::standing);
+}
+
+TEST(LocalMap, a_ray_without_a_return_contradicts_a_wall_of_the_prior_map) {
+  sight::Sight sight = ray({0.0, 0.0, 0.0}, 1.0, 1.0);
+  sight.origin.y() = 1.0;
+  sight.hits.clear();
+  const LocalMap map(MapConfig(), strip(0.0));
+  sight.clear = {{3.5, 1.0, 0.12}};
+  EXPECT_FALSE(map.contradicts(sight)) << "it ends before the wall";
+  sight.clear = {{4.2, 1.0, 0.12}};
+  EXPECT_FALSE(map.contradicts(sight)) << "it ends so near the wall that the map may be amiss";
+  sight.clear = {{1.0, 9.0, 0.12}, {9.0, 1.0, 0.12}};
+  EXPECT_TRUE(map.contradicts(sight));
+  EXPECT_FALSE(LocalMap(MapConfig()).contradicts(sight)) << "without a map";
 }
 
 TEST(LocalMap, a_thing_that_rays_pass_again_is_gone) {

@@ -8,6 +8,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
+#include <navvi_types/checked.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
 #include <vector>
@@ -16,20 +17,18 @@
 
 namespace navvi_perception::node {
 
-// Incoming messages. nullopt for one that no sensor can have meant: it is dropped whole (safety
-// rule 2).
+using navvi_types::Checked;
 
-/// The scan with finite angles, times and limits, and one range in order at least. As in REP-117
-/// +inf is a ray that met nothing and NaN one without a measurement; what lies nearer than
-/// range_min counts as NaN.
-[[nodiscard]] std::optional<sensor_msgs::LaserScan::ConstPtr> from_msg(
-    const sensor_msgs::LaserScan& msg);
-/// The cloud with x, y and z as floats, as much data as it announces, at most 4 million points and
-/// one finite point at least. A point that is not finite is a pixel without a measurement.
-[[nodiscard]] std::optional<sensor_msgs::PointCloud2::ConstPtr> from_msg(
+// Incoming messages, or why one is dropped whole (safety rule 2).
+
+/// The scan with finite angles, times and limits, and at least one ray.
+[[nodiscard]] Checked<sensor_msgs::LaserScan::ConstPtr> from_msg(const sensor_msgs::LaserScan& msg);
+/// The cloud with x, y and z as floats or doubles, and as much data as it announces: row after row,
+/// whatever its row_step says, or rows of row_step. At most 4 million points; none is a cloud, too.
+[[nodiscard]] Checked<sensor_msgs::PointCloud2::ConstPtr> from_msg(
     const sensor_msgs::PointCloud2& msg);
-/// nullopt also where it is turned, or its resolution is not within 0.01 and 1 m.
-[[nodiscard]] std::optional<sight::Prior> from_msg(const nav_msgs::OccupancyGrid& msg);
+/// The grid, turned or not, with a resolution within 0.01 and 1 m.
+[[nodiscard]] Checked<sight::Prior> from_msg(const nav_msgs::OccupancyGrid& msg);
 
 /// nullopt if a number is not finite or too far, or the rotation none.
 [[nodiscard]] std::optional<Eigen::Isometry3d> pose_of(const geometry_msgs::Transform& transform);
@@ -38,9 +37,15 @@ namespace navvi_perception::node {
 [[nodiscard]] std::vector<Eigen::Vector3d> points_of(const sensor_msgs::PointCloud2& cloud,
                                                      std::size_t most);
 
-/// The scan with rays that met nothing as long as the sensor sees, so that they are points, too.
+/// s, from the first ray to the last
+[[nodiscard]] double sweep_of(const sensor_msgs::LaserScan& scan);
+/// The scan as in REP-117: a ray between range_min and range_max as it is, one that met nothing
+/// +inf, any other NaN. \param free  so do drivers tell that a ray met nothing: 0, NaN, or
+/// range_max and more
+[[nodiscard]] sensor_msgs::LaserScan plain(sensor_msgs::LaserScan scan, bool free);
+/// A plain scan with rays that met nothing as long as the sensor sees, so that they are points, too.
 [[nodiscard]] sensor_msgs::LaserScan with_clear_rays(sensor_msgs::LaserScan scan);
-/// Adds a scan's points to the hits, or where rays met nothing to what is clear.
+/// Adds a plain scan's points to the hits, or where rays met nothing to what is clear.
 /// \param cloud  made of with_clear_rays(scan) by laser_geometry with channel Index, in map
 void add_points(const sensor_msgs::LaserScan& scan, const sensor_msgs::PointCloud2& cloud,
                 sight::Sight& sight);

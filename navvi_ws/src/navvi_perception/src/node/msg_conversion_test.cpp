@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <set>
@@ -37,23 +41,48 @@ sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points) {
   return msg;
 }
 
+/// How rays are read: '.' as measured, 'c' clear, '?' unknown.
+std::string read(const std::vector<float>& ranges, bool free) {
+  sensor_msgs::LaserScan msg = scan();
+  msg.ranges = ranges;
+  std::string words;
+  for (const float range : plain(msg, free).ranges)
+    words += std::isnan(range) ? '?' : std::isinf(range) ? 'c' : '.';
+  return words;
+}
+
+TEST(MsgConversion, reads_rays_without_a_return_as_rep_117_or_as_the_driver_means_them) {
+  const std::vector<float> ranges = {1.0F, kInf, kNan, 0.0F, 10.0F, 11.0F, 65.535F, 0.05F, -kInf};
+  EXPECT_EQ(read(ranges, false), ".c???????");
+  EXPECT_EQ(read(ranges, true), ".cccccc??") << "what is too near is never free";
+}
+
 TEST(MsgConversion, takes_a_scan_with_rays_that_met_nothing_or_have_no_measurement) {
   const auto good = from_msg(scan());
   ASSERT_TRUE(good);
   EXPECT_LT(with_clear_rays(**good).ranges[1], 10.0F);
   EXPECT_GT(with_clear_rays(**good).ranges[1], 9.99F);
+  sensor_msgs::LaserScan none = scan();
+  none.ranges = {kNan, 0.0F};
+  EXPECT_TRUE(from_msg(none)) << "whether it tells anything depends on what the driver means";
+}
+
+TEST(MsgConversion, says_which_value_of_a_message_is_wrong) {
+  sensor_msgs::LaserScan slow = scan();
+  slow.time_increment = 10.0F;
+  EXPECT_NE(from_msg(slow).why().find("a sweep of 30"), std::string::npos) << from_msg(slow).why();
+  sensor_msgs::PointCloud2 points = cloud({{1, 2, 3}});
+  points.fields.pop_back();
+  EXPECT_NE(from_msg(points).why().find("field z"), std::string::npos) << from_msg(points).why();
+  nav_msgs::OccupancyGrid map;
+  map.info.resolution = 5.0F;
+  EXPECT_NE(from_msg(map).why().find("resolution"), std::string::npos) << from_msg(map).why();
 }
 
 TEST(MsgConversion, drops_a_scan_that_no_lidar_can_have_meant) {
   const std::vector<std::function<void(sensor_msgs::LaserScan&)>> faults = {
       [](auto& msg) { msg.header.frame_id = ""; },
       [](auto& msg) { msg.ranges.clear(); },
-      [](auto& msg) {
-        msg.ranges = {kNan, kNan};
-      },
-      [](auto& msg) {
-        msg.ranges = {20.0F, -kInf};
-      },
       [](auto& msg) { msg.ranges.assign(200'000, 1.0F); },
       [](auto& msg) { msg.angle_min = kNan; },
       [](auto& msg) { msg.angle_increment = kNan; },
@@ -68,6 +97,7 @@ TEST(MsgConversion, drops_a_scan_that_no_lidar_can_have_meant) {
     sensor_msgs::LaserScan msg = scan();
     faults[i](msg);
     EXPECT_FALSE(from_msg(msg)) << i;
+    EXPECT_NE(from_msg(msg).why(), "") << i;
   }
 }
 
@@ -80,22 +110,82 @@ TEST(MsgConversion, takes_the_finite_points_of_a_cloud_and_thins_them) {
   EXPECT_EQ(points_of(msg, 3)[1], Eigen::Vector3d(4, 5, 6));
 }
 
+/// The same two rows of two points, as a driver has them.
+struct Habit {
+  const char* name;
+  std::function<void(sensor_msgs::PointCloud2&)> have;
+};
+
+/// The message with x, y and z as Number, `extra` bytes after each row, and bytes turned round.
+template <typename Number>
+void rewrite(sensor_msgs::PointCloud2& msg, std::size_t extra, bool big) {
+  const std::vector<Eigen::Vector3d> points = points_of(msg, 100);
+  msg.data.clear();
+  msg.point_step = 3 * sizeof(Number);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    msg.fields[axis].offset = static_cast<std::uint32_t>(axis * sizeof(Number));
+    msg.fields[axis].datatype = sizeof(Number) == 8 ? sensor_msgs::PointField::FLOAT64
+                                                    : sensor_msgs::PointField::FLOAT32;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto number = static_cast<Number>(points[i][axis]);
+      std::array<std::uint8_t, sizeof(Number)> bytes{};
+      std::memcpy(bytes.data(), &number, bytes.size());
+      if (big) std::reverse(bytes.begin(), bytes.end());
+      msg.data.insert(msg.data.end(), bytes.begin(), bytes.end());
+    }
+    if (i % 2 == 1) msg.data.insert(msg.data.end(), extra, 0);
+  }
+  msg.row_step = static_cast<std::uint32_t>(2 * msg.point_step + extra);
+  msg.is_bigendian = big;
+}
+
+TEST(MsgConversion, reads_clouds_as_drivers_lay_them_out) {
+  const std::vector<Habit> habits = {
+      {"as defined", [](auto&) {}},
+      {"row_step 0", [](auto& msg) { msg.row_step = 0; }},
+      {"row_step of another width", [](auto& msg) { msg.row_step /= 2; }},
+      {"row_step beyond all bounds", [](auto& msg) { msg.row_step = 4'000'000'000U; }},
+      {"padded rows", [](auto& msg) { rewrite<float>(msg, 40, false); }},
+      {"doubles", [](auto& msg) { rewrite<double>(msg, 0, false); }},
+      {"big-endian", [](auto& msg) { rewrite<float>(msg, 0, true); }},
+      {"big-endian doubles in padded rows", [](auto& msg) { rewrite<double>(msg, 16, true); }},
+  };
+  for (const Habit& habit : habits) {
+    sensor_msgs::PointCloud2 msg = cloud({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {-1, 0, 2}});
+    msg.height = msg.width = 2;
+    msg.row_step /= 2;
+    habit.have(msg);
+    ASSERT_TRUE(from_msg(msg)) << habit.name << ": " << from_msg(msg).why();
+    const std::vector<Eigen::Vector3d> points = points_of(**from_msg(msg), 100);
+    ASSERT_EQ(points.size(), 4U) << habit.name;
+    EXPECT_EQ(points[2], Eigen::Vector3d(7, 8, 9)) << habit.name;
+    EXPECT_EQ(points[3], Eigen::Vector3d(-1, 0, 2)) << habit.name;
+  }
+}
+
+TEST(MsgConversion, takes_a_cloud_in_which_nothing_is_seen) {
+  for (sensor_msgs::PointCloud2 msg : {cloud({}), cloud({{kNan, kNan, kNan}})}) {
+    ASSERT_TRUE(from_msg(msg)) << from_msg(msg).why();
+    EXPECT_TRUE(points_of(msg, 100).empty());
+    msg.fields.clear();
+    msg.row_step = 7;
+    EXPECT_EQ(from_msg(msg).has_value(), msg.width == 0) << "no points need no fields";
+  }
+}
+
 TEST(MsgConversion, drops_a_cloud_that_is_not_whole) {
   const std::vector<std::function<void(sensor_msgs::PointCloud2&)>> faults = {
       [](auto& msg) { msg.header.frame_id = ""; },
-      [](auto& msg) { msg = cloud({}), msg.header.frame_id = "camera"; },
-      [](auto& msg) {
-        msg = cloud({{kNan, kNan, kNan}});
-      },
       [](auto& msg) { msg.data.pop_back(); },
       [](auto& msg) { msg.width = 4'000'000'000U; },
       [](auto& msg) { msg.height = 4'000'000'000U; },
-      [](auto& msg) { msg.row_step = 4'000'000'000U; },
+      [](auto& msg) { msg.height = 2, msg.width = 2; },
       [](auto& msg) { msg.point_step = 4; },
       [](auto& msg) { msg.fields.pop_back(); },
       [](auto& msg) { msg.fields[2].offset = 4'000'000'000U; },
       [](auto& msg) { msg.fields[0].datatype = sensor_msgs::PointField::INT8; },
-      [](auto& msg) { msg.is_bigendian = true; },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) {
     sensor_msgs::PointCloud2 msg = cloud({{1, 2, 3}, {4, 5, 6}});
@@ -122,8 +212,17 @@ TEST(MsgConversion, takes_a_prior_map_that_lies_flat_and_is_whole) {
   msg.info.origin.position.x = static_cast<double>(kNan);
   EXPECT_FALSE(from_msg(msg));
   msg.info.origin.position.x = 0.0;
-  msg.info.origin.orientation.z = 0.5;
+  msg.info.origin.orientation.z = std::sin(0.15);
+  msg.info.origin.orientation.w = std::cos(0.15);
+  ASSERT_TRUE(from_msg(msg)) << from_msg(msg).why();
+  EXPECT_NEAR(from_msg(msg)->yaw, 0.3, 1e-9);
+  msg.info.origin.orientation.z = msg.info.origin.orientation.w = 0.0;
+  ASSERT_TRUE(from_msg(msg)) << "a quaternion that was left at 0: " << from_msg(msg).why();
+  EXPECT_EQ(from_msg(msg)->yaw, 0.0);
+  msg.info.origin.orientation.w = 0.5;
   EXPECT_FALSE(from_msg(msg));
+  msg.info.origin.orientation.w = msg.info.origin.orientation.y = std::sqrt(0.5);
+  EXPECT_FALSE(from_msg(msg)) << "tilted";
 }
 
 TEST(MsgConversion, shows_what_stands_and_what_moves_and_nothing_of_before) {

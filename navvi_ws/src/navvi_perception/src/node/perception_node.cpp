@@ -1,16 +1,19 @@
 // Scans, clouds, a bumper and transforms in; OctoMap, obstacles, proximity and contacts out.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <laser_geometry/laser_geometry.h>
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
-#include <tf2_ros/message_filter.h>
 
+#include <boost/algorithm/string.hpp>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
 #include <navvi_types/transform_listener.hpp>
+#include <utility>
 
 #include "navvi_perception/see/perception.hpp"
 #include "node/msg_conversion.hpp"
@@ -21,18 +24,22 @@ namespace {
 using sensor_msgs::LaserScan;
 using sensor_msgs::PointCloud2;
 
-constexpr double kRate = 20.0;          // Hz, of proximity
-constexpr double kAhead = 0.2;          // s, that a stamp may lie in the future
-constexpr double kOld = 1.0;            // s; an older message tells of another place
-constexpr double kFresh = 0.5;          // s; older sights tell of nothing near
-constexpr std::uint32_t kWaiting = 10;  // messages that wait for their transforms
-constexpr std::size_t kScan = 0;        // sensors
-constexpr std::size_t kCloud = 1;
+constexpr double kRate = 20.0;           // Hz, of proximity
+constexpr double kReport = 1.0;          // s, between two diagnostics
+constexpr int kBegins = 10;              // of these, in which the first sight may come
+constexpr double kAhead = 0.2;           // s, that a stamp may lie in the future
+constexpr double kOld = 1.0;             // s; an older message tells of another place
+constexpr double kFresh = 0.5;           // s without a sight, after which nothing is known
+constexpr double kSweepPatience = 0.2;   // s, that a scan waits for the place of its last ray
+constexpr double kRounding = 1e-3;       // s, of the stamps of transforms
+constexpr std::size_t kMostWaiting = 10;  // messages of a sensor that wait for their transforms
 
 struct NodeConfig {
   see::PerceptionConfig core;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
+  std::string scans = "scan", clouds = "points";  ///< topics, separated by commas
+  std::string no_return = "unknown";             ///< or free
   std::string prior;         ///< a file with an OctoMap; empty: the topic map is listened to
   std::string bumper;        ///< empty: none
   double cloud_rate = 10.0;  ///< Hz
@@ -44,6 +51,11 @@ struct NodeConfig {
     core.describe(visit);
     visit(map_frame, "map_frame", Any{}, "", "frame of the map and of all that is published");
     visit(base_frame, "base_frame", Any{}, "", "frame of the robot");
+    visit(scans, "scans", Any{}, "", "topics with sensor_msgs/LaserScan, separated by commas");
+    visit(clouds, "clouds", Any{}, "", "topics with sensor_msgs/PointCloud2, separated by commas");
+    visit(no_return, "no_return", navvi_config::OneOf{{"unknown", "free"}}, "",
+          "what the drivers mean by a ray of 0, NaN, or range_max and more, and by a cloud without "
+          "points: no measurement, or nothing there (doc/robot.md has a table of drivers)");
     visit(
         prior, "prior", Any{}, "",
         "file .bt or .ot with the OctoMap of what stands for good, used in place of the topic map");
@@ -63,19 +75,14 @@ class PerceptionNode {
     obstacles_ = node.advertise<navvi_msgs::Obstacles>("navvi/obstacles", 2);
     seen_ = node.advertise<visualization_msgs::MarkerArray>("navvi/seen_markers", 1);
     proximity_ = node.advertise<navvi_msgs::Proximity>("navvi/proximity", 2);
-    scans_.registerCallback([this](const LaserScan::ConstPtr& scan) { on_scan(*scan); });
-    clouds_.registerCallback([this](const PointCloud2::ConstPtr& cloud) { on_cloud(*cloud); });
-    const auto no_transform = [this](const auto& msg, auto) {
-      refuse(msg->header, "no transform leads from its frame to " + config_.map_frame);
-    };
-    scans_.registerFailureCallback(no_transform);
-    clouds_.registerFailureCallback(no_transform);
-    subscribers_ = {listen<LaserScan>(node, "scan", scans_),
-                    listen<PointCloud2>(node, "points", clouds_)};
+    diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
+    listen<LaserScan>(node, config.scans);
+    listen<PointCloud2>(node, config.clouds);
+    moved_ = buffer_._addTransformsChangedListener([this] { serve(); });
     if (config.prior.empty())
       subscribers_.push_back(navvi_types::subscribe<nav_msgs::OccupancyGrid>(
           node, "map", 1, from_msg, [this](const sight::Prior& prior) { know(prior); },
-          config.map_frame));
+          config.map_frame, [this](const std::string& why) { count("map", why); }));
     else
       know(config.core.prior_of(config.prior));
     if (!config.bumper.empty()) {
@@ -84,68 +91,178 @@ class PerceptionNode {
     }
     timer_ = node.createWallTimer(ros::WallDuration(1.0 / kRate),
                                   [this](const ros::WallTimerEvent&) { tell_what_is_near(); });
+    report_timer_ = node.createWallTimer(ros::WallDuration(kReport),
+                                         [this](const ros::WallTimerEvent&) { report(); });
     ROS_INFO(
-        "Whatever is seen is called other, or wall if it stands and is long; what lies outside the "
+        "Every object is called other, or wall if it stands and is long; what lies outside the "
         "sensors' sight is not known, so %s. Contacts: %s.",
         "a lidar alone misses what ends below its plane and what hangs above it",
         config.bumper.empty() ? "unknown, as there is no bumper" : config.bumper.c_str());
   }
 
+  ~PerceptionNode() { moved_.disconnect(); }
+  PerceptionNode(const PerceptionNode&) = delete;
+  PerceptionNode& operator=(const PerceptionNode&) = delete;
+
  private:
+  /// A scan or a cloud that waits until transforms tell where its sensor and the robot were.
+  struct Waiting {
+    std_msgs::Header header;
+    double sweep = 0.0;  ///< s, from the first ray to the last
+    ros::Time came;
+    LaserScan::ConstPtr scan;
+    PointCloud2::ConstPtr cloud;
+  };
+  struct Sensor {
+    std::string topic;
+    std::deque<Waiting> waiting;
+    std::int64_t last = 0;   ///< ns, its last stamp
+    bool sees_body = false;  ///< its own robot, which was logged
+  };
+
   template <typename Message>
-  ros::Subscriber listen(ros::NodeHandle& node, const char* topic,
-                         tf2_ros::MessageFilter<Message>& filter) {
-    return navvi_types::subscribe<Message>(
-        node, topic, kWaiting, from_msg, [this, &filter](const typename Message::ConstPtr& msg) {
-          const double age = (ros::Time::now() - msg->header.stamp).toSec();
-          if (age < -kAhead)
-            refuse(msg->header, "its stamp lies in the future");
-          else if (age > kOld)
-            refuse(msg->header, "it is too old");
-          else
-            filter.add(msg);
-        });
+  void listen(ros::NodeHandle& node, const std::string& topics) {
+    std::vector<std::string> names;
+    boost::split(names, topics, boost::is_any_of(", "), boost::token_compress_on);
+    for (const std::string& topic : names) {
+      if (topic.empty()) continue;
+      const std::size_t sensor = sensors_.size();
+      sensors_.emplace_back().topic = topic;
+      subscribers_.push_back(navvi_types::subscribe<Message>(
+          node, topic, kMostWaiting, from_msg,
+          [this, sensor](const typename Message::ConstPtr& msg) { receive(sensor, msg); }, {},
+          [this, topic](const std::string& why) { count(topic, why); }));
+    }
   }
 
-  void refuse(const std_msgs::Header& header, const std::string& why) {
-    ++refused_;
-    ROS_WARN_THROTTLE(5.0, "What was seen from frame %s was dropped: %s (%u so far).",
-                      header.frame_id.c_str(), why.c_str(), refused_);
+  void receive(std::size_t sensor, const LaserScan::ConstPtr& scan) {
+    wait(sensor, {scan->header, sweep_of(*scan), ros::Time::now(), scan, nullptr});
+  }
+  void receive(std::size_t sensor, const PointCloud2::ConstPtr& cloud) {
+    const auto last = navvi_types::from_ns(sensors_[sensor].last);
+    const double since = (cloud->header.stamp - last).toSec();
+    if (since < 0.0 || since * config_.cloud_rate >= 1.0)
+      wait(sensor, {cloud->header, 0.0, ros::Time::now(), nullptr, cloud});
   }
 
-  /// Begins afresh.
-  void know(const sight::Prior& prior) {
-    prior_ = prior;
-    perception_ = std::make_unique<see::Perception>(config_.core, prior_);
-    ROS_INFO("A prior map of %d x %d cells is known.", prior.width, prior.height);
+  void wait(std::size_t sensor, Waiting one) {
+    const double age = (one.came - one.header.stamp).toSec();
+    if (age < -kAhead)
+      return refuse(sensor, "its stamp is " + std::to_string(-age) +
+                                " s ahead of this clock: keep all computers' clocks together");
+    if (age > kOld)
+      return refuse(sensor, "its stamp is " + std::to_string(age) +
+                                " s old: a delay on the way, or clocks that differ");
+    one.header.frame_id = navvi_types::without_slash(one.header.frame_id);
+    std::deque<Waiting>& queue = sensors_[sensor].waiting;
+    if (queue.size() == kMostWaiting) drop_first(sensor);
+    queue.push_back(std::move(one));
+    serve();
   }
 
-  void on_scan(const LaserScan& scan) {
+  void drop_first(std::size_t sensor) {
+    const Waiting& one = sensors_[sensor].waiting.front();
+    std::string why;
+    if (buffer_.canTransform(config_.map_frame, one.header.frame_id, one.header.stamp, &why))
+      (void)buffer_.canTransform(config_.map_frame, config_.base_frame, one.header.stamp, &why);
+    refuse(sensor, "no transform leads from frame '" + one.header.frame_id + "' and from '" +
+                       config_.base_frame + "' to '" + config_.map_frame + "' in time: " + why);
+    sensors_[sensor].waiting.pop_front();
+  }
+
+  [[nodiscard]] bool is_placed(const std::string& frame, const ros::Time& time) const {
+    return buffer_.canTransform(config_.map_frame, frame, time) &&
+           buffer_.canTransform(config_.map_frame, config_.base_frame, time);
+  }
+
+  /// Takes what need not wait any more, in the order of each sensor.
+  void serve() {
+    for (std::size_t sensor = 0; sensor < sensors_.size(); ++sensor)
+      while (!sensors_[sensor].waiting.empty() && take_first(sensor)) {
+      }
+  }
+
+  /// A scan waits for the place of its last ray where that comes soon; else all its rays count as
+  /// measured at its stamp. \return false if it waits on
+  bool take_first(std::size_t sensor) {
+    const Waiting& first = sensors_[sensor].waiting.front();
+    const double waited = std::abs((ros::Time::now() - first.came).toSec());
+    const bool placed = is_placed(first.header.frame_id, first.header.stamp);
+    if (!placed && waited > kOld) {
+      drop_first(sensor);
+      return true;
+    }
+    const bool whole =
+        first.sweep == 0.0 ||
+        is_placed(first.header.frame_id,
+                  first.header.stamp + ros::Duration(first.sweep + kRounding));
+    if (!placed || (!whole && waited < kSweepPatience)) return false;
+    const Waiting one = first;
+    sensors_[sensor].waiting.pop_front();
     sight::Sight sight;
-    if (!begin(scan.header, kScan, sight)) return;
+    if (!begin(one.header, sensor, sight)) return true;
+    if (one.scan ? read(*one.scan, whole, sight) : read(*one.cloud, sight)) take(sight);
+    return true;
+  }
+
+  /// \param whole  the sensor's place is known for all of the sweep
+  bool read(const LaserScan& scan, bool whole, sight::Sight& sight) {
+    LaserScan rays = plain(scan, config_.no_return == "free");
+    rays.header.frame_id = navvi_types::without_slash(scan.header.frame_id);
+    if (!whole) rays.time_increment = 0.0F;
+    PointCloud2 cloud;
     try {
-      PointCloud2 cloud;
-      projector_.transformLaserScanToPointCloud(config_.map_frame, with_clear_rays(scan), cloud,
+      projector_.transformLaserScanToPointCloud(config_.map_frame, with_clear_rays(rays), cloud,
                                                 buffer_, static_cast<double>(scan.range_max),
                                                 laser_geometry::channel_option::Index);
-      add_points(scan, cloud, sight);
     } catch (const tf2::TransformException& error) {
-      return refuse(scan.header, error.what());
+      refuse(sight.sensor, error.what());
+      return false;
     }
-    take(sight);
+    add_points(rays, cloud, sight);
+    if (sight.hits.empty() && sight.clear.empty()) {
+      refuse(sight.sensor,
+             "none of its rays has a measurement (all are 0, NaN, or range_max and more); where "
+             "the driver means by this that nothing is near, set perception/no_return to free");
+      return false;
+    }
+    return true;
   }
 
-  void on_cloud(const PointCloud2& cloud) {
-    const double since = (cloud.header.stamp - navvi_types::from_ns(last_[kCloud])).toSec();
-    sight::Sight sight;
-    if ((since >= 0.0 && since * config_.cloud_rate < 1.0) || !begin(cloud.header, kCloud, sight))
-      return;
-    const std::optional<Eigen::Isometry3d> pose = in_map(cloud.header.frame_id, cloud.header.stamp);
-    if (!pose) return;
+  bool read(const PointCloud2& cloud, sight::Sight& sight) {
+    const std::optional<Eigen::Isometry3d> pose =
+        in_map(navvi_types::without_slash(cloud.header.frame_id), cloud.header.stamp);
+    if (!pose) return false;
     sight.in_plane = false;
     sight.hits = points_of(cloud, static_cast<std::size_t>(config_.cloud_points));
     for (Eigen::Vector3d& hit : sight.hits) hit = *pose * hit;
-    take(sight);
+    if (!sight.hits.empty() || config_.no_return == "free") return true;
+    refuse(sight.sensor,
+           "it has no finite point; where the driver means by this that nothing is near, set "
+           "perception/no_return to free");
+    return false;
+  }
+
+  void count(const std::string& topic, const std::string& why) {
+    last_refusal_ = topic + ": " + why;
+    refused_ = true;
+    (void)refusals_(last_refusal_);
+  }
+
+  void refuse(std::size_t sensor, const std::string& why) {
+    last_refusal_ = sensors_[sensor].topic + ": " + why;
+    refused_ = true;
+    if (refusals_(last_refusal_))
+      ROS_WARN("A message on %s was dropped: %s. More of this kind are dropped unsaid.",
+               sensors_[sensor].topic.c_str(), why.c_str());
+  }
+
+  void know(const sight::Prior& prior) {
+    if (prior == prior_) return;
+    ROS_INFO_ONCE("A prior map of %d x %d cells is known. Later maps are taken unsaid.",
+                  prior.width, prior.height);
+    prior_ = prior;
+    perception_->know(prior_);
   }
 
   /// Fills in all but the points. \return false if it cannot be used
@@ -155,15 +272,16 @@ class PerceptionNode {
     const auto robot = in_map(config_.base_frame, header.stamp);
     if (!eye || !robot) return false;
     sight.stamp = navvi_types::to_ns(header.stamp);
-    if ((navvi_types::from_ns(last_[sensor]) - header.stamp).toSec() > kOld) {
+    std::int64_t& last = sensors_[sensor].last;
+    if ((navvi_types::from_ns(last) - header.stamp).toSec() > kOld) {
       ROS_WARN("Time jumped back; what was seen is forgotten.");
-      know(prior_);
-      last_ = {};
-    } else if (sight.stamp < last_[sensor]) {
-      refuse(header, "a later one came before it");
+      perception_ = std::make_unique<see::Perception>(config_.core, prior_);
+      for (Sensor& one : sensors_) one.last = 0;
+    } else if (sight.stamp < last) {
+      refuse(sensor, "a later one came before it");
       return false;
     }
-    last_[sensor] = sight.stamp;
+    last = sight.stamp;
     sight.sensor = sensor;
     sight.robot = flat(*robot);
     sight.origin = eye->translation();
@@ -179,9 +297,7 @@ class PerceptionNode {
     try {
       return pose_of(buffer_.lookupTransform(config_.map_frame, frame, time).transform);
     } catch (const tf2::TransformException& error) {
-      std_msgs::Header header;
-      header.frame_id = frame;
-      refuse(header, error.what());
+      count(frame, error.what());
       return std::nullopt;
     }
   }
@@ -194,15 +310,37 @@ class PerceptionNode {
   }
 
   void take(const sight::Sight& sight) {
+    if (!perception_->believes(sight))
+      return refuse(sight.sensor,
+                    "no ray returns, though the map has a wall within range: the sensor is blind, "
+                    "or the robot is elsewhere");
+    note_body(sight);
     perception_->take(sight);
     sight_ = sight.stamp;
+    taken_ = ros::Time::now();
     const navvi_types::Obstacles told = perception_->obstacles(sight.stamp);
     navvi_msgs::Obstacles obstacles = navvi_types::to_msg(told);
     obstacles.header.frame_id = config_.map_frame;
     obstacles_.publish(obstacles);
-    if (sight.sensor == kScan || last_[kScan] == 0) show(told);
+    if (sight.sensor == 0 || sensors_.front().last == 0) show(told);
     if (const auto bytes = perception_->map(sight.stamp))
       map_.publish(map_msg(*bytes, config_.core.resolution(), sight.stamp, config_.map_frame));
+  }
+
+  void note_body(const sight::Sight& sight) {
+    Sensor& sensor = sensors_[sight.sensor];
+    if (sensor.sees_body) return;
+    const double radius = config_.core.robot_radius();
+    const auto inside = std::count_if(
+        sight.hits.begin(), sight.hits.end(), [&](const Eigen::Vector3d& hit) {
+          return (hit.head<2>() - sight.robot.position).norm() <= radius;
+        });
+    if (inside == 0) return;
+    sensor.sees_body = true;
+    ROS_INFO("%s: %zu of %zu points lie within perception/robot_radius (%.2f m) of %s. They are "
+             "the robot's own body, and left out.",
+             sensor.topic.c_str(), static_cast<std::size_t>(inside), sight.hits.size(), radius,
+             config_.base_frame.c_str());
   }
 
   void show(const navvi_types::Obstacles& obstacles) {
@@ -211,19 +349,48 @@ class PerceptionNode {
         seen_msg(perception_->standing(), config_.core.resolution(), obstacles, config_.map_frame));
   }
 
+  /// By a sight that came within kFresh and is not old.
+  [[nodiscard]] bool sees(const ros::Time& now) const {
+    const double since = (now - taken_).toSec();
+    const double age = (now - navvi_types::from_ns(sight_)).toSec();
+    return sight_ != 0 && std::abs(since) <= kFresh && std::abs(age) <= kOld;
+  }
+
   void tell_what_is_near() {
-    const double age = (ros::Time::now() - navvi_types::from_ns(sight_)).toSec();
-    if (sight_ == 0 || std::abs(age) > kFresh) {
-      // Not while all begins.
-      ROS_WARN_DELAYED_THROTTLE(
-          10.0, "Nothing is seen: no scan or cloud of the last %.1f s can be used.", kFresh);
-      return;
-    }
+    serve();  // what waited in vain
+    if (!sees(ros::Time::now())) return;
     const auto robot = robot_now();
     if (!robot) return;
     navvi_msgs::Proximity near = navvi_types::to_msg(perception_->proximity(*robot, sight_));
     near.header.frame_id = config_.base_frame;
     proximity_.publish(near);
+  }
+
+  /// Once a second; the log tells what is lost, and not again before it was back.
+  void report() {
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool seen = sees(ros::Time::now());
+    const std::string why = last_refusal_.empty() ? "no message came" : last_refusal_;
+    if (seen && std::exchange(lost_, false)) ROS_INFO("Obstacles are sensed again.");
+    const bool begins = sight_ == 0 && ++reports_ < kBegins;
+    if (!seen && !begins && !std::exchange(lost_, true))
+      ROS_WARN("Obstacles are not sensed: no scan or cloud of the last %.1f s can be used (%s).",
+               kFresh, why.c_str());
+    diagnostic_msgs::DiagnosticArray array;
+    array.header.stamp = ros::Time::now();
+    DiagnosticStatus& status = array.status.emplace_back();
+    status.name = "navvi/sensing";
+    status.level = !seen ? DiagnosticStatus::ERROR
+                   : std::exchange(refused_, false) ? DiagnosticStatus::WARN
+                                                    : DiagnosticStatus::OK;
+    status.message = seen ? "Obstacles are sensed." : "Obstacles are not sensed: " + why + ".";
+    for (const auto& [key, kind] : refusals_.kinds()) {
+      diagnostic_msgs::KeyValue pair;
+      pair.key = kind.first;
+      pair.value = std::to_string(kind.count) + " dropped";
+      status.values.push_back(pair);
+    }
+    diagnostics_.publish(array);
   }
 
   void on_bumper(const std_msgs::Bool& bumper) {
@@ -242,15 +409,19 @@ class PerceptionNode {
   std::unique_ptr<see::Perception> perception_;
   tf2_ros::Buffer buffer_;
   navvi_types::TransformListener listener_{buffer_};
-  tf2_ros::MessageFilter<LaserScan> scans_{buffer_, config_.map_frame, kWaiting, nullptr};
-  tf2_ros::MessageFilter<PointCloud2> clouds_{buffer_, config_.map_frame, kWaiting, nullptr};
+  boost::signals2::connection moved_;  ///< calls when a transform comes
   laser_geometry::LaserProjection projector_;
-  ros::Publisher map_, obstacles_, proximity_, contacts_, seen_;
+  ros::Publisher map_, obstacles_, proximity_, contacts_, seen_, diagnostics_;
+  std::vector<Sensor> sensors_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::WallTimer timer_;
-  std::array<std::int64_t, 2> last_{};  ///< ns, the last stamp of each sensor
-  std::int64_t sight_ = 0;              ///< ns, of the last sight
-  unsigned refused_ = 0;
+  ros::WallTimer timer_, report_timer_;
+  std::int64_t sight_ = 0;    ///< ns, of the last sight
+  ros::Time taken_;           ///< when it was
+  int reports_ = 0;     ///< before the first sight
+  bool lost_ = false;   ///< sensing, which was logged
+  navvi_types::Once refusals_;
+  std::string last_refusal_;
+  bool refused_ = false;  ///< since the last report
   bool touches_ = false;
 };
 

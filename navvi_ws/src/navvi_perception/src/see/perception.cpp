@@ -68,6 +68,7 @@ PerceptionConfig::~PerceptionConfig() = default;
 
 void PerceptionConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
 double PerceptionConfig::resolution() const { return values_->map.resolution; }
+double PerceptionConfig::robot_radius() const { return values_->robot_radius; }
 sight::Prior PerceptionConfig::prior_of(const std::string& file) const {
   return map::prior_of(file, values_->map);
 }
@@ -134,6 +135,15 @@ std::vector<Eigen::Vector3d> Perception::Parts::strange(const sight::Sight& sigh
       rest.push_back(hit);
   }
   return found;
+}
+
+void Perception::know(const sight::Prior& prior) {
+  parts_->map.know(prior);
+  parts_->map_new = parts_->untold = true;
+}
+
+bool Perception::believes(const sight::Sight& sight) const {
+  return !sight.hits.empty() || !parts_->map.contradicts(sight);
 }
 
 void Perception::take(const sight::Sight& sight) {

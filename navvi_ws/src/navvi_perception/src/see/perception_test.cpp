@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace navvi_perception::see {
 namespace {
@@ -168,6 +169,37 @@ TEST_F(PerceptionTest, follows_a_crossing_worker_under_one_number_with_its_veloc
     ASSERT_TRUE(told);
     EXPECT_LE(*told, 0.7);
   }
+}
+
+TEST_F(PerceptionTest, follows_a_worker_while_a_mapper_changes_the_prior_map_each_second) {
+  with_prior();
+  (void)live(7.0, [](double) {});  // the box is known
+  hall_.discs = {{{1.5, -3.0}, 0.24}};
+  (void)live(7.5, [](double) {});
+  const double from = time_;
+  sight::Prior prior = Hall::prior();
+  const Seen seen = live(from + 4.0, [&](double time) {
+    hall_.discs[0].at.y() = -3.0 + 1.2 * (time - from);
+    const auto tenths = std::lround(10.0 * time);
+    if (tenths % 10 != 0) return;
+    prior.cells[static_cast<std::size_t>(170 * prior.width + tenths % prior.width)] = -1;
+    perception_->know(prior);
+  });
+  EXPECT_EQ(seen.ids.size(), 1U);
+  EXPECT_EQ(seen.told, 40);
+}
+
+TEST_F(PerceptionTest, believes_a_scan_without_returns_only_where_the_map_has_no_wall_in_range) {
+  sight::Sight sight = hall_.look(1.0);
+  EXPECT_TRUE(perception_->believes(sight));
+  sight.clear.insert(sight.clear.end(), sight.hits.begin(), sight.hits.end());
+  for (Eigen::Vector3d& end : sight.clear) end *= 1.5;
+  const std::vector<Eigen::Vector3d> hits = std::exchange(sight.hits, {});
+  EXPECT_TRUE(perception_->believes(sight)) << "without a map";
+  with_prior();
+  EXPECT_FALSE(perception_->believes(sight));
+  sight.hits = {hits.front()};
+  EXPECT_TRUE(perception_->believes(sight)) << "something is seen, the rest may be glass";
 }
 
 TEST_F(PerceptionTest, the_tips_of_a_fork_are_one_thing_with_one_velocity) {

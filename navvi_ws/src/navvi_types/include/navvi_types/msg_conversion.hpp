@@ -4,6 +4,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <navvi_msgs/Contact.h>
@@ -20,6 +21,7 @@
 #include <optional>
 #include <vector>
 
+#include "navvi_types/checked.hpp"
 #include "navvi_types/cue_event.hpp"
 #include "navvi_types/drive_state.hpp"
 #include "navvi_types/guidance.hpp"
@@ -38,7 +40,10 @@ namespace navvi_types {
 [[nodiscard]] std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PoseStamped& msg);
 /// m
 [[nodiscard]] std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PointStamped& msg);
-[[nodiscard]] std::optional<Odometry> from_msg(const nav_msgs::Odometry& msg);
+[[nodiscard]] Checked<Odometry> from_msg(const nav_msgs::Odometry& msg);
+/// The lower corner of cell (0, 0) in the map's frame, and how the grid is turned about it. Mappers
+/// leave the quaternion of a grid that is not turned at 0 0 0 0, which counts as 0 0 0 1.
+[[nodiscard]] Checked<Pose2> origin_of(const nav_msgs::OccupancyGrid& msg);
 /// The path's points in its frame, m.
 [[nodiscard]] std::optional<std::vector<Eigen::Vector2d>> from_msg(const nav_msgs::Path& msg);
 [[nodiscard]] std::optional<Proximity> from_msg(const navvi_msgs::Proximity& msg);

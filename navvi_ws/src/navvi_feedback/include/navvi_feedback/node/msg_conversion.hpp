@@ -4,6 +4,7 @@
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
 
+#include <navvi_types/checked.hpp>
 #include <navvi_types/cue_event.hpp>
 #include <optional>
 #include <string>
@@ -16,7 +17,7 @@ namespace navvi_feedback::node {
 using navvi_types::CueKind;
 
 /// Axes out of [-1, 1] by more than rounding, or fewer than two, are rejected.
-[[nodiscard]] std::optional<drive::InputState> from_msg(const sensor_msgs::Joy& msg);
+[[nodiscard]] navvi_types::Checked<drive::InputState> from_msg(const sensor_msgs::Joy& msg);
 
 [[nodiscard]] sensor_msgs::Joy to_msg(const drive::InputState& input, const ros::Time& stamp);
 /// For joy_node, id 0 is the strong (left) motor and id 1 the weak (right) one; for ds4_driver it

@@ -21,7 +21,8 @@ class PerceptionConfig {
   ~PerceptionConfig();
 
   void describe(navvi_config::Visitor& visit);
-  [[nodiscard]] double resolution() const;  ///< m, of the map
+  [[nodiscard]] double resolution() const;    ///< m, of the map
+  [[nodiscard]] double robot_radius() const;  ///< m; what is seen within it is the robot itself
   /// The OctoMap of a file, .bt or .ot. \throws navvi_config::ConfigError with a sentence
   [[nodiscard]] sight::Prior prior_of(const std::string& file) const;
 
@@ -40,6 +41,11 @@ class Perception {
   explicit Perception(const PerceptionConfig& config, const sight::Prior& prior = {});
   ~Perception();
 
+  /// Replaces the prior map; what was seen, and its tracks, stay.
+  void know(const sight::Prior& prior);
+  /// False for a sight without any hit where the prior map has a wall within its range: the sensor
+  /// is blind, or the robot is elsewhere.
+  [[nodiscard]] bool believes(const sight::Sight& sight) const;
   /// \param sight  finite, and not older than the one before of the same sensor
   void take(const sight::Sight& sight);
 

@@ -27,6 +27,13 @@ struct Prior {
   int height = 0;                                    ///< cells along y
   std::vector<std::int8_t> cells;  ///< row by row: -1 unknown, else 0 (free) to 100 (occupied)
   bool flat = true;  ///< seen in one plane: what is clear there may hold low or high things
+  double yaw = 0.0;  ///< rad, by which the grid is turned about that corner
+
+  [[nodiscard]] bool operator==(const Prior& other) const {
+    return resolution == other.resolution && origin == other.origin && yaw == other.yaw &&
+           width == other.width && height == other.height && cells == other.cells &&
+           flat == other.flat;
+  }
 };
 
 }  // namespace navvi_perception::sight

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <deque>
+#include <utility>
+
+namespace navvi_feedback::drive {
+
+/// The age of a stick's messages by their own stamps. Without a round trip a delay on the way and
+/// clocks that differ look alike, so that either stops the robot.
+class StickAge {
+ public:
+  enum class Late { no, slow, too_late };
+
+  /// \param age  s, from the stamp to the arrival; negative where the stamp is ahead
+  /// \param time  s, of the arrival, on a clock that does not run backwards
+  void add(double age, double time);
+  /// By the last message: above 0.3 s old is slow; above 1 s, or as much ahead, too late. no once
+  /// the last came 0.25 s ago.
+  [[nodiscard]] Late late(double time) const;
+  /// s, of the last 5 s: a delay or a difference of clocks that lasts. 0 without messages.
+  [[nodiscard]] double median() const;
+
+ private:
+  std::deque<std::pair<double, double>> ages_;  ///< s, time and age
+};
+
+}  // namespace navvi_feedback::drive
