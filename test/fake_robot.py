@@ -61,7 +61,8 @@ def main(words):
     rospy.init_node("fake_robot")
     scans, odometry = rospy.Publisher("/scan", LaserScan, queue_size=1), rospy.Publisher("/odom", Odometry, queue_size=1)
     maps = rospy.Publisher("/map", OccupancyGrid, queue_size=1, latch=True)
-    moving, fixed = (rospy.Publisher(topic, TFMessage, queue_size=5, latch=latch) for topic, latch in (("/tf", False), ("/tf_static", True)))
+    moving = rospy.Publisher("/tf", TFMessage, queue_size=5)
+    fixed = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
     fixed.publish([transform("map", "odom", 0.0, rospy.Time.now()), transform("base_link", "laser", 0.2, rospy.Time.now())])
     if habits["map_hz"]:
         rospy.Timer(rospy.Duration(1 / habits["map_hz"]), lambda _: maps.publish(map_of(habits, rospy.Time.now())))

@@ -139,7 +139,8 @@ std::optional<Eigen::Vector2d> from_msg(const geometry_msgs::PointStamped& msg) 
 Checked<Odometry> from_msg(const nav_msgs::Odometry& msg) {
   const std::optional<Velocity> velocity = from_msg(msg.twist.twist);
   if (!velocity) return Refusal{"its twist is not finite, or beyond 100 m/s or rad/s"};
-  if (!valid(msg.pose.pose.position)) return Refusal{"its position is not finite, or beyond 100 km"};
+  if (!valid(msg.pose.pose.position))
+    return Refusal{"its position is not finite, or beyond 100 km"};
   if (!valid(msg.pose.pose.orientation))
     return Refusal{"the norm of its orientation's quaternion is not 1"};
   return Odometry{to_ns(msg.header.stamp), pose_of(msg.pose.pose), *velocity,

@@ -9,8 +9,8 @@ void AssistanceConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(mode, "mode", navvi_config::OneOf{{"off", "slow", "stop"}}, "",
         "before things in the way: leave the command as it is, slow it, or bring it to a stop");
-  visit(least, "least", Range{0.05, 1.0}, "", "share of the command that slow leaves at least, and that a stick leaves whose messages come "
-        "more than 0.3 s late");
+  visit(least, "least", Range{0.05, 1.0}, "",
+        "share of the command that slow leaves at least, and a stick that comes 0.3 s late");
   visit(deceleration, "deceleration", Range{0.1, 5.0}, "m/s^2",
         "the speed is kept to what this brings to rest before the thing");
   visit(margin, "margin", Range{0.0, 1.0}, "m", "gap at which it has come to rest");

@@ -54,8 +54,8 @@ void Inlets::listen_at_once(
 void Inlets::subscribe_to_hands(const NodeConfig& config) {
   InputSource& source = devices_.source();
   if (source.kind() == InputSource::Kind::topic)
-    listen<sensor_msgs::Joy>("joy", 1,
-                             [this, &source](const drive::InputState& joy) { receive(joy, source); });
+    listen<sensor_msgs::Joy>(
+        "joy", 1, [this, &source](const drive::InputState& joy) { receive(joy, source); });
   // Without a stick in it, the keys are lost. Each message counts: a short press is two.
   if (source.kind() == InputSource::Kind::keyboard)
     listen_at_once<sensor_msgs::Joy>(
@@ -80,7 +80,7 @@ void Inlets::subscribe_to_hands(const NodeConfig& config) {
       }));
 }
 
-/// A stick whose messages come too late counts as lost: the wheels would obey a hand that has let go.
+/// A stick whose messages come too late counts as lost: a hand may have let go since.
 void Inlets::receive(drive::InputState joy, InputSource& source) {
   const double time = now();
   if (joy.stamp != 0) {
@@ -90,8 +90,8 @@ void Inlets::receive(drive::InputState joy, InputSource& source) {
     joy.late = late == StickAge::Late::slow;
     if (late != StickAge::Late::no && late != logged_)
       ROS_WARN(
-          "The stick's messages come %.2f s after their stamp (median of 5 s), so the robot %s. The "
-          "way from the stick delays them, or the clocks of the two computers differ (chrony, NTP).",
+          "The stick's messages come %.2f s after their stamp (median of 5 s), so the robot %s. "
+          "The way from the stick delays them, or the computers' clocks differ (chrony, NTP).",
           stick_age_.median(), joy.live ? "is slow" : "stands");
     logged_ = late;
   }

@@ -13,7 +13,8 @@ constexpr float kAxisSlack = 1e-3F;  // of an axis beyond [-1, 1]
 
 navvi_types::Checked<drive::InputState> from_msg(const sensor_msgs::Joy& msg) {
   if (msg.axes.size() < 2 || msg.axes.size() > 64 || msg.buttons.size() > 256)
-    return navvi_types::Refusal{"it has fewer than 2 or more than 64 axes, or more than 256 buttons"};
+    return navvi_types::Refusal{
+        "it has fewer than 2 or more than 64 axes, or more than 256 buttons"};
   drive::InputState input;
   input.live = true;
   input.stamp = navvi_types::to_ns(msg.header.stamp);

@@ -43,7 +43,7 @@ using navvi_types::Checked;
 /// +inf, any other NaN. \param free  so do drivers tell that a ray met nothing: 0, NaN, or
 /// range_max and more
 [[nodiscard]] sensor_msgs::LaserScan plain(sensor_msgs::LaserScan scan, bool free);
-/// A plain scan with rays that met nothing as long as the sensor sees, so that they are points, too.
+/// A plain scan with rays that met nothing as long as the sensor sees: they are points, too.
 [[nodiscard]] sensor_msgs::LaserScan with_clear_rays(sensor_msgs::LaserScan scan);
 /// Adds a plain scan's points to the hits, or where rays met nothing to what is clear.
 /// \param cloud  made of with_clear_rays(scan) by laser_geometry with channel Index, in map
