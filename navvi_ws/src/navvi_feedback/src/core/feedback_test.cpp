@@ -132,7 +132,7 @@ TEST_F(FeedbackTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
   const std::size_t at_first = kinds_.size();
   kinds_.clear();
   pass(600.0);
-  EXPECT_TRUE(said(CueKind::simulator_lost));
+  EXPECT_TRUE(said(CueKind::odometry_lost));
   EXPECT_LE(kinds_.size(), 4U) << "each loss is said once";
   kinds_.clear();
   live(10.0);

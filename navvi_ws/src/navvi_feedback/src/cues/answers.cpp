@@ -11,7 +11,7 @@ namespace {
 
 /// s after the start, when a path may still be on its way.
 constexpr double kFirstPath = 5.0;
-/// s in which the same question is answered twice at most.
+/// s in which the way is told twice at most.
 constexpr double kInsists = 6.0;
 
 /// All of it from the robot's nose, and as the crow flies.
@@ -63,10 +63,9 @@ std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const
 
 }  // namespace
 
-bool Answers::accepts(Question question, double time) {
-  if (question != asked_) asked_at_.fill(-std::numeric_limits<double>::infinity());
-  if (question == asked_ && time - asked_at_.front() < kInsists) return false;
-  asked_at_ = {asked_at_.back(), time};
+bool Answers::tells_way(double time) {
+  if (time - way_at_.front() < kInsists) return false;
+  way_at_ = {way_at_.back(), time};
   return true;
 }
 
@@ -77,7 +76,8 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
     label.asked = true;
     return {label};
   }
-  const bool pressed = tick.asked.question && accepts(*tick.asked.question, tick.time);
+  const bool pressed = tick.asked.question &&
+                       (tick.asked.question != Question::way || halt.halted() || tells_way(tick.time));
   const auto question = pressed ? tick.asked.question : std::exchange(question_, std::nullopt);
   for_go_on_ = false;
   if (!question) return {};

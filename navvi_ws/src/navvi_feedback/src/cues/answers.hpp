@@ -11,9 +11,8 @@
 
 namespace navvi_feedback::cues {
 
-/// Answers what the person asks by a button, and again if the answer was dropped. The same question
-/// a third time within seconds is not answered: words that never end would keep a person from
-/// driving.
+/// Answers what the person asks by a button, and again if the answer was dropped. The way is not
+/// told a third time within seconds: words that never end would keep a person from driving.
 class Answers {
  public:
   /// \param route  knows the way, and takes note that it was told
@@ -30,13 +29,13 @@ class Answers {
   void lost(CueKind kind);
 
  private:
-  /// Takes note of it, unless it comes too often.
-  [[nodiscard]] bool accepts(Question question, double time);
+  /// Takes note that the way is asked for. \return false if that is too often
+  [[nodiscard]] bool tells_way(double time);
 
   std::optional<Question> asked_;     ///< the last that was answered
-  /// s, of the last two times that it was asked, the earlier one first
-  std::array<double, 2> asked_at_ = {-std::numeric_limits<double>::infinity(),
-                                     -std::numeric_limits<double>::infinity()};
+  /// s, of the last two times that the way was told, the earlier one first
+  std::array<double, 2> way_at_ = {-std::numeric_limits<double>::infinity(),
+                                   -std::numeric_limits<double>::infinity()};
   std::optional<CueKind> answered_;   ///< the kind of that, until it is heard
   std::optional<Question> question_;  ///< still to be answered, or again
   bool for_go_on_ = false;            ///< it waits for "go on", which is due soon

@@ -24,17 +24,17 @@ TEST_F(AnswersTest, answers_a_question_at_once) {
   EXPECT_EQ(pass(0.1), Texts{"there is no goal yet"});
 }
 
-TEST_F(AnswersTest, are_not_given_a_third_time_within_seconds_so_that_a_person_can_drive) {
+TEST_F(AnswersTest, do_not_tell_the_way_a_third_time_within_seconds_so_that_a_person_can_drive) {
   under_way();
   std::size_t answers = 0;
   for (int second = 0; second < 12; ++second) {
-    asked_.question = Question::goal;
+    asked_.question = Question::way;
     answers += pass(0.1).size();
     pass(0.9);
   }
   EXPECT_EQ(answers, 4U);
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"}) << "another question";
+  asked_.question = Question::goal;
+  EXPECT_FALSE(pass(0.1).empty()) << "another question";
 }
 
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {

@@ -139,8 +139,9 @@ TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
     return pass(0.4);
   };
   EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
+  const Cue lost = last_;
   EXPECT_EQ(lose_and_find(), Texts{});
-  policy_.note({{1, CueStage::dropped, last_.kind, last_.text}});
+  policy_.note({{1, CueStage::dropped, lost.kind, lost.text}});
   EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
 }
 
