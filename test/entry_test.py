@@ -28,7 +28,7 @@ def sentences(result):
 
 def test_shell_scripts_are_clean():
     subprocess.run(["shellcheck", ROOT / ".ci" / "run", ROOT / "navvi"], check=True)
-    whole = "".join(path.read_text() for path in [ROOT / "navvi_cli/shell/run", *sorted((ROOT / "navvi_cli/shell").glob("*.bash"))])
+    whole = "".join(path.read_text() for path in [*sorted((ROOT / "navvi_cli/shell").glob("*.bash")), ROOT / "navvi_cli/shell/run"])
     subprocess.run(["shellcheck", "--shell=bash", "-"], input=whole, text=True, check=True)
 
 
