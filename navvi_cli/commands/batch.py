@@ -10,7 +10,7 @@ each world another one, or those with your seeds, such as drawn:1-20;
 typical~hearing/sound_spread+1 moves a trait by one standard deviation. A
 condition is default, sounds_off, touch_off, words_off, words_alone, attractive,
 brief, sighted (the hand led by eyes), or a name of your own:
-slow=feedback/drive/max_speed:=0.5+nav/replan/period:=3
+slow=feedback/drive/max_forward:=0.5+nav/replan/period:=3
 
 Exit codes
 0: done. 1: some failed, are not done, or changed. 2: a wrong argument, or a
