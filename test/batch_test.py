@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -177,6 +178,12 @@ def test_a_condition_that_the_program_would_refuse_is_refused_once_and_before_an
     with pytest.raises(Failure, match="condition bad, person able: the key \"unknown\" is unknown") as refused:
         batch.run_batch(stand_in(tmp_path), args)
     assert refused.value.code == 2 and not (tmp_path / "a").exists() and "trial" not in capsys.readouterr().err
+
+
+def test_the_condition_that_the_help_shows_is_one_that_the_program_knows():
+    condition = re.search(r"^slow=\S+$", batch.__doc__, re.M)[0]
+    trials = batch.trials_of(args_of("unused", worlds="training", seeds="1", people="able", conditions=condition))
+    batch.require_conditions(ROOT / "navvi_ws/devel/lib/navvi_study/trials_bench", trials)
 
 
 def test_a_branch_runs_a_trial_of_a_batch_again_with_and_without_a_change(tmp_path, capsys):
