@@ -90,7 +90,8 @@ class Network:
             fail(f"no port from {PORTS[0]} to {PORTS[-1]} is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them.")
         atexit.register(remove, lock_file(self.port), self.descriptor)
         self.uri = f"http://127.0.0.1:{self.port}"
-        if GIVEN and not re.fullmatch(rf"http://(localhost|127\.0\.0\.1):{self.port}/?", GIVEN):
+        # ROS's own setup files set port 11311 of localhost where nothing is set.
+        if GIVEN and not re.fullmatch(rf"http://(localhost:11311|(localhost|127\.0\.0\.1):{self.port})/?", GIVEN):
             aside(f"ROS_MASTER_URI={GIVEN} is not used: a session has a master of its own, here {self.uri}; \"roslaunch navvi live.launch\" "
                   "uses yours.")
         os.environ.update(ROS_IP="127.0.0.1", ROS_MASTER_URI=self.uri)

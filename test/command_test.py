@@ -270,7 +270,7 @@ def test_a_master_of_the_environment_that_is_not_used_is_named(locks, monkeypatc
     monkeypatch.setattr(network, "PORTS", [locks])
     for name in "ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME":  # which are set back afterwards
         monkeypatch.setenv(name, "")
-    for given, said in ("http://robot:11311", True), (f"http://localhost:{locks}/", False), (None, False):
+    for given, said in ("http://robot:11311", True), (f"http://localhost:{locks}/", False), ("http://localhost:11311", False), (None, False):
         monkeypatch.setattr(network, "GIVEN", given)
         os.close(network.Network().descriptor)
         assert (f"ROS_MASTER_URI={given} is not used" in capsys.readouterr().err) == said
