@@ -1073,7 +1073,7 @@ def script(name):
     import importlib.machinery
     import importlib.util
     loader = importlib.machinery.SourceFileLoader(name, str(PACKAGE / "scripts" / name))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("paper_bench", loader))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
 
