@@ -13,6 +13,7 @@ import tempfile
 import yaml
 
 PHRASES = pathlib.Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_feedback/config/phrases/en.yaml"
+DICTIONARY = pathlib.Path("/usr/share/pocketsphinx/model/en-us/cmudict-en-us.dict")
 RATE = 16000  # Hz, of the recogniser's model
 ONES = ("zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
         "seventeen eighteen nineteen").split()
@@ -63,6 +64,7 @@ def grammar(told):
              f"<number> = <ones> | ({' | '.join(TENS)}) [{' | '.join(ONES[1:10])}];"]
     lines += [f"<{name}> = {value};" for name, value in choices.items()]
     cues = []
+    known = {line.split()[0] for line in DICTIONARY.read_text().splitlines()}
     lessons = document["lessons"]
     names = [words_of(name) for key, name in lessons.items() if key.startswith(("pad_", "key_"))]
     lines.append(f"<button> = {' | '.join(sorted(set(map(' '.join, names))))};")
@@ -72,7 +74,9 @@ def grammar(told):
         text = re.sub(r"\d+", lambda digits: " ".join(number_words(digits.group())), text)
         text = re.sub(r"\{(count|all)\}", "<number>", text)
         text = re.sub(r"\{(?!direction|way|distance|thing|a_thing|stick|more|less|place|side|where|setting|value|person)(\w+)\}", "<button>", text)
-        cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
+        # The recogniser refuses a grammar with a word that it does not know, such as "odometry".
+        if set(re.findall(r"[a-z']+", re.sub(r"\{\w+\}|<\w+>", " ", text))) <= known:
+            cues.append(re.sub(r"\{(\w+)\}", r"<\1>", text))
     return "\n".join(lines + [f"<cue> = {' | '.join(cues)};",
                                "public <cues> = <cue>+;"])  # cues may follow on one another at once
 
