@@ -23,7 +23,7 @@ report_packages=(python3-jinja2 python3-matplotlib python3-pandas python3-scipy 
 test_packages=(
   libbenchmark-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
   shellcheck xvfb imagemagick sox openbox xdotool lintian catkin-lint
-  python3-pyatspi dbus-daemon zsh
+  python3-pyatspi dbus-daemon procps zsh
   "${report_packages[@]}"
 )
 # Tests that need one of these are skipped, and counted, where the release of Debian lacks it.
