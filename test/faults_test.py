@@ -138,6 +138,7 @@ def test_F6_a_killed_rviz_comes_back_and_ends_by_no_signal(tmp_path):
         os.kill(killed, signal.SIGKILL)
         session.wait_for(lambda: pictures() and pictures() != [killed], 30, "RViz runs again")
         assert "warning: the program rviz was ended by signal 9." in session.text()
+        session.wait_for(lambda: "[picture_back] the picture is back" in next(tmp_path.glob("session-*.log")).read_text(), 30, "the person is told")
         time.sleep(15.0)  # it draws the scene
         os.killpg(session.process.pid, signal.SIGINT)
         session.process.wait(40)

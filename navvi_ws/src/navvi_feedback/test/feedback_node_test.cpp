@@ -43,7 +43,8 @@ class FeedbackNode : public testing::Test {
         });
     cues_ = node_.subscribe<navvi_msgs::Cue>("navvi/cues", 100,
                                              [this](const navvi_msgs::Cue::ConstPtr& msg) {
-                                               if (msg->modality == navvi_msgs::Cue::SPEECH)
+                                               if (msg->modality == navvi_msgs::Cue::SPEECH &&
+                                                   msg->stage == navvi_msgs::Cue::QUEUED)
                                                  heard_.push_back(*msg);
                                              });
     markers_ = node_.subscribe<visualization_msgs::MarkerArray>(

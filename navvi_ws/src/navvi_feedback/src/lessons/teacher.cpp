@@ -55,6 +55,7 @@ void Teacher::join(std::vector<cues::Cue>& cues) const {
   static const std::set<CueKind> needed = {
       CueKind::arrived,       CueKind::stuck,     CueKind::stuck_unknown, CueKind::back_away,
       CueKind::release_stick, CueKind::pad_back,  CueKind::keyboard_back, CueKind::audio_back,
+      CueKind::picture_back,
       CueKind::settings_of,   CueKind::no_rumble, CueKind::second_pad,    CueKind::pad_firmware};
   if (speaks())
     cues.erase(std::remove_if(cues.begin(), cues.end(),

@@ -93,6 +93,7 @@ class FeedbackNode {
       guide_.announce(CueKind::machine_slow);
     }
     for (const CueKind failure : settings_.failures()) guide_.announce(failure);
+    if (outlets_.is_picture_back()) guide_.announce(CueKind::picture_back);
     // A reader of words by topic comes a moment after this node.
     if (welcomes_ && (config_.listener != "topic" || outlets_.are_words_read())) {
       welcomes_ = false;

@@ -12,6 +12,7 @@ namespace {
 using navvi_types::to_msg;
 
 constexpr double kMarkers = 0.1;  // s
+constexpr char kPicture[] = "/rviz";
 
 std::int64_t stamp() { return navvi_types::to_ns(ros::Time::now()); }
 
@@ -26,7 +27,10 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
   goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
   requests_ = node.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
   orders_ = node.advertise<navvi_msgs::Cue>("navvi/order", 1, true);
-  markers_ = node.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, true);
+  const auto joined = [this](const ros::SingleSubscriberPublisher& reader) {
+    if (reader.getSubscriberName() == kPicture) picture_back_ = std::exchange(pictured_, true);
+  };
+  markers_ = node.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, joined, {}, {}, true);
   diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
   if (own_hands) joy_ = node.advertise<sensor_msgs::Joy>("joy", 1);
 }

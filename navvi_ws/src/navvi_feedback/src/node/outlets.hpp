@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cues/phrases.hpp"
@@ -36,6 +37,8 @@ class Outlets {
   void show(const std::optional<Guidance>& guidance, const std::vector<Eigen::Vector2d>& path,
             const cues::Phrases& words, double time);
 
+  /// RViz shows the path again, after it had ended; true once.
+  [[nodiscard]] bool is_picture_back() { return std::exchange(picture_back_, false); }
   [[nodiscard]] bool are_words_read() const { return cues_.getNumSubscribers() > 0; }
 
  private:
@@ -47,6 +50,8 @@ class Outlets {
   std::optional<double> markers_time_;  ///< s
   CueEvent order_{0, CueStage::ended};  ///< last published
   visualization_msgs::MarkerArray shown_;
+  bool pictured_ = false;  ///< RViz has shown the path
+  bool picture_back_ = false;
 };
 
 }  // namespace navvi_feedback::node
