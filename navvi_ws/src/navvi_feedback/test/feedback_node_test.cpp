@@ -286,9 +286,12 @@ TEST_F(FeedbackNode, says_where_the_robot_is_by_no_pose_that_is_stale) {
   guidance_msg_.waypoint_is_goal = true;
   guidance_msg_.waypoint_distance = guidance_msg_.goal_distance = 5.0;
   guidance_on_ = posed_ = true;
-  ASSERT_TRUE(until([&] { return asks.getNumSubscribers() > 0 && heard("start"); }, 10.0));
-  asks.publish(where);
-  ASSERT_TRUE(until([this] { return heard("where_goal"); }, 10.0));
+  for (int asked = 0; asked < 5 && !heard("where_goal"); ++asked) {
+    until([&] { return asks.getNumSubscribers() > 0; });
+    asks.publish(where);
+    until([this] { return heard("where_goal"); }, 3.0);
+  }
+  ASSERT_TRUE(heard("where_goal"));
 
   posed_ = false;
   pass(1.5);
