@@ -6,7 +6,7 @@ import shutil
 import signal
 import subprocess
 
-from .places import DEVEL, WORKSPACE, program
+from .places import DEVEL, SHELL, WORKSPACE, program
 from .say import fail
 from .version import version
 from .workspace import END_WITH_US, build, enter, is_current
@@ -144,8 +144,8 @@ class Launch:
         # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too, and
         # those of whoever began this session and may be gone before it.
         locks = [network.descriptor, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
-        self.process = subprocess.Popen([*END_WITH_US, "sh", "-c", "export NAVVI_LAUNCHER=$$; exec roslaunch \"$@\"", "sh", str(launch_file.path),
-                                         *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=locks,
+        self.process = subprocess.Popen([*END_WITH_US, "sh", "-c", "export NAVVI_LAUNCHER=$$; exec \"$@\"", "sh", str(SHELL.with_name("roslaunch")),
+                                         str(launch_file.path), *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=locks,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def run(self):

@@ -124,6 +124,17 @@ def test_M2_a_second_node_named_trial_node_ends_the_session_with_its_record_whol
     assert list(run.folder.glob("trial-*/events.csv"))
 
 
+def test_a_master_that_takes_longer_than_10_s_to_start_is_waited_for(tmp_path):
+    slow = tmp_path / "rosmaster"
+    slow.write_text('#!/bin/sh\nsleep 12\nexec /usr/bin/rosmaster "$@"\n')
+    slow.chmod(0o755)
+    (tmp_path / "one.launch").write_text('<launch><node name="one" pkg="rostopic" type="rostopic" args="list" required="true"/></launch>')
+    words = [str(ROOT / "navvi_cli/shell/roslaunch"), "-p", "11399", str(tmp_path / "one.launch")]
+    env = dict(os.environ, PATH=f"{tmp_path}:{os.environ['PATH']}", ROS_MASTER_URI="http://127.0.0.1:11399", ROS_IP="127.0.0.1")
+    ended = subprocess.run(words, env=env, text=True, timeout=90, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    assert "process[one-2]: started" in ended.stdout, ended.stdout
+
+
 def test_F6_a_killed_rviz_comes_back_and_ends_by_no_signal(tmp_path):
     display = Display("1920x1080")
     session = Run(tmp_path, "limit:=300", rviz="true", DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
