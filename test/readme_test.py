@@ -1,4 +1,5 @@
 """The documents agree with the code: topics, functions, rooms, commands, links."""
+import ast
 import re
 import subprocess
 import sys
@@ -160,3 +161,21 @@ def test_a_row_of_the_fault_matrix_finds_the_programs_of_its_tests():
     assert [row for row in named if not list(find_tests.programs(row + "_"))] == []
     assert {"navvi_safety/command_gate", "_ctest_navvi_sim_rostest_test_sim_node.test", "stop"} <= set(find_tests.programs("T1_"))
     assert list(find_tests.programs("no_test_is_called_" + "so")) == []
+
+
+def sentences_of(path):
+    """The texts in the code of a program, without comments."""
+    if path.suffix == ".py":
+        tree = ast.parse(path.read_text())
+        documents = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        return [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in documents]
+    return re.findall(r'"((?:[^"\\\n]|\\.)*)"', re.sub(r'"\s*\n\s*"', "", re.sub(r"^\s*//.*", "", path.read_text(), flags=re.M)))
+
+
+def test_no_sentence_says_that_a_thing_is_no_other_thing():
+    paths = [path for folder in (SOURCES, ROOT / "navvi_cli") for path in folder.rglob("*")
+             if path.suffix in (".cpp", ".hpp", ".py") and "test" not in path.name and "test" not in path.parent.name]
+    assert len(paths) > 500
+    found = [f"{path.relative_to(ROOT)}: {text}" for path in paths for text in sentences_of(path)
+             if re.search(r"(?<!here )\b(is|are) no (?!longer\b)[a-z]", text)]
+    assert not found, "say 'is not a ...', and what is allowed"

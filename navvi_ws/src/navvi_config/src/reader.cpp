@@ -317,7 +317,7 @@ YAML::Node read_words(const std::vector<std::string>& words) {
     const std::size_t split = word.find(":=");
     const std::string name = "/" + word.substr(0, split) + "/";  // no key in it may be empty
     if (split == std::string::npos || name.find("//") != std::string::npos)
-      throw ConfigError("\"" + word + "\" is no parameter; parameters look like name:=value.");
+      throw ConfigError("\"" + word + "\" is not a parameter; parameters look like name:=value.");
     YAML::Node map = all;
     std::istringstream keys(word.substr(0, split));
     std::string key, last;

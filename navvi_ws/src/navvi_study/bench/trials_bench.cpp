@@ -160,7 +160,7 @@ Options read_options(const std::vector<std::string>& words) {
     } else if (option == "--help") {
       out.help = true;
     } else {
-      throw UsageError("\"" + word + "\" is no option; allowed are:\n" + kUsage);
+      throw UsageError("\"" + word + "\" is not an option; allowed are:\n" + kUsage);
     }
   }
   if (!out.then.empty() && !out.until) throw UsageError("--then needs --until=S.");

@@ -137,7 +137,7 @@ class Section {
   Section(const std::string& file, const YAML::Node& root, const std::string& name)
       : file_(file), name_(name), node_(root[name]) {
     if (!node_ || !node_.IsMap())
-      throw ConfigError(file + ": the section \"" + name + "\" is missing or is no map.");
+      throw ConfigError(file + ": the section \"" + name + "\" is missing or is not a map.");
   }
 
   /// The texts of the section; every key is one of `allowed`, if that is given, and none comes
@@ -146,7 +146,7 @@ class Section {
       const std::optional<std::set<std::string>>& allowed) {
     std::map<std::string, std::string> texts;
     for (const auto& item : node_) {
-      if (!item.first.IsScalar()) fail(item.first, "?", "is no word");
+      if (!item.first.IsScalar()) fail(item.first, "?", "is not a word");
       const std::string key = item.first.Scalar();
       if (allowed && allowed->count(key) == 0) fail(item.first, key, "is not known");
       if (!item.second.IsScalar()) fail(item.second, key, "must be one text");

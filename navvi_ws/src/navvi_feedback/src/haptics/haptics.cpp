@@ -87,7 +87,7 @@ Haptics::Haptics(const HapticsConfig& config) : config_(config) {
     const auto thing_class = navvi_types::from_word<ThingClass>(word);
     if (!thing_class || thing_class == ThingClass::floor) {
       throw navvi_config::ConfigError("haptics/classes: \"" + word +
-                                      "\" is no class of things; allowed are shelf, wall, box, "
+                                      "\" is not a class of things; allowed are shelf, wall, box, "
                                       "pedestal, worker, forklift, pallet_robot and other");
     }
     classes_.push_back(*thing_class);

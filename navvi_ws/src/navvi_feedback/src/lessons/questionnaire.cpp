@@ -23,7 +23,7 @@ std::string key(const char* name) { return std::string("ask_") + name; }
 
 std::vector<std::string> words(const YAML::Node& node, const std::string& where) {
   if (!node.IsSequence() || node.size() == 0)
-    throw ConfigError(where + " is no list; allowed is a list of texts.");
+    throw ConfigError(where + " is not a list; allowed is a list of texts.");
   std::vector<std::string> texts;
   for (const YAML::Node& entry : node) {
     if (!entry.IsScalar()) throw ConfigError(where + " holds no text; allowed is a list of texts.");
@@ -60,13 +60,13 @@ void check_values(const Question& question, const std::regex& plain, const std::
 
 Question read_question(const YAML::Node& item, const std::string& where) {
   if (!item.IsMap())
-    throw ConfigError(where + " is no map; allowed are name, ask, values, spoken and point.");
+    throw ConfigError(where + " is not a map; allowed are name, ask, values, spoken and point.");
   Question question;
   for (const auto& entry : item) {
     const std::string name = entry.first.Scalar();
     const std::string place = where + "/" + name;
     if (name == "name" || name == "ask") {
-      if (!entry.second.IsScalar()) throw ConfigError(place + " is no text.");
+      if (!entry.second.IsScalar()) throw ConfigError(place + " is not a text.");
       (name == "name" ? question.name : question.ask) = entry.second.Scalar();
     } else if (name == "values" || name == "spoken") {
       (name == "values" ? question.values : question.spoken) = words(entry.second, place);

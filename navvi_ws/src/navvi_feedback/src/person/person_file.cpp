@@ -29,7 +29,7 @@ PersonFile::PersonFile(const std::string& name, navvi_config::Describe describe)
     : name_(name), describe_(std::move(describe)) {
   if (!std::regex_match(name, std::regex("[A-Za-z0-9][A-Za-z0-9_-]{0,23}")))
     throw ConfigError("\"" + name +
-                      "\" is no name for a person's settings; allowed are up to 24 letters, "
+                      "\" is not a name for a person's settings; allowed are up to 24 letters, "
                       "digits, - and _, a letter or digit first.");
   path_ = folder() / (name + ".yaml");
 }

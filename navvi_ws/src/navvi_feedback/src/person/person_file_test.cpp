@@ -143,7 +143,7 @@ TEST_F(PersonFileTest, only_names_that_are_safe_are_taken) {
        {"", "-anna", "../anna", "a b", "anna.yaml", "a123456789012345678901234", "\xC3\xA4"})
     EXPECT_EQ(refused([&] { (void)PersonFile::of<Config>(name); }),
               "\"" + std::string(name) +
-                  "\" is no name for a person's settings; allowed are up to 24 letters, digits, - "
+                  "\" is not a name for a person's settings; allowed are up to 24 letters, digits, - "
                   "and _, a letter or digit first.");
   unsetenv("NAVVI_PEOPLE");
   setenv("HOME", "/home/anna", 1);

@@ -138,7 +138,7 @@ void MarkersConfig::describe(navvi_config::Visitor& visit) {
   visit(goal_height, "goal_height", Range{0.5, 10.0}, "m", "height of the goal's pole");
   visit(goal_radius, "goal_radius", Range{0.1, 5.0}, "m",
         "of the ring within which the goal is reached");
-  visit(slight, "slight", Range{0.0, 1.6}, "rad", "a corner that turns by less is no turn");
+  visit(slight, "slight", Range{0.0, 1.6}, "rad", "smallest turn of a corner that is shown as a turn");
   visit(label_height, "label_height", Range{0.1, 3.0}, "m", "height of the letters");
 }
 

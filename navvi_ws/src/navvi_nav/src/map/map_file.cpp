@@ -27,7 +27,7 @@ using FileError = std::runtime_error;
 std::string load(const std::string& path, std::size_t most) {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed))
-    throw FileError(path + (std::filesystem::exists(path, failed) ? ": this is no file"
+    throw FileError(path + (std::filesystem::exists(path, failed) ? ": not a regular file"
                                                                   : ": there is no such file"));
   const auto size = std::filesystem::file_size(path, failed);
   if (failed || size > most)

@@ -53,7 +53,7 @@ Stage stage_named(const std::string& word) {
   const auto found = std::find(kStages.begin(), kStages.end(), word);
   if (found == kStages.end())
     throw UsageError("\"" + word +
-                     "\" is no stage; map, bake, mesh, search and smooth are allowed");
+                     "\" is not a stage; map, bake, mesh, search and smooth are allowed");
   return static_cast<Stage>(found - kStages.begin());
 }
 
@@ -105,7 +105,7 @@ Options read_options(const std::vector<std::string>& words) {
       out.picture = value();
       if (std::filesystem::path(out.picture).extension() != ".svg")
         throw UsageError("\"" + out.picture +
-                         "\" is no picture that can be drawn; allowed is .svg");
+                         "\" cannot be drawn; allowed is .svg");
     } else if (word == "--stage") {
       out.stage = stage_named(value());
     } else if (word == "--config") {
@@ -122,7 +122,7 @@ Options read_options(const std::vector<std::string>& words) {
       out.cylinders.push_back(
           {static_cast<std::uint32_t>(out.cylinders.size() + 1), {at[0], at[1]}, at[2], {}});
     } else if (word.rfind("--", 0) == 0) {
-      throw UsageError("\"" + word + "\" is no option");
+      throw UsageError("\"" + word + "\" is not an option");
     } else if (word.find(":=") != std::string::npos) {
       out.parameters.push_back(word);
     } else if (out.map.empty()) {

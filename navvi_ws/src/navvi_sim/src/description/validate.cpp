@@ -32,7 +32,7 @@ void check_pose(const Eigen::Isometry3d& pose, const std::string& who) {
   const Eigen::Matrix3d rotation = pose.linear();
   const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(error < 1e-6) || !(rotation.determinant() > 0.0))
-    refuse(who, "has a pose that is no rotation; allowed are rotations without scale or mirror");
+    refuse(who, "has a pose that is not a rotation; allowed are rotations without scale or mirror");
 }
 
 /// What all meshes of a world may hold together.

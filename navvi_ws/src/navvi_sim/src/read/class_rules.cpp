@@ -45,7 +45,7 @@ class RuleReader {
 
   [[nodiscard]] ClassRules rules(const YAML::Node& list) const {
     if (!list.IsSequence() || list.size() == 0)
-      refuse(list, "the rules are no list; allowed is a list of {class: ..., names: [...]}");
+      refuse(list, "the rules are not a list; allowed is a list of {class: ..., names: [...]}");
     ClassRules result;
     for (const YAML::Node& item : list) add(item, result);
     return result;
@@ -64,16 +64,16 @@ class RuleReader {
     const auto thing_class =
         navvi_types::from_word<ThingClass>(word.IsScalar() ? word.Scalar() : "");
     if (!thing_class)
-      refuse(word, "'" + (word.IsScalar() ? word.Scalar() : "") + "' is no class; allowed are " +
+      refuse(word, "'" + (word.IsScalar() ? word.Scalar() : "") + "' is not a class; allowed are " +
                        thing_class_words());
     const YAML::Node names = item["names"];
     if (!names.IsSequence() || names.size() == 0)
       refuse(names,
-             "names is no list; allowed is a list of one pattern or more, such as "
+             "names is not a list; allowed is a list of one pattern or more, such as "
              "[\"*shelf*\"]");
     for (const YAML::Node& name : names) {
       if (!name.IsScalar() || name.Scalar().empty() || name.Scalar().size() > kMaxLength)
-        refuse(name, "a pattern is no word; allowed are 1 to " + std::to_string(kMaxLength) +
+        refuse(name, "a pattern is not a word; allowed are 1 to " + std::to_string(kMaxLength) +
                          " characters");
       if (result.rules_.size() >= kMaxPatterns)
         refuse(name, "there are more than " + std::to_string(kMaxPatterns) +
@@ -95,7 +95,7 @@ ClassRules ClassRules::read(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw WorldError("the class rules " + file.string() +
-                     " do not exist or are no file; allowed is a YAML file");
+                     " do not exist or are not a file; allowed is a YAML file");
   try {
     return RuleReader(file.string()).rules(navvi_config::load_yaml(file));
   } catch (const navvi_config::ConfigError& problem) {

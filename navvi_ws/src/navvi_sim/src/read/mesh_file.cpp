@@ -53,7 +53,7 @@ std::string check_file(const std::filesystem::path& file) {
     refuse(file, "is of a kind that is not read; allowed are .dae, .stl and .obj files");
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    refuse(file, "does not exist or is no file; allowed are .dae, .stl and .obj files");
+    refuse(file, "does not exist or is not a file; allowed are .dae, .stl and .obj files");
   if (std::filesystem::file_size(file, error) > kMaxBytes || error)
     refuse(file, "is larger than 200 MB or cannot be read; allowed is up to 200 MB");
   const std::string pointer = "version https://git-lfs";

@@ -70,7 +70,7 @@ SdfGeometry SdfShapes::read(const XmlElement& geometry, const Eigen::Isometry3d&
       const auto prism = prism_mesh(outline(kind, scale), length(kind, "height") * scale.z());
       if (!prism)
         refuse(kind,
-               "<polyline> is no outline with an inside; allowed are 3 to 300 points, not "
+               "<polyline> does not enclose an area; allowed are 3 to 300 points, not "
                "all on one line, whose sides do not cross");
       result.shapes.push_back({std::make_shared<const Mesh>(*prism), pose, std::nullopt, true});
     } else if (kind.name == "mesh") {

@@ -40,7 +40,7 @@ std::optional<ThingClass> own_class(const XmlElement& element, const std::string
   const auto thing_class = navvi_types::from_word<ThingClass>(word->text);
   if (!thing_class)
     refuse(*word,
-           "'" + word->text.substr(0, 40) + "' is no class; allowed are " + thing_class_words());
+           "'" + word->text.substr(0, 40) + "' is not a class; allowed are " + thing_class_words());
   return thing_class;
 }
 

@@ -405,7 +405,7 @@ TEST_F(SdfWorld, finds_models_where_gazebo_and_most_repositories_keep_them) {
   setenv("GAZEBO_MODEL_PATH", ("/nowhere:" + (folder_ / "elsewhere").string()).c_str(), 1);
   EXPECT_EQ(sentence_of(world("model://barrel")), "");
   unsetenv("GAZEBO_MODEL_PATH");
-  EXPECT_NE(sentence_of(world("model://crate"), "nowhere").find("'nowhere' is no folder"),
+  EXPECT_NE(sentence_of(world("model://crate"), "nowhere").find("'nowhere' is not a folder"),
             std::string::npos);
 }
 

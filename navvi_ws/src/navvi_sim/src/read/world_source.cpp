@@ -26,10 +26,10 @@ Kind kind_of(const std::string& spec) {
   const std::string ending = lower_case(std::filesystem::path(spec).extension().string());
   const bool is_yaml = ending == ".yaml" || ending == ".yml";
   if (!is_yaml && ending != ".sdf" && ending != ".world")
-    throw WorldError("'" + spec + "' is no world" + allowed());
+    throw WorldError("'" + spec + "' is not a world" + allowed());
   std::error_code error;
   if (!std::filesystem::is_regular_file(spec, error))
-    throw WorldError("the world file '" + spec + "' does not exist or is no file" + allowed());
+    throw WorldError("the world file '" + spec + "' does not exist or is not a file" + allowed());
   return is_yaml ? Kind::layout : Kind::sdf;
 }
 
@@ -85,7 +85,7 @@ std::vector<std::filesystem::path> folders(const std::string& models) {
       if (std::filesystem::is_directory(item, error))
         result.emplace_back(item);
       else if (must_be)
-        throw WorldError("models: '" + item + "' is no folder; allowed are folders that exist");
+        throw WorldError("models: '" + item + "' is not a folder; allowed are folders that exist");
     }
   };
   add(models, true);

@@ -21,7 +21,7 @@ std::string trimmed(const std::string& text) {
 std::string content_of(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    throw WorldError(file.string() + " does not exist or is no file; allowed are XML files");
+    throw WorldError(file.string() + " does not exist or is not a file; allowed are XML files");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (size > kMaxXmlBytes)
     throw WorldError(file.string() + " is larger than 20 MB; allowed is up to 20 MB");

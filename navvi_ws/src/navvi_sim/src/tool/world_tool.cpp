@@ -219,7 +219,7 @@ void show(const Words& words) {
   const auto out = words.option("-o");
   const fs::path path = out.value_or(fs::path(words.plain[1]).stem().string() + ".svg");
   if (path.extension() != ".svg")
-    throw UsageError("'" + path.string() + "' is no picture that can be drawn; allowed is .svg");
+    throw UsageError("'" + path.string() + "' cannot be drawn; allowed is .svg");
   const Request request = load(words);
   const setup::SimNodeConfig& session = request.config.session;
   const WorldDescription& world = request.loaded.world;

@@ -87,7 +87,7 @@ def read(path, most=LARGEST):
     except OSError as problem:
         raise StudyError(f"{path} cannot be read: {problem.strerror}.") from None
     if len(content) > most:
-        raise StudyError(f"{path} is larger than {most >> 20} MiB; allowed is no more than that.")
+        raise StudyError(f"{path} is larger than {most >> 20} MiB; at most that is allowed.")
     return content
 
 

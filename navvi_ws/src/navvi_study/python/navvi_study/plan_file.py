@@ -53,7 +53,7 @@ def _condition(name, part):
     for key in below.values:
         value = below.take(key, checked.anything)
         if "/" not in key or isinstance(value, dict):
-            raise below.error(key, "is no parameter of a node; allowed are those of ./navvi parameters, such as feedback/haptics/strength: 0.5")
+            raise below.error(key, "is not a parameter of a node; allowed are those of ./navvi parameters, such as feedback/haptics/strength: 0.5")
         taken = {name for switch, names in SWITCHES.items() for name in names}
         if key in taken | OWN:
             raise below.error(key, "is set by the study itself; allowed here are the switches " + ", ".join(SWITCHES) + ", and other parameters")
@@ -76,7 +76,7 @@ def _worlds(part, folder):
     """`{world: NAME, seeds: [...]}`; a file is looked for beside the plan."""
     world = part.take("world", text)
     if world.endswith(WORLD_FILES) and not (folder / world).is_file():
-        raise part.error("world", f"is \"{world}\", and {folder / world} is no file; allowed are files beside the plan, and names of ./navvi world list")
+        raise part.error("world", f"is \"{world}\", and {folder / world} is not a file; allowed are files beside the plan, and names of ./navvi world list")
     worlds = [World(world, seed) for seed in part.take("seeds", numbered(whole(0, 2**31 - 1)))]
     part.done()
     return worlds
@@ -91,7 +91,7 @@ def _practice(part, folder):
         worlds=tuple(_worlds(part.section("worlds", required=True), folder)))
     part.done()
     if practice.in_a_row > practice.most:
-        raise part.error("in_a_row", f"is more than \"most\", which is {practice.most}; allowed is no more than that")
+        raise part.error("in_a_row", f"is more than \"most\", which is {practice.most}; at most that is allowed")
     return practice
 
 
@@ -100,7 +100,7 @@ def _probes(part, folder):
         return None
     after = part.take("after", list_of(number(1, 86400)))
     if len(after) != 2 or after[0] > after[1]:
-        raise part.error("after", "is no pair; allowed are the earliest and the latest second, such as [20, 60]")
+        raise part.error("after", "is not a pair; allowed are the earliest and the latest second, such as [20, 60]")
     probes = Probes(*after, tuple(_worlds(part.section("worlds", required=True), folder)), questionnaire.find(part.take("ask", text, "probe"), folder))
     part.done()
     return probes

@@ -159,7 +159,7 @@ std::uint32_t crc32(std::string_view bytes) {
 
 std::string format_row(const Row& row) {
   if (!is_trial(row.trial)) throw std::invalid_argument("'" + row.trial + "' cannot name a trial");
-  if (!is_type(row.type)) throw std::invalid_argument("'" + row.type + "' is no event type");
+  if (!is_type(row.type)) throw std::invalid_argument("'" + row.type + "' is not an event type");
   const std::string body = row.trial + "," + std::to_string(row.seq) + "," +
                            std::to_string(row.sim_ns) + "," + std::to_string(row.mono_ns) + "," +
                            row.type + "," + row.fields.format();

@@ -28,11 +28,11 @@ int main(int argc, char** argv) {
   const auto text = navvi_config::read_file(folder / "summary.csv");
   const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
   if (!summary) {
-    std::fprintf(stderr, "There is no summary.csv in order in %s.\n", folder.c_str());
+    std::fprintf(stderr, "summary.csv is missing or damaged in %s.\n", folder.c_str());
     return 2;
   }
   if (!std::filesystem::exists(folder / "trial.bag")) {
-    std::fprintf(stderr, "There is no closed trial.bag in %s.\n", folder.c_str());
+    std::fprintf(stderr, "A closed trial.bag is missing in %s.\n", folder.c_str());
     return 2;
   }
   const study::record::Answer answer = study::record::run_in_child(

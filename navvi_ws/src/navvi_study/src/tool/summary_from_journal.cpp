@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   const auto bytes = navvi_config::read_file(folder / "journal.csv");
   if (!bytes) {
-    std::fprintf(stderr, "There is no journal.csv in %s.\n", folder.c_str());
+    std::fprintf(stderr, "journal.csv is missing in %s.\n", folder.c_str());
     return 2;
   }
   const auto contents = study::record::read_journal(*bytes);
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   const auto text = navvi_config::read_file(folder / "summary.csv");
   const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
   if (!summary) {
-    std::fprintf(stderr, "There is no summary.csv in order in %s.\n", folder.c_str());
+    std::fprintf(stderr, "summary.csv is missing or damaged in %s.\n", folder.c_str());
     return 2;
   }
   const auto sentences = study::record::differences(*summary, recount);
