@@ -85,6 +85,7 @@ def test_shell_scripts_are_clean():
     (["run", "goal:=1"], "of the form x,y in m"),
     (["run", "person:="], "up to 24 letters, digits, - and _"),
     (["run", "person:=../x"], "up to 24 letters, digits, - and _"),
+    (["robot", "check", "wheel:=/a"], "\"wheel\" is unknown"),
     (["replay"], "missing: TRIAL"),
     (["calibrate"], "person:=NAME is needed"),
     (["glossary", "world:=busy"], "\"world\" is unknown"),

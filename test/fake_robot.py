@@ -6,7 +6,7 @@ import sys
 import threading
 
 import rospy
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import TransformStamped, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
@@ -62,6 +62,7 @@ def main(words):
     scans, odometry = rospy.Publisher("/scan", LaserScan, queue_size=1), rospy.Publisher("/odom", Odometry, queue_size=1)
     maps = rospy.Publisher("/map", OccupancyGrid, queue_size=1, latch=True)
     moving = rospy.Publisher("/tf", TFMessage, queue_size=5)
+    rospy.Subscriber("/robot/cmd_vel", Twist, lambda _: None)
     fixed = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
     fixed.publish([transform("map", "odom", 0.0, rospy.Time.now()), transform("base_link", "laser", 0.2, rospy.Time.now())])
     if habits["map_hz"]:
