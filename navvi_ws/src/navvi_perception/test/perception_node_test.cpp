@@ -32,6 +32,7 @@ class PerceptionNodeTest : public testing::Test {
  protected:
   PerceptionNodeTest() {
     scans_ = node_.advertise<sensor_msgs::LaserScan>("scan", 5);
+    rear_scans_ = node_.advertise<sensor_msgs::LaserScan>("rear/scan", 5);
     clouds_ = node_.advertise<sensor_msgs::PointCloud2>("points", 5);
     bumper_ = node_.advertise<std_msgs::Bool>("bumper", 5);
     subscribers_ = {take<octomap_msgs::Octomap>("octomap_binary", map_),
@@ -89,6 +90,7 @@ class PerceptionNodeTest : public testing::Test {
   void play() {
     frame("map", "base_link", 10.0, 0.0);
     frame("base_link", "laser", 0.2, 0.15);
+    frame("base_link", "rear", 0.0, 0.15);
     if (disc_y_) *disc_y_ += 0.08;
     sensor_msgs::LaserScan msg = scan();
     if (spoil_) spoil_(msg);
@@ -103,7 +105,7 @@ class PerceptionNodeTest : public testing::Test {
   }
 
   ros::NodeHandle node_;
-  ros::Publisher scans_, clouds_, bumper_;
+  ros::Publisher scans_, rear_scans_, clouds_, bumper_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
   tf2_ros::TransformBroadcaster broadcaster_;
@@ -228,6 +230,40 @@ TEST_F(PerceptionNodeTest, H2_loses_sensing_where_no_ray_has_a_measurement) {
   EXPECT_NE(sensing_.find("no_return"), std::string::npos) << sensing_;
   spoil_ = {};
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
+}
+
+TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_not_the_robot) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  // Each sees its own half; the rear one, half a period later, also a mast of the robot.
+  bool behind = false;  // something stands there, 1.5 m from the middle
+  spoil_ = [&](auto& msg) {
+    for (std::size_t ray = 90; ray < 270; ++ray) msg.ranges[ray] = kNone;
+    sensor_msgs::LaserScan rear = scan();
+    rear.header.frame_id = "rear";
+    rear.header.stamp -= ros::Duration(0.05);
+    for (std::size_t ray = 0; ray < 360; ++ray) {
+      const double angle = static_cast<double>(ray) * M_PI / 180.0;
+      const double to_wall = kRoom / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+      const bool own = ray >= 85 && ray < 95;
+      const bool thing = behind && ray >= 178 && ray <= 186;
+      rear.ranges[ray] = ray < 85 || ray >= 270 ? kNone
+                         : own                  ? 0.2F
+                         : thing                ? 1.5F
+                                                : static_cast<float>(to_wall);
+    }
+    rear_scans_.publish(rear);
+  };
+  const auto near = [this](double low, double high) {  // m, of x in base_link; not the walls
+    return std::any_of(near_->things.begin(), near_->things.end(), [&](const auto& thing) {
+      return thing.nearest.x >= low && thing.nearest.x <= high && thing.gap < 2.0;
+    });
+  };
+  near_.reset();
+  ASSERT_TRUE(until([&] { return near_ && !near_->things.empty(); }));
+  behind = true;
+  disc_y_ = -2.0;
+  EXPECT_TRUE(until([&] { return near(-1.7, -1.3) && near(1.0, 1.7); }));
+  EXPECT_FALSE(near(-0.35, 0.35)) << "the mast";
 }
 
 TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_on_after_them) {
