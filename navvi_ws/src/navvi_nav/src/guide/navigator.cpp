@@ -132,7 +132,8 @@ bool Navigator::map_stale(double time) const {
 }
 
 bool Navigator::undecided(double time) const {
-  return goal_.place && !goal_.planned && map_.floor && pose(time) &&
+  const bool cut_off = cut_off_ && time - *cut_off_ < config_.plan_timeout;
+  return goal_.place && (!goal_.planned || cut_off) && map_.floor && pose(time) &&
          (!sent_.since || time - *sent_.since < config_.plan_timeout);
 }
 
@@ -167,8 +168,10 @@ Conflict Navigator::forecast(const Path& path) const {
 Conflict Navigator::follow_progress(double time) {
   const std::optional<Point> robot = position_of(pose(time));
   blocker_.reset();
+  const auto cut_off = std::exchange(cut_off_, std::nullopt);
   if (!robot || !path_.following()) return {};
   path_.advance(*robot, space());
+  if (path_.follower().cut_off(*robot, *map_.floor)) cut_off_ = cut_off.value_or(time);
   end_retreat(time, *robot);
   end_path(time, *robot);
   give_up_late_plan(time);
@@ -235,6 +238,7 @@ std::optional<Guidance::Replan> Navigator::decide_replan(double time, const Conf
   input.time = time;
   input.new_goal = !goal_.planned;
   input.map_changed = map_.changed;
+  input.cut_off = cut_off_.has_value();
   input.speed = observation_.speed();
   input.robot = *robot;
   input.remaining = path_.remaining(*robot);

@@ -86,7 +86,8 @@ class Navigator {
   [[nodiscard]] Guidance guidance(double time) const;
   /// The path as planned; empty when there is none to show.
   [[nodiscard]] const Path& path() const { return path_.follower().path(); }
-  /// True while the first plan for a goal is being made: there is no new guidance yet.
+  /// True while the first plan for a goal is being made, or the first from a place that something
+  /// cuts off from the path: there is no new guidance yet.
   [[nodiscard]] bool undecided(double time) const;
   /// Where the robot is; nullopt without a fresh pose.
   [[nodiscard]] std::optional<Pose2> pose(double time) const { return observation_.pose(time); }
@@ -157,6 +158,7 @@ class Navigator {
   MapState map_;
   Goal goal_;
   SecondAsk second_ask_;
+  std::optional<double> cut_off_;  ///< s, since when something stands between robot and path
   Sent sent_;
   Conflict conflict_;               ///< as of the last tick on which a replan was decided
   std::optional<Blocker> blocker_;  ///< of the only path, if near

@@ -146,6 +146,26 @@ TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
   EXPECT_EQ(status().state, Guidance::State::arrived);
 }
 
+TEST_F(Lockstep, never_steers_through_what_stands_after_a_localizer_corrected_the_pose) {
+  load();
+  navigator_.set_goal({14, 5});
+  tick(2);
+  for (const double y : {2.4, 7.6, 2.4}) {  // beside the block, on either side
+    robot_.position = {7.5, y};
+    int said = 0;
+    for (int i = 0; i < 15; ++i) {
+      tick();
+      if (navigator_.undecided(time_)) continue;
+      ++said;
+      const double angle = -status().steer_angle;
+      const Point ahead = robot_.position + 0.8 * Point{std::cos(angle), std::sin(angle)};
+      EXPECT_TRUE(planner_.nav_mesh().space().floor->segment_clear(robot_.position, ahead, 0.0))
+          << y << " " << i << " " << angle;
+    }
+    EXPECT_GE(said, 4) << "at most half a second goes by";
+  }
+}
+
 TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
   load();
   navigator_.set_goal({14, 5});

@@ -131,6 +131,12 @@ Point PathFollower::steer_point(Point robot, const map::Floor& floor) const {
   return ahead(by);
 }
 
+bool PathFollower::cut_off(Point robot, const map::Floor& floor) const {
+  const Point nearest = nearest_on_segment(robot, path_[next_ - 1], path_[next_]);
+  return floor.clearance(robot, kCut) > 0.0 && !floor.segment_clear(robot, nearest, 0.0) &&
+         !floor.segment_clear(robot, steer_point(robot, floor), 0.0);
+}
+
 double PathFollower::offset(Point robot) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < path_.size(); ++i)

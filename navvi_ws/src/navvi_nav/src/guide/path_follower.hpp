@@ -53,6 +53,9 @@ class PathFollower {
   }
   /// m, from the robot to the nearest point of the path. following() must hold.
   [[nodiscard]] double offset(Point robot) const;
+  /// True if something stands between a robot and the leg that it follows, as when a localizer
+  /// corrects itself. following() must hold.
+  [[nodiscard]] bool cut_off(Point robot, const map::Floor& floor) const;
   /// Fills in where the path leads, from the way-point, which is the next turn or the end, to the
   /// path's offset. following() must hold.
   void report(Guidance& out, const Pose2& robot, const map::Floor& floor) const;

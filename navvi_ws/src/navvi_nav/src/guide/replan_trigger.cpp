@@ -100,6 +100,7 @@ std::optional<Guidance::Replan> ReplanTrigger::choose(const ReplanInput& input, 
   if (input.map_changed) return Guidance::Replan::map_changed;
   const double since = input.time - *last_plan_;
   if (since < std::min(config_.min_interval, config_.period)) return std::nullopt;
+  if (input.cut_off) return Guidance::Replan::waypoint_blocked;
   if (since >= config_.min_interval && !input.kept && !input.closed &&
       input.remaining.size() >= 2) {
     if (input.conflict.waypoint_taken) return Guidance::Replan::waypoint_blocked;

@@ -29,6 +29,7 @@ struct ReplanInput {
   double time = 0.0;         ///< s
   bool new_goal = false;     ///< not planned for yet
   bool map_changed = false;  ///< since the last plan
+  bool cut_off = false;      ///< something stands between the robot and its path
   double speed = 0.0;        ///< m/s, forward
   Point robot;
   Path remaining;            ///< from the robot over the next way-point to the goal; may be empty
