@@ -1,6 +1,7 @@
 """A robot that stands in a room of 8 m x 6 m, whose lidar's driver, odometry and mapper have the habits of real ones.
 
 usage: fake_robot.py KEY=VALUE..., with the keys of HABITS"""
+import itertools
 import math
 import sys
 import threading
@@ -18,14 +19,15 @@ HABITS = {"scan_hz": 10.0, "odom_hz": 50.0, "sweep": 0.0,  # s, from the first r
           "lag": 0.0,  # s, by which odometry is old
           "none": "inf", "range_max": 10.0, "sees": 100.0,  # m, farther it measures nothing
           "frame": "laser",
+          "place_hz": 0.0, "jump": 0.0,  # m, of a localizer at each of its corrections, to and fro; 0 Hz: map -> odom is fixed
           "map_hz": 0.0, "map_yaw": 0.0, "map_w": 1.0}  # of the origin's quaternion, where it is not turned
 NO_RETURN = {"inf": math.inf, "nan": math.nan, "zero": 0.0, "over": 11.0}
 
 
-def transform(parent, child, z, stamp):
+def transform(parent, child, z, stamp, x=0.0):
     out = TransformStamped(child_frame_id=child)
     out.header.frame_id, out.header.stamp = parent, stamp
-    out.transform.translation.z, out.transform.rotation.w = z, 1.0
+    out.transform.translation.x, out.transform.translation.z, out.transform.rotation.w = x, z, 1.0
     return out
 
 
@@ -64,7 +66,11 @@ def main(words):
     moving = rospy.Publisher("/tf", TFMessage, queue_size=5)
     rospy.Subscriber("/robot/cmd_vel", Twist, lambda _: None)
     fixed = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-    fixed.publish([transform("map", "odom", 0.0, rospy.Time.now()), transform("base_link", "laser", 0.2, rospy.Time.now())])
+    lidar, sides = transform("base_link", "laser", 0.2, rospy.Time.now()), itertools.cycle((0.0, habits["jump"]))
+    fixed.publish([lidar] if habits["place_hz"] else [transform("map", "odom", 0.0, rospy.Time.now()), lidar])
+    if habits["place_hz"]:
+        rospy.Timer(rospy.Duration(1 / habits["place_hz"]), lambda _: moving.publish(
+            [transform("map", "odom", 0.0, rospy.Time.now(), next(sides))]))
     if habits["map_hz"]:
         rospy.Timer(rospy.Duration(1 / habits["map_hz"]), lambda _: maps.publish(map_of(habits, rospy.Time.now())))
 

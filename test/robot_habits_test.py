@@ -23,6 +23,7 @@ HABITS = [
     ("a map each second", "map_hz=1", True),
     ("a turned map", "map_hz=1 map_yaw=0.3", True),
     ("a map without a quaternion", "map_hz=1 map_w=0", True),
+    ("a localizer that corrects itself seldom", "place_hz=0.25 jump=0.3", True),
     # The map has no wall within 2 m of the robot, but within 10 m.
     ("an open hall, +inf", "map_hz=1 sees=0 range_max=2.5", True),
     ("an open hall, 0", "map_hz=1 sees=0 range_max=2.5 none=zero", False),

@@ -23,7 +23,8 @@ Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide&
       guide_(guide),
       devices_(devices),
       beat_(std::move(beat)),
-      stale_(config.feedback->stale) {
+      stale_(config.feedback->stale),
+      tf_listener_(tf_, config.odom_frame) {
   subscribe_to_hands(config);
   subscribe_to_robot();
   subscribe_to_trials();

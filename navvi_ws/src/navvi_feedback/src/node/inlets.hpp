@@ -57,7 +57,7 @@ class Inlets {
   Beat beat_;
   double stale_;  ///< s
   tf2_ros::Buffer tf_;
-  navvi_types::TransformListener tf_listener_{tf_};
+  navvi_types::TransformListener tf_listener_;
   std::vector<Eigen::Vector2d> path_, preview_;  ///< m, in map
   std::vector<drive::Button> asked_;             ///< by topic, not answered yet
   drive::StickAge stick_age_;

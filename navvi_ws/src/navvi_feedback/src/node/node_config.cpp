@@ -34,6 +34,8 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
         "true: what other programs want by joy/set_feedback is felt on our own pad until it is "
         "stale, "
         "where it is stronger than what is near, and below all patterns");
+  visit(odom_frame, "odom_frame", Any{}, "",
+        "frame of odometry, which a localizer places in the map");
   visit(person, "person", Any{}, "",
         "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
         "in it over the profile's");

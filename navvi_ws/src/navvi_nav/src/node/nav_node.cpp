@@ -49,12 +49,15 @@ struct NodeConfig {
   guide::NavigatorConfig navigator;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
+  std::string odom_frame = "odom";
 
   void describe(navvi_config::Visitor& visit) {
     navigator.describe(visit);
     visit(map_frame, "map_frame", navvi_config::Any{}, "",
           "frame of the map and of all that is published");
     visit(base_frame, "base_frame", navvi_config::Any{}, "", "frame of the robot");
+    visit(odom_frame, "odom_frame", navvi_config::Any{}, "",
+          "frame of odometry, which a localizer places in the map");
   }
 };
 
@@ -271,7 +274,7 @@ class NavNode {
   guide::Navigator navigator_;
   plan::Worker worker_;
   tf2_ros::Buffer buffer_;
-  navvi_types::TransformListener listener_{buffer_};
+  navvi_types::TransformListener listener_{buffer_, config_.odom_frame};
   std::optional<tf2_ros::StaticTransformBroadcaster> frames_;
   ros::Publisher path_;
   ros::Publisher guidance_;

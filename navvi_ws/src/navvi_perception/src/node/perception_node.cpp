@@ -38,6 +38,7 @@ struct NodeConfig {
   see::PerceptionConfig core;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
+  std::string odom_frame = "odom";
   std::string scans = "scan", clouds = "points";  ///< topics, separated by commas
   std::string no_return = "unknown";             ///< or free
   std::string prior;         ///< a file with an OctoMap; empty: the topic map is listened to
@@ -51,6 +52,8 @@ struct NodeConfig {
     core.describe(visit);
     visit(map_frame, "map_frame", Any{}, "", "frame of the map and of all that is published");
     visit(base_frame, "base_frame", Any{}, "", "frame of the robot");
+    visit(odom_frame, "odom_frame", Any{}, "",
+          "frame of odometry, which a localizer places in the map");
     visit(scans, "scans", Any{}, "", "topics with sensor_msgs/LaserScan, separated by commas");
     visit(clouds, "clouds", Any{}, "", "topics with sensor_msgs/PointCloud2, separated by commas");
     visit(no_return, "no_return", navvi_config::OneOf{{"unknown", "free"}}, "",
@@ -408,7 +411,7 @@ class PerceptionNode {
   sight::Prior prior_;
   std::unique_ptr<see::Perception> perception_;
   tf2_ros::Buffer buffer_;
-  navvi_types::TransformListener listener_{buffer_};
+  navvi_types::TransformListener listener_{buffer_, config_.odom_frame};
   boost::signals2::connection moved_;  ///< calls when a transform comes
   laser_geometry::LaserProjection projector_;
   ros::Publisher map_, obstacles_, proximity_, contacts_, seen_, diagnostics_;

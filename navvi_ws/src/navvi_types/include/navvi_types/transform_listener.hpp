@@ -5,8 +5,12 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
+
+#include "navvi_types/subscribe.hpp"
 
 namespace navvi_types {
 
@@ -30,13 +34,45 @@ namespace navvi_types {
   return std::nullopt;
 }
 
+/// The place of odometry's frame in the map holds until the localizer corrects it, which some do
+/// each five seconds: for twice the time between the last two corrections, 1 to 10 s.
+class HeldPlace {
+ public:
+  explicit HeldPlace(std::string odom_frame) : odom_frame_(std::move(odom_frame)) {}
+
+  /// Takes each moving transform. \return the place as of the stamp of one that odometry sent
+  [[nodiscard]] std::optional<geometry_msgs::TransformStamped> at_the_stamp_of(
+      const geometry_msgs::TransformStamped& one) {
+    const double since = place_ ? (one.header.stamp - place_->header.stamp).toSec() : kLongest;
+    if (without_slash(one.child_frame_id) == odom_frame_ && since > 0.0) {
+      hold_ = std::clamp(2.0 * since, 1.0, kLongest);
+      place_ = one;
+    } else if (place_ && without_slash(one.header.frame_id) == odom_frame_ && since > 0.0 &&
+               since <= hold_) {
+      geometry_msgs::TransformStamped held = *place_;
+      held.header.stamp = one.header.stamp;
+      return held;
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] const std::string& odom_frame() const { return odom_frame_; }
+
+ private:
+  static constexpr double kLongest = 10.0;  // s
+
+  std::string odom_frame_;
+  std::optional<geometry_msgs::TransformStamped> place_;
+  double hold_ = kLongest;  ///< s
+};
+
 /// Fills a buffer from /tf and /tf_static, as tf2_ros::TransformListener does, and besides rejects
 /// transforms stamped more than 2 s ahead of ROS time: tf2 drops all that are 10 s older than the
 /// latest, so that a single one keeps out all that follow. Localizers stamp map -> odom up to 1 s
 /// ahead. A jump back of ROS time empties the buffer. Lives in the thread of the global queue.
 class TransformListener {
  public:
-  explicit TransformListener(tf2_ros::Buffer& buffer) : buffer_(buffer) {
+  TransformListener(tf2_ros::Buffer& buffer, const std::string& odom_frame)
+      : buffer_(buffer), place_(odom_frame) {
     const auto listen = [this](const char* topic, bool fixed) {
       const boost::function<void(const Event&)> take = [this, fixed](const Event& event) {
         receive(event, fixed);
@@ -55,7 +91,10 @@ class TransformListener {
 
   void receive(const Event& event, bool fixed) {
     const ros::Time now = ros::Time::now();
-    if (now < last_) buffer_.clear();
+    if (now < last_) {
+      buffer_.clear();
+      place_ = HeldPlace(place_.odom_frame());
+    }
     last_ = now;
     const std::string publisher = event.getPublisherName();
     for (const geometry_msgs::TransformStamped& one : event.getConstMessage()->transforms) {
@@ -68,6 +107,8 @@ class TransformListener {
       }
       try {
         buffer_.setTransform(one, publisher, fixed);
+        const auto held = fixed ? std::nullopt : place_.at_the_stamp_of(one);
+        if (held) buffer_.setTransform(*held, publisher);
       } catch (const tf2::TransformException& error) {
         ROS_WARN_THROTTLE(5.0, "A transform by %s was dropped: %s", publisher.c_str(),
                           error.what());
@@ -80,6 +121,7 @@ class TransformListener {
 
   tf2_ros::Buffer& buffer_;
   ros::NodeHandle node_;
+  HeldPlace place_;
   ros::Subscriber moving_, fixed_;
   ros::Time last_;
 };
