@@ -14,7 +14,7 @@ struct OccupancyGrid {
   int height = 0;                  ///< cells along y
   double resolution = 0.0;         ///< m
   Point origin;                    ///< m, lower corner of cell (0, 0) in map
-  double yaw = 0.0;                ///< rad, of the grid in map; only 0 can be read
+  double yaw = 0.0;                ///< rad, of the grid in map, about its origin
   std::vector<std::int8_t> cells;  ///< row by row: -1 unknown, else 0 (free) to 100 (occupied)
 };
 
@@ -22,7 +22,8 @@ inline constexpr double kFreeBelow = 0.196;     ///< of occupancy, as map_server
 inline constexpr double kOccupiedAbove = 0.65;  ///< of occupancy, as map_server's occupied_thresh
 
 /// A value between free and occupied is unknown, and an unknown cell is no floor. Everything
-/// occupied is an obstacle of unknown height; the floor is at z = 0.
+/// occupied is an obstacle of unknown height; the floor is at z = 0. A turned grid is laid along
+/// the axes of map first: what is blocked grows by less than a cell.
 /// \param config  of which `cell_size` and `margin` count
 [[nodiscard]] MapSurvey read_grid(const OccupancyGrid& grid, const SurveyConfig& config);
 
