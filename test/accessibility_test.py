@@ -361,7 +361,7 @@ def test_what_is_felt_or_sounds_is_said_too():
             near = re.fullmatch(r"(\w+?)_(near|close)", name)
             said = SAID.get(name) or (f"obstacle_{near[2]}" if near else None)
             # "No sound" cannot be said: it is felt and shown; nor that words are missing. The others come only when somebody asks for them.
-            assert said in phrases or name in ("no_sound", "sample", "sonar", "unsaid"), name
+            assert said in phrases or name in ("no_sound", "sample", "unsaid"), name
 
 
 # --- documents

@@ -72,7 +72,7 @@ def test_the_glossary_is_given_from_the_first_signal_to_the_last(env, tmp_path):
     texts = yaml.safe_load(PHRASES.read_text())["lessons"]
     missing = [key for key in texts if key.startswith("glossary_") and not key.endswith("_keys") and f"'{key}'" not in kinds]
     # Off in a session unless wanted; there are motors.
-    assert sorted(missing) == ["glossary_no_motors", "glossary_sound_beacon", "glossary_sound_sonar"]
+    assert sorted(missing) == ["glossary_no_motors", "glossary_sound_beacon"]
     for signal in "turn", "turn_stop", "worker_close", "hit_shelf", "stuck", "rerouted", "obstacle_stop", "make_room", "go_on":
         assert f"'{signal}'" in kinds
 

@@ -41,13 +41,12 @@ enum class SettingName {
   hit_sound,
   arrival_sound,
   beacon,
-  sonar,
   hold,
 };
-[[nodiscard]] constexpr std::array<const char*, 15> names(SettingName) {
+[[nodiscard]] constexpr std::array<const char*, 14> names(SettingName) {
   return {"rate",      "volume",        "strength",   "verbosity",   "touch",
           "way_words", "near_words",    "turn_sound", "shelf_sound", "near_sound",
-          "hit_sound", "arrival_sound", "beacon",     "sonar",       "hold"};
+          "hit_sound", "arrival_sound", "beacon",     "hold"};
 }
 enum class SettingValue { off, on, brief, normal, full };
 [[nodiscard]] constexpr std::array<const char*, 5> names(SettingValue) {

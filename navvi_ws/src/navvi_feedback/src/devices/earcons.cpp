@@ -100,8 +100,6 @@ std::vector<Note> notes(sounds::Earcon earcon) {
               {V::bell, 1046.5, 1046.5, 0.35}};
     case Earcon::beacon:
       return {{V::bell, 880.0, 880.0, 0.08}};
-    case Earcon::sonar:
-      return {{V::bell, 2600.0, 2600.0, 0.04}};
     case Earcon::unsaid:  // as a mumbled word
       return {{V::horn, 330.0, 262.0, 0.15}, kRest, {V::horn, 330.0, 196.0, 0.3}};
   }

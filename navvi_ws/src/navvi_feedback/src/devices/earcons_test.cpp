@@ -88,7 +88,7 @@ TEST(EarconPlayer, tells_what_was_heard) {
   Mixer off(MixerConfig{}, Audio::off);
   EXPECT_TRUE(EarconPlayer(off).play({{}}).empty());
   Mixer on(MixerConfig{}, Audio::on);
-  EXPECT_EQ(EarconPlayer(on).play({{}, {Earcon::sonar}}).size(), 2U);
+  EXPECT_EQ(EarconPlayer(on).play({{}, {Earcon::beacon}}).size(), 2U);
 }
 
 }  // namespace

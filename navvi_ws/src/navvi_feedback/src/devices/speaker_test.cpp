@@ -254,8 +254,8 @@ TEST(Speaker, plays_each_sound_of_a_scan_from_its_place_before_its_word) {
   {
     Mixer mixer(MixerConfig{}, Audio::on);
     Speaker speaker(SpeakerConfig{}, mixer);
-    const sounds::Play right{sounds::Earcon::sonar, {0.0, -1.0}, 1.0};
-    const sounds::Play left{sounds::Earcon::sonar, {0.0, 1.0}, 1.0};
+    const sounds::Play right{sounds::Earcon::beacon, {0.0, -1.0}, 1.0};
+    const sounds::Play left{sounds::Earcon::beacon, {0.0, 1.0}, 1.0};
     speaker.start("shelf right, wall left", {}, {right, left});
     ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
     EXPECT_EQ(speaker.take_played().size(), 2U);

@@ -46,7 +46,7 @@ class GlossaryTest : public testing::Test {
 
   sounds::SoundsConfig sounds_ = [] {
     sounds::SoundsConfig all;
-    all.beacon.on = all.sonar.on = true;
+    all.beacon.on = true;
     return all;
   }();
   Glossary glossary_{phrases(), {}, {}, sounds_};

@@ -45,7 +45,6 @@ const std::vector<Setting>& settings() {
         {Name::hit_sound, "sounds/hit/on", off_on, false, Earcon::hit_shelf},
         {Name::arrival_sound, "sounds/arrival/on", off_on, false, Earcon::arrived},
         {Name::beacon, "sounds/beacon/on", off_on, false, Earcon::beacon},
-        {Name::sonar, "sounds/sonar/on", off_on, false, Earcon::sonar},
         {Name::hold, "drive/enable", {kNoButton, "9"}},
     };
   }();

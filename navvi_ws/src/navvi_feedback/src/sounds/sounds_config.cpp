@@ -38,7 +38,6 @@ void SoundsConfig::describe(navvi_config::Visitor& visit) {
   visit.group("near", near);
   visit.group("arrival", arrival);
   visit.group("beacon", beacon);
-  visit.group("sonar", sonar);
   visit(capture_radius, "capture_radius", Range{0.2, 5.0}, "m",
         "nearer than this a way-point has no beacon");
   visit(under_words, "under_words", Range{0.0, 1.0}, "",
@@ -64,8 +63,6 @@ const FamilyConfig& SoundsConfig::family_of(Earcon earcon) const {
       return arrival;
     case Earcon::beacon:
       return beacon;
-    case Earcon::sonar:
-      return sonar;
     default:
       return near;
   }

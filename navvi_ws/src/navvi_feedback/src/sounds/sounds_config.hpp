@@ -35,7 +35,6 @@ struct SoundsConfig {
   FamilyConfig near;
   FamilyConfig arrival;
   FamilyConfig beacon{false};
-  FamilyConfig sonar{false};
   double capture_radius = 1.5;  ///< m
   double under_words = 0.3;
   std::string sides;  ///< sound device by which the person tells sides

@@ -10,10 +10,9 @@ namespace {
 constexpr double kFast = 0.13;
 constexpr double kSlow = 1.1;
 constexpr double kFar = 10.0;
-constexpr double kSonarRange = 3.0;  // m
 
-bool due(std::optional<double>& last, double distance, double range, double time) {
-  const double share = std::clamp(distance / range, 0.0, 1.0);
+bool due(std::optional<double>& last, double distance, double time) {
+  const double share = std::clamp(distance / kFar, 0.0, 1.0);
   if (last && time - *last < kFast + (kSlow - kFast) * share) return false;
   last = time;
   return true;
@@ -35,12 +34,8 @@ std::vector<Play> Soundscape::update(const Observation& now, const Lead& lead, d
   if (turn) plays.push_back(*turn);
   const auto next = waypoint(now, lead);
   if (config_.beacon.on && next && next->norm() > config_.capture_radius &&
-      due(beacon_, next->norm(), kFar, time))
+      due(beacon_, next->norm(), time))
     plays.push_back({Earcon::beacon, *next, config_.beacon.volume});
-  const NearThing* const nearest = now.nearby.empty() ? nullptr : &now.nearby.front();
-  if (config_.sonar.on && nearest && nearest->gap < kSonarRange &&
-      due(sonar_, nearest->gap, kSonarRange, time))
-    plays.push_back({Earcon::sonar, nearest->nearest, config_.sonar.volume});
   return plays;
 }
 

@@ -46,7 +46,6 @@ class Soundscape {
   SoundsConfig config_;
   TurnSound turn_;
   std::optional<double> beacon_;  ///< s, when it was heard last
-  std::optional<double> sonar_;   ///< s, likewise
 };
 
 }  // namespace navvi_feedback::sounds

@@ -24,15 +24,8 @@ Observation with_waypoint_in(double distance) {
   return now;
 }
 
-Observation with_thing_in(double gap) {
-  Observation now;
-  now.nearby = {{ThingClass::shelf, 1, gap, {0.0, gap + 0.4}}};
-  return now;
-}
-
-TEST(Soundscape, has_no_beacon_and_no_sonar_unless_asked_for) {
+TEST(Soundscape, has_no_beacon_unless_asked_for) {
   EXPECT_EQ(count({}, Earcon::beacon, with_waypoint_in(5.0)), 0);
-  EXPECT_EQ(count({}, Earcon::sonar, with_thing_in(0.5)), 0);
 }
 
 TEST(Soundscape, has_a_beacon_that_quickens_up_to_the_capture_radius) {
@@ -43,15 +36,6 @@ TEST(Soundscape, has_a_beacon_that_quickens_up_to_the_capture_radius) {
   EXPECT_GT(count(config, Earcon::beacon, with_waypoint_in(2.0)), 2 * far);
   EXPECT_EQ(count(config, Earcon::beacon, with_waypoint_in(1.4)), 0);
   EXPECT_EQ(count(config, Earcon::beacon, {}), 0);
-}
-
-TEST(Soundscape, has_a_sonar_that_quickens_towards_the_nearest_thing) {
-  SoundsConfig config;
-  config.sonar.on = true;
-  const int far = count(config, Earcon::sonar, with_thing_in(2.5));
-  EXPECT_GT(far, 5);
-  EXPECT_GT(count(config, Earcon::sonar, with_thing_in(0.2)), 3 * far);
-  EXPECT_EQ(count(config, Earcon::sonar, with_thing_in(3.5)), 0);
 }
 
 }  // namespace

@@ -157,7 +157,6 @@ void SimulatedOperator::follow(const Tone& tone, double time) {
       return shy_away({Ask::beware, 12, {}, tone.side, true}, time);
     case Earcon::arrived:
     case Earcon::beacon:
-    case Earcon::sonar:
     case Earcon::unsaid:
       return;
   }

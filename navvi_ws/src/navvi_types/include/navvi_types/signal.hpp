@@ -46,12 +46,11 @@ enum class Earcon : std::uint8_t {
   thing_close,
   arrived,
   beacon,      ///< from the next way-point; the faster, the nearer
-  sonar,       ///< from the nearest thing; likewise
   turn_click,  ///< as turn, while words are spoken: short, and above them
   unsaid,      ///< instead of words: the voice was lost twice over them
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 20> names(Earcon) {
+[[nodiscard]] constexpr std::array<const char*, 19> names(Earcon) {
   return {"turn",
           "turn_stop",
           "on_course",
@@ -69,7 +68,6 @@ enum class Earcon : std::uint8_t {
           "thing_close",
           "arrived",
           "beacon",
-          "sonar",
           "turn_click",
           "unsaid"};
 }
