@@ -70,8 +70,6 @@ class Feedback {
   /// A place to be remembered. \param at  m, in map
   void take_place(const Eigen::Vector2d& at) { shown_ = at; }
   void take(const Contact& contact) { senses_.take(contact); }
-  /// What another program wants to be felt, until it is stale.
-  void take(const haptics::Rumble& others, double time) { senses_.take(others, time); }
   /// What the person can set, by parameter.
   void take_settings(const std::map<std::string, std::string>& values);
   /// From now on, as far as the person can set it: touch, sounds and wording.

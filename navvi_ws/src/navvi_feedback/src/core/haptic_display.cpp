@@ -1,6 +1,5 @@
 #include "core/haptic_display.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "cues/side.hpp"
@@ -82,9 +81,7 @@ haptics::Rumble HapticDisplay::update(const Observation& now, std::optional<doub
   if (const auto pattern = patterns_.update(dt))
     return {config_.strength * pattern->left, config_.strength * pattern->right};
   const double share = urgent ? config_.duck : 1.0;
-  const double others = config_.enabled ? config_.strength : 0.0;
-  return {share * std::max(felt.left, others * now.others.left),
-          share * std::max(felt.right, others * now.others.right)};
+  return {share * felt.left, share * felt.right};
 }
 
 }  // namespace navvi_feedback::core

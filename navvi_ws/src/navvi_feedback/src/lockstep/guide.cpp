@@ -115,9 +115,6 @@ void Guide::take(const navvi_types::Scenario& scenario, double time) {
 void Guide::take(const navvi_types::Contact& contact) { parts_->feedback.take(contact); }
 void Guide::take_goal(const Eigen::Vector2d& goal) { parts_->feedback.take_goal(goal); }
 void Guide::take_place(const Eigen::Vector2d& at) { parts_->feedback.take_place(at); }
-void Guide::take(const haptics::Rumble& others, double time) {
-  parts_->feedback.take(others, time);
-}
 void Guide::offer(const std::map<std::string, std::string>& values) {
   parts_->feedback.take_settings(values);
 }

@@ -44,7 +44,8 @@ DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
 }  // namespace
 
 DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
-                            const std::string& input, bool live, bool felt) {
+                            const std::string& input, bool live, bool felt,
+                            double assistance) {
   DiagnosticStatus result;
   // Whether anything can be felt.
   std::string state = input == "keyboard" ? "off" : live ? "works" : "missing";
@@ -63,6 +64,7 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
   }
   if (!felt) state = "off";
   add(result, "input", input);
+  add(result, "assistance", std::to_string(assistance));
   add(result, "state", state);
   return result;
 }

@@ -25,7 +25,7 @@ Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide&
       beat_(std::move(beat)),
       stale_(config.feedback->stale),
       tf_listener_(tf_, config.odom_frame) {
-  subscribe_to_hands(config);
+  subscribe_to_hands();
   subscribe_to_robot();
   subscribe_to_trials();
 }
@@ -52,7 +52,7 @@ void Inlets::listen_at_once(
                                               ros::TransportHints().tcpNoDelay()));
 }
 
-void Inlets::subscribe_to_hands(const NodeConfig& config) {
+void Inlets::subscribe_to_hands() {
   InputSource& source = devices_.source();
   if (source.kind() == InputSource::Kind::topic)
     listen<sensor_msgs::Joy>(
@@ -62,17 +62,6 @@ void Inlets::subscribe_to_hands(const NodeConfig& config) {
     listen_at_once<sensor_msgs::Joy>(
         "navvi/keys", 100, [&source](const ros::MessageEvent<const sensor_msgs::Joy>& event) {
           source.receive(from_msg(*event.getConstMessage()).value_or(drive::InputState{}), now());
-        });
-  if (config.others_rumble && source.pad() != nullptr)
-    listen_at_once<sensor_msgs::JoyFeedbackArray>(
-        "joy/set_feedback", 10,
-        [this, motors = config.motors](
-            const ros::MessageEvent<const sensor_msgs::JoyFeedbackArray>& wish) {
-          if (wish.getPublisherName() == ros::this_node::getName()) return;
-          if (const auto rumble = from_msg(*wish.getConstMessage(), motors))
-            guide_.take(*rumble, now());
-          else
-            ROS_WARN_THROTTLE(5.0, "A message on joy/set_feedback is malformed and was dropped.");
         });
   subscribers_.push_back(node_.subscribe<std_msgs::String>(
       "navvi/ask", 10, [this](const std_msgs::String::ConstPtr& msg) {

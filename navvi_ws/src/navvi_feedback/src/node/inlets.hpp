@@ -44,7 +44,7 @@ class Inlets {
   template <typename Msg>
   void listen_at_once(const std::string& topic, std::uint32_t queue,
                       const boost::function<void(const ros::MessageEvent<const Msg>&)>& take);
-  void subscribe_to_hands(const NodeConfig& config);
+  void subscribe_to_hands();
   void receive(drive::InputState joy, devices::InputSource& source);
   void subscribe_to_robot();
   void subscribe_to_trials();

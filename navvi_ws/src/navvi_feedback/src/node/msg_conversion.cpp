@@ -48,18 +48,6 @@ sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble,
   return msg;
 }
 
-std::optional<haptics::Rumble> from_msg(const sensor_msgs::JoyFeedbackArray& msg,
-                                        const std::string& driver) {
-  haptics::Rumble rumble;
-  for (const sensor_msgs::JoyFeedback& motor : msg.array) {
-    if (motor.type != sensor_msgs::JoyFeedback::TYPE_RUMBLE || motor.id > 1) continue;
-    if (!(motor.intensity >= 0.0F && motor.intensity <= 1.0F)) return std::nullopt;
-    const bool left = (motor.id == 0) == (driver == "joy_node");
-    (left ? rumble.left : rumble.right) = static_cast<double>(motor.intensity);
-  }
-  return rumble;
-}
-
 std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg) {
   if (msg.type != "TRIAL_END") return std::nullopt;
   const std::string fields = ";" + msg.fields + ";";

@@ -30,10 +30,6 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
       motors, "motors", OneOf{{"joy_node", "ds4_driver"}}, "",
       "who moves the motors by joy/set_feedback: motor 0 is the strong, left one to joy_node, the "
       "weak, right one to ds4_driver (with its use_standard_msgs)");
-  visit(others_rumble, "others_rumble", Any{}, "",
-        "true: what other programs want by joy/set_feedback is felt on our own pad until it is "
-        "stale, "
-        "where it is stronger than what is near, and below all patterns");
   visit(odom_frame, "odom_frame", Any{}, "",
         "frame of odometry, which a localizer places in the map");
   visit(person, "person", Any{}, "",

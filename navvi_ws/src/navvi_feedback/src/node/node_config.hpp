@@ -28,7 +28,6 @@ struct NodeConfig : PersonConfig {
   bool speech = true;
   std::string listener = "device";
   std::string motors = "joy_node";
-  bool others_rumble = false;
   std::string odom_frame = "odom";
   std::string person;  ///< name of their PersonFile; empty for none
   std::string record;

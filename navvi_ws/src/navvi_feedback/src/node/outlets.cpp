@@ -1,7 +1,5 @@
 #include "node/outlets.hpp"
 
-#include <std_msgs/Float32.h>
-
 #include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_feedback/node/msg_conversion.hpp"
@@ -23,7 +21,6 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
   cmd_vel_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   motors_ = node.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
   cues_ = node.advertise<navvi_msgs::Cue>("navvi/cues", 100);
-  assistance_ = node.advertise<std_msgs::Float32>("navvi/assistance", 1, true);
   goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
   requests_ = node.advertise<navvi_msgs::TrialRequest>("navvi/trial_request", 10);
   orders_ = node.advertise<navvi_msgs::Cue>("navvi/order", 1, true);
@@ -39,12 +36,6 @@ void Outlets::stop_wheels() { cmd_vel_.publish(geometry_msgs::Twist()); }
 
 void Outlets::send(const lockstep::Told& told) {
   if (told.command) cmd_vel_.publish(to_msg(*told.command));
-  if (share_ != told.share) {
-    std_msgs::Float32 share;
-    share.data = static_cast<float>(told.share);
-    assistance_.publish(share);
-    share_ = told.share;
-  }
   if (told.goal) goals_.publish(navvi_types::goal_msg(*told.goal, stamp()));
   if (told.request) requests_.publish(to_msg(navvi_types::TrialRequest{*told.request, stamp()}));
   if (told.rumble_due) motors_.publish(feedback_msg(told.rumble, motors_driver_));

@@ -44,9 +44,8 @@ class Outlets {
  private:
   std::string motors_driver_;
   picture::MarkersConfig markers_config_;
-  ros::Publisher cmd_vel_, joy_, motors_, assistance_, goals_, requests_, cues_, orders_,
+  ros::Publisher cmd_vel_, joy_, motors_, goals_, requests_, cues_, orders_,
       markers_, diagnostics_;
-  std::optional<double> share_;         ///< of the person's speed, last published
   std::optional<double> markers_time_;  ///< s
   CueEvent order_{0, CueStage::ended};  ///< last published
   visualization_msgs::MarkerArray shown_;

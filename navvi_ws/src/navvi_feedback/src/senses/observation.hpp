@@ -13,7 +13,6 @@
 
 #include "navvi_feedback/drive/button.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
-#include "navvi_feedback/haptics/rumble.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 
 namespace navvi_feedback {
@@ -73,7 +72,6 @@ struct Observation {
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
   std::vector<NearThing> nearby;          ///< the latest; empty if stale
   std::vector<Contact> contacts;          ///< begun since the last tick
-  haptics::Rumble others;                 ///< what other programs want to be felt
 
   // The way
   std::optional<Guidance> guidance;         ///< the latest, however old

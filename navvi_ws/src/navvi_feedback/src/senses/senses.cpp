@@ -47,7 +47,6 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   now.gate = gate_;
   if (now.links.proximity == Link::alive) now.nearby = *nearby_.value;
   now.contacts = std::exchange(contacts_, {});
-  if (others_.link(time, stale_) == Link::alive) now.others = *others_.value;
   now.guidance = guidance_.value;
   now.turned = turned_;
   if (devices.robot) locate(now);

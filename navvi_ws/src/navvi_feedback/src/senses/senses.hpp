@@ -33,8 +33,6 @@ class Senses {
   }
   void take(const navvi_types::Scenario& scenario) { scenario_ = scenario; }
   void take(const Contact& contact) { contacts_.push_back(contact); }
-  /// What another program wants to be felt, until it is stale.
-  void take(const haptics::Rumble& others, double time) { others_ = {others, time}; }
 
   /// \param devices  now
   /// \param dt  s, since the last observation
@@ -68,7 +66,6 @@ class Senses {
   double stale_;
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;
-  Latest<haptics::Rumble> others_;
   Latest<Velocity> motion_;
   double turned_ = 0.0;  ///< rad, counter-clockwise, since that guidance
   std::optional<DriveState::State> gate_;

@@ -176,7 +176,11 @@ std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   driven_.odometry = odometry;
   if (odometry.stamp < driven_.next_progress) return {};
   driven_.next_progress = odometry.stamp + ns(config_.progress_period);
-  return {{"PROGRESS", tally_fields(), odometry.stamp, false}};
+  record::Fields progress = tally_fields();
+  if (const auto pad = devices_.find("pad"); pad != devices_.end())
+    if (const auto share = pad->second.traits.find("assistance"); share != pad->second.traits.end())
+      progress.set("assistance", share->second);
+  return {{"PROGRESS", progress, odometry.stamp, false}};
 }
 
 void TrialMonitor::collision(const Contact* contact, bool shelf, std::int64_t stamp,

@@ -95,8 +95,6 @@ class Guide {
   void take_goal(const Eigen::Vector2d& goal);
   /// A place to be remembered, as a click in RViz names it. \param at  m, in map
   void take_place(const Eigen::Vector2d& at);
-  /// Wanted by another program, until it is stale.
-  void take(const haptics::Rumble& others, double time);
   /// Values of the parameters that the menu offers.
   void offer(const std::map<std::string, std::string>& values);
   /// From now on, as far as a person can set it: touch, sounds and wording.

@@ -24,10 +24,6 @@ using navvi_types::CueKind;
 /// is the other way round. \param driver  one of these names
 [[nodiscard]] sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble,
                                                          const std::string& driver = "joy_node");
-/// What it wants to be felt: a motor that it does not name rests. Forces out of [0, 1] are
-/// rejected.
-[[nodiscard]] std::optional<haptics::Rumble> from_msg(const sensor_msgs::JoyFeedbackArray& msg,
-                                                      const std::string& driver);
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
 /// arrival or the refusal of the goal tells it.
 [[nodiscard]] std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg);
