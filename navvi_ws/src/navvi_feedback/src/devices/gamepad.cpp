@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 8ms;
+constexpr auto kFrozen = 250ms;
 constexpr auto kScanPeriod = 100ms;
 constexpr auto kExpiry = 300ms;
 constexpr auto kResend = 100ms;
@@ -137,9 +138,31 @@ class Gamepad::Pad {
   std::optional<Clock::time_point> beat_;  ///< the last of its sensor
 };
 
-Gamepad::Gamepad() : thread_(*this, kPeriod) {}
-Gamepad::~Gamepad() = default;
-drive::InputState Gamepad::input() const { return thread_.input(); }
+Gamepad::Gamepad() {
+  std::promise<void> started;
+  std::future<void> start = started.get_future();
+  thread_ = std::thread(&Gamepad::run, this, std::move(started));
+  try {
+    start.get();
+  } catch (...) {
+    thread_.join();
+    throw;
+  }
+}
+
+Gamepad::~Gamepad() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+drive::InputState Gamepad::input() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return Clock::now() - read_time_ <= kFrozen ? input_ : drive::InputState{};
+}
 
 Gamepad::Status Gamepad::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -152,19 +175,34 @@ void Gamepad::rumble(const haptics::Rumble& rumble, std::function<void()> called
     if (!called_ && status_.connected) called_ = std::move(called);
     wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
     wish_time_ = Clock::now();
+    woken_ = true;
   }
-  thread_.wake();
+  changed_.notify_all();
 }
 
-void Gamepad::open() {
+void Gamepad::run(std::promise<void> started) {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
   SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI_PS5_RUMBLE, "1");
   if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
-    throw DeviceError(std::string("SDL finds no game controllers: ") + SDL_GetError());
+    return started.set_exception(std::make_exception_ptr(
+        DeviceError(std::string("SDL finds no game controllers: ") + SDL_GetError())));
+  read();
+  started.set_value();
+  while (rest()) read();
+  if (pad_) pad_->silence();
+  pad_.reset();
+  SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
 }
 
-std::optional<drive::InputState> Gamepad::read() {
+bool Gamepad::rest() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, kPeriod, [this] { return woken_ || quit_; });
+  woken_ = false;
+  return !quit_;
+}
+
+void Gamepad::read() {
   SDL_GameControllerUpdate();
   const Clock::time_point now = Clock::now();
   if (pad_ && !pad_->attached()) forget_pad();
@@ -176,13 +214,10 @@ std::optional<drive::InputState> Gamepad::read() {
   move_motors(now);
   drive::InputState input = pad_ && !pad_->silent(now) ? pad_->input() : drive::InputState{};
   input.session = session_;
-  return counter_.count(std::move(input));
-}
-
-void Gamepad::close() {
-  if (pad_) pad_->silence();
-  pad_.reset();
-  SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
+  input = counter_.count(std::move(input));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  input_ = std::move(input);
+  read_time_ = Clock::now();
 }
 
 void Gamepad::scan() {

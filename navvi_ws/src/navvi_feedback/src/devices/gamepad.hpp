@@ -1,13 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
+#include <thread>
 
-#include "devices/device_thread.hpp"
 #include "drive/press_counter.hpp"
 #include "haptics/haptics.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
@@ -20,7 +21,7 @@ namespace navvi_feedback::devices {
 /// A stick that is held still sends nothing, and a radio link may freeze long before the system
 /// names the pad detached. A pad with a motion sensor is asked to stream it, as a heartbeat: once
 /// the stream has begun, its end is the loss of the pad.
-class Gamepad final : private ThreadedDevice {
+class Gamepad {
  public:
   struct Status {
     bool connected = false;
@@ -47,7 +48,8 @@ class Gamepad final : private ThreadedDevice {
 
   /// axes: left stick x, y, right stick x, y (left and forward positive), left and right trigger
   /// [0, 1]. buttons: SDL's order: south, east, west, north, back, guide, start, sticks,
-  /// shoulders, directions. Not live while no pad is connected, or while it is silent.
+  /// shoulders, directions. Not live while no pad is connected, while it is silent, or if its
+  /// thread read it more than 250 ms ago: values that a hanging thread left must not drive.
   [[nodiscard]] drive::InputState input() const;
   [[nodiscard]] Status status() const;
 
@@ -60,9 +62,10 @@ class Gamepad final : private ThreadedDevice {
   /// The pad that is open, and the last values of its motors. Used by the thread alone.
   class Pad;
 
-  void open() override;
-  [[nodiscard]] std::optional<drive::InputState> read() override;
-  void close() override;
+  void run(std::promise<void> started);
+  /// Until the period is over or there is something to do. \return false at the end
+  [[nodiscard]] bool rest();
+  void read();
   void scan();
   void take_pad(int index);
   void hear_pad(std::chrono::steady_clock::time_point now);
@@ -79,8 +82,13 @@ class Gamepad final : private ThreadedDevice {
   haptics::Rumble wish_;
   std::chrono::steady_clock::time_point wish_time_{};
   std::function<void()> called_;  ///< of the first wish that the thread has not seen
+  std::condition_variable changed_;
+  bool quit_ = false;
+  bool woken_ = false;
+  drive::InputState input_;
+  std::chrono::steady_clock::time_point read_time_{};
 
-  DeviceThread thread_;  ///< the last, for it uses all the others
+  std::thread thread_;  ///< the last, for it uses all the others
 };
 
 }  // namespace navvi_feedback::devices
