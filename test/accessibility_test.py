@@ -160,7 +160,6 @@ def test_without_a_terminal_there_are_no_control_characters(words):
     (["build"], "the build is done"),
     (["man", "--write", "{}/navvi.1"], "the manual is in"),
     (["world", "show", "training", "-o", "{}/a.svg"], "the picture is in"),
-    (["world", "write", "training", "{}/a.sdf"], "the world is in"),
 ], ids=lambda words: " ".join(words[:2]) if isinstance(words, list) else "")
 def test_success_is_told_in_words(words, sentence, tmp_path):
     result = navvi(*[word.format(tmp_path) for word in words])

@@ -88,8 +88,8 @@ def papers(tmp_path_factory):
 @pytest.fixture(scope="module")
 def desk(papers):
     """With a world and a map, too."""
-    for words in ["write", "warehouse", "my.world"], ["check", "warehouse", "-o", "my_map.bt"]:
-        subprocess.run(["./navvi", "world", *words], cwd=papers, check=True, stdout=subprocess.DEVNULL)
+    shutil.copy(ROOT / "navvi_ws/src/navvi_sim/worlds/crossing.sdf", papers / "my.world")
+    subprocess.run(["./navvi", "world", "check", "warehouse", "-o", "my_map.bt"], cwd=papers, check=True, stdout=subprocess.DEVNULL)
     return papers
 
 

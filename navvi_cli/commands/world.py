@@ -1,4 +1,4 @@
-"""List worlds, check one, draw it, or write it as SDF.
+"""List worlds, check one, or draw it.
 
 The names are those of sim_node's parameters, such as seed:=3, and for a layout
 also its own, such as length:=80; "./navvi parameters" lists them all.
@@ -10,7 +10,7 @@ why; or a wrong argument.
 from navvi_cli.arguments import parameter
 from navvi_cli.parser import add_actions
 from navvi_cli.pictures import draw, picture
-from navvi_cli.say import fail, say
+from navvi_cli.say import say
 from navvi_cli.workspace import show, tool
 from navvi_cli.worlds import Verdict, names, points, table
 
@@ -18,16 +18,14 @@ WORLD_TOOL = "navvi_sim", "world_tool"
 
 
 def arguments(parser):
-    add_actions(parser, list=List, check=Check, show=Show, write=Write)
+    add_actions(parser, list=List, check=Check, show=Show)
 
 
-def world_arguments(parser, file=""):
-    """A world, the file to write if any, and parameters."""
+def world_arguments(parser):
     parser.add_argument("world", metavar="NAME|FILE", help="the world; \"./navvi world list\" lists the names.").completer = (
         lambda **_: names())
     parser.add_argument("--config", metavar="CONFIG.yaml", help="parameters, as in the config files of sim_node.")
-    parser.add_argument("words", nargs="*", default=[], metavar=f"{file}name:=value", help="parameters, such as seed:=3" +
-                        (", and the file to write." if file else "."), **({} if file else {"type": parameter}))
+    parser.add_argument("words", nargs="*", default=[], metavar="name:=value", help="parameters, such as seed:=3.", type=parameter)
 
 
 def words_of(args):
@@ -59,7 +57,7 @@ class Check:
     def arguments(parser):
         world_arguments(parser)
         parser.add_argument("--csv", action="store_true", help="as a table for a program.")
-        parser.add_argument("-o", dest="octomap", metavar="FILE", help="saves its OctoMap, .bt or .ot; octomap/free:=true marks free space, too, as mappers do.")
+        parser.add_argument("-o", dest="octomap", metavar="FILE", help="saves its OctoMap, .bt or .ot.")
 
     def run(args):
         found = verdict(args, args.octomap)
@@ -90,22 +88,4 @@ class Show:
         status = draw(args.picture, show, tool(*WORLD_TOOL), "show", args.world, *words_of(args), *guide)
         if found.refusal:
             say(found.refusal)
-        return status
-
-
-class Write:
-    """Write a world as SDF."""
-
-    def arguments(parser):
-        world_arguments(parser, "FILE.sdf|")
-        parser.add_argument("-o", dest="file", metavar="FILE", help="the file to write, which may stand alone, too.")
-
-    def run(args):
-        files = [word for word in args.words if ":=" not in word] + ([args.file] if args.file else [])
-        if len(files) != 1:
-            fail(f"\"world write\" writes one file, and {len(files)} are named; allowed is such as \"world write training /tmp/a.sdf\".", 2)
-        words = [word for word in words_of(args) if word not in files]
-        status = show(tool(*WORLD_TOOL), "write", args.world, files[0], *words)
-        if status == 0:
-            say(f"the world is in {files[0]}.")
         return status

@@ -6,6 +6,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <utility>
 
 #include "devices/device_error.hpp"

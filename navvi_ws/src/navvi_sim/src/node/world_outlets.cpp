@@ -34,8 +34,7 @@ void WorldOutlets::publish_static(const scenario::StartAndGoal& scenario,
   if (!config_.life.robot.imperfections.odometry_drifts())
     static_transforms_.sendTransform(odom_msg(world().now()));
   if (!mounts.empty()) static_transforms_.sendTransform(mounts);
-  octomap_.publish(to_msg(
-      config_.octomap.free ? occupancy::with_free_space(map_, description_) : map_, ros::Time()));
+  octomap_.publish(to_msg(map_, ros::Time()));
   picture_.publish_standing();
   scenario_.publish(navvi_types::to_msg(navvi_types::Scenario{
       description_.name, world_hash(description_), static_cast<std::uint64_t>(config_.seed),

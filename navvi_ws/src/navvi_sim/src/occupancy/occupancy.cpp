@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "description/floor_height.hpp"
-#include "occupancy/octree.hpp"
 #include "occupancy/octree_writer.hpp"
 
 namespace navvi_sim::occupancy {
@@ -13,8 +12,6 @@ namespace {
 constexpr double kReach = 0.05;  // share of a voxel's edge that a shape must reach into
 constexpr std::size_t kMaxBytes = 64U * 1024U * 1024U;  // as many as navigation takes
 constexpr std::size_t kMostFilled = 2'000;              // triangles of a mesh
-constexpr double kLookedUp =
-    3.2;  // m above the floor, of a mapper; a round number of voxels in many sizes
 constexpr double kWidestFilled = 4.0;  // m, the lesser side: what is wider may be a building
 
 bool is_aligned(const Eigen::Isometry3d& pose) {
@@ -133,8 +130,6 @@ void check_reach(const Thing& thing, const Eigen::AlignedBox3d& bounds, double r
 void OccupancyConfig::describe(navvi_config::Visitor& visit) {
   visit(resolution, "resolution", navvi_config::Range{0.01, 1.0}, "m",
         "edge of a voxel of the OctoMap");
-  visit(free, "free", navvi_config::Any{}, "",
-        "true: the OctoMap also marks free space, from the floor to 3.2 m above it, as mappers do");
 }
 
 OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
@@ -158,21 +153,6 @@ OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& 
     }
   }
   return {config.resolution, write_octree(shapes, config.resolution, kMaxBytes)};
-}
-
-OccupancyMap with_free_space(const OccupancyMap& map, const WorldDescription& world) {
-  Eigen::AlignedBox3d space;
-  for (const Thing& thing : world.things) {
-    if (thing.route) continue;
-    for (const Shape& shape : thing.shapes)
-      space.extend(bounds_of(shape.geometry, thing.pose * shape.pose));
-  }
-  if (space.isEmpty()) return map;
-  space.min().z() = std::round(world.floor_height / map.resolution()) * map.resolution();
-  space.max().z() = space.min().z() + kLookedUp;
-  const auto tree = octree_of(map);
-  mark_free(*tree, space);
-  return map_of(*tree);
 }
 
 }  // namespace navvi_sim::occupancy

@@ -7,7 +7,15 @@
 
 namespace navvi_sim::read {
 
-/// Whether Gazebo has no such element: those of sdf_writer.hpp.
+// What SDF has no word for stands in elements of our own, which Gazebo passes over, such as
+//
+//     <navvi:class>pallet_robot</navvi:class>             in a model
+//     <navvi:route speed="0.7" loop="true" delay="0" yields="true">
+//       <navvi:waypoint pause="4" speed="0">1 2</navvi:waypoint>   m in map, s, m/s
+//     </navvi:route>
+//     <navvi:look>box</navvi:look>                        in a collision
+
+/// Whether it is one of these.
 [[nodiscard]] bool is_own(const XmlElement& element);
 
 /// <navvi:NAME> in `element`, which is a model or a collision; nullopt where there is none.

@@ -1,4 +1,4 @@
-// Lists, checks, shows and writes worlds, without ROS: `./navvi world`.
+// Lists, checks and shows worlds, without ROS: `./navvi world`.
 
 #include <filesystem>
 #include <fstream>
@@ -13,8 +13,6 @@
 #include "occupancy/octree.hpp"
 #include "picture/world_picture.hpp"
 #include "read/layout_world.hpp"
-#include "read/sdf_writer.hpp"
-#include "read/xml_element.hpp"
 
 namespace navvi_sim::tool {
 namespace {
@@ -26,11 +24,10 @@ constexpr const char* kUsage =
     "world check NAME|FILE [-o FILE.bt|FILE.ot] [--config FILE.yaml] [name:=value ...]   what a "
     "session "
     "makes\n"
-    "      of it; -o saves its OctoMap, with octomap/free:=true free space, too\n"
+    "      of it; -o saves its OctoMap\n"
     "world show NAME|FILE [-o FILE.svg] [--config FILE.yaml] [name:=value ...]   a picture;\n"
     "      --path and --turns, each \"X,Y X,Y ...\", m: the guide path. ./navvi adds it, and also "
     "takes FILE.png\n"
-    "world write NAME|FILE FILE.sdf [--config FILE.yaml] [name:=value ...]   the world as SDF\n"
     "The names are those of sim_node's parameters, such as seed:=3, and for a layout also its "
     "own,\n"
     "such as length:=80; `./navvi parameters` lists them all. --config takes a file like those of "
@@ -197,7 +194,7 @@ void check(const Words& words) {
   const auto map = setup::map_of(session, world);
   const scenario::StartAndGoal scenario = setup::scenario_of(session, world, map);
   print(request, scenario);
-  if (out) write_octomap(*out, session.octomap.free ? occupancy::with_free_space(map, world) : map);
+  if (out) write_octomap(*out, map);
   if (const auto file = words.option("--json"))
     navvi_config::write_json(*file, fields_of(request, scenario));
 }
@@ -233,21 +230,6 @@ void show(const Words& words) {
   if (!out) std::cout << path.string() << '\n';
 }
 
-void write(const Words& words) {
-  const fs::path path = words.plain[2];
-  if (path.extension() != ".sdf" && path.extension() != ".world")
-    throw UsageError("'" + path.string() + "' is no SDF file; allowed are .sdf and .world");
-  const Request request = load(words);
-  std::string text = read::to_sdf(request.loaded.world);
-  if (text.size() > read::kMaxXmlBytes) {
-    text = read::to_sdf(request.loaded.world, false);
-    std::cout << "without visuals, with which the file would be too large to be read back\n";
-  }
-  write_file(path, text);
-  for (const std::string& note : request.loaded.notes) std::cout << note << '\n';
-  std::cout << request.loaded.world.things.size() << " things in " << path.string() << '\n';
-}
-
 void list(const Words& words) {
   navvi_config::JsonFields fields;
   for (const generate::Preset& known : generate::presets()) {
@@ -266,7 +248,7 @@ struct Command {
 };
 
 constexpr Command kCommands[] = {
-    {"list", 1, list}, {"check", 2, check}, {"show", 2, show}, {"write", 3, write}};
+    {"list", 1, list}, {"check", 2, check}, {"show", 2, show}};
 
 void run(const Words& words) {
   const std::string name = words.plain.empty() ? "" : words.plain.front();

@@ -11,8 +11,6 @@ struct OccupancyConfig {
   double resolution = 0.05;  ///< m, edge of a voxel
   double underside = 0.05;   ///< m above the floor, of the robot: lower things are driven over
 
-  bool free = false;  ///< free space is marked, too
-
   void describe(navvi_config::Visitor& visit);
 };
 
@@ -35,9 +33,5 @@ struct OccupancyConfig {
 /// side), or the map comes to more than the 64 MiB that navigation takes
 [[nodiscard]] OccupancyMap occupancy_of(const WorldDescription& world,
                                         const OccupancyConfig& config);
-
-/// The map with free space as after complete exploration: all that is not occupied within the
-/// bounds of what stands still, from the floor to 3.2 m above it.
-[[nodiscard]] OccupancyMap with_free_space(const OccupancyMap& map, const WorldDescription& world);
 
 }  // namespace navvi_sim::occupancy
