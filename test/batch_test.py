@@ -89,13 +89,6 @@ def test_trials_keep_as_much_of_worlds_as_asked_for(tmp_path):
     assert len(words) == 36 and all("--cache=64" in line.split() for line in words)
 
 
-def test_a_person_is_moved_by_a_trait(tmp_path):
-    trial = batch.trials_of(args_of(tmp_path, people="typical~hearing/sound_spread+1:2", seeds="5"))[0]
-    assert {"person/type:=typical", "person/moved:=hearing/sound_spread+1", "person/seed:=2"} <= set(trial.words(60))
-    with pytest.raises(Failure, match="allowed"):
-        batch.trials_of(args_of(tmp_path, people="typical~hearing"))
-
-
 def test_each_world_has_a_person_of_its_own_where_no_seeds_are_asked_for(tmp_path):
     trials = batch.trials_of(args_of(tmp_path, people="able,drawn:7", seeds="5-6", worlds="busy", conditions="default"))
     assert [(trial.person, trial.person_seed) for trial in trials] == [("able", 5), ("drawn", 7), ("able", 6), ("drawn", 7)]
@@ -184,30 +177,6 @@ def test_the_condition_that_the_help_shows_is_one_that_the_program_knows():
     condition = re.search(r"^slow=\S+$", batch.__doc__, re.M)[0]
     trials = batch.trials_of(args_of("unused", worlds="training", seeds="1", people="able", conditions=condition))
     batch.require_conditions(ROOT / "navvi_ws/devel/lib/navvi_study/trials_bench", trials)
-
-
-def test_a_branch_runs_a_trial_of_a_batch_again_with_and_without_a_change(tmp_path, capsys):
-    # The stand-in's row is a function of its words; --until alone changes no trial.
-    program = tmp_path / "same"
-    program.write_text(stand_in(tmp_path).read_text().replace('sum=$(echo "$@" | cksum)', 'sum=$(echo "$@" | sed "s/ --until=[0-9]*//" | cksum)'))
-    program.chmod(0o755)
-    assert batch.run_batch(program, args_of(tmp_path / "a")) == 0
-    args = args_of(tmp_path / "b", from_trial=f"{tmp_path / 'a'}:7", until=5, then="person/seed:=2")
-    assert batch.branch(program, args) == 0
-    with open(tmp_path / "b/branch.csv", encoding="utf-8", newline="") as file:
-        recorded, other = list(csv.DictReader(file))
-    assert recorded["trial"] == other["trial"] == "7" and recorded["time"] != other["time"]
-    assert (recorded["branch"], other["branch"]) == ("recorded", "person/seed:=2")
-    args.then = ""
-    assert batch.branch(program, args) == 0
-    with open(tmp_path / "b/branch.csv", encoding="utf-8", newline="") as file:
-        recorded, other = [{**row, "branch": ""} for row in csv.DictReader(file)]
-    assert recorded == other
-    with pytest.raises(Failure, match="not what it was"):
-        batch.branch(stand_in(tmp_path), args)
-    for more in ({"from_trial": "nowhere:7"}, {"from_trial": f"{tmp_path / 'a'}:77"}, {"until": None}):
-        with pytest.raises(Failure, match="allowed|no row|needs"):
-            batch.branch(program, SimpleNamespace(**{**vars(args), **more}))
 
 
 def test_one_shard_is_written_by_one_process_at_a_time(tmp_path):

@@ -50,15 +50,6 @@ def test_a_conclusion_turns_round_where_it_is_better_for_one_person_and_worse_fo
     assert tables.flips(batch_of((20.0, 20.0, 20.0)))[3].endswith("| no |")
 
 
-def test_a_moved_trait_is_compared_with_the_person_as_it_was():
-    rows = [{**one, "person": name} for name, change in (("typical", 20.0), ("typical~driving/noise+1", -20.0))
-            for one in batch_of((change,)) if one["person"] == "able"]
-    same, moved = tables.moved(rows)[3:]
-    assert "| - | sounds_off |" in same and same.endswith("| no |")
-    assert "| driving/noise+1 | sounds_off |" in moved and moved.endswith("| time, s |")
-    assert tables.moved(batch_of((1.0, 1.0, 1.0))) == []
-
-
 def test_goals_are_met_or_missed():
     cells = {line.split(" | ")[0]: line.split(" | ")[1:] for line in tables.goals(batch_of((20.0, 20.0, -20.0)))[2:]}
     assert [cell.partition(": ")[2].strip(" |") for cell in cells["| contacts a trial"]] == ["met"] * 3

@@ -5,10 +5,8 @@ goes on when it is called again with the same words. At its end DIR holds
 trials.csv, a row a trial, with the same bytes for every --jobs and --shard, and
 trials.json, what each column means. doc/batch.md tells more.
 
-A person is able, typical, struggling, hard_of_hearing, no_touch or drawn: in
-each world another one, or those with your seeds, such as drawn:1-20;
-typical~hearing/sound_spread+1 moves a trait by one standard deviation. A
-condition is default, sounds_off, touch_off, words_off, words_alone, attractive,
+A person is able, typical, struggling or drawn: in each world another one, or
+those with your seeds, such as drawn:1-20. A condition is default, sounds_off, touch_off, words_off, words_alone, attractive,
 brief, sighted (the hand led by eyes), or a name of your own:
 slow=feedback/drive/max_forward:=0.5+nav/replan/period:=3
 
@@ -18,7 +16,7 @@ full disk.
 
 Examples
 ./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy
-./navvi batch --from=busy:7 --until=40 --then=speech:=false --out=quiet
+./navvi batch --people=drawn:1-20 --conditions=default,words_alone --out=drawn
 """
 import concurrent.futures
 import contextlib
@@ -32,13 +30,12 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from types import SimpleNamespace
 from typing import NamedTuple
 
 from navvi_cli.say import aside, fail
 from navvi_cli.worlds import check_name
 
-PEOPLE = ("able", "typical", "struggling", "hard_of_hearing", "no_touch", "drawn")
+PEOPLE = ("able", "typical", "struggling", "drawn")
 CONDITIONS = {
     "default": [],
     "sounds_off": ["feedback/sounds/enabled:=false"],
@@ -79,13 +76,9 @@ class Trial(NamedTuple):
     condition: str
     parameters: tuple
 
-    def person_words(self):
-        name, moved, trait = self.person.partition("~")
-        return [f"person/type:={name}", *([f"person/moved:={trait}"] if moved else [])]
-
-    def words(self, limit, more=()):
-        return [f"--world={self.world}", f"--seeds={self.seed}", f"--limit={limit}", "--csv", *self.person_words(),
-                f"person/seed:={self.person_seed}", *self.parameters, *more]
+    def words(self, limit):
+        return [f"--world={self.world}", f"--seeds={self.seed}", f"--limit={limit}", "--csv", f"person/type:={self.person}",
+                f"person/seed:={self.person_seed}", *self.parameters]
 
 
 def span(text, option):
@@ -97,10 +90,8 @@ def span(text, option):
 
 def person_of(text):
     name, _, seeds = text.partition(":")
-    kind, moved, trait = name.partition("~")
-    if kind not in PEOPLE or (moved and not re.fullmatch(r"[a-z_/]+[+-]\d+", trait)):
-        fail(f"--people has \"{text}\"; allowed are: {' '.join(PEOPLE)}, each with ~TRAIT+1 or ~TRAIT-1 and with seeds if wanted, "
-             "such as drawn:1-20.", 2)
+    if name not in PEOPLE:
+        fail(f"--people has \"{text}\"; allowed are: {' '.join(PEOPLE)}, each with seeds if wanted, such as drawn:1-20.", 2)
     return [(name, seed) for seed in (span(seeds, "--people") if seeds else [None])]
 
 
@@ -226,9 +217,9 @@ def row_of(trial, titles, cells):
     return head, {name: value for name, value in row.items() if name not in ("world", "seed")}
 
 
-def simulate(program, trial, args, more=()):
+def simulate(program, trial, args):
     """(trial, titles, line); without a line where it failed, and then the reason in place of the titles."""
-    result = subprocess.run([program, *trial.words(args.limit, (f"--cache={args.cache}", *more))], capture_output=True, text=True, errors="surrogateescape", check=False)
+    result = subprocess.run([program, *trial.words(args.limit), f"--cache={args.cache}"], capture_output=True, text=True, errors="surrogateescape", check=False)
     table = list(csv.reader(io.StringIO(result.stdout)))
     if result.returncode or len(table) != 2:
         return trial, (result.stderr.strip().splitlines() or [f"exit code {result.returncode}"])[-1], None
@@ -304,10 +295,10 @@ def finish(folder, trials):
     return missing
 
 
-def require_conditions(program, trials, more=()):
+def require_conditions(program, trials):
     """Refuses, once and before any trial, what the program would refuse in each."""
     for trial in {(trial.person, trial.condition): trial for trial in trials}.values():
-        checked = subprocess.run([program, "--check", *trial.words(1, more)], capture_output=True, text=True, check=False)
+        checked = subprocess.run([program, "--check", *trial.words(1)], capture_output=True, text=True, check=False)
         if checked.returncode:
             fail(f"condition {trial.condition}, person {trial.person}: {checked.stderr.strip().removeprefix('navvi: ')}", 2)
 
@@ -339,36 +330,6 @@ def run_batch(program, args):
     return 0
 
 
-def branch(program, args):
-    """Runs a trial of a batch again, with a change from some second on."""
-    source, colon, number = args.from_trial.rpartition(":")
-    folder = Path(source)
-    if not colon or not number.isdigit() or not (folder / "batch.json").exists():
-        fail(f"--from has \"{args.from_trial}\"; allowed is DIR:NUMBER, a folder of ./navvi batch and a trial in it, such as busy:7.", 2)
-    if args.until is None:
-        fail("--from needs --until=S, the second of the trial from which on --then counts.", 2)
-    known = json.loads(read(folder / "batch.json"))
-    trials = {trial.number: trial for trial in trials_of(SimpleNamespace(**known))}
-    recorded = done_in(folder).get(int(number))
-    if recorded is None:
-        fail(f"{folder} has no row of trial {number}; its rows are those of {folder}/rows-*.csv.", 2)
-    require_conditions(program, [trials[int(number)]], (f"--until={args.until}", f"--then={args.then}"))
-    trial, same = trials[int(number)], SimpleNamespace(limit=known["limit"], cache=args.cache)
-    again = simulate(program, trial, same, (f"--until={args.until}",))
-    other = simulate(program, trial, same, (f"--until={args.until}", f"--then={args.then}")) if args.then else again
-    for _, said, line in (again, other):
-        if line is None:
-            fail(f"trial {number} failed: {said}", 1)
-    if again[2] != recorded:
-        fail(f"trial {number} of {folder} is not what it was: the worlds, the guide or the person have changed since.", 1)
-    out = Path(args.out)
-    out.mkdir(parents=True, exist_ok=True)
-    replace(out / "branch.csv", line_of(["branch", *again[1]]) + "".join(
-        line_of([name]).rstrip("\n") + "," + line for name, line in (("recorded", again[2]), (args.then or "nothing", other[2]))))
-    print(read(out / "branch.csv"), end="")
-    return 0
-
-
 def arguments(parser):
     parser.add_argument("--worlds", default="busy", metavar="NAME,...", help="names or files of worlds. Default: busy.")
     parser.add_argument("--seeds", default="1-10", metavar="1-10", help="of the worlds.")
@@ -379,9 +340,6 @@ def arguments(parser):
     parser.add_argument("--cache", type=int, default=512, metavar="MB", help="of worlds that are kept for other trials. Default: 512.")
     parser.add_argument("--shard", default="1/1", metavar="K/N", help="the part of the trials to run.")
     parser.add_argument("--tell", type=float, default=10.0, metavar="S", help="s between two lines of progress. Default: 10.")
-    parser.add_argument("--from", dest="from_trial", metavar="DIR:NUMBER", help="a trial to run again, with a change.")
-    parser.add_argument("--until", type=int, metavar="S", help="s after its goal was set, from which on --then counts.")
-    parser.add_argument("--then", default="", metavar="PART/NAME:=VALUE+...", help="what is other from then on.")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of the tables.")
 
 
@@ -392,4 +350,4 @@ def run(args):
     trials_of(args), shard_of(args.shard)  # before anything is built
     program = tool("navvi_study", "trials_bench")
     enter()
-    return branch(program, args) if args.from_trial else run_batch(program, args)
+    return run_batch(program, args)

@@ -4,8 +4,7 @@ The sim and nav benchmarks print ratios to a plain use of the same library in
 the same run. nav takes --maps for maps alone, --resolution=0.05 and
 --largest=100 (m). build times what a newcomer waits for, in a clone of its own
 and without the compiler's cache. latency [--rounds=100] times what a person
-waits for, with nodes as they run live. loop [WORLD ...] prints the real-time
-factor of sessions without ROS.
+waits for, with nodes as they run live.
 trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]
 [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]
 [--trace[=FROM-TO]] [PART/NAME:=VALUE ...] runs sessions without ROS and prints

@@ -12,7 +12,6 @@ import guidance_tables as tables
 NAVVI = Path(__file__).resolve().parents[4] / "navvi"
 THREE = "--people=" + ",".join(tables.TYPES)
 CLOSING = "--conditions=sighted,default,sounds_off,touch_off"
-TRAITS = ("hearing/sound_reaction", "hearing/sound_spread", "hearing/missed_sounds", "hearing/word_reaction", "driving/noise", "feeling/delay")
 # No seed of these was used for tuning.
 BATCHES = {
     "closing": ["--seeds=92001-92400", THREE, CLOSING],
@@ -20,9 +19,6 @@ BATCHES = {
     "choices": ["--seeds=92401-92440", THREE,
                 "--conditions=default,sounds_off,touch_off,no_stop=feedback/cues/near/stop_moving:=0+feedback/cues/near/stop_standing:=0,"
                 "beacon=feedback/sounds/beacon/on:=true,brief,attractive,early_words=feedback/cues/route/turn_ahead:=10"],
-    "moved": ["--seeds=92401-92420",
-              "--people=typical," + ",".join(f"typical~{trait}{sign}1" for trait in TRAITS for sign in "+-"),
-              "--conditions=default,sounds_off,touch_off"],
 }
 CHOICES = """`sounds_off`: no short sounds; `touch_off`: no motors; `no_stop`: no "stop" before obstacles; `beacon`: a beacon at the next way-point
 besides, which no simulated person steers by; `brief`: brief words; `attractive`: the motors pull to the side to turn to; `early_words`:
@@ -53,7 +49,7 @@ def command(folder):
     """That has made the batch."""
     known = json.loads((folder / "batch.json").read_text(encoding="utf-8"))
     words = [f"--{name}={known[name]}" for name in ("worlds", "seeds", "people", "conditions", "limit")]
-    return "    ./navvi batch " + " ".join(f"'{word}'" if "~" in word else word for word in words) + f" --out={folder.name}"
+    return "    ./navvi batch " + " ".join(words) + f" --out={folder.name}"
 
 
 def section(title, *parts):
@@ -70,8 +66,6 @@ def parts(folder, found):
     if "choices" in found:
         out += section("Design choices", CHOICES, command(folder / "choices"), tables.flips(found["choices"]),
                        "![Changes beside the default with intervals, by design choice; a mark a person](guidance_choices.svg)")
-    if "moved" in found:
-        out += section("One trait moved by a standard deviation", command(folder / "moved"), tables.moved(found["moved"])[1:])
     return out + section("Failures", "In `default` of the closing table.", tables.failures(closing))
 
 

@@ -1,7 +1,7 @@
 """Plots of a batch of trials, as SVG: a mark with its 95 % interval for each person and condition, a panel a measure."""
 import statistics
 
-from guidance_tables import MEASURES, changed_conditions, differences, interval, of, plain_people, values
+from guidance_tables import MEASURES, changed_conditions, differences, interval, of, ordered, values
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")  # Okabe and Ito: told apart by all
 LABELS, PANEL, ROW, TOP = 150, 250, 22, 50  # px
@@ -21,7 +21,7 @@ def changes(rows):
 
 
 def panels(rows, conditions, cell):
-    people = plain_people(rows)
+    people = ordered(rows, "person")
     return people, conditions, {text: [[cell(person, condition, name) for person in people] for condition in conditions]
                                 for name, text in MEASURES.items()}
 

@@ -92,10 +92,6 @@ def per_100m(rows):
     return 100.0 * sum(int(row["contacts"]) for row in rows) / max(1.0, sum(float(row["driven"]) for row in rows))
 
 
-def plain_people(rows):
-    return [person for person in ordered(rows, "person") if "~" not in person]
-
-
 def changed_conditions(rows):
     return [condition for condition in ordered(rows, "condition") if condition not in ("default", "sighted")]
 
@@ -103,7 +99,7 @@ def changed_conditions(rows):
 def guidance(rows):
     lines = head("person", "condition", "trials", "reached", "clean", "contacts", "per 100 m", "time, s", "over sighted", "SPL",
                  "left of turns, deg", "utterances/min", *(f"change of {text}" for text in MEASURES.values()))
-    for person in plain_people(rows):
+    for person in ordered(rows, "person"):
         for condition in ordered(rows, "condition"):
             own = of(rows, person, condition)
             mean = {name: statistics.fmean(float(row[name]) for row in own) for name in [*MEASURES, "cues"]}
@@ -139,7 +135,7 @@ def goals(rows):
 
 def flips(rows):
     """The conclusions from person to person: better or worse than default where the interval excludes none."""
-    people = plain_people(rows)
+    people = ordered(rows, "person")
     lines = head("condition, beside default", "measure", *people, "turns round")
     for condition in changed_conditions(rows):
         for name, text in MEASURES.items():
@@ -150,26 +146,6 @@ def flips(rows):
                 cells.append(shown(*found) + (f" {verdicts[-1]}" if verdicts[-1] != "-" else ""))
             lines.append(line(condition, text, *cells, "yes" if {"better", "worse"} <= set(verdicts) else "no"))
     return lines
-
-
-def moved(rows):
-    """Each trait that was moved, beside the person who has it as it was; empty where none was."""
-    rows_of = {}
-    for person in ordered(rows, "person"):
-        if "~" in person:
-            rows_of.setdefault(person.partition("~")[0], []).append(person)
-    if not rows_of:
-        return []
-    lines = head("person", "trait moved", "condition", *(f"change of {text}" for text in MEASURES.values()), "turns round")
-    for base, people in rows_of.items():
-        for condition in changed_conditions(rows):
-            was = {name: verdict(name, *interval(differences(rows, base, condition, name))[1:]) for name in MEASURES}
-            for person in [base, *people]:
-                now = {name: interval(differences(rows, person, condition, name)) for name in MEASURES}
-                turned = [MEASURES[name] for name in MEASURES if {was[name], verdict(name, *now[name][1:])} == {"better", "worse"}]
-                lines.append(line(base, person.partition("~")[2] or "-", condition, *(shown(*now[name]) for name in MEASURES),
-                                  ", ".join(turned) or "no"))
-    return ["", *lines]
 
 
 def failures(rows):

@@ -33,12 +33,8 @@ using navvi_people::loop::ClosedLoopConfig;
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
     "             [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]\n"
-    "             [--trace[=FROM-TO]] [--check]\n"
-    "             [--until=S --then=part/name:=value+...] [part/name:=value ...]\n"
+    "             [--trace[=FROM-TO]] [--check] [part/name:=value ...]\n"
     "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
-    "--then: from S s after the goal was set on another guide or person (feedback, person, "
-    "speech)\n"
-    "goes on, who has been told and has felt the same so far.\n"
     "--check runs nothing: exit code 2 and a sentence where a parameter would be rejected.\n"
     "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
     "--cache: MB of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world "
@@ -72,8 +68,6 @@ struct Options {
   int cache = 512;            ///< MB
   std::optional<Span> trace;  ///< s
   std::vector<std::string> parameters;
-  std::optional<int> until;  ///< s
-  std::vector<std::string> then;
   bool csv = false;
   bool check = false;
   bool help = false;
@@ -111,20 +105,6 @@ std::vector<std::string> list(const std::string& text) {
   return items;
 }
 
-/// What a branch changes, separated by "+".
-std::vector<std::string> changes(std::string text) {
-  std::replace(text.begin(), text.end(), '+', ',');
-  const std::vector<std::string> words = list(text);
-  for (const std::string& one : words)
-    if (one.rfind("feedback/", 0) != 0 && one.rfind("person/", 0) != 0 &&
-        one.rfind("speech:=", 0) != 0)
-      throw UsageError(
-          "--then has \"" + one +
-          "\"; allowed are feedback/NAME:=VALUE, person/NAME:=VALUE and speech:=VALUE, "
-          "joined by +.");
-  return words;
-}
-
 Options read_options(const std::vector<std::string>& words) {
   Options out;
   for (const std::string& word : words) {
@@ -143,10 +123,6 @@ Options read_options(const std::vector<std::string>& words) {
       out.profile = value;
     } else if (option == "--sensing") {
       out.parameters.push_back("sim/sensing:=" + value);
-    } else if (option == "--until") {
-      out.until = number(option, value, 0);
-    } else if (option == "--then") {
-      out.then = changes(word.substr(word.find('=') + 1));
     } else if (option == "--jobs") {
       out.jobs = number(option, value, 1, kMostJobs);
     } else if (option == "--cache") {
@@ -163,7 +139,6 @@ Options read_options(const std::vector<std::string>& words) {
       throw UsageError("\"" + word + "\" is not an option; allowed are:\n" + kUsage);
     }
   }
-  if (!out.then.empty() && !out.until) throw UsageError("--then needs --until=S.");
   if (out.trace && out.csv) throw UsageError("--csv is for rows, --trace for what happens.");
   if (out.trace && out.jobs > 1)
     throw UsageError("--trace tells of one trial after the other: it needs --jobs=1.");
@@ -200,21 +175,12 @@ struct Task {
   int seed = 1;
 };
 
-/// Who goes on from some second on. \throws navvi_config::ConfigError
-std::optional<navvi_people::loop::Branch> branch_of(const Options& options,
-                                                    const ClosedLoopConfig& config) {
-  if (!options.until) return std::nullopt;
-  navvi_people::loop::Branch branch{config, static_cast<double>(*options.until)};
-  navvi_config::read(branch.then, navvi_config::read_words(options.then), "--then");
-  return branch;
-}
-
 record::Fields run_trial(const Options& options, ClosedLoopConfig config,
                          const std::string& phrases, const navvi_config::Cache* cache,
                          const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;
-  ClosedLoop loop(config, phrases, branch_of(options, config), cache);
+  ClosedLoop loop(config, phrases, cache);
   LoopFigures figures(options.limit);
   std::optional<LoopTrace> trace;
   if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
@@ -341,7 +307,6 @@ class Total {
 
 int run(const Options& options) {
   const ClosedLoopConfig config = configured(options);
-  static_cast<void>(branch_of(options, config));
   if (options.check) return 0;
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto cache = batch::world_cache(static_cast<std::uintmax_t>(options.cache));

@@ -46,20 +46,14 @@ ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_config:
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
-                       const std::optional<Branch>& branch, const navvi_config::Cache* cache)
+                       const navvi_config::Cache* cache)
     : config_(config),
       setting_(config, cache),
       session_(setting_.world, config.sim.life, setting_.scenario.start,
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav, cache),
-      guided_(std::make_unique<GuidedPerson>(config.feedback, config.person, config.sim.seed,
-                                             config.speech, phrases)) {
-  if (branch) {
-    other_ = std::make_unique<GuidedPerson>(branch->then.feedback, branch->then.person,
-                                            config.sim.seed, branch->then.speech, phrases);
-    other_at_ = branch->at;
-  }
+      guided_(config.feedback, config.person, config.sim.seed, config.speech, phrases) {
   if (config.driver == "sighted")
     sighted_.emplace(config.person.driving, static_cast<std::uint64_t>(config.person.seed),
                      static_cast<std::uint64_t>(config.sim.seed));
@@ -90,32 +84,25 @@ bool ClosedLoop::turn_wheels() {
          navvi_sim::live::World::Status::running;
 }
 
-/// To all guides.
-template <typename... Values>
-void ClosedLoop::tell(const Values&... values) {
-  guided_->take(values...);
-  if (other_) other_->take(values...);
-}
-
 void ClosedLoop::sense() {
   const navvi_sim::live::Snapshot& now = session_.world().now();
   published_.odometry = navvi_types::to_msg(session_.world().odometry());
   if (const auto odometry = node::from_msg(published_.odometry)) {
-    tell(*odometry, time());
+    guided_.take(*odometry, time());
     navigation_.set_speed(odometry->velocity.linear);
   }
   if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
-    tell(*gate, time());
+    guided_.take(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
     const auto felt = node::from_msg(published_.contacts.back());
-    if (felt && !setting_.senses) tell(*felt);
+    if (felt && !setting_.senses) guided_.take(*felt);
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
     published_.proximity =
         navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
     const auto proximity = node::from_msg(*published_.proximity);
-    if (proximity && !setting_.senses) tell(*proximity, time());
+    if (proximity && !setting_.senses) guided_.take(*proximity, time());
     if (proximity) sight_.nearby = proximity->things;
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
@@ -129,10 +116,10 @@ void ClosedLoop::sense() {
 void ClosedLoop::sense_by_robot() {
   RobotSenses::News news = setting_.senses->look(session_);
   for (const navvi_types::Contact& contact : news.contacts)
-    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) tell(*felt);
+    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) guided_.take(*felt);
   if (news.proximity)
     if (const auto proximity = node::from_msg(navvi_types::to_msg(*news.proximity)))
-      tell(*proximity, time());
+      guided_.take(*proximity, time());
   perceived_ = std::nullopt;
   if (news.obstacles) perceived_ = node::from_msg(navvi_types::to_msg(*news.obstacles));
   if (perceived_) navigation_.set_obstacles(*perceived_, time());
@@ -159,7 +146,6 @@ void ClosedLoop::require_map() const {
 void ClosedLoop::navigate() {
   if (!begun_ && navigation_.has_map() && time() >= kGoalAt) {
     begun_ = true;
-    goal_at_ = time();
     navigation_.set_goal(setting_.scenario.goal);
   }
   const geometry_msgs::Transform at = pose();
@@ -168,32 +154,22 @@ void ClosedLoop::navigate() {
   require_map();
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
-  tell(*guidance, time());
+  guided_.take(*guidance, time());
   sight_.guidance = *guidance;
   published_.guidance = navvi_types::to_msg(*guidance);
 }
 
 void ClosedLoop::feed_back() {
-  if (other_ && begun_ && time() - goal_at_ >= other_at_) {
-    guided_ = std::move(other_);
-  }
   const geometry_msgs::Transform at = pose();
-  const auto command = guided_->feed_back(hand_, at, time());
-  if (other_) (void)other_->feed_back(hand_, at, time());
+  const auto command = guided_.feed_back(hand_, at, time());
   if (command) gate_.receive(node::from_msg(node::to_msg(*command)), instant());
-  published_.cues = guided_->played().cues;
-  published_.motors = guided_->played().motors;
+  published_.cues = guided_.played().cues;
+  published_.motors = guided_.played().motors;
 }
 
 void ClosedLoop::operate() {
   constexpr double kDt = 1.0 / kFeedbackRate;
-  if (sighted_) {
-    hand_ = sighted_->update(sight_, time(), kDt);
-    return;
-  }
-  hand_ = guided_->act(guided_->played(), time(), kDt);
-  // The other one hears what is played, and follows the hand that drives.
-  if (other_) (void)other_->act(guided_->played(), time(), kDt, guided_->person().meant());
+  hand_ = sighted_ ? sighted_->update(sight_, time(), kDt) : guided_.act(time(), kDt);
 }
 
 }  // namespace navvi_people::loop

@@ -46,13 +46,12 @@ std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::Stick
   return told->command;
 }
 
-people::StickAndButtons GuidedPerson::act(const Played& played, double time, double dt,
-                                          const std::optional<people::StickAndButtons>& held) {
-  if (played.motors_due) person_.feel(played.motors, time);
-  for (const navvi_msgs::Cue& cue : played.cues)
+people::StickAndButtons GuidedPerson::act(double time, double dt) {
+  if (played_.motors_due) person_.feel(played_.motors, time);
+  for (const navvi_msgs::Cue& cue : played_.cues)
     if (const auto event = node::from_msg(cue))
       if (const auto heard = people::heard(*event)) person_.hear(*heard, time);
-  return person_.update(time, dt, held);
+  return person_.update(time, dt);
 }
 
 }  // namespace navvi_people::loop

@@ -289,28 +289,11 @@ TEST(Types, are_in_order_in_every_trait_and_what_is_set_besides_stays) {
       config, navvi_config::read_words({"hearing/missed_words:=0.5", "type:=struggling"}), "test");
   EXPECT_EQ(config.hearing.missed_words, 0.5);
   EXPECT_EQ(config.hearing.missed_sounds, person("struggling").hearing.missed_sounds);
-  EXPECT_FALSE(person("no_touch").feeling.motors);
-  EXPECT_GT(person("hard_of_hearing").hearing.missed_words,
-            person("struggling").hearing.missed_words);
   SimulatedOperatorConfig shipped;
   SimulatedOperatorConfig able = person("typical");
   become(able, "able", 1);
   for (const Trait& trait : traits())
     EXPECT_EQ(trait.of(shipped), trait.of(able)) << trait.name << ": the default is able";
-}
-
-TEST(Types, are_moved_by_a_trait_and_standard_deviations_between_people) {
-  const auto moved = [](const std::string& by) {
-    SimulatedOperatorConfig config;
-    navvi_config::read(config, navvi_config::read_words({"type:=typical", "moved:=" + by}), "test");
-    return config;
-  };
-  EXPECT_NEAR(moved("hearing/sound_spread+1").hearing.sound_spread, 0.3 * std::exp(0.2), 1e-9);
-  EXPECT_NEAR(moved("turning/over_ample-2").turning.over_ample, 13.4 * std::exp(-0.4), 1e-9);
-  EXPECT_EQ(moved("hearing/sound_spread+1").hearing.missed_words, 0.05);
-  EXPECT_LE(moved("feeling/recognised+5").feeling.recognised, 1.0);
-  for (const char* bad : {"hearing/volume+1", "hearing/sound_spread", "hearing/sound_spread+x"})
-    EXPECT_THROW(moved(bad), navvi_config::ConfigError) << bad;
 }
 
 TEST(Types, of_drawn_people_differ_by_seed_around_the_published_means) {

@@ -79,13 +79,8 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
         "of a drawn person's traits, and, with the world's seed, of what the person does");
   visit(type, "type", navvi_config::OneOf{person_types()}, "",
         "sets the traits of doc/people.md; drawn: from the seed");
-  const std::string moved_before = moved;
-  visit(moved, "moved", navvi_config::Any{}, "",
-        "a trait, and by how many standard deviations between people it differs from the type's, "
-        "such as hearing/sound_spread+1; empty: none");
   // What is set besides is laid over the type.
   if (type != type_before || (type == "drawn" && seed != seed_before)) become(*this, type, seed);
-  if (moved != moved_before) move(*this, moved);
   visit.group("hearing", hearing);
   visit.group("turning", turning);
   visit.group("driving", driving);
@@ -534,9 +529,7 @@ void SimulatedOperator::believe(const StickAndButtons& hand, double dt) {
   at_.odometer += driven * driving_.speed_gain();
 }
 
-StickAndButtons SimulatedOperator::update(double time, double dt,
-                                          const std::optional<StickAndButtons>& held) {
-  meant_ = {};
+StickAndButtons SimulatedOperator::update(double time, double dt) {
   if (!when_.started) {
     when_.started = true;
     when_.start = when_.news = time;
@@ -547,14 +540,12 @@ StickAndButtons SimulatedOperator::update(double time, double dt,
   if (time - when_.start < kNeutralAtStart) return {};
   be_startled(time);
   StickAndButtons hand = act(time, dt);
-  const StickAndButtons& moves = held ? *held : hand;
-  attention_.update(moves.forward != 0.0 || moves.left != 0.0, time, dt);
+  attention_.update(hand.forward != 0.0 || hand.left != 0.0, time, dt);
   if (gave_up()) return {};
   ask_when_lost(time);
   hand.repeat = time - when_.asked < kPress;
   hand.start = time - when_.pressed < kPress;
-  meant_ = hand;
-  believe(held.value_or(hand), dt);
+  believe(hand, dt);
   hand.left = driving_.trembling(hand.left, dt);
   hand.forward = driving_.trembling(hand.forward, dt);
   return hand;

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <navvi_config/reader.hpp>
 #include <sstream>
 
 namespace navvi_people::people {
@@ -102,8 +100,7 @@ const std::vector<Trait>& traits() {
 }
 
 const std::vector<std::string>& person_types() {
-  static const std::vector<std::string> all = {
-      "able", "typical", "struggling", "hard_of_hearing", "no_touch", "drawn"};
+  static const std::vector<std::string> all = {"able", "typical", "struggling", "drawn"};
   return all;
 }
 
@@ -120,32 +117,6 @@ void become(SimulatedOperatorConfig& config, const std::string& type, int seed) 
     }
     trait.of(config) = value;
   }
-  config.feeling.motors = type != "no_touch";
-  if (type == "hard_of_hearing") {
-    config.hearing.missed_words = 0.4;
-    config.hearing.missed_sounds = 0.4;
-    config.hearing.misheard = 0.15;
-    config.hearing.masked = 0.8;
-    config.hearing.fastest_speech = 15.0;
-  }
-}
-
-void move(SimulatedOperatorConfig& config, const std::string& moved) {
-  if (moved.empty()) return;
-  const std::size_t sign = moved.find_first_of("+-");
-  const std::string name = moved.substr(0, sign);
-  const auto trait = std::find_if(traits().begin(), traits().end(),
-                                  [&](const Trait& one) { return one.name == name; });
-  char* end = nullptr;
-  const double times = sign == std::string::npos ? 0.0 : std::strtod(moved.c_str() + sign, &end);
-  if (trait == traits().end() || end == nullptr || *end != '\0' || std::abs(times) > 5.0)
-    throw navvi_config::ConfigError(
-        "moved has \"" + moved +
-        "\"; allowed are a trait of doc/people.md and -5 to +5 standard deviations, such as "
-        "hearing/sound_spread+1.");
-  double& value = trait->of(config);
-  value *= std::exp(times * trait->between);
-  if (std::string(trait->unit).empty()) value = std::min(value, 1.0);
 }
 
 std::string traits_table() {

@@ -30,10 +30,6 @@ struct Trait {
 /// what each does. \param share  true: a share stays below 1
 void become(SimulatedOperatorConfig& config, const std::string& type, int seed);
 
-/// Moves a trait by so many standard deviations between people, as person/moved has it.
-/// \throws ConfigError if there is no such trait, or no number
-void move(SimulatedOperatorConfig& config, const std::string& moved);
-
 /// The table of doc/people.md, in Markdown.
 [[nodiscard]] std::string traits_table();
 

@@ -87,7 +87,7 @@ class ClosedLoopIn : public testing::Test {
                       const std::string& name = "room.world") {
     config_.sim.world = (folder_ / name).string();
     std::ofstream(config_.sim.world) << world;
-    ClosedLoop loop(config_, phrases_, branch_);
+    ClosedLoop loop(config_, phrases_);
     LoopFigures figures(limit);
     trace_.str("");
     LoopTrace trace(trace_, 0.0, limit);
@@ -101,25 +101,9 @@ class ClosedLoopIn : public testing::Test {
 
   fs::path folder_;
   ClosedLoopConfig config_;
-  std::optional<navvi_people::loop::Branch> branch_;
   std::string phrases_ = NAVVI_PHRASES;
   std::ostringstream trace_;
 };
-
-TEST_F(ClosedLoopIn, aBranchWithoutAChangeIsTheSameTrialAndAnotherPersonMakesAnotherOne) {
-  for (const char* type : {"able", "struggling"}) {
-    navvi_config::read(config_.person, navvi_config::read_words({std::string("type:=") + type}),
-                       "test");
-    const std::string before = play(kCrossing, 60.0).format();
-    branch_ = navvi_people::loop::Branch{config_, 6.0};
-    EXPECT_EQ(play(kCrossing, 60.0).format(), before) << type;
-    branch_->then.sim = config_.sim;
-    navvi_config::read(branch_->then, navvi_config::read_words({"person/driving/cruise:=0.4"}),
-                       "test");
-    EXPECT_NE(play(kCrossing, 60.0).format(), before) << type;
-    branch_.reset();
-  }
-}
 
 TEST_F(ClosedLoopIn, aMapThatNavigationRejectsEndsTheTrialWithTheReason) {
   navvi_config::read(config_.nav, navvi_config::read_words({"mesh/floor_height:=1.5"}), "test");
@@ -131,14 +115,6 @@ TEST_F(ClosedLoopIn, aMapThatNavigationRejectsEndsTheTrialWithTheReason) {
     EXPECT_EQ(why.rfind("navigation rejects the map of " + config_.sim.world + ": ", 0), 0U) << why;
     EXPECT_NE(why.find("z = 0.00 m"), std::string::npos) << why;
   }
-}
-
-TEST_F(ClosedLoopIn, aBranchAfterTheEndChangesNothing) {
-  const std::string before = play(kRoom, 60.0).format();
-  branch_ = navvi_people::loop::Branch{config_, 59.0};
-  navvi_config::read(branch_->then, navvi_config::read_words({"feedback/sounds/enabled:=false"}),
-                     "test");
-  EXPECT_EQ(play(kRoom, 60.0).format(), before);
 }
 
 TEST_F(ClosedLoopIn, anEmptyRoomReachesItsGoalWithoutDetourOrContact) {

@@ -9,7 +9,6 @@
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
 
-#include <memory>
 #include <navvi_config/cache.hpp>
 #include <navvi_feedback/lockstep/guide.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
@@ -42,13 +41,6 @@ struct ClosedLoopConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Another guide and person, who have heard, felt and seen nothing but what was played in the
-/// session so far, and then take its place.
-struct Branch {
-  ClosedLoopConfig then;  ///< of which feedback, person and speech count
-  double at = 0.0;        ///< s since the goal was set
-};
-
 /// A whole session, without ROS and without a clock: world -> navigation -> cues -> operator ->
 /// stick -> wheels -> world. The parts are those that the nodes use, at the nodes' rates, and what
 /// they tell each other are the nodes' messages. What differs: no message is late or lost, a plan
@@ -74,7 +66,6 @@ class ClosedLoop {
   /// nullptr: nothing is kept
   /// \throws WorldError or ConfigError with a sentence
   ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
-             const std::optional<Branch>& branch = std::nullopt,
              const navvi_config::Cache* cache = nullptr);
 
   /// One step of the world, and whatever is due after it. \return false if the world has stopped
@@ -93,7 +84,7 @@ class ClosedLoop {
   }
   [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
   [[nodiscard]] const Messages& told() const { return published_; }
-  [[nodiscard]] const people::SimulatedOperator& person() const { return guided_->person(); }
+  [[nodiscard]] const people::SimulatedOperator& person() const { return guided_.person(); }
   [[nodiscard]] const people::StickAndButtons& hand() const { return hand_; }
   /// nullptr where the truth is told.
   [[nodiscard]] const RobotSenses* senses() const {
@@ -120,8 +111,6 @@ class ClosedLoop {
   void sense_by_robot();
   void navigate();
   void require_map() const;
-  template <typename... Values>
-  void tell(const Values&... values);
   void feed_back();
   void operate();
   [[nodiscard]] navvi_safety::Instant instant() const { return {time(), time()}; }
@@ -134,10 +123,7 @@ class ClosedLoop {
   navvi_sim::live::Session session_;
   navvi_safety::CommandGate gate_;
   navvi_nav::lockstep::Navigation navigation_;
-  std::unique_ptr<GuidedPerson> guided_;
-  std::unique_ptr<GuidedPerson> other_;           ///< of a branch that is to come
-  double other_at_ = 0.0;                         ///< s since the goal was set
-  double goal_at_ = 0.0;                          ///< s, when that was
+  GuidedPerson guided_;
   std::optional<people::SightedDriver> sighted_;  ///< at the stick in the person's place
   people::Sight sight_;                           ///< as it was told last
   people::StickAndButtons hand_;

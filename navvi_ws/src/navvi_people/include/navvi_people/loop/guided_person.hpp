@@ -41,12 +41,8 @@ class GuidedPerson {
                                                  double time);
   [[nodiscard]] const Played& played() const { return played_; }
 
-  /// \param played  what is heard and felt \param held  what another hand does to the stick that
-  /// this one only follows
-  /// \return the stick
-  [[nodiscard]] people::StickAndButtons act(
-      const Played& played, double time, double dt,
-      const std::optional<people::StickAndButtons>& held = std::nullopt);
+  /// The person hears and feels what was played. \return the stick
+  [[nodiscard]] people::StickAndButtons act(double time, double dt);
 
   [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
 

@@ -21,7 +21,6 @@ namespace navvi_people::people {
 struct SimulatedOperatorConfig {
   int seed = 1;
   std::string type = "able";
-  std::string moved;
   HearingConfig hearing;
   TurningConfig turning;
   DrivingConfig driving;
@@ -57,12 +56,7 @@ class SimulatedOperator {
   void hear(const Heard& heard, double time);
   void feel(const Felt& felt, double time);
   /// \param time  s, not going back \param dt  s since the last update
-  /// \param held  what another hand does, as meant(): this one follows, and its stick counts for
-  /// nothing
-  [[nodiscard]] StickAndButtons update(double time, double dt,
-                                       const std::optional<StickAndButtons>& held = std::nullopt);
-  /// What the hand was last meant to do; it trembles.
-  [[nodiscard]] const StickAndButtons& meant() const { return meant_; }
+  [[nodiscard]] StickAndButtons update(double time, double dt);
 
   /// What it makes of a sentence.
   [[nodiscard]] const Listener& listener() const { return ears_.listener(); }
@@ -160,7 +154,6 @@ class SimulatedOperator {
   Memory memory_;
   Attention attention_;
   Mode mode_ = Mode::waiting;
-  StickAndButtons meant_;
   Words words_;
   Sounds sounds_;
   Belief at_;
